@@ -14,12 +14,12 @@ from validation.analysis.evidence import JudgedClaim, Role, Table, Verdict, Verd
 from validation.cases.wheel.contrast import CONTRAST
 from validation.report import page
 from validation.report.contents import CASES
-from validation.report.figure_tables import tables_of
+from validation.report.figures import tables_of
+from validation.report.formats import format_field, map_of
 from validation.report.page_figure import figures_of
 from validation.report.redraw import redraw
 from validation.report.section import Section
 from validation.report.style import svg
-from validation.report.verdict_map import map_of
 
 ABOUT = {
     **dict.fromkeys(("python", "system", "processor", "cores", "workers"), ""),
@@ -143,11 +143,8 @@ def test_the_first_figure_is_open_and_titled_by_its_finding():
 
 def test_a_table_of_verdicts_is_a_lettered_map_with_the_table_behind_it():
     found = map_of(MATRIX)
-    assert [(place, "".join(f.letter for f in fields)) for place, fields in found.rows] == [
-        (("0.4",), "A–"),
-        (("0.7",), "DD"),
-        (("1",), "–A"),
-    ]
+    fields = {place: "".join(re.findall(">(.)<", "".join(map(format_field, cells)))) for place, cells in found.rows}
+    assert fields == {("0.4",): "A–", ("0.7",): "DD", ("1",): "–A"}
     assert found.summary == "2 agree, 2 differ"
     text = html_of(section_of("geike"))
     assert text.count('<td class="differ" title="+9 %: differ">D</td>') == 2

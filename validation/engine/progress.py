@@ -8,7 +8,6 @@ import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from types import TracebackType
 
 SECONDS_BETWEEN_LINES = 10.0
 """Seconds between two lines in a log."""
@@ -24,7 +23,10 @@ BACK, ERASED = "\r", "\x1b[K"
 
 
 class Part:
-    """A part of a run: counts of its solves, those of each kind that did not converge, and their seconds of work."""
+    """A part of a run: counts of its solves, those of each kind that did not converge, and their seconds of work.
+
+    all_done, all_total, all_found: of all kinds until now; done, total, found, failed: of the one that is at work.
+    """
 
     def __init__(self, name: str = "", seconds: float = 0.0, refresh: Callable[[], None] = lambda: None):
         self.name, self.seconds = name, seconds
@@ -32,15 +34,16 @@ class Part:
         self.over = self.solving = False
         self.doing = ""
         self.done = self.total = self.found = self.failed = 0
+        self.all_done = self.all_total = self.all_found = 0
         self.lost: Counter[str] = Counter()
-        self._of_others = (0, 0, 0)
         self._refresh = refresh
 
     def begin(self, doing: str, *, total: int, found: int = 0, failed: int = 0) -> None:
         """Solves that follow. found: in the store; failed: of those."""
-        before = self._of_others
-        self._of_others = (before[0] + self.done, before[1] + self.total, before[2] + self.found)
         self.doing, self.done, self.total, self.found, self.failed = doing, found, total, found, failed
+        self.all_done += found
+        self.all_total += total
+        self.all_found += found
         self.lost[doing] += failed
         self.solving |= total > found
         self._refresh()
@@ -49,10 +52,12 @@ class Part:
         """More of the same."""
         self.doing = doing
         self.total += more
+        self.all_total += more
 
     def step(self, failed: bool = False, seconds: float = 0.0) -> None:
         """One solve more. seconds: that it took."""
         self.done += 1
+        self.all_done += 1
         self.failed += failed
         self.lost[self.doing] += failed
         self.worked += seconds
@@ -65,26 +70,20 @@ class Part:
     @property
     def share(self) -> float:
         """Of the part that is done."""
-        done, total = self.done + self._of_others[0], self.total + self._of_others[1]
-        return 1.0 if self.over else BEFORE_EVIDENCE * done / total if total else 0.0
+        return 1.0 if self.over else BEFORE_EVIDENCE * self.all_done / max(self.all_total, 1)
 
     @property
     def share_of_this_run(self) -> float:
         """Of the part that is done and was not found in the store."""
-        total = self.total + self._of_others[1]
-        found = (self.found + self._of_others[2]) / total if total else 0.0
-        return self.share - (found if self.over else BEFORE_EVIDENCE * found)
+        return self.share - (1.0 if self.over else BEFORE_EVIDENCE) * self.all_found / max(self.all_total, 1)
 
     @property
     def line(self) -> str:
         if not self.doing:
             return self.name
-        told = [f"{self.name}: {self.doing} {self.done}/{self.total}"]
-        if self.found:
-            told.append(f"{self.found} from an earlier run")
-        if self.failed:
-            told.append(f"{self.failed} failed")
-        return ", ".join(told)
+        found = f", {self.found} from an earlier run" if self.found else ""
+        failed = f", {self.failed} failed" if self.failed else ""
+        return f"{self.name}: {self.doing} {self.done}/{self.total}{found}{failed}"
 
 
 class Progress:
@@ -117,9 +116,7 @@ class Progress:
             self._ticks.start()
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *raised: object) -> None:
         if self._shown:
             self._over.set()
             self._ticks.join()

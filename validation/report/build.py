@@ -24,11 +24,11 @@ from validation.report.documentation import documentation_beside
 from validation.report.durations import expected_seconds
 from validation.report.figures import drawing
 from validation.report.folder import REALISATIONS, RESULTS, Folder
-from validation.report.kept import PROVENANCE, kept_provenance, kept_sections
+from validation.report.kept import DATA, PROVENANCE, kept_provenance, kept_sections
 from validation.report.page import pages, scene_summary
 from validation.report.pictures import FIGURES, Pictures
 from validation.report.provenance import provenance, with_kept
-from validation.report.section import Section, numbers_table, results_of
+from validation.report.section import Section, numbers_table, results_of, written_tables
 from validation.report.sounds import sound_files
 from validation.scenes.dynamic_wheel import WheelScene
 
@@ -83,7 +83,9 @@ def build(
             pictures.draw(sections[-1])
             with shown.aside():
                 callback(sections[-1])
-        about = _provenance(sections, profile, engine, shown)
+        seeds = {section.name: section.settings["seed"] for section in sections if "seed" in section.settings}
+        worked = {section.name: shown.parts[section.name].worked for section in sections}
+        about = provenance(profile, seeds, engine, worked)
         if kept:
             about = with_kept(about, before, kept)
             sections = sorted([*sections, *kept], key=lambda section: list(CASES | TIMED).index(section.name))
@@ -131,13 +133,6 @@ def _lost(progress: Part) -> tuple[str, ...]:
     return tuple(f"{doing}: {count} did not converge" for doing, count in progress.lost.items() if count)
 
 
-def _provenance(sections: Sequence[Section], profile: Profile, engine: Engine, progress: Progress) -> dict[str, object]:
-    seeds = {section.name: section.settings["seed"] for section in sections if "seed" in section.settings}
-    return provenance(
-        profile, seeds, engine, {section.name: progress.parts[section.name].worked for section in sections}
-    )
-
-
 def _files(
     sections: Sequence[Section],
     pictures: Mapping[str, bytes],
@@ -150,13 +145,13 @@ def _files(
 
     pictures: SVG of each figure; about: its provenance; documentation: its address, or empty.
     """
-    files: dict[str, bytes] = {}
-    files |= {f"{FIGURES}/{name}.svg": picture for name, picture in pictures.items()}
+    files = {f"{FIGURES}/{name}.svg": picture for name, picture in pictures.items()}
     for section in sections:
         files |= section.files
     files[PROVENANCE] = as_json(about)
     # times differ from run to run: the results are to be the same to the byte without them
     lasting = [section for section in sections if section.name not in TIMED]
+    timed = [section for section in sections if section.name in TIMED]
     # the statements of the book are about its own scene
     more: dict[str, object] = (
         {"chapter 14": chapter_results(lasting), "when MDR is enough": plain(answered_questions(lasting))}
@@ -164,15 +159,11 @@ def _files(
         else {"scene": scene_summary(scene)}
     )
     files[RESULTS] = as_json(results_of(lasting, profile) | more)
-    timed = [section for section in sections if section.name in TIMED]
-    for section in timed:
-        files[f"{section.name}.json"] = as_json(results_of([section], profile))
+    files |= {f"{section.name}.json": as_json(results_of([section], profile)) for section in timed}
     about = {**about, "timed": [section.name for section in timed], "documentation": documentation}
     return files | pages(sections, profile, about, scene)
 
 
 def _data_files(name: str, evidence: Evidence) -> dict[str, bytes]:
-    """CSV of all tables of a case but the one that is played, which its WAV files hold."""
-    played = evidence.sounds.table if evidence.sounds else None
-    shown = [table for table in evidence.tables if table.name != played]
-    return {f"data/{csv_name(name, table.name)}": as_csv(table) for table in [*shown, numbers_table(evidence.numbers)]}
+    tables = [*written_tables(evidence), numbers_table(evidence.numbers)]
+    return {f"{DATA}/{csv_name(name, table.name)}": as_csv(table) for table in tables}

@@ -4,10 +4,9 @@ import base64
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-import jinja2
-
 from validation.analysis.contents import as_csv, as_json
 from validation.report.compared import figure_of
+from validation.report.formats import templates
 from validation.scenes.description import describe
 from validation.scenes.rolling import RollingScene
 from validation.selection.compare import Comparison
@@ -66,24 +65,20 @@ def files_of_comparison(found: Sequence[Comparison], about: dict[str, object]) -
 
 
 def _page(found: Sequence[Comparison], files: Mapping[str, bytes], about: dict[str, object]) -> bytes:
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(__file__).parent / "templates"),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    text = environment.get_template("comparison.html").render(
-        title=_asked(found[0]) if len(found) == 1 else _asked_of_several(found),
-        scenes=[_of_scene(f"scene-{i}", one) for i, one in enumerate(found, 1)],
-        overview=overview_of(found) if len(found) > 1 else None,
-        pictures={
-            Path(name).stem: "data:image/svg+xml;base64," + base64.b64encode(contents).decode()
-            for name, contents in files.items()
-            if name.endswith(".svg")
-        },
-        about=about,
-        zip=zip,
+    text = (
+        templates()
+        .get_template("comparison.html")
+        .render(
+            title=_asked(found[0]) if len(found) == 1 else _asked_of_several(found),
+            scenes=[_of_scene(f"scene-{i}", one) for i, one in enumerate(found, 1)],
+            overview=overview_of(found) if len(found) > 1 else None,
+            pictures={
+                Path(name).stem: "data:image/svg+xml;base64," + base64.b64encode(contents).decode()
+                for name, contents in files.items()
+                if name.endswith(".svg")
+            },
+            about=about,
+        )
     )
     return (text + "\n").encode()
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from validation.analysis.contents import csv_name
-from validation.report.figure_tables import tables_of
+from validation.report.figures import tables_of
 from validation.report.formats import first_sentence
 from validation.report.section import Section
 

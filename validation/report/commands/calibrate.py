@@ -1,12 +1,11 @@
 """Measure the errors that cheap models claim, beside boundary elements."""
 
 import argparse
-import os
 from pathlib import Path
 
 from validation.engine.engine import Engine
 from validation.engine.progress import progress_of
-from validation.report.commands.arguments import at_least
+from validation.report.commands.arguments import add_workers, at_least
 from validation.report.commands.exit_status import Exit
 from validation.report.folder import REALISATIONS, Folder
 from validation.report.manifest import CALIBRATION
@@ -33,7 +32,7 @@ def describe(calibrating: argparse.ArgumentParser) -> None:
             f"--{name}", type=at_least(0), default=default, metavar="N", help=f"{what} (default: {default})"
         )
     calibrating.add_argument("--seed", type=at_least(0), default=run.seed, metavar="S", help="seed of the scenes")
-    calibrating.add_argument("--workers", type=at_least(1), default=os.cpu_count() or 1, metavar="N", help="processes")
+    add_workers(calibrating)
     calibrating.add_argument(
         "--out",
         type=Path,

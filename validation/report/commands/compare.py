@@ -12,7 +12,7 @@ from validation.analysis.evidence import Table
 from validation.engine.engine import Engine
 from validation.engine.files import write_given
 from validation.engine.progress import progress_of
-from validation.report.commands.arguments import at_least
+from validation.report.commands.arguments import add_workers, at_least, some_of
 from validation.report.commands.exit_status import Exit
 from validation.report.manifest import COMPARISON
 from validation.scenes.load import Scene, bundled_for_compare, files_of, load_scene, load_varied
@@ -31,6 +31,7 @@ from validation.selection.tolerance import tolerance_of
 FIGURES = (".svg", ".png", ".pdf")
 STORE = Path("reports", "compared")
 """Where finished scenes of several are kept, below the working folder."""
+KEPT = f"default: {STORE}, or in the folder of --report"
 
 
 def describe(comparing: argparse.ArgumentParser) -> None:
@@ -49,12 +50,9 @@ def describe(comparing: argparse.ArgumentParser) -> None:
     comparing.add_argument(
         "--quantity",
         "--want",
-        type=_quantities,
+        type=some_of(QUANTITIES),
         metavar="A,B",
-        help=(
-            f"of {', '.join(QUANTITIES)}, one or several (default: the first that the scene has); --want is an old "
-            "name, until 0.3"
-        ),
+        help=f"of {', '.join(QUANTITIES)}, one or several (default: the first of the scene); --want is its old name",
     )
     comparing.add_argument("--seed", type=at_least(0), metavar="S", help="seed of the random roughness (default: 0)")
     solved = comparing.add_mutually_exclusive_group()
@@ -62,38 +60,20 @@ def describe(comparing: argparse.ArgumentParser) -> None:
     solved.add_argument(
         "--models", metavar="NAMES", help='solve these alone: mdr, bem, or names, as "mdr,bem" or "fit,springs"'
     )
-    for name, what in (
-        ("--json", "write the result for other programs; `--report` writes it with a schema that describes its keys"),
-        ("--csv", "write a row a number or a band, of each model that was solved"),
-        ("--cnossos", "write a contact filter in the columns of the table of CNOSSOS-EU, as CSV"),
-        ("--figure", "draw the models that were solved, of spectra five at the most, in a .svg, .png or .pdf"),
+    for name, of, what in (
+        ("--json", "FILE", "write the result for other programs; `--report` adds a schema that describes its keys"),
+        ("--csv", "FILE", "write a row a number or a band, of each model that was solved"),
+        ("--cnossos", "FILE", "write a contact filter in the columns of the table of CNOSSOS-EU, as CSV"),
+        ("--figure", "FILE", "draw the models that were solved, of spectra five at the most, in a .svg, .png or .pdf"),
+        ("--report", "DIR", "write a page with figure and data into a folder of its own"),
+        ("--store", "DIR", f"where finished ones of several scenes are kept, for a run that goes on ({KEPT})"),
     ):
-        comparing.add_argument(name, type=Path, metavar="FILE", help=what)
+        comparing.add_argument(name, type=Path, metavar=of, help=what)
     comparing.add_argument(
         "--over", choices=("seconds",), help="draw in --figure how far off each model is over the time that it took"
     )
-    comparing.add_argument(
-        "--report", type=Path, metavar="DIR", help="write a page with figure and data into a folder of its own"
-    )
-    _describe_runs_of_several(comparing)
+    add_workers(comparing, "number of processes for several scenes")
     comparing.set_defaults(command=compare)
-
-
-def _describe_runs_of_several(comparing: argparse.ArgumentParser) -> None:
-    comparing.add_argument(
-        "--workers",
-        type=at_least(1),
-        default=os.cpu_count() or 1,
-        metavar="N",
-        help="number of processes for several scenes (default: one per core)",
-    )
-    comparing.add_argument(
-        "--store",
-        type=Path,
-        metavar="DIR",
-        help=f"where finished ones of several scenes are kept, for a run that goes on (default: {STORE}, or in "
-        "the folder of --report)",
-    )
 
 
 def compare(arguments: argparse.Namespace) -> Exit:
@@ -216,13 +196,6 @@ def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
 
         form = arguments.figure.suffix[1:]
         write_given(arguments.figure, figure_over_seconds(found[0], form) if arguments.over else figure_of(found, form))
-
-
-def _quantities(word: str) -> tuple[str, ...]:
-    names = tuple(dict.fromkeys(name.strip() for name in word.split(",")))
-    if unknown := [name for name in names if name not in QUANTITIES]:
-        raise argparse.ArgumentTypeError(f"must be of {', '.join(QUANTITIES)}, got {', '.join(map(repr, unknown))}")
-    return names
 
 
 def _sweep(word: str) -> tuple[str, list[str]]:

@@ -1,14 +1,13 @@
 """Run cases and write their report."""
 
 import argparse
-import os
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
 from validation.engine.engine import LOCAL
 from validation.report.build import build
-from validation.report.commands.arguments import add_profile, at_least
+from validation.report.commands.arguments import add_profile, add_workers, at_least
 from validation.report.commands.exit_status import Exit
 from validation.report.contents import CASES, TIMED, timed_here
 from validation.report.section import Section, total_of
@@ -39,13 +38,7 @@ def describe(making: argparse.ArgumentParser) -> None:
         metavar="DIR",
         help="folder of the report (default: reports/PROFILE, with the names of the cases if --only)",
     )
-    making.add_argument(
-        "--workers",
-        type=at_least(1),
-        default=os.cpu_count() or 1,
-        metavar="N",
-        help="number of processes (default: one per core)",
-    )
+    add_workers(making)
     making.add_argument("--seed", type=at_least(0), metavar="S", help="seed of the random numbers of every case")
     making.add_argument(
         "--executor",

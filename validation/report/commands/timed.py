@@ -1,4 +1,4 @@
-"""What is timed alone: `precision` and `race`."""
+"""What is timed alone: `precision`, the error against the cost of every method, and `race`, the solver comparison."""
 
 import argparse
 from pathlib import Path
@@ -9,7 +9,8 @@ from validation.report.commands.exit_status import Exit
 from validation.report.commands.report import built
 
 
-def describe(timing: argparse.ArgumentParser, name: str) -> None:
+def describe(timing: argparse.ArgumentParser) -> None:
+    name = timing.prog.split()[-1]
     add_profile(timing)
     timing.add_argument(
         "--out", type=Path, metavar="DIR", help=f"folder (default: reports/{name}-quick or reports/{name})"

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from validation.analysis.evidence import Evidence
+from validation.analysis.evidence import Table
 from validation.report.style import Style, graded, panels, tick
 
 MARKS: dict[str, Style] = {
@@ -21,9 +21,8 @@ LINES: tuple[Style, ...] = (
 )
 
 
-def draw(evidence: Evidence) -> Figure:
+def draw(heats: Table, scaling: Table) -> Figure:
     """Times, ratios, and how our own time and memory grow."""
-    heats, scaling = evidence.table("heats"), evidence.table("scaling")
     problems = list(dict.fromkeys(heats["problem"].tolist()))
     figure, (time_axis, growth_axis, ratio_axis, memory_axis) = panels(
         2, 2, width=11.0, height=2.4 + 0.6 * len(problems)
@@ -64,13 +63,12 @@ def draw(evidence: Evidence) -> Figure:
     return figure
 
 
-def draw_wheel(evidence: Evidence) -> Figure:
+def draw_wheel(wheel: Table) -> Figure:
     """Wheel-steps a second against springs to a radius."""
-    rates = evidence.table("wheel")
-    heights = np.unique(rates["h0/d"])
+    heights = np.unique(wheel["h0/d"])
     figure, (axis,) = panels(1, 1, width=5.4)
     for i, height in enumerate(heights):
-        mine, style = rates.where(**{"h0/d": height}), graded(i, heights.size)
+        mine, style = wheel.where(**{"h0/d": height}), graded(i, heights.size)
         springs = mine["a/dx"]
         axis.loglog(springs, mine["wheel-steps a second"], label=f"h₀/d = {height:g}", **style)
         open_ = {**style, "markerfacecolor": "white", "linestyle": "--"}
