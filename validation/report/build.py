@@ -72,14 +72,15 @@ def build(
         pictures = Pictures(processes, shown.parts[FIGURES], profile)
         for section in kept:
             pictures.draw(section)
-        settings = {name: _case(name).settings(profile, seed, scene) for name in names}
+        cases = CASES | TIMED
+        settings = {name: cases[name].settings(profile, seed, scene) for name in names}
 
         def run(name: str) -> Any:
-            return _case(name).run(settings[name], replace(engine, shared=processes, progress=shown.parts[name]))
+            return cases[name].run(settings[name], replace(engine, shared=processes, progress=shown.parts[name]))
 
         sections = []
         for name, result in _results(names, run, processes, pictures):
-            sections.append(_section(name, settings[name], result, shown.parts[name]))
+            sections.append(_section(name, cases[name], settings[name], result, shown.parts[name]))
             pictures.draw(sections[-1])
             with shown.aside():
                 callback(sections[-1])
@@ -88,13 +89,9 @@ def build(
         about = provenance(profile, seeds, engine, worked)
         if kept:
             about = with_kept(about, before, kept)
-            sections = sorted([*sections, *kept], key=lambda section: list(CASES | TIMED).index(section.name))
+            sections = sorted([*sections, *kept], key=lambda section: list(cases).index(section.name))
         folder.replace(_files(sections, pictures.found(), profile, about, scene, documentation_beside(out)))
     return sections
-
-
-def _case(name: str) -> Case:
-    return TIMED[name] if name in TIMED else CASES[name]
 
 
 def _results(
@@ -108,8 +105,8 @@ def _results(
     yield from zip(timed, Workers(1).ahead([partial(run, name) for name in timed]), strict=True)
 
 
-def _section(name: str, settings: Any, result: Future[Any], progress: Part) -> Section:
-    case, began = _case(name), time.perf_counter()
+def _section(name: str, case: Case, settings: Any, result: Future[Any], progress: Part) -> Section:
+    began = time.perf_counter()
     of = partial(Section, name, case, case.model_needed(settings), asdict(settings))
     try:
         with as_not_converged():

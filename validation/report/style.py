@@ -2,7 +2,7 @@
 
 import io
 import textwrap
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from typing import Any, Literal
 
@@ -38,15 +38,8 @@ def graded(i: int, count: int) -> Style:
 
 
 CURVES: tuple[Style, ...] = (
-    {"color": "#000000", "linestyle": "-", "linewidth": 2.2},
-    {
-        "color": "#0072B2",
-        "linestyle": "-",
-        "marker": "o",
-        "markersize": 5.5,
-        "markerfacecolor": "none",
-        "linewidth": 0.8,
-    },
+    {**EXACT, "linewidth": 2.2},
+    {**BEM, "linestyle": "-", "markersize": 5.5, "markerfacecolor": "none", "linewidth": 0.8},
     {"color": "#D55E00", "linestyle": "--", "marker": "s", "markersize": 3.5, "linewidth": 1.2},
     {"color": "#009E73", "linestyle": "-.", "marker": "^", "markersize": 4, "linewidth": 1.2},
     {"color": "#CC79A7", "linestyle": ":", "marker": "D", "markersize": 3.5, "linewidth": 1.4},
@@ -126,19 +119,15 @@ def plain_figure(figure: Figure) -> None:
             axis.set_ticklabels([plain(label) for label in labels])
 
 
-def plain_table(table: Table) -> Table:
-    """The same with all of its texts as `plain` ones."""
-    columns = {
-        name: [plain(cell) if isinstance(cell, str) else cell for cell in column]
-        for name, column in table.columns.items()
-    }
-    return Table(table.name, columns)
-
-
 def drawn(draw: Callable[[Evidence], Figure], evidence: Evidence, profile: str) -> Figure:
     """A case's figure in this style, stamped where it is not the real size. The texts of its tables are no markup."""
+
+    def as_text(cells: Sequence[object]) -> list[object]:
+        return [plain(cell) if isinstance(cell, str) else cell for cell in cells]
+
+    tables = tuple(Table(t.name, {name: as_text(cells) for name, cells in t.columns.items()}) for t in evidence.tables)
     with matplotlib.rc_context(SETTINGS):
-        figure = draw(replace(evidence, tables=tuple(map(plain_table, evidence.tables))))
+        figure = draw(replace(evidence, tables=tables))
         engine = figure.get_layout_engine()
         if profile != "full":
             if isinstance(engine, ConstrainedLayoutEngine):

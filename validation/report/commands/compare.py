@@ -182,11 +182,11 @@ def _announce(model: ContactModel) -> None:
 
 def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
     """The files that are asked for, each of them whole; of several scenes a list, and a column for the scene."""
-    if arguments.json is not None:
+    if arguments.json:
         write_given(arguments.json, to_json_of(found).encode())
-    if arguments.csv is not None:
+    if arguments.csv:
         write_given(arguments.csv, as_csv(table_of_several(found)))
-    if arguments.cnossos is not None:
+    if arguments.cnossos:
         filters = [filter_table(one) for one in found if one.quantity == "contact-filter"]
         rows = {name: [value for one in filters for value in one.columns[name]] for name in filters[0].columns}
         write_given(arguments.cnossos, as_csv(Table("contact-filter", rows)))

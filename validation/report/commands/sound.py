@@ -31,13 +31,8 @@ def describe(sounding: argparse.ArgumentParser) -> None:
     sounding.add_argument(
         "--out", type=Path, default=Path("sounds"), metavar="DIR", help="folder of the files (default: sounds)"
     )
-    sounding.add_argument(
-        "--models",
-        type=some_of(SOUNDING),
-        default=tuple(SOUNDING),
-        metavar="A,B",
-        help=f"some of {', '.join(SOUNDING)} (default: all)",
-    )
+    known = f"some of {', '.join(SOUNDING)} (default: all)"
+    sounding.add_argument("--models", type=some_of(SOUNDING), default=tuple(SOUNDING), metavar="A,B", help=known)
     sounding.add_argument(
         "--seconds",
         type=_seconds,
