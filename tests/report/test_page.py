@@ -19,7 +19,7 @@ from validation.report.formats import format_field, map_of
 from validation.report.page_figure import figures_of
 from validation.report.redraw import redraw
 from validation.report.section import Section
-from validation.report.style import svg
+from validation.report.style import picture
 
 ABOUT = {
     **dict.fromkeys(("python", "system", "processor", "cores", "workers"), ""),
@@ -213,7 +213,7 @@ def test_the_line_beside_a_figure_draws_it_again(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     exec(line)
     assert (tmp_path / "geike.pdf").stat().st_size > 1000
-    assert svg(redraw(tmp_path, "geike")) == (tmp_path / "figures" / "geike.svg").read_bytes()
+    assert picture(redraw(tmp_path, "geike")) == (tmp_path / "figures" / "geike.svg").read_bytes()
     with pytest.raises(ValueError, match="nowhere"):
         redraw(tmp_path, "nowhere")
     with pytest.raises(FileNotFoundError, match="hertz"):

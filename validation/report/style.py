@@ -10,7 +10,6 @@ import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
-from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.text import Text
@@ -104,6 +103,10 @@ def visible(values: np.ndarray, *, above: float = 0.0) -> np.ndarray:
     return np.where(np.isfinite(values) & (values > above), values, np.nan)
 
 
+FORMATS = {"svg": "Date", "png": "Software", "pdf": "CreationDate"}
+"""Of pictures, each with what would make their bytes differ from one time or version to the next."""
+
+
 def plain(text: str) -> str:
     """A text of a user's in a figure, in which a $ is no mathematics."""
     return text.replace("$", r"\$")
@@ -137,22 +140,9 @@ def drawn(draw: Callable[[Evidence], Figure], evidence: Evidence, profile: str) 
     return figure
 
 
-def svg(figure: Figure) -> bytes:
-    """The same bytes for the same figure."""
+def picture(figure: Figure, form: str = "svg") -> bytes:
+    """In one of the `FORMATS`: the same bytes for the same figure."""
     buffer = io.BytesIO()
     with matplotlib.rc_context(SETTINGS):
-        FigureCanvasSVG(figure).print_svg(buffer, metadata={"Date": None})  # type: ignore[no-untyped-call]
-    return compact(buffer.getvalue().decode()).encode()
-
-
-def pdf(figure: Figure) -> bytes:
-    """The same bytes for the same figure."""
-    # with its fonts, which a report has no need of, half a second
-    from matplotlib.backends.backend_pdf import FigureCanvasPdf
-
-    buffer = io.BytesIO()
-    with matplotlib.rc_context(SETTINGS):
-        FigureCanvasPdf(figure).print_pdf(  # type: ignore[no-untyped-call]
-            buffer, metadata={"CreationDate": None}
-        )
-    return buffer.getvalue()
+        figure.savefig(buffer, format=form, metadata={FORMATS[form]: None})
+    return compact(buffer.getvalue().decode()).encode() if form == "svg" else buffer.getvalue()
