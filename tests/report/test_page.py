@@ -1,11 +1,11 @@
-"""The page can be read by everyone, is folded until asked, and its figures can be found, cited and drawn again."""
+"""The pages lead to each other, are folded until asked, and figures can be found, cited and drawn again."""
 
 import re
 from dataclasses import replace
 
 import pytest
 
-from tests.report.accessibility import Tree, contrast, faults, words_seen
+from tests.report.accessibility import Tree, faults, words_seen
 from tests.report.test_command_line import SMALL
 from tests.report.test_printed import evidence_with, number
 from validation import __main__ as command
@@ -56,10 +56,7 @@ def html_of(*sections):
     return pages_of(*sections)["exact.html"]
 
 
-# --- for everyone ---
-
-
-def test_the_page_can_be_read_by_everyone():
+def test_the_pages_lead_to_each_other():
     pages = pages_of(section_of("geike"), section_of("hertz", criterion=9.0), section_of("rolling"))
     assert list(pages) == ["exact.html", "rolling.html", "index.html"]
     assert faults(pages) == []
@@ -68,41 +65,18 @@ def test_the_page_can_be_read_by_everyone():
 @pytest.mark.parametrize(
     ("right", "wrong", "said"),
     [
-        ('lang="en"', "", "html has no lang"),
         ("<h1>", "<h1>x</h1><h1>", "not one h1"),
-        ('<h2 id="geike-title">Case</h2>', '<h5 id="geike-title">Case</h5>', "h5 follows h1"),
-        ('alt="A curve"', 'alt=""', "img says nothing"),
         ('id="figure-geike"', 'id="geike"', "id geike twice"),
         ('href="index.html#asked"', 'href="#nowhere"', "link to #nowhere"),
         ('href="exact.html#geike"', 'href="exact.html#nowhere"', "link to exact.html#nowhere"),
         ('<th scope="col">H', "<th>H", "header 'H' has no scope"),
-        ("--soft: #5a5a5a", "--soft: #9a9a9a", "#9a9a9a on #ffffff has a contrast of 2.8"),
-        ("<summary>Method</summary>", "", "details does not begin with its summary"),
-        ('role="region"', "", "what the keyboard reaches has no role"),
     ],
 )
-def test_a_page_that_somebody_cannot_read_is_found(right, wrong, said):
+def test_a_page_that_leads_nowhere_is_found(right, wrong, said):
     text = html_of(section_of("geike", title="Case"))
     assert right in text
     others = pages_of(section_of("geike", title="Case"))
     assert any(said in fault for fault in faults(others | {"exact.html": text.replace(right, wrong)}))
-
-
-def test_contrast_is_that_of_the_guidelines():
-    """Black on white has 21; #767676 is the lightest grey that passes on white."""
-    assert contrast("#000000", "#ffffff") == pytest.approx(21)
-    assert contrast("#767676", "#ffffff") >= 4.5 > contrast("#777777", "#ffffff")
-
-
-def test_colours_of_the_verdict_map_differ_in_grey():
-    """From each other by a step that is seen, beside their letters."""
-    style = html_of(section_of("geike")).partition("</style>")[0]
-    grounds = [re.search(rf"table\.map td\.{v} {{ background: (#\w+)", style)[1] for v in ("agree", "differ")]
-    assert contrast(*grounds) > 4.5
-    assert re.search(r"table\.map td\.undecided {[^}]*repeating-linear-gradient", style)
-
-
-# --- folded ---
 
 
 def test_most_of_a_case_is_folded():
@@ -138,9 +112,6 @@ def test_the_first_figure_is_open_and_titled_by_its_finding():
     assert all(e.attributes["alt"] for f in figures for e in f.walk() if e.tag == "img")
 
 
-# --- the map of verdicts ---
-
-
 def test_a_table_of_verdicts_is_a_lettered_map_with_the_table_behind_it():
     found = map_of(MATRIX)
     fields = {place: "".join(re.findall(">(.)<", "".join(map(format_field, cells)))) for place, cells in found.rows}
@@ -154,9 +125,6 @@ def test_a_table_of_verdicts_is_a_lettered_map_with_the_table_behind_it():
 @pytest.mark.parametrize("columns", [{"H": ["0.4", "1"], "verdict": FIELDS[:2]}, {"H": ["1"], "a": ["b"]}])
 def test_a_table_with_few_verdicts_stays_as_it_is(columns):
     assert map_of(Table("t", columns)) is None
-
-
-# --- figures ---
 
 
 def test_a_figure_is_numbered_on_the_page_and_cited_by_name_version_and_commit():

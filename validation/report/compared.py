@@ -33,7 +33,7 @@ def to_figure(comparison: OneOrSeveral, *, form: str = "svg") -> bytes:
     Parameters
     ----------
     comparison : Comparison or list of Comparison
-        What `compare` returns; of a list a panel a quantity, with the selected model of each scene.
+        What `compare` returns; of a list a panel a quantity, of a sweep or with the selected model of each scene.
     form : str, optional
         "svg", "png" or "pdf".
 
@@ -53,17 +53,9 @@ def to_figure(comparison: OneOrSeveral, *, form: str = "svg") -> bytes:
     >>> picture[1:4]
     b'PNG'
     """
-    return figure_of(listed(comparison), form)
-
-
-def figure_of(comparisons: Sequence[Comparison], form: str) -> bytes:
-    """A panel a quantity, in one of the `FORMATS`: models of a scene, a sweep, or the selected ones of several scenes.
-
-    The same bytes for the same comparisons. Raises ValueError for another form.
-    """
     if form not in FORMATS:
         raise ValueError(f"form must be one of {', '.join(FORMATS)}, got {form!r}")
-    panels = list(by_quantity(comparisons).values())
+    panels = list(by_quantity(listed(comparison)).values())
     with matplotlib.rc_context(SETTINGS):
         heights = [_height(found) for found in panels]
         figure = Figure(figsize=(7.0, sum(heights)), layout="constrained")
@@ -77,11 +69,6 @@ def figure_of(comparisons: Sequence[Comparison], form: str) -> bytes:
             axes.set_title(in_two_lines(title), loc="left")
             spectra = found[0].is_level and np.isfinite(table["wavelength_mm"]).all()
             (_spectra if spectra and len(table["model"]) else _numbers)(axes, table)
-    return written(figure, form)
-
-
-def written(figure: Figure, form: str) -> bytes:
-    """With texts as users gave them."""
     plain_figure(figure)
     return picture(figure, form)
 

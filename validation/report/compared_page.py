@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from validation.analysis.contents import as_csv, as_json
-from validation.report.compared import figure_of
+from validation.report.compared import to_figure
 from validation.report.formats import templates
 from validation.scenes.description import describe
 from validation.scenes.rolling import RollingScene
@@ -34,7 +34,7 @@ def files_of_comparison(found: Sequence[Comparison], about: dict[str, object]) -
         drawn["all"] = list(found)
     for name, of in drawn.items():
         for form in ("svg", "pdf"):
-            files[f"figures/{name}.{form}"] = figure_of(of, form)
+            files[f"figures/{name}.{form}"] = to_figure(of, form=form)
     files[PAGE] = _page(found, files, about)
     return files
 

@@ -6,8 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Table
-from validation.report.compared import written
-from validation.report.style import GUIDE, SETTINGS, Style, in_two_lines
+from validation.report.style import GUIDE, SETTINGS, Style, in_two_lines, picture, plain_figure
 from validation.selection.compare import Comparison
 from validation.selection.speed_accuracy import speed_and_accuracy
 
@@ -38,7 +37,8 @@ def figure_over_seconds(comparison: Comparison, form: str) -> bytes:
         axes.axhline(limit, label=f"tolerance, {comparison.tolerance}", **GUIDE)
         _draw(axes, table)
         figure.legend(loc="lower center", ncols=4)
-    return written(figure, form)
+    plain_figure(figure)
+    return picture(figure, form)
 
 
 def _draw(axes: Axes, table: Table) -> None:

@@ -15,6 +15,12 @@ def add_workers(command: argparse.ArgumentParser, what: str = "number of process
     command.add_argument("--workers", type=at_least(1), default=os.cpu_count() or 1, metavar="N", help=help_text)
 
 
+def add_options(command: argparse.ArgumentParser, *options: tuple[str, str, Callable[[str], object], str]) -> None:
+    """Each with the name of its value, what reads that, and what it is for; without a default."""
+    for name, value, reads, what in options:
+        command.add_argument(name, metavar=value, type=reads, help=what)
+
+
 def at_least(least: int) -> Callable[[str], int]:
     """Whole numbers from a least one on."""
 

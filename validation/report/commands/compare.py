@@ -12,7 +12,7 @@ from validation.analysis.evidence import Table
 from validation.engine.engine import Engine
 from validation.engine.files import write_given
 from validation.engine.progress import progress_of
-from validation.report.commands.arguments import add_workers, at_least, some_of
+from validation.report.commands.arguments import add_options, add_workers, at_least, some_of
 from validation.report.commands.exit_status import Exit
 from validation.report.manifest import COMPARISON
 from validation.scenes.load import Scene, bundled_for_compare, files_of, load_scene, load_varied
@@ -42,9 +42,6 @@ def describe(comparing: argparse.ArgumentParser) -> None:
         help=f"a TOML file, or the name of an example scene ({', '.join(bundled_for_compare())}); several: one table",
     )
     comparing.add_argument(
-        "--sweep", type=_sweep, metavar="KEY=A,B,C", help='the scene with each value, as wheel.load="5 kN,10 kN"'
-    )
-    comparing.add_argument(
         "--tolerance", type=_tolerance, default="10%", metavar="T", help='"5%%", "0.05" or "0.4 dB" (default: 10%%)'
     )
     comparing.add_argument(
@@ -54,21 +51,32 @@ def describe(comparing: argparse.ArgumentParser) -> None:
         metavar="A,B",
         help=f"of {', '.join(QUANTITIES)}, one or several (default: the first of the scene); --want is its old name",
     )
-    comparing.add_argument("--seed", type=at_least(0), metavar="S", help="seed of the random roughness (default: 0)")
     solved = comparing.add_mutually_exclusive_group()
     solved.add_argument("--all", action="store_true", help="solve and time all models, and print them side by side")
     solved.add_argument(
         "--models", metavar="NAMES", help='solve these alone: mdr, bem, or names, as "mdr,bem" or "fit,springs"'
     )
-    for name, of, what in (
-        ("--json", "FILE", "write the result for other programs; `--report` adds a schema that describes its keys"),
-        ("--csv", "FILE", "write a row a number or a band, of each model that was solved"),
-        ("--cnossos", "FILE", "write a contact filter in the columns of the table of CNOSSOS-EU, as CSV"),
-        ("--figure", "FILE", "draw the models that were solved, of spectra five at the most, in a .svg, .png or .pdf"),
-        ("--report", "DIR", "write a page with figure and data into a folder of its own"),
-        ("--store", "DIR", f"where finished ones of several scenes are kept, for a run that goes on ({KEPT})"),
-    ):
-        comparing.add_argument(name, type=Path, metavar=of, help=what)
+    add_options(
+        comparing,
+        ("--sweep", "KEY=A,B,C", _sweep, 'the scene with each value, as wheel.load="5 kN,10 kN"'),
+        ("--seed", "S", at_least(0), "seed of the random roughness (default: 0)"),
+        (
+            "--json",
+            "FILE",
+            Path,
+            "write the result for other programs; `--report` adds a schema that describes its keys",
+        ),
+        ("--csv", "FILE", Path, "write a row a number or a band, of each model that was solved"),
+        ("--cnossos", "FILE", Path, "write a contact filter in the columns of the table of CNOSSOS-EU, as CSV"),
+        (
+            "--figure",
+            "FILE",
+            Path,
+            "draw the models that were solved, of spectra five at the most, in a .svg, .png or .pdf",
+        ),
+        ("--report", "DIR", Path, "write a page with figure and data into a folder of its own"),
+        ("--store", "DIR", Path, f"where finished ones of several scenes are kept, for a run that goes on ({KEPT})"),
+    )
     comparing.add_argument(
         "--over", choices=("seconds",), help="draw in --figure how far off each model is over the time that it took"
     )
@@ -191,11 +199,12 @@ def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
         rows = {name: [value for one in filters for value in one.columns[name]] for name in filters[0].columns}
         write_given(arguments.cnossos, as_csv(Table("contact-filter", rows)))
     if arguments.figure is not None:
-        from validation.report.compared import figure_of  # which takes half a second to import
+        from validation.report.compared import to_figure  # which takes half a second to import
         from validation.report.compared_seconds import figure_over_seconds
 
         form = arguments.figure.suffix[1:]
-        write_given(arguments.figure, figure_over_seconds(found[0], form) if arguments.over else figure_of(found, form))
+        picture = figure_over_seconds(found[0], form) if arguments.over else to_figure(found, form=form)
+        write_given(arguments.figure, picture)
 
 
 def _sweep(word: str) -> tuple[str, list[str]]:
