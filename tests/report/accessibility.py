@@ -1,4 +1,4 @@
-"""The elements of a page, what is seen of it, and whether its links lead anywhere; axe-core has the rest."""
+"""The elements of a page, and whether its links lead anywhere; axe-core has the rest."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -51,15 +51,6 @@ class Tree(HTMLParser):
     def handle_data(self, data):
         if self._open.tag not in UNREAD:
             self._open.words.append(data)
-
-
-def words_seen(element: Element) -> int:
-    """Before anything is unfolded."""
-    children = element.children
-    if element.tag == "details" and "open" not in element.attributes:
-        children = [child for child in children if child.tag == "summary"]
-    seen = 0 if element.tag in ("style", "svg") else sum(len(words.split()) for words in element.words)
-    return seen + sum(words_seen(child) for child in children)
 
 
 def faults(pages: Mapping[str, str]) -> list[str]:

@@ -3,10 +3,6 @@
 import json
 import os
 import re
-import signal
-import subprocess
-import sys
-import time
 import warnings
 from dataclasses import replace
 from pathlib import Path
@@ -39,69 +35,38 @@ from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import regions as wheel_regions
 from validation.cases.wheel import spectrum as wheel
 from validation.engine import stored
-from validation.engine.engine import Engine
 from validation.report.chapter import ENTRIES
 from validation.report.contents import CASES
 from validation.report.figures import drawing
 from validation.report.kept import kept_sections
 from validation.report.section import numbers_table, results_of
-from validation.simulation.light_punch import press_lightly
 
 ROOT = Path(__file__).parents[2]
+PUNCHES = {"cells": 16, "profiles": 40, "points": 64, "decades": (-1, 0)}
+STRIPS = {"lowest": 0.5, "length": 32.0, "width": 12.0, "cells": 4, "strips": 3}
+TRACKS = {"tracks": 5, "springs": 8}
 SMALL = {
     "hertz": hertz.Hertz(cells_per_radius=(4, 6, 8), load_steps=2),
     "geike": geike.Geike(cells=128, surfaces=2, longest=4),
     "fractal_punch": FractalPunch(
         hursts=(0.4, 1.0),
-        cells=16,
         surfaces=((0, 12, 6, 4, 0),) * 2,
-        profiles=30,
         fine_profiles=10,
-        points=64,
-        decades=(-1, 1),
+        **PUNCHES | {"profiles": 30, "decades": (-1, 1)},
     ),
-    "normalisation": normalisation.Normalisation(
-        hursts=(0.7,), cells=16, surfaces=8, profiles=40, points=64, decades=(-1, 0)
-    ),
+    "normalisation": normalisation.Normalisation(hursts=(0.7,), surfaces=8, **PUNCHES),
     "bandwidth": bandwidth.Bandwidth(
         cells=16, surfaces=4, pairs=(3, 3), refined=3, rolled_off=3, profiles=5, points=64, per_decade=1, seed=1
     ),
-    "mdr_limits": mdr_limits.MdrLimits(
-        roll_offs=(1, 2), cells=16, surfaces=6, refined=3, profiles=40, points=64, decades=(-1, 0)
-    ),
+    "mdr_limits": mdr_limits.MdrLimits(roll_offs=(1, 2), surfaces=6, refined=3, **PUNCHES),
     "ridges": ridges.RollingOverRidges(length=20, shortest=6.0, cells=(4, 6), springs=(8.5, 16.5)),
-    "rolling": rolling.ForceSpectrum(
-        heights=(0.01, 0.3),
-        last=6.0,
-        lowest=0.5,
-        length=32.0,
-        width=12.0,
-        cells=4,
-        strips=3,
-        rough_strips=3,
-        refined=3,
-        tracks=5,
-        springs=8,
-    ),
+    "rolling": rolling.ForceSpectrum(heights=(0.01, 0.3), last=6.0, rough_strips=3, refined=3, **STRIPS, **TRACKS),
     "rolling_input": rolling_input.RollingInput(
-        last=8.0,
-        lowest=0.5,
-        heights=(0.03,),
-        length=32.0,
-        width=12.0,
-        cells=4,
-        strips=3,
-        tracks=5,
-        springs=8,
-        punch_cells=16,
-        surfaces=4,
-        profiles=10,
+        heights=(0.03,), last=8.0, punch_cells=16, surfaces=4, profiles=10, **STRIPS, **TRACKS
     ),
     "reduced_models": reduced_models.ReducedModels(spectra=((0.7, 1.0, 6.0),), strips=3, width=6, cells=6),
     "rolling_validity": validity.Validity(strips=3, waves=3, width=7, cells=4),
-    "roughness_from_force": roughness_from_force.RoughnessFromForce(
-        heights=(0.1,), last=6.0, lowest=0.5, length=32.0, width=12.0, cells=4, strips=3
-    ),
+    "roughness_from_force": roughness_from_force.RoughnessFromForce(heights=(0.1,), last=6.0, **STRIPS),
     "track_stiffness": track_stiffness.TrackStiffness(
         forces=(1.0,), waves=2, width=6, cells=4, strips=3, tracks=5, springs=16, surfaces=4, profiles=10
     ),
@@ -429,34 +394,3 @@ def test_cases_are_listed(capsys):
     assert command.main(["cases"]) == 0
     printed = capsys.readouterr().out
     assert all(name in printed and entry.answers in printed for name, entry in CASES.items())
-
-
-HEARS_CONTROL_C = """
-import signal, sys
-from validation.__main__ import main
-signal.signal(signal.SIGINT, signal.default_int_handler)
-sys.exit(main(sys.argv[1:]))
-"""
-"""The command, in a process that may have been started in the background, where a shell has it ignore Control-C."""
-
-
-@pytest.mark.slow
-def test_an_interrupted_run_goes_on_where_it_stopped(tmp_path):
-    """Control-C in the middle: exit 130; finished solves are there, and the next run takes them."""
-    words = [sys.executable, "-c", HEARS_CONTROL_C, "report", "--only", "fractal_punch", "--workers", "1"]
-    run = subprocess.Popen([*words, "--out", str(tmp_path)], cwd=ROOT, stderr=subprocess.PIPE, text=True)
-    store = tmp_path / "realisations"
-    while len(list(store.glob("*.npz"))) < 3:
-        assert run.poll() is None, "it ended before anything was stored"
-        time.sleep(0.05)
-    run.send_signal(signal.SIGINT)
-    _, said = run.communicate()
-    assert run.returncode == command.Exit.INTERRUPTED
-    assert "interrupted" in said
-    kept = {f.name: f.stat().st_mtime_ns for f in store.glob("*.npz")}
-    assert len(kept) >= 3
-    assert [file.name for file in tmp_path.glob("*.json")] == ["manifest.json"]
-    assert not list(store.glob(".*.part"))
-    case = CASES["fractal_punch"].quick
-    Engine(store=store).map(press_lightly, [case.surface(case.hursts[0], 0, case.cells // 4)])
-    assert {f.name: f.stat().st_mtime_ns for f in store.glob("*.npz")} == kept

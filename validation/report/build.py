@@ -10,7 +10,7 @@ from typing import Any
 
 import scipy.stats  # noqa: F401  # with most of scipy, before threads import its parts at once
 
-from validation.analysis.case import Case, Profile
+from validation.analysis.case import Profile
 from validation.analysis.contents import as_csv, as_json, csv_name
 from validation.analysis.evidence import Evidence
 from validation.engine.convergence import NotConvergedError, as_not_converged
@@ -80,7 +80,7 @@ def build(
 
         sections = []
         for name, result in _results(names, run, processes, pictures):
-            sections.append(_section(name, cases[name], settings[name], result, shown.parts[name]))
+            sections.append(_section(name, settings[name], result, shown.parts[name]))
             pictures.draw(sections[-1])
             with shown.aside():
                 callback(sections[-1])
@@ -105,8 +105,8 @@ def _results(
     yield from zip(timed, Workers(1).ahead([partial(run, name) for name in timed]), strict=True)
 
 
-def _section(name: str, case: Case, settings: Any, result: Future[Any], progress: Part) -> Section:
-    began = time.perf_counter()
+def _section(name: str, settings: Any, result: Future[Any], progress: Part) -> Section:
+    case, began = (CASES | TIMED)[name], time.perf_counter()
     of = partial(Section, name, case, case.model_needed(settings), asdict(settings))
     try:
         with as_not_converged():
