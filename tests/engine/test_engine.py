@@ -156,7 +156,7 @@ def test_a_place_that_something_else_has_taken_is_refused(kind, problems, tmp_pa
 
 
 def test_what_is_timed_is_timed_anew(problems, tmp_path):
-    """Of the solves that were asked for, under whatever name they are stored; others, and files of others, stay."""
+    """Results of this run are forgotten; others, and files of others, stay."""
     engine = Engine(store=tmp_path)
     engine.map(other_toy, problems[:1])
     (kept,) = (path.name for path in tmp_path.glob("*.npz"))

@@ -120,7 +120,7 @@ class Progress:
         if self._shown:
             self._over.set()
             self._ticks.join()
-            self._erase()
+            self._write("")
 
     def refresh(self) -> None:
         """Print the line, if the last one is old enough."""
@@ -131,24 +131,24 @@ class Progress:
             if not self._shown or self._over.is_set() or self._now() - self._printed < apart:
                 return
             self._printed = self._now()
-            columns = shutil.get_terminal_size().columns
-            self._write(BACK + self.line[: columns - 1] + ERASED if self._terminal else self.line + "\n")
+            self._write(self.line)
 
     @contextmanager
     def aside(self) -> Iterator[None]:
         """Something else is printed meanwhile."""
         with self._lock:
-            self._erase()
+            if self._shown:
+                self._write("")
             yield
 
     @property
     def line(self) -> str:
         """Of the first part that is not over."""
-        found = ((i, part) for i, part in enumerate(self.parts.values(), 1) if not part.over)
-        i, part = next(found, (len(self.parts), list(self.parts.values())[-1]))
-        place = f"[{i}/{len(self.parts)}] " if len(self.parts) > 1 else ""
+        parts = list(self.parts.values())
+        i = next((i for i, part in enumerate(parts) if not part.over), len(parts) - 1)
+        place = f"[{i + 1}/{len(parts)}] " if len(parts) > 1 else ""
         whole = f"{self._whole} " if self._whole else ""
-        return f"{place}{part.line}, {whole}{format_left(self.seconds_left)} left"
+        return f"{place}{parts[i].line}, {whole}{format_left(self.seconds_left)} left"
 
     @property
     def seconds_left(self) -> float:
@@ -166,12 +166,12 @@ class Progress:
         while not self._over.wait(SECONDS_BETWEEN_REFRESHES):
             self.refresh()
 
-    def _erase(self) -> None:
-        if self._shown and self._terminal:
-            self._write(BACK + ERASED)
-
-    def _write(self, text: str) -> None:
-        sys.stderr.write(text)
+    def _write(self, line: str) -> None:
+        """On a terminal over the last one, in a log below it; an empty one erases the last."""
+        if self._terminal:
+            sys.stderr.write(BACK + line[: shutil.get_terminal_size().columns - 1] + ERASED)
+        elif line:
+            sys.stderr.write(line + "\n")
         sys.stderr.flush()
 
 

@@ -3,8 +3,7 @@
 import hashlib
 import io
 import json
-import re
-from collections.abc import Sequence
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -19,12 +18,11 @@ FORMAT = 2
 LABEL = "stored"
 """The entry of an archive that holds its key and lists its arrays."""
 SEAL = hashlib.sha256().digest_size
-NAME = re.compile(r"(?P<module>\w+)-(?P<solve>\w+)-[0-9a-f]{24}\.npz")
 
 
 def place_of(folder: Path, module: str, solve: str, key: str) -> Path:
-    """Where a result belongs. key: everything that determines it."""
-    return folder / f"{module}-{solve}-{hashlib.sha256(key.encode()).hexdigest()[:24]}.npz"
+    """Where a result belongs. module, solve: names for its file; key: everything that determines it."""
+    return folder / f"{module.rpartition('.')[2]}-{solve}-{hashlib.sha256(key.encode()).hexdigest()[:24]}.npz"
 
 
 def load(path: Path, key: str) -> Outcome | None:
@@ -52,20 +50,11 @@ def save(path: Path, key: str, outcome: Outcome) -> None:
     write_whole(path, contents + hashlib.sha256(contents).digest())
 
 
-def forget(folder: Path, solves: Sequence[tuple[str, str]]) -> None:
-    """Remove the stored results of these solves, each a module and a name, and no file without a valid seal."""
-    for path in sorted(folder.glob("*.npz")):
-        named = NAME.fullmatch(path.name)
-        if named and (named["module"], named["solve"]) in solves and is_plain(path) and _is_sealed(path):
+def forget(stored: Mapping[Path, str]) -> None:
+    """Remove the results at these places, each by its key, and nothing else that is there."""
+    for path, key in stored.items():
+        if is_plain(path) and load(path, key) is not None:
             path.unlink()
-
-
-def _is_sealed(path: Path) -> bool:
-    try:
-        _unsealed(path)
-    except (OSError, ValueError, MemoryError):
-        return False
-    return True
 
 
 def _unsealed(path: Path) -> bytes:

@@ -1,13 +1,14 @@
 """Worker processes of this machine: one queue for all that is at work, first come first served."""
 
 import threading
+import warnings
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, ThreadPoolExecutor
 from typing import ParamSpec, TypeVar
 
 from validation.engine.termination import RESUME_NOTE, WorkerLostError
-from validation.engine.warning_lines import in_a_worker
+from validation.engine.warning_lines import as_one_line
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -95,6 +96,10 @@ class Workers:
             from joblib.externals import loky  # where processes are needed: it takes a tenth of a second
 
             pool: Executor = loky.get_reusable_executor(
-                max_workers=self.count, timeout=IDLE, env=ONE_THREAD, initializer=in_a_worker
+                max_workers=self.count,
+                timeout=IDLE,
+                env=ONE_THREAD,
+                initializer=setattr,
+                initargs=(warnings, "formatwarning", as_one_line),
             )
         return pool
