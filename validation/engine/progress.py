@@ -89,7 +89,7 @@ class Part:
 class Progress:
     """Parts of a run in their order: one line that is rewritten on a terminal, a line every few seconds in a log.
 
-    parts: name of each and the seconds that it is expected to take on one core; whole: what is left; workers: that
+    parts: name of each and the seconds that it is expected to take on one core; workers: that
     share the work; shown: False prints nothing. Lines are also printed while no solve finishes, so that a log shows a
     run that stands still.
     """
@@ -98,13 +98,12 @@ class Progress:
         self,
         parts: Mapping[str, float],
         *,
-        whole: str = "whole report",
         workers: int = 1,
         shown: bool = True,
         clock: Callable[[], float] = time.monotonic,
     ):
         self.parts = {name: Part(name, seconds, self.refresh) for name, seconds in parts.items()}
-        self._whole, self._workers, self._now = whole, workers, clock
+        self._workers, self._now = workers, clock
         self._shown, self._terminal = shown, sys.stderr.isatty()
         self._began, self._printed = math.inf, clock()
         self._lock = threading.RLock()
@@ -146,8 +145,7 @@ class Progress:
         """Of the first part that is not over."""
         parts = list(self.parts.values())
         i = next((i for i, part in enumerate(parts) if not part.over), len(parts) - 1)
-        place = f"[{i + 1}/{len(parts)}] " if len(parts) > 1 else ""
-        whole = f"{self._whole} " if self._whole else ""
+        place, whole = (f"[{i + 1}/{len(parts)}] ", "whole report ") if len(parts) > 1 else ("", "")
         return f"{place}{parts[i].line}, {whole}{format_left(self.seconds_left)} left"
 
     @property
@@ -178,7 +176,7 @@ class Progress:
 @contextmanager
 def progress_of(name: str, workers: int) -> Iterator[Part]:
     """Of a run that is a single part, of which nobody knows how long it takes."""
-    with Progress({name: UNKNOWN}, whole="", workers=workers) as progress:
+    with Progress({name: UNKNOWN}, workers=workers) as progress:
         yield progress.parts[name]
 
 

@@ -2,9 +2,9 @@
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import NamedTuple
 
 import jinja2
 from markupsafe import Markup, escape
@@ -80,30 +80,27 @@ def format_field(cell: object) -> Markup:
     return Markup('<td class="{}" title="{}">{}</td>').format(kind, str(cell), letter)
 
 
-@dataclass(frozen=True)
-class VerdictMap:
-    """heads: names of the columns that place a row; columns: those of verdicts; rows: places, then cells."""
+class VerdictMap(NamedTuple):
+    """heads: names of the columns that place a row; columns: those of verdicts; rows: places, then cells; summary: how
+    many cells have each verdict."""
 
     heads: tuple[str, ...]
     columns: tuple[str, ...]
-    rows: tuple[tuple[Sequence[object], Sequence[object]], ...]
-
-    @property
-    def summary(self) -> str:
-        """How many cells have each verdict."""
-        found = [cell.verdict for _, cells in self.rows for cell in cells if isinstance(cell, VerdictCell)]
-        return ", ".join(f"{found.count(verdict)} {verdict}" for verdict in Verdict if verdict in found)
+    rows: list[tuple[Sequence[object], Sequence[object]]]
+    summary: str
 
 
 def map_of(table: Table) -> VerdictMap | None:
     """None for a table that has fewer than two columns of verdicts, or a single row: it is read faster as it stands."""
-    judged = [name for name, cells in table.columns.items() if any(isinstance(cell, VerdictCell) for cell in cells)]
-    names = tuple(table.columns)
+    cells = {name: [cell for cell in column if isinstance(cell, VerdictCell)] for name, column in table.columns.items()}
+    names, judged = tuple(cells), tuple(name for name, some in cells.items() if some)
     if len(judged) < 2 or len(table.columns[judged[0]]) < 2 or names[0] in judged:
         return None
     heads = names[: names.index(judged[0])]
     rows = zip(*(zip(*(table.columns[name] for name in some), strict=True) for some in (heads, judged)), strict=True)
-    return VerdictMap(heads, tuple(judged), tuple(rows))
+    found = [cell.verdict for some in cells.values() for cell in some]
+    summary = ", ".join(f"{found.count(verdict)} {verdict}" for verdict in Verdict if verdict in found)
+    return VerdictMap(heads, judged, list(rows), summary)
 
 
 def first_sentence(text: str) -> str:

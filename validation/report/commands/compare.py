@@ -49,7 +49,7 @@ def describe(comparing: argparse.ArgumentParser) -> None:
         "--want",
         type=some_of(QUANTITIES),
         metavar="A,B",
-        help=f"of {', '.join(QUANTITIES)}, one or several (default: the first of the scene); --want is its old name",
+        help=f"of {', '.join(QUANTITIES)}, one or several (default: the first of the scene); --want: until 0.3",
     )
     solved = comparing.add_mutually_exclusive_group()
     solved.add_argument("--all", action="store_true", help="solve and time all models, and print them side by side")

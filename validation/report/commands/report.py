@@ -41,7 +41,7 @@ def describe(making: argparse.ArgumentParser) -> None:
         making,
         ("--out", "DIR", Path, "folder (default: reports/PROFILE, with the names of the cases if --only)"),
         ("--seed", "S", at_least(0), "seed of the random numbers of every case"),
-        ("--executor", "WHERE", str, '"local", or dask://HOST:PORT, whose workers replace local processes'),
+        ("--executor", "WHERE", str, '"local" (default), or dask://HOST:PORT, whose workers replace local processes'),
         ("--scene", "FILE", str, scene),
     )
     making.set_defaults(command=report, executor=LOCAL)
