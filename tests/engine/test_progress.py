@@ -160,7 +160,7 @@ def test_a_run_that_stands_still_is_seen(monkeypatch):
     with Progress({"hertz": 1.0}) as run:
         while stream.getvalue().count("\n") < 2:
             run._over.wait(0.01)
-    assert stream.getvalue().startswith("hertz, about")
+    assert stream.getvalue().startswith("hertz, a few seconds left")
 
 
 def test_a_run_of_one_part_follows_its_own_pace(clock):
