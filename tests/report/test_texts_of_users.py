@@ -15,7 +15,6 @@ from validation.report import compared, style
 from validation.report.compared import FORMATS, to_figure
 from validation.selection.compare import Comparison
 from validation.selection.hierarchy import select_model
-from validation.selection.several import selected_of_several
 
 NAMES = (r"costs $\frac{$", "$x^2$", "a$b", r"\$ and $", r"$\alpha_{$ and \\", "_hidden", "10 % of #1 & <b>")
 
@@ -76,7 +75,7 @@ def test_curves_of_several_scenes_are_named_in_the_legend():
         },
     )
     figure = Figure()
-    compared._spectra(figure.subplots(), selected_of_several(table))
+    compared._spectra(figure.subplots(), compared._selected(table))
     style.plain_figure(figure)
     assert [text.get_text() for text in figure.axes[0].get_legend().get_texts()] == [" _one", r"\$two\$"]
 

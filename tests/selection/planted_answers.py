@@ -8,8 +8,9 @@ import numpy as np
 import validation
 from validation.scenes.rail import RailScene
 from validation.selection.compare import Comparison
-from validation.selection.hierarchy import Answer, Candidate, Selection
+from validation.selection.hierarchy import Candidate, Selection
 from validation.selection.quantities import LEVELS, models_of
+from validation.selection.scene_model import Answer
 from validation.selection.tolerance import tolerance_of
 from validation.simulation.rolling_quantity import RollingQuantity
 

@@ -11,7 +11,7 @@ import validation
 from tests.selection.test_model_hierarchy import Finding
 from validation.__main__ import main
 from validation.selection.compare import Comparison, compare
-from validation.selection.filter_table import filter_table
+from validation.selection.exported import filter_table
 from validation.selection.hierarchy import select_model
 from validation.simulation.spectral_springs import SPRINGS_GEIKE
 

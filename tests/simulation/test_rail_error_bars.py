@@ -11,8 +11,8 @@ from scipy import stats
 from scipy.optimize import brentq
 
 from validation import compare, load_scene
-from validation.selection.hierarchy import Answer
 from validation.selection.rail_model import RailSceneModel
+from validation.selection.scene_model import Answer
 from validation.simulation import rail_models
 from validation.simulation.equivalent_displacement import BEM, LINEAR
 from validation.simulation.method import Resolution

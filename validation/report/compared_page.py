@@ -10,41 +10,22 @@ from validation.analysis.contents import as_csv, as_json
 from validation.report.compared import figure_of
 from validation.scenes.description import describe
 from validation.scenes.rolling import RollingScene
+from validation.selection.columns import bands_of, levels_beside, models_of_page, numbers_beside, overview_of
 from validation.selection.compare import Comparison
 from validation.selection.contact_force import LEVELS, contact_force
 from validation.selection.exported import SCHEMA_OF_JSON, by_quantity, table_of_several, to_json_of
-from validation.selection.hierarchy import Candidate
 from validation.selection.quantities import MOVING
-from validation.selection.several import overview_of
-from validation.selection.side_by_side import (
-    TOGETHER,
-    differences,
-    error_of_difference,
-    half_width,
-    levels_beside,
-    numbers_beside,
-    per_cent,
-    reference_of,
-)
+from validation.selection.side_by_side import TOGETHER, reference_of
 from validation.selection.summary import (
     ASSUMED,
     age_of_errors,
-    bands_of,
-    became_of,
-    claim_of,
     cost_of,
-    format_seconds,
-    found_of,
-    label,
     result_of,
     sentences_on_mdr,
-    took_by,
     what_would_help,
 )
-from validation.selection.tolerance import short
 
 PAGE, JSON, SCHEMA, CSV = "index.html", "comparison.json", "comparison.schema.json", "data/levels.csv"
-Columns = Mapping[str, Sequence[str]]
 
 
 def files_of_comparison(found: Sequence[Comparison], about: dict[str, object]) -> dict[str, bytes]:
@@ -103,7 +84,7 @@ def _of_scene(name: str, found: Comparison) -> dict[str, object]:
         "help": list(what_would_help(found)),
         "notes": _notes(found),
         "understood": (*describe(scene), ("assumed", ASSUMED)),
-        "models": [_model_row(found, one) for one in found.models],
+        "models": models_of_page(found),
         "bands": bands_of(found, best) if best and found.is_level else None,
         "levels": LEVELS if found.roughness.size else "",
         "force": contact_force(found),
@@ -117,35 +98,6 @@ def _of_scene(name: str, found: Comparison) -> dict[str, object]:
         "cost": cost_of(found),
         "alternative": f"{found.quantity} of {scene.name} by {', '.join(one.name for one in found.selection.solved)}",
     }
-
-
-def _model_row(found: Comparison, one: Candidate) -> dict[str, str]:
-    return {
-        "model": label(one),
-        "claims": claim_of(found, one),
-        "found": found_of(found, one),
-        "apart": _apart(found, one),
-        "cost": format_seconds(one.cost),
-        "took": took_by(found, one),
-        "became": became_of(one),
-        "why": one.reason,
-        "selected": "selected" if one.name == found.model else "",
-    }
-
-
-def _apart(found: Comparison, one: Candidate) -> str:
-    """The largest difference from the model with the smallest error, in any band."""
-    if one not in found.selection.solved:
-        return "—"
-    reference = reference_of(found)
-    if one is reference:
-        return "—"
-    off = differences(one, reference)
-    worst = abs(off).argmax()
-    largest, error = (float(values[worst]) for values in (off, error_of_difference(found, one, reference)))
-    if found.is_level or found.in_decibels:
-        return f"{'+' if largest > 0 else ''}{short(largest)} {half_width(error)} dB"
-    return f"{per_cent(largest):+.2g} {half_width(per_cent(error))} %"
 
 
 def _asked(found: Comparison) -> str:

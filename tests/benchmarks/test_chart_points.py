@@ -13,13 +13,10 @@ from validation.benchmarks.work_precision.pareto import (
     Point,
     break_even,
     cheapest,
-    format_error,
-    format_seconds,
     front,
     in_unit_of_error,
     monotone_envelope,
     reason_if_none,
-    work,
 )
 from validation.benchmarks.work_precision.problem import EXTRAPOLATED, Quantity, logarithm
 from validation.engine.convergence import NotConvergedError
@@ -267,32 +264,10 @@ def test_the_referee_is_told_apart_and_only_if_it_has_finished():
     assert "closed form (" not in break_even([referee, point("a", 0.1, 1.0)])
 
 
-def test_cost_is_the_median_or_the_count():
-    one = point("a", 0.1, 2.0, work=7.0)
-    assert cheapest([one, point("b", 0.1, 1.9, work=8.0)], 0.2).method == "b"
-    assert cheapest([one, point("b", 0.1, 1.9, work=8.0)], 0.2, work).method == "a"
-
-
-@pytest.mark.parametrize(
-    ("value", "text"), [(99.6, "1e+02 s"), (100.0, "100 s"), (0.0996, "1e+02 ms"), (2e-7, "0.2 µs"), (9.9e-4, "990 µs")]
-)
-def test_seconds_are_told_to_two_digits(value, text):
-    assert format_seconds(value) == text
-
-
-@pytest.mark.parametrize(("value", "text"), [(0.996, "1e+02 %"), (1.0, "100 %"), (1.234, "123 %"), (0.0456, "4.6 %")])
-def test_errors_are_told_to_two_digits(value, text):
-    assert format_error(value, "%") == text
-
-
 def test_tolerances_are_asked_for_relative_or_in_decibels():
     assert TOLERANCES == (0.3, 0.1, 0.03, 0.01, 0.001)
     assert in_unit_of_error(0.3, "%") == 0.3
     assert in_unit_of_error(0.3, "dB") == pytest.approx(20 * math.log10(1.3))
-
-
-def test_where_nobody_has_finished_there_is_nothing_to_tell():
-    assert break_even([point("a", math.nan, 1.0, status="failed: lost")]) == "scene, force: no method has finished."
 
 
 def test_a_single_paired_realisation_is_beside_the_first_of_the_reference():
