@@ -29,6 +29,7 @@ from validation.report import compared
 from validation.scenes import measured, rail
 from validation.selection import (
     calibration_check,
+    columns,
     compare,
     contact_force,
     hierarchy,
@@ -327,7 +328,11 @@ FAULTS = {
         functools.partial(test_ladder.test_bands_are_told_with_wavenumber_frequency_and_level, "acceleration", "m/s²"),
     ),
     "models side by side in decibels of a power": (
-        (side_by_side, "differences", lambda one, other: 10 * np.log10(one.answer.value / other.answer.value)),
+        (
+            (columns, side_by_side),
+            "differences",
+            lambda one, other: 10 * np.log10(one.answer.value / other.answer.value),
+        ),
         test_what_compare_says.test_spectra_stand_side_by_side_in_decibels,
     ),
     "springs that are enough whatever error they have": (

@@ -7,7 +7,7 @@ import re
 import pytest
 
 import validation
-from tests.selection.test_model_hierarchy import Fake, Finding, punch
+from tests.selection.planted_answers import Fake, Finding, punch
 from validation.__main__ import main
 from validation.report.compared_page import PAGE, files_of_comparison
 from validation.report.provenance import LIBRARIES

@@ -8,7 +8,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 import validation.scenes.bundled
-from tests.selection.test_model_hierarchy import Finding, punch
+from tests.selection.planted_answers import Finding, punch
 from validation.__main__ import main
 from validation.analysis.evidence import Evidence, Table
 from validation.report import compared, style

@@ -9,8 +9,7 @@ from scipy import stats
 
 import bem3d
 from tests.selection.by_kind import OURS, estimates_by_kind, grid_of, grids_of, model_of_kind
-from tests.selection.test_model_hierarchy import Fake
-from validation.cases.selection import model_selection as ladder
+from tests.selection.planted_answers import Fake
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
@@ -265,24 +264,6 @@ def test_what_does_not_fit_into_memory_is_said_before_it_is_begun():
     assert len(grids) == 2 and all("cells, more than" in model.estimate().reason for model in grids)
     fine = rolling(first=1.0, last=200.0)
     assert "cells on the finest grids" in grids_of(fine, "force-rms", 0.1)[-1].estimate().reason
-
-
-# Models by their own names
-
-
-def test_a_model_that_the_case_does_not_know_is_an_error():
-    models = models_of(punch(), "stiffness", 0.1, 0)
-    models = [replace(models[0], model=replace(pressed.springs, name="a new closed form")), *models]
-    with pytest.raises(
-        ValueError, match=r"^the kind of a model must be one of .*closed form, .*, got a new closed form$"
-    ):
-        ladder._solved(models, "closed form", np.array([1.0]))
-
-
-def test_a_model_out_of_range_is_not_counted_as_covered():
-    models = models_of(punch(load=1e-4), "stiffness", 0.1, 0)
-    assert np.isnan(ladder._solved(models, "springs", np.array([1.0]))).all()
-    assert ladder.COARSE not in ladder.CHEAP
 
 
 # Error bars of grids and samples, by hand

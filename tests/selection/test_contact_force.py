@@ -10,12 +10,9 @@ import numpy as np
 import pytest
 
 import validation
-from tests.selection.planted_answers import planted
-from tests.selection.test_model_hierarchy import Finding
+from tests.selection.planted_answers import Finding, compared, planted
 from validation.selection.columns import bands_of
-from validation.selection.compare import Comparison
 from validation.selection.contact_force import contact_force
-from validation.selection.hierarchy import select_model
 from validation.selection.scene_model import Answer
 from validation.selection.summary import summary
 from validation.simulation.model import Cost
@@ -44,8 +41,7 @@ def filters(*shifts, speed=KILOHERTZ_AT_20_MM, error=0.5, known=35):
         Filter(name=f"by {shift:g} dB", value=tuple(shift - np.arange(35) / 3), parts=(error, known))
         for shift in shifts
     ]
-    scene = replace(RAIL, speed=speed)
-    return Comparison(scene, "contact-filter", select_model(first, 0.2, solve_all=True))
+    return compared(*first, scene=replace(RAIL, speed=speed), quantity="contact-filter", solve_all=True)
 
 
 def test_the_force_is_the_stiffness_of_hertz_times_the_equivalent_displacement():

@@ -12,11 +12,9 @@ import numpy as np
 import pytest
 
 import validation
-from tests.selection.test_model_hierarchy import Fake, Finding, punch
+from tests.selection.planted_answers import Fake, Finding, compared
 from validation.__main__ import main
 from validation.scenes.bundled import path_of
-from validation.selection.compare import Comparison
-from validation.selection.hierarchy import select_model
 from validation.selection.swept import Swept
 
 ROOT = Path(__file__).parents[2]
@@ -84,7 +82,7 @@ def test_the_contact_that_is_assumed_is_that_of_hertz():
 
 def test_what_is_not_known_is_null():
     models = [Fake(name="unknown", claimed=math.inf), Fake(name="lost", failed="why"), Finding(claimed=9.0)]
-    nothing = Comparison(punch(load=1.0), "stiffness", select_model(models[:2], 0.2))
+    nothing = compared(*models[:2])
     found = read(nothing)
     assert (found["model"], found["value"], found["error"], found["met"]) == (None, [None], [None], False)
     assert [one["claimed"] for one in found["models"]] == [None, 0.0]
@@ -94,8 +92,7 @@ def test_what_is_not_known_is_null():
 
 
 def test_the_error_of_a_number_is_in_its_unit():
-    models = [Finding(value=(5.0,), parts=(0.1, 0, 0))]
-    found = read(Comparison(punch(load=1.0), "stiffness", select_model(models, 0.2)))
+    found = read(compared(Finding(value=(5.0,), parts=(0.1, 0, 0))))
     assert (found["tolerance"], found["tolerance_dB"]) == (0.2, pytest.approx(20 * math.log10(1.2)))
     assert (found["value"], found["error"]) == ([5.0], pytest.approx([0.5]))
     assert found["error_parts"] == {"model": pytest.approx([0.5]), "grid": [0.0], "sample": [0.0]}
@@ -103,7 +100,7 @@ def test_the_error_of_a_number_is_in_its_unit():
 
 
 def test_a_row_has_the_value_of_its_sweep_and_none_without_one():
-    alone = Comparison(punch(load=1.0), "stiffness", select_model([Finding()], 0.2))
+    alone = compared(Finding())
     of_sweep = replace(alone, swept=Swept("punch.load", 5.0, "kN", "one"))
     (row,), (other,) = rows_of(of_sweep), rows_of(alone)
     assert (row["swept"], float(row["swept_value"]), row["swept_unit"]) == ("punch.load", 5.0, "kN")

@@ -5,7 +5,7 @@ import math
 import pytest
 
 import validation
-from tests.selection.test_model_hierarchy import Fake
+from tests.selection.planted_answers import Fake
 from validation.__main__ import main
 from validation.scenes.load import load_varied
 from validation.selection.hierarchy import select_model

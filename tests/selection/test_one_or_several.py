@@ -6,15 +6,13 @@ import json
 import pytest
 
 import validation
-from tests.selection.test_model_hierarchy import Fake, Finding, punch
-from validation.selection.compare import Comparison
-from validation.selection.hierarchy import select_model
+from tests.selection.planted_answers import Fake, Finding, compared, punch
 from validation.selection.summary import help_with, overview
 
 
-def of(name="it", value=1.0, quantity="stiffness", parts=(0.0, 0.0, 0.0)):
-    models = [Finding(name="springs", value=(value,), parts=parts), Fake(name="boundary elements 64²")]
-    return Comparison(punch(load=1.0, name=name), quantity, select_model(models, 0.2))
+def of(name="it", value=1.0, parts=(0.0, 0.0, 0.0)):
+    models = Finding(name="springs", value=(value,), parts=parts), Fake(name="boundary elements 64²")
+    return compared(*models, scene=punch(load=1.0, name=name))
 
 
 TWO = [of("one", 1.0), of("two", 2.0)]
@@ -36,7 +34,7 @@ def test_a_list_becomes_one_table_with_its_scenes():
 
 def test_a_list_becomes_a_line_a_scene_and_what_would_help():
     alone = [Finding(name="springs", parts=(0.9, 0.0, 0.0))]
-    found = [*TWO, Comparison(punch(load=1.0, name="far"), "stiffness", select_model(alone, 0.2))]
+    found = [*TWO, compared(*alone, scene=punch(load=1.0, name="far"))]
     assert validation.summary(found).splitlines() == [*overview(found), *help_with(found)]
     assert "far: " in validation.summary(found)
 
@@ -57,11 +55,10 @@ def test_a_model_is_found_by_its_name_or_the_beginning_of_it():
     for name in ("nothing", "", " "):
         with pytest.raises(KeyError, match="models must be named by one of "):
             models[name]
-    twins = Comparison(punch(load=1.0), "stiffness", select_model([Fake(name="fit a"), Fake(name="fit b")], 0.2)).models
+    twins = compared(Fake(name="fit a"), Fake(name="fit b")).models
     with pytest.raises(KeyError, match='"fit a"'):
         twins["fit"]
-    longer = [Fake(name="springs"), Fake(name="springs that read the surface")]
-    found = Comparison(punch(load=1.0), "stiffness", select_model(longer, 0.2)).models
+    found = compared(Fake(name="springs"), Fake(name="springs that read the surface")).models
     assert found["springs"] is found[0] and found["springs that"] is found[1]
 
 

@@ -11,9 +11,7 @@ import pytest
 from matplotlib.figure import Figure
 
 import validation
-from tests.selection.planted_answers import planted
-from tests.selection.test_model_hierarchy import Fake, Finding
-from tests.selection.test_what_compare_says import compared
+from tests.selection.planted_answers import Fake, Finding, compared, planted
 from validation.__main__ import main
 from validation.report import compared as figures
 from validation.report.compared_seconds import figure_over_seconds

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import validation
-from tests.selection.test_model_hierarchy import punch
+from tests.selection.planted_answers import punch
 from validation.__main__ import main
 from validation.engine.engine import Engine
 from validation.scenes.load import load_varied

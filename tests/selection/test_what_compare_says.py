@@ -8,12 +8,9 @@ import numpy as np
 import pytest
 
 import validation
-from tests.selection.planted_answers import planted
-from tests.selection.test_model_hierarchy import PARTS, Fake, Finding, punch, wheel
+from tests.selection.planted_answers import PARTS, Fake, Finding, compared, planted, punch, wheel
 from validation.scenes.load import bundled_for_compare
 from validation.selection.columns import BECAME, side_by_side
-from validation.selection.compare import Comparison
-from validation.selection.hierarchy import select_model
 from validation.selection.quantities import quantities_of
 from validation.selection.side_by_side import error_of_difference
 from validation.selection.summary import WIDTH, sentences_on_mdr, summary
@@ -22,12 +19,6 @@ from validation.simulation.rolling_quantity import RollingQuantity
 
 ENDS = tuple(end for words in BECAME.values() for end in (words, words.replace("not solved", "solved")))
 """Of the rows of models."""
-
-
-def compared(*models, tolerance="20%", **settings):
-    wanted = tolerance_of(tolerance)
-    selection = select_model(models, wanted.relative, **settings)
-    return Comparison(punch(load=1.0), "stiffness", selection, wanted.in_decibels)
 
 
 @pytest.mark.parametrize("name", bundled_for_compare())
@@ -186,7 +177,7 @@ def test_spectra_stand_side_by_side_in_decibels():
     count = RollingQuantity(scene, "force-spectrum").bands.centres.size
     rough, fine = (Finding(value=(x,) * count, parts=(e, 0, 0)) for x, e in ((0.2, 0.1), (0.1, 0.01)))
     found, same = (
-        Comparison(scene, "force-spectrum", select_model(models, 0.2, solve_all=True))
+        compared(*models, scene=scene, quantity="force-spectrum", solve_all=True)
         for models in ([rough, fine], [replace(fine, value=(0.0999999,) * count), fine])
     )
     assert all(line.split()[-1] == "0.0" for line in list(side_by_side(same))[-1 - count : -1])  # no sign of a zero

@@ -3,6 +3,7 @@
 import csv
 import io
 import math
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, date, datetime
@@ -237,12 +238,12 @@ def _names(some: Sequence[Key], every: Sequence[Key], *, whole: bool) -> str:
     """Of models; whole: with the scene in front, or that alone where it is all of its models."""
     if not whole:
         return "; ".join(model for _, _, model in some)
-    places = dict.fromkeys(key[:2] for key in some)
-    alone = {place for place in places if all(key in some for key in every if key[:2] == place)}
+    models = {place: [model for *of, model in some if (*of,) == place] for place in (key[:2] for key in some)}
+    known = Counter(key[:2] for key in every)
     return "; ".join(
-        " ".join(place) + ("" if place in alone else f", {model}")
-        for place in places
-        for model in ([""] if place in alone else [key[2] for key in some if key[:2] == place])
+        " ".join(place) + ending
+        for place, named in models.items()
+        for ending in ([""] if len(named) == known[place] else [f", {model}" for model in named])
     )
 
 

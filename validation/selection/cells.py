@@ -45,9 +45,9 @@ def scaled(value: float, error: float) -> str:
     return f"({shown})e{power}" if "±" in shown else f"{shown}e{power}"
 
 
-def format_seconds(seconds: float) -> str:
-    """In a unit that fits."""
-    for unit, size in (("h", 3600.0), ("min", 60.0), ("s", 1.0), ("ms", 1e-3)):
-        if seconds >= size:
-            return f"{short(seconds / size)} {unit}"
-    return "1 ms"
+def format_seconds(seconds: float, least: str = "1 ms") -> str:
+    """In a unit that fits; least: of less than a millisecond."""
+    if not math.isfinite(seconds):
+        return NONE
+    units = (("h", 3600.0), ("min", 60.0), ("s", 1.0), ("ms", 1e-3))
+    return next((f"{short(seconds / size)} {unit}" for unit, size in units if seconds >= size), least)

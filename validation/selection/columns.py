@@ -98,8 +98,8 @@ def models_of_page(comparison: Comparison) -> list[dict[str, str]]:
             "found": NONE if one.answer is None else tolerance.shown_beside(one.error),
             "apart": _apart(comparison, one) if one in solved else NONE,
             "cost": format_seconds(one.cost),
-            "took": _took(comparison.seconds_of(one)),
-            "became": BECAME[one.status].replace("not solved", "solved" if one.answer else "not solved"),
+            "took": format_seconds(comparison.seconds_of(one), least="< 1 ms"),
+            "became": BECAME[one.status].removeprefix("not " if one.answer else ""),
             "why": one.reason,
             "selected": "selected" if one.name == comparison.model else "",
         }
@@ -110,11 +110,6 @@ def models_of_page(comparison: Comparison) -> list[dict[str, str]]:
 def label(candidate: Candidate) -> str:
     """The name of a model, and whether it is MDR."""
     return f"{candidate.name} (MDR)" if candidate.is_mdr else candidate.name
-
-
-def _took(seconds: float) -> str:
-    """By the clock."""
-    return ("< 1 ms" if seconds < 1e-3 else format_seconds(seconds)) if math.isfinite(seconds) else NONE
 
 
 def _apart(comparison: Comparison, one: Candidate) -> str:
