@@ -12,8 +12,8 @@ from tests.simulation import test_calibration, test_rail_error_bars, test_rail_f
 from validation.analysis import graduation
 from validation.analysis.nominal_bands import NominalBands
 from validation.scenes import isotropic_line
-from validation.selection import calibrate, contact_force, filter_table, rail_model, speed_accuracy
-from validation.selection.hierarchy import Answer
+from validation.selection import calibrate, contact_force, exported, rail_model, side_by_side
+from validation.selection.scene_model import Answer
 from validation.simulation import equivalent_displacement, rail_models, rail_quantity, rail_strip
 from validation.simulation.model_names import ONE_SIDED_BED
 from validation.simulation.rail_models import ContactFilter
@@ -155,7 +155,7 @@ FAULTS = {
         FORCE.test_a_filter_without_some_bands_is_beside_the_chosen_one_in_its_own_bands,
     ),
     "decibels of a power as those of an amplitude": (
-        (speed_accuracy, "reference_error", lambda found, one: 10 * np.log10(1 + one.error)),
+        (side_by_side, "decibels", lambda error: 10 * np.log10(1 + error)),
         test_own_scene.test_a_distance_in_decibels_has_the_errors_of_its_band_and_the_reference_that_of_its_worst,
     ),
     "few waves that weigh as much as many": (
@@ -204,7 +204,7 @@ FAULTS = {
         ),
     ),
     "long waves that pass under every filter": (
-        (filter_table, "of_longer_waves", lambda model, target: np.zeros(35)),
+        (exported, "of_longer_waves", lambda model, target: np.zeros(35)),
         test_filter_table.test_springs_on_geikes_spectrum_are_off_for_long_waves_too,
     ),
     "levels counted that no one hears": (

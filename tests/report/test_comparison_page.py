@@ -7,13 +7,14 @@ import re
 import pytest
 
 import validation
-from tests.selection.test_model_hierarchy import Fake, Finding, punch
+from tests.selection.planted_answers import Fake, Finding, punch
 from validation.__main__ import main
 from validation.report.compared_page import PAGE, files_of_comparison
+from validation.selection.columns import label
 from validation.selection.compare import Comparison, compare_quantities
 from validation.selection.contact_force import LEVELS, contact_force
 from validation.selection.hierarchy import select_model
-from validation.selection.summary import label, sentences_on_mdr
+from validation.selection.summary import sentences_on_mdr
 
 ABOUT = dict.fromkeys(("version", "commit", "python", "system"), "0") | {"libraries": {}, "seeds": {"compare": 0}}
 

@@ -26,7 +26,7 @@ from validation.selection.calibrate import (
     measured_table,
 )
 from validation.selection.calibration_check import check_calibration
-from validation.selection.hierarchy import Answer
+from validation.selection.scene_model import Answer
 from validation.simulation import calibration
 from validation.simulation.calibrated_range import HEIGHT, HURST, LOAD, LONG, RATIO, WAVES
 from validation.simulation.calibration import MeasuredErrors, calibrated, conditions_by_kind

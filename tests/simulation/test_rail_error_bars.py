@@ -11,8 +11,8 @@ from scipy import stats
 from scipy.optimize import brentq
 
 from validation import load_scene
-from validation.selection.hierarchy import Answer
 from validation.selection.rail_model import RailSceneModel
+from validation.selection.scene_model import Answer
 from validation.simulation import rail_models
 from validation.simulation.method import Resolution
 from validation.simulation.model import Cost, Target, models_serving

@@ -14,7 +14,6 @@ from validation.report.compared_sweep import draw_sweep
 from validation.report.style import FORMATS, MARKERS, SETTINGS, Style, curve, in_two_lines, picture, plain_figure, tick
 from validation.selection.compare import Comparison, OneOrSeveral, listed
 from validation.selection.exported import by_quantity, table_of_several
-from validation.selection.several import selected_of_several
 from validation.selection.side_by_side import shown_models
 
 TICKS = 12
@@ -88,13 +87,21 @@ def _shown(found: Sequence[Comparison]) -> tuple[str, Table]:
     """Title and rows, of spectra in the order in which curves are drawn."""
     one, table = found[0], table_of_several(found)
     if len(found) > 1:
-        return one.quantity, selected_of_several(table)
+        return one.quantity, _selected(table)
     title = f"{one.scene.name}: {one.quantity}"
     if not one.is_level or not one.selection.solved:
         return title, table
     order = shown_models(one)
     rows = sorted(range(len(table["model"])), key=lambda row: order.index(str(table["model"][row])))
     return title, Table(table.name, {name: [column[row] for row in rows] for name, column in table.columns.items()})
+
+
+def _selected(table: Table) -> Table:
+    """The selected model of each scene alone, named by its scene."""
+    selected = table.where(selected=True)
+    # a label that begins with _ is left out of a legend
+    names = [f" {name}" if name.startswith("_") else name for name in map(str, selected.columns["scene"])]
+    return Table(table.name, {**selected.columns, "model": names, "selected": [False] * len(names)})
 
 
 def _spectra(axes: Axes, table: Table) -> None:

@@ -9,14 +9,11 @@ from validation.report.compared import to_figure
 from validation.report.formats import templates
 from validation.scenes.description import describe
 from validation.scenes.rolling import RollingScene
-from validation.selection import side_by_side, summary
+from validation.selection import columns, side_by_side, summary
 from validation.selection.compare import Comparison
 from validation.selection.contact_force import LEVELS, contact_force
 from validation.selection.exported import SCHEMA_OF_JSON, by_quantity, table_of_several, to_json_of
-from validation.selection.hierarchy import Candidate
 from validation.selection.quantities import MOVING
-from validation.selection.several import overview_of
-from validation.selection.tolerance import short
 
 PAGE, JSON, SCHEMA, CSV = "index.html", "comparison.json", "comparison.schema.json", "data/levels.csv"
 
@@ -49,7 +46,7 @@ def _page(found: Sequence[Comparison], files: Mapping[str, bytes], about: dict[s
     text = page.render(
         title=_asked(found),
         scenes=[_of_scene(f"scene-{i}", one) for i, one in enumerate(found, 1)],
-        overview=overview_of(found) if len(found) > 1 else None,
+        overview=columns.overview_of(found) if len(found) > 1 else None,
         pictures=pictures,
         together=side_by_side.TOGETHER,
         about=about,
@@ -62,7 +59,7 @@ def _of_scene(name: str, found: Comparison) -> dict[str, object]:
     best = found.selection.best
     answer = best.answer if best else None
     beside = len(found.selection.solved) > 1
-    letters, levels = side_by_side.levels_beside(found) if beside and found.is_level else ({}, {})
+    letters, levels = columns.levels_beside(found) if beside and found.is_level else ({}, {})
     return {
         "name": name,
         "asked": _asked([found]),
@@ -73,42 +70,16 @@ def _of_scene(name: str, found: Comparison) -> dict[str, object]:
         "help": summary.what_would_help(found),
         "notes": _notes(found),
         "understood": (*describe(found.scene), ("assumed", summary.ASSUMED)),
-        "models": [_model_row(found, one) for one in found.models],
-        "bands": summary.bands_of(found, best) if best and found.is_level else None,
+        "models": columns.models_of_page(found),
+        "bands": columns.bands_of(found, best) if best and found.is_level else None,
         "levels": LEVELS if found.roughness.size else "",
         "force": contact_force(found),
-        "beside": levels or (side_by_side.numbers_beside(found) if beside else None),
+        "beside": levels or (columns.numbers_beside(found) if beside else None),
         "letters": letters,
         "reference": side_by_side.reference_of(found).name if beside else "",
         "age": summary.age_of_errors(found),
         "cost": summary.cost_of(found),
     }
-
-
-def _model_row(found: Comparison, one: Candidate) -> dict[str, str]:
-    return {
-        "model": summary.label(one),
-        "claims": summary.claim_of(found, one),
-        "found": summary.found_of(found, one),
-        "apart": _apart(found, one),
-        "cost": summary.format_seconds(one.cost),
-        "took": summary.took_by(found, one),
-        "became": summary.became_of(one),
-        "why": one.reason,
-        "selected": "selected" if one.name == found.model else "",
-    }
-
-
-def _apart(found: Comparison, one: Candidate) -> str:
-    """The largest difference from the model with the smallest error, in any band."""
-    if one not in found.selection.solved or one is (reference := side_by_side.reference_of(found)):
-        return "—"
-    off = side_by_side.differences(one, reference)
-    worst = abs(off).argmax()
-    largest, error = (float(values[worst]) for values in (off, side_by_side.error_of_difference(found, one, reference)))
-    if found.is_level or found.in_decibels:
-        return f"{'+' if largest > 0 else ''}{short(largest)} {side_by_side.half_width(error)} dB"
-    return f"{side_by_side.per_cent(largest):+.2g} {side_by_side.half_width(side_by_side.per_cent(error))} %"
 
 
 def _asked(found: Sequence[Comparison]) -> str:

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from validation.analysis.evidence import Table
 from validation.report.style import GUIDE, SETTINGS, Style, in_two_lines, picture, plain_figure
 from validation.selection.compare import Comparison
-from validation.selection.speed_accuracy import speed_and_accuracy
+from validation.selection.side_by_side import speed_and_accuracy
 
 KINDS: dict[str, Style] = {
     "reference, its own error": {"color": "#000000", "marker": "*", "markersize": 9},

@@ -11,8 +11,7 @@ from validation.report.folder import REALISATIONS, Folder
 from validation.report.manifest import CALIBRATION
 from validation.scenes.printable import printable
 from validation.selection.calibrate import CalibrationRun, calibration_lines, measured_table, table_in
-from validation.selection.calibration_check import check_calibration
-from validation.selection.calibration_install import check_installable, install
+from validation.selection.calibration_check import check_calibration, check_installable, install
 
 OUT = Path("calibration")
 """Where a table is measured, below the working folder."""

@@ -17,14 +17,14 @@ from validation.report.commands.exit_status import Exit
 from validation.report.manifest import COMPARISON
 from validation.scenes.load import Scene, bundled_for_compare, files_of, load_scene, load_varied
 from validation.scenes.printable import printable
+from validation.selection.cells import format_seconds
 from validation.selection.compare import Comparison
-from validation.selection.exported import table_of_several, to_json_of
-from validation.selection.filter_table import filter_table
-from validation.selection.hierarchy import ContactModel
+from validation.selection.exported import filter_table, table_of_several, to_json_of
 from validation.selection.named_models import models_named
 from validation.selection.quantities import QUANTITIES, models_of, quantities_of
+from validation.selection.scene_model import SceneModel
 from validation.selection.several_scenes import SceneProblem, compare_scenes
-from validation.selection.summary import findings, format_seconds, heading, summary
+from validation.selection.summary import findings, heading, summary
 from validation.selection.swept import Swept, swept_values
 from validation.selection.tolerance import tolerance_of
 
@@ -182,7 +182,7 @@ def _reported(
     return found
 
 
-def _announce(model: ContactModel) -> None:
+def _announce(model: SceneModel) -> None:
     """Name a model whose solve takes a second or more, before it begins."""
     if model.cost().seconds >= 1:
         print(f"solving {model.name}, about {format_seconds(model.cost().seconds)}", file=sys.stderr, flush=True)
