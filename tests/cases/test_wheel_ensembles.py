@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.cases.wheel_scenes import BOTH, LITTLE, ROUNDING, SMALL, TRACKS, power, rides
+from tests.cases.planted import BOTH, LITTLE, ROUNDING, SMALL, TRACKS, power, rides
 from validation.analysis import spectra
 from validation.cases.wheel import features as wheel_features
 from validation.cases.wheel.features import FLOOR, PREDICTED, Spectrum
