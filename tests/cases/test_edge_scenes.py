@@ -11,7 +11,7 @@ import pytest
 import bem3d
 from validation.analysis.evidence import grouped
 from validation.analysis.series import numbers_of
-from validation.cases.selection import edge_scenes
+from validation.cases.selection import edge_scenes, model_selection
 from validation.cases.selection.edge_scenes import (
     EDGE_KINDS,
     MEASURED,
@@ -285,3 +285,20 @@ def test_what_grids_share_changes_no_answer():
         shared, by_itself = grid.solve(), alone.solve()
         assert np.array_equal(shared.value, by_itself.value) and shared.error == by_itself.error
     assert solved
+
+
+@pytest.mark.slow
+def test_the_reference_of_the_calibration_test_has_surfaces_of_its_own():
+    """The tested models draw with the seed of the trial, the reference with another."""
+    seeds, models = [], model_selection.models_of
+
+    def seen(scene, want, tolerance, seed):
+        seeds.append(seed)
+        return models(scene, want, tolerance, seed)
+
+    test = model_selection.CalibrationTest(punches=1, spheres=0, rolling=0, wheels=0, tolerances=(0.3,))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(model_selection, "models_of", seen)
+        model_selection.calibrate(test.trials[0])
+    reference, *tested = seeds
+    assert set(tested) == {test.trials[0].seed} and reference != test.trials[0].seed

@@ -24,7 +24,6 @@ from tests.cases import (
     test_wheel_ensembles,
     test_wheel_regions,
     test_wheel_stability,
-    test_whose_surfaces,
 )
 from tests.planted_faults.wrong import scaled
 from validation.analysis import multilevel, statistics
@@ -327,7 +326,7 @@ FAULTS = {
     ),
     "the reference on the surfaces of the tested models": (
         (calibration, "OTHER_SEED", 0),
-        test_whose_surfaces.test_the_reference_of_the_calibration_test_has_surfaces_of_its_own,
+        test_edge_scenes.test_the_reference_of_the_calibration_test_has_surfaces_of_its_own,
     ),
     "one of two elastic bodies taken for rigid": (
         (PublishedContact, "modulus", property(lambda problem: 2 * 82e9 / (1 - 0.28))),
