@@ -30,6 +30,7 @@ from validation.selection.compare import compare
 from validation.selection.quantities import models_of, quantities_of
 from validation.simulation import rolling_levels
 from validation.simulation.model import GridModel
+from validation.simulation.rail_models import rail_quantity
 from validation.simulation.rolling_levels import by_linear_theory, strip_of
 from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.sampling import distance
@@ -160,8 +161,8 @@ def test_a_wheel_whose_resonance_leaves_no_band_is_refused_in_a_sentence():
 def test_rails_at_the_edges_are_inside_and_beyond_what_was_measured_and_all_can_be():
     """Of those whose ellipse is neither long nor flat some claims are known; no line is one that no ground has."""
     models = [models_of(edge_scene(RAIL, number, 3)[0], "contact-filter", 0.3, 0) for number in range(16)]
-    grounds = [model.quantity.scene.isotropic for every in models for model in every]
-    assert all(model.quantity.no_answer == "" for every in models for model in every)
+    grounds = [model.target.scene.isotropic for every in models for model in every]
+    assert all(rail_quantity(model.target).no_answer == "" for every in models for model in every)
     assert all(ground is None or ground.as_it_is for ground in grounds) and any(grounds)
     assert set(map(claimed_by_cheap, models)) == {True, False}
 

@@ -31,11 +31,12 @@ from validation.selection.compare import models_of
 from validation.selection.summary import heading
 from validation.selection.tolerance import tolerance_of
 from validation.simulation import indentation, limits_of_springs, rail_ground, reduced_models
-from validation.simulation.models import linear_filter_3d
+from validation.simulation.model import ErrorEstimate
+from validation.simulation.models.linear_filters import linear_filter_3d
 from validation.simulation.rail_models import linear_error
 from validation.simulation.rail_quantity import RailQuantity
 from validation.simulation.reduced_strip import MODELS, bands_of
-from validation.simulation.rolling_claims import CheapRollingModel
+from validation.simulation.rolling_claims import RollingClaim
 from validation.simulation.rolling_strip import RoughStrip
 from validation.simulation.rough_punch import PunchRoughness
 from validation.simulation.track_spectrum import self_affine
@@ -284,7 +285,7 @@ def test_cells_of_a_light_punch_are_those_of_the_gradient(more, cells):
     assert indentation.cells_wanted(light) == cells
 
 
-@patch.object(CheapRollingModel, "estimate", lambda *_: linear_filter_3d.ErrorEstimate(model=0.1, reason=""))
+@patch.object(RollingClaim, "estimate", lambda *_: ErrorEstimate(model=0.1, reason=""))
 def test_anisotropic_heights_leave_their_gradient_open():
     """Ridges along the track, which h' does not see, are as rough as any for a filter in all directions."""
     wave = 2 * np.pi * 9 * (np.arange(64) + 0.5) / 64
@@ -292,7 +293,7 @@ def test_anisotropic_heights_leave_their_gradient_open():
     side = 16 * WHEEL.contact_radius
     ground = validation.MeasuredHeights(height=height, spacing=(side / 64, side / 64))
     scene = replace(validation.load_scene("table_14_1"), ground=ground)
-    found = linear_filter_3d.MODEL.estimate(SimpleNamespace(scene=scene), None)
+    found = linear_filter_3d.estimate(SimpleNamespace(scene=scene), None)
     gradient = math.sqrt(np.mean(np.diff(height, axis=1) ** 2)) / (side / 64)
     expected = gradient * WHEEL.contact_radius / WHEEL.approach
     assert found.model - 0.1 == pytest.approx(expected, rel=1e-3)

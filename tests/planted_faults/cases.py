@@ -59,7 +59,7 @@ from validation.simulation import (
 from validation.simulation import spring_tracks as rough_springs
 from validation.simulation import wheel_on_springs as wheel_ensemble
 from validation.simulation.published_contact import PublishedContact
-from validation.simulation.rail_strip import PowerLawGround
+from validation.simulation.rail_strip import RailStrip
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
@@ -349,7 +349,7 @@ FAULTS = {
         test_rail_cases.test_a_strip_of_ridges_has_the_filter_of_a_row_of_springs_in_boundary_elements,
     ),
     "a strip with half of its power": (
-        (PowerLawGround, "variance", scaled(PowerLawGround.variance, 0.5)),
+        (RailStrip, "variance", property(scaled(RailStrip.variance.func, 0.5))),
         test_rail_cases.test_line_of_a_drawn_strip_has_the_rms_of_its_ground,
     ),
     "one line for the mean of heights": (

@@ -2,6 +2,7 @@
 
 import math
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -24,35 +25,26 @@ from validation.selection.summary import summary
 from validation.simulation import models
 from validation.simulation.method import Resolution
 from validation.simulation.model import Target, models_serving
-from validation.simulation.models import linear_filter_1d
+from validation.simulation.models import linear_filters
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory.closed_forms import rough_punch_stiffness
 
 TOY = """
 import numpy as np
 
-from validation.simulation.method import Result, Solve
-from validation.simulation.model import Cost, ErrorEstimate, Model
+from validation.simulation.method import Result
+from validation.simulation.model import Cost, ErrorEstimate, model
 
 
-class Toy(Model):
-    name, setting = "toy", "three realisations"
-
-    def serves(self, scene, quantity):
-        return quantity == "stiffness" and getattr(scene, "shape", "") == "punch" and scene.ground is not None
-
-    def estimate(self, target, resolution):
-        return ErrorEstimate(model=0.01, reason="by decree")
-
-    def cost(self, target, resolution):
-        return Cost(work=3, unit="toys", seconds=1e-9)
-
-    def prepare(self, target, resolution):
-        k = target.scene.stiffness * np.array([0.4, 0.5, 0.6])
-        return lambda _: Solve(lambda: k, lambda found: Result({"stiffness": found}, 3.0, count=3))
-
-
-MODEL = Toy()
+@model(
+    name="toy",
+    setting="three realisations",
+    serves=lambda scene, quantity: quantity == "stiffness" and getattr(scene, "shape", "") == "punch" and scene.ground,
+    claim=lambda model, target, resolution: ErrorEstimate(model=0.01, reason="by decree"),
+    cost=lambda target, resolution: Cost(work=3, seconds=1e-9),
+)
+def toy(target, resolution):
+    return Result({"stiffness": target.scene.stiffness * np.array([0.4, 0.5, 0.6])}, count=3)
 """
 
 
@@ -94,7 +86,7 @@ def test_a_model_that_is_found_is_on_the_charts(toy, monkeypatch):
 def test_a_rolling_model_that_is_found_is_on_the_chart_of_its_quantity(monkeypatch):
     """The linear filter under another name, beside itself: the rms force of linear theory over that of strips."""
     use_a_clock_of_its_own(monkeypatch)
-    monkeypatch.setattr(linear_filter_1d.LinearFilter1D, "name", "found")
+    monkeypatch.setattr(linear_filters, "linear_filter_1d", replace(linear_filters.linear_filter_1d, name="found"))
     grids = Grids(cells=(2, 4), fixed=2, tolerances=(), per="to a radius")
     problem = RollingProblem(last=4.0, length=24, width=12, tracks=2, grids=grids, filtered=(), springs=(8,))
     chart = points(problem, measure(TimedProblem(problem, RunLimits(slow=1.0, enough=0.0))))

@@ -11,13 +11,13 @@ from validation.analysis.statistics import POWER_DECIBEL
 from validation.benchmarks.found_models import TimedProblem, configurations_of
 from validation.benchmarks.timing import FINISHED, Configuration, Timing, along, time_in_turns
 from validation.engine.engine import Outcome
+from validation.simulation import model_names
 from validation.simulation.method import FloatArray, Method, Resolution, Values
 from validation.simulation.model import Model
 from validation.simulation.pressed import PressedGrid
 
-CLOSED = "closed form"
-FILTER_1D, FILTER_3D = "linear filter, 1D", "linear filter, 3D"
-MDR, MDR_ROLLING = "MDR", "MDR, rolling spectrum"
+CLOSED, FILTER_1D, FILTER_3D = model_names.CLOSED_FORM, model_names.FILTER_1D, model_names.FILTER_3D
+MDR, MDR_ROLLING = model_names.MDR, model_names.MDR_ROLLING
 POLONSKY_KEER, BEM, LOOSE, EXTRAPOLATED = (
     "Polonsky-Keer",
     "BEM, finer cells",
