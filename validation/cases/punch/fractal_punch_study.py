@@ -9,7 +9,7 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, Matrix, per_cent
 from validation.analysis.evidence import Number, Place, Role, numbers_with
-from validation.analysis.series import Margin, Series, spans
+from validation.analysis.series import Margin, Series
 from validation.analysis.statistics import DECIBEL
 from validation.analysis.study import Outcomes, Study
 from validation.cases.punch.ensembles import DEVIATION, MEAN
@@ -85,7 +85,7 @@ def compared(found: PunchStatistics, hurst: float | None) -> Iterator[Series]:
         scale=DECIBEL,
         unit="dB",
         shown=lambda decibels: math.exp(decibels / DECIBEL),
-        ranges=spans(case.forces, *((first, 10 * first) for first in case.first_forces)),
+        ranges=case.by_decade,
         fewest=case.per_decade + 1,
     )
     for statistic, margin in ((DEVIATION, FIGURE), (MEAN, LEVEL)):

@@ -10,6 +10,7 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Role
+from validation.analysis.margins import FIELD
 from validation.analysis.series import Estimates, Series, masked, only
 from validation.analysis.study import Study
 from validation.cases.rail.filters import (
@@ -19,14 +20,12 @@ from validation.cases.rail.filters import (
     SPEEDS,
     counted,
     linear_filter,
+    over_in_decibel_a,
     scene_of,
-    weighted_difference,
 )
 from validation.cases.rail.published import FOLLOWED, LEAST, SOURCE, RailWheel, a3_of_table, columns_of_table, compared
 from validation.cases.rail.rolled_filters import (
-    FIELD,
     FILTERS,
-    NEAR,
     OVER_BEM,
     WAVE,
     Key,
@@ -52,8 +51,8 @@ OVER_LINEAR, OF_WHEELS = "A3 over linear theory of the ellipse", "A3 of five whe
 OVER_TABLE, SPEED = "A3 over the published table", "speed [km/h]"
 WEIGHTED = "A-weighted level over that with linear theory of the ellipse"
 TABLE, NOT_COMPARED = "published table", "published table, not compared"
-OF_TABLE = replace(NEAR, source=SOURCE, worst=False, rms=(1.0, FIELD))
-OF_SPEED = replace(NEAR, source="linear theory of the ellipse, levels of ISO 3095:2013, IEC 61672 A")
+OF_TABLE = replace(FIELD, source=SOURCE, worst=False, rms=(FIELD.tolerance, FIELD.reason))
+OF_SPEED = FIELD.beside("linear theory of the ellipse, levels of ISO 3095:2013, IEC 61672 A")
 
 
 def series(result: RolledFiltersResult) -> list[Series]:
@@ -70,7 +69,7 @@ def _of_strips(result: RolledFiltersResult, key: Key) -> Iterator[Series]:
     """In the bands that count: what is exact of each model, and what it is over its linear twin on the same strips."""
     case, bem, keep = result.case, result.over_twin(key, BEM), counted(result.linear(key))
     shown, at = in_bands(case, key), millimetres(strip_bands(case.scene(key)))
-    margin = replace(NEAR, source=f"boundary elements, {case.strips} strips of {case.scene(key).name}")
+    margin = FIELD.beside(f"boundary elements, {case.strips} strips of {case.scene(key).name}")
     by_cells = result.left_by_grid(key, BEM, LINEAR)
     for model in models_of(key):
         over, grid = result.over_linear(key, model), result.left_by_grid(key, model, twin_of(model))
@@ -100,7 +99,7 @@ def _in_decibel_a(result: RolledFiltersResult, model: str, name: str) -> Series:
     filters = linear_filter(scene, model, ACROSS[name]), linear_filter(scene, LINEAR, ACROSS[name])
     sees_no_width = ACROSS[name] == "ridges" and model in (LINEAR_ON_LINE, LINEAR_ON_MEAN)
     margin = replace(OF_SPEED, role=Role.IDENTITY) if sees_no_width else OF_SPEED
-    found = [*map(weighted_difference(scene, *filters), SPEEDS)]
+    found = over_in_decibel_a(scene, *filters)
     return Series(WEIGHTED, model, found, where={"across": name}, along=SPEED, at=SPEEDS, unit="dB(A)", margin=margin)
 
 

@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 
 from validation.analysis.nominal_bands import NominalBands
-from validation.analysis.series import Estimates, Margin, Series, Where
+from validation.analysis.series import Estimates, Series, Where
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray
 from validation.analysis.study import Outcomes
@@ -45,8 +45,6 @@ Key = tuple[RailWheel, float, str]
 FILTERS = (LINEAR, LINEAR_ON_LINE, LINEAR_ON_MEAN, BED, REMINGTON)
 RIVALS = (SPRINGS_THAT_READ, SPRINGS_ON_LINE, SPRINGS_ON_MEAN, ONE_SIDED_BED)
 A3, OVER_BEM, WAVE = "A3", "A3 over that of boundary elements", "wavelength [mm]"
-FIELD = "1 dB: a tolerance of the field"
-NEAR = Margin(tolerance=1.0, reason=FIELD)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,13 +9,12 @@ import numpy as np
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, Matrix
-from validation.analysis.evidence import Table
-from validation.analysis.series import Estimates, Margin, Series, masked, only
+from validation.analysis.margins import FIELD
+from validation.analysis.series import Estimates, Margin, Series, Where, masked, only
 from validation.analysis.statistics import mean_estimate
 from validation.analysis.study import Study
 from validation.cases.rail.filters import COUNTED, counted
 from validation.cases.rail.rolled_filters import (
-    NEAR,
     OVER_BEM,
     WAVE,
     Key,
@@ -37,7 +36,7 @@ from validation.simulation.rail_ground import SHORTEST, lost_contact_number, str
 from validation.simulation.spectral_springs import SPRINGS_GEIKE, SPRINGS_ROLLING, twin_of
 
 MODELS = (LINEAR, SPRINGS_THAT_READ, ONE_SIDED_BED, SPRINGS_ON_LINE, SPRINGS_ROLLING, SPRINGS_GEIKE)
-OFFSET, WAVES, GROUND = "offset [dB]", "waves of h'", "isotropic ground"
+OFFSET, WAVES, GROUND, ROUGHNESS = "offset [dB]", "waves of h'", "isotropic ground", "h' a_x / d"
 SHORT, LONG = "waves beyond the first zero", "bands that count"
 OF_BEM, LOST = "interval of A3 of boundary elements", "area in contact over that of the smooth wheel"
 FULL_CONTACT = Margin(
@@ -49,8 +48,11 @@ FULL_CONTACT = Margin(
 
 def series(result: RolledFiltersResult) -> list[Series]:
     """Filters, models over boundary elements, and the area in contact, roughness by roughness."""
-    of_keys = [(*result.filters(key), *_over_bem(result, key), _area(result, key)) for key in result.case.keys]
-    return [one for some in of_keys for one in some]
+    return [
+        one
+        for key in result.case.keys
+        for one in (*result.filters(key), *_over_bem(result, key), _area(result, key), roughness(result.case, key))
+    ]
 
 
 def _over_bem(result: RolledFiltersResult, key: Key) -> Iterator[Series]:
@@ -61,7 +63,7 @@ def _over_bem(result: RolledFiltersResult, key: Key) -> Iterator[Series]:
     case, bem, keep = result.case, result.over_twin(key, BEM), counted(result.linear(key))
     shown, at = in_bands(case, key), millimetres(strip_bands(case.scene(key)))
     whole = np.arange(at.size) < at.size - 2
-    margin = replace(NEAR, source=f"boundary elements on the same {case.strips} strips")
+    margin = FIELD.beside(f"boundary elements on the same {case.strips} strips")
     scatter = Estimates(replace(one, value=0.0) for one in bem)
     yield shown(OF_BEM, BEM, masked(scatter, whole), grid=result.left_by_grid(key, BEM, LINEAR))
     for model in MODELS:
@@ -81,17 +83,11 @@ def _area(result: RolledFiltersResult, key: Key) -> Series:
     return Series(LOST, BEM, (fine,), where={OFFSET: key[1]}, reference=1.0, grid=(left,), margin=FULL_CONTACT)
 
 
-def roughness(case: RolledFilters) -> Table:
+def roughness(case: RolledFilters, key: Key) -> Series:
     """How rough the rail is, by h' of the waves of the strips."""
-    scenes = {key[1]: case.scene(key) for key in case.keys}
-    return Table(
-        "roughness and contact",
-        {
-            OFFSET: list(scenes),
-            WAVES: [strip_bands(scene).span for scene in scenes.values()],
-            "h' a_x / d": [round(lost_contact_number(scene), 4) for scene in scenes.values()],
-        },
-    )
+    scene = case.scene(key)
+    where: Where = {OFFSET: key[1], WAVES: strip_bands(scene).span}
+    return Series(ROUGHNESS, "surface", (lost_contact_number(scene),), where=where)
 
 
 SHOWN = (LINEAR, SPRINGS_THAT_READ, ONE_SIDED_BED)
@@ -164,8 +160,7 @@ STUDY = Study(
         Matrix(name="over boundary elements", quantity=OVER_BEM, rows=("model", "waves"), columns=OFFSET),
         Matrix(name=LOST, quantity=LOST, rows=("model",), columns=OFFSET),
     ),
-    printed=("roughness and contact",),
-    tables=lambda result: (roughness(result.case),),
+    printed=(ROUGHNESS,),
 )
 CASE = Case(
     name="rough_rail",

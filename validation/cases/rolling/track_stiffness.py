@@ -12,6 +12,7 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Number
+from validation.analysis.margins import THREE_DECIBELS
 from validation.analysis.series import Estimates, Margin, Series
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, extrapolated, jackknife_error, log_ratio_of_means
@@ -161,12 +162,7 @@ ROWS = {MEAN: np.array([0.0, 1.0]), DEVIATION: np.array([0.5, -1.0])}
 """Weights of ln of the mean variance and of ln of the mean."""
 SOURCE = "bem3d along the track, extrapolated"
 TEN_PER_CENT = Margin(0.1, "10 %: the margin of Fig. 14.1", source=SOURCE)
-IN_BANDS = Margin(
-    3.0,
-    "3 dB in one-third octaves: Ford and Thompson, J. Sound Vib. 293 (2006)",
-    source=SOURCE,
-    rms=(1.0, "1 dB: repeatability of measured one-third octave levels"),
-)
+IN_BANDS = THREE_DECIBELS.beside(SOURCE)
 
 
 def series(result: Outcomes) -> list[Series]:

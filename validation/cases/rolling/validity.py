@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -11,11 +11,12 @@ import numpy as np
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, Matrix
+from validation.analysis.margins import REPEATABLE
 from validation.analysis.series import Margin, Series
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknife_error, ratio_of_means
 from validation.analysis.study import Outcomes, Study
-from validation.cases.rolling.settings import HEIGHT, ONE_DECIBEL, SLOPE, SLOPE_COUNTS
+from validation.cases.rolling.settings import HEIGHT, SLOPE, SLOPE_COUNTS
 from validation.engine.convergence import require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.description import slope_ratio
@@ -131,8 +132,7 @@ KEPT, OFF, OFF_REDUCED = "share of contact kept", "rms level over linear theory"
 CORRELATION, TABLE_14_1 = "correlation with linear theory", "wheel of Table 14.1"
 SPECTRUM, ALL = "spectrum", ", all spectra"
 TENTH = Margin(tolerance=0.1, reason="0.1: a tenth of the contact", source=REFERENCE)
-DECIBEL_APART = Margin(tolerance=ONE_DECIBEL[0], reason=ONE_DECIBEL[1], source=REFERENCE)
-FOLLOWS = replace(DECIBEL_APART, source="boundary elements on the same surfaces")
+DECIBEL_APART, FOLLOWS = REPEATABLE.beside(REFERENCE), REPEATABLE.beside("boundary elements on the same surfaces")
 
 
 def series(result: Outcomes) -> list[Series]:
