@@ -17,7 +17,7 @@ from validation.cases.rolling import validity
 from validation.cases.rolling.validity import CORRELATION, HEIGHT, KEPT, OFF, REFERENCE, SLOPE, SPECTRA
 from validation.simulation import track_stiffness
 from validation.simulation.linear_levels import level_1d, level_3d
-from validation.simulation.reduced_pair import LAYER, MODELS, READ, over_boundary_elements, roll_reduced
+from validation.simulation.reduced_strip import FOLLOWING, LAYER, READ, over_boundary_elements, roll_reduced
 from validation.simulation.rolling_strip import roll_strip, strip_levels
 from validation.simulation.track_spectrum import INPUT_SPECTRA
 
@@ -110,7 +110,7 @@ def test_a_reduced_model_stands_beside_boundary_elements_on_the_surface_itself()
     case = validity.Validity(waves=3, width=7, cells=8)
     strip, bands = case.strips_of(REFERENCE, HEIGHT, 0.01)[0], case.bands_for(SPECTRA[REFERENCE])
     beside, rolled = strip_levels([roll_strip(strip)], 1 / strip.cells, bands), [roll_reduced(strip)]
-    for model in MODELS:
+    for model in FOLLOWING:
         found = over_boundary_elements(model, rolled, strip, beside, bands)
         assert 10 * np.log10(found["level"].sum() / found["linear level"].sum()) == pytest.approx(0, abs=0.5)
 

@@ -65,7 +65,7 @@ def of_wheel(scene=WHEEL):
 
 def validity_evidence(case=validity.CASE.quick):
     """Of what is found, the same for all surfaces."""
-    one = dict.fromkeys((validity.KEPT, validity.OFF, *validity.MODELS), Estimate(1.0, 0.001, 4))
+    one = dict.fromkeys((validity.KEPT, validity.OFF, *validity.FOLLOWING), Estimate(1.0, 0.001, 4))
     found = {(name, *level): one | {validity.CORRELATION: 1.0} for name in validity.SPECTRA for level in case.levels}
     return validity.CASE.evidence(Outcomes(case, found))
 

@@ -51,7 +51,7 @@ from validation.simulation import (
     indentation,
     integrators,
     limits_of_springs,
-    reduced_pair,
+    reduced_strip,
     rolled_off,
     rough_punch,
     track_stiffness,
@@ -270,7 +270,7 @@ FAULTS = {
         test_from_force_to_roughness_and_stiffness.test_a_smooth_wheel_keeps_its_contact_whatever_its_force,
     ),
     "amplitudes of a reduced model twice as large": (
-        (reduced_pair, "waves", lambda force, spacing: waves(2 * force, spacing=spacing)),
+        (reduced_strip, "waves", lambda force, spacing: waves(2 * force, spacing=spacing)),
         test_from_force_to_roughness_and_stiffness.test_a_reduced_model_stands_beside_boundary_elements_on_the_surface_itself,
     ),
     "stiffness of the frame for that of the contact": (

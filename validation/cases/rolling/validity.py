@@ -22,7 +22,7 @@ from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.description import slope_ratio
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.simulation.linear_levels import correlation
-from validation.simulation.reduced_pair import LAYER, MODELS, READ, over_boundary_elements, roll_reduced
+from validation.simulation.reduced_strip import FOLLOWING, LAYER, READ, over_boundary_elements, roll_reduced
 from validation.simulation.rolling_strip import RoughStrip, Strip, roll_strips, strip_levels
 from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
 from validation.theory.rolling import slope_in_one_direction
@@ -100,7 +100,7 @@ def run(case: Validity, engine: Engine = SERIAL) -> Outcomes:
         spectrum = SPECTRA[key[0]]
         bands = case.bands_for(spectrum)
         levels = strip_levels(strips[key], 1 / case.cells_for(spectrum), bands)
-        over = {m: off_linear(over_boundary_elements(m, reduced[key], mine[0], levels, bands)) for m in MODELS}
+        over = {m: off_linear(over_boundary_elements(m, reduced[key], mine[0], levels, bands)) for m in FOLLOWING}
         found[key] = over | {
             KEPT: contact_kept(strips[key]),
             OFF: off_linear(levels),
@@ -150,7 +150,7 @@ def _judged(result: Outcomes) -> Iterator[Series]:
             beside = partial(single, family=values * (len(SPECTRA) - 1))
             yield beside(KEPT, "bem3d", (mine[KEPT],), reference=(other[KEPT],), margin=TENTH)
             yield beside(OFF, "bem3d", (mine[OFF],), reference=(other[OFF],), unit="dB", margin=DECIBEL_APART)
-        for model in MODELS:
+        for model in FOLLOWING:
             yield single(OFF_REDUCED, model, (mine[model],), unit="dB", margin=FOLLOWS, family=values * len(SPECTRA))
 
 
@@ -163,7 +163,7 @@ def _shown(result: Outcomes) -> Iterator[Series]:
             at = {SPECTRUM: name, "at equal": key[1], HEIGHT: height, SLOPE: height * spectrum.slope_along}
             for quantity in (KEPT, OFF, CORRELATION):
                 yield Series(quantity + ALL, "bem3d", (mine[quantity],), where=at)
-            for model in MODELS:
+            for model in FOLLOWING:
                 yield Series(OFF_REDUCED + ALL, model, (mine[model],), where=at)
 
 
