@@ -37,10 +37,7 @@ from validation.cases.limits import sweeps as limits
 from validation.cases.punch import bandwidth, ensembles, fractal_punch, work
 from validation.cases.rail import filters as rail_filters
 from validation.cases.rail import line_convention, published, rail_sound
-from validation.cases.rolling import (
-    roughness_from_force,
-    validity,
-)
+from validation.cases.rolling import roughness_from_force, validity
 from validation.cases.selection import model_selection as calibration
 from validation.cases.wheel import contrast, regions
 from validation.engine.random_numbers import random_generator
@@ -251,10 +248,7 @@ FAULTS = {
     "a periodic track taken as open": (
         (wheel_ensemble.WheelEnsemble, "places", property(always_open)),
         functools.partial(
-            test_wheel_ensembles.test_periodic_tracks_take_whole_natural_periods,
-            "steady-state",
-            0.5,
-            0.16,
+            test_wheel_ensembles.test_periodic_tracks_take_whole_natural_periods, "steady-state", 0.5, 0.16
         ),
     ),
     "factor 4 lost in the filter of one dimension, read backwards": (

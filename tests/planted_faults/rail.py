@@ -18,11 +18,7 @@ from validation.simulation import equivalent_displacement, rail_ground, rail_mod
 from validation.simulation.rail_models import ContactFilter
 from validation.simulation.rail_quantity import RailQuantity
 
-graduated, model_error, over_twin = (
-    graduation.graduated,
-    ContactFilter.model_error,
-    ContactFilter.over_twin,
-)
+graduated, model_error, over_twin = (graduation.graduated, ContactFilter.model_error, ContactFilter.over_twin)
 
 
 def without_sample_error(model, scene, across, cells, seed):

@@ -52,8 +52,7 @@ FACTOR = Margin(
     role=Role.CRITERION,
 )
 ROLLING = Margin(
-    tolerance=3.0,
-    reason="accuracy claimed for 1D models of rolling noise against 3D models: Ford and Thompson (2006)",
+    tolerance=3.0, reason="accuracy claimed for 1D models of rolling noise against 3D models: Ford and Thompson (2006)"
 )
 PUBLISHED = (0.51, 0.77)
 """Exponents of fractal dimensions 2 to 3; Pohrt and Popov, Phys. Rev. Lett. 108, 104301 (2012), abstract."""

@@ -33,15 +33,7 @@ from validation.cases.punch.work import Worked
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.engine.random_numbers import random_generator
 from validation.selection import model_needed
-from validation.simulation.rough_punch import (
-    BEM,
-    BOOTSTRAP,
-    FEW_CELLS,
-    MDR,
-    METHODS,
-    PunchRoughness,
-    require_converged,
-)
+from validation.simulation.rough_punch import BEM, BOOTSTRAP, FEW_CELLS, MDR, METHODS, PunchRoughness, require_converged
 from validation.theory import closed_forms
 
 

@@ -22,14 +22,7 @@ from validation.scenes.load import load_scene
 from validation.scenes.rail import RailScene
 from validation.simulation.equivalent_displacement import BEM, LINEAR, SPRINGS_THAT_READ
 from validation.simulation.rail_ground import StatedAcross, strip_bands, strip_of
-from validation.simulation.rail_sound import (
-    GEIKE,
-    ISOTROPIC,
-    HeldWheel,
-    roll_held_wheel,
-    samples_of,
-    sounding_strip,
-)
+from validation.simulation.rail_sound import GEIKE, ISOTROPIC, HeldWheel, roll_held_wheel, samples_of, sounding_strip
 from validation.simulation.rail_strip import RailStrip
 
 SOUNDING = {"bem": BEM, "linear": LINEAR, "springs": SPRINGS_THAT_READ, "geike": GEIKE}

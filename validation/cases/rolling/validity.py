@@ -232,12 +232,7 @@ STUDY = Study(
             "read the surface. Bars: 95 %. Curves that lie on each other show the parameter that counts.",
             (
                 *_panels(KEPT, BARS(KEPT + ALL)),
-                *_panels(
-                    "rms over linear theory [dB]",
-                    BARS(OFF + ALL),
-                    lines=(1.0,),
-                    ylim=(0.0, None),
-                ),
+                *_panels("rms over linear theory [dB]", BARS(OFF + ALL), lines=(1.0,), ylim=(0.0, None)),
                 *_panels(
                     "rms over bem3d [dB]",
                     BARS(OFF_REDUCED + ALL, LAYER),
