@@ -186,17 +186,6 @@ def test_the_linear_contact_on_open_tracks_has_its_closed_form_band_by_band():
     assert (np.abs(found.mean(axis=1) - exact) <= 4 * error + whole * exact).all()
 
 
-def test_a_steady_linear_contact_has_nothing_outside_of_its_waves():
-    """Rounding: 1e-16 of its size in each step, squared; open tracks leak there."""
-    for track, most in (("steady-state", 1e-24), ("open", 1.0)):
-        outcome = simulate_ensemble(rides(count=2, track=track, linear=True))
-        omega, density = outcome["omega"], outcome["plain"][0]
-        outside = (omega < 0.99 * SMALL.jump) | (omega > 1.01 * SMALL.cutoff)
-        share = density[outside].max() / density.max()
-        assert share <= most
-        assert track == "steady-state" or share > 1e-4
-
-
 def test_the_floor_of_an_open_record_is_its_jump():
     """J^2 / (omega^2 T) of the linear contact, wheel by wheel. A jump J' of the slope adds J'^2 / omega^4: in the mean
     of spectra ~ omega^-p from omega_1 on (p - 1) / (p - 3) (omega_1 / omega)^2 of it, three times which is room; and a
