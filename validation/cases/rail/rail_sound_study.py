@@ -136,8 +136,8 @@ STUDY = Study(
         "surface. Springs of Geike's spectrum have no surface: their profile is the middle line of this one with each "
         "wave scaled to that spectrum, so that it keeps its phase. Sample: jackknife over {c.blocks} pieces of the "
         "strip. Grid: {c.cells} cells to the smaller semi-axis, to first order. A model that is "
-        f"{-SILENT:g} dB quieter than boundary elements or more counts as {SILENT:g} dB. The A-weighting of IEC "
-        "61672-1 is meant for sound pressure; here it weights a force, for comparison alone."
+        f"{-SILENT:g} dB quieter than boundary elements or more counts as {SILENT:g} dB. The A-weighting "
+        "of IEC 61672-1 is meant for sound pressure; here it weights a force, for comparison alone."
     ),
     series=series,
     claims=[

@@ -19,17 +19,8 @@ from validation.analysis.statistics import POWER_DECIBEL, Estimate, extrapolated
 from validation.analysis.study import Outcomes, Study
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.simulation import rough_punch
 from validation.simulation.rolling_strip import HERTZ, RoughStrip, Tracks
-from validation.simulation.rough_punch import (
-    Profiles,
-    PunchRoughness,
-    Surface,
-    describe_failures,
-    press_profiles,
-    press_surface,
-    require_converged,
-    stacked,
-)
 from validation.simulation.track_spectrum import INPUT_SPECTRA, InputSpectrum, PiecewisePowerLaw, self_affine
 from validation.simulation.track_stiffness import LoadedStrip, roll_loaded_strip, roll_loaded_tracks
 
@@ -75,14 +66,14 @@ class TrackStiffness:
         return Bands.around(math.pi, 0.5 * math.pi, self.waves * math.pi).on(self.length)
 
     @property
-    def punch(self) -> PunchRoughness:
-        return PunchRoughness(hurst=self.hurst, waves=(1, self.waves), seed=self.seed)
+    def punch(self) -> rough_punch.PunchRoughness:
+        return rough_punch.PunchRoughness(hurst=self.hurst, waves=(1, self.waves), seed=self.seed)
 
     @property
-    def faces(self) -> list[Surface]:
+    def faces(self) -> list[rough_punch.Surface]:
         """Of punches, pressed at Fbar / 3 first: each contact starts from the last."""
         return [
-            Surface(
+            rough_punch.Surface(
                 roughness=self.punch, realisation=i, cells=8 * self.waves, forces=(force / 3, force), tolerance=1e-4
             )
             for force in self.forces
@@ -90,9 +81,11 @@ class TrackStiffness:
         ]
 
     @property
-    def faces_of_springs(self) -> Profiles:
+    def faces_of_springs(self) -> rough_punch.Profiles:
         points = 8 * self.springs
-        return Profiles(roughness=self.punch, realisations=self.profiles, points=points, length=1.0, forces=self.forces)
+        return rough_punch.Profiles(
+            roughness=self.punch, realisations=self.profiles, points=points, length=1.0, forces=self.forces
+        )
 
     def height(self, force: float) -> float:
         """h/d."""
@@ -134,13 +127,13 @@ def run(case: TrackStiffness, engine: Engine = SERIAL) -> Outcomes:
     along = {key: {name: np.array([one[name] for one in found]) for name in found[0]} for key, found in strips.items()}
     tracks = {(rule, force): case.tracks_of(force, rule) for force in case.forces for rule in INPUT_SPECTRA}
     rolled = engine.map(roll_loaded_tracks, list(tracks.values()))
-    pressed = engine.map(press_surface, case.faces)
-    failures = describe_failures(case.faces, pressed)
-    require_converged([stacked(pressed)], failures)
+    pressed = engine.map(rough_punch.press_surface, case.faces)
+    failures = rough_punch.describe_failures(case.faces, pressed)
+    rough_punch.require_converged([rough_punch.stacked(pressed)], failures)
     punches = np.array([one["stiffness"][-1] for one in pressed]).reshape(len(case.forces), -1)
     results: dict[tuple[str, float], Outcome | FloatArray] = {**along, **dict(zip(tracks, rolled, strict=True))}
     for force, bem, springs in zip(
-        case.forces, punches, press_profiles(case.faces_of_springs)["stiffness"].T, strict=True
+        case.forces, punches, rough_punch.press_profiles(case.faces_of_springs)["stiffness"].T, strict=True
     ):
         results |= {(PUNCH, force): bem, (PROFILE, force): springs}
     return Outcomes(case, results, (*lost, *failures))
