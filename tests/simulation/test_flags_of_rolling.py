@@ -44,15 +44,13 @@ ROOT = Path(bem3d.__file__).parents[1]
 RAIL = RailStrip(
     ground=power_law_ground(3e-6, 2 * np.pi / 0.06, 2 * np.pi / 0.015),
     radii=(0.46, 0.3),
-    force=5e4,
-    modulus=115e9,
-    length=0.06,
-    width=0.06,
-    spacing=1.5e-3,
-    realisation=0,
-    seed=3,
+    **{"force": 5e4, "modulus": 115e9, "length": 0.06, "width": 0.06, "spacing": 1.5e-3, "realisation": 0, "seed": 3},
 )
 ON_A_RAIL = "validation.simulation.equivalent_displacement:roll_boundary_elements"
+RIDGES = ridges.RidgesTrack(ridges=RollingOverRidges(length=8, shortest=4.0).ridges, method="bem3d", cells=4)
+LOADED = rolling_strip.LoadedStrip(strip=STRIP, bands=TrackStiffness().bands)
+MOVING = WheelOnRail(strip=RAIL, mass=500.0, speed=22.0, model=wheel_on_rail.BEM, tolerance=1e-6)
+HELD = HeldWheel(strip=RAIL, model=BEM, first=0, last=4, tolerance=1e-6)
 ROLLERS = ("bem3d.roll", "bem3d.rolling_force", "bem3d.RollingContact")
 ONE_POSITION = ("validation.simulation.exact_contacts:press_ellipse",)
 TOO_SHORT = bem3d.HalfSpace(shape=(12, 12), spacing=0.2, modulus=1.0), np.add.outer(*[np.linspace(-1, 1, 12) ** 2] * 2)
@@ -60,24 +58,14 @@ Y = np.linspace(-0.03, 0.03, 61)
 PROFILE = TransverseProfile(y=tuple(Y.tolist()), height=tuple((-(Y**2) / 0.6).tolist()), source="head.csv")
 
 
-def over_ridges():
-    waves = RollingOverRidges(length=8, shortest=4.0).ridges
-    return ridges.roll_over(ridges.RidgesTrack(ridges=waves, method="bem3d", cells=4))
-
-
-def at_constant_load():
-    loaded = rolling_strip.LoadedStrip(strip=STRIP, bands=TrackStiffness().bands)
-    return rolling_strip.roll_loaded_strip(loaded)
-
-
-def on_the_chart():
-    force, _ = rolling_chart._roll(STRIP.surface(), 6, 1e-6)()
-    return {"force": force, "failed": np.zeros(1)}
+def without_a_flag(**found):
+    """Of what raises, or has NaN alone."""
+    return {**found, "failed": np.zeros(1)}
 
 
 def in_time():
     law = BoundaryElementsLaw(Wheel(radius=1.0, mass=1.0, modulus=1.0, load=4 / 3), [STRIP.surface()], 1 / 6)
-    return {"force": np.array([law.force(i, np.ones(1)) for i in range(4)]), "failed": np.zeros(1)}
+    return without_a_flag(force=np.array([law.force(i, np.ones(1)) for i in range(4)]))
 
 
 def by_a_model(target):
@@ -87,31 +75,27 @@ def by_a_model(target):
 
 PATHS = {
     "validation.simulation.rolling_strip:roll_strip": lambda: roll_strip(STRIP),
-    "validation.simulation.ridges:_roll": over_ridges,
-    "validation.simulation.rolling_strip:roll_loaded_strip": at_constant_load,
+    "validation.simulation.ridges:_roll": lambda: ridges.roll_over(RIDGES),
+    "validation.simulation.rolling_strip:roll_loaded_strip": lambda: rolling_strip.roll_loaded_strip(LOADED),
     "validation.simulation.reduced_models:boundary_elements": lambda: roll_by_all(STRIP),
     "validation.simulation.rolling_levels:by_boundary_elements": lambda: by_a_model(Target(wheel(), "force-rms")),
     "validation.simulation.contact_laws:BoundaryElementsLaw": in_time,
     ON_A_RAIL: lambda: roll_rail(RolledRail(strip=RAIL, models=(BEM,))),
     f"{ON_A_RAIL}, on a profile": lambda: roll_rail(RolledRail(strip=RAIL, models=(BEM,), profile=PROFILE)),
-    f"{ON_A_RAIL}, at a constant height": lambda: roll_held_wheel(
-        HeldWheel(strip=RAIL, model=BEM, first=0, last=4, tolerance=1e-6)
+    f"{ON_A_RAIL}, at a constant height": lambda: roll_held_wheel(HELD),
+    f"{ON_A_RAIL}, before it moves": lambda: roll_and_move(MOVING),
+    "validation.simulation.wheel_on_rail:EllipseLaw": lambda: without_a_flag(
+        **dict(zip(("approach", "force"), wheel_on_rail.in_motion(MOVING), strict=True))
     ),
-    f"{ON_A_RAIL}, before it moves": lambda: roll_and_move(moving()),
-    "validation.simulation.wheel_on_rail:EllipseLaw": lambda: dict(
-        zip(("approach", "force", "failed"), (*wheel_on_rail.in_motion(moving()), np.zeros(1)), strict=True)
+    "validation.benchmarks.work_precision.rolling:_roll": lambda: without_a_flag(
+        force=rolling_chart._roll(STRIP.surface(), 6, 1e-6)()[0]
     ),
-    "validation.benchmarks.work_precision.rolling:_roll": on_the_chart,
     "validation.benchmarks.solvers.throughput:RolledStrip": lambda: RolledStrip(strip=STRIP, positions=48)._rolled(),
     "validation.simulation.exact_contacts:press_ellipse": lambda: press_ellipse(
         PublishedContact(cells=6, tolerance=1e-6)
     ),
     "validation.simulation.limits_of_half_space:strip_widths": lambda: strip_widths((13, 18), finer=6),
 }
-
-
-def moving():
-    return WheelOnRail(strip=RAIL, mass=500.0, speed=22.0, model=wheel_on_rail.BEM, tolerance=1e-6)
 
 
 def outcome(path):

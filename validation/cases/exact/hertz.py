@@ -190,6 +190,7 @@ STUDY = Study(
         ),
     ),
 )
+evidence = STUDY.evidence
 CASE = Case(
     name="hertz",
     chapter=Chapter.EXACT,

@@ -166,8 +166,7 @@ def _of(result: Outcomes, quantity: str) -> Iterator[Series]:
         if quantity == MEAN:
             fit = Estimates.exact(np.log(fitted(case)), 10**9)
             yield over(quantity + OF_BEM, FIT, fit - bem[kind], where=where, **judged)
-    decades = spans(case.forces, *((first, 10 * first) for first in case.first_forces))
-    changed = partial(over, grid=left, margin=MARGINS[quantity], ranges=decades)
+    changed = partial(over, grid=left, margin=MARGINS[quantity], ranges=case.by_decade)
     for (a, b), step in zip(pairwise(springs), steps, strict=False):
         apart = change(statistic, result[a], result[b]) - step
         yield changed(CHANGE + quantity, "mdr over bem3d", apart, where={BANDWIDTH: (a[1], b[1])})

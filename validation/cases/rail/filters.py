@@ -1,6 +1,5 @@
 """Contact filters of the field for a wheel on a rail, in dB over nominal wavelengths, and in dB(A) over a speed."""
 
-from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
@@ -82,9 +81,6 @@ def weighted_level(scene: RailScene, a3: FloatArray, speed: float) -> float:
     return energy_sum(np.array(scene.levels.levels) + a3 + a_weighting(frequency))
 
 
-def weighted_difference(
-    scene: RailScene, mine: FloatArray, reference: FloatArray, speeds: tuple[float, ...] = SPEEDS
-) -> Callable[[float], float]:
-    """Of two filters, by the speed [dB(A)]."""
-    found = {v: weighted_level(scene, mine, v) - weighted_level(scene, reference, v) for v in speeds}
-    return found.__getitem__
+def over_in_decibel_a(scene: RailScene, mine: FloatArray, reference: FloatArray) -> list[float]:
+    """Of one filter over another, at each of SPEEDS [dB(A)]."""
+    return [weighted_level(scene, mine, v) - weighted_level(scene, reference, v) for v in SPEEDS]
