@@ -79,9 +79,9 @@ def comparison(status, *, failed="", quantity="stiffness"):
         name, kind, is_mdr = "model", "model", False
 
         def cost(self):
-            return Cost(work=1, unit="steps", seconds=2.0)
+            return Cost(work=1, seconds=2.0)
 
-    cost, estimate = Cost(work=1, unit="steps", seconds=1.0), ErrorEstimate(model=0.1, reason="why")
+    cost, estimate = Cost(work=1, seconds=1.0), ErrorEstimate(model=0.1, reason="why")
     answer = Answer(value=np.array([2.0]), cost=cost, model=0.3, failed=failed)
     return Comparison(SPHERE, quantity, Selection(0.2, (Candidate(Model(), status, "why", estimate, answer),)))
 

@@ -13,6 +13,7 @@ from typing import Any, NoReturn
 from validation.engine.files import ERRORS_OF_A_PATH
 from validation.engine.termination import RESUME_NOTE, TerminatedError, WorkerLostError, terminable
 from validation.engine.warning_lines import one_line_warnings
+from validation.engine.workers import ONE_THREAD
 from validation.report.commands.exit_status import Exit
 from validation.scenes.input_files import SceneError
 from validation.scenes.printable import printable
@@ -35,6 +36,8 @@ STDOUT = 1
 
 def main(words: Sequence[str] | None = None) -> int:
     """Run one command, return its exit status."""
+    # before numpy is loaded: the last bits of sums depend on the threads of BLAS, and workers have one
+    os.environ.update(ONE_THREAD | os.environ)
     arguments = _parser().parse_args(words)
     try:
         with terminable(), one_line_warnings():

@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from tests.analysis.test_judged_claims import point
-from validation.analysis.claims import Claim, Matrix, off_by, per_cent, times
+from validation.analysis.claims import Claim, Matrix, off_by, per_cent, times, times_source
 from validation.analysis.evidence import ClaimStatus, Role, Verdict
 
 AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
@@ -65,6 +65,14 @@ def test_a_claim_that_things_differ_is_confirmed_by_that():
     assert claim.judged(by_height(AGREE, DIFFER)).status is ClaimStatus.CONTRADICTED
 
 
+def test_a_matrix_has_a_column_for_each_quantity_that_it_names():
+    matrix = Matrix(name="m", quantity=("level", "slope"), rows=("h/d",), columns="quantity")
+    table = matrix.table(by_height(AGREE, DIFFER))
+    assert list(table.columns) == ["h/d", "level", "slope"] and table.columns["slope"] == ["–", "–"]
+    assert [cell.verdict for cell in table.columns["level"]] == [AGREE, DIFFER]
+    assert matrix.table([]).columns == {"h/d": (), "level": [], "slope": []}
+
+
 def test_members_are_chosen_by_quantity_model_and_conditions():
     numbers = [number(AGREE, model=m, across=a) for m in "ab" for a in ("ridges", "ground")] + by_height(
         AGREE, model="a"
@@ -117,6 +125,7 @@ def test_large_ratios_have_no_exponent(value, half, said):
 
 def test_a_closed_form_leaves_a_difference():
     assert off_by(point(1.0, quantity="k", model="m")) == "off by +1.0e+00 dB"
+    assert times_source(replace(point(0.5), source="tamaas")) == "0.5 times that of tamaas"
 
 
 def test_places_with_a_name_follow_after_a_comma_and_large_values_have_no_power_of_ten():

@@ -25,7 +25,7 @@ from validation.analysis.statistics import (
 )
 from validation.cases.limits.limits import fit_exponent, threshold
 from validation.cases.limits.sweeps import Sweep
-from validation.cases.selection.model_selection_numbers import clopper_pearson
+from validation.cases.selection.model_selection_study import clopper_pearson
 from validation.simulation.free_vibration import fit_drift
 from validation.simulation.probing import swept
 

@@ -7,7 +7,8 @@ import pytest
 from scipy import stats
 
 from tests.analysis.intervals import covered, holds, t
-from validation.analysis.multilevel import Linearised
+from validation.analysis.multilevel import Linearised, Resolved, combined, on_finest, on_no_size
+from validation.analysis.series import Series
 from validation.analysis.statistics import (
     DECIBEL,
     Estimate,
@@ -20,10 +21,12 @@ from validation.analysis.statistics import (
     sample,
     student,
 )
+from validation.analysis.study import Outcomes
 from validation.benchmarks.work_precision.errors import MethodValues, error
 from validation.benchmarks.work_precision.problem import Quantity, logarithm
-from validation.cases.punch import fractal_punch_decades
-from validation.cases.punch.fractal_punch import FractalPunch, FractalPunchResult
+from validation.cases.punch import fractal_punch_study as study
+from validation.cases.punch.ensembles import MEAN as MEAN_STIFFNESS
+from validation.cases.punch.fractal_punch import FractalPunch, PunchStatistics
 from validation.cases.punch.mdr_limits import GAP, MdrLimits, RollOffSamples, over_bem
 from validation.simulation.rough_punch import BEM, MDR
 
@@ -84,9 +87,15 @@ def steps(*values, error=0.01, n=50):
     return {8 * 2**i: Linearised(value, influence) for i, value in enumerate(values)}
 
 
-def compared(bem, springs, *, name="mean stiffness", among=4):
-    resolved = fractal_punch_decades.on_finest(springs), fractal_punch_decades.extrapolated(bem)
-    return fractal_punch_decades.PointComparison(name, 0.7, 0.1, *resolved, among=among).number
+def compared(bem, springs, *, name=MEAN_STIFFNESS, among=4):
+    apart = on_finest(list(springs.values())).beside(on_no_size(list(bem.values())))
+    return number_of(apart, name, among)
+
+
+def number_of(apart, name, among=1):
+    settings = {"margin": study.LEVEL, "scale": DECIBEL} if name == MEAN_STIFFNESS else {"margin": study.DIGITS}
+    (number,) = Series(name, "", (apart.value,), grid=(apart.grid,), family=among, **settings).numbers
+    return number
 
 
 def test_the_grid_interval_of_fig_14_1():
@@ -102,7 +111,7 @@ def test_the_grid_interval_of_fig_14_1():
     ):
         assert worse.grid > number.grid
         assert worse.sample == number.sample
-    exponent = compared(steps(0.2, 0.25, 0.27), steps(0.504, 0.5), name="exponent")
+    exponent = compared(steps(0.2, 0.25, 0.27), steps(0.504, 0.5), name=study.EXPONENT)
     assert (exponent.grid, exponent.value) == pytest.approx((0.014, 0.21))
 
 
@@ -111,7 +120,7 @@ KNOWN_GRIDS = {"up": 0.03, "down": 0.05}
 
 def resolved(grid, value=1.0):
     """A statistic of five realisations that its grids leave open by so much."""
-    return fractal_punch_decades.Resolved(Linearised(value, np.zeros(5)), grid, {})
+    return Resolved(Linearised(value, np.zeros(5)), grid)
 
 
 @pytest.mark.parametrize(("weights", "left"), [((0.5, 0.5), 0.04), ((-2.0, 2.0), 0.16), ((2.0, -2.0), 0.16)])
@@ -119,22 +128,21 @@ def test_grid_errors_of_fig_14_1_never_cancel(weights, left):
     """Two grid errors of unknown sign add up in a mean and in a difference, whichever is the larger."""
     for grids in (KNOWN_GRIDS.values(), reversed(KNOWN_GRIDS.values())):
         parts = [resolved(grid) for grid in grids]
-        assert fractal_punch_decades.combined(weights, parts).grid == pytest.approx(left)
+        assert combined(weights, parts).grid == pytest.approx(left)
 
 
 def test_grid_errors_of_an_exponent_a_trend_and_a_ratio_add_up():
     """The same grid error at both ends of a decade, at all Hurst exponents and in both methods."""
     case = FractalPunch(hursts=(0.4, 0.7, 1.0), cells=8, surfaces=((0, 4, 4, 4, 0),), decades=(-1, 0))
-    found = fractal_punch_decades.PunchStatistics(FractalPunchResult(case, (), ()))
+    found = PunchStatistics(Outcomes(case, {}))
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(fractal_punch_decades.PunchStatistics, "at", lambda *_: resolved(0.01))
+        patch.setattr(PunchStatistics, "at", lambda *_: resolved(0.01))
         apart = math.log(case.forces[-1] / case.forces[0])
         assert found.exponent(0.7, MDR, 0, len(case.forces) - 1).grid == pytest.approx(0.02 / apart)
         # slope of least squares over 0.4, 0.7, 1: weights -1 / 0.6, 0, 1 / 0.6
         assert found.trend(MDR, 0).grid == pytest.approx(0.02 / 0.6)
-    for name, scale in ((fractal_punch_decades.MEAN, DECIBEL), (fractal_punch_decades.EXPONENT, 1.0)):
-        point = fractal_punch_decades.PointComparison(name, 0.7, 1.0, resolved(0.03), resolved(0.05), among=1)
-        assert point.number.grid == pytest.approx(scale * 0.08)
+    for name, scale in ((MEAN_STIFFNESS, DECIBEL), (study.EXPONENT, 1.0)):
+        assert number_of(resolved(0.03).beside(resolved(0.05)), name).grid == pytest.approx(scale * 0.08)
 
 
 def test_the_sample_interval_of_fig_14_1():

@@ -2,18 +2,18 @@
 
 import math
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from tests.analysis.intervals import covered, ends, holds
-from validation.analysis.statistics import POWER_DECIBEL, student
+from validation.analysis.series import Estimates
+from validation.analysis.statistics import POWER_DECIBEL, Estimate, ratio_of_means
+from validation.analysis.study import Outcomes
 from validation.cases.wheel import distance as wheel_distance
-from validation.cases.wheel import distance_numbers, spectrum_numbers
 from validation.cases.wheel import features as wheel_features
 from validation.cases.wheel import half_space as wheel_3d
-from validation.cases.wheel import half_space_levels as wheel_3d_levels
+from validation.cases.wheel import spectrum as wheel
 from validation.cases.wheel.features import FLOOR, Spectrum, measured
 
 
@@ -59,45 +59,31 @@ def test_shared_tracks_leave_no_error_of_a_ratio():
 
 def test_the_law_of_the_break_covers_its_truth():
     """Breaks that scatter as their standard errors say, of ten groups each."""
-    rng, case = np.random.default_rng(0), wheel_distance.WheelDistance()
+    rng, groups = np.random.default_rng(0), 10
     duration = 2.0 ** np.arange(5)
 
     def drawn():
         own = 0.05 * np.array([1.0, 1.0, 1.0, 2.0, 2.0])
         breaks = 1e4 * duration**0.4 * np.exp(own * rng.standard_normal(5))
-        seen = own * breaks * np.sqrt(rng.chisquare(case.groups - 1, 5) / (case.groups - 1))
-        columns = {"duration [s]": duration, "break [rad/s]": breaks, "standard error [rad/s]": seen}
-        number = distance_numbers.break_law(case, columns)
-        return number.value, number.sample
+        seen = own * breaks * np.sqrt(rng.chisquare(groups - 1, 5) / (groups - 1))
+        found = Estimates(Estimate(*one, groups) for one in zip(breaks, seen, strict=True))
+        law = wheel_distance.law_of_break(duration, found)
+        return law.value, law.half_width_among(3)
 
     assert holds(covered(drawn, 0.4), short=0.02, wide=0.03)
 
 
 def test_the_rms_jump_covers_its_truth():
-    """A mean square of Gaussian jumps at one of five distances."""
+    """A mean square of Gaussian jumps."""
     rng = np.random.default_rng(1)
-    wheels = np.array([60, 40, 20, 20, 20])
-
-    def drawn():
-        rms = np.array([math.sqrt(np.mean(rng.standard_normal(n) ** 2)) for n in wheels])
-        breaks = {"rms jump [m/s2]": rms, "of linear theory [m/s2]": np.ones(5), "wheels": wheels}
-        number, *others = distance_numbers.jumps({**breaks, "distance [m]": np.arange(5.0)})
-        # of one distance alone, whose interval holds together with those of the others
-        return number.value, number.sample * student(59) / student(59, 1 - 0.05 / (1 + len(others)))
-
-    assert holds(covered(drawn, 1.0), wide=0.01)
+    assert holds(covered(lambda: ends(wheel_distance.rms_over(rng.standard_normal(60), 1.0)), 1.0), wide=0.01)
 
 
 def test_the_mean_square_over_that_of_the_steady_state_counts_the_scatter_of_both():
     rng = np.random.default_rng(2)
 
     def drawn():
-        squares = {
-            wheel_distance.OPEN: {"square": 1.5 * rng.gamma(50, 1 / 50, 8)},
-            wheel_distance.STEADY: {"square": rng.gamma(50, 1 / 50, 8)},
-        }
-        number = distance_numbers.mean_square(SimpleNamespace(ends=squares))
-        return number.value, number.sample
+        return ends(ratio_of_means(1.5 * rng.gamma(50, 1 / 50, 8), rng.gamma(50, 1 / 50, 8)))
 
     assert holds(covered(drawn, 1.5), short=0.01)
 
@@ -110,9 +96,10 @@ def test_the_level_over_linear_theory_covers_its_truth():
 
     def drawn():
         hann = 1.3 * linear * rng.gamma(100, 1 / 100, (6, 1))
-        numbers = spectrum_numbers.levels_over_linear(Spectrum(scene, omega, hann, hann, 1e-3 * np.ones(6), 1e-6, 0.05))
+        spectrum = Spectrum(scene, omega, hann, hann, 1e-3 * np.ones(6), 1e-6, 0.05)
         # all bands of a group share its factor
-        return numbers[0].value, numbers[0].sample * student(5) / student(5, 1 - 0.05 / len(numbers))
+        first = next(wheel.levels_over_linear(spectrum)[0].rows())
+        return first["value"], first["high"] - first["value"]
 
     assert holds(covered(drawn, 10 * math.log10(1.3), trials=300), trials=300, short=0.01)
 
@@ -142,45 +129,30 @@ def test_what_grid_and_solver_leave_open_in_three_dimensions():
     """To first order in the cells: from 9 to 12 of them to a radius three times the change; the solver, all of it."""
     case = wheel_3d.Wheel3D(strips=3, coarser=2)
     louder = 10 ** (1 / 20)
-    result = wheel_3d.Result3D(
-        case,
-        {
-            wheel_3d.FINEST: strips_of(1.0),
-            wheel_3d.COARSER: strips_of(louder, count=2),
-            wheel_3d.LOOSE: strips_of(1.0, 7, 1),
-            wheel_3d.TIGHT: strips_of(louder**0.1, 7, 1),
-        },
-        {},
-        (),
-    )
-    levels = wheel_3d_levels.WheelLevels(result)
+    strips = {
+        wheel_3d.FINEST: strips_of(1.0),
+        wheel_3d.COARSER: strips_of(louder, count=2),
+        wheel_3d.LOOSE: strips_of(1.0, 7, 1),
+        wheel_3d.TIGHT: strips_of(louder**0.1, 7, 1),
+    }
+    levels = wheel_3d.WheelLevels(Outcomes(case, strips))
     np.testing.assert_allclose(POWER_DECIBEL * levels.grid, 3.0, rtol=1e-9)
     np.testing.assert_allclose(POWER_DECIBEL * levels.solver, 0.1, rtol=1e-9)
-    finer = wheel_3d_levels.WheelLevels(replace(result, case=replace(case, coarse=6)))
+    finer = wheel_3d.WheelLevels(Outcomes(replace(case, coarse=6), strips))
     np.testing.assert_allclose(POWER_DECIBEL * finer.grid, 1.0, rtol=1e-9)
 
 
-def test_a_mean_over_bands_in_three_dimensions_has_all_of_its_errors():
-    """Both samples in quadrature, as they are independent; grid and solver added."""
+def test_a_band_in_three_dimensions_has_all_of_its_errors():
+    """Both samples in quadrature, as they are independent."""
     case = wheel_3d.Wheel3D(strips=3, coarser=2)
-    strips = {
-        wheel_3d.FINEST: [
-            {**one, "bem": f * one["bem"]} for one, f in zip(strips_of(1.0), (0.9, 1.0, 1.2), strict=True)
-        ],
-        wheel_3d.COARSER: strips_of(1.1, count=2),
-        wheel_3d.LOOSE: strips_of(1.0, 7, 1),
-        wheel_3d.TIGHT: strips_of(1.05, 7, 1),
-    }
-    levels = wheel_3d_levels.WheelLevels(wheel_3d.Result3D(case, strips, {}, ()))
+    strips = [{**one, "bem": f * one["bem"]} for one, f in zip(strips_of(1.0), (0.9, 1.0, 1.2), strict=True)]
+    levels = wheel_3d.WheelLevels(Outcomes(case, {wheel_3d.FINEST: strips}))
     bands = len(levels.centres)
     groups = 0.01 * np.random.default_rng(0).standard_normal((6, bands))
-    exact = dict.fromkeys((wheel_3d_levels.LINEAR_3D, wheel_3d_levels.LINEAR_1D), np.zeros(bands))
-    levels.__dict__.update(springs={wheel_3d_levels.GEIKE: groups}, exact=exact)
-    where = np.arange(bands) < 3
-    theory, left = levels.mean_over_bem(wheel_3d_levels.LINEAR_3D, where)
-    springs, same = levels.mean_over_bem(wheel_3d_levels.GEIKE, where)
-    assert left == same == pytest.approx(levels.grid[where].mean() + levels.solver[where].mean())
-    own = groups[:, where].mean(axis=1).std(ddof=1) / math.sqrt(6)
+    exact = dict.fromkeys((wheel_3d.LINEAR_3D, wheel_3d.LINEAR_1D), np.zeros(bands))
+    levels.__dict__.update(springs={wheel_3d.GEIKE: np.exp(groups)}, exact=exact)
+    theory, springs = (levels.over_bem(model)[0] for model in (wheel_3d.LINEAR_3D, wheel_3d.GEIKE))
     # of small logarithms, the spread of their means
+    own = groups[:, 0].std(ddof=1) / math.sqrt(6)
     assert math.sqrt(springs.error**2 - theory.error**2) == pytest.approx(own, rel=0.02)
     assert theory.error > 0 and theory.samples == springs.samples == 3

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from validation.analysis.difference import difference
-from validation.analysis.evidence import Number, Role, Table, Verdict
+from validation.analysis.evidence import Number, Role, Table, Verdict, grouped
 from validation.analysis.statistics import (
     Estimate,
     at_level,
@@ -195,3 +195,9 @@ def test_a_difference_is_beside_zero_or_beside_the_other_itself():
 def test_realisations_are_positive_and_enough(bad):
     with pytest.raises(ValueError, match="realisations"):
         sample(bad, np.random.default_rng(0))
+
+
+def test_rows_are_grouped_by_the_values_of_columns_in_their_order():
+    table = Table("t", {"kind": ["b", "a", "b"], "x": [1.0, 2.0, 4.0]})
+    found = grouped("g", table, ("kind",), {"sum": lambda t: float(t["x"].sum()), "rows": lambda t: len(t["x"])})
+    assert (found.name, found.columns) == ("g", {"kind": ["b", "a"], "sum": [5.0, 2.0], "rows": [2, 1]})

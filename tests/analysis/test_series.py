@@ -7,7 +7,7 @@ import pytest
 
 from validation.analysis.evidence import Role, Verdict
 from validation.analysis.series import Estimates, Margin, Series, numbers_of, spans, tables_of
-from validation.analysis.statistics import Estimate, extrapolated, student
+from validation.analysis.statistics import Estimate, Interval, extrapolated, student
 
 NEAR = Margin(tolerance=1.0, reason="r", source="s", rms=(0.5, "q"))
 Q = (1.0, 2.0, 4.0)
@@ -37,6 +37,12 @@ def test_intervals_of_all_points_and_of_all_ranges_hold_at_once():
     worst, rms = series(0.1, 0.2, 0.3, error=0.1, family=7 / 3, rms_family=2).numbers
     assert worst.sample == pytest.approx(0.1 * student(4, 1 - 0.05 / 7))
     assert rms.sample == pytest.approx(0.1 * student(4, 1 - 0.05 / 2))
+
+
+def test_an_interval_of_its_own_is_the_sample_of_a_number():
+    """A share has no standard error; nothing widens its interval, and its reference is exact."""
+    (number,) = Series("share", "", (Interval(0.9, 0.04),), reference=1.0, margin=NEAR, family=3).numbers
+    assert (number.value, number.reference, number.sample, number.grid) == (0.9, 1.0, 0.04, 0.0)
 
 
 def test_each_range_is_judged_by_itself_and_named():

@@ -1,16 +1,19 @@
-"""A quantity, configurations and a clock that are made up."""
+"""A quantity, configurations, a clock and runs of commands that are made up."""
 
 import dataclasses
+import json
 import os
 from concurrent.futures import Future
 from contextlib import nullcontext
 
 import numpy as np
 
+import validation.__main__ as command
 from validation.benchmarks import timing
 from validation.benchmarks.found_models import TimedProblem
 from validation.benchmarks.timing import Configuration, RunLimits
 from validation.benchmarks.work_precision.problem import Quantity, logarithm
+from validation.report.contents import TIMED
 from validation.simulation.method import Result, Solve
 
 MEAN = Quantity(name="mean", log=logarithm("k"), needs=("k",))
@@ -84,3 +87,12 @@ class Inline:
 def use_a_clock_of_its_own(monkeypatch):
     monkeypatch.setattr(timing, "isolated_process", lambda: nullcontext(Inline()))
     monkeypatch.setattr(timing, "timed", lambda function: (function(), 0.01))
+
+
+def run_command(case, result, out, monkeypatch):
+    """What the command of a timed case writes of a result, whose times are kept apart."""
+    entry = dataclasses.replace(case, quick=result.case, run=lambda settings, engine: result)
+    monkeypatch.setitem(TIMED, case.name, entry)
+    assert command.main([case.name, "--out", str(out)]) == command.Exit.MET
+    assert json.loads((out / "results.json").read_text())["cases"] == {}
+    return json.loads((out / f"{case.name}.json").read_text())["cases"][case.name]

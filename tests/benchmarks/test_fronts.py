@@ -1,26 +1,22 @@
-"""The cheapest method and the front of all, of hand-made points; claims and words about them."""
+"""The cheapest method and the front of all, of hand-made points; claims about them."""
 
 import dataclasses
 import math
 
 import pytest
 
+from validation.analysis.series import numbers_of
 from validation.benchmarks.timing import FINISHED
-from validation.benchmarks.work_precision.claims import claims_of, time_numbers
-from validation.benchmarks.work_precision.pareto import Point, break_even, cheapest, front, work
+from validation.benchmarks.work_precision.case import times
+from validation.benchmarks.work_precision.pareto import Point, cheapest, front, work
 from validation.benchmarks.work_precision.problem import BEM, CLOSED, FILTER_1D, FILTER_3D, MDR, MDR_ROLLING
+from validation.benchmarks.work_precision.study import STUDY
 
 
 def point(line, off, seconds, **settings):
     settings = {"status": FINISHED, "band": 0.001, "unit": "%", "parameter": "# cells", "value": 8.0, **settings}
-    return Point(
-        scene="scene",
-        quantity="force",
-        method=line,
-        error=off,
-        seconds=(0.9 * seconds, seconds, 1.2 * seconds),
-        **settings,
-    )
+    quartiles = 0.9 * seconds, seconds, 1.2 * seconds
+    return Point(scene="scene", quantity="force", method=line, error=off, seconds=quartiles, **settings)
 
 
 CHART = [
@@ -79,12 +75,6 @@ def test_the_cheapest_within_a_tolerance():
     assert cheapest(CHART[:3], 0.01) is None
 
 
-def test_levels_are_asked_for_in_decibels():
-    level = point("MDR", 2.0, 1.0, unit="dB", band=0.1)
-    assert cheapest([level], 0.3) is level
-    assert cheapest([level], 0.1) is None
-
-
 def timed_point(line, off, seconds):
     return point(line, off, seconds, runs=100, unit="%")
 
@@ -99,29 +89,24 @@ BESIDE_SPRINGS = [
 
 
 @pytest.mark.parametrize(
-    ("another", "statuses", "words"),
+    ("another", "statuses", "rivals"),
     [
         # cheaper, but not as close
-        (timed_point(FILTER_1D, 0.3, 1e-6), ("holds", "holds"), "Yes: they are the cheapest on 1 of 1 charts"),
+        (timed_point(FILTER_1D, 0.3, 1e-6), ("holds", "holds"), (BEM, BEM)),
         # as close as the closest springs, and cheaper than these alone
-        (timed_point(FILTER_1D, 0.1, 5e-5), ("contradicted", "holds"), "2 times the time of linear filter, 1D"),
-        (timed_point(FILTER_3D, 0.05, 1e-3), ("holds", "contradicted"), "10 times the time of linear filter, 3D"),
+        (timed_point(FILTER_1D, 0.1, 5e-5), ("contradicted", "holds"), (FILTER_1D, BEM)),
+        (timed_point(FILTER_3D, 0.05, 1e-3), ("holds", "contradicted"), (FILTER_3D, FILTER_3D)),
         # times whose intervals overlap
-        (timed_point(FILTER_1D, 0.1, 0.99e-4), ("open", "holds"), "Not decided: they are the cheapest on 0 of 1"),
+        (timed_point(FILTER_1D, 0.1, 0.99e-4), ("open", "holds"), (FILTER_1D, BEM)),
     ],
 )
-def test_the_cheapest_is_claimed_of_times(another, statuses, words):
+def test_the_cheapest_is_claimed_of_times(another, statuses, rivals):
     """At every error that springs reach, and at every smaller one; one error decides."""
-    found = claims_of(time_numbers([[*BESIDE_SPRINGS, another]]), (), (), ())
-    assert tuple(claim.status for claim in found) == statuses
-    assert words in " ".join(claim.answer for claim in found)
+    numbers = numbers_of(times([*BESIDE_SPRINGS, another]))
+    assert tuple(claim.judged(numbers).status for claim in STUDY.claims[:2]) == statuses
+    assert tuple(number.source for number in numbers) == rivals
 
 
-def test_break_even_in_words():
-    reference = point(CLOSED, 0.0, 1e-6, is_reference=True)
-    assert break_even([reference, *CHART]) == (
-        "scene, force: down to 13 % MDR (16 cells, 10 µs) is the cheapest; beyond, down to 0.1 % BEM "
-        "(8 to 16 cells, 1 ms to 10 ms); below 0.1 % the reference cannot tell. "
-        "The closed form itself takes 1 µs."
-    )
-    assert break_even(CHART[:2]).endswith("; no method gets below 12 %.")
+def test_the_reference_itself_takes_no_part():
+    referee = point(CLOSED, 0.0, 1e-6, is_reference=True)
+    assert names(front([referee, *CHART])) == names(front(CHART))

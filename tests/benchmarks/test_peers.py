@@ -2,7 +2,6 @@
 
 import dataclasses
 import itertools
-import json
 import multiprocessing
 import os
 import time
@@ -11,21 +10,18 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-import validation.__main__ as command
+from tests.benchmarks.made_up import run_command
+from validation.analysis.series import numbers_of
 from validation.benchmarks import isolation as alone
 from validation.benchmarks import peers, timing
 from validation.benchmarks.found_models import TimedProblem
 from validation.benchmarks.peers import OURS, SOLVERS, PeerSolver, PressureField
 from validation.benchmarks.solvers import case as comparison
-from validation.benchmarks.solvers import claims as comparison_claims
-from validation.benchmarks.solvers import evidence as comparison_evidence
 from validation.benchmarks.solvers import problems
-from validation.benchmarks.solvers.problems import SurfaceProblem
-from validation.benchmarks.solvers.rolling import RollingThroughput
-from validation.benchmarks.solvers.wheel_steps import SteppingThroughput
+from validation.benchmarks.solvers.problems import FORCE, PRESSURE, SurfaceProblem
+from validation.benchmarks.solvers.study import CASE
+from validation.benchmarks.solvers.throughput import STEPS, RollingThroughput, SteppingThroughput
 from validation.benchmarks.timing import RunLimits
-from validation.report import contents
-from validation.report.contents import TIMED
 from validation.simulation.method import Result
 
 RUN = TimedProblem(SurfaceProblem("rough", 0.004, 32, True, 1, 1e-6), RunLimits(slow=5.0, enough=0.0))
@@ -88,35 +84,32 @@ def forked():
 
 @pytest.mark.slow
 def test_a_solver_that_fails_is_a_row(forked, monkeypatch):
+    broken = {
+        "dies": (dies, "failed: BrokenProcessPool"),
+        "raises": (raises, "failed: ZeroDivisionError"),
+        "wrong": (forgets_a_factor, "failed: RuntimeError: residual 0.0"),
+        "nan": (returns_nan, "failed: RuntimeError: pressure is not finite"),
+        "late": (dies_the_second_time, "failed: BrokenProcessPool"),
+    }
     solvers = (
-        SOLVERS[0],
-        SOLVERS[1],
-        other("dies", dies),
-        other("raises", raises),
-        other("wrong", forgets_a_factor),
-        other("nan", returns_nan),
-        other("late", dies_the_second_time),
+        *SOLVERS[:2],
+        *(other(name, prepare) for name, (prepare, _) in broken.items()),
         other("absent", dies, package="no-such-package"),
         other("warm", warms_up),
     )
-    for module in (problems, comparison):
-        monkeypatch.setattr(module, "SOLVERS", solvers)
-    outcome = comparison.time_problem(RUN)
-    said = dict(zip(outcome["method"].tolist(), outcome["status"].tolist(), strict=True))
+    monkeypatch.setattr(problems, "SOLVERS", solvers)
+    outcome = problems.time_problem(RUN)
+    said = dict(zip(outcome["solver"].tolist(), outcome["status"].tolist(), strict=True))
     assert list(said) == [solver.name for solver in solvers]
     assert said["bem3d"] == said["bem3d, Polonsky-Keer"] == said["warm"] == "finished"
-    assert said["dies"].startswith("failed: BrokenProcessPool")
-    assert said["late"].startswith("failed: BrokenProcessPool")
-    assert said["raises"].startswith("failed: ZeroDivisionError")
-    assert said["wrong"].startswith("failed: RuntimeError: residual 0.0")
-    assert said["nan"] == "failed: RuntimeError: pressure is not finite"
+    assert all(said[name].startswith(status) for name, (_, status) in broken.items())
     assert said["absent"] == "not installed"
     # a solver that remembers is prepared anew each time
-    assert outcome["seconds"][-1, 1] >= 0.1
+    assert outcome["fastest [s]"][-1] >= 0.1
     finished = outcome["status"] == "finished"
-    assert np.isnan(outcome["seconds"][~finished, 0]).all()
+    assert np.isnan(outcome["median [s]"][~finished]).all()
     assert (outcome["residual"][finished] <= 1e-6).all()
-    assert (outcome["difference"][finished, 0] <= 1e-4).all()
+    assert (outcome[PRESSURE][finished] <= 1e-4).all()
 
 
 def test_threads_of_the_solvers_are_one(monkeypatch):
@@ -145,55 +138,55 @@ def result(forked):
     return comparison.run(small())
 
 
+@pytest.fixture(scope="module")
+def evidence(result):
+    return CASE.evidence(result)
+
+
 @pytest.mark.slow
-def test_evidence(result):
-    evidence = comparison_evidence.evidence(result)
-    heats, scaling = evidence.table("heats"), evidence.table("scaling")
+def test_evidence(evidence):
+    heats, seconds, loads = (evidence.table(name) for name in ("heats", comparison.SECONDS, comparison.LOADS))
     # a contact model beside the solvers where the half-space is free
     assert len(heats["problem"]) == 4 * len(SOLVERS) + 2
-    assert len(scaling["cells"]) == 6
-    assert not evidence.unconverged
-    assert all(number.met for number in evidence.numbers)
-    assert sum("too small for an exponent" in sentence for sentence in evidence.conclusions) == 3
-    assert [len(table["problem"]) for table in evidence.page_tables[:2]] == [4, 3]
-    assert (scaling["peak memory [MiB]"] > 1).all()
+    assert [len(table["problem"]) for table in (seconds, loads)] == [4, 3]
+    assert not evidence.unconverged and all(number.met for number in evidence.numbers)
+    assert len(evidence.table("peak memory [MiB]")["value"]) == 6
+    assert (evidence.table("peak memory [MiB]")["value"] > 1).all()
     for name in ("bem3d", "bem3d, Polonsky-Keer"):
         mine = heats.where(solver=name)
         assert (mine["median [s]"] > 0).all()
         assert (mine["residual"] <= 1e-8).all()
-        assert (mine["pressure difference to ours, L2"] <= 1e-4).all()
+        assert (mine[PRESSURE] <= 1e-4).all()
+
+
+def with_rows(result, *changes):
+    """The result with other values in the rows of each problem, by solver."""
+    changed = [
+        [{**row, **change.get(row["solver"], {})} for row in rows]
+        for rows, change in zip(result["problems"], changes, strict=True)
+    ]
+    return dataclasses.replace(result, found={**result.found, "problems": changed})
 
 
 @pytest.mark.slow
 def test_fastest_is_claimed_of_times(result):
     """Where another solver takes less time on one grid, the claim holds on larger ones alone; on all, it is refuted."""
 
+    def took(seconds, n=64):
+        return {"median [s]": seconds, "low [s]": 0.95 * seconds, "high [s]": 1.05 * seconds, "cells": n}
+
     def claim(*ratios):
-        solved = [
-            (dataclasses.replace(problem, cells=n), {**outcome, **times_of(ratio)})
-            for (problem, outcome), n, ratio in zip(result.problems, (64, 64, 128, 128), ratios, strict=True)
-        ]
-        return comparison_evidence.evidence(dataclasses.replace(result, problems=solved)).claims[0]
+        absent = {solver.name: {"status": "not installed"} for solver in SOLVERS[2:]}
+        pairs = zip((64, 64, 128, 128), ratios, strict=True)
+        rows = [{"bem3d": took(x, n), "bem3d, Polonsky-Keer": took(1.0, n), **absent} for n, x in pairs]
+        return CASE.evidence(with_rows(result, *rows)).claims[0]
 
     assert claim(0.5, 0.1, 0.5, 0.5).status == "holds"
     limited = claim(0.5, 2.0, 0.5, 0.5)
-    assert limited.status == "holds within limits"
-    assert limited.answer.startswith("Within limits (from 128² cells on): it is faster on 3 of 4 problems, slower on 1")
-    assert claim(0.5, 2.0, 0.5, 1.5).answer.startswith("No: ")
+    assert (limited.status, limited.limits) == ("holds within limits", "cells from 128 on")
+    assert claim(0.5, 2.0, 0.5, 1.5).status == "contradicted"
     # intervals that overlap decide nothing
-    assert claim(0.5, 0.5, 0.98, 0.5).answer.startswith("Not decided: it is faster on 3 of 4 problems, slower on 0")
-
-
-def times_of(ratio):
-    """Of our solver and the published iteration; others are not installed."""
-    status = np.array([timing.FINISHED, timing.FINISHED, *["not installed"] * (len(SOLVERS) - 2)])
-    median = np.array([ratio, 1.0, *[np.nan] * (len(SOLVERS) - 2)])
-    return {
-        "status": status,
-        "method": np.array([solver.name for solver in SOLVERS]),
-        "seconds": np.stack([median, 0.9 * median, 1.1 * median, 5 + 0 * median], axis=1),
-        "interval": np.stack([0.95 * median, 1.05 * median], axis=1),
-    }
+    assert claim(0.5, 0.5, 0.98, 0.5).status == "open"
 
 
 FIRST = (other("theirs", dies), *SOLVERS[:2])
@@ -216,19 +209,19 @@ def timed_rows(problem, limits):
 
 def test_a_solver_that_is_placed_first_does_not_become_ours():
     with pytest.MonkeyPatch.context() as monkeypatch:
-        for module in (peers, problems, comparison, comparison_claims, comparison_evidence):
+        for module in (peers, problems, comparison):
             monkeypatch.setattr(module, "SOLVERS", FIRST)
-        monkeypatch.setattr(comparison, "time_in_turns", timed_rows)
+        monkeypatch.setattr(problems, "time_in_turns", timed_rows)
         named = [SimpleNamespace(label=each.name) for each in FIRST]
-        monkeypatch.setattr(comparison, "configurations_of", lambda problem: named)
-        outcome = comparison.time_problem(dataclasses.replace(RUN, problem=dataclasses.replace(RUN.problem, cells=4)))
-        result = SimpleNamespace(problems=[(RUN.problem, outcome)])
+        monkeypatch.setattr(problems, "configurations_of", lambda problem: named)
+        problem = dataclasses.replace(RUN.problem, cells=4)
+        outcome = problems.time_problem(dataclasses.replace(RUN, problem=problem))
+        finished = [comparison._finished(comparison.rows_of(problem, outcome))]
         # (3 - 1) / 1 of the pressure field
-        assert outcome["difference"][:, 0].tolist() == [2.0, 0.0, 0.0]
-        (number,) = comparison_claims.speed_numbers(result)
+        assert outcome[PRESSURE].tolist() == [2.0, 0.0, 0.0]
+        (number,) = numbers_of(comparison._speed(finished))
         assert (number.model, number.source, number.value) == ("bem3d", "bem3d, Polonsky-Keer", 2 / 3)
-        assert {n.model for n in comparison_evidence._agreement(result)} == {"theirs", "bem3d, Polonsky-Keer"}
-        assert "first on 1 of 1 problems; 2.0 times" in comparison_evidence._standing(result, True, "it", [0])
+        assert {n.model for n in comparison._agreement(finished)} == {"theirs", "bem3d, Polonsky-Keer"}
         assert peers.of_others() == FIRST[:1]
 
 
@@ -244,11 +237,10 @@ def test_the_median_lies_between_order_statistics():
 
 
 @pytest.mark.slow
-def test_contact_models_are_listed_with_the_difference_of_their_stiffness(result):
+def test_contact_models_are_listed_with_the_difference_of_their_stiffness(evidence):
     """Of the sphere the difference of the grid alone; rough faces scatter about the fit."""
-    heats = comparison_evidence.evidence(result).table("heats")
     for model, surface, most in (("closed form", "sphere", 0.05), ("fit", "rough", 1.0)):
-        found = heats.where(solver=model, status="finished")
+        found = evidence.table("heats").where(solver=model, status="finished")
         assert found["surface"].tolist() == [surface]
         assert found["stiffness difference to ours"] < most
         assert np.isnan(found["residual"])
@@ -256,79 +248,60 @@ def test_contact_models_are_listed_with_the_difference_of_their_stiffness(result
 
 
 @pytest.mark.slow
-def test_steps_of_the_wheel_are_counted_on_the_same_force(result):
+def test_steps_of_the_wheel_are_counted_on_the_same_force(evidence):
     """The plain sum over all springs is the same force, and slower where only some are in doubt."""
-    rates = comparison_evidence.evidence(result).table("wheel")
-    assert (rates["difference to the plain sum"] < 1e-12).all()
-    assert (rates["springs examined"] < 2 * 1.5 * rates["a/dx"]).all()
-    assert (rates["wheel-steps a second"] > 0).all()
+    assert (evidence.table("difference to the plain sum, over the load")["value"] < 1e-12).all()
+    examined = evidence.table("springs examined")
+    assert (examined["value"] < 2 * 1.5 * examined[comparison.SPRINGS]).all()
+    assert (evidence.table(STEPS)["value"] > 0).all()
 
 
 @pytest.mark.slow
-def test_positions_of_a_rolling_wheel_are_beside_their_floor(result):
-    assert result.rolling["h/d"].tolist() == [0.01, 0.3]
-    assert (result.rolling["positions a second"] > 0).all()
-    assert (result.rolling["applications a position"] >= 2).all()
-    assert (result.rolling["time over applications on 3a x 3a"] > 0).all()
+def test_positions_of_a_rolling_wheel_are_beside_their_floor(evidence):
+    rolled = evidence.table(comparison.ROLLED)
+    assert rolled["h/d"].tolist() == [0.01, 0.3]
+    assert (rolled["applications a position"] >= 2).all()
+    assert all((rolled[name] > 0).all() for name in rolled.columns)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [solver.name for solver in SOLVERS if solver.package != OURS])
-def test_peers_find_the_same_pressure(name, result):
+def test_peers_find_the_same_pressure(name, evidence):
     """Relative L2 under 1e-4 at a residual of 1e-8, force and area too; periodic and free, sphere and rough."""
-    i = [solver.name for solver in SOLVERS].index(name)
-    if SOLVERS[i].version is None:
+    mine = evidence.table("heats").where(solver=name)
+    if "not installed" in mine["status"]:
         pytest.skip(f"{name} is not installed")
-    for _, outcome in result.problems:
-        assert outcome["status"][i] == "finished"
-        assert outcome["residual"][i] <= 1e-8
-        assert outcome["difference"][i, 0] <= 1e-4
-        assert outcome["difference"][i, 1] <= 1e-6
-        assert outcome["difference"][i, 2] == 0.0
+    assert (mine["status"] == "finished").all() and (mine["residual"] <= 1e-8).all()
+    assert (mine[PRESSURE] <= 1e-4).all() and (mine[FORCE] <= 1e-6).all() and (mine[problems.AREA] == 0).all()
 
 
 @pytest.mark.slow
 def test_a_difference_of_answers_is_a_missed_criterion(result):
-    (problem, outcome), *others = result.problems
-    difference = outcome["difference"].copy()
-    difference[1] = (2e-4, 2e-6, 0.0, np.nan)
-    solved = [(problem, {**outcome, "difference": difference}), *others]
-    numbers = comparison_evidence.evidence(dataclasses.replace(result, problems=solved)).numbers
-    assert sum(not number.met for number in numbers) == 2
+    off = with_rows(result, {"bem3d, Polonsky-Keer": {PRESSURE: 2e-4, FORCE: 2e-6, problems.AREA: 0.0}}, {}, {}, {})
+    assert sum(not number.met for number in CASE.evidence(off).numbers) == 2
 
 
 @pytest.mark.slow
 def test_command_line(result, tmp_path, monkeypatch, capsys):
-    """The comparison has a page, a table on the terminal, and times that are kept apart from results."""
-    entry = dataclasses.replace(TIMED["race"], quick=result.case, run=lambda case, engine: result)
-    monkeypatch.setitem(TIMED, "race", entry)
-    assert command.main(["race", "--out", str(tmp_path)]) == command.Exit.MET
-    printed = capsys.readouterr().out
-    assert "rough, F = 0.004 E* L², free, 32²" in printed
-    results = json.loads((tmp_path / "race.json").read_text())["cases"]["race"]
+    """The comparison has a page, tables on the terminal, and times that are kept apart from results."""
+    results = run_command(CASE, result, tmp_path, monkeypatch)
+    assert "problem: rough, F = 0.004 E* L², free, 32²" in capsys.readouterr().out
     assert results["settings"]["cells"] == [32]
-    assert json.loads((tmp_path / "results.json").read_text())["cases"] == {}
-    assert (tmp_path / "figures" / "race.svg").exists()
-    assert (tmp_path / "data" / "race-heats.csv").exists()
+    for file in ("figures/race.svg", "figures/race-growth.svg", "figures/race-wheel.svg", "data/race-heats.csv"):
+        assert (tmp_path / file).exists()
     assert "Solver comparison" in (tmp_path / "speed.html").read_text()
 
 
 @pytest.mark.slow
 def test_exponents_are_those_of_the_measurements(result):
     """Time n^2.5, memory n^2 planted on grids of 512 and more."""
-    scalings = []
-    for (problem, outcome), n in itertools.product(result.scalings[::2], (512, 1024, 2048)):
-        planted = {"seconds": 1e-6 * n**2.5, "idle": 1e6, "peak": 1e6 + 8.0 * n**2}
-        cost = {**outcome, **{name: np.array(value) for name, value in planted.items()}}
-        scalings.append((dataclasses.replace(problem, cells=n), cost))
-    sentences = comparison_evidence.evidence(dataclasses.replace(result, scalings=scalings)).conclusions
-    assert sum("time grows like n^2.50 (n² log n: n^2.1" in s and "process like n^2.00" in s for s in sentences) == 3
-
-
-@pytest.mark.parametrize("installed", [True, False])
-def test_report_runs_the_race_where_there_are_peers(installed, tmp_path, monkeypatch):
-    asked = []
-    monkeypatch.setattr(contents, "peers_installed", lambda: installed)
-    monkeypatch.setattr("validation.report.commands.report.build", lambda names, **settings: asked.extend(names) or [])
-    command.main(["report", "--out", str(tmp_path)])
-    assert ("race" in asked) == installed
+    scalings = [
+        (
+            dataclasses.replace(problem, cells=n),
+            {**outcome, problems.SOLVE: 1e-6 * n**2.5, problems.MEMORY: 8.0 * n**2},
+        )
+        for (problem, outcome), n in itertools.product(result["scalings"][::2], (512, 1024, 2048))
+    ]
+    planted = dataclasses.replace(result, found={**result.found, "scalings": scalings})
+    exponents = CASE.evidence(planted).table(comparison.EXPONENT)["value"].reshape(3, 3)
+    np.testing.assert_allclose(exponents, np.tile([2.5, 2.0, 2.145], (3, 1)), atol=1e-3)

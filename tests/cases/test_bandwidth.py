@@ -5,11 +5,20 @@ import pytest
 
 from validation.analysis.evidence import ClaimStatus, number_with, numbers_with
 from validation.analysis.statistics import student
+from validation.analysis.study import Outcomes
 from validation.cases.punch import bandwidth
-from validation.cases.punch.bandwidth import Bandwidth, BandwidthResult
-from validation.cases.punch.bandwidth_evidence import evidence
-from validation.cases.punch.bandwidth_levels import STATISTICS, change, levels
-from validation.cases.punch.bandwidth_numbers import BANDWIDTH, CHANGE, FIT, MDR, ROLL_OFF, STIFFNESS
+from validation.cases.punch.bandwidth import (
+    BANDWIDTH,
+    CHANGE,
+    MEAN,
+    OF_BEM,
+    ROLL_OFF,
+    STATISTICS,
+    STUDY,
+    Bandwidth,
+    change,
+    series,
+)
 from validation.engine.engine import Engine
 from validation.simulation.rough_punch import FEW_CELLS
 from validation.theory import closed_forms
@@ -23,7 +32,7 @@ def modes(height):
 
 def test_a_wider_band_has_the_long_waves_of_the_one_before():
     """The same phases; amplitudes are smaller by one factor, since each surface has the same rms height."""
-    narrow, wide = (modes(CASE.roughness(band).surface(4 * band, 7)) for band in (4, 8))
+    narrow, wide = (modes(CASE.ground[BANDWIDTH, float(band)].surface(4 * band, 7)) for band in (4, 8))
     waves = np.rint(np.fft.fftfreq(16) * 16).astype(int)
     inside = (np.hypot(waves[:, np.newaxis], waves) < 4.01) & (np.hypot(waves[:, np.newaxis], waves) > 0)
     # half of a cell moves a wave: heights stand in the middle of cells
@@ -35,7 +44,7 @@ def test_a_wider_band_has_the_long_waves_of_the_one_before():
 
 def test_the_plateau_is_flat_and_the_band_beyond_is_self_affine():
     """Four waves on a side at the roll-off: equal power in each below, (q_r / q)^(2 H + 2) above, none beyond."""
-    power = np.abs(modes(CASE.rolled_off_roughness.surface(64, 0))) ** 2
+    power = np.abs(modes(CASE.ground[ROLL_OFF, 4.0].surface(64, 0))) ** 2
     waves = np.rint(np.fft.fftfreq(64) * 64)
     q = np.hypot(waves[:, np.newaxis], waves)
     level = power[0, 1]
@@ -58,11 +67,11 @@ def test_every_pair_has_realisations_of_its_own_and_finer_cells_the_first_ones()
     with pytest.raises(InterruptedError):
         bandwidth.run(CASE, Recorder())
     numbers = {key: [realisation for realisation, _ in group] for key, group in drawn.items()}
-    assert numbers["before", 0] == numbers["wider", 0] and numbers["before", 1] == numbers["wider", 1]
-    independent = [set(numbers[key]) for key in (("narrow", 0), ("wider", 0), ("wider", 1))]
+    assert numbers["before 0"] == numbers["wider 0"] and numbers["before 1"] == numbers["wider 1"]
+    independent = [set(numbers[key]) for key in ("narrow", "wider 0", "wider 1")]
     assert len(set.union(*independent)) == sum(map(len, independent))
-    assert numbers["refined", 0] == numbers["narrow", 0][:3]
-    cells = [drawn[key][0][1] for key in (("narrow", 0), ("refined", 0), ("wider", 0), ("wider", 1))]
+    assert numbers["refined"] == numbers["narrow"][:3]
+    cells = [drawn[key][0][1] for key in ("narrow", "refined", "wider 0", "wider 1")]
     assert cells == [16, 32, 32, 64]
 
 
@@ -84,7 +93,7 @@ def test_intervals_of_a_change_hold_it_as_often_as_they_say(quantity):
     for _ in range(400):
         before, common = lognormal(rng, 12, mean=one, deviation=0.25 * one)
         after, _ = lognormal(rng, 12, mean=1.1 * one, deviation=0.2 * one, common=common)
-        (found,) = change(STATISTICS[quantity], before, after)
+        (found,) = change(STATISTICS[quantity], {"stiffness": before}, {"stiffness": after})
         assert found.half_width == pytest.approx(student(11) * found.error)
         held.append(abs(found.value - truth) <= found.half_width)
     assert np.mean(held) == pytest.approx(0.95, abs=4 * np.sqrt(0.95 * 0.05 / 400))
@@ -105,35 +114,40 @@ def planted(*, wide=1.0, rolled_off=1.0, size=0.5, mdr=1.0, surfaces=16000):
 
     narrow, pair, springs = outcome(), outcome(count=40), outcome(mdr)
     wider = springs | {"stiffness": wide * springs["stiffness"]}
-    result = BandwidthResult(
-        case=case,
-        narrow=narrow,
-        refined=narrow,
-        pairs=[(pair, pair), (pair, pair)],
-        rolled_off=outcome(deviation=0.1 * size),
-        springs=[springs, springs, wider],
-        springs_rolled_off=outcome(mdr * rolled_off, 0.1 * size),
-        unconverged=(),
+    return STUDY.evidence(
+        result_of(
+            case,
+            narrow,
+            pair,
+            pair,
+            outcome(deviation=0.1 * size),
+            [springs, springs, wider, outcome(mdr * rolled_off, 0.1 * size)],
+        )
     )
-    return evidence(result)
+
+
+def result_of(case, narrow, before, wider, rolled_off, springs):
+    found = {"narrow": narrow, "refined": narrow, "rolled off": rolled_off}
+    found |= {f"before {i}": before for i in range(2)} | {f"wider {i}": wider for i in range(2)}
+    return Outcomes(case, found | dict(zip(case.ground, springs, strict=True)))
 
 
 HOLDS, LIMITED, CONTRADICTED = ClaimStatus.HOLDS, ClaimStatus.LIMITED, ClaimStatus.CONTRADICTED
 
 
 def with_the_fit(found):
-    (rolled_off,) = numbers_with(found.numbers, STIFFNESS, FIT, **{ROLL_OFF: 4.0})
+    (rolled_off,) = numbers_with(found.numbers, MEAN + OF_BEM, "fit", **{ROLL_OFF: 4.0})
     assert rolled_off.value == pytest.approx(0, abs=0.1)
 
 
 def with_the_change(found):
-    for n in numbers_with(found.numbers, f"{CHANGE}, mean stiffness", **{BANDWIDTH: (16, 32)}):
+    for n in numbers_with(found.numbers, CHANGE + MEAN, **{BANDWIDTH: (16, 32)}):
         assert n.value == pytest.approx(20 * np.log10(1.2), abs=1e-6)
     assert "+20.0 % (+20.0 to +20.0)" in found.claims[0].answer
 
 
 def with_stiffer_springs(found):
-    assert number_with(found.numbers, STIFFNESS, MDR, **{BANDWIDTH: 32.0}).value > 1.5
+    assert number_with(found.numbers, MEAN + OF_BEM, "mdr", **{BANDWIDTH: 32.0}).value > 1.5
 
 
 @pytest.mark.slow
@@ -157,11 +171,10 @@ def test_claims_and_numbers_follow_a_planted_answer(planting, expected, numbers)
 def test_a_planted_change_of_boundary_elements_adds_up():
     """Pairs that are 10 % stiffer in each wider band: the widest is 1.1^2 times as stiff as the narrowest."""
     one = np.random.default_rng(0).uniform(1, 2, (8, 7))
-    pair = {"stiffness": one}, {"stiffness": 1.1 * one}
-    springs = [{"stiffness": one}] * 3
-    result = BandwidthResult(CASE, pair[0], pair[0], [pair, pair], pair[0], springs, springs[0], ())
-    found = levels(result, "mean stiffness")
-    for narrow, wide in zip(found.bem[0], found.bem[2], strict=True):
+    stiff = {"stiffness": one}
+    found = series(result_of(CASE, stiff, stiff, {"stiffness": 1.1 * one}, stiff, [stiff] * 4))
+    bem = [s.found for s in found if (s.quantity, s.model) == (MEAN, "bem3d")]
+    for narrow, wide in zip(bem[0], bem[2], strict=True):
         assert wide.value - narrow.value == pytest.approx(2 * np.log(1.1), rel=1e-9)
 
 
@@ -171,11 +184,12 @@ def test_a_wide_band_is_the_narrow_one_and_the_changes():
     case = Bandwidth(cells=16, surfaces=60, pairs=(30, 30), refined=3, rolled_off=3, profiles=20, points=256)
     result = bandwidth.run(case)
     for quantity, statistic in STATISTICS.items():
+        bem = [s.found for s in series(result) if (s.quantity, s.model) == (quantity, "bem3d")]
         for band in (1, 2):
-            direct = statistic(result.pairs[band - 1][1]["stiffness"])
-            for one, other in zip(levels(result, quantity).bem[band], direct, strict=True):
+            direct = statistic(result[f"wider {band - 1}"]["stiffness"])
+            for one, other in zip(bem[band], direct, strict=True):
                 assert one.value == pytest.approx(other, abs=2 * one.half_width)
-    contacts = result.pairs[1][1]["area"].mean(axis=0) * 64**2
+    contacts = result["wider 1"]["area"].mean(axis=0) * 64**2
     assert contacts[-1] > FEW_CELLS
 
 

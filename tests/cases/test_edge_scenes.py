@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 import bem3d
-from validation.cases.selection import edge_evidence, edge_scenes
+from validation.analysis.evidence import grouped
+from validation.analysis.series import numbers_of
+from validation.cases.selection import edge_scenes
 from validation.cases.selection.edge_scenes import (
     EDGE_KINDS,
     MEASURED,
@@ -20,13 +22,15 @@ from validation.cases.selection.edge_scenes import (
     SPHERE,
     edge_scene,
 )
-from validation.cases.selection.edge_test import PARTS, EdgeTrial, edge_trials, solve_edge, true_error
+from validation.cases.selection.model_selection import PARTS, EdgeTrial, edge_trials, solve_edge, true_error
+from validation.cases.selection.model_selection_study import KIND_HELD, OF_EDGES, at_edges, edges_of
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
 from validation.selection.compare import compare
 from validation.selection.quantities import models_of, quantities_of
 from validation.simulation import rolling_levels
 from validation.simulation.model import GridModel
+from validation.simulation.rail_models import rail_quantity
 from validation.simulation.rolling_levels import by_linear_theory, strip_of
 from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.sampling import distance
@@ -152,8 +156,8 @@ def test_a_wheel_whose_resonance_leaves_no_band_is_refused_in_a_sentence():
 def test_rails_at_the_edges_are_inside_and_beyond_what_was_measured_and_all_can_be():
     """Of those whose ellipse is neither long nor flat some claims are known; no line is one that no ground has."""
     models = [models_of(edge_scene(RAIL, number, 3)[0], "contact-filter", 0.3, 0) for number in range(16)]
-    grounds = [model.quantity.scene.isotropic for every in models for model in every]
-    assert all(model.quantity.no_answer == "" for every in models for model in every)
+    grounds = [model.target.scene.isotropic for every in models for model in every]
+    assert all(rail_quantity(model.target).no_answer == "" for every in models for model in every)
     assert all(ground is None or ground.as_it_is for ground in grounds) and any(grounds)
     cheap = [any(m.estimate().in_range for m in every if m.kind != GridModel.name) for every in models]
     assert set(cheap) == {True, False}
@@ -170,6 +174,11 @@ def outcome(estimated, true, failed=0.0):
     return {**found, "reference": np.array(0.01), "offered": np.array(offered), "failed": np.array(failed)}
 
 
+def counted(edges):
+    """Of the one kind, column by column."""
+    return [values[0] for values in grouped("", edges, ("kind",), OF_EDGES).columns.values()]
+
+
 def test_answers_at_the_edges_are_counted_with_those_that_are_none():
     outcomes = [
         outcome(0.05, 0.02),
@@ -178,23 +187,20 @@ def test_answers_at_the_edges_are_counted_with_those_that_are_none():
         outcome(math.nan, math.nan),
         outcome(math.nan, math.nan, failed=1.0),
     ]
-    table = edge_evidence.edge_table(trials(5), outcomes)
-    row = edge_evidence.edges_by_kind(table).columns
-    assert [values[0] for values in row.values()][1:-1] == [5, 3, 3, 1, 2, 1]
-    assert row["true over estimated error, worst"][0] == f"{0.2 / math.hypot(0.05, 0.01):.2g}"
-    held, far_off, refused = edge_evidence.edge_numbers(table)
+    edges = edges_of(trials(5), outcomes)
+    assert counted(edges)[1:] == [5, 3, 3, 1, 2, 1, pytest.approx(0.2 / math.hypot(0.05, 0.01))]
+    held, far_off, refused, _ = numbers_of(at_edges(edges))
     assert (held.value, refused.value) == (0.5, 0.25)
     assert far_off.value == pytest.approx(math.log10(0.1 / math.hypot(0.05, 0.01)))
     assert far_off.verdict == "differ"
-    assert "1 of 2 answers hold, and 1 of 4 questions" in edge_evidence.edge_answer(table)
 
 
 def test_a_question_that_no_model_answers_within_the_tolerance_is_not_refused():
     """Fine boundary elements leave 20 %; an answer that misses the tolerance is a refusal where they leave less."""
     poor, missed = {**outcome(0.2, 0.1), "offered": np.array(0.2)}, outcome(0.2, 0.1)
-    table = edge_evidence.edge_table(trials(2), [poor, missed])
-    assert [values[0] for values in edge_evidence.edges_by_kind(table).columns.values()][4] == 1
-    *_, far_off, refused = edge_evidence.edge_numbers(table)
+    edges = edges_of(trials(2), [poor, missed])
+    assert counted(edges)[4] == 1
+    _, far_off, refused, _ = numbers_of(at_edges(edges))
     assert (far_off.value, refused.value) == (0.0, 1.0)
 
 
@@ -244,12 +250,10 @@ def test_the_share_of_a_kind_is_decided_by_many_scenes(scenes, false, verdict):
         | {"true": np.array([0.02, 0.2 if i < false else 0.02])}
         for i in range(scenes)
     ]
-    table = edge_evidence.edge_table(both, outcomes)
-    (number,) = edge_evidence.kind_numbers(table)
+    *_, number = numbers_of(at_edges(edges_of(both, outcomes)))
+    assert number.quantity == KIND_HELD
     assert number.value == pytest.approx(1 - false / scenes)
     assert number.verdict == verdict
-    told, _, others = edge_evidence.kind_answer((number,), table).partition("undecided")
-    assert f"punch {scenes - false} of {scenes}" in (others if verdict == "undecided" else told)
 
 
 @pytest.mark.parametrize("number", [14, 32, 35, 37])
@@ -282,16 +286,3 @@ def test_what_grids_share_changes_no_answer():
         shared, by_itself = grid.solve(), alone.solve()
         assert np.array_equal(shared.value, by_itself.value) and shared.error == by_itself.error
     assert solved
-
-
-def test_the_data_of_the_edges_has_a_row_a_scene_and_nothing_where_a_tolerance_was_not_asked():
-    asked = [
-        EdgeTrial(kind=PUNCH, number=7, tolerances=(0.03, 0.1), seed=3),
-        EdgeTrial(kind=ROLLING, number=8, tolerances=(0.1,), seed=3),
-    ]
-    both = {name: np.array([value, value]) for name, value in (("estimated", 0.05123), ("true", 0.02), ("met", 1.0))}
-    one = {"reference": np.array(0.01), "offered": np.array(0.01), "failed": np.array(0.0)}
-    table = edge_evidence.by_scene(asked, [{**both, **one}, {**{n: v[:1] for n, v in both.items()}, **one}])
-    assert table["number"].tolist() == [7, 8]
-    assert table["estimated error, 3%"][0] == 0.0512 and np.isnan(table["estimated error, 3%"][1])
-    assert table["true error, 10%"].tolist() == [0.02, 0.02]

@@ -1,17 +1,14 @@
 """A flag that something did not converge, in the outcome of a case: a line of its result, or its end."""
 
-import ast
-import inspect
-from dataclasses import fields, replace
+from dataclasses import replace
 from types import SimpleNamespace
-from typing import get_type_hints
 
 import numpy as np
 import pytest
 
 from validation.analysis.study import Outcomes, Study
 from validation.benchmarks.timing import FAILED, FINISHED, OUT_OF_RANGE
-from validation.benchmarks.work_precision import evidence as precision_evidence
+from validation.benchmarks.work_precision.case import lost
 from validation.benchmarks.work_precision.problem import BEM, LOOSE, MDR, POLONSKY_KEER
 from validation.cases.limits import limits
 from validation.cases.punch import bandwidth, fractal_punch, mdr_limits, normalisation
@@ -23,7 +20,6 @@ from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import spectrum as wheel
 from validation.engine.convergence import NotConvergedError
-from validation.report.contents import CASES
 from validation.simulation import rolling_strip, rough_punch
 from validation.simulation import wheel_on_springs as wheel_ensemble
 from validation.simulation.limits_of_half_space import Grid
@@ -214,41 +210,24 @@ def test_a_reference_that_fails_is_a_line_of_the_result():
         ladder.run(case, Given(pressed, lambda _: True))
 
 
-@pytest.mark.parametrize("name", [name for name, case in CASES.items() if case.study is None])
-def test_every_case_hands_on_what_is_lost(name):
-    """Where a result knows what has not converged, the evidence that is read from it says so."""
-    evidence = CASES[name].evidence
-    (result,) = [kind for parameter, kind in get_type_hints(evidence).items() if parameter != "return"]
-    tree = ast.parse(inspect.getsource(inspect.getmodule(evidence)))
-    calls = [n for n in ast.walk(tree) if isinstance(n, ast.Call) and getattr(n.func, "id", "") == "Evidence"]
-    assert calls
-    for call in calls:
-        handed = [ast.unparse(keyword.value) for keyword in call.keywords if keyword.arg == "unconverged"]
-        knows = "unconverged" in {field.name for field in fields(result)}
-        assert (handed == ["result.unconverged"]) if knows else (handed != ["()"])
-
-
 def test_a_declared_case_hands_on_what_is_lost():
     study = Study(title="t", method="", series=lambda result: [], claims=())
     assert study.evidence(Outcomes(None, {}, ("strip 3",))).unconverged == ("strip 3",)
 
 
 def points(**statuses):
-    rows = [
+    return [
         SimpleNamespace(scene="sphere", method=line, setting="8 cells", status=status)
         for line, status in statuses.items()
         for _ in range(2)
     ]
-    return SimpleNamespace(points=rows)
 
 
 def test_a_method_that_fails_on_the_clock_is_not_converged_and_a_refusal_is_an_answer():
     """Once for all of its quantities; the textbook's iteration is there to be seen failing."""
     failed = f"{FAILED}: ConvergenceError: residual 1"
-    lost = precision_evidence._unconverged(
-        points(**{BEM: failed, MDR: FINISHED, LOOSE: f"{OUT_OF_RANGE}: no", POLONSKY_KEER: failed})
-    )
-    assert lost == (f"sphere: {BEM}, 8 cells: {failed}",)
+    statuses = {BEM: failed, MDR: FINISHED, LOOSE: f"{OUT_OF_RANGE}: no", POLONSKY_KEER: failed}
+    assert lost(points(**statuses)) == (f"sphere: {BEM}, 8 cells: {failed}",)
 
 
 def test_every_problem_of_a_case_is_its_own():

@@ -23,7 +23,7 @@ from validation.cases.rolling import roughness_from_force, validity
 from validation.cases.rolling.force_spectrum import ForceSpectrum
 from validation.cases.rolling.roughness_from_force import RoughnessFromForce
 from validation.cases.rolling.settings import slopes_of
-from validation.cases.wheel import half_space_tables
+from validation.cases.wheel import half_space_study
 from validation.report.answers.questions import QUESTIONS
 from validation.scenes.description import describe
 from validation.scenes.roughness_levels import RoughnessLevels
@@ -31,11 +31,12 @@ from validation.selection.compare import models_of
 from validation.selection.summary import heading
 from validation.selection.tolerance import tolerance_of
 from validation.simulation import indentation, limits_of_springs, rail_ground, reduced_models
-from validation.simulation.models import linear_filter_3d
+from validation.simulation.model import ErrorEstimate
+from validation.simulation.models.linear_filters import linear_filter_3d
 from validation.simulation.rail_models import linear_error
 from validation.simulation.rail_quantity import RailQuantity
 from validation.simulation.reduced_strip import MODELS, bands_of
-from validation.simulation.rolling_claims import CheapRollingModel
+from validation.simulation.rolling_claims import RollingClaim
 from validation.simulation.rolling_strip import RoughStrip
 from validation.simulation.rough_punch import PunchRoughness
 from validation.simulation.track_spectrum import self_affine
@@ -59,10 +60,8 @@ def slope_of_table_14_1():
 
 
 def wheel_table(scene=WHEEL):
-    levels = SimpleNamespace(
-        result=SimpleNamespace(case=SimpleNamespace(scene=scene, cells=8)), converged=[{"applications": 1.0}]
-    )
-    return half_space_tables.wheel_of(levels)
+    values = half_space_study.of_wheel(SimpleNamespace(scene=scene, cells=8), 1.0)
+    return {name: [value] for name, value in values.items()}
 
 
 def validity_evidence(case=validity.CASE.quick):
@@ -299,9 +298,7 @@ def test_cells_of_a_light_punch_are_those_of_the_gradient(more, cells):
     assert indentation.cells_wanted(light) == cells
 
 
-@patch.object(
-    CheapRollingModel, "estimate", lambda self, target, resolution: linear_filter_3d.ErrorEstimate(model=0.1, reason="")
-)
+@patch.object(RollingClaim, "estimate", lambda *_: ErrorEstimate(model=0.1, reason=""))
 def test_anisotropic_heights_leave_their_gradient_open():
     """Ridges along the track, which h' does not see, are as rough as any for a filter in all directions."""
     wave = 2 * np.pi * 9 * (np.arange(64) + 0.5) / 64
@@ -311,7 +308,7 @@ def test_anisotropic_heights_leave_their_gradient_open():
     scene = replace(validation.load_scene("table_14_1"), ground=ground)
     target = SimpleNamespace(scene=scene)
     gradient = math.sqrt(np.mean(np.diff(height, axis=1) ** 2)) / (side / 64)
-    found = linear_filter_3d.MODEL.estimate(target, None)
+    found = linear_filter_3d.estimate(target, None)
     expected = gradient * WHEEL.contact_radius / WHEEL.approach
     assert found.model - 0.1 == pytest.approx(expected, rel=1e-3)
     assert f"rms gradient g a/d = {expected:.2g}" in found.reason

@@ -9,7 +9,7 @@ import pytest
 
 from tests.cases.wheel_scenes import BOTH, LOW, QUICK_3D, ROUNDING
 from validation.cases.wheel import half_space as wheel_3d
-from validation.cases.wheel import half_space_evidence as wheel_3d_evidence
+from validation.cases.wheel import half_space_study as wheel_3d_study
 from validation.engine.convergence import NotConvergedError
 from validation.simulation.motion import natural_periods
 from validation.simulation.wheel_on_half_space import WheelStrip, simulate_strip
@@ -67,12 +67,12 @@ def test_a_strip_that_does_not_converge_is_lost_and_the_case_goes_on(monkeypatch
     monkeypatch.setattr(wheel_3d, "simulate_strip", losing(3))
     case = replace(QUICK_3D, strips=4)
     result = wheel_3d.run(case)
-    lost = result.strips[wheel_3d.FINEST][3]
+    lost = result[wheel_3d.FINEST][3]
     assert lost["failed"] == 1
     assert np.isnan(lost["bem"]).all()
     assert np.isfinite(lost["linear"]).all()
     assert result.unconverged == ("strip 3, 4 cells to a radius, residual 0.0001",)
-    found = wheel_3d_evidence.evidence(result)
+    found = wheel_3d_study.STUDY.evidence(result)
     assert found.unconverged == result.unconverged
     assert all(math.isfinite(number.value) and number.met for number in found.numbers)
 

@@ -9,7 +9,7 @@ import pytest
 import mdr
 from validation.analysis.evidence import ClaimStatus, Verdict, number_with
 from validation.analysis.spectra import band_means, waves
-from validation.cases.wheel import regions, regions_evidence, regions_numbers
+from validation.cases.wheel import regions
 from validation.cases.wheel.features import linear_spectrum
 from validation.theory import rolling as rolling_theory
 
@@ -85,9 +85,14 @@ def result():
     return regions.run(SMALL)
 
 
+def evidence_of(result, changed=None):
+    """With some outcomes changed."""
+    return regions.STUDY.evidence(replace(result, found={**result.found, **(changed or {})}))
+
+
 @pytest.mark.slow
 def test_evidence_of_regions_is_whole(result):
-    found = regions_evidence.evidence(result)
+    found = evidence_of(result)
     assert all(number.met and math.isfinite(number.value) for number in found.numbers)
     for number in found.numbers[:2]:
         assert abs(number.difference) <= number.tolerance + number.uncertainty, number.sentence
@@ -102,18 +107,18 @@ def test_evidence_of_regions_is_whole(result):
 @pytest.mark.slow
 def test_a_plateau_without_zeros_has_no_substructure(result):
     """The open record smoothed to a power law."""
-    flat = dict(result.plateaus[regions.SHORT_OPEN])
+    flat = dict(result[regions.SHORT_OPEN])
     flat["plain"] = np.exp(np.random.default_rng(0).normal(0, 0.1, flat["plain"].shape)) / flat["omega"] ** 2
-    found = regions_evidence.evidence(replace(result, plateaus={**result.plateaus, regions.SHORT_OPEN: flat}))
+    found = evidence_of(result, {regions.SHORT_OPEN: flat})
     assert found.claims[0].status is ClaimStatus.CONTRADICTED and found.claims[0].answer.startswith("No: ")
 
 
 @pytest.mark.slow
 def test_a_plateau_of_linear_theory_is_not_of_second_order(result):
     """Region 2 a hundred times lower."""
-    lower = dict(result.plateaus[regions.SHORT_STEADY])
+    lower = dict(result[regions.SHORT_STEADY])
     lower["plain"] = lower["plain"] / 100
-    found = regions_evidence.evidence(replace(result, plateaus={**result.plateaus, regions.SHORT_STEADY: lower}))
+    found = evidence_of(result, {regions.SHORT_STEADY: lower})
     assert found.claims[1].status is ClaimStatus.CONTRADICTED
     model = f"{regions.SHORT_STEADY}, over the second-order force"
     assert number_with(found.numbers, "level", model).value == pytest.approx(-20, abs=5)
@@ -122,10 +127,8 @@ def test_a_plateau_of_linear_theory_is_not_of_second_order(result):
 @pytest.mark.slow
 def test_a_plateau_that_ends_too_early_is_noticed(result):
     """Spectra filled up to the jump from q_min v0 = 1.6 omega_eigen on."""
-    filled = {}
-    for ratio, outcome in result.speeds.items():
-        filled[ratio] = {**outcome, "hann": outcome["hann"] + (outcome["hann"].max() if ratio < 1.7 else 0.0)}
-    found = regions_evidence.evidence(replace(result, speeds=filled))
+    slow = {ratio: result[ratio] for ratio in SMALL.ratios if ratio < 1.7}
+    found = evidence_of(result, {r: {**one, "hann": one["hann"] + one["hann"].max()} for r, one in slow.items()})
     assert found.numbers[-1].value == pytest.approx(1.8) and found.numbers[-1].verdict is Verdict.DIFFER
     assert found.claims[2].status is ClaimStatus.CONTRADICTED
 
@@ -135,8 +138,8 @@ def test_a_valley_is_as_deep_as_it_is_drawn():
     omega = TABLE.eigenfrequency / 20.3 * np.arange(1, 200)
     linear = np.where(omega < 0.99 * scene.jump, 0.0, linear_spectrum(scene, omega))
     drawn = linear + linear.max() / 100
-    assert regions_numbers.valley(scene, omega, drawn) == pytest.approx(10 * math.log10(101), abs=0.5)
-    assert regions_numbers.valley(replace(scene, speed=scene.speed / 3), omega, drawn) == 0.0
+    assert regions.valley(scene, omega, drawn) == pytest.approx(10 * math.log10(101), abs=0.5)
+    assert regions.valley(replace(scene, speed=scene.speed / 3), omega, drawn) == 0.0
 
 
 def test_regions_are_those_of_a_rough_rail():

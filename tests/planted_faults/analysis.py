@@ -28,16 +28,20 @@ from validation.analysis import spectral_features as regions
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Number, Verdict
 from validation.analysis.features import JudgedFeature
 from validation.analysis.over_range import signed_mean, worst
-from validation.cases.punch import fractal_punch_decades
+from validation.cases.punch import fractal_punch
 from validation.cases.rolling import force_spectrum
 
-COMBINED = fractal_punch_decades.combined
+COMBINED = multilevel.combined
 
 
 def cancelled(weights, parts):
     """Grid errors with the signs of their weights."""
     whole = COMBINED(weights, parts)
     return dataclasses.replace(whole, grid=abs(float(np.dot(weights, [part.grid for part in parts]))))
+
+
+def beside_with_its_sign(one, other):
+    return multilevel.Resolved(one.value.beside(other.value), abs(one.grid - other.grid))
 
 
 def each_level_for_itself(realisations, rng):
@@ -338,7 +342,7 @@ FAULTS = {
         test_error_bars_of_grids.test_intervals_of_where_mdr_must_fail,
     ),
     "sample and grid of Fig. 14.1 exchanged": (
-        (fractal_punch_decades, "Number", sample_for_grid),
+        (series_module, "Number", sample_for_grid),
         test_error_bars_of_grids.test_the_grid_interval_of_fig_14_1,
     ),
     "the signed mean over bands for the worst of them, in rolling": (
@@ -381,15 +385,15 @@ FAULTS = {
         test_judged_claims.test_the_interval_of_a_root_mean_square_holds_whenever_those_of_its_points_do,
     ),
     "grid errors of Fig. 14.1 that cancel in a difference": (
-        (fractal_punch_decades, "combined", cancelled),
+        (test_error_bars_of_grids, "combined", cancelled),
         functools.partial(test_error_bars_of_grids.test_grid_errors_of_fig_14_1_never_cancel, (-2.0, 2.0), 0.16),
     ),
     "grid errors of Fig. 14.1 that cancel in an exponent": (
-        (fractal_punch_decades, "combined", cancelled),
+        (fractal_punch, "combined", cancelled),
         test_error_bars_of_grids.test_grid_errors_of_an_exponent_a_trend_and_a_ratio_add_up,
     ),
     "grid errors of two methods that cancel": (
-        (fractal_punch_decades.PointComparison, "grid", property(lambda p: abs(p.springs.grid - p.bem.grid))),
+        (multilevel.Resolved, "beside", beside_with_its_sign),
         test_error_bars_of_grids.test_grid_errors_of_an_exponent_a_trend_and_a_ratio_add_up,
     ),
     "limits taken at their word": (

@@ -9,9 +9,9 @@ from tests.benchmarks import test_chart_errors, test_fronts, test_peers
 from tests.benchmarks import test_work_precision as test_precision
 from tests.planted_faults.wrong import scaled
 from validation.benchmarks import timing
-from validation.benchmarks.solvers import claims as comparison_claims
-from validation.benchmarks.solvers import evidence as comparison_evidence
-from validation.benchmarks.work_precision import claims as precision_claims
+from validation.benchmarks.solvers import case as comparison
+from validation.benchmarks.solvers import problems
+from validation.benchmarks.work_precision import case as precision_case
 from validation.benchmarks.work_precision import dynamic_wheel as precision_wheel
 from validation.benchmarks.work_precision import errors as precision_error
 from validation.benchmarks.work_precision import problem as precision
@@ -45,12 +45,12 @@ log_of_answer = precision_error.MethodValues.log
 
 FAULTS = {
     "a time beside that of a method that is not as close": (
-        (precision_claims, "_cheapest_as_close", fastest_of_all),
+        (precision_case, "_cheapest_as_close", fastest_of_all),
         functools.partial(
             test_fronts.test_the_cheapest_is_claimed_of_times,
             test_fronts.timed_point(test_fronts.FILTER_1D, 0.3, 1e-6),
             ("holds", "holds"),
-            "Yes: they are the cheapest on 1 of 1 charts",
+            (test_fronts.BEM, test_fronts.BEM),
         ),
     ),
     "a median without an interval": (
@@ -58,7 +58,7 @@ FAULTS = {
         test_peers.test_the_median_lies_between_order_statistics,
     ),
     "our solver for the first of the list": (
-        ((comparison_claims, comparison_evidence), "place_of", lambda name: 0),
+        ((comparison, problems), "OUR_SOLVER", "theirs"),
         test_peers.test_a_solver_that_is_placed_first_does_not_become_ours,
     ),
     "nothing left open by a reference": (

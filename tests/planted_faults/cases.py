@@ -28,12 +28,14 @@ from tests.cases import (
 )
 from tests.planted_faults.wrong import scaled
 from validation.analysis import multilevel, statistics
+from validation.analysis import series as analysis_series
 from validation.analysis.evidence import Verdict
+from validation.analysis.multilevel import Resolved
 from validation.analysis.over_range import signed_mean
 from validation.analysis.spectra import waves
 from validation.cases.exact import geike, square_punch
 from validation.cases.limits import sweeps as limits
-from validation.cases.punch import bandwidth, bandwidth_levels, ensembles, fractal_punch_cost, fractal_punch_decades
+from validation.cases.punch import bandwidth, ensembles, fractal_punch, work
 from validation.cases.rail import filters as rail_filters
 from validation.cases.rail import line_convention, published, rail_sound
 from validation.cases.rolling import (
@@ -41,7 +43,7 @@ from validation.cases.rolling import (
     validity,
 )
 from validation.cases.selection import model_selection as calibration
-from validation.cases.wheel import contrast, regions_numbers
+from validation.cases.wheel import contrast, regions
 from validation.engine.random_numbers import random_generator
 from validation.scenes import dynamic_wheel as wheel_scene
 from validation.simulation import (
@@ -51,13 +53,14 @@ from validation.simulation import (
     integrators,
     limits_of_springs,
     reduced_pair,
+    rolled_off,
     rough_punch,
     track_stiffness,
 )
 from validation.simulation import spring_tracks as rough_springs
 from validation.simulation import wheel_on_springs as wheel_ensemble
 from validation.simulation.published_contact import PublishedContact
-from validation.simulation.rail_strip import PowerLawGround
+from validation.simulation.rail_strip import RailStrip
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
@@ -73,7 +76,7 @@ def in_the_case(attribute, wrong):
     return view
 
 
-combined = fractal_punch_decades.combined
+combined = multilevel.combined
 
 
 def of_each_hurst_exponent(mine, kind, realisation):
@@ -167,11 +170,11 @@ FAULTS = {
         functools.partial(test_edge_scenes.test_claims_hold_on_measured_faces_and_few_of_them_are_refused, "sphere"),
     ),
     "no plateau below the roll-off": (
-        (bandwidth.PlateauSpectrum, "c2d", mdr.SelfAffine.c2d),
+        (rolled_off.PlateauSpectrum, "c2d", mdr.SelfAffine.c2d),
         test_bandwidth.test_the_plateau_is_flat_and_the_band_beyond_is_self_affine,
     ),
     "a wide band without the change from the narrow one": (
-        (bandwidth_levels, "plus", lambda one, other: one),
+        (bandwidth, "accumulate", lambda steps, initial: [initial] * (1 + len(steps))),
         test_bandwidth.test_a_planted_change_of_boundary_elements_adds_up,
     ),
     "half of the jackknife's error in a change": (
@@ -203,11 +206,11 @@ FAULTS = {
         test_fractal_punch.test_no_realisation_is_counted_twice,
     ),
     "no grid error": (
-        (fractal_punch_decades.PointComparison, "grid", 0.0),
+        (multilevel.Resolved, "beside", lambda one, other: Resolved(one.value.beside(other.value), 0.0)),
         test_fractal_punch.test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar,
     ),
     "no extrapolation": (
-        (fractal_punch_decades, "extrapolated", fractal_punch_decades.on_finest),
+        (fractal_punch, "on_no_size", multilevel.on_finest),
         test_fractal_punch.test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar,
     ),
     "a third of the interval": (
@@ -215,15 +218,15 @@ FAULTS = {
         functools.partial(test_fractal_punch.test_verdicts_on_known_deviations, 1.25, 60, Verdict.UNDECIDED),
     ),
     "the mean of a decade for its worst force": (
-        (fractal_punch_decades, "worst", lambda points, parameter: replace(points[0], value=signed_mean(points))),
+        (analysis_series, "worst", lambda points, parameter: replace(points[0], value=signed_mean(points))),
         test_fractal_punch.test_a_decade_is_judged_by_its_worst_force,
     ),
     "a fine application as cheap as a coarse one": (
-        (fractal_punch_cost, "_work", lambda ensemble, cells, level: 1.0),
+        (work, "_cost", lambda applications, cells: 1.0),
         test_fractal_punch.test_the_work_beside_plain_sampling,
     ),
     "the order of the curves turned round": (
-        (fractal_punch_decades, "combined", lambda weights, parts: combined(-np.abs(weights), parts)),
+        (fractal_punch, "combined", lambda weights, parts: combined(-np.abs(weights), parts)),
         test_fractal_punch.test_the_order_of_the_curves_is_found_or_shown_to_be_absent,
     ),
     "other phases for every Hurst exponent": (
@@ -299,11 +302,11 @@ FAULTS = {
         functools.partial(test_wheel_cases.test_the_contrast_is_that_of_filled_zeros, 0.1),
     ),
     "the first zero for the worst": (
-        (contrast, "worst_contrast", lambda numbers: numbers[0]),
+        (analysis_series, "worst", lambda points, parameter: points[0]),
         test_wheel_cases.test_an_oscillation_that_dies_is_noticed,
     ),
     "a valley behind the jump": (
-        (regions_numbers, "valley", lambda scene, omega, hann: 0.0),
+        (regions, "valley", lambda scene, omega, hann: 0.0),
         test_wheel_regions.test_a_valley_is_as_deep_as_it_is_drawn,
     ),
     "a limit read on its good side": (
@@ -347,7 +350,7 @@ FAULTS = {
         test_rail_cases.test_a_strip_of_ridges_has_the_filter_of_a_row_of_springs_in_boundary_elements,
     ),
     "a strip with half of its power": (
-        (PowerLawGround, "variance", scaled(PowerLawGround.variance, 0.5)),
+        (RailStrip, "variance", property(scaled(RailStrip.variance.func, 0.5))),
         test_rail_cases.test_line_of_a_drawn_strip_has_the_rms_of_its_ground,
     ),
     "one line for the mean of heights": (

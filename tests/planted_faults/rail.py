@@ -12,16 +12,16 @@ from tests.simulation import test_calibration, test_rail_error_bars, test_rail_f
 from validation.analysis import graduation
 from validation.analysis.nominal_bands import NominalBands
 from validation.scenes import isotropic_line
-from validation.selection import calibrate, contact_force, rail_model, speed_accuracy
+from validation.selection import calibrate, contact_force, filter_table, rail_model, speed_accuracy
 from validation.selection.hierarchy import Answer
 from validation.simulation import equivalent_displacement, rail_ground, rail_models, rail_quantity
-from validation.simulation.models.rail_boundary_elements import BoundaryElementsOnRail
+from validation.simulation.rail_models import ContactFilter
 from validation.simulation.rail_quantity import RailQuantity
 
 graduated, model_error, over_twin = (
     graduation.graduated,
-    BoundaryElementsOnRail.model_error,
-    rail_models.RolledRailModel.over_twin,
+    ContactFilter.model_error,
+    ContactFilter.over_twin,
 )
 
 
@@ -63,16 +63,22 @@ def nothing(quantity):
     return 0 * quantity.wave
 
 
-def smooth_line_alone(scene):
-    return rail_ground.line_of(scene)
+def smooth_line_alone(**waves):
+    return ground_of_strip(**{**waves, "whole": None})
+
+
+def by_smooth_levels(scene):
+    slope = rail_ground.strip_bands(scene).slope_of_spectrum(rail_ground.line_of(scene))
+    return slope * scene.contact.along / scene.contact.approach
 
 
 slope_error, borne_by = graduation.Graduation.slope_error, equivalent_displacement.borne_by
+ground_of_strip = rail_ground.RailGround
 smoothing_error, stands_out = RailQuantity.smoothing_error.func, RailQuantity.stands_out.fget
 BARS, SCATTERED, FORCE = test_rail_error_bars, test_scattered_levels, test_contact_force
 FAULTS = {
     "boundary elements on a rail without their sample error": (
-        (rail_models.RolledRailModel, "over_twin", without_sample_error),
+        (ContactFilter, "over_twin", without_sample_error),
         BARS.test_the_sample_leaves_students_interval_of_the_strips,
     ),
     "a tenth of the grid error of boundary elements on a rail": (
@@ -88,7 +94,7 @@ FAULTS = {
         BARS.test_what_the_ground_leaves_adds_to_grid_and_sample_as_it_is,
     ),
     "boundary elements that know what lies across a rail": (
-        (BoundaryElementsOnRail, "model_error", without_what_the_ground_leaves),
+        (ContactFilter, "model_error", without_what_the_ground_leaves),
         BARS.test_what_the_ground_leaves_adds_to_grid_and_sample_as_it_is,
     ),
     "a reference of the calibration with the surfaces of the models": (
@@ -174,11 +180,11 @@ FAULTS = {
         SCATTERED.test_a_corrugation_costs_its_own_bands_alone_and_they_lie_between_ridges_and_isotropic_ground,
     ),
     "strips without a corrugation": (
-        (rail_ground, "whole_line_of", smooth_line_alone),
+        (rail_ground, "RailGround", smooth_line_alone),
         SCATTERED.test_strips_have_the_power_of_what_stands_out,
     ),
     "the loss of contact of smooth levels alone": (
-        (rail_ground, "_as_given", lambda scene: (scene.isotropic or test_scattered_levels.RAIL.isotropic).line),
+        (test_scattered_levels, "lost_contact_number", by_smooth_levels),
         SCATTERED.test_loss_of_contact_is_that_of_the_levels_as_they_are,
     ),
     "enough where no band counts": (
@@ -195,7 +201,7 @@ FAULTS = {
         ),
     ),
     "long waves that pass under every filter": (
-        (rail_model.RailSceneModel, "of_longer_waves", lambda one: np.zeros(35)),
+        (filter_table, "of_longer_waves", lambda model, target: np.zeros(35)),
         test_filter_table.test_springs_on_geikes_spectrum_are_off_for_long_waves_too,
     ),
     "levels counted that no one hears": (

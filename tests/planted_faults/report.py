@@ -19,7 +19,6 @@ from tests.report import (
 )
 from validation.analysis import statistics
 from validation.analysis.evidence import Verdict, if_confirmed, numbers_with
-from validation.cases.punch import fractal_punch_text
 from validation.report import build, chapter, formats, provenance, sounds, style
 from validation.report.answers import cells, words
 from validation.report.figures import ladder
@@ -159,10 +158,6 @@ FAULTS = {
     "a statement of the book answered by numbers of another model": (
         (chapter, "numbers_with", lambda numbers, quantity, model: numbers_with(numbers, quantity)),
         functools.partial(test_claims.test_a_key_that_no_number_has_leaves_no_status, {"quantity": "y0", "model": "m"}),
-    ),
-    "a printed decibel halved": (
-        (fractal_punch_text, "DECIBEL", 2 * statistics.DECIBEL),
-        test_printed.test_verdicts_of_fig_14_1_are_in_per_cent,
     ),
     "two signs of verdicts exchanged": (
         (formats, "SYMBOL", {"agree": "≠", "differ": "✓", "undecided": "?"}),

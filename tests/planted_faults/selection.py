@@ -23,7 +23,7 @@ from tests.selection import (
 from tests.selection import test_model_hierarchy as test_ladder
 from tests.simulation import test_calibration
 from validation.benchmarks.work_precision import errors as precision_error
-from validation.cases.selection import edge_evidence
+from validation.cases.selection import model_selection_study
 from validation.engine.random_numbers import random_generator
 from validation.report import compared
 from validation.scenes import measured, rail
@@ -46,8 +46,8 @@ from validation.simulation.calibrated_range import LOAD
 from validation.simulation.models import (
     boundary_elements_pressed,
     boundary_elements_rolling,
-    linear_filter_3d,
-    springs_pressed,
+    linear_filters,
+    pressed,
 )
 from validation.theory import closed_forms
 from validation.theory import rolling as rolling_theory
@@ -99,18 +99,17 @@ def of_unit_modulus(**settings):
     return bem3d.HalfSpace(**{**settings, "modulus": 1.0})
 
 
-prepared_surface = boundary_elements_pressed.BoundaryElementsPressed.prepare
-prepared_strip = boundary_elements_rolling.BoundaryElementsRolling.prepare
+surfaces, strips = boundary_elements_pressed.MODEL, boundary_elements_rolling.MODEL
 
 
-def another_surface_on_coarser_grids(model, target, resolution):
-    solve = prepared_surface(model, target, resolution)
+def another_surface_on_coarser_grids(target, resolution):
+    solve = surfaces.prepare(target, resolution)
     return (lambda surface: solve(surface + 1)) if resolution.size < 32 else solve
 
 
-def another_strip_on_the_coarse_grid(model, target, resolution):
-    solve = prepared_strip(model, target, resolution)
-    coarse, _ = model.resolutions(target)
+def another_strip_on_the_coarse_grid(target, resolution):
+    solve = strips.prepare(target, resolution)
+    coarse, _ = strips.resolutions(target)
     return (lambda strip: solve(strip + 1)) if resolution == coarse else solve
 
 
@@ -245,7 +244,7 @@ FAULTS = {
         test_calibration.test_an_error_that_grows_with_the_height_is_followed,
     ),
     "a grid that leaves too much solved to the end of its sample": (
-        (scene_model.SceneModel, "_left_by_grid", lambda model, *_: (0.0, "")),
+        (boundary_elements_pressed, "MODEL", dataclasses.replace(surfaces, grid_error=lambda *_: (0.0, ""))),
         test_ladder.test_a_coarse_grid_knows_how_far_it_is_from_a_fine_one,
     ),
     "a linear filter for waves shorter than the contact": (
@@ -269,7 +268,7 @@ FAULTS = {
         test_claims.test_the_error_over_bands_is_their_root_mean_square,
     ),
     "coarser grids on other surfaces": (
-        (boundary_elements_pressed.BoundaryElementsPressed, "prepare", another_surface_on_coarser_grids),
+        (boundary_elements_pressed, "MODEL", dataclasses.replace(surfaces, prepare=another_surface_on_coarser_grids)),
         test_claims.test_grids_are_compared_on_the_same_surfaces,
     ),
     "one surface for all": (
@@ -285,7 +284,7 @@ FAULTS = {
         functools.partial(test_claims.test_no_stiffness_depends_on_units, test_claims.ROUGH_BODIES[1]),
     ),
     "one measured face for the mean of all": (
-        (springs_pressed, "SCATTER", 0.0),
+        (pressed, "SCATTER", 0.0),
         test_claims.test_one_measured_face_is_not_the_mean_of_all,
     ),
     "a sphere cut off at its smooth approach": (
@@ -297,7 +296,11 @@ FAULTS = {
         test_claims.test_grids_are_as_fine_in_any_unit,
     ),
     "the rule of the rms for levels in bands": (
-        (linear_filter_3d.LinearFilter3D, "bands", rolling_claims.LINEAR_RMS),
+        (
+            linear_filters,
+            "ON_HALF_SPACE",
+            dataclasses.replace(linear_filters.ON_HALF_SPACE, bands=rolling_claims.LINEAR_RMS),
+        ),
         functools.partial(test_claims.test_claims_of_cheap_models_of_rolling, *test_claims.RULES[1]),
     ),
     "what the finer of two grids leaves, for the coarser": (
@@ -305,7 +308,7 @@ FAULTS = {
         functools.partial(test_claims.test_two_grids_of_second_order_leave_what_they_miss, finest=False),
     ),
     "a grid beside another on another strip": (
-        (boundary_elements_rolling.BoundaryElementsRolling, "prepare", another_strip_on_the_coarse_grid),
+        (boundary_elements_rolling, "MODEL", dataclasses.replace(strips, prepare=another_strip_on_the_coarse_grid)),
         functools.partial(test_claims.test_two_grids_of_second_order_leave_what_they_miss, finest=True),
     ),
     "Geike's spectrum for springs that roll": (
@@ -323,7 +326,7 @@ FAULTS = {
         functools.partial(test_ladder.test_bands_are_told_with_wavenumber_frequency_and_level, "acceleration", "m/s²"),
     ),
     "models side by side in decibels of a power": (
-        (side_by_side, "differences", lambda found, one, other: 10 * np.log10(one.answer.value / other.answer.value)),
+        (side_by_side, "differences", lambda one, other: 10 * np.log10(one.answer.value / other.answer.value)),
         test_what_compare_says.test_spectra_stand_side_by_side_in_decibels,
     ),
     "springs that are enough whatever error they have": (
@@ -343,7 +346,7 @@ FAULTS = {
         functools.partial(test_edge_scenes.test_every_grid_under_a_wheel_has_all_measured_points, 0),
     ),
     "an answer at the edge that always holds": (
-        (edge_evidence, "_held", lambda table: np.isfinite(table["true error"])),
+        (model_selection_study, "over_estimate", lambda table: 0 * table["true error"]),
         test_edge_scenes.test_answers_at_the_edges_are_counted_with_those_that_are_none,
     ),
     "a punch without the error at its edge": (

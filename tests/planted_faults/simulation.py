@@ -393,7 +393,7 @@ FAULTS = {
         test_rail_filters.test_beyond_what_was_measured_no_error_is_claimed,
     ),
     "the error of linear theory claimed by every contact filter": (
-        (rail_models.RailModel, "model_error", lambda model, quantity, a3: rail_models.linear_error(quantity)),
+        (rail_models.ContactFilter, "model_error", lambda model, quantity, a3: rail_models.linear_error(quantity)),
         test_rail_filters.test_a_model_that_differs_from_linear_theory_says_by_how_much,
     ),
 }

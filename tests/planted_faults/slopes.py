@@ -13,7 +13,7 @@ from validation.cases.punch import mdr_limits
 from validation.cases.rail import rough_rail
 from validation.cases.rolling import reduced_models as reduced_case
 from validation.cases.rolling import settings, validity
-from validation.cases.wheel import half_space_tables
+from validation.cases.wheel import half_space_study
 from validation.scenes import description, roughness
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.measured import MeasuredHeights
@@ -70,7 +70,7 @@ PLACES = {
         functools.partial(test_slopes.test_a_description_has_the_slope_of_the_waves_that_it_names, "sphere"),
     ),
     "h' a/d of the wheel on the page": (
-        (half_space_tables, "slope_ratio"),
+        (half_space_study, "slope_ratio"),
         test_slopes.test_table_14_1_has_one_slope_everywhere,
     ),
     "h' a/d of Table 14.1 beside spectra": (

@@ -7,15 +7,15 @@ import pytest
 
 from tests.report.test_printed import html_of, number
 from validation.analysis.evidence import Evidence, Role, Table
+from validation.cases.punch import fractal_punch_study
 from validation.cases.punch import mdr_limits as rolled_off
-from validation.cases.punch.fractal_punch_decades import DEVIATION, MARGINS, MEAN
+from validation.cases.punch.ensembles import DEVIATION, MEAN
 from validation.cases.punch.work import Worked
 from validation.cases.rail import rough_rail
 from validation.cases.rail.rail_dynamic import BESIDE, RMS
 from validation.cases.rolling.force_spectrum import LEVEL, LINEAR_3D, RMS_FORCE, SPRINGS
-from validation.cases.wheel.half_space_levels import GEIKE
-from validation.cases.wheel.half_space_numbers import LEVEL as LEVEL_OF_WHEEL
-from validation.cases.wheel.half_space_numbers import OVER_BEM
+from validation.cases.wheel.features import LEVEL as LEVEL_OF_WHEEL
+from validation.cases.wheel.half_space import GEIKE, OVER_BEM
 from validation.report.answers import alternatives, questions, sources
 from validation.report.answers.alternatives import rolled
 from validation.report.answers.cells import Enough, RangeCell, span
@@ -25,7 +25,7 @@ from validation.report.contents import CASES
 from validation.report.section import Section
 from validation.simulation import equivalent_displacement, wheel_on_rail
 
-TEN = MARGINS["10 %"]
+TEN = fractal_punch_study.LEVEL.tolerance
 WORKED = Worked(128, 2048, 15.2).table
 DECADES = {(0.01, 0.1): "0.01 to 0.1", (0.1, 1.0): "0.1 to 1", (1.0, 10.0): "1 to 10"}
 
@@ -400,7 +400,7 @@ def test_rows_are_plain_values():
 
 
 def test_decibels_are_printed_as_their_quantity():
-    assert per_cent(MARGINS["10 %"]) == "+10 %"
+    assert per_cent(TEN) == "+10 %"
     assert per_cent(-1e-9) == "+0 %"
     assert times(20.0) == "10 times"
     assert times(51.0) == "350 times"

@@ -333,8 +333,7 @@ def test_the_period_of_region_3_is_a_frequency():
 
 
 def test_every_answer_of_a_case_begins_with_its_status():
-    """`answered` puts it there: no case makes a claim beside it."""
+    """`Claim` and `answered` put it there: no case makes a claim beside them."""
     for package in (benchmarks, cases):
         sources = [source for folder in package.__path__ for source in Path(folder).rglob("*.py")]
         assert [source.name for source in sources if re.search(r"\bJudgedClaim\(", source.read_text())] == []
-        assert any(re.search(r"\banswered\(", source.read_text()) for source in sources)

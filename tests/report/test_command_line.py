@@ -17,7 +17,7 @@ import pytest
 import bem3d
 import mdr
 from validation import __main__ as command
-from validation.analysis.contents import as_csv, as_json, csv_name
+from validation.analysis.contents import as_csv, as_json, csv_name, from_csv
 from validation.analysis.evidence import Role
 from validation.analysis.features import FEATURES
 from validation.cases.exact import geike, hertz
@@ -389,8 +389,8 @@ def test_a_lost_realisation_is_shown_and_is_exit_3(small, tmp_path, monkeypatch)
     assert len(results["unconverged"]) == 1
     assert results["unconverged"][0].startswith("surface 0, H = 0.4, 8² cells, Fbar = 10: residual")
     assert len(results["numbers"]) > 10
-    curves = (tmp_path / "data" / "fractal_punch-curves.csv").read_text().splitlines()
-    assert [line.rpartition(",")[2] for line in curves[1:]] == ["12"] * 6 + ["11"] + ["12"] * 7
+    counted = from_csv("surfaces", (tmp_path / "data" / "fractal_punch-surfaces.csv").read_text())
+    assert counted["value"].tolist() == [12] * 6 + [11] + [12] * 7
     assert "surface 0, H = 0.4" in text_of(tmp_path)
 
 

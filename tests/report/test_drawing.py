@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from validation.analysis.chart import Chart, Curve, Map, Panel
+from validation.analysis.chart import Chart, Curve, Map, Panel, by_model
 from validation.analysis.evidence import Evidence, Table
 from validation.analysis.study import Settings
 from validation.report.drawing import draw
@@ -43,6 +43,17 @@ def test_bars_end_where_the_interval_ends():
     np.testing.assert_allclose(ends, [[0.9, 1.3], [1.9, 2.3], [2.9, 3.3]])
 
 
+def test_bars_of_a_family_stand_side_by_side():
+    (axis,) = drawn(Curve("level", by=("model",), of={"h/d": "first"}, bars=True))
+    first, second = (container.lines[0].get_xdata() for container in axis.containers)
+    np.testing.assert_allclose(second, 1.03 * first)
+
+
+def test_few_decades_of_a_logarithmic_axis_have_plain_numbers():
+    (axis,) = drawn(Curve("level", "bem"), log="xy", ylim=(0.3, 3))
+    assert [label.get_text() for label in axis.get_yticklabels()] == ["0.5", "1", "2"]
+
+
 def test_a_bar_to_zero_and_below_goes_down_a_decade_on_a_logarithmic_axis():
     columns = {name: column[:3] for name, column in TABLE.columns.items()} | {"low": [-1.0, 1.9, 2.9]}
     evidence = replace(EVIDENCE, tables=(Table("level", columns),))
@@ -50,6 +61,16 @@ def test_a_bar_to_zero_and_below_goes_down_a_decade_on_a_logarithmic_axis():
     (axis,) = draw(Chart("c", "", (panel,)), evidence).axes
     ends = [segment[:, 1] for segment in axis.containers[0].lines[2][0].get_segments()]
     np.testing.assert_allclose(ends, [[0.1, 1.3], [1.9, 2.3], [2.9, 3.3]])
+
+
+def test_each_model_has_its_style_and_bars_where_it_has_an_interval():
+    is_mdr = TABLE["model"] == "mdr"
+    exact = {**TABLE.columns, **{end: np.where(is_mdr, VALUE, TABLE[end]).tolist() for end in ("low", "high")}}
+    evidence = replace(EVIDENCE, tables=(Table("level", exact),))
+    curves = by_model("level", {"mdr": "exact", "bem": "bem"}, bars=True)
+    (axis,) = draw(Chart("c", "", (Panel("q a", "y", curves),)), evidence).axes
+    assert [container.get_label() for container in axis.containers] == ["bem"]
+    assert axis.get_legend_handles_labels()[1] == ["mdr", "bem"]
 
 
 def test_facets_have_an_axis_each_with_their_rows_alone():
@@ -86,7 +107,7 @@ def test_values_may_be_places_on_the_horizontal_axis_and_intervals_stand_alone()
 
 def test_places_along_x_are_marked():
     (axis,) = drawn(Curve("level", "bem", label="b"), at=(1.5, 3.0))
-    assert [line.get_xdata()[0] for line in axis.lines[:2]] == [1.5, 3.0]
+    assert [line.get_xdata()[0] for line in axis.lines[-2:]] == [1.5, 3.0]
 
 
 def test_what_has_no_room_on_a_logarithmic_axis_is_not_drawn():
@@ -106,6 +127,22 @@ def test_verdicts_stand_over_their_ranges():
     first, second = draw(Chart("c", "", (panel,)), evidence).axes
     assert [text.get_text() for text in first.texts] == ["≠"] and first.texts[0].get_position()[0] == 2.0
     assert not second.texts
+
+
+def test_a_quantity_that_a_run_does_not_have_leaves_its_panel_empty():
+    curves = Curve("level", "bem", label="b"), Curve("contrast", by=("model",), bars=True)
+    for facet in ("", "h/d"):
+        assert [line.get_label() for line in drawn(*curves, facet=facet)[0].lines] == ["b"]
+    assert len(drawn(curves[1], facet="h/d", legend="upper right")) == 1
+
+
+def test_values_of_a_quantity_are_marked_by_the_names_of_their_models():
+    marks = Table("marks", {"model": ["ω_eigen", "q_min v₀"], "value": [1.5, 3.0]})
+    evidence = Evidence(title="t", method="", numbers=(), tables=(TABLE, marks), conclusions=(), captions={})
+    chart = Chart("c", "", (Panel("q a", "y", (Curve("level", "bem", label="b"),), marks="marks"),))
+    (axis,) = draw(chart, evidence).axes
+    assert {text.get_text(): text.get_position()[0] for text in axis.texts} == {"ω_eigen": 1.5, "q_min v₀": 3.0}
+    assert chart.tables == ("level", "marks")
 
 
 def test_the_cells_of_a_map_are_those_of_their_parameters():

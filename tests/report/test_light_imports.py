@@ -1,5 +1,6 @@
 """What starts fast imports little: modules are counted in a fresh process, no clock is read."""
 
+import os
 import subprocess
 import sys
 
@@ -49,3 +50,14 @@ def test_a_closed_form_or_springs_need_no_boundary_elements(scene):
 
 def test_the_list_of_cases_is_that_of_the_report():
     assert list(answers_of_cases().items()) == [(name, case.answers) for name, case in CASES.items()]
+
+
+def test_a_command_sums_with_one_thread_as_workers_do():
+    """Threads of BLAS change last bits: they are set before numpy is loaded."""
+    code = "import os, sys; from validation.__main__ import main; main(['cases']); print(os.environ['OMP_NUM_THREADS'])"
+    before = {name: value for name, value in os.environ.items() if not name.endswith("_NUM_THREADS")}
+    run = subprocess.run([sys.executable, "-c", code], env=before, capture_output=True, text=True, check=True)
+    assert run.stdout.splitlines()[-1] == "1"
+    code = "import sys, validation.__main__; print('numpy' in sys.modules)"
+    run = subprocess.run([sys.executable, "-c", code], env=before, capture_output=True, text=True, check=True)
+    assert run.stdout == "False\n"

@@ -22,18 +22,18 @@ from validation.selection.quantities import models_of, quantities_of
 from validation.selection.summary import summary
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
-from validation.simulation.calibrated_range import outside
 from validation.simulation.calibration import calibrated
 from validation.simulation.model import Cost, ErrorEstimate, Target
 from validation.simulation.models import (
     boundary_elements_pressed,
     boundary_elements_rolling,
-    springs_pressed,
-    springs_rolling,
+    pressed,
 )
-from validation.simulation.resolution import too_few
+from validation.simulation.models import (
+    rolling as rolling_models,
+)
 from validation.simulation.rolling_quantity import RollingQuantity
-from validation.simulation.sampling import grid_error, mean_error
+from validation.simulation.sampling import grid_error, mean_error, too_few
 from validation.theory.closed_forms import SQUARE_PUNCH
 from validation.theory.rolling import contact_lost
 
@@ -186,15 +186,6 @@ def test_beyond_what_was_measured_springs_and_filters_claim_nothing(name, inside
             assert beyond[model].reason.startswith(f"{name} = ")
 
 
-def test_what_is_outside_is_said_with_its_numbers():
-    ranges = {"h/d": (0, 1), "F": (2, math.inf)}
-    assert outside({"h/d": 1.0 + 1e-12, "F": 2.0}, ranges) == ""
-    assert outside({"h/d": 1.5, "F": 2.0}, ranges) == "h/d = 1.5; the error of the model is known from 0 to 1 only"
-    assert outside({"h/d": 0.5, "F": 1.0}, ranges) == "F = 1; the error of the model is known from 2 on only"
-    assert outside({"F": math.nan}, ranges)
-    assert outside({}, ranges) == ""
-
-
 @pytest.mark.parametrize(("quantity", "tolerance"), [("force-spectrum", 10 ** (4 / 20) - 1), ("force-rms", 0.15)])
 def test_waves_shorter_than_the_contact_are_left_to_boundary_elements(quantity, tolerance):
     a = 1.0
@@ -209,7 +200,7 @@ def test_a_model_out_of_range_is_never_asked():
         kind = name = "refusing"
 
         def cost(self):
-            return Cost(work=1, unit="candidates", seconds=1.0)
+            return Cost(work=1, seconds=1.0)
 
         def estimate(self):
             return ErrorEstimate.out_of_range("never measured")
@@ -248,7 +239,7 @@ def test_a_solve_that_raises_is_a_row_and_the_others_go_on(problem, monkeypatch)
     def raising(*_):
         raise problem
 
-    monkeypatch.setattr(springs_pressed.SpringsPressed, "prepare", raising)
+    monkeypatch.setattr(pressed, "springs", replace(pressed.springs, prepare=raising))
     found = compare(punch(load=0.1), tolerance=0.3)
     assert statuses(found)["springs"] == "failed"
     assert found.selection.met
@@ -281,7 +272,7 @@ def test_the_shortest_waves_cost_no_memory():
 def test_profiles_in_blocks_are_those_drawn_at_once(monkeypatch):
     model = model_of_kind("springs", punch(), "stiffness", 0.2, seed=3)
     whole = model.solve()
-    monkeypatch.setattr(springs_pressed, "BLOCK", 7 * round(model.resolution.size))
+    monkeypatch.setattr(pressed, "BLOCK", 7 * round(model.resolution.size))
     assert model.solve().value == whole.value
     assert model.solve().sample == whole.sample
 
@@ -312,11 +303,8 @@ def test_every_model_has_its_claims_tested(kind):
 
 
 def test_a_model_that_the_case_does_not_know_is_an_error():
-    class New(springs_pressed.SpringsPressed):
-        name = "a new closed form"
-
     models = models_of(punch(), "stiffness", 0.1, 0)
-    models = [replace(models[0], model=New()), *models]
+    models = [replace(models[0], model=replace(pressed.springs, name="a new closed form")), *models]
     with pytest.raises(
         ValueError, match=r"^the kind of a model must be one of .*closed form, .*, got a new closed form$"
     ):
@@ -354,7 +342,7 @@ def test_the_error_over_bands_is_their_root_mean_square():
 
 
 def test_a_single_face_leaves_its_change_and_as_much_for_each_doubling_to_come():
-    """Half as much again of the last change or of half of that before, whichever is more."""
+    """Half as much again of the last change, of half of that before, or of the edge of a punch, whichever is more."""
     height = 1e-3 * np.random.default_rng(4).standard_normal((64, 64))
     scene = replace(punch(), ground=MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64)))
 
@@ -363,6 +351,9 @@ def test_a_single_face_leaves_its_change_and_as_much_for_each_doubling_to_come()
 
     assert [left(cells, 0.1, 0.15, 0.2) for cells in (64, 32, 16)] == pytest.approx([0.15, 0.3, 0.45])
     assert left(64, -0.01, 0.1, 0.2) == pytest.approx(0.075)
+    # changes that cancel leave no less than those before
+    assert left(64, 1e-4, 1e-4, 0.4) == pytest.approx(1.5 * 0.1)
+    assert left(64, 1e-5, 1e-5, 1e-4) == pytest.approx(1.5 * 0.35 / 64)
     assert left(64, 0.2, 0.15, 0.1) == math.inf
 
 
@@ -505,7 +496,7 @@ def test_two_grids_of_second_order_leave_what_they_miss(finest):
 def test_springs_leave_what_their_tracks_scatter(monkeypatch):
     springs = model_of_kind("springs", rolling(), "force-spectrum", 0.1)
     change = np.random.default_rng(1).standard_normal((60, springs.target.rolling.bands.centres.size))
-    monkeypatch.setattr(springs_rolling, "on_springs", lambda *_: change)
+    monkeypatch.setattr(rolling_models, "on_springs", lambda *_: change)
     found = springs.solve()
     assert found.sample == pytest.approx(mean_error(change))
     assert found.model == springs.estimate().model

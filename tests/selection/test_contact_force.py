@@ -32,7 +32,7 @@ class Filter(Finding):
     def solve(self):
         bands = {"model": np.full(35, self.parts[0]), "grid": np.zeros(35), "sample": np.zeros(35)}
         bands["model"][self.parts[1] :] = np.inf
-        value, cost = 10 ** (np.array(self.value) / 20), Cost(work=1, unit="filters", seconds=1.0)
+        value, cost = 10 ** (np.array(self.value) / 20), Cost(work=1, seconds=1.0)
         return Answer(value=value, cost=cost, model=0.01, band_errors=bands)
 
 

@@ -9,7 +9,7 @@ from tests.selection.test_model_hierarchy import Fake
 from validation.__main__ import main
 from validation.scenes.load import load_varied
 from validation.selection.hierarchy import select_model
-from validation.selection.model_names import models_named, names_in
+from validation.selection.named_models import models_named, names_in
 from validation.selection.quantities import models_of
 from validation.selection.summary import WIDTH, summary
 

@@ -9,7 +9,7 @@ import pytest
 
 from validation import compare, load_scene, summary, to_json
 from validation.__main__ import main
-from validation.cases.selection.edge_test import EdgeTrial, true_error
+from validation.cases.selection.model_selection import EdgeTrial, true_error
 from validation.scenes.rail import RailScene
 from validation.selection.rail_model import RailSceneModel
 from validation.simulation.method import Resolution

@@ -29,7 +29,7 @@ from validation.selection.side_by_side import shown_models
 from validation.selection.speed_accuracy import speed_and_accuracy
 from validation.selection.summary import findings, summary
 from validation.selection.swept import swept_values
-from validation.simulation.rail_models import RailModel
+from validation.simulation.rail_models import ContactFilter
 
 RAIL = validation.load_scene("rail")
 CLOSED = ["linear, ellipse", "linear, on the line", "Remington"]
@@ -40,9 +40,9 @@ def solved(scene, **settings):
 
 
 def test_both_quantities_of_a_rail_are_solved_once():
-    asked, found, quantities = [], RailModel.find, ("contact-filter", "equivalent-roughness")
+    asked, found, quantities = [], ContactFilter.find, ("contact-filter", "equivalent-roughness")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(RailModel, "find", lambda model, *given: asked.append(model.name) or found(model, *given))
+        patch.setattr(ContactFilter, "find", lambda model, *given: asked.append(model.name) or found(model, *given))
         both = compare_quantities(RAIL, quantities, "1 dB", 0, solve_all=False, models=CLOSED)
     assert sorted(asked) == sorted(CLOSED)
     alone = validation.compare(RAIL, "equivalent-roughness", "1 dB", models=CLOSED)

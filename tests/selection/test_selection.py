@@ -11,11 +11,7 @@ from validation.benchmarks.work_precision.errors import MethodValues, _half_widt
 from validation.benchmarks.work_precision.pareto import (
     TOLERANCES,
     Point,
-    break_even,
     cheapest,
-    format_error,
-    format_seconds,
-    front,
     in_unit_of_error,
     monotone_envelope,
     reason_if_none,
@@ -217,14 +213,6 @@ def test_luck_is_what_more_of_the_same_does_not_keep():
     assert [p.rank for p in found[:3]] == pytest.approx([0.2, 0.2, 0.06])
 
 
-def test_a_step_that_gains_too_little_is_not_on_the_front():
-    chart = [point("a", 0.2, 1.0), point("b", 0.19, 2.0), point("c", 0.1, 3.0)]
-    assert [p.method for p in front(chart)] == ["a", "b", "c"]
-    assert [p.method for p in front(chart, gain=1.1)] == ["a", "c"]
-    # as close by just that factor is not closer
-    assert [p.method for p in front([point("a", 0.22, 1.0), point("b", 0.11, 2.0)], gain=2.0)] == ["a"]
-
-
 def test_a_tolerance_that_is_just_met_is_met():
     assert cheapest([point("a", 0.1, 1.0)], 0.1).method == "a"
     assert cheapest([point("a", 0.1000001, 1.0)], 0.1) is None
@@ -236,63 +224,16 @@ def test_why_there_is_no_cheapest(band, why):
     assert reason_if_none([point("a", 0.5, 1.0, band=band)], 0.01) == why
 
 
-def test_break_even_tells_a_range_and_who_ends_it():
-    chart = [
-        point("a", 0.2, 1e-3, value=4.0),
-        point("a", 0.05, 2e-3, value=8.0),
-        point("b", 0.01, 1.0, half_width=0.03, parameter="residual #", value=1e-3),
-    ]
-    assert break_even(chart) == (
-        "scene, force: down to 5 % a (4 to 8 cells, 1 ms to 2 ms) is the cheapest; beyond, down to 4 %, most of it the "
-        "sample's, b (residual 0.001, 1 s); no method gets below 4 %."
-    )
-    assert "reference cannot tell" in break_even([point("a", 0.0005, 1.0)])
-    assert "no method gets below 0.11 %" in break_even([point("a", 0.0011, 1.0)])
-
-
-def test_most_of_an_error_is_the_samples_only_where_it_is():
-    def told(**settings):
-        return "most of it the sample's" in break_even([point("a", 0.1, 1.0, **settings)])
-
-    assert not told(half_width=0.1)
-    assert told(half_width=0.101)
-    assert not told(half_width=0.101, finer=0.21)
-    assert told(half_width=0.101, finer=0.2)
-
-
-def test_the_referee_is_told_apart_and_only_if_it_has_finished():
-    referee = point("closed form", 0.0, 1e-6, is_reference=True)
-    assert break_even([referee, point("a", 0.1, 1.0)]).endswith("The closed form itself takes 1 µs.")
-    assert "itself" not in break_even([replace(referee, status="failed: lost"), point("a", 0.1, 1.0)])
-    assert "closed form (" not in break_even([referee, point("a", 0.1, 1.0)])
-
-
 def test_cost_is_the_median_or_the_count():
     one = point("a", 0.1, 2.0, work=7.0)
     assert cheapest([one, point("b", 0.1, 1.9, work=8.0)], 0.2).method == "b"
     assert cheapest([one, point("b", 0.1, 1.9, work=8.0)], 0.2, work).method == "a"
 
 
-@pytest.mark.parametrize(
-    ("value", "text"), [(99.6, "1e+02 s"), (100.0, "100 s"), (0.0996, "1e+02 ms"), (2e-7, "0.2 µs"), (9.9e-4, "990 µs")]
-)
-def test_seconds_are_told_to_two_digits(value, text):
-    assert format_seconds(value) == text
-
-
-@pytest.mark.parametrize(("value", "text"), [(0.996, "1e+02 %"), (1.0, "100 %"), (1.234, "123 %"), (0.0456, "4.6 %")])
-def test_errors_are_told_to_two_digits(value, text):
-    assert format_error(value, "%") == text
-
-
 def test_tolerances_are_asked_for_relative_or_in_decibels():
     assert TOLERANCES == (0.3, 0.1, 0.03, 0.01, 0.001)
     assert in_unit_of_error(0.3, "%") == 0.3
     assert in_unit_of_error(0.3, "dB") == pytest.approx(20 * math.log10(1.3))
-
-
-def test_where_nobody_has_finished_there_is_nothing_to_tell():
-    assert break_even([point("a", math.nan, 1.0, status="failed: lost")]) == "scene, force: no method has finished."
 
 
 def test_a_single_paired_realisation_is_beside_the_first_of_the_reference():

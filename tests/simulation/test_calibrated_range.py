@@ -85,6 +85,9 @@ def test_of_measured_heights_waves_of_four_points_are_the_shortest():
     [
         (2.0, {LOAD: (1.0, 2.0)}, ""),
         (1.0, {LOAD: (1.0, 2.0)}, ""),
+        # the rounding of units, and no number at all
+        (2.0 + 1e-12, {LOAD: (1.0, 2.0)}, ""),
+        (math.nan, {LOAD: (2.0, math.inf)}, "F / (E* h L) = nan; the error of the model is known from 2 on only"),
         (2.1, {LOAD: (1.0, 2.0)}, "F / (E* h L) = 2.1; the error of the model is known from 1 to 2 only"),
         (0.9, {LOAD: (1.0, math.inf)}, "F / (E* h L) = 0.9; the error of the model is known from 1 on only"),
         (5.0, {HURST: (0.2, 1.0)}, ""),

@@ -414,7 +414,7 @@ def test_the_reference_has_surfaces_of_its_own_on_its_finest_grid():
         seeds[isinstance(one.model, GridModel)].add(one.target.seed)
         grids = one.model.resolutions(one.target)
         assert one.resolution == max(grids, key=lambda grid: one.model.cost(one.target, grid).seconds)
-        return Answer(value=np.array([1.0]), cost=Cost(work=1, unit="", seconds=1.0))
+        return Answer(value=np.array([1.0]), cost=Cost(work=1, seconds=1.0))
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(calibrate, "try_to_solve", noted)

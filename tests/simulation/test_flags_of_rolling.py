@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 import bem3d
+from tests.simulation.power_law_ground import PowerLawGround
 from tests.simulation.test_calibration import wheel
-from validation.benchmarks.solvers.rolling import RolledStrip
+from validation.benchmarks.solvers.throughput import RolledStrip
 from validation.benchmarks.work_precision import rolling as rolling_chart
 from validation.cases.rolling.ridges import RollingOverRidges
 from validation.cases.rolling.track_stiffness import TrackStiffness
@@ -26,12 +27,12 @@ from validation.simulation.contact_laws import BoundaryElementsLaw
 from validation.simulation.equivalent_displacement import BEM, RolledRail, roll_rail
 from validation.simulation.limits_of_half_space import strip_widths
 from validation.simulation.model import Resolution, Target
-from validation.simulation.models import rail_boundary_elements
 from validation.simulation.models.boundary_elements_rolling import MODEL as ROLLING
+from validation.simulation.models.rail import BOUNDARY_ELEMENTS
 from validation.simulation.profiled_strip import roll_on_profile
 from validation.simulation.published_contact import PublishedContact, press_ellipse
 from validation.simulation.rail_sound import HeldWheel, roll_held_wheel
-from validation.simulation.rail_strip import PowerLawGround, RailStrip
+from validation.simulation.rail_strip import RailStrip
 from validation.simulation.reduced_strip import roll_by_all
 from validation.simulation.rolling_strip import RoughStrip, roll_strip
 from validation.simulation.track_spectrum import self_affine
@@ -69,7 +70,7 @@ def at_constant_load():
 
 
 def on_the_chart():
-    force, _ = rolling_chart.ROLLERS["BEM"](STRIP.surface(), 6, 1e-6)()
+    force, _ = rolling_chart._roll(STRIP.surface(), 6, 1e-6)()
     return {"force": force, "failed": np.zeros(1)}
 
 
@@ -102,7 +103,7 @@ PATHS = {
         zip(("approach", "force", "failed"), (*wheel_on_rail.in_motion(moving()), np.zeros(1)), strict=True)
     ),
     "validation.benchmarks.work_precision.rolling:_roll": on_the_chart,
-    "validation.benchmarks.solvers.rolling:RolledStrip": lambda: RolledStrip(strip=STRIP, positions=48)._rolled(),
+    "validation.benchmarks.solvers.throughput:RolledStrip": lambda: RolledStrip(strip=STRIP, positions=48)._rolled(),
     "validation.simulation.published_contact:press_ellipse": lambda: press_ellipse(
         PublishedContact(cells=6, tolerance=1e-6)
     ),
@@ -213,8 +214,8 @@ def test_a_reduced_model_on_a_contact_without_a_solution_has_no_force(solve):
 def test_strips_of_a_rail_that_are_lost_leave_no_filter(monkeypatch):
     monkeypatch.setattr(rail_models, "STRIPS", 2)
     failed = iter((0.0, 1.0))
-    monkeypatch.setattr(rail_boundary_elements.MODEL.__class__, "roll", lambda *_: {"failed": np.array(next(failed))})
-    found = rail_boundary_elements.MODEL.over_twin(load_scene("rail"), "ridges", 3, 1)
+    monkeypatch.setattr(rail_models.ContactFilter, "roll", lambda *_: {"failed": np.array(next(failed))})
+    found = BOUNDARY_ELEMENTS.filter.over_twin(load_scene("rail"), "ridges", 3, 1)
     assert np.isnan(found).all()
 
 

@@ -2,6 +2,7 @@
 
 import math
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,7 +10,6 @@ import pytest
 from tests.benchmarks.made_up import use_a_clock_of_its_own
 from validation.benchmarks import timing
 from validation.benchmarks.found_models import TimedProblem, all_methods
-from validation.benchmarks.solvers import case as comparison
 from validation.benchmarks.solvers import problems
 from validation.benchmarks.timing import RunLimits
 from validation.benchmarks.work_precision.errors import points
@@ -24,35 +24,26 @@ from validation.selection.summary import summary
 from validation.simulation import models
 from validation.simulation.method import Resolution
 from validation.simulation.model import Target, models_serving
-from validation.simulation.models import linear_filter_1d
+from validation.simulation.models import linear_filters
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory.closed_forms import rough_punch_stiffness
 
 TOY = """
 import numpy as np
 
-from validation.simulation.method import Result, Solve
-from validation.simulation.model import Cost, ErrorEstimate, Model
+from validation.simulation.method import Result
+from validation.simulation.model import Cost, ErrorEstimate, model
 
 
-class Toy(Model):
-    name, setting = "toy", "three realisations"
-
-    def serves(self, scene, quantity):
-        return quantity == "stiffness" and getattr(scene, "shape", "") == "punch" and scene.ground is not None
-
-    def estimate(self, target, resolution):
-        return ErrorEstimate(model=0.01, reason="by decree")
-
-    def cost(self, target, resolution):
-        return Cost(work=3, unit="toys", seconds=1e-9)
-
-    def prepare(self, target, resolution):
-        k = target.scene.stiffness * np.array([0.4, 0.5, 0.6])
-        return lambda _: Solve(lambda: k, lambda found: Result({"stiffness": found}, 3.0, count=3))
-
-
-MODEL = Toy()
+@model(
+    name="toy",
+    setting="three realisations",
+    serves=lambda scene, quantity: quantity == "stiffness" and getattr(scene, "shape", "") == "punch" and scene.ground,
+    claim=lambda model, target, resolution: ErrorEstimate(model=0.01, reason="by decree"),
+    cost=lambda target, resolution: Cost(work=3, seconds=1e-9),
+)
+def toy(target, resolution):
+    return Result({"stiffness": target.scene.stiffness * np.array([0.4, 0.5, 0.6])}, count=3)
 """
 
 
@@ -94,7 +85,7 @@ def test_a_model_that_is_found_is_on_the_charts(toy, monkeypatch):
 def test_a_rolling_model_that_is_found_is_on_the_chart_of_its_quantity(monkeypatch):
     """The linear filter under another name, beside itself: the rms force of linear theory over that of strips."""
     use_a_clock_of_its_own(monkeypatch)
-    monkeypatch.setattr(linear_filter_1d.LinearFilter1D, "name", "found")
+    monkeypatch.setattr(linear_filters, "linear_filter_1d", replace(linear_filters.linear_filter_1d, name="found"))
     grids = Grids(cells=(2, 4), fixed=2, tolerances=(), per="to a radius")
     problem = RollingProblem(last=4.0, length=24, width=12, tracks=2, grids=grids, filtered=(), springs=(8,))
     chart = points(problem, measure(TimedProblem(problem, RunLimits(slow=1.0, enough=0.0))))
@@ -108,16 +99,15 @@ def test_a_rolling_model_that_is_found_is_on_the_chart_of_its_quantity(monkeypat
 
 def test_a_model_that_is_found_is_in_the_solver_comparison(toy, monkeypatch):
     use_a_clock_of_its_own(monkeypatch)
-    for module in (problems, comparison):
-        monkeypatch.setattr(module, "SOLVERS", problems.SOLVERS[:2])
+    monkeypatch.setattr(problems, "SOLVERS", problems.SOLVERS[:2])
     problem = problems.SurfaceProblem(problems.ROUGH, 0.001, 32, False, 1, 1e-6)
-    outcome = comparison.time_problem(TimedProblem(problem, RunLimits(slow=1.0, enough=1.0)))
-    methods = outcome["method"].tolist()
+    outcome = problems.time_problem(TimedProblem(problem, RunLimits(slow=1.0, enough=1.0)))
+    methods = outcome["solver"].tolist()
     assert {"bem3d", "bem3d, Polonsky-Keer", "fit", "toy"} <= set(methods)
     assert set(outcome["status"].tolist()) == {timing.FINISHED}
     # of the pressures a model has none, so its stiffness alone is compared
-    *pressures, stiffness = outcome["difference"][methods.index("toy")]
-    assert np.isfinite(stiffness) and np.isnan(pressures).all()
+    toy = {name: column[methods.index("toy")] for name, column in outcome.items()}
+    assert np.isfinite(toy[problems.STIFFNESS]) and np.isnan([toy[problems.PRESSURE], toy[problems.FORCE]]).all()
     assert "toy" in all_methods()
 
 

@@ -14,7 +14,6 @@ from validation.selection.summary import summary
 from validation.simulation import profiled_strip, rail_models
 from validation.simulation.equivalent_displacement import BEM, LINEAR, LINEAR_MODELS, lifted
 from validation.simulation.model import models_serving
-from validation.simulation.models import rail_boundary_elements
 from validation.simulation.rail_ground import strip_of
 
 RAIL = load_scene("rail")
@@ -73,7 +72,8 @@ def test_a_worn_rail_rolls_as_its_profile_and_not_as_the_radius_of_its_contact()
 
 def test_models_of_two_radii_are_told_and_boundary_elements_take_the_profile(monkeypatch):
     monkeypatch.setattr(rail_models, "STRIPS", 2)
-    monkeypatch.setattr(rail_boundary_elements.BoundaryElementsOnRail, "cells", (3, 4))
+    monkeypatch.setattr(rail_models, "COARSE", 3)
+    monkeypatch.setattr(rail_models, "FINE", 4)
     taken = []
 
     def louder_than_linear(strip, profile):
@@ -81,7 +81,7 @@ def test_models_of_two_radii_are_told_and_boundary_elements_take_the_profile(mon
         linear = strip.along_middle(LINEAR_MODELS[LINEAR](strip.contact))
         return {LINEAR: linear, BEM: 10 ** (1 / 20) * linear, "failed": np.array(0.0)}
 
-    monkeypatch.setattr(rail_boundary_elements, "roll_on_profile", louder_than_linear)
+    monkeypatch.setattr(rail_models, "roll_on_profile", louder_than_linear)
     scene = replace(profiled(worn(Y)), name="worn rail")
     found = compare(scene, "contact-filter", "3 dB", models=[BEM, LINEAR])
     assert taken and set(taken) == {scene.profile}

@@ -6,7 +6,7 @@ import numpy as np
 
 from validation.cases.selection.random_scenes import random_scene
 from validation.simulation.model import Target
-from validation.simulation.models.linear_filter_3d import MODEL
+from validation.simulation.models.linear_filters import linear_filter_3d
 from validation.simulation.rolling_claims import filled
 
 SCENE = random_scene("rolling", 1, 4242)
@@ -17,10 +17,10 @@ def test_a_quiet_band_widens_the_claim():
     target = Target(SCENE, "force-spectrum", 0.1, 0)
     quantity = target.rolling
     value = quantity.expected(one_dimensional=False)
-    left = MODEL.left_out(target, value)
+    left = linear_filter_3d.left_out(target, value)
     assert 0.1 < left < 0.3
     low = Target(replace(SCENE, ground=replace(SCENE.ground, rms=SCENE.ground.rms / 10)), "force-spectrum", 0.1, 0)
-    assert MODEL.left_out(low, value) < left / 30
+    assert linear_filter_3d.left_out(low, value) < left / 30
 
 
 def test_bands_as_loud_as_each_other_are_not_filled():

@@ -17,7 +17,7 @@ from validation.simulation import rail_models
 from validation.simulation.equivalent_displacement import BEM, LINEAR
 from validation.simulation.method import Resolution
 from validation.simulation.model import Cost, Target, models_serving
-from validation.simulation.models.rail_boundary_elements import MODEL
+from validation.simulation.models.rail import BOUNDARY_ELEMENTS
 from validation.simulation.rail_ground import strip_bands
 from validation.simulation.rail_quantity import RailQuantity
 
@@ -49,7 +49,7 @@ def planted(powers, grid=0.0):
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(rail_models, "strip_of", strip)
-        patch.setattr(type(MODEL), "roll", roll)
+        patch.setattr(rail_models.ContactFilter, "roll", roll)
         yield
 
 
@@ -59,7 +59,11 @@ def aspect(scene):
 
 def found(scene=RAIL):
     quantity = RailQuantity(scene, "contact-filter")
-    return quantity, MODEL.find(quantity, 0), np.isin(quantity.bands.numbers, strip_bands(scene).numbers)
+    return (
+        quantity,
+        SimpleNamespace(**BOUNDARY_ELEMENTS.filter.find(quantity, 0)),
+        np.isin(quantity.bands.numbers, strip_bands(scene).numbers),
+    )
 
 
 def test_the_sample_leaves_students_interval_of_the_strips():
@@ -88,7 +92,7 @@ def test_contacts_longer_or_wider_than_those_on_strips_have_no_known_error(over,
     quantity = RailQuantity(RAIL, "contact-filter")
     (linear,) = (one for one in models_serving(RAIL, "contact-filter") if one.name == LINEAR)
     radius = brentq(lambda r: aspect(replace(RAIL, crown_radius=r)) - over, 0.02, 20.0)
-    reason = linear.beyond(replace(quantity, scene=replace(RAIL, crown_radius=radius)))
+    reason = linear.filter.beyond(replace(quantity, scene=replace(RAIL, crown_radius=radius)))
     assert reason == ("" if known else f"a_y / a_x is {over:.2g}: errors were measured from 0.45 to 1.9")
 
 
@@ -135,7 +139,7 @@ def test_what_the_ground_leaves_adds_to_grid_and_sample_as_it_is():
     """A bias: half of the difference of ridges and isotropic ground, and the other two at a right angle beside it."""
     with planted(POWERS, GRID):
         quantity, filters, inside = found(OPEN)
-        answer = RailSceneModel(MODEL, Target(OPEN, "contact-filter", 0.5), Resolution()).solve()
+        answer = RailSceneModel(BOUNDARY_ELEMENTS, Target(OPEN, "contact-filter", 0.5), Resolution()).solve()
     ends = [
         RailQuantity(replace(RAIL, across=across), "contact-filter").linear[0] for across in ("ridges", "isotropic")
     ]
@@ -166,5 +170,5 @@ def test_errors_that_are_printed_are_those_of_the_bands():
 
 def test_errors_of_bands_add_a_bias_to_what_is_random():
     bands = {"model": np.array([3.0, 1.0]), "grid": np.array([0.0, 3.0]), "sample": np.array([4.0, 4.0])}
-    answer = Answer(value=np.ones(2), cost=Cost(work=1, unit="", seconds=1.0), band_errors=bands)
+    answer = Answer(value=np.ones(2), cost=Cost(work=1, seconds=1.0), band_errors=bands)
     assert answer.error_in_bands.tolist() == [7.0, 6.0]

@@ -14,7 +14,7 @@ from validation.scenes.level_files import curve
 from validation.scenes.roughness_levels import RoughnessLevels
 from validation.simulation.equivalent_displacement import LINEAR, LINEAR_ON_LINE
 from validation.simulation.model import models_serving
-from validation.simulation.rail_ground import lost_contact_number, strip_bands, strip_of, whole_line_of
+from validation.simulation.rail_ground import lost_contact_number, strip_bands, strip_of
 from validation.simulation.rail_quantity import RailQuantity
 from validation.theory.line_spectrum import LineSpectrum
 
@@ -89,7 +89,7 @@ def by_linear_theory(scene):
     asked = RailQuantity(scene, "contact-filter")
     (model,) = (one for one in models_serving(scene, "contact-filter") if one.name == LINEAR)
     a3 = asked.linear.mean(axis=0)
-    return a3, model.model_error(asked, a3)
+    return a3, model.filter.model_error(asked, a3)
 
 
 def by_what_the_ground_leaves(scene):
@@ -181,7 +181,7 @@ def test_bands_that_stand_out_keep_their_names_under_longer_waves():
 def test_strips_have_the_power_of_what_stands_out():
     """As ridges over isotropic ground, all along both ends."""
     scene = corrugated()
-    line, q = whole_line_of(scene), 2 * np.pi / 0.0284
+    line, q = scene.isotropic.whole, 2 * np.pi / 0.0284
     for across in ("ridges", "isotropic"):
         strip = strip_of(scene, across, 6, 0, 1)
         k = 2 * np.pi * np.fft.fftfreq(strip.shape[0], strip.spacing)
@@ -210,7 +210,7 @@ def test_models_that_read_a_line_are_that_of_ridges_whatever_lies_across():
             RailQuantity(replace(scene, across="ridges"), "contact-filter"),
         )
         (model,) = (one for one in models_serving(scene, "contact-filter") if one.name == LINEAR_ON_LINE)
-        found, own = model.closed(asked).mean(axis=0), model.closed(line)[0]
+        found, own = model.filter.closed(asked).mean(axis=0), model.filter.closed(line)[0]
         long = asked.wave < 1
         np.testing.assert_allclose(found[long], own[long], atol=0.3)
 

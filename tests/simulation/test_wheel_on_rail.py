@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 import mdr
+from tests.simulation.power_law_ground import PowerLawGround
 from validation.simulation import wheel_on_rail
 from validation.simulation.contact_laws import HertzLaw
 from validation.simulation.motion import simulate
-from validation.simulation.rail_strip import PowerLawGround, RailStrip
+from validation.simulation.rail_strip import RailStrip
 from validation.simulation.wheel_on_rail import BEM, SPRINGS, SurfaceSpringsLaw, WheelOnRail
 
 CELL = 1e-3

@@ -35,14 +35,19 @@ class Curve:
     upright: bool = False
 
 
+def by_model(quantity: str, styles: Mapping[str, str], *, bars: bool = False) -> tuple[Curve, ...]:
+    """A curve of each model, by its name in the legend."""
+    return tuple(Curve(quantity, model, style, model, bars=bars) for model, style in styles.items())
+
+
 @dataclass(frozen=True)
 class Panel:
     """Curves on one axis.
 
     facet: a column, or several, a panel for each of their values; log: the axes that are logarithmic; decades: of y
     below the largest value, or its units where y is linear; judged: the quantity whose verdicts are drawn; shade,
-    lines: of y; at: of x, dotted, where the panel reaches it; downward: from the largest x on; ticked: at the values of
-    x alone; legend: its place.
+    lines: of y; at: of x, dotted, where the panel reaches it; marks: the quantity whose values are marked on x by the
+    names of their models; downward: from the largest x on; ticked: at the values of x alone; legend: its place.
     """
 
     x: str
@@ -59,6 +64,7 @@ class Panel:
     shade: tuple[float, float] | None = None
     lines: tuple[float, ...] = ()
     at: tuple[float, ...] = ()
+    marks: str = ""
     downward: bool = False
     ticked: bool = False
     legend: str = ""
@@ -82,11 +88,13 @@ class Map:
 
 @dataclass(frozen=True)
 class Chart:
-    """A figure. name: "case" or "case-part"; claims: numbers of those that its headline states; sharey: one for all."""
+    """A figure. name: "case" or "case-part"; panels: none where `report/figures` has a function that draws it; claims:
+    numbers of those that its headline states; sharey: one for all.
+    """
 
     name: str
     caption: str
-    panels: tuple[Panel, ...] | Map
+    panels: tuple[Panel, ...] | Map = ()
     _: KW_ONLY
     claims: tuple[int, ...] = (0,)
     columns: int = 0
@@ -100,5 +108,6 @@ class Chart:
         if isinstance(self.panels, Map):
             return (self.panels.quantity,)
         curves = [curve.quantity for panel in self.panels for curve in panel.curves]
+        marks = [panel.marks for panel in self.panels if panel.marks]
         judged = [panel.judged + JUDGED for panel in self.panels if panel.judged]
-        return tuple(dict.fromkeys([*curves, *judged]))
+        return tuple(dict.fromkeys([*curves, *marks, *judged]))

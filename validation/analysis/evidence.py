@@ -1,7 +1,7 @@
 """Evidence: numbers with a reference, a tolerance, an error bar and a verdict; tables behind figures; conclusions."""
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 
@@ -187,6 +187,17 @@ def table_of(name: str, rows: Sequence[Mapping[str, object]]) -> Table:
     return Table(name, {column: [row[column] for row in rows] for column in rows[0]})
 
 
+Columns = Mapping[str, Callable[[Table], object]]
+
+
+def grouped(name: str, table: Table, by: tuple[str, ...], columns: Columns) -> Table:
+    """A row for each value of some columns, with what is found in the rows that have it."""
+    keys = list(dict.fromkeys(zip(*(table[one].tolist() for one in by), strict=True)))
+    groups = [table.where(**dict(zip(by, key, strict=True))) for key in keys]
+    named = {one: [key[i] for key in keys] for i, one in enumerate(by)}
+    return Table(name, {**named, **{column: [of(group) for group in groups] for column, of in columns.items()}})
+
+
 class ClaimStatus(StrEnum):
     """What the numbers say of a claim."""
 
@@ -290,9 +301,11 @@ def plus_minus(value: float, half_width: float) -> str:
     if not half_width > 0:
         return f"{value:.5g}"
     place = 1 - math.floor(math.log10(half_width))
-    if place <= 0:
-        return f"{round(value, place):.0f} ± {round(half_width, place):.0f}"
-    return f"{value:.{place}f} ± {half_width:.{place}f}" if place < 8 else f"{value:.5g} ± {half_width:.2g}"
+    # what rounds to nothing has no sign
+    rounded, half = round(value, place) + 0.0, round(half_width, place)
+    if place < 8:
+        return f"{rounded:.{max(place, 0)}f} ± {half:.{max(place, 0)}f}"
+    return f"{value:.5g} ± {half_width:.2g}"
 
 
 def with_reference(number: Number) -> str:

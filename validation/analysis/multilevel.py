@@ -79,6 +79,37 @@ def weighted_sum(weights: Sequence[float] | FloatArray, parts: Sequence[Linearis
 
 
 @dataclass(frozen=True, eq=False)
+class Resolved:
+    """A value on cells of no size; grid: half-width that the grids leave open."""
+
+    value: Linearised
+    grid: float
+
+    def beside(self, other: "Resolved") -> "Resolved":
+        """The difference to a value from other realisations; grid errors add up as if they went the same way."""
+        return Resolved(self.value.beside(other.value), self.grid + other.grid)
+
+
+def on_no_size(grids: Sequence[Linearised]) -> Resolved:
+    """To first order from the two finest grids; how far that is from the next two."""
+    coarse, middle, fine = grids[-3:]
+    apart = abs(2 * (fine.value - middle.value) - (middle.value - coarse.value))
+    return Resolved(2.0 * fine - middle, apart)
+
+
+def on_finest(grids: Sequence[Linearised]) -> Resolved:
+    """As it is on the finest grid; by how much that changed it."""
+    coarse, fine = grids[-2:]
+    return Resolved(fine, abs(fine.value - coarse.value) if math.isfinite(fine.value) else 0.0)
+
+
+def combined(weights: Sequence[float] | FloatArray, parts: Sequence[Resolved]) -> Resolved:
+    """sum_i w_i x_i; grid errors add up as if they went the same way."""
+    grid = float(np.dot(np.abs(weights), [part.grid for part in parts]))
+    return Resolved(weighted_sum(weights, [part.value for part in parts]), grid)
+
+
+@dataclass(frozen=True, eq=False)
 class Moments:
     """Mean and variance of one quantity on one grid."""
 

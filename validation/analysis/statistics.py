@@ -64,6 +64,18 @@ class Estimate:
         return _sum_of_independent(self.value + other.value, (self, other))
 
 
+@dataclass(frozen=True)
+class Interval:
+    """A value with the half-width of its own 95 % interval, as a share or a quantile of resampled scenes has one."""
+
+    value: float
+    half_width: float
+
+    def half_width_among(self, points: float) -> float:
+        """The same among any number of points: nothing else is known of it."""
+        return self.half_width
+
+
 def _sum_of_independent(value: float, estimates: Sequence[Estimate]) -> Estimate:
     """A sum or difference of independent estimates; degrees of freedom by Welch and Satterthwaite."""
     squares = [e.error**2 for e in estimates]

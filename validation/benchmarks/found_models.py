@@ -1,27 +1,21 @@
 """A problem on the clock: its own configurations, and the models of its scene that `simulation/models` holds."""
 
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 from validation.benchmarks.peers import SOLVERS
 from validation.benchmarks.timing import Configuration, RunLimits, along
 from validation.simulation.model import Target, all_models
 
 
-class ProblemOfMethods(Protocol):
-    """A frozen dataclass. scene: None where no models are found; served: quantities that a model may have of it."""
-
-    @property
-    def scene(self) -> Any: ...
-    @property
-    def served(self) -> tuple[str, ...]: ...
-    def configurations(self) -> tuple[Configuration, ...]:
-        """All that are timed, models that are found not among them."""
-
-
 @dataclass(frozen=True)
 class TimedProblem:
-    """A problem on the clock. methods: names and versions: a run that goes on after a change of these begins anew."""
+    """A problem on the clock.
+
+    problem: a frozen dataclass with `configurations`, models that are found not among them, a `scene`, None where no
+    models are found, and `served`, the quantities that a model may have of it; methods: names and versions: a run that
+    goes on after a change of these begins anew.
+    """
 
     problem: Any
     limits: RunLimits
@@ -33,14 +27,14 @@ def all_methods() -> tuple[str, ...]:
     return (*(f"{solver.name} {solver.version}" for solver in SOLVERS), *(model.name for model in all_models()))
 
 
-def configurations_of(problem: ProblemOfMethods) -> tuple[Configuration, ...]:
+def configurations_of(problem: Any) -> tuple[Configuration, ...]:
     """Models that are found, each once, and what the problem has."""
     own = problem.configurations()
     names = {each.label for each in own}
     return (*(found for found in found_models(problem) if found.label not in names), *own)
 
 
-def found_models(problem: ProblemOfMethods) -> tuple[Configuration, ...]:
+def found_models(problem: Any) -> tuple[Configuration, ...]:
     """All that have one of the quantities, but those whose resolution charts vary themselves."""
     targets = [Target(problem.scene, quantity) for quantity in problem.served]
     served = {

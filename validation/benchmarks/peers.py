@@ -207,11 +207,6 @@ SOLVERS = (
 )
 
 
-def place_of(name: str) -> int:
-    """Of a solver, among all of them."""
-    return [solver.name for solver in SOLVERS].index(name)
-
-
 def of_others() -> tuple[PeerSolver, ...]:
     """Those of other packages."""
     return tuple(solver for solver in SOLVERS if solver.package != OURS)

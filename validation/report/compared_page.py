@@ -140,7 +140,7 @@ def _apart(found: Comparison, one: Candidate) -> str:
     reference = reference_of(found)
     if one is reference:
         return "—"
-    off = differences(found, one, reference)
+    off = differences(one, reference)
     worst = abs(off).argmax()
     largest, error = (float(values[worst]) for values in (off, error_of_difference(found, one, reference)))
     if found.is_level or found.in_decibels:

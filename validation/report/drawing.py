@@ -26,6 +26,8 @@ STYLES: dict[str, Style] = {
     "dashed": {**GUIDE, "linestyle": "--"},
     "interval": {"color": "#000000"},
     "crosses": {"color": "#000000", "marker": "x", "linestyle": "none"},
+    "bem line": {"color": BEM["color"], "linestyle": "--", "linewidth": 1.2},
+    "triangles": {**MDR, "color": "#009E73", "marker": "^"},
     "dots": {"color": MDR["color"], "marker": ".", "markersize": 2.5, "linestyle": "none"},
 }
 GRADED: dict[str, Style] = {
@@ -38,8 +40,10 @@ GRADED: dict[str, Style] = {
     "open marks": {"markerfacecolor": "white", "linestyle": "none"},
 }
 FIRST = "first"
-POINTS = 12
+POINTS, FEW, LARGE = 12, 15, 1e5
 FEW_DECADES = 300
+HIGHEST = 4.8
+"""Of a row of panels."""
 SIGN = {"agree": "=", "differ": "≠", "undecided": "?"}
 
 
@@ -47,10 +51,10 @@ def draw(chart: Chart, evidence: Evidence) -> Figure:
     if isinstance(chart.panels, Map):
         return _map(chart, chart.panels, evidence.table(chart.panels.quantity))
     facets = [(panel, facet) for panel in chart.panels for facet in _facets(panel, evidence)]
-    columns = chart.columns or len(facets)
+    columns = min(chart.columns or len(facets), len(facets))
     rows = -(-len(facets) // columns)
     shared: Literal["all", "none"] = "all" if chart.sharey else "none"
-    figure, axes = panels(rows, columns, width=chart.width, height=chart.height, sharey=shared)
+    figure, axes = panels(rows, columns, width=chart.width, height=min(chart.height, HIGHEST * rows), sharey=shared)
     for axis, (panel, facet) in zip(axes, facets, strict=False):
         _panel(axis, panel, facet, evidence)
     for axis, (panel, _) in zip(axes, facets, strict=False):
@@ -69,11 +73,16 @@ def draw(chart: Chart, evidence: Evidence) -> Figure:
 
 def _facets(panel: Panel, evidence: Evidence) -> list[dict[str, object]]:
     names = (panel.facet,) if isinstance(panel.facet, str) else panel.facet
-    if not names:
+    if not names or not names[0]:
         return [{}]
-    tables = [_rows(evidence, curve, {}) for curve in panel.curves]
+    tables = [_rows(evidence, curve, {}) for curve in _there(panel, evidence)]
     values = dict.fromkeys(key for one in tables for key in zip(*(one.columns.get(n, ()) for n in names), strict=True))
-    return [dict(zip(names, key, strict=True)) for key in values]
+    return [dict(zip(names, key, strict=True)) for key in values] or [{}]
+
+
+def _there(panel: Panel, evidence: Evidence) -> list[Curve]:
+    """A run need not have every quantity."""
+    return [curve for curve in panel.curves if evidence.has_table(curve.quantity)]
 
 
 def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidence) -> None:
@@ -81,7 +90,7 @@ def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidenc
         axis.axhspan(*panel.shade, color="#000000", alpha=0.07, linewidth=0)
     for y in panel.lines:
         axis.axhline(y, color="#000000", linewidth=0.8)
-    for curve in panel.curves:
+    for curve in _there(panel, evidence):
         # a family has one style in all facets
         every = [key for key, *_ in _families(curve, _rows(evidence, curve, {}))]
         for key, values, mine in _families(curve, _rows(evidence, curve, facet)):
@@ -90,7 +99,9 @@ def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidenc
         _verdicts(axis, _chosen(evidence.table(panel.judged + JUDGED), facet))
     axis.set(xlabel=panel.x, ylabel=panel.y, title=panel.title or ", ".join(_said(*f) for f in facet.items()))
     axis.set(xscale="log" if "x" in panel.log else "linear", yscale="log" if "y" in panel.log else "linear")
-    if panel.legend:
+    if panel.marks:
+        _marks(axis, _chosen(evidence.table(panel.marks), facet))
+    if panel.legend and axis.get_legend_handles_labels()[1]:
         axis.legend(loc=panel.legend, fontsize=7)  # type: ignore[call-overload]
 
 
@@ -104,6 +115,14 @@ def _verdicts(axis: Axes, judged: Table) -> None:
         axis.text(math.sqrt(x * to), 0.97, SIGN[verdict], transform=axis.get_xaxis_transform(), ha="center", va="top")
 
 
+def _marks(axis: Axes, marks: Table) -> None:
+    """Vertical lines with their names at the lower end."""
+    for name, x in zip(marks["model"], marks["value"], strict=True):
+        axis.axvline(x, **GUIDE)
+        where = axis.get_xaxis_transform()
+        axis.text(x, 0.02, name, transform=where, rotation=90, va="bottom", ha="right", fontsize=7)
+
+
 def _limits(axis: Axes, panel: Panel) -> None:
     if panel.decades:
         top = max((np.nanmax(np.asarray(line.get_ydata(), dtype=np.float64)) for line in axis.lines), default=1.0)
@@ -115,8 +134,10 @@ def _limits(axis: Axes, panel: Panel) -> None:
         axis.set_ylim(*panel.ylim)
     if panel.ticked:
         tick(axis, np.unique(np.concatenate([line.get_xdata() for line in axis.lines])))
-    elif "x" in panel.log:
+    elif "x" in panel.log and axis.get_xlim()[1] < LARGE:
         tick(axis, _round(*axis.get_xlim()))
+    if "y" in panel.log and axis.get_ylim()[1] < FEW_DECADES * axis.get_ylim()[0]:
+        tick(axis, _round(*axis.get_ylim()), up=True)
     for x in panel.at:
         if axis.get_xlim()[0] < x < axis.get_xlim()[1]:
             axis.axvline(x, **GUIDE)
@@ -132,7 +153,11 @@ def _round(low: float, high: float) -> list[float]:
 
 
 def _said(name: str, value: object) -> str:
-    return str(value) if isinstance(value, str) else f"{name} = {value:g}"
+    """A value by its name; a name by itself, unless it is a number of a column that has names too."""
+    try:
+        return f"{name} = {float(value):g}"  # type: ignore[arg-type]
+    except ValueError:
+        return str(value)
 
 
 def _rows(evidence: Evidence, curve: Curve, more: dict[str, object]) -> Table:
@@ -166,6 +191,8 @@ def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str
         style["markevery"] = curve.apart
     y, low, high = (visible(mine[name], above=above) for name in ("value", "low", "high"))
     where = {name: value for name, value in values.items() if value == value}
+    if curve.style == "graded":
+        style = {**style, "markevery": max(y.size // FEW, 1)}
     label = curve.label or ", ".join(_said(name, where[name]) for name in curve.by if name in where)
     down = i * curve.down
     if curve.style == "interval":
@@ -175,7 +202,7 @@ def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str
         for at in mine["value"]:
             axis.axvline(at, label=label, **style)
         return
-    if curve.bars:
+    if curve.bars and np.any(high > low):
         # down to nothing: on a logarithmic axis a decade
         down_to = np.where(np.asarray(mine["low"]) > above, low, 0.1 * y)
         bars = [np.nan_to_num(y - down_to), np.nan_to_num(high - y)]

@@ -99,11 +99,11 @@ def panels(
     return figure, axes
 
 
-def tick(axis: Axes, values: Iterable[float]) -> None:
-    """Ticks of the horizontal axis at these values alone."""
-    values = list(values)
-    axis.set_xticks(values, [f"{value:g}" for value in values])
-    axis.xaxis.minorticks_off()
+def tick(axes: Axes, values: Iterable[float], *, up: bool = False) -> None:
+    """Ticks of the horizontal axis, or of the vertical one, at these values alone."""
+    values, axis = list(values), axes.yaxis if up else axes.xaxis
+    axis.set_ticks(values, [f"{value:g}" for value in values])
+    axis.minorticks_off()
 
 
 def visible(values: np.ndarray, *, above: float = 0.0) -> np.ndarray:

@@ -1,6 +1,6 @@
 """Lines for the terminal on a finished case."""
 
-from validation.benchmarks.solvers.rows import rows_of
+from validation.analysis.evidence import Table
 from validation.report.contents import TIMED
 from validation.report.formats import format_counts
 from validation.report.section import Section, answer_of
@@ -19,7 +19,17 @@ def lines_of(section: Section, *, unsteady: bool = False) -> list[str]:
     details += [f"missed: {number.sentence}" for number in section.missed]
     details += [f"not converged: {solve}" for solve in section.unconverged]
     if section.name in TIMED and section.evidence:
-        details += rows_of(section.evidence) if section.name == "race" else []
-        details += section.evidence.conclusions
+        details += [line for table in section.evidence.page_tables for line in _rows(table)]
     head = f"{section.name:15s} {'no result' if section.failure else met}"
     return [head, *(f"    {line}" for line in details)]
+
+
+def _rows(table: Table) -> list[str]:
+    """A line a row, under the name of the table."""
+    rows = zip(*table.columns.values(), strict=True)
+    pairs = ([pair for pair in zip(table.columns, row, strict=True) if pair[1] != ""] for row in rows)
+    return [f"{table.name}:", *(f"  {'; '.join(f'{name}: {_said(cell)}' for name, cell in some)}" for some in pairs)]
+
+
+def _said(cell: object) -> str:
+    return f"{cell:.4g}" if isinstance(cell, float) else str(cell)

@@ -13,9 +13,8 @@ from validation.scenes.load import Scene
 from validation.scenes.printable import shortened
 from validation.scenes.rail import RailScene
 from validation.scenes.rolling import RollingScene
-from validation.selection.compared_models import ComparedModels
 from validation.selection.hierarchy import Answer, Candidate, ContactModel, Selection, select_model
-from validation.selection.model_names import models_named
+from validation.selection.named_models import ComparedModels, models_named
 from validation.selection.quantities import LEVELS, REFERENCES, UNITS, models_of, quantities_of
 from validation.selection.scene_model import SceneModel, Shared
 from validation.selection.swept import Swept

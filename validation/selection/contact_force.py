@@ -12,9 +12,9 @@ from validation.scenes.rail import RailScene
 from validation.scenes.roughness_levels import MICROMETRE
 from validation.selection.compare import Comparison
 from validation.selection.hierarchy import Candidate
-from validation.selection.rail_model import RailSceneModel
+from validation.selection.scene_model import SceneModel
 from validation.selection.side_by_side import NAMES, Columns, half_width, signed
-from validation.simulation.rail_models import RolledRailModel
+from validation.simulation.rail_models import RailModel, rail_quantity
 
 FloatArray = NDArray[np.float64]
 
@@ -146,6 +146,9 @@ def _filters(comparison: Comparison) -> dict[str, FloatArray]:
 
 
 def _closed(one: Candidate) -> FloatArray | None:
-    if not isinstance(one.model, RailSceneModel) or isinstance(one.model.model, RolledRailModel):
+    if not isinstance(one.model, SceneModel) or not isinstance(one.model.model, RailModel):
         return None
-    return one.model.closed if one.estimate.in_range else None
+    closed_form = one.model.model.filter
+    if closed_form.on_strips or not one.estimate.in_range:
+        return None
+    return np.asarray(closed_form.closed(rail_quantity(one.model.target)).mean(axis=0))

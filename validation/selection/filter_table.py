@@ -1,12 +1,19 @@
 """A contact filter as a column of the table of CNOSSOS-EU, for tools that map noise."""
 
+from dataclasses import replace
+
 import numpy as np
+from numpy.typing import NDArray
 
 from validation.analysis.evidence import Table
-from validation.analysis.nominal_bands import NominalBands
+from validation.analysis.nominal_bands import LONGEST, NominalBands
 from validation.scenes.rail import RailScene
 from validation.selection.compare import Comparison
-from validation.selection.rail_model import RailSceneModel
+from validation.selection.scene_model import SceneModel
+from validation.simulation.model import Target
+from validation.simulation.rail_models import RailModel, rail_quantity
+
+FloatArray = NDArray[np.float64]
 
 
 def filter_table(comparison: Comparison) -> Table:
@@ -23,8 +30,8 @@ def filter_table(comparison: Comparison) -> Table:
     bands, own = NominalBands(), scene.levels.bands
     a3 = np.full(len(bands), np.nan)
     first = bands.longest - own.longest
-    if first and isinstance(best.model, RailSceneModel):
-        a3[:first] = best.model.of_longer_waves()[:first]
+    if first and isinstance(best.model, SceneModel) and isinstance(best.model.model, RailModel):
+        a3[:first] = of_longer_waves(best.model.model, best.model.target)[:first]
     a3[first : first + len(own)] = comparison.value
     return Table(
         "contact-filter",
@@ -36,3 +43,9 @@ def filter_table(comparison: Comparison) -> Table:
             "a3_dB": (a3.round(1) + 0.0).tolist(),
         },
     )
+
+
+def of_longer_waves(model: RailModel, target: Target) -> FloatArray:
+    """A3 of the linear filter in all bands from 2000 mm to the last of the roughness [dB]."""
+    asked = replace(rail_quantity(target), longest=LONGEST)
+    return np.asarray(model.filter.closed(asked).mean(axis=0))

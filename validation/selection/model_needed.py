@@ -12,6 +12,7 @@ from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.selection.hierarchy import needed
 from validation.selection.quantities import MOVING, PRESSED, ROLLING, models_of
+from validation.simulation.model_names import BEM
 from validation.simulation.rough_punch import PunchRoughness
 
 TOLERANCE = 0.1
@@ -98,7 +99,7 @@ def rolling(case: Any) -> str:
 def wheel(case: Any) -> str:
     scene = case.scene
     if scene.rail is None or scene.wheel is not None:
-        return "boundary elements"
+        return BEM
     return of_each(MOVING, partial(model_for, RollingScene.of_wheel(scene)))
 
 

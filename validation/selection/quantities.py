@@ -4,8 +4,9 @@ from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.rail import RailScene
 from validation.scenes.roughness_levels import MICROMETRE
-from validation.selection.rail_model import rail_models
-from validation.selection.scene_model import SceneModel, Shared, models_on
+from validation.selection.rail_model import RailSceneModel
+from validation.selection.scene_model import SceneModel, Shared
+from validation.simulation.model import Target, models_serving
 from validation.simulation.rail_quantity import RAIL_QUANTITIES
 
 PRESSED = ("stiffness",)
@@ -52,6 +53,11 @@ def models_of(
     shared: what is solved for several quantities of one scene.
     """
     check_quantity(scene, quantity)
-    if isinstance(scene, RailScene):
-        return rail_models(scene, quantity, tolerance, seed, Shared() if shared is None else shared)
-    return models_on(scene, quantity, tolerance, seed)
+    target, solved = Target(scene, quantity, tolerance, seed), Shared() if shared is None else shared
+    kind = RailSceneModel if isinstance(scene, RailScene) else SceneModel
+    found = [
+        kind(model, target, resolution, solved)
+        for model in models_serving(scene, quantity)
+        for resolution in model.resolutions(target)
+    ]
+    return sorted(found, key=lambda one: one.cost().seconds)

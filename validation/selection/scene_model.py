@@ -2,19 +2,17 @@
 
 import itertools
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.scenes.load import Scene
 from validation.selection.hierarchy import Answer
 from validation.simulation.method import Prepared, Resolution, Result
-from validation.simulation.model import Cost, ErrorEstimate, GridModel, Model, Sampling, Target, models_serving
-from validation.simulation.resolution import too_few
-from validation.simulation.sampling import mean_error, realisations
+from validation.simulation.model import Cost, ErrorEstimate, GridModel, Model, Sampling, Target
+from validation.simulation.sampling import mean_error, realisations, too_few
 
 FloatArray = NDArray[np.float64]
 
@@ -104,15 +102,18 @@ class SceneModel:
         Realisations are added until the error is within the tolerance, and no longer than grid and cells allow that.
         """
         expected, plan, before = self.estimate(), self.sampling, self._solved()
-        found = self._first(self.resolution, plan.fewest)
-        others = [self._first(resolution, plan.compared) for resolution in self.references]
-        if failed := _failed(itertools.chain(found, *others)):
-            return self._no_answer(before, failed)
-        others_values = np.array([self._rows(other) for other in others])
-        while True:
+        for count in range(plan.fewest, plan.most + 1):
+            found = self._first(self.resolution, count)
+            others = [self._first(resolution, plan.compared) for resolution in self.references]
+            if failed := next((one.failed for one in itertools.chain(found, *others) if one.failed), ""):
+                return Answer(value=np.array([np.nan]), cost=self._spent(before), failed=failed)
             values = self._rows(found)
             value, sample = self._mean(values)
-            grid, reason = self._left_by_grid(values, others_values, expected)
+            grid, reason = 0.0, expected.reason
+            if isinstance(self.model, GridModel):
+                other = np.array([self._rows(one) for one in others])
+                grid, reason = self.model.grid_error(self.target, self.resolution, values, other)
+            unknown = "" if np.isfinite(grid) else f"{reason}; no less than the step before did: no error estimate"
             answer = Answer(
                 value=value,
                 cost=self._spent(before),
@@ -120,16 +121,13 @@ class SceneModel:
                 grid=grid,
                 sample=sample,
                 reason=reason,
-                failed=self._too_few(found)
-                or ("" if np.isfinite(grid) else f"{reason}; no less than the step before did: no error estimate"),
-                seconds=self._seconds(len(found)),
+                failed=self._too_few(found) or unknown,
+                seconds=self._seconds(count),
             )
             hopeless = bool(answer.failed) or answer.model + grid > self.target.tolerance
-            if answer.error <= self.target.tolerance or hopeless or len(found) >= plan.most:
-                return answer
-            found = self._first(self.resolution, len(found) + 1)
-            if found[-1].failed:
-                return self._no_answer(before, found[-1].failed)
+            if answer.error <= self.target.tolerance or hopeless:
+                break
+        return answer
 
     def _first(self, resolution: Resolution, count: int) -> list[Result]:
         prepare = partial(self.model.prepare, self.target, resolution)
@@ -144,14 +142,6 @@ class SceneModel:
         """Of so many realisations, and of those on the grids that they are compared with."""
         counts = {self.resolution: count, **dict.fromkeys(self.references, self.sampling.compared)}
         return sum(sum(self.shared[self.model, one].seconds[:some]) for one, some in counts.items())
-
-    def _left_by_grid(self, values: FloatArray, others: FloatArray, expected: ErrorEstimate) -> tuple[float, str]:
-        if not isinstance(self.model, GridModel):
-            return 0.0, expected.reason
-        return self.model.grid_error(self.target, self.resolution, values, others)
-
-    def _no_answer(self, before: dict[Resolution, int], failed: str) -> Answer:
-        return Answer(value=np.array([np.nan]), cost=self._spent(before), failed=failed)
 
     def _rows(self, results: list[Result]) -> FloatArray:
         """(realisations, numbers)."""
@@ -178,21 +168,5 @@ class SceneModel:
         costs = [(count, self.model.cost(self.target, resolution)) for resolution, count in solves.items()]
         return Cost(
             work=sum(count * one.work for count, one in costs),
-            unit=costs[0][1].unit,
             seconds=sum(count * one.seconds for count, one in costs),
         )
-
-
-def _failed(results: Iterable[Result]) -> str:
-    return next((result.failed for result in results if result.failed), "")
-
-
-def models_on(scene: Scene, quantity: str, tolerance: float, seed: int) -> list[SceneModel]:
-    """All models of a quantity at all of their resolutions, the cheapest first; they share what is solved."""
-    target, shared = Target(scene, quantity, tolerance, seed), Shared()
-    found = [
-        SceneModel(model, target, resolution, shared)
-        for model in models_serving(scene, quantity)
-        for resolution in model.resolutions(target)
-    ]
-    return sorted(found, key=lambda one: one.cost().seconds)

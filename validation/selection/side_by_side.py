@@ -34,7 +34,7 @@ def reference_of(comparison: Comparison) -> Candidate:
     return min(reversed(comparison.selection.solved), key=lambda one: one.error)
 
 
-def differences(comparison: Comparison, candidate: Candidate, reference: Candidate) -> np.ndarray:
+def differences(candidate: Candidate, reference: Candidate) -> np.ndarray:
     """Of the levels of two models, 20 lg of the ratio of their amplitudes [dB]."""
     assert candidate.answer is not None and reference.answer is not None  # as solved
     return np.asarray(20 * np.log10(candidate.answer.value / reference.answer.value))
@@ -80,7 +80,7 @@ def numbers_beside(comparison: Comparison) -> Columns:
     reference, columns = reference_of(comparison), Columns()
     for one in comparison.selection.solved:
         (value,), (half,) = comparison.value_of(one), comparison.errors_of(one)
-        (off,), (apart,) = (of(comparison, one, reference) for of in (differences, error_of_difference))
+        (off,), (apart,) = differences(one, reference), error_of_difference(comparison, one, reference)
         here = one is reference
         row = {
             NAMES: one.name,
@@ -111,7 +111,7 @@ def levels_beside(comparison: Comparison) -> tuple[dict[str, str], Columns]:
     columns.pop("f [Hz]", None)
     columns["level"] = [f"{x:.1f}" if math.isfinite(x) else "—" for x in comparison.value_of(reference).round(1) + 0.0]
     for letter, one in letters.items():
-        columns[letter] = [signed(off, 1) for off in differences(comparison, one, reference).tolist()]
+        columns[letter] = [signed(off, 1) for off in differences(one, reference).tolist()]
     errors = {letter: error_of_difference(comparison, one, reference) for letter, one in letters.items()}
     return {letter: f"{one.name}, {_range(one, errors[letter])}" for letter, one in letters.items()}, columns
 
@@ -141,7 +141,7 @@ def shown_models(comparison: Comparison) -> list[str]:
     springs = min((one for one in solved if one.model.is_mdr), key=lambda one: one.error, default=chosen)
 
     def apart(one: Candidate) -> float:
-        off = differences(comparison, one, chosen)[counts(comparison, chosen)]
+        off = differences(one, chosen)[counts(comparison, chosen)]
         return float(np.sqrt(np.nanmean(off**2))) if np.isfinite(off).any() else math.inf
 
     first = [chosen.name, reference.name, springs.name]

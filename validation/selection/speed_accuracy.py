@@ -41,7 +41,7 @@ def unit_of(comparison: Comparison) -> str:
 
 def apart(comparison: Comparison, one: Candidate, reference: Candidate) -> tuple[float, float]:
     """Distance from the reference, and its half-width of 95 %, in the unit of `unit_of`."""
-    off = np.abs(differences(comparison, one, reference))
+    off = np.abs(differences(one, reference))
     half = np.broadcast_to(error_of_difference(comparison, one, reference), off.shape)
     within = counts(comparison, reference) & np.isfinite(off)
     if not within.any():

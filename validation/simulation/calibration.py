@@ -3,7 +3,7 @@
 import csv
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from pathlib import Path
 
@@ -19,10 +19,12 @@ from validation.simulation.calibrated_range import (
     LOAD,
     LONG,
     MOVING_LONG,
+    beyond_spectrum,
     conditions_of,
     counted,
     rolling_conditions,
 )
+from validation.simulation.method import Resolution
 from validation.simulation.model import ErrorEstimate, GridModel, Model, Target, models_serving
 
 FloatArray = NDArray[np.float64]
@@ -128,6 +130,20 @@ def calibrated(model: Model, target: Target) -> ErrorEstimate:
     return measured.estimate(conditions, model.shape(target))
 
 
+def calibrated_by_spectrum(
+    model: Model, target: Target, resolution: Resolution, *, own: float = 0.0, beyond: str = ""
+) -> ErrorEstimate:
+    """The claim of a model that knows a rough surface by its spectrum alone: the error by the table.
+
+    own: what one measured surface has beside the mean of all with its spectrum; beyond: why no error is known, or none.
+    """
+    ground = target.scene.ground
+    if reason := beyond_spectrum(ground) or beyond:
+        return ErrorEstimate.out_of_range(reason)
+    expected = calibrated(model, target)
+    return replace(expected, model=expected.model + own) if ground.is_single else expected
+
+
 def kind_of(target: Target) -> str:
     """Of the scene, in the table."""
     if isinstance(target.scene, IndentationScene):
@@ -180,7 +196,7 @@ def provenance(path: Path = TABLE) -> dict[str, str]:
 def code_behind(model: Model, target: Target) -> str:
     """Digest of the code that an error rests on: the solves of the model and of boundary elements, scenes, samples."""
     judges = [one for one in models_serving(target.scene, target.quantity) if isinstance(one, GridModel)]
-    return _version(tuple(sorted({type(one).__module__ for one in (model, *judges)})))
+    return _version(tuple(sorted({one.place[0] for one in (model, *judges)})))
 
 
 @cache

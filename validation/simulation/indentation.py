@@ -36,6 +36,11 @@ LATTICE = 512
 """Waves on a side up to which their mean square is summed one by one; shorter ones are an integral."""
 
 
+def is_pressed(scene: object, quantity: str) -> bool:
+    """Whether a model of stiffness may have the quantity."""
+    return isinstance(scene, IndentationScene) and quantity == "stiffness"
+
+
 def ground_of(scene: IndentationScene) -> RoughSurface:
     """What is rough. Raises ValueError for a smooth body."""
     if scene.ground is None:

@@ -3,6 +3,7 @@
 Model selection adds an estimate of the error, the benchmarks add a clock.
 """
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
@@ -32,7 +33,7 @@ class Result:
     """
 
     values: Values
-    work: float
+    work: float = math.nan
     count: int = 1
     failed: str = ""
 

@@ -1,20 +1,25 @@
-"""A contact model in one file of `simulation/models`: found there, it is in `compare`, on the charts, in the race."""
+"""A contact model: a function with a declaration of what it serves, of its error and of its cost.
+
+Found in `simulation/models`, it is a candidate of `compare`, a point on the charts and an entry of the race.
+"""
 
 import math
-from abc import ABC, abstractmethod
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
 from importlib import import_module
 from pkgutil import iter_modules
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mdr.checks import positive
 from validation.simulation import models
-from validation.simulation.method import Prepared, Resolution
+from validation.simulation.method import Prepared, Resolution, Result, Solve
+from validation.simulation.model_names import BEM, MODELS
 from validation.simulation.rolling_quantity import RollingQuantity
+from validation.simulation.sampling import FEWEST
 
 FloatArray = NDArray[np.float64]
 
@@ -66,10 +71,9 @@ class ErrorEstimate:
 
 @dataclass(frozen=True, kw_only=True)
 class Cost:
-    """work: operations, expected or counted; unit: of them; seconds: what those take on one core, about."""
+    """work: operations, expected or counted; seconds: what those take on one core, about."""
 
     work: float
-    unit: str
     seconds: float
 
 
@@ -83,76 +87,97 @@ class Sampling:
     compared: int = 0
 
 
-class Model(ABC):
-    """A method with an estimate of its error and of its cost. A module of `simulation/models` holds one as `MODEL`.
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Model:
+    """What a model declares; a `Method` that claims an error.
 
-    name: for tables and figures; setting: its resolution or its formula, in words; element: what a contact consists
-    of, where a result counts those "in contact"; charted: whether charts take it as it is, or vary its resolution;
+    name: for tables and figures; setting: its resolution or its formula, in words;
+    serves: whether it has this quantity of such scenes;
+    prepare: as of every `Method`; its results have the values of the quantities that it serves, by their names;
+    cost: what one solve is expected to cost;
+    claim: the error that the model expects of a scene that it serves;
+    resolutions: those that are offered, the cheapest first;
+    shape: what its error is expected to go with; the calibration measures how many times that it is;
+    left_out: error of the model that shows in its result alone;
+    element: what a contact consists of, where a result counts those "in contact";
+    charted: whether charts take it as it is, or vary its resolution;
     is_mdr: whether its springs are the method of dimensionality reduction.
     """
 
-    name: ClassVar[str]
-    setting: ClassVar[str]
-    element: ClassVar[str] = ""
-    charted: ClassVar[bool] = True
-    is_mdr: ClassVar[bool] = False
+    name: str
+    setting: str
+    serves: Callable[[Any, str], bool]
+    prepare: Callable[[Target, Resolution], Prepared]
+    cost: Callable[[Target, Resolution], Cost]
+    claim: Callable[["Model", Target, Resolution], ErrorEstimate]
+    resolutions: Callable[[Target], tuple[Resolution, ...]] = lambda target: (Resolution(),)
+    shape: Callable[[Target], float] = lambda target: 1.0
+    left_out: Callable[[Target, FloatArray], float] = lambda target, value: 0.0
+    element: str = ""
+    charted: bool = True
+    is_mdr: bool = False
 
-    @abstractmethod
-    def serves(self, scene: Any, quantity: str) -> bool:
-        """Whether it has this quantity of such scenes."""
-
-    @abstractmethod
     def estimate(self, target: Target, resolution: Resolution) -> ErrorEstimate:
-        """The error that it expects of a scene that it serves."""
+        """The error that it expects, before it has computed anything."""
+        return self.claim(self, target, resolution)
 
-    @abstractmethod
-    def cost(self, target: Target, resolution: Resolution) -> Cost:
-        """What one solve is expected to cost."""
+    @property
+    def place(self) -> tuple[str, str]:
+        """Module and variable in which it is declared."""
+        return next((module, variable) for module, variable, one in _declared() if one is self)
 
-    @abstractmethod
-    def prepare(self, target: Target, resolution: Resolution) -> Prepared:
-        """As every `Method`; its results have the values of the quantities that it serves, by their names."""
-
-    def resolutions(self, target: Target) -> tuple[Resolution, ...]:
-        """Those that are offered, the cheapest first."""
-        return (Resolution(),)
-
-    def shape(self, target: Target) -> float:
-        """What its error is expected to go with; the calibration measures how many times that it is."""
-        return 1.0
-
-    def left_out(self, target: Target, value: FloatArray) -> float:
-        """Error of the model that shows in its result alone."""
-        return 0.0
+    def __reduce__(self) -> tuple[Any, ...]:
+        """To another process goes its place: functions inside of functions do not."""
+        return _at, self.place
 
 
+@dataclass(frozen=True, eq=False, kw_only=True)
 class GridModel(Model):
-    """Boundary elements, whose solves on other grids tell what a grid leaves: the reference of all other models."""
+    """Boundary elements, whose solves on other grids tell what a grid leaves: the reference of all other models.
 
-    name: ClassVar = "boundary elements"
-    setting: ClassVar = "on a grid"
-    element: ClassVar = "cells"
-    charted: ClassVar = False
+    label: name on one grid; references: the grids that one is compared with; scatter: of one drawn surface, relative,
+    about; most: surfaces; compared: of these, on the other grids too;
+    grid_error: relative half-width of 95 %, infinite where grids do not converge, and what it rests on, by values,
+    (realisations, numbers), and others, the first of them on the grids of `references`, grids first.
+    """
 
-    @abstractmethod
-    def label(self, resolution: Resolution) -> str: ...
+    name: str = BEM
+    setting: str = "on a grid"
+    element: str = "cells"
+    charted: bool = False
+    label: Callable[[Resolution], str]
+    references: Callable[[Target, Resolution], tuple[Resolution, ...]]
+    scatter: Callable[[Target], float]
+    most: int
+    compared: int
+    grid_error: Callable[[Target, Resolution, FloatArray, FloatArray], tuple[float, str]]
 
-    @abstractmethod
     def sampling(self, target: Target) -> Sampling:
-        """How many realisations."""
+        """A single surface that was measured, or as many as leave the most of the tolerance."""
+        if target.scene.ground.is_single:
+            return Sampling(compared=1)
+        return Sampling(scatter=self.scatter(target), fewest=FEWEST, most=self.most, compared=self.compared)
 
-    @abstractmethod
-    def references(self, target: Target, resolution: Resolution) -> tuple[Resolution, ...]:
-        """The grids that this one is compared with."""
 
-    @abstractmethod
-    def grid_error(
-        self, target: Target, resolution: Resolution, values: FloatArray, others: FloatArray
-    ) -> tuple[float, str]:
-        """Relative half-width of 95 %, infinite where grids do not converge, and what it rests on.
+Value = float | FloatArray | Result
+"""Of the quantity that is asked; a Result where there are more values, several realisations, or none."""
+Function = Callable[[Target, Resolution], Value]
 
-        values: (realisations, numbers); others: the first of them on the grids of `references`, grids first.
-        """
+
+def model(*, cost: Callable[[Target, Resolution], Cost], **declared: Any) -> Callable[[Function], Model]:
+    """The model that a function is which has all of a solve. declared: the other fields of `Model`."""
+
+    def declare(function: Function) -> Model:
+        def prepare(target: Target, resolution: Resolution) -> Prepared:
+            def read(found: Value) -> Result:
+                result = found if isinstance(found, Result) else Result({target.quantity: np.asarray(found)})
+                return replace(result, work=float(cost(target, resolution).work))
+
+            return lambda _: Solve(partial(function, target, resolution), read)
+
+        return Model(prepare=prepare, cost=cost, **declared)
+
+    return declare
 
 
 def models_serving(scene: Any, quantity: str) -> tuple[Model, ...]:
@@ -161,6 +186,18 @@ def models_serving(scene: Any, quantity: str) -> tuple[Model, ...]:
 
 
 def all_models() -> tuple[Model, ...]:
-    """In the order of the names of their modules."""
-    found = (import_module(f"{models.__name__}.{module.name}") for module in iter_modules(models.__path__))
-    return tuple(module.MODEL for module in found)
+    """In the order of `MODELS`, then of their names."""
+    order = {name: place for place, name in enumerate(MODELS)}
+    found = dict.fromkeys(model for *_, model in _declared())
+    return tuple(sorted(found, key=lambda model: (order.get(model.name, len(order)), model.name)))
+
+
+def _declared() -> Iterator[tuple[str, str, Model]]:
+    """The variables of all modules in `simulation/models` that are models."""
+    for module in iter_modules(models.__path__):
+        name = f"{models.__name__}.{module.name}"
+        yield from ((name, key, one) for key, one in vars(import_module(name)).items() if isinstance(one, Model))
+
+
+def _at(module: str, variable: str) -> Any:
+    return getattr(import_module(module), variable)

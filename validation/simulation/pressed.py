@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 import bem3d
 import mdr
 from validation.simulation.method import Prepared, Resolution, Result, Solve, Values
+from validation.simulation.model_names import MDR
 
 FloatArray = NDArray[np.float64]
 
@@ -50,7 +51,7 @@ class PressedScene(GridScene, Protocol):
 class PressedSprings:
     """The foundation: one sort."""
 
-    name: str = "MDR"
+    name: str = MDR
 
     def prepare(self, scene: PressedScene, resolution: Resolution) -> Prepared:
         """Raises ValueError for waves that springs do not resolve."""
@@ -71,17 +72,13 @@ class PressedSprings:
 
 @dataclass(frozen=True)
 class PressedGrid:
-    """Boundary elements, from a cold start: our solver, or the iteration of Polonsky and Keer.
-
-    warm_up: whether the set-up has a first solve, which makes plans, coarser grids and windows.
-    """
+    """Boundary elements, from a cold start: our solver, or the iteration of Polonsky and Keer."""
 
     name: str = "BEM"
     polonsky_keer: bool = False
-    warm_up: bool = True
 
     def prepare(self, scene: GridScene, resolution: Resolution) -> Prepared:
-        """The half-space, and its plans."""
+        """The half-space; a first solve makes plans, coarser grids and windows."""
         cells = round(resolution.size)
         half_space = scene.half_space(cells)
         published = partial(bem3d.solve_polonsky_keer, max_iterations=MOST_ITERATIONS)
@@ -96,8 +93,7 @@ class PressedGrid:
 
             return Solve(run, lambda found: Result(scene.read(*found), cell_applications(*found)))
 
-        if self.warm_up:
-            draw(0).run()
+        draw(0).run()
         return draw
 
 

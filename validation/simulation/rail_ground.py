@@ -32,16 +32,7 @@ def structure_of(across: StatedAcross, line: LineSpectrum) -> TransverseStructur
 
 def line_of(scene: RailScene) -> LineSpectrum:
     """C_line of the levels of a scene; where its ground may be isotropic, the nearest that isotropic ground has."""
-    return scene.isotropic.line if scene.isotropic is not None else _as_given(scene)
-
-
-def whole_line_of(scene: RailScene) -> LineSpectrum:
-    """The same with the levels that stand out of isotropic ground."""
-    return scene.isotropic.whole if scene.isotropic is not None else _as_given(scene)
-
-
-def _as_given(scene: RailScene) -> LineSpectrum:
-    return LineSpectrum.through(*scene.levels.nodes)
+    return scene.isotropic.line if scene.isotropic is not None else LineSpectrum.through(*scene.levels.nodes)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -107,7 +98,7 @@ def strip_of(scene: RailScene, across: StatedAcross, cells: int, realisation: in
     return RailStrip(
         ground=RailGround(
             line=line_of(scene),
-            whole=whole_line_of(scene),
+            whole=None if scene.isotropic is None else scene.isotropic.whole,
             across=across,
             first=float(edges[0]),
             last=float(edges[-1]),
@@ -125,5 +116,6 @@ def strip_of(scene: RailScene, across: StatedAcross, cells: int, realisation: in
 
 def lost_contact_number(scene: RailScene) -> float:
     """h' a_x / d [-], h' the rms slope along the track of the waves that a strip has, `strip_bands`."""
-    slope_along = strip_bands(scene).slope_of_spectrum(_as_given(scene))
+    as_given = LineSpectrum.through(*scene.levels.nodes)
+    slope_along = strip_bands(scene).slope_of_spectrum(as_given)
     return slope_along * scene.contact.along / scene.contact.approach

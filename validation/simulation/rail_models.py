@@ -5,10 +5,10 @@ model is its difference from linear theory and that of linear theory. What is no
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,13 +17,15 @@ from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL
 from validation.engine.engine import Outcome
 from validation.scenes.rail import ProfiledRail, RailScene
-from validation.simulation.equivalent_displacement import LINEAR, LINEAR_MODELS, RolledRail, log_over, roll_rail
-from validation.simulation.method import Prepared, Resolution, Result, Solve
-from validation.simulation.model import Cost, ErrorEstimate, Model, Target
+from validation.simulation.equivalent_displacement import LINEAR_MODELS, RolledRail, log_over, roll_rail
+from validation.simulation.method import Resolution, Result, Values
+from validation.simulation.model import Cost, ErrorEstimate, Model, Target, model
+from validation.simulation.model_names import LINEAR, twin_of
+from validation.simulation.profiled_strip import roll_on_profile
 from validation.simulation.rail_ground import StatedAcross, positions_along, strip_bands, strip_of
 from validation.simulation.rail_quantity import RAIL_QUANTITIES, RailQuantity
 from validation.simulation.rail_strip import RailStrip
-from validation.simulation.spectral_springs import twin_of
+from validation.simulation.spectral_springs import SPECTRAL_SPRINGS, SpectralRail, roll_spectral_springs
 
 FloatArray = NDArray[np.float64]
 
@@ -42,54 +44,99 @@ FINE, COARSE = 12, 8
 """Cells to the smaller semi-axis."""
 OF_FINE = 0.8
 """Error of the fine grid over its difference from the coarse one, of second order."""
-CLOSED, EVALUATION, POSITION, ITEM = 2e-2, 5e-8, 4e-3, 1e-4
-"""Seconds of a closed filter on one ground at the least, and of a wave of it; of a position of boundary elements, and
-of one of springs, about."""
+CLOSED, EVALUATION, ITEM = 2e-2, 5e-8, 1e-4
+"""Seconds of a closed filter on one ground at the least, and of a wave of it; of a position on springs, about."""
 
 
-@dataclass(frozen=True, eq=False)
-class FoundFilter:
-    """A3 in each band, the middle of both ends where the ground is not stated, and half-widths of 95 % [dB].
+@dataclass(frozen=True, kw_only=True)
+class ContactFilter:
+    """A contact filter in bands: a linear one, whose mean over the stated ground is a quadrature, or a one-sided one.
 
-    model: infinite in bands of which no error is known.
+    That is its linear twin on the stated ground, and on strips what it is over the twin. closed: A3 of the linear
+    filter or of the twin, (ends, bands) [dB]; seconds: that a position of a strip takes, about; is_reference: of the
+    errors of all others; across: what lies across on its strips, None for what is stated.
     """
 
-    a3: FloatArray
-    model: FloatArray
-    grid: FloatArray
-    sample: FloatArray
-
-
-class RailModel(Model):
-    """A contact filter in bands, by default a linear one whose mean over the stated ground is a quadrature."""
-
-    charted: ClassVar = False
+    name: str
+    closed: Callable[[RailQuantity], FloatArray]
+    seconds: float = ITEM
+    is_reference: bool = False
+    across: StatedAcross | None = None
 
     @property
     def twin(self) -> str:
         """The name of the linear model of a one-sided one, and of that one's track; of any other its own."""
         return twin_of(self.name)
 
+    @property
+    def on_strips(self) -> bool:
+        return self.twin != self.name
+
     def serves(self, scene: Any, quantity: str) -> bool:
-        return isinstance(scene, RailScene) and quantity in RAIL_QUANTITIES
+        known = isinstance(scene, RailScene) and quantity in RAIL_QUANTITIES
+        return known and (self.across is None or scene.across in (self.across, None))
 
-    def closed(self, quantity: RailQuantity) -> FloatArray:
-        """A3 of the linear filter, of a one-sided model that of its linear twin, (ends, bands) [dB]."""
-        return quantity.filtered(LINEAR_MODELS[self.twin](quantity.scene.contact))
+    def find(self, quantity: RailQuantity, seed: int) -> Values:
+        """a3: in the middle of both ends where the ground is not stated; model, grid, sample: half-widths of 95 % [dB].
 
-    def find(self, quantity: RailQuantity, seed: int) -> FoundFilter:
-        """Without a sample."""
-        a3 = self.closed(quantity).mean(axis=0)
-        return FoundFilter(a3, self.model_error(quantity, a3), np.zeros_like(a3), np.zeros_like(a3))
+        model: infinite in bands of which no error is known.
+        """
+        found = self.closed(quantity)
+        over, grid, sample = np.zeros((3, *found.shape))
+        if self.on_strips:
+            inside = in_strips(quantity)
+            for i, across in enumerate(quantity.ends):
+                coarse, fine = (
+                    self.over_twin(quantity.scene, self.across or across, cells, seed) for cells in (COARSE, FINE)
+                )
+                over[i, inside], sample[i, inside] = fine
+                grid[i, inside] = OF_FINE * np.abs(fine[0] - coarse[0])
+            found = quantity.between(found + over)
+        a3 = found.mean(axis=0)
+        error = self.model_error(quantity, a3)
+        return {"a3": a3, "model": error, "grid": grid.max(axis=0), "sample": sample.max(axis=0)}
+
+    def over_twin(self, scene: RailScene, across: StatedAcross, cells: int, seed: int) -> tuple[FloatArray, FloatArray]:
+        """The model over its linear twin on the same strips, in their bands, and what the sample leaves of it [dB]."""
+        strips = [strip_of(scene, across, cells, i, seed) for i in range(STRIPS)]
+        outcomes = [self.roll(scene, strip) for strip in strips]
+        bands = Bands(tuple(strip_bands(scene).edges.tolist()))
+        if any(outcome["failed"] for outcome in outcomes):
+            return np.full((2, len(bands.centres)), np.nan)  # type: ignore[return-value]
+        found = log_over(self.name, self.twin, outcomes, strips[0].spacing, bands)
+        values, errors = zip(*((one.value, one.half_width) for one in found), strict=True)
+        return POWER_DECIBEL * np.array(values), POWER_DECIBEL * np.array(errors)
+
+    def roll(self, scene: RailScene, strip: RailStrip) -> Outcome:
+        """Tracks along a strip of this model and of its twin, by their names [m]; failed: positions without any.
+
+        With the profile across where the scene has one, which boundary elements alone know.
+        """
+        if self.name in SPECTRAL_SPRINGS:
+            return roll_spectral_springs(SpectralRail(strip=strip, models=(self.name,)))
+        if self.is_reference and isinstance(scene, ProfiledRail):
+            return roll_on_profile(strip, scene.profile)
+        return roll_rail(RolledRail(strip=strip, models=(self.name,)))
 
     def model_error(self, quantity: RailQuantity, a3: FloatArray) -> FloatArray:
-        """Half-width that model and ground leave in each band, infinite for a radius in place of a profile [dB]."""
-        if isinstance(quantity.scene, ProfiledRail):
-            return np.full_like(a3, np.inf)
-        apart = np.abs(a3 - quantity.linear.mean(axis=0))
-        return np.asarray(apart + linear_error(quantity) + quantity.left_by_ground)
+        """Half-width that model and ground leave in each band, infinite for a radius in place of a profile [dB].
 
-    def estimate(self, target: Target, resolution: Resolution) -> ErrorEstimate:
+        The reference has none of its own; bands that a strip has not are linear theory, with its error, of a profile
+        unknown for shorter waves.
+        """
+        profiled = isinstance(quantity.scene, ProfiledRail)
+        if profiled and not self.is_reference:
+            return np.full_like(a3, np.inf)
+        own, left = linear_error(quantity), quantity.left_by_ground
+        if not self.is_reference:
+            return np.asarray(np.abs(a3 - quantity.linear.mean(axis=0)) + own + left)
+        inside = in_strips(quantity)
+        if profiled:
+            own = np.where(np.arange(inside.size) > np.flatnonzero(inside).max(), np.inf, own)
+        return np.where(inside, 0.0, own) + left
+
+    def claim(self, model: Model, target: Target, resolution: Resolution) -> ErrorEstimate:
+        """By the filter of the linear twin, before anything rolls."""
         quantity = rail_quantity(target)
         if reason := quantity.no_answer or self.beyond(quantity):
             return ErrorEstimate.out_of_range(reason)
@@ -102,7 +149,9 @@ class RailModel(Model):
         )
 
     def beyond(self, quantity: RailQuantity) -> str:
-        """Why no error is known; empty where one is."""
+        """Why no error is known; empty where one is, and for the reference."""
+        if self.is_reference:
+            return ""
         if isinstance(quantity.scene, ProfiledRail):
             return f"errors were measured on two radii: {quantity.scene.stand_in}"
         contact = quantity.scene.contact
@@ -116,80 +165,45 @@ class RailModel(Model):
     def cost(self, target: Target, resolution: Resolution) -> Cost:
         quantity = rail_quantity(target)
         ends = len(quantity.ends)
-        seconds = max(CLOSED * ends, EVALUATION * evaluations(quantity))
-        return Cost(work=ends, unit="closed filters", seconds=seconds)
+        if self.on_strips:
+            positions = STRIPS * ends * sum(positions_along(quantity.scene, cells) for cells in (COARSE, FINE))
+            return Cost(work=positions, seconds=self.seconds * positions)
+        return Cost(work=ends, seconds=max(CLOSED * ends, EVALUATION * quantity.evaluations))
 
-    def prepare(self, target: Target, resolution: Resolution) -> Prepared:
+    def solve(self, target: Target, resolution: Resolution) -> Result:
+        """Of both quantities, by their names, and what `find` has."""
         quantity = rail_quantity(target)
-        work = self.cost(target, resolution).work
-
-        def read(found: FoundFilter) -> Result:
-            values = {"a3": found.a3, "model": found.model, "grid": found.grid, "sample": found.sample}
-            both = {str(name): replace(quantity, name=name).amplitude(found.a3) for name in RAIL_QUANTITIES}
-            failed = "" if np.isfinite(found.a3).all() else "a contact along a strip did not converge"
-            return Result({**both, **values}, work, failed=failed)
-
-        return lambda _: Solve(lambda: self.find(quantity, target.seed), read)
+        found = self.find(quantity, target.seed)
+        both = {str(name): replace(quantity, name=name).amplitude(found["a3"]) for name in RAIL_QUANTITIES}
+        failed = "" if np.isfinite(found["a3"]).all() else "a contact along a strip did not converge"
+        return Result({**both, **found}, failed=failed)
 
 
-class RolledRailModel(RailModel):
-    """A one-sided model on strips: its linear twin on the stated ground, and what it is over the twin on strips."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RailModel(Model):
+    """filter: what it makes of a rail."""
 
-    setting: ClassVar = f"{STRIPS} strips, constant load"
-    cells: ClassVar = (COARSE, FINE)
-    seconds: ClassVar = ITEM
+    filter: ContactFilter
 
-    def roll(self, scene: RailScene, strip: RailStrip) -> Outcome:
-        """Tracks along a strip of this model and of its twin, by their names [m]; failed: positions without any."""
-        return roll_rail(RolledRail(strip=strip, models=(self.name,)))
 
-    def grounds(self, quantity: RailQuantity) -> tuple[StatedAcross, ...]:
-        """What lies across on the strips of each end."""
-        return quantity.ends
+def rail_model(name: str, setting: str, *, is_mdr: bool = False, **of_filter: Any) -> RailModel:
+    """of_filter: fields of `ContactFilter`; a linear filter of `LINEAR_MODELS` is known by the name of the model."""
 
-    def cost(self, target: Target, resolution: Resolution) -> Cost:
-        quantity = rail_quantity(target)
-        along = [positions_along(quantity.scene, cells) for cells in self.cells]
-        positions = STRIPS * len(quantity.ends) * sum(along)
-        return Cost(work=positions, unit="positions", seconds=self.seconds * positions)
+    def linear(quantity: RailQuantity) -> FloatArray:
+        return quantity.filtered(LINEAR_MODELS[twin_of(name)](quantity.scene.contact))
 
-    def find(self, quantity: RailQuantity, seed: int) -> FoundFilter:
-        twin, inside = self.closed(quantity), in_strips(quantity)
-        over, grid, sample = np.zeros((3, *twin.shape))
-        for i, across in enumerate(self.grounds(quantity)):
-            coarse, fine = (self.over_twin(quantity.scene, across, cells, seed) for cells in self.cells)
-            over[i, inside], sample[i, inside] = fine
-            grid[i, inside] = OF_FINE * np.abs(fine[0] - coarse[0])
-        a3 = quantity.between(twin + over).mean(axis=0)
-        return FoundFilter(a3, self.model_error(quantity, a3), grid.max(axis=0), sample.max(axis=0))
-
-    def over_twin(self, scene: RailScene, across: StatedAcross, cells: int, seed: int) -> tuple[FloatArray, FloatArray]:
-        """The model over its linear twin on the same strips, in their bands, and what the sample leaves of it [dB]."""
-        strips = [strip_of(scene, across, cells, i, seed) for i in range(STRIPS)]
-        outcomes = [self.roll(scene, strip) for strip in strips]
-        bands = Bands(tuple(strip_bands(scene).edges.tolist()))
-        if any(outcome["failed"] for outcome in outcomes):
-            return np.full((2, len(bands.centres)), np.nan)  # type: ignore[return-value]
-        found = log_over(self.name, self.twin, outcomes, strips[0].spacing, bands)
-        values, errors = zip(*((one.value, one.half_width) for one in found), strict=True)
-        return POWER_DECIBEL * np.array(values), POWER_DECIBEL * np.array(errors)
+    one = ContactFilter(**{"name": name, "closed": linear, **of_filter})
+    about = {"name": name, "setting": setting, "is_mdr": is_mdr, "charted": False}
+    plain = model(serves=one.serves, cost=one.cost, claim=one.claim, **about)(one.solve)
+    return RailModel(filter=one, **vars(plain))
 
 
 def rail_quantity(target: Target) -> RailQuantity:
     """What is asked; kept, since all models of a scene are asked the same."""
-    return _rail_quantity(target.scene, target.quantity)
+    return _kept(target.scene, target.quantity)
 
 
-@lru_cache(maxsize=8)
-def _rail_quantity(scene: RailScene, name: Any) -> RailQuantity:
-    return RailQuantity(scene, name)
-
-
-@lru_cache(maxsize=8)
-def evaluations(quantity: RailQuantity) -> int:
-    """Waves of a closed filter, over all bands and grounds."""
-    axes = quantity.scene.contact.along, quantity.scene.contact.across
-    return sum(ground.evaluations(edges=quantity.bands.edges, semi_axes=axes) for ground in quantity.structures)
+_kept = lru_cache(maxsize=8)(RailQuantity)
 
 
 def linear_error(quantity: RailQuantity) -> FloatArray:

@@ -79,6 +79,12 @@ class RailQuantity:
         return tuple(structure_of(across, self.line) for across in self.ends)
 
     @cached_property
+    def evaluations(self) -> int:
+        """Waves of a closed filter, over all bands and grounds."""
+        axes = self.scene.contact.along, self.scene.contact.across
+        return sum(ground.evaluations(edges=self.bands.edges, semi_axes=axes) for ground in self.structures)
+
+    @cached_property
     def no_answer(self) -> str:
         """Why no model has one: no wave of the contact's length, or no band that counts; empty where one may have."""
         try:

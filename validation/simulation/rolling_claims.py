@@ -1,7 +1,9 @@
 """The errors that cheap models of a rolling wheel claim, and the scenes on which those were measured."""
 
-from dataclasses import replace
-from typing import ClassVar
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,100 +24,104 @@ from validation.simulation.calibrated_range import (
 )
 from validation.simulation.calibration import calibrated
 from validation.simulation.method import Resolution
-from validation.simulation.model import ErrorEstimate, Model, Target
-from validation.simulation.rolling_quantity import RollingQuantity
+from validation.simulation.model import ErrorEstimate, Function, Model, Target, model
+from validation.simulation.rolling_quantity import QuantityName
 from validation.simulation.sampling import distance
 
 FloatArray = NDArray[np.float64]
 Rule = tuple[float, float, float]
 MovingRule = tuple[float, float, float, float]
+
 LINEAR_BANDS: Rule = (2.0, 0.5, 0.015)
 LINEAR_RMS: Rule = (1.2, 0.05, 0.002)
-GEIKE_BANDS: Rule = (2.0, 0.5, 0.55)
-FED_BANDS: Rule = (0.0, 0.6, 0.45)
-SPRINGS_RMS: Rule = (1.0, 0.1, 0.002)
-READ_BANDS: Rule = (1.8, 0.4, 0.02)
-READ_RMS: Rule = (0.8, 0.05, 0.004)
-LAYER_BANDS: Rule = (0.0, 0.1, 0.12)
-LAYER_RMS: Rule = (0.02, 0.03, 0.005)
-"""Errors of linear theory, of that with Geike's spectrum in one dimension, of springs, of springs that read the
-surface, and of the pressed layer, in bands and in the rms: a
-sum over the contact that linear theory loses, h/d, and one. Envelopes of what was measured beside boundary elements on
-random scenes, for scenes that are not in the table of the calibration."""
 LINEAR_MOVING: MovingRule = (1.2, 3.0, 0.0, 0.008)
-SPRINGS_MOVING: MovingRule = (0.5, 0.0, 0.06, 0.02)
-"""The same in the rms of the acceleration, of linear theory and of springs: a sum over the contact lost, (h/d)^2 times
-what the resonance adds to the force, whose frequency falls with the height, q a of the longest wave above it, whose
-level springs miss, and one: what the reference leaves."""
-FORCE_RMS = "force-rms"
-"""The quantity whose errors are those of the rms; Geike's rule keeps the variance of the force."""
-MOVING_RMS = "acceleration-rms"
-SECOND_ORDER = 0.1
-"""Of h/d times the level of all bands: what the loss of contact puts into each band that linear theory finds quiet."""
+"""Of linear theory, in bands, in the rms, and in the rms of the acceleration: `RollingClaim`."""
+FORCE_RMS, MOVING_RMS = "force-rms", "acceleration-rms"
+"""The quantity whose errors are those of the rms; Geike's rule keeps the variance of the force. That of a wheel that
+moves."""
 MEASURED_SCATTER = 0.5
 """Of the levels of one track about those of all that have its spectrum."""
-FORMULA, NODE, SPRING, CELL, POSITION = 1.0e-4, 4.5e-4, 6.0e-7, 2.0e-8, 1.0e-3
-"""Seconds that a formula at a node takes, a quadrature across the track there, a position on springs, a cell in an
-application, what else a contact, about."""
+NODE = 4.5e-4
+"""Seconds that a quadrature across the track takes, about."""
 RANGES: Ranges = {HEIGHT: (0, 1), LONG: (0, 2), SHORT: (0, 40), RATIO: (2, 64), HURST: (0.2, 1.2)}
-"""Scenes for which the errors above hold: drawn ones were rolled with h/d from 0.003, q a of the longest wave from
-0.2 and bands up to a factor 20 wide. Longer waves only move the contact, which linear theory knows; that it holds
-in wider bands is taken from Table 14.1 alone."""
+"""Scenes for which the rules hold: drawn ones were rolled with h/d from 0.003, q a of the longest wave from 0.2 and
+bands up to a factor 20 wide. Longer waves only move the contact, which linear theory knows; that it holds in wider
+bands is taken from Table 14.1 alone."""
 
 
-class CheapRollingModel(Model):
-    """A model below boundary elements: its error is a rule in bands, and another in the rms.
+def of_a_wheel(scene: object, quantity: str) -> bool:
+    return isinstance(scene, RollingScene) and quantity in get_args(QuantityName)
 
-    bands, rms, moving: the rules, of a moving wheel that in bands where there is no other; on_bands, on_rms: what else
-    the error rests on; own: error of one measured track about all that have its spectrum.
+
+@dataclass(frozen=True, kw_only=True)
+class RollingClaim:
+    """The error of a model below boundary elements: a rule in bands, and another in the rms.
+
+    bands, rms: a sum over the contact that linear theory loses, h/d, and one; moving: in the rms of the acceleration, a
+    sum over the contact lost, (h/d)^2 times what the resonance adds to the force, whose frequency falls with the
+    height, q a of the longest wave above it, whose level springs miss, and one: what the reference leaves. They are
+    envelopes of what was measured beside boundary elements on random scenes, for scenes beyond the calibration.
+    on_bands, on_rms: what else the error rests on; own: error of one measured track about all that have its spectrum;
+    of_spectrum: whether the model knows a surface by its spectrum alone; sample: the tolerance over what realisations
+    leave of it; size, most: of what is drawn at once, and what there may be of that; too_large: how much is needed.
     """
 
-    bands: ClassVar[Rule]
-    rms: ClassVar[Rule] = LINEAR_RMS
-    moving: ClassVar[MovingRule | None] = None
-    on_bands: ClassVar[str] = ""
-    on_rms: ClassVar[str] = ""
-    own: ClassVar[float] = MEASURED_SCATTER
+    bands: Rule
+    rms: Rule = LINEAR_RMS
+    moving: MovingRule | None = None
+    on_bands: str = ""
+    on_rms: str = ""
+    own: float = MEASURED_SCATTER
+    of_spectrum: bool = True
+    sample: float = math.inf
+    size: Callable[[Target, Resolution], float] = lambda target, resolution: 0.0
+    most: float = math.inf
+    too_large: str = ""
 
-    def serves(self, scene: object, quantity: str) -> bool:
-        return isinstance(scene, RollingScene) and quantity != "stiffness"
+    def model(self, **declared: Any) -> Callable[[Function], Model]:
+        """Decorator of a function that has this claim, unless it is declared otherwise."""
+        own = {"claim": self.estimate, "shape": self.shape, "left_out": self.left_out, "serves": of_a_wheel}
+        return model(**{**own, **declared})
 
-    def estimate(self, target: Target, resolution: Resolution) -> ErrorEstimate:
-        quantity, single = target.rolling, target.scene.ground.is_single
-        if reason := self.beyond(target) or quantity.no_answer:
+    def estimate(self, model: Model, target: Target, resolution: Resolution) -> ErrorEstimate:
+        quantity, ground = target.rolling, target.scene.ground
+        beyond = beyond_spectrum(ground) if self.of_spectrum else str(ground.not_gaussian())
+        if reason := beyond or quantity.no_answer:
             return ErrorEstimate.out_of_range(reason)
-        expected = calibrated(self, target)
+        expected = calibrated(model, target)
         if not expected.in_range:
             expected = self._by_envelope(target, expected.reason)
         if not expected.in_range:
             return expected
+        if (size := self.size(target, resolution)) > self.most:
+            return ErrorEstimate.out_of_range(f"{self.too_large.format(size)}, more than {self.most:.2g}")
         reasons = [self.on_rms if quantity.name == FORCE_RMS else self.on_bands, expected.reason]
-        own = self.own if single else 0.0
+        own = self.own if ground.is_single else 0.0
         if own:
             reasons.insert(0, f"one track scatters {own:.0%} about the mean of its spectrum")
-        return replace(expected, model=expected.model + own, reason="; ".join(filter(None, reasons)))
+        reason = "; ".join(filter(None, reasons))
+        return ErrorEstimate(model=expected.model + own, sample=target.tolerance / self.sample, reason=reason)
 
     def shape(self, target: Target) -> float:
+        """What the error goes with."""
+        quantity = target.rolling
+        lost, ratio = _causes(target)
         if self.moving and target.quantity == MOVING_RMS:
-            return float(np.dot(self.moving, (*_causes_of_moving(target.rolling), 1.0)))
-        return float(np.dot(self.rms if target.quantity == FORCE_RMS else self.bands, (*_causes(target.rolling), 1.0)))
+            longest = quantity.longest_moving * target.scene.contact_radius
+            return float(np.dot(self.moving, (lost, ratio**2 * (quantity.amplification - 1), longest, 1.0)))
+        return float(np.dot(self.rms if target.quantity == FORCE_RMS else self.bands, (lost, ratio, 1.0)))
 
     def _by_envelope(self, target: Target, why: str) -> ErrorEstimate:
         """why: the scene is not one of the table."""
-        quantity = target.rolling
-        scene = target.scene
+        quantity, scene = target.rolling, target.scene
         longest = scene.ground.q_min * scene.contact_radius
         conditions = {**rolling_conditions(quantity), LONG: longest, HEIGHT: scene.roughness_ratio}
         if reason := outside(conditions, RANGES):
             return ErrorEstimate.out_of_range(reason)
-        lost, ratio = _causes(quantity)
+        lost, ratio = _causes(target)
         height = "h/d, by the resonance" if quantity.amplification > 1 else "h/d"
         named = counted({"loss of contact by linear theory": lost, height: ratio})
         return ErrorEstimate(model=self.shape(target), reason=f"an envelope, not calibrated ({why}): {named}")
-
-    def beyond(self, target: Target) -> str:
-        """Why the model cannot know this surface; empty where it can."""
-        return beyond_spectrum(target.scene.ground)
 
     def left_out(self, target: Target, value: FloatArray) -> float:
         """Error of bands in which measured heights have next to no waves: what linear theory leaves out fills them.
@@ -125,15 +131,9 @@ class CheapRollingModel(Model):
         return filled(target, value, 1.0) if target.scene.ground.is_single else 0.0
 
 
-def _causes(quantity: RollingQuantity) -> tuple[float, float]:
+def _causes(target: Target) -> tuple[float, float]:
     """The share of the contact that linear theory loses, and h/d, by the resonance."""
-    return lost_contact(quantity.scene), quantity.scene.roughness_ratio * quantity.amplification
-
-
-def _causes_of_moving(quantity: RollingQuantity) -> tuple[float, float, float]:
-    """The share of the contact lost, (h/d)^2 times what the resonance adds, and q a of the longest wave that counts."""
-    lost, ratio = _causes(quantity)
-    return lost, ratio**2 * (quantity.amplification - 1), quantity.longest_moving * quantity.scene.contact_radius
+    return lost_contact(target.scene), target.scene.roughness_ratio * target.rolling.amplification
 
 
 def filled(target: Target, value: FloatArray, share: float) -> float:

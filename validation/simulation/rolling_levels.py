@@ -15,8 +15,8 @@ from validation.analysis.spectra import levels, waves
 from validation.engine.random_numbers import random_generator
 from validation.scenes.measured import MeasuredHeights
 from validation.simulation.contact_laws import BoundaryElementsLaw, LinearLaw, SpringsLaw
-from validation.simulation.resolution import too_few
 from validation.simulation.rolling_quantity import RollingQuantity
+from validation.simulation.sampling import too_few
 from validation.simulation.surface import surface_on_grid
 from validation.simulation.wheel_on_half_space import crop_to_reach, simulate_from_linear_motion
 from validation.simulation.wheel_on_springs import linear_law_1d, rolling_input

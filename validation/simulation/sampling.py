@@ -1,4 +1,4 @@
-"""What a sample and a grid leave of a result: half-widths of 95 %."""
+"""What a sample and a grid leave of a result: half-widths of 95 %; and what a contact must stand on."""
 
 import math
 
@@ -17,6 +17,8 @@ Of normal samples and of levels of a power, 0.7 to 0.9 % end with a mean off by 
 they begin with four, 0.3 % with eight (tests/simulation/test_fewest_realisations.py)."""
 SLOWEST = 0.8
 """Largest ratio of two changes that a sample may feign: four times the last change is then left."""
+FEWEST_IN_CONTACT = 6
+"""Cells or springs: an answer that stands on fewer is that of the grid, and none."""
 
 
 def distance(value: FloatArray, other: FloatArray) -> float:
@@ -58,3 +60,10 @@ def realisations(deviation: float, error: float, *, least: int = FEWEST, most: i
     deviation: s, relative, of one realisation; error: e.
     """
     return int(np.clip(math.ceil((STUDENT * deviation / error) ** 2), least, most))
+
+
+def too_few(count: float, what: str) -> str:
+    """Why there is no answer where half of the contacts have fewer than six cells or springs; empty where they have."""
+    if count >= FEWEST_IN_CONTACT:
+        return ""
+    return f"half of the contacts have {count:.2g} {what} or fewer: the answer would be that of the grid"

@@ -15,17 +15,25 @@ from numpy.typing import NDArray
 
 import mdr
 from validation.engine.engine import Outcome
-from validation.simulation.equivalent_displacement import LINE, LINEAR_MODELS, LINEAR_ON_LINE, ONE_SIDED, lifted
+from validation.simulation.equivalent_displacement import LINEAR_MODELS, lifted
+from validation.simulation.model_names import (
+    LINE,
+    LINEAR_GEIKE,
+    LINEAR_ON_LINE,
+    LINEAR_ROLLING,
+    SPRINGS_GEIKE,
+    SPRINGS_ROLLING,
+    twin_of,
+)
 from validation.simulation.rail_strip import RailStrip, Transfer
 from validation.theory.elliptic_contact import EllipticContact
 from validation.theory.line_spectrum import LineSpectrum
 from validation.theory.spring_input import geike_over_line, rolling_input_filter
 from validation.theory.transverse_structure import IsotropicGround, Ridges
 
+__all__ = ["LINEAR_GEIKE", "LINEAR_ROLLING", "SPRINGS_GEIKE", "SPRINGS_ROLLING", "twin_of"]
+"""Names of models, for cases that compare the filters of this module."""
 FloatArray = NDArray[np.float64]
-
-SPRINGS_ROLLING, SPRINGS_GEIKE = "springs, rolling spectrum", "springs, Geike's rule"
-LINEAR_ROLLING, LINEAR_GEIKE = "linear, rolling spectrum", "linear, Geike's rule"
 
 
 def rolling_track(strip: RailStrip) -> FloatArray:
@@ -47,19 +55,11 @@ def geike_track(strip: RailStrip) -> FloatArray:
     return np.asarray(np.fft.ifft(np.sqrt(ratio) * np.fft.fft(line)).real)
 
 
-@dataclass(frozen=True)
-class SpectralSprings:
-    """track: heights under the springs on a strip [m]; twin: the name of the same springs where all of them touch."""
-
-    track: Callable[[RailStrip], FloatArray]
-    twin: str
-
-
-SPECTRAL_SPRINGS: Mapping[str, SpectralSprings] = {
-    SPRINGS_ROLLING: SpectralSprings(rolling_track, LINEAR_ROLLING),
-    SPRINGS_GEIKE: SpectralSprings(geike_track, LINEAR_GEIKE),
+SPECTRAL_SPRINGS: Mapping[str, Callable[[RailStrip], FloatArray]] = {
+    SPRINGS_ROLLING: rolling_track,
+    SPRINGS_GEIKE: geike_track,
 }
-"""By name; Geike's rule is for isotropic ground alone."""
+"""Heights under the springs on a strip [m], by the name of the model; Geike's rule is for isotropic ground alone."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,14 +82,14 @@ def roll_spectral_springs(problem: SpectralRail) -> Outcome:
     """
     strip, found = problem.strip, dict[str, FloatArray]()
     for name in problem.models:
-        track = SPECTRAL_SPRINGS[name].track(strip)
+        track = SPECTRAL_SPRINGS[name](strip)
         with warnings.catch_warnings():
             # what few springs leave is measured on two grids
             warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
             rolled = mdr.roll(
                 track, spacing=strip.spacing, radius=strip.radii, modulus=strip.modulus, force=strip.force
             )
-        found |= {name: lifted(rolled.approach), SPECTRAL_SPRINGS[name].twin: _linear(strip, track)}
+        found |= {name: lifted(rolled.approach), twin_of(name): _linear(strip, track)}
     return {**found, "failed": np.array(0.0)}
 
 
@@ -98,13 +98,6 @@ def _linear(strip: RailStrip, track: FloatArray) -> FloatArray:
     k = 2 * np.pi * np.fft.rfftfreq(track.size, strip.spacing)
     passed = np.fft.irfft(np.fft.rfft(track) * np.sinc(k * strip.contact.along / np.pi), track.size)
     return np.asarray(passed - passed.mean())
-
-
-def twin_of(model: str) -> str:
-    """The linear model of a one-sided one; of any other, itself."""
-    if model in SPECTRAL_SPRINGS:
-        return SPECTRAL_SPRINGS[model].twin
-    return ONE_SIDED[model].twin if model in ONE_SIDED else model
 
 
 def rolling_transfer(contact: EllipticContact) -> Transfer:

@@ -15,13 +15,14 @@ from mdr.rolling_surface import weights_across
 from validation.engine.engine import Outcome
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import BoundaryElementsLaw, ContactLaw, LinearLaw
+from validation.simulation.model_names import SPRINGS_THAT_READ
 from validation.simulation.motion import simulate
 from validation.simulation.rail_strip import RailStrip
 from validation.theory.contact_filters import half_space_filter
 
 FloatArray = NDArray[np.float64]
 
-BEM, SPRINGS = "bem3d", "springs that read the surface"
+BEM, SPRINGS = "bem3d", SPRINGS_THAT_READ
 DEEPER = 2.0
 """Largest approach of the springs in motion, over that of the smooth wheel."""
 

@@ -1,26 +1,37 @@
 """The solver comparison: the same contact problems, the same residual, one thread each, solvers in turns."""
 
 import itertools
-import time
-import warnings
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
-import bem3d
-from validation.analysis.evidence import Table
-from validation.benchmarks.found_models import TimedProblem, all_methods, configurations_of
-from validation.benchmarks.isolation import measure_alone, peak_memory, timed
-from validation.benchmarks.peers import OUR_SOLVER, SOLVERS
-from validation.benchmarks.solvers.problems import PUNCH, ROUGH, SPHERE, SPHERE_LOAD, SurfaceProblem, punch
-from validation.benchmarks.solvers.rolling import RollingThroughput, rolling_throughput
-from validation.benchmarks.solvers.wheel_steps import SteppingThroughput, stepping_throughput
-from validation.benchmarks.timing import FINISHED, RunLimits, Timing, interval_of_median, time_in_turns
+from validation.analysis.evidence import Table, table_of
+from validation.analysis.series import Margin, Series, single
+from validation.analysis.statistics import Interval
+from validation.analysis.study import Outcomes
+from validation.benchmarks.found_models import TimedProblem, all_methods
+from validation.benchmarks.isolation import measure_alone
+from validation.benchmarks.peers import OUR_SOLVER, OURS, SOLVERS
+from validation.benchmarks.solvers import problems
+from validation.benchmarks.solvers.problems import (
+    MEMORY,
+    PUNCH,
+    ROUGH,
+    SOLVE,
+    SPHERE,
+    SPHERE_LOAD,
+    GridScaling,
+    LoadPath,
+    SurfaceProblem,
+    punch,
+)
+from validation.benchmarks.solvers.throughput import RollingThroughput, SteppingThroughput
+from validation.benchmarks.timing import FINISHED, RunLimits
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation.method import FloatArray, Values
-from validation.simulation.rough_punch import Surface, press_surface
+from validation.simulation.rough_punch import Surface
 
-NOT_INSTALLED = "not installed"
 ROLLING, STEPPING = RollingThroughput(), SteppingThroughput()
 SETTLED = 1.0
 """Seconds of runs after which the fewest are enough."""
@@ -44,14 +55,9 @@ class LoadPathWorkload:
         loads = (self.forces[i] * punch(self.cells, seed).height for i in self.sampled)
         return [SurfaceProblem(PUNCH, load, self.cells, False, seed, self.tolerance) for load in loads]
 
-    def load_paths(self, seed: int) -> list["LoadPath"]:
-        first = Surface(
-            roughness=punch(self.cells, seed),
-            realisation=0,
-            cells=self.cells,
-            forces=self.forces,
-            tolerance=self.tolerance,
-        )
+    def load_paths(self, seed: int) -> list[LoadPath]:
+        rough, forces = punch(self.cells, seed), self.forces
+        first = Surface(roughness=rough, realisation=0, cells=self.cells, forces=forces, tolerance=self.tolerance)
         return [LoadPath(replace(first, realisation=i)) for i in range(self.paths)]
 
 
@@ -82,166 +88,182 @@ class SolverComparison:
             for periodic, (surface, load), n in itertools.product((True, False), surfaces, self.cells)
         ]
 
-    def scalings(self) -> list["GridScaling"]:
+    def scalings(self) -> list[GridScaling]:
         """Our solver alone, along the cells of three problems."""
-        problems = ((SPHERE, SPHERE_LOAD, False), (ROUGH, self.loads[-1], False), (ROUGH, self.loads[-1], True))
+        chosen = ((SPHERE, SPHERE_LOAD, False), (ROUGH, self.loads[-1], False), (ROUGH, self.loads[-1], True))
         return [
             GridScaling(SurfaceProblem(surface, load, n, periodic, self.seed, self.residual))
-            for surface, load, periodic in problems
+            for surface, load, periodic in chosen
             for n in self.scaling
         ]
 
 
-Solved = list[tuple[SurfaceProblem, Outcome]]
+Row = Mapping[str, Any]
+Rows = Sequence[Sequence[Row]]
+"""Of each problem, those of all solvers."""
 
 
-@dataclass(frozen=True)
-class SolverComparisonResult:
-    """Problems with their outcomes; the sample of Fig. 14.1 apart."""
-
-    case: SolverComparison
-    problems: Solved
-    scalings: list[tuple[SurfaceProblem, Outcome]]
-    load_path_problems: Solved
-    load_paths: list[Outcome]
-    rolling: Table
-    wheel: Table
-    began: float = 0.0
-
-    @property
-    def resumed(self) -> int:
-        """Problems that an interrupted run had solved before."""
-        return sum(float(outcome["time"]) < self.began for _, outcome in self.problems)
-
-
-def run(case: SolverComparison, engine: Engine = SERIAL) -> SolverComparisonResult:
+def run(case: SolverComparison, engine: Engine = SERIAL) -> Outcomes:
     """Time all problems, one at a time whatever the engine's workers, so that nothing else disturbs them."""
-    began, limits = time.time(), RunLimits(slow=case.slow, enough=SETTLED)
+    limits = RunLimits(slow=case.slow, enough=SETTLED)
 
-    def solved(problems: list[SurfaceProblem]) -> Solved:
-        outcomes = alone.map(time_problem, [TimedProblem(problem, limits, all_methods()) for problem in problems])
-        return list(zip(problems, outcomes, strict=True))
+    def solved(some: Sequence[SurfaceProblem]) -> Rows:
+        outcomes = alone.map(problems.time_problem, [TimedProblem(each, limits, all_methods()) for each in some])
+        return [rows_of(*pair) for pair in zip(some, outcomes, strict=True)]
 
     # a run that was interrupted goes on; one that is over is timed anew the next time
     with engine.timed() as alone:
-        scalings = case.scalings()
-        return SolverComparisonResult(
-            case=case,
-            problems=solved(case.problems()),
-            scalings=[(s.problem, o) for s, o in zip(scalings, alone.map(measure_alone, scalings), strict=True)],
-            load_path_problems=solved(case.load_path.problems(case.seed)),
-            load_paths=alone.map(measure_alone, case.load_path.load_paths(case.seed)),
-            rolling=rolling_throughput(case.rolling, alone),
-            wheel=stepping_throughput(case.wheel, alone),
-            began=began,
-        )
-
-
-def time_problem(timed: TimedProblem) -> Outcome:
-    """All methods in processes of their own, with one thread, in turns.
-
-    One row a method, solvers first, and models that are found: its name; status: "finished", or why not; seconds
-    (median, fastest, slowest, runs), interval of the median, set-up seconds, residual reached, applications,
-    differences to our solver, see `_differences`.
-    """
-    problem = timed.problem
-    configurations = configurations_of(problem)
-    timings = time_in_turns(configurations, timed.limits)
-    by_name = {solver.name: Timing(NOT_INSTALLED, np.nan) for solver in SOLVERS}
-    by_name |= dict(zip((each.label for each in configurations), timings, strict=True))
-    rows = list(by_name.values())
-    found = by_name[OUR_SOLVER].results
-    ours = found[0].values["pressure"] if found else None
-    whole = _of_the_contact(problem, ours) if problem.scene and ours is not None else {}
-    return {
-        "method": np.array(list(by_name)),
-        "status": np.array([row.status for row in rows]),
-        "seconds": np.array([_spread(row) for row in rows]),
-        "interval": np.array([interval_of_median(_times(row)) for row in rows]),
-        "setup": np.array([min(row.draws, default=np.nan) for row in rows]),
-        "residual": np.array([_value(row, "residual") for row in rows]),
-        "applications": np.array([row.results[0].work / problem.cells**2 if row.results else np.nan for row in rows]),
-        "difference": np.array([_differences(row, ours, whole) for row in rows]),
-        "time": np.array(time.time()),
-        "area": np.array(np.nan if ours is None else np.count_nonzero(ours) / ours.size),
-    }
-
-
-def _times(row: Timing) -> list[float]:
-    return row.seconds if row.status == FINISHED else [np.nan]
-
-
-def _spread(row: Timing) -> tuple[float, float, float, int]:
-    times = _times(row)
-    return float(np.median(times)), min(times), max(times), len(times)
-
-
-def _value(row: Timing, name: str) -> float:
-    return float(np.mean(row.results[0].values.get(name, np.nan))) if row.results else np.nan
-
-
-def _of_the_contact(problem: SurfaceProblem, pressure: FloatArray) -> Values:
-    """What models may have of the contact of our solver."""
-    half_space = bem3d.HalfSpace(shape=pressure.shape, spacing=1 / problem.cells, modulus=1.0)
-    stiffness = bem3d.solve_fixed_area(half_space, pressure > 0).stiffness
-    return {"stiffness": np.array(stiffness), "area": np.array(np.count_nonzero(pressure) / pressure.size)}
-
-
-def _differences(row: Timing, ours: FloatArray | None, whole: Values) -> tuple[float, float, float, float]:
-    """Of the pressure field in L2, of the force, of the area, of the stiffness, each relative to our solver."""
-    if not row.results or ours is None:
-        return (np.nan,) * 4
-    pressure = row.results[0].values.get("pressure")
-    if pressure is None:
-        area, stiffness = (abs(_value(row, name) / float(whole[name]) - 1) for name in ("area", "stiffness"))
-        return np.nan, np.nan, area, stiffness
-    field = float(np.sqrt(((pressure - ours) ** 2).sum() / (ours**2).sum()))
-    cells = np.count_nonzero(pressure > 1e-9 * pressure.max()) / np.count_nonzero(ours > 1e-9 * ours.max())
-    return field, abs(float(pressure.sum() / ours.sum()) - 1), abs(cells - 1), np.nan
-
-
-@dataclass(frozen=True)
-class GridScaling:
-    """Our solver alone on one grid."""
-
-    problem: SurfaceProblem
-
-    def measure(self) -> Outcome:
-        """Seconds and peak memory of a solve, and the seconds of one application."""
-        idle, problem = peak_memory(), self.problem
-        height, spacing = problem.height(), 1 / problem.cells
-        half_space = bem3d.HalfSpace(shape=height.shape, spacing=spacing, modulus=1.0, periodic=problem.periodic)
-
-        def solve() -> bem3d.Contact:
-            return bem3d.solve(half_space, -height, force=problem.load, tolerance=problem.residual)
-
-        warnings.simplefilter("ignore", bem3d.EdgeWarning)  # this process has nothing else to say
-        contact, first = timed(solve)
-        peak = peak_memory()
-        # what the plans cost is nothing beside a solve that takes so long
-        seconds = sorted(timed(solve)[1] for _ in range(3)) if first < 5 else [first]
-        half_space.displacement(contact.pressure)
-        application = sorted(timed(lambda: half_space.displacement(contact.pressure))[1] for _ in range(5))
-        return {
-            "seconds": np.array(seconds[len(seconds) // 2]),
-            "first": np.array(first),
-            "application": np.array(application[2]),
-            "applications": np.array(contact.operator_applications),
-            "coarse": np.array(sum(n for _, n in contact.coarse_applications)),
-            "peak": np.array(peak),
-            "idle": np.array(idle),
-            "residual": np.array(contact.residual),
+        rows, scalings = solved(case.problems()), case.scalings()
+        found = {
+            "problems": rows,
+            "scalings": [(s.problem, o) for s, o in zip(scalings, alone.map(measure_alone, scalings), strict=True)],
+            "loads": solved(case.load_path.problems(case.seed)),
+            "load paths": alone.map(measure_alone, case.load_path.load_paths(case.seed)),
+            "rolling": alone.map(measure_alone, case.rolling.rolls()),
+            "wheel": alone.map(measure_alone, case.wheel.problems()),
         }
+    ours = [solver.name for solver in SOLVERS if solver.package == OURS]
+    lost = (row for each in rows for row in each if row["solver"] in ours and row["status"] != FINISHED)
+    return Outcomes(case, found, tuple(f"{row['problem']}: {row['solver']} {row['status']}" for row in lost))
 
 
-@dataclass(frozen=True)
-class LoadPath:
-    """A whole load path with its stiffnesses."""
+def rows_of(problem: SurfaceProblem, outcome: Outcome) -> list[Row]:
+    """A row a solver."""
+    known = {"problem": problem.label, "surface": problem.surface, "half-space": problem.half_space}
+    return [
+        {
+            **known,
+            "name": problem.name,
+            "cells": problem.cells,
+            **{key: cells[i].item() for key, cells in outcome.items()},
+        }
+        for i in range(len(outcome["solver"]))
+    ]
 
-    surface: Surface
 
-    def measure(self) -> Outcome:
-        """Its seconds, and the operator applications of each contact."""
-        outcome, seconds = timed(lambda: press_surface(self.surface))
-        applications = outcome["applications"] + outcome["frozen applications"]
-        return {"seconds": np.array(seconds), "applications": applications, "failed": outcome["failed"]}
+SPEED, MEDIAN, APPLICATIONS = "time over that of the fastest other solver", "median [s]", "operator applications"
+DIFFERENCE = "{}, difference to bem3d.solve"
+FASTER = Margin(1.0, "above one another solver is faster")
+PRESSURES = "1e4 times the residual: the conditioning of the contact on fine grids"
+FORCES = "100 times the residual: zero where the force is prescribed, by the stiffness elsewhere"
+AREAS = "single cells of vanishing pressure may be in or out of contact"
+AGREEMENT = (
+    ("pressure field, relative L2", problems.PRESSURE, 1e-4, PRESSURES),
+    ("force, relative", problems.FORCE, 1e-6, FORCES),
+    ("contact area, relative", problems.AREA, 1e-3, AREAS),
+)
+"""The residual weighs gaps; pressures follow with the condition of the contact, areas by whole cells."""
+CELLS, GUIDE, LARGE = "cells along a side, n", "n² log n", 512
+EXPONENT = f"exponent of n from {LARGE} cells on"
+SPRINGS = "springs to a contact radius, a / dx"
+WORK, ROLLED = "seconds of a contact of Fig. 14.1", "a rolling wheel"
+
+
+def series(result: Outcomes) -> list[Series]:
+    """Criteria for what must agree; times, none right or wrong; how time and memory grow."""
+    finished = [_finished(rows) for rows in result["problems"]]
+    steps = _steps(result.case.wheel, result["wheel"])
+    return [*_agreement(finished), *_speed(finished), *_work(result), *_growth(result["scalings"]), *steps]
+
+
+def _finished(rows: Sequence[Row]) -> dict[str, Row]:
+    """By the name of the solver; contact models, which have no pressure, are none."""
+    names = [solver.name for solver in SOLVERS]
+    return {row["solver"]: row for row in rows if row["status"] == FINISHED and row["solver"] in names}
+
+
+def _agreement(finished: Sequence[Mapping[str, Row]]) -> Iterator[Series]:
+    """The largest difference to our answer over all runs that a solver has finished."""
+    source = "the same discrete problem has one solution"
+    for name in (solver.name for solver in SOLVERS if solver.name != OUR_SOLVER):
+        done = [rows[name] for rows in finished if {name, OUR_SOLVER} <= rows.keys()]
+        if done:
+            for what, key, tolerance, reason in AGREEMENT:
+                value, at = max(row[key] for row in done), {"problems": len(done)}
+                yield single(DIFFERENCE.format(what), name, value, tolerance, source, reason, where=at)
+
+
+def _speed(finished: Sequence[Mapping[str, Row]]) -> Iterator[Series]:
+    """Our time over that of the fastest other solver, for each problem."""
+    for rows in finished:
+        rivals = [row for name, row in rows.items() if name != OUR_SOLVER]
+        if OUR_SOLVER in rows and rivals:
+            ours, rival = rows[OUR_SOLVER], min(rivals, key=lambda row: float(row[MEDIAN]))
+            ratio = ours[MEDIAN] / rival[MEDIAN]
+            half = max(ours["high [s]"] / rival["low [s]"] - ratio, ratio - ours["low [s]"] / rival["high [s]"])
+            at, margin = {"problem": ours["name"], "cells": ours["cells"]}, replace(FASTER, source=rival["solver"])
+            yield Series(SPEED, OUR_SOLVER, (Interval(ratio, half),), where=at, margin=margin)
+
+
+def _work(result: Outcomes) -> Iterator[Series]:
+    """With its stiffness along a load path by our solver; of a cold solve without it by each."""
+    ours = np.mean([path["seconds"] for path in result["load paths"]]) / len(result.case.load_path.forces)
+    yield Series(WORK, f"{OUR_SOLVER}, along the path, with stiffness", (float(ours),))
+    finished = [_finished(rows) for rows in result["loads"]]
+    for name in (solver.name for solver in SOLVERS if all(solver.name in rows for rows in finished)):
+        yield Series(WORK, f"{name}, cold", (float(np.mean([rows[name][MEDIAN] for rows in finished])),))
+
+
+def _measured(outcomes: Sequence[Outcome], model: str, **settings: Any) -> list[Series]:
+    """A series of each value that they have."""
+    return [Series(name, model, np.array([float(o[name]) for o in outcomes]), **settings) for name in outcomes[0]]
+
+
+def _growth(scalings: Sequence[tuple[SurfaceProblem, Outcome]]) -> Iterator[Series]:
+    """Of our solver alone; exponents where there are grids enough to fit them."""
+    for problem, group in itertools.groupby(scalings, key=lambda pair: f"{pair[0].surface}, {pair[0].half_space}"):
+        pairs, at = list(group), {"problem": problem}
+        n = np.array([each.cells for each, _ in pairs], dtype=float)
+        ours = _measured([outcome for _, outcome in pairs], OUR_SOLVER, where=at, along=CELLS, at=n)
+        known = {one.quantity: np.asarray(one.found) for one in ours}
+        guide, large = n**2 * np.log(n), n >= LARGE
+        yield from (*ours, Series(SOLVE, GUIDE, known[SOLVE][-1] * guide / guide[-1], where=at, along=CELLS, at=n))
+        if np.count_nonzero(large) > 2:
+            for name, y in ((SOLVE, known[SOLVE]), (MEMORY, known[MEMORY]), (GUIDE, guide)):
+                yield Series(EXPONENT, name, np.polyfit(np.log(n[large]), np.log(y[large]), 1)[:1], where=at)
+
+
+def _steps(wheel: SteppingThroughput, outcomes: Sequence[Outcome]) -> list[Series]:
+    n, at = len(wheel.springs), np.array(wheel.springs, dtype=float)
+    return [
+        one
+        for i, height in enumerate(wheel.heights)
+        for one in _measured(outcomes[i * n : (i + 1) * n], "springs", where={"h0/d": height}, along=SPRINGS, at=at)
+    ]
+
+
+SECONDS, LOADS, PEERS = (
+    "seconds: median (from the fastest to the slowest run)",
+    "seconds at some of the loads of Fig. 14.1",
+    "solvers",
+)
+
+
+def tables(result: Outcomes) -> tuple[Table, ...]:
+    timed, loads = result["problems"], result["loads"]
+    rolled = zip(result.case.rolling.heights, result["rolling"], strict=True)
+    versions = [{"solver": s.name, "mode": s.mode, "version": s.version or problems.NOT_INSTALLED} for s in SOLVERS]
+    return (
+        table_of("heats", list(itertools.chain(*timed))),
+        table_of("errand", list(itertools.chain(*loads))),
+        _seconds(SECONDS, timed),
+        _seconds(LOADS, loads),
+        table_of(ROLLED, [{"h/d": h, **{name: float(x) for name, x in o.items()}} for h, o in rolled]),
+        table_of(PEERS, versions),
+    )
+
+
+def _seconds(name: str, solved: Rows) -> Table:
+    solvers = dict.fromkeys((row["solver"] for rows in solved for row in rows), "")
+    found = []
+    for rows in solved:
+        known = {"problem": rows[0]["problem"], "area": f"{rows[0]['area']:.1%}"}
+        found.append(known | solvers | {row["solver"]: _said(row) for row in rows})
+    return table_of(name, found)
+
+
+def _said(row: Row) -> str:
+    if row["status"] != FINISHED:
+        return str(row["status"])
+    median, fastest, slowest, setup = (row[name] for name in (MEDIAN, "fastest [s]", "slowest [s]", "set-up [s]"))
+    return f"{median:.3g} s ({fastest:.3g} to {slowest:.3g}); set-up {setup:.2g} s"

@@ -1,5 +1,7 @@
-"""Problems on which solvers are compared: a surface that is pressed onto a free or a periodic half-space."""
+"""Problems on which solvers are compared: a surface that is pressed onto a free or a periodic half-space; the times."""
 
+import math
+import warnings
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -7,13 +9,16 @@ import numpy as np
 
 import bem3d
 import mdr
-from validation.benchmarks.peers import SOLVERS, DiscreteProblem, solvers_on_grids
-from validation.benchmarks.timing import Configuration
+from validation.benchmarks.found_models import TimedProblem, configurations_of
+from validation.benchmarks.isolation import peak_memory, timed
+from validation.benchmarks.peers import OUR_SOLVER, SOLVERS, DiscreteProblem, solvers_on_grids
+from validation.benchmarks.timing import FINISHED, Configuration, Timing, interval_of_median, time_in_turns
+from validation.engine.engine import Outcome
 from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.roughness import Roughness
 from validation.simulation.method import FloatArray, Values
-from validation.simulation.rough_punch import PunchRoughness
+from validation.simulation.rough_punch import PunchRoughness, Surface, press_surface
 from validation.simulation.surface import draw_surface
 
 SPHERE, ROUGH, PUNCH = "sphere", "rough", "punch of Fig. 14.1"
@@ -38,9 +43,14 @@ class SurfaceProblem:
     residual: float
 
     @property
-    def label(self) -> str:
+    def name(self) -> str:
+        """Without its grid."""
         load = "" if self.surface == SPHERE else f", F = {self.load:g} E* L²"
-        return f"{self.surface}{load}, {self.half_space}, {self.cells}²"
+        return f"{self.surface}{load}, {self.half_space}"
+
+    @property
+    def label(self) -> str:
+        return f"{self.name}, {self.cells}²"
 
     @property
     def half_space(self) -> str:
@@ -92,3 +102,119 @@ class SurfaceProblem:
 def punch(cells: int, seed: int) -> PunchRoughness:
     """One of those of Fig. 14.1, with four cells to its shortest wave."""
     return PunchRoughness(hurst=0.7, waves=(1, cells // 4), seed=seed)
+
+
+NOT_INSTALLED = "not installed"
+PRESSURE, FORCE, AREA, STIFFNESS = (f"{what} difference to ours" for what in ("pressure", "force", "area", "stiffness"))
+"""Relative, of the pressure field in L2."""
+
+
+def time_problem(given: TimedProblem) -> Outcome:
+    """All methods in processes of their own, with one thread, in turns: a row each, solvers first, then models."""
+    problem, configurations = given.problem, configurations_of(given.problem)
+    timings = time_in_turns(configurations, given.limits)
+    rows = {solver.name: Timing(NOT_INSTALLED, math.nan) for solver in SOLVERS}
+    rows |= dict(zip((each.label for each in configurations), timings, strict=True))
+    ours = rows[OUR_SOLVER].results[0].values["pressure"] if rows[OUR_SOLVER].results else None
+    whole = _of_the_contact(problem, ours) if problem.scene and ours is not None else {}
+    found = [_row(row, problem.cells, ours, whole) for row in rows.values()]
+    return {
+        "area": np.full(len(rows), math.nan if ours is None else np.count_nonzero(ours) / ours.size),
+        "solver": np.array(list(rows)),
+        "status": np.array([row.status for row in rows.values()]),
+        **{name: np.array([row[name] for row in found]) for name in found[0]},
+    }
+
+
+def _row(row: Timing, cells: int, ours: FloatArray | None, whole: Values) -> dict[str, float]:
+    seconds = row.seconds if row.status == FINISHED else [math.nan]
+    low, high = interval_of_median(seconds)
+    return {
+        "median [s]": float(np.median(seconds)),
+        "fastest [s]": min(seconds),
+        "slowest [s]": max(seconds),
+        "runs": len(seconds),
+        "low [s]": low,
+        "high [s]": high,
+        "set-up [s]": min(row.draws, default=math.nan),
+        "residual": _value(row, "residual"),
+        "operator applications": row.results[0].work / cells**2 if row.results else math.nan,
+        **dict.fromkeys((PRESSURE, FORCE, AREA, STIFFNESS), math.nan),
+        **(_differences(row, ours, whole) if row.results and ours is not None else {}),
+    }
+
+
+def _value(row: Timing, name: str) -> float:
+    return float(np.mean(row.results[0].values.get(name, np.nan))) if row.results else math.nan
+
+
+def _of_the_contact(problem: SurfaceProblem, pressure: FloatArray) -> Values:
+    """What models may have of the contact of our solver."""
+    half_space = bem3d.HalfSpace(shape=pressure.shape, spacing=1 / problem.cells, modulus=1.0)
+    stiffness = bem3d.solve_fixed_area(half_space, pressure > 0).stiffness
+    return {"stiffness": np.array(stiffness), "area": np.array(np.count_nonzero(pressure) / pressure.size)}
+
+
+def _differences(row: Timing, ours: FloatArray, whole: Values) -> dict[str, float]:
+    """To our solver, of a pressure or of what a model has instead."""
+    pressure = row.results[0].values.get("pressure")
+    if pressure is None:
+        named = {AREA: "area", STIFFNESS: "stiffness"}
+        return {key: abs(_value(row, name) / float(whole[name]) - 1) for key, name in named.items()}
+    cells = np.count_nonzero(pressure > 1e-9 * pressure.max()) / np.count_nonzero(ours > 1e-9 * ours.max())
+    return {
+        PRESSURE: float(np.sqrt(((pressure - ours) ** 2).sum() / (ours**2).sum())),
+        FORCE: abs(float(pressure.sum() / ours.sum()) - 1),
+        AREA: abs(cells - 1),
+    }
+
+
+SOLVE, MEMORY = "time of a solve [s]", "memory [MiB]"
+
+
+@dataclass(frozen=True)
+class GridScaling:
+    """Our solver alone on one grid."""
+
+    problem: SurfaceProblem
+
+    def measure(self) -> Outcome:
+        """Seconds and peak memory of a solve, and the seconds of one application."""
+        idle, problem = peak_memory(), self.problem
+        height, spacing = problem.height(), 1 / problem.cells
+        half_space = bem3d.HalfSpace(shape=height.shape, spacing=spacing, modulus=1.0, periodic=problem.periodic)
+
+        def solve() -> bem3d.Contact:
+            return bem3d.solve(half_space, -height, force=problem.load, tolerance=problem.residual)
+
+        warnings.simplefilter("ignore", bem3d.EdgeWarning)  # this process has nothing else to say
+        contact, first = timed(solve)
+        peak = peak_memory()
+        # what the plans cost is nothing beside a solve that takes so long
+        seconds = float(np.median([timed(solve)[1] for _ in range(3)])) if first < 5 else first
+        half_space.displacement(contact.pressure)
+        application = float(np.median([timed(lambda: half_space.displacement(contact.pressure))[1] for _ in range(5)]))
+        found = {
+            SOLVE: seconds,
+            "first solve, with plans [s]": first,
+            "one application on the whole grid [s]": application,
+            "operator applications": contact.operator_applications,
+            "operator applications on coarser grids": sum(n for _, n in contact.coarse_applications),
+            "solve over as many applications on the whole grid": seconds / contact.operator_applications / application,
+            MEMORY: (peak - idle) / 2**20,
+            "peak memory [MiB]": peak / 2**20,
+        }
+        return {name: np.array(value, dtype=float) for name, value in found.items()}
+
+
+@dataclass(frozen=True)
+class LoadPath:
+    """A whole load path with its stiffnesses."""
+
+    surface: Surface
+
+    def measure(self) -> Outcome:
+        """Its seconds, and the operator applications of each contact."""
+        outcome, seconds = timed(lambda: press_surface(self.surface))
+        applications = outcome["applications"] + outcome["frozen applications"]
+        return {"seconds": np.array(seconds), "applications": applications, "failed": outcome["failed"]}

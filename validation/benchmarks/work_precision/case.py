@@ -1,24 +1,40 @@
-"""All problems of speed against accuracy: timed one after the other, alone on the machine."""
+"""Speed against accuracy: error and cost of every method on all problems, timed one after the other, alone."""
 
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import groupby
+from typing import Any
 
-from validation.analysis.evidence import Table
+import numpy as np
+
+from validation.analysis.evidence import Place, Role, Table, table_of
+from validation.analysis.series import Margin, Series, single
+from validation.analysis.statistics import Interval
+from validation.analysis.study import Outcomes, Settings
 from validation.benchmarks.found_models import TimedProblem, all_methods
-from validation.benchmarks.timing import RunLimits
+from validation.benchmarks.peers import SOLVERS
+from validation.benchmarks.timing import ALONE, FAILED, FINISHED, RunLimits
+from validation.benchmarks.work_precision import exact_problems as exact
+from validation.benchmarks.work_precision import pareto
 from validation.benchmarks.work_precision.dynamic_wheel import WheelProblem
-from validation.benchmarks.work_precision.exact_problems import (
-    PUNCH_GRIDS,
-    SPHERE_GRIDS,
-    WAVE_GRIDS,
-    PunchProblem,
-    SphereProblem,
-    WaveProblem,
+from validation.benchmarks.work_precision.errors import points
+from validation.benchmarks.work_precision.exact_problems import PunchProblem, SphereProblem, WaveProblem
+from validation.benchmarks.work_precision.figure_cost import HOURS, FigureCost, figure_cost
+from validation.benchmarks.work_precision.pareto import Point, cheapest, front, seconds, work
+from validation.benchmarks.work_precision.problem import (
+    BEM,
+    ELEMENTS,
+    MDR,
+    POLONSKY_KEER,
+    SPRINGS,
+    ChartProblem,
+    Grids,
+    measure,
 )
-from validation.benchmarks.work_precision.figure_cost import FigureCost, figure_cost
-from validation.benchmarks.work_precision.problem import ChartProblem, Grids, measure
 from validation.benchmarks.work_precision.rolling import RollingProblem
 from validation.benchmarks.work_precision.rough_punch import RoughPunchProblem
-from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.engine.engine import SERIAL, Engine
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,17 +76,17 @@ QUICK = Precision(
 
 FULL = Precision(
     sphere=SphereProblem(
-        grids=replace(SPHERE_GRIDS, cells=(4, 8, 16, 32, 64), polonsky_keer=(4, 8, 16, 32)),
+        grids=replace(exact.SPHERE_GRIDS, cells=(4, 8, 16, 32, 64), polonsky_keer=(4, 8, 16, 32)),
         peers=(4, 8, 16, 32),
         springs=(2.4, 4.4, 8.4, 16.4, 32.4, 64.4, 128.4, 256.4),
     ),
     punch=PunchProblem(
-        grids=replace(PUNCH_GRIDS, cells=(8, 16, 32, 64, 128, 256), polonsky_keer=(8, 16, 32, 64), fixed=64),
+        grids=replace(exact.PUNCH_GRIDS, cells=(8, 16, 32, 64, 128, 256), polonsky_keer=(8, 16, 32, 64), fixed=64),
         peers=(8, 16),
     ),
     wave=WaveProblem(
         grids=replace(
-            WAVE_GRIDS, cells=(16, 32, 64, 128, 256, 512, 1024), polonsky_keer=(16, 64, 256, 1024), fixed=256
+            exact.WAVE_GRIDS, cells=(16, 32, 64, 128, 256, 512, 1024), polonsky_keer=(16, 64, 256, 1024), fixed=256
         ),
         peers=(16, 64, 256, 1024),
     ),
@@ -98,18 +114,211 @@ FULL = Precision(
 )
 
 
-@dataclass(frozen=True)
-class PrecisionResult:
-    """One outcome a problem; what Fig. 14.4 costs."""
-
-    case: Precision
-    outcomes: list[Outcome]
-    cost: Table
+PEERS = tuple(solver.name for solver in SOLVERS)
+MAY_FAIL = (POLONSKY_KEER, *PEERS)
+"""Of the published iteration and of other solvers a failure is a row; all others must finish, or be out of range."""
 
 
-def run(case: Precision, engine: Engine = SERIAL) -> PrecisionResult:
+def run(case: Precision, engine: Engine = SERIAL) -> Outcomes:
     """Time all problems, one at a time whatever the engine's workers, so that nothing else disturbs them."""
-    limits = RunLimits(slow=case.slow, enough=case.enough)
-    timed = [TimedProblem(problem, limits, all_methods()) for problem in case.problems()]
+    limits, problems = RunLimits(slow=case.slow, enough=case.enough), case.problems()
     with engine.timed() as alone:
-        return PrecisionResult(case, alone.map(measure, timed), figure_cost(case.cost, alone))
+        outcomes = alone.map(measure, [TimedProblem(problem, limits, all_methods()) for problem in problems])
+        cost = figure_cost(case.cost, alone)
+    found = [point for pair in zip(problems, outcomes, strict=True) for point in points(*pair)]
+    return Outcomes(case, {"charts": charts_of(found), "cost": cost}, unconverged=lost(found))
+
+
+def charts_of(found: Sequence[Point]) -> list[list[Point]]:
+    """One a scene and quantity, in their order."""
+    return [pareto.monotone_envelope(list(mine)) for _, mine in groupby(found, key=lambda p: (p.scene, p.quantity))]
+
+
+def lost(found: Sequence[Point]) -> tuple[str, ...]:
+    """Who should have finished, once for all quantities."""
+    failed = (p for p in found if p.method not in MAY_FAIL and p.status.startswith(FAILED))
+    return tuple(dict.fromkeys(f"{p.scene}: {p.method}, {p.setting}: {p.status}" for p in failed))
+
+
+ORDER, EQUAL, COST = "order of the error of the {}", "{}, over that of bem3d.solve", "time of Fig. 14.4 on one core"
+ORDERS = (
+    ("sphere", "force", BEM, 2.0, 0.5, "second order; the staircase edge scatters the error from grid to grid"),
+    ("sphere", "force", MDR, 2.0, 0.1, "second order: the contact ends at the same part of a spring on each grid"),
+    ("square punch", "stiffness", BEM, 1.0, 0.15, "the pressure is singular at the edge: first order"),
+)
+"""Scene, quantity, method, and the power that theory has, with a tolerance and its reason."""
+SAME = ("sphere", "force"), ("square punch", "stiffness"), ("Westergaard's wave", "approach")
+AGREEMENT = "10 %, or 1 dB: tolerance of agreement"
+TIME, UP_TO, FROM = "time over that of the cheapest other method as close", "springs", "boundary elements"
+CHEAPEST = Margin(1.0, "above one another method is cheaper")
+A_DAY = "a day on one core is not too costly"
+NOTCH = 1.57
+"""Half of the 95 % interval of a median, over the interquartile range over sqrt(runs).
+
+Source: McGill, Tukey, Larsen, Am. Stat. 32 (1978) 12.
+"""
+
+
+def series(result: Outcomes) -> list[Series]:
+    """Criteria where something is predicted exactly; what is left of models; times, none right or wrong."""
+    charts = result["charts"]
+    found = [*_orders(charts), *_equal(charts)]
+    for chart in charts:
+        found += [*_models(chart), *times(chart)]
+    hours, low, high = (float(result["cost"][name][1]) for name in HOURS)
+    at, time = {"a/dx": float(result["cost"]["a/dx"][1])}, Interval(hours, max(high - hours, hours - low))
+    cost = single(COST, FROM, time, 24.0, "no cost", A_DAY, 0.0, at, role=Role.FINDING, unit="h")
+    return [*found, cost]
+
+
+def _finished(charts: Sequence[Sequence[Point]], scene: str, quantity: str, method: str) -> list[Point]:
+    key = scene, quantity, method
+    return [p for chart in charts for p in chart if (p.scene, p.quantity, p.method) == key and p.finished]
+
+
+def _orders(charts: Sequence[Sequence[Point]]) -> Iterator[Series]:
+    """Slopes of ln error against ln of the cell size."""
+    for scene, quantity, method, order, tolerance, reason in ORDERS:
+        mine = _finished(charts, scene, quantity, method)
+        if len(mine) > 2:
+            n, off = np.array([p.value for p in mine]), np.array([p.error for p in mine])
+            slope = -np.polynomial.polynomial.polyfit(np.log(n), np.log(off), 1)[1]
+            at = {"scene": scene}
+            yield single(ORDER.format(quantity), method, float(slope), tolerance, "error model", reason, order, at)
+
+
+def _equal(charts: Sequence[Sequence[Point]]) -> Iterator[Series]:
+    """The published iteration and ours at the same residual on the same grids have the same values."""
+    reason, source = "a hundred times the residual of both solvers", "the same discrete problem has one solution"
+    for scene, quantity in SAME:
+        fast = {p.value: p.over for p in _finished(charts, scene, quantity, BEM)}
+        plain = [p for p in _finished(charts, scene, quantity, POLONSKY_KEER) if p.value in fast]
+        if plain:
+            ratio = max((p.over / fast[p.value] for p in plain), key=lambda ratio: abs(ratio - 1))
+            at: dict[str, Place] = {"scene": scene, "grids": len(plain)}
+            yield single(EQUAL.format(quantity), POLONSKY_KEER, ratio, 1e-6, source, reason, 1.0, at)
+
+
+def _models(chart: Sequence[Point]) -> Iterator[Series]:
+    """What is left of the error of each model at its finest setting, where there is no closed form."""
+    if any(point.is_reference for point in chart):
+        return
+    for method, last in {point.method: point for point in chart if point.is_model and point.finished}.items():
+        kind, scale, within = ("rms", 1.0, 1.0) if last.unit == "dB" else ("relative", 100.0, 10.0)
+        found, at = (
+            Interval(scale * last.error, scale * last.half_width),
+            {"scene": last.scene, "setting": last.setting},
+        )
+        name, source = f"{kind} error of the {last.quantity}", "boundary elements, extrapolated"
+        yield single(
+            name,
+            method,
+            found,
+            within,
+            source,
+            AGREEMENT,
+            0.0,
+            at,
+            role=Role.FINDING,
+            unit=last.unit,
+            grid=scale * last.band,
+        )
+
+
+def times(chart: Sequence[Point]) -> Iterator[Series]:
+    """Of springs along their own front, and of boundary elements along what is left of the front beyond."""
+    known = [point for point in chart if point.finished and not point.is_reference]
+    springs = front([point for point in known if point.method in SPRINGS])
+    if springs:
+        rivals = [point for point in known if point.method not in SPRINGS]
+        yield _times(UP_TO, springs, [(point, _cheapest_as_close(point, rivals)) for point in springs])
+        elements = [point for point in known if point.method in ELEMENTS + PEERS]
+        beyond = [point for point in front(known) if point.rank < springs[-1].rank]
+        pairs = [(mine, point) for point in beyond if (mine := _cheapest_as_close(point, elements))]
+        if pairs:
+            yield _times(FROM, [point for _, point in pairs], pairs)
+
+
+def _cheapest_as_close(point: Point, others: Sequence[Point]) -> Point | None:
+    close = [other for other in others if other.rank <= point.rank]
+    return min(close, key=seconds, default=None)
+
+
+def _times(model: str, at: Sequence[Point], pairs: Sequence[tuple[Point, Point | None]]) -> Series:
+    """Of one over that of the other, at errors that both reach: zero where there is no other."""
+    first, scale = at[0], 1.0 if at[0].unit == "dB" else 100.0
+    along, errors = f"error [{first.unit}]", [scale * point.rank for point in at]
+    where = {"scene": first.scene, "quantity": first.quantity}
+    one = Series(TIME, model, [_ratio(*p) for p in pairs], where=where, along=along, at=errors, margin=CHEAPEST)
+    (worst,) = one.numbers
+    _, other = pairs[[place == worst.where["worst at"] for place in errors].index(True)]
+    return replace(one, margin=replace(CHEAPEST, source=other.method if other else "no other method is as close"))
+
+
+def _ratio(mine: Point, other: Point | None) -> Interval:
+    if other is None:
+        return Interval(0.0, 0.0)
+    ratio = seconds(mine) / seconds(other)
+    return Interval(ratio, 0.0 if other is mine else ratio * math.hypot(_uncertainty(mine), _uncertainty(other)))
+
+
+def _uncertainty(point: Point) -> float:
+    """Relative, of the median time."""
+    low, median, high = point.seconds
+    return NOTCH * (high - low) / median / math.sqrt(point.runs) if point.runs > 1 else ALONE
+
+
+WITHIN, WITHOUT = "the cheapest method within a tolerance, time of one realisation", "failed or out of range"
+COLUMNS = {
+    **{name: name for name in ("scene", "quantity", "unit", "method", "setting", "value", "status", "error")},
+    **{"± sample": "half_width", "band": "band", "over the reference": "over", "runs": "runs"},
+    **{"set-up [s]": "setup", "work": "work", "reference itself": "is_reference"},
+}
+"""Of points, and what a point calls them."""
+QUARTILES = ("lower quartile [s]", "median [s]", "upper quartile [s]")
+
+
+def tables(result: Outcomes) -> tuple[Table, ...]:
+    charts = result["charts"]
+    summary = [_best(chart, tolerance) for chart in charts for tolerance in pareto.TOLERANCES]
+    rows = [row for chart in charts for row in _rows(chart)]
+    return table_of("points", rows), table_of("summary", summary), _within(summary), _without(charts), result["cost"]
+
+
+def _rows(chart: Sequence[Point]) -> Iterator[dict[str, object]]:
+    by_time, by_work = front(chart), front(chart, work)
+    for p in chart:
+        row = {name: getattr(p, mine) for name, mine in COLUMNS.items()} | dict(zip(QUARTILES, p.seconds, strict=True))
+        yield row | {"front": p in by_time, "front by work": p in by_work}
+
+
+def _best(chart: Sequence[Point], tolerance: float) -> dict[str, Any]:
+    best, by_work = cheapest(chart, tolerance), cheapest(chart, tolerance, work)
+    return {
+        "scene": chart[0].scene,
+        "quantity": chart[0].quantity,
+        "tolerance": tolerance,
+        "method": best.method if best else pareto.reason_if_none(chart, tolerance),
+        "setting": best.setting if best else "",
+        "median [s]": seconds(best) if best else math.nan,
+        "by work": by_work.method if by_work else "",
+    }
+
+
+def _within(summary: Sequence[dict[str, Any]]) -> Table:
+    """A column a tolerance."""
+    rows: dict[tuple[str, str], dict[str, object]] = {}
+    for best in summary:
+        row = rows.setdefault((best["scene"], best["quantity"]), {name: best[name] for name in ("scene", "quantity")})
+        time = Settings().format("{:SI}s", float(f"{best['median [s]']:.2g}")) if best["setting"] else ""
+        said = f"{best['method']}, {best['setting']}: {time}" if time else best["method"]
+        row[f"within {100 * best['tolerance']:g} %"] = said
+    return table_of(WITHIN, list(rows.values()))
+
+
+def _without(charts: Sequence[Sequence[Point]]) -> Table:
+    rows: dict[tuple[str, ...], list[str]] = {}
+    for point in (point for chart in charts for point in chart if point.status != FINISHED):
+        rows.setdefault((point.scene, point.method, point.setting, point.status), []).append(point.quantity)
+    named = {name: [row[i] for row in rows] for i, name in enumerate(("scene", "method", "setting", "reason"))}
+    return Table(WITHOUT, {**named, "quantities": [", ".join(names) for names in rows.values()]})

@@ -10,17 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.spectra import band_levels, one_third_octaves, record_spectra
-from validation.benchmarks.timing import Configuration, along
+from validation.benchmarks.timing import Configuration
 from validation.benchmarks.work_precision.problem import (
-    CLOSED,
-    FILTER_1D,
-    FILTER_3D,
-    MDR,
-    MDR_ROLLING,
     ChartProblem,
     CountedSpectrum,
     Grids,
+    NamedMethod,
     Quantity,
+    along_a_track,
     log_power,
 )
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
@@ -42,8 +39,6 @@ TABLE = load_wheel_scene("table_14_1")
 SCENE = replace(TABLE, rail=replace(TABLE.rail, shortest=0.8e-3)) if TABLE.rail else TABLE
 WARM = 40
 """Places before the clock runs: frames that find their size, plans."""
-
-
 GRIDS = Grids(cells=(6, 12), fixed=6, tolerances=(1e-2, 1e-3), per="to a radius")
 
 
@@ -77,16 +72,8 @@ class WheelProblem(ChartProblem):
 
     def strip(self, realisation: int, cells: int, tolerance: float) -> WheelStrip:
         """The same surface on every grid."""
-        return WheelStrip(
-            scene=self.wheel_scene,
-            realisation=realisation,
-            natural_periods=self.turns,
-            width=self.width,
-            cells=cells,
-            shared=self.shared,
-            tolerance=tolerance,
-            seed=self.seed,
-        )
+        own = {"natural_periods": self.turns, "width": self.width, "shared": self.shared, "seed": self.seed}
+        return WheelStrip(scene=self.wheel_scene, realisation=realisation, cells=cells, tolerance=tolerance, **own)
 
     @property
     def duration(self) -> float:
@@ -106,25 +93,12 @@ class WheelProblem(ChartProblem):
         return band_levels(record.omega, record.density, self.edges).T
 
     def configurations(self) -> tuple[Configuration, ...]:
-        """Linear theory three times, springs with both input spectra, boundary elements in the time loop."""
-        springs = (WheelsOnSprings(FILTER_1D, linear=True), WheelsOnSprings(MDR), FOR_ROLLING)
-        return (
-            *along(WheelLinearSpectrum(), self, (1.0,), "linear theory", paired=False),
-            *(each for m in springs for each in along(m, self, self.springs, "# springs to a radius", paired=False)),
-            *along(
-                WheelOnStrips(FILTER_3D), self, self.filtered, "# cells to a radius", realisations=self.realisations
-            ),
-            *self.boundary_elements(),
-        )
+        springs, strips = (wheels_on_springs, _filtered, _on_springs), (wheel_on_strips, _filter_strip)
+        return along_a_track(self, linear_spectrum, springs, strips)
 
     @property
     def method(self) -> Method:
-        return WheelOnStrips()
-
-    def read(self, acceleration: FloatArray, linear: "LinearStrip", work: float) -> Result:
-        """Levels of a wheel, and of the linear one on the same surface."""
-        level = self.levels(acceleration[:, np.newaxis], linear.time_step)[0]
-        return Result({"level": level, "linear level": linear.level, "mean level": linear.mean}, work)
+        return NamedMethod("BEM", wheel_on_strips, (_in_time_loop,))
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,6 +110,9 @@ class LinearStrip:
     time_step: float
     level: FloatArray
     mean: FloatArray
+
+
+StripRunner = Callable[[WheelStrip, LinearStrip], Callable[[], tuple[FloatArray, float]]]
 
 
 def linear_strip(scene: WheelProblem, strip: WheelStrip) -> LinearStrip:
@@ -176,35 +153,25 @@ def mean_levels(scene: WheelProblem, surface: FloatArray, spacing: float, time_s
     return band_levels(omega[along], mixed[along], scene.edges)
 
 
-@dataclass(frozen=True)
-class WheelLinearSpectrum:
+def linear_spectrum(scene: WheelProblem, resolution: Resolution) -> Prepared:
     """Linear theory in closed form at the lines of a record."""
+    wheel, speed = scene.wheel_scene.body, scene.wheel_scene.speed
+    rough = scene.strip(0, scene.shared, scene.grids.tight).roughness
+    line = 2 * math.pi / scene.duration
+    omega = line * np.arange(1, math.ceil(scene.edges[-1] / line) + 1)
+    c2d = CountedSpectrum(rough.spectrum.c2d)
+    body = {"contact_radius": wheel.contact_radius, "modulus": wheel.modulus}
 
-    name: str = CLOSED
+    def solve() -> FloatArray:
+        c2d.nodes = 0
+        force = rolling_theory.force_spectrum_3d(omega / speed, c2d, edges=(rough.q_min, rough.q_max), **body)
+        dynamic = wheel_theory.acceleration_over_force(omega, eigenfrequency=wheel.eigenfrequency, mass=wheel.mass)
+        return np.asarray(dynamic * wheel_theory.over_frequency(force, speed=speed))
 
-    def prepare(self, scene: WheelProblem, resolution: Resolution) -> Prepared:
-        wheel = scene.wheel_scene.body
-        rough = scene.strip(0, scene.shared, scene.grids.tight).roughness
-        line = 2 * math.pi / scene.duration
-        omega = line * np.arange(1, math.ceil(scene.edges[-1] / line) + 1)
-        c2d = CountedSpectrum(rough.spectrum.c2d)
+    def read(density: FloatArray) -> Result:
+        return Result({"level": band_levels(omega, density, scene.edges)}, c2d.nodes)
 
-        def solve() -> FloatArray:
-            c2d.nodes = 0
-            force = rolling_theory.force_spectrum_3d(
-                omega / scene.wheel_scene.speed,
-                c2d,
-                edges=(rough.q_min, rough.q_max),
-                contact_radius=wheel.contact_radius,
-                modulus=wheel.modulus,
-            )
-            dynamic = wheel_theory.acceleration_over_force(omega, eigenfrequency=wheel.eigenfrequency, mass=wheel.mass)
-            return np.asarray(dynamic * wheel_theory.over_frequency(force, speed=scene.wheel_scene.speed))
-
-        def read(density: FloatArray) -> Result:
-            return Result({"level": band_levels(omega, density, scene.edges)}, c2d.nodes)
-
-        return lambda _: Solve(solve, read)
+    return lambda _: Solve(solve, read)
 
 
 class CountedSprings(SpringsLaw):
@@ -223,25 +190,24 @@ class CountedSprings(SpringsLaw):
         return found
 
 
-@dataclass(frozen=True)
-class WheelsOnSprings:
-    """Wheels on springs, batched, in the periodic motion; or the filter (14.11) under them."""
+Runner = Callable[[WheelEnsemble, FloatArray], tuple[FloatArray, float]]
+"""Of wheels and the heights under them: accelerations, and work."""
 
-    name: str
-    input_spectrum: InputSpectrum = "geike"
-    linear: bool = False
 
-    def prepare(self, scene: WheelProblem, resolution: Resolution) -> Prepared:
-        count, spectrum = scene.wheels, self.input_spectrum
-        distance = scene.duration * scene.wheel_scene.speed
-        on = replace(scene.wheel_scene, distance=distance, springs=round(resolution.size))
-        rides = WheelEnsemble(scene=on, count=count, track="steady-state", input_spectrum=spectrum, seed=scene.seed)
-        roll = partial(_filtered if self.linear else _on_springs, rides, rides.heights())
+def wheels_on_springs(
+    scene: WheelProblem, resolution: Resolution, spectrum: InputSpectrum, simulated: Runner
+) -> Prepared:
+    """Batched, in the periodic motion; or the filter (14.11) under them."""
+    distance = scene.duration * scene.wheel_scene.speed
+    on = replace(scene.wheel_scene, distance=distance, springs=round(resolution.size))
+    count = scene.wheels
+    rides = WheelEnsemble(scene=on, count=count, track="steady-state", input_spectrum=spectrum, seed=scene.seed)
 
-        def read(found: tuple[FloatArray, float]) -> Result:
-            return Result({"level": scene.levels(found[0], on.time_step)}, found[1], count)
+    def read(found: tuple[FloatArray, float]) -> Result:
+        return Result({"level": scene.levels(found[0], on.time_step)}, found[1], count)
 
-        return lambda _: Solve(roll, read)
+    run = partial(simulated, rides, rides.heights())
+    return lambda _: Solve(run, read)
 
 
 def _filtered(rides: WheelEnsemble, heights: FloatArray) -> tuple[FloatArray, float]:
@@ -266,27 +232,23 @@ def _on_springs(rides: WheelEnsemble, heights: FloatArray) -> tuple[FloatArray, 
     return motion.acceleration, float(sum(each.work for each in laws))
 
 
-FOR_ROLLING = WheelsOnSprings(MDR_ROLLING, input_spectrum="rolling")
+def wheel_on_strips(scene: WheelProblem, resolution: Resolution, simulated: StripRunner) -> Prepared:
+    """Beside that of linear theory on each surface. Raises ValueError for waves that cells do not resolve."""
+    cells = round(resolution.size)
 
+    def draw(realisation: int) -> Solve:
+        strip = scene.strip(realisation, cells, resolution.residual)
+        linear = linear_strip(scene, strip)
+        known = {"linear level": linear.level, "mean level": linear.mean}
 
-@dataclass(frozen=True)
-class WheelOnStrips:
-    """A wheel over a strip, beside that of linear theory: by the filter itself, or with boundary elements."""
+        def read(found: tuple[FloatArray, float]) -> Result:
+            level = scene.levels(found[0][:, np.newaxis], linear.time_step)[0]
+            return Result({"level": level, **known}, found[1])
 
-    name: str = "BEM"
+        return Solve(simulated(strip, linear), read)
 
-    def prepare(self, scene: WheelProblem, resolution: Resolution) -> Prepared:
-        """Raises ValueError for waves that cells do not resolve."""
-        cells = round(resolution.size)
-
-        def draw(realisation: int) -> Solve:
-            strip = scene.strip(realisation, cells, resolution.residual)
-            known = linear_strip(scene, strip)
-            run = (_filter_strip if self.name == FILTER_3D else _in_time_loop)(strip, known)
-            return Solve(run, lambda found: scene.read(found[0], known, found[1]))
-
-        draw(0)
-        return draw
+    draw(0)
+    return draw
 
 
 def _filter_strip(strip: WheelStrip, known: LinearStrip) -> Callable[[], tuple[FloatArray, float]]:

@@ -7,7 +7,7 @@ import math
 from abc import abstractmethod
 from dataclasses import dataclass
 from functools import partial
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import numpy as np
 
@@ -16,7 +16,7 @@ import mdr
 from validation.benchmarks import peers
 from validation.benchmarks.peers import DiscreteProblem, solvers_on_grids
 from validation.benchmarks.timing import Configuration, along
-from validation.benchmarks.work_precision.problem import CLOSED, ChartProblem, Grids, Quantity, logarithm
+from validation.benchmarks.work_precision.problem import CLOSED, ChartProblem, Grids, NamedMethod, Quantity, logarithm
 from validation.scenes.indentation import IndentationScene
 from validation.simulation.method import FloatArray, Prepared, Resolution, Result, Solve, Values
 from validation.simulation.pressed import FIXED_AREA_RESIDUAL, PressedSprings
@@ -31,22 +31,19 @@ def scalars(**numbers: float) -> Values:
     return {name: np.array(number) for name, number in numbers.items()}
 
 
-@dataclass(frozen=True)
-class ClosedForm:
+def closed_form(scene: "ExactProblem", resolution: Resolution) -> Prepared:
     """What is exact."""
-
-    name: str = CLOSED
-
-    def prepare(self, scene: "ExactProblem", resolution: Resolution) -> Prepared:
-        return lambda _: Solve(scene.exact, lambda found: Result(found, 1.0))
+    return lambda _: Solve(scene.exact, lambda found: Result(found, 1.0))
 
 
 class ExactProblem(ChartProblem):
     """A pressed body whose answer is known: `PressedScene` for our methods, plain values for other solvers.
 
-    peers: cells of other solvers; springs: on a length.
+    peers: cells of other solvers; springs: on a length; shape: of the body, for models, none where they have none.
     """
 
+    periodic: ClassVar[bool] = False
+    shape: ClassVar[Literal["sphere", "punch"] | None] = None
     peers: tuple[int, ...]
     springs: tuple[float, ...]
 
@@ -54,8 +51,9 @@ class ExactProblem(ChartProblem):
     def exact(self) -> Values:
         """By closed forms."""
 
-    @abstractmethod
-    def half_space(self, cells: int) -> bem3d.HalfSpace: ...
+    def half_space(self, cells: int) -> bem3d.HalfSpace:
+        nx, ny = self.gap(cells).shape
+        return bem3d.HalfSpace(shape=(nx, ny), spacing=1 / cells, modulus=1.0, periodic=self.periodic)
 
     @abstractmethod
     def gap(self, cells: int, realisation: int = 0) -> FloatArray: ...
@@ -67,6 +65,13 @@ class ExactProblem(ChartProblem):
     @abstractmethod
     def read_peer(self, cells: int, force: float, approach: float, area: float) -> Values:
         """Values of another solver; where it prescribes the other load, carried over along the closed form."""
+
+    @property
+    def scene(self) -> IndentationScene | None:
+        """Under the force of other solvers."""
+        if self.shape is None:
+            return None
+        return IndentationScene(name=self.name, shape=self.shape, size=1.0, load=self.peer_force(1), modulus=1.0)
 
     def load(self, cells: int) -> dict[str, float]:
         return {"approach": 1.0}
@@ -82,7 +87,7 @@ class ExactProblem(ChartProblem):
         """The closed form, springs, boundary elements, and other solvers where they are installed."""
         grids = self.grids
         return (
-            *along(ClosedForm(), self, (1.0,), "exact", is_reference=True),
+            *along(NamedMethod(CLOSED, closed_form), self, (1.0,), "exact", is_reference=True),
             *along(PressedSprings(), self, self.springs, f"# springs {grids.per}"),
             *self.boundary_elements(),
             *solvers_on_grids(peers.of_others(), self, self.peers, grids.per, grids.tight),
@@ -117,6 +122,7 @@ class SphereProblem(ExactProblem):
     """A rigid sphere, R = a = d = 1, on a grid of 4 a."""
 
     name: ClassVar = "sphere"
+    shape: ClassVar = "sphere"
     grids: Grids = SPHERE_GRIDS
     peers: tuple[int, ...] = (8, 16)
     springs: tuple[float, ...] = (2.4, 4.4, 8.4, 16.4, 32.4, 64.4)
@@ -129,11 +135,6 @@ class SphereProblem(ExactProblem):
             Quantity(name="stiffness", log=logarithm("stiffness"), needs=("stiffness",)),
         )
 
-    @property
-    def scene(self) -> IndentationScene:
-        """Under the force of Hertz."""
-        return IndentationScene(name=self.name, shape="sphere", size=1.0, load=self.peer_force(0), modulus=1.0)
-
     def exact(self) -> Values:
         """Hertz and Boussinesq."""
         return scalars(
@@ -141,9 +142,6 @@ class SphereProblem(ExactProblem):
             radius=closed_forms.hertz_contact_radius(radius=1.0, approach=1.0),
             stiffness=closed_forms.circular_punch_stiffness(**UNIT_SPHERE),
         )
-
-    def half_space(self, cells: int) -> bem3d.HalfSpace:
-        return bem3d.HalfSpace(shape=(4 * cells, 4 * cells), spacing=1 / cells, modulus=1.0)
 
     def gap(self, cells: int, realisation: int = 0) -> FloatArray:
         """r^2 / 2R."""
@@ -184,6 +182,7 @@ class PunchProblem(ExactProblem):
     """A rigid flat square punch of side L = 1 on a grid that just holds it."""
 
     name: ClassVar = "square punch"
+    shape: ClassVar = "punch"
     grids: Grids = PUNCH_GRIDS
     peers: tuple[int, ...] = ()
     springs: tuple[float, ...] = (4, 16, 64)
@@ -194,16 +193,9 @@ class PunchProblem(ExactProblem):
         band = 5e-5 / closed_forms.SQUARE_PUNCH
         return (Quantity(name="stiffness", log=logarithm("stiffness"), needs=("stiffness",), band=band),)
 
-    @property
-    def scene(self) -> IndentationScene:
-        return IndentationScene(name=self.name, shape="punch", size=1.0, load=self.peer_force(0), modulus=1.0)
-
     def exact(self) -> Values:
         """1.1523 E* L."""
         return scalars(stiffness=closed_forms.square_punch_stiffness(side=1.0, modulus=1.0))
-
-    def half_space(self, cells: int) -> bem3d.HalfSpace:
-        return bem3d.HalfSpace(shape=(cells, cells), spacing=1 / cells, modulus=1.0)
 
     def gap(self, cells: int, realisation: int = 0) -> FloatArray:
         return np.zeros((cells, cells))
@@ -236,6 +228,7 @@ class WaveProblem(ExactProblem):
     """
 
     name: ClassVar = "Westergaard's wave"
+    periodic: ClassVar = True
     grids: Grids = WAVE_GRIDS
     peers: tuple[int, ...] = ()
     springs: tuple[float, ...] = (64,)
@@ -254,10 +247,6 @@ class WaveProblem(ExactProblem):
         return scalars(
             width=2 * closed_forms.westergaard_half_width(**wave), approach=closed_forms.westergaard_approach(**wave)
         )
-
-    def half_space(self, cells: int) -> bem3d.HalfSpace:
-        """One row, periodic."""
-        return bem3d.HalfSpace(shape=(cells, 1), spacing=1 / cells, modulus=1.0, periodic=True)
 
     def gap(self, cells: int, realisation: int = 0) -> FloatArray:
         """2 sin^2(pi x)."""

@@ -11,19 +11,16 @@ from validation.analysis.statistics import POWER_DECIBEL
 from validation.benchmarks.found_models import TimedProblem, configurations_of
 from validation.benchmarks.timing import FINISHED, Configuration, Timing, along, time_in_turns
 from validation.engine.engine import Outcome
-from validation.simulation.method import FloatArray, Method, Resolution, Values
+from validation.simulation import model_names
+from validation.simulation.method import FloatArray, Method, Prepared, Resolution, Values
 from validation.simulation.model import Model
 from validation.simulation.pressed import PressedGrid
 
-CLOSED = "closed form"
-FILTER_1D, FILTER_3D = "linear filter, 1D", "linear filter, 3D"
-MDR, MDR_ROLLING = "MDR", "MDR, rolling spectrum"
-POLONSKY_KEER, BEM, LOOSE, EXTRAPOLATED = (
-    "Polonsky-Keer",
-    "BEM, finer cells",
-    "BEM, looser residual",
-    "BEM, extrapolated",
-)
+CLOSED, FILTER_1D, FILTER_3D = model_names.CLOSED_FORM, model_names.FILTER_1D, model_names.FILTER_3D
+MDR, MDR_ROLLING = model_names.MDR, model_names.MDR_ROLLING
+POLONSKY_KEER, BEM, LOOSE = "Polonsky-Keer", "BEM, finer cells", "BEM, looser residual"
+EXTRAPOLATED = "BEM, extrapolated"
+SPRINGS, ELEMENTS = (MDR, MDR_ROLLING), (BEM, LOOSE, EXTRAPOLATED, POLONSKY_KEER)
 ROUNDING = 1e-12
 """What a closed form leaves open."""
 
@@ -74,6 +71,18 @@ class CountedSpectrum:
     def __call__(self, q: FloatArray) -> FloatArray:
         self.nodes += q.size
         return self.c2d(q)
+
+
+@dataclass(frozen=True)
+class NamedMethod:
+    """A function of a scene, a resolution and these options that prepares a method."""
+
+    name: str
+    by: Callable[..., Prepared]
+    options: tuple[Any, ...] = ()
+
+    def prepare(self, scene: Any, resolution: Resolution) -> Prepared:
+        return self.by(scene, resolution, *self.options)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -163,6 +172,31 @@ class ChartProblem(ABC):
     def on_grids(self, method: Method, label: str, cells: Iterable[int]) -> tuple[Configuration, ...]:
         own: dict[str, Any] = {"residual": self.grids.tight, "realisations": self.realisations}
         return along(method, self, cells, f"# cells {self.grids.per}", label=label, **own)
+
+
+def along_a_track(
+    problem: Any,
+    linear: Callable[..., Prepared],
+    springs: tuple[Callable[..., Prepared], Any, Any],
+    filtered: tuple[Callable[..., Prepared], Any],
+    tracks: int = 0,
+) -> tuple[Configuration, ...]:
+    """Linear theory three times, springs with both input spectra, boundary elements.
+
+    linear: in closed form; springs: the method, its options for the linear filter and for one-sided springs; filtered:
+    the method on strips, its option for the linear filter; tracks: of springs, their own, none where they are a batch.
+    """
+    own: dict[str, Any] = {"realisations": tracks, "paired": False}
+    by, without, one_sided = springs
+    kinds = (FILTER_1D, "geike", without), (MDR, "geike", one_sided), (MDR_ROLLING, "rolling", one_sided)
+    on_springs = [NamedMethod(name, by, tuple(options)) for name, *options in kinds]
+    by_filter = NamedMethod(FILTER_3D, filtered[0], filtered[1:])
+    return (
+        *along(NamedMethod(CLOSED, linear), problem, (1.0,), "linear theory", paired=False),
+        *(each for m in on_springs for each in along(m, problem, problem.springs, "# springs to a radius", **own)),
+        *along(by_filter, problem, problem.filtered, "# cells to a radius", realisations=problem.realisations),
+        *problem.boundary_elements(),
+    )
 
 
 def measure(timed: TimedProblem) -> Outcome:

@@ -14,18 +14,15 @@ import numpy as np
 import bem3d
 import mdr
 from validation.analysis.spectra import Bands, levels, waves
-from validation.benchmarks.timing import Configuration, along
+from validation.benchmarks.timing import Configuration
 from validation.benchmarks.work_precision.problem import (
-    CLOSED,
-    FILTER_1D,
-    FILTER_3D,
-    MDR,
-    MDR_ROLLING,
     POLONSKY_KEER,
     ChartProblem,
     CountedSpectrum,
     Grids,
+    NamedMethod,
     Quantity,
+    along_a_track,
     log_power,
 )
 from validation.engine.convergence import NotConvergedError
@@ -42,9 +39,9 @@ WARM = 40
 """Positions before the clock runs: frames that find their size, plans."""
 WINDOW = 3
 """Contact radii of the window on which Polonsky and Keer's iteration solves each position."""
-
-
 GRIDS = Grids(cells=(3, 4, 6, 12), polonsky_keer=(4,), fixed=6, per="to a radius")
+Roller = Callable[[FloatArray, int, float], Callable[[], tuple[FloatArray, float]]]
+"""Of a surface, cells to a contact radius and a residual: a function that returns force and work."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -107,38 +104,16 @@ class RollingProblem(ChartProblem):
         return RoughStrip(spectrum=self.spectrum, height=self.height, length=length, width=width, seed=self.seed)
 
     def configurations(self) -> tuple[Configuration, ...]:
-        """Linear theory three times, springs with both input spectra, boundary elements."""
-        springs = (RollingTracks(FILTER_1D, contact="linear"), RollingTracks(MDR), FOR_ROLLING)
-        tracks: dict[str, Any] = {"realisations": self.tracks, "paired": False}
-        return (
-            *along(RollingLinearSpectrum(), self, (1.0,), "linear theory", paired=False),
-            *(each for m in springs for each in along(m, self, self.springs, "# springs to a radius", **tracks)),
-            *along(
-                RollingStrips(FILTER_3D), self, self.filtered, "# cells to a radius", realisations=self.realisations
-            ),
-            *self.boundary_elements(),
-        )
+        springs, strips = (springs_along_tracks, "linear", "one-sided"), (force_along_strips, _filtered)
+        return along_a_track(self, linear_spectrum, springs, strips, self.tracks)
 
     @property
     def method(self) -> Method:
-        return RollingStrips()
+        return NamedMethod("BEM", force_along_strips, (_roll,))
 
     @property
     def published(self) -> Method:
-        return RollingStrips(POLONSKY_KEER)
-
-    def read(self, force: FloatArray, linear: FloatArray, mean: Values, spacing: float, work: float) -> Result:
-        """Variance and levels of a force, and of the linear one on the same surface; over the force of Hertz."""
-        return Result(
-            {
-                "variance": np.array(force.var()),
-                "level": levels(waves(force, spacing=spacing), self.bands),
-                "linear variance": np.array(linear.var()),
-                "linear level": levels(waves(linear, spacing=spacing), self.bands),
-                **mean,
-            },
-            work,
-        )
+        return NamedMethod(POLONSKY_KEER, force_along_strips, (_roll_published,))
 
     def mean(self, surface: FloatArray, spacing: float) -> Values:
         """Variance at a place and levels of the linear force, in the mean over all phases of these waves."""
@@ -147,89 +122,72 @@ class RollingProblem(ChartProblem):
         response = rolling_theory.response(np.hypot(qx[:, np.newaxis], qy), contact_radius=1.0, modulus=1.0)
         power = (np.abs(response * np.fft.fft2(surface, norm="forward") / HERTZ) ** 2).sum(axis=1)
         along = slice(1, (nx - 1) // 2 + 1)
-        level = self.bands.sums(qx[along], power[along]).real
-        return {"mean variance": np.array(power.sum()), "mean level": level}
+        return {"mean variance": np.array(power.sum()), "mean level": self.bands.sums(qx[along], power[along]).real}
 
 
-@dataclass(frozen=True)
-class RollingLinearSpectrum:
+def linear_spectrum(scene: RollingProblem, resolution: Resolution) -> Prepared:
     """Linear theory in closed form: the variance at a place, and C_F along the track at the waves of a strip."""
+    c2d = CountedSpectrum(lambda q: np.asarray(scene.height**2 * scene.spectrum.c2d(q)))
+    settings: dict[str, Any] = {"edges": scene.spectrum.edges, "contact_radius": 1.0, "modulus": 1.0}
+    dq = 2 * np.pi / scene.length
+    q = dq * np.arange(1, int(scene.bands.edges[-1] / dq) + 1)
 
-    name: str = CLOSED
+    def solve() -> tuple[float, FloatArray]:
+        c2d.nodes = 0
+        variance = rolling_theory.force_variance(c2d, **settings)
+        return variance, dq * rolling_theory.force_spectrum_3d(q, c2d, **settings)
 
-    def prepare(self, scene: RollingProblem, resolution: Resolution) -> Prepared:
-        c2d = CountedSpectrum(lambda q: np.asarray(scene.height**2 * scene.spectrum.c2d(q)))
-        settings: dict[str, Any] = {"edges": scene.spectrum.edges, "contact_radius": 1.0, "modulus": 1.0}
-        dq = 2 * np.pi / scene.length
-        q = dq * np.arange(1, int(scene.bands.edges[-1] / dq) + 1)
+    def read(found: tuple[float, FloatArray]) -> Result:
+        variance, level = found[0], scene.bands.sums(q, found[1]).real
+        return Result({"variance": np.array(variance / HERTZ**2), "level": level / HERTZ**2}, c2d.nodes)
 
-        def solve() -> tuple[float, FloatArray]:
-            c2d.nodes = 0
-            variance = rolling_theory.force_variance(c2d, **settings)
-            return variance, dq * rolling_theory.force_spectrum_3d(q, c2d, **settings)
-
-        def read(found: tuple[float, FloatArray]) -> Result:
-            variance, level = found[0], scene.bands.sums(q, found[1]).real
-            return Result({"variance": np.array(variance / HERTZ**2), "level": level / HERTZ**2}, c2d.nodes)
-
-        return lambda _: Solve(solve, read)
+    return lambda _: Solve(solve, read)
 
 
-@dataclass(frozen=True)
-class RollingTracks:
-    """Springs along a track of their own, one-sided or the filter (14.11) on them."""
+def springs_along_tracks(
+    scene: RollingProblem, resolution: Resolution, spectrum: InputSpectrum, contact: Literal["one-sided", "linear"]
+) -> Prepared:
+    """One-sided, or the filter (14.11) on them. Raises ValueError for waves that springs do not resolve."""
+    springs = round(resolution.size)
+    scene.rough_strip.track(spectrum, springs, 0)
 
-    name: str
-    input_spectrum: InputSpectrum = "geike"
-    contact: Literal["one-sided", "linear"] = "one-sided"
+    def draw(realisation: int) -> Solve:
+        track = scene.rough_strip.track(spectrum, springs, realisation)
+        solve = partial(mdr.roll, track, spacing=1 / springs, contact=contact, **SMOOTH)
 
-    def prepare(self, scene: RollingProblem, resolution: Resolution) -> Prepared:
-        """Raises ValueError for waves that springs do not resolve."""
-        springs = round(resolution.size)
-        scene.rough_strip.track(self.input_spectrum, springs, 0)
+        def read(found: mdr.RollingTrack) -> Result:
+            force = found.force / HERTZ
+            # sums of neighbours cost as much as two looks at each spring
+            work = float(found.examined.sum()) + 2 * track.size
+            level = levels(waves(force, spacing=1 / springs), scene.bands)
+            return Result({"variance": np.array(force.var()), "level": level}, work)
 
-        def draw(realisation: int) -> Solve:
-            track = scene.rough_strip.track(self.input_spectrum, springs, realisation)
-            solve = partial(mdr.roll, track, spacing=1 / springs, contact=self.contact, **SMOOTH)
+        return Solve(solve, read)
 
-            def read(found: mdr.RollingTrack) -> Result:
-                force = found.force / HERTZ
-                # sums of neighbours cost as much as two looks at each spring
-                work = float(found.examined.sum()) + 2 * track.size
-                level = levels(waves(force, spacing=1 / springs), scene.bands)
-                return Result({"variance": np.array(force.var()), "level": level}, work)
-
-            return Solve(solve, read)
-
-        return draw
+    return draw
 
 
-FOR_ROLLING = RollingTracks(MDR_ROLLING, input_spectrum="rolling")
+def force_along_strips(scene: RollingProblem, resolution: Resolution, rolled: Roller) -> Prepared:
+    """Beside that of linear theory on each strip. Raises ValueError for waves that cells do not resolve."""
+    cells = round(resolution.size)
 
+    def variance_and_level(force: FloatArray) -> tuple[FloatArray, FloatArray]:
+        return np.array(force.var()), levels(waves(force, spacing=1 / cells), scene.bands)
 
-@dataclass(frozen=True)
-class RollingStrips:
-    """The force along a strip, beside that of linear theory: by the filter itself, or by boundary elements."""
+    def draw(realisation: int) -> Solve:
+        surface = scene.rough_strip.surface(cells, realisation)
+        linear = rolling_theory.linear_force(surface, spacing=1 / cells, **SMOOTH) / HERTZ
+        known = dict(zip(("linear variance", "linear level"), variance_and_level(linear), strict=True))
+        known |= scene.mean(surface, 1 / cells)
 
-    name: str = "BEM"
+        def read(found: tuple[FloatArray, float]) -> Result:
+            variance, level = variance_and_level(found[0] / HERTZ)
+            return Result({"variance": variance, "level": level, **known}, found[1])
 
-    def prepare(self, scene: RollingProblem, resolution: Resolution) -> Prepared:
-        """Raises ValueError for waves that cells do not resolve."""
-        cells = round(resolution.size)
+        return Solve(rolled(surface, cells, resolution.residual), read)
 
-        def draw(realisation: int) -> Solve:
-            surface = scene.rough_strip.surface(cells, realisation)
-            linear = rolling_theory.linear_force(surface, spacing=1 / cells, **SMOOTH) / HERTZ
-            mean = scene.mean(surface, 1 / cells)
-            roll = ROLLERS[self.name](surface, cells, resolution.residual)
-
-            def read(found: tuple[FloatArray, float]) -> Result:
-                return scene.read(found[0] / HERTZ, linear, mean, 1 / cells, found[1])
-
-            return Solve(roll, read)
-
-        draw(0)
-        return draw
+    draw(0)
+    return draw
 
 
 def _filtered(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], tuple[FloatArray, float]]:
@@ -282,7 +240,3 @@ def moving_window(surface: FloatArray, cells: int) -> tuple[bem3d.HalfSpace, Cal
     sphere = (x[:, np.newaxis] ** 2 + y**2) / 2
     half_space = bem3d.HalfSpace(shape=(n, n), spacing=spacing, modulus=1.0)
     return half_space, lambda position: sphere - height.take(ahead + position, axis=0, mode="wrap")
-
-
-ROLLERS = {FILTER_3D: _filtered, "BEM": _roll, POLONSKY_KEER: _roll_published}
-"""Of a surface, cells to a contact radius and a residual: a function that returns force and work."""

@@ -1,42 +1,33 @@
-"""The punches of Fig. 14.1 at several bandwidths, and with a roll-off, by both methods."""
+"""Whether the answer of Fig. 14.1 depends on bandwidth, on a roll-off and on the size; a fit for the mean stiffness.
 
+Boundary elements of a wide band are those of the narrowest, on many surfaces, and the changes from band to band, on few
+that have the same long waves. The sum is unbiased, and what these waves scatter drops out of each change.
+"""
+
+import math
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
+from itertools import accumulate, pairwise
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-import mdr
-from validation.analysis.statistics import FloatArray
-from validation.cases.punch.ensembles import PunchEnsembles, press
+from validation.analysis.case import Case, Chapter
+from validation.analysis.chart import Chart, Curve, Panel
+from validation.analysis.claims import Claim, Matrix, per_cent
+from validation.analysis.series import Estimates, Margin, Series, Where, spans
+from validation.analysis.statistics import DECIBEL, FIVE_PER_CENT, ROUNDING, FloatArray, jackknifed
+from validation.analysis.study import Outcomes, Study
+from validation.cases.punch.ensembles import DEVIATION, MEAN, PunchEnsembles, press
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation.rough_punch import Profiles, PunchRoughness, Surface
+from validation.selection import model_needed
+from validation.simulation.rolled_off import RolledOffRoughness
+from validation.simulation.rough_punch import PunchRoughness, Surface, require_converged
+from validation.theory import closed_forms
 
-
-@dataclass(frozen=True, kw_only=True)
-class PlateauSpectrum(mdr.SelfAffine):
-    """Self-affine beyond a roll-off, constant from q_min to there; its level is that of the draw, which has an rms."""
-
-    q_roll_off: float
-
-    def c2d(self, q: ArrayLike) -> FloatArray:
-        """C_2D(max(q, q_r)) in the band [m^4]."""
-        q = np.abs(np.asarray(q, dtype=np.float64))
-        return np.asarray(np.where(super().c2d(q) > 0, super().c2d(np.maximum(q, self.q_roll_off)), 0.0))
-
-
-@dataclass(frozen=True, kw_only=True)
-class RolledOffRoughness(PunchRoughness):
-    """With a plateau from the first wave of the band to the roll-off, as many waves on a side."""
-
-    roll_off: int
-
-    @property
-    def spectrum(self) -> PlateauSpectrum:
-        band = PunchRoughness(hurst=self.hurst, waves=self.waves, height=self.height, seed=self.seed).spectrum
-        q_roll_off = 2 * np.pi * self.roll_off
-        return PlateauSpectrum(
-            hurst=band.hurst, q_min=band.q_min, q_max=band.q_max, rms=band.rms, q_roll_off=q_roll_off
-        )
+BANDWIDTH, ROLL_OFF, FORCE = "q_max / q_min", "q_r L / 2π", "Fbar"
+KINDS = (BANDWIDTH, ROLL_OFF)
+Kind = tuple[str, float]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,17 +63,16 @@ class Bandwidth(PunchEnsembles):
         """q_max / q_min without a roll-off, ascending."""
         return tuple(self.cells // 4 * width for width in (1, *self.wider))
 
-    def roughness(self, bandwidth: int) -> PunchRoughness:
-        """From one wave on a side."""
-        return PunchRoughness(hurst=self.hurst, waves=(1, bandwidth), height=self.height, seed=self.seed)
-
     @property
-    def rolled_off_roughness(self) -> PunchRoughness:
-        """From one wave on a side too, and as wide a band as the narrowest beyond the roll-off."""
+    def ground(self) -> dict[Kind, PunchRoughness]:
+        """Of each bandwidth from one wave on a side; and with a roll-off, the narrowest band beyond it."""
+        plain = partial(PunchRoughness, hurst=self.hurst, height=self.height, seed=self.seed)
+        rolled = partial(RolledOffRoughness, hurst=self.hurst, height=self.height, seed=self.seed)
         waves = (1, self.roll_off * self.bandwidths[0])
-        return RolledOffRoughness(
-            hurst=self.hurst, waves=waves, height=self.height, seed=self.seed, roll_off=self.roll_off
-        )
+        return {
+            **{(BANDWIDTH, float(b)): plain(waves=(1, b)) for b in self.bandwidths},
+            (ROLL_OFF, float(self.roll_off)): rolled(waves=waves, roll_off=self.roll_off),
+        }
 
     def pressed(self, roughness: PunchRoughness, first: int, count: int, finer: int = 1) -> list[Surface]:
         """Realisations from the first on, four cells to the shortest wave, or so many times more."""
@@ -90,46 +80,236 @@ class Bandwidth(PunchEnsembles):
         return [self.surface_of(roughness, first + i, cells, self.forces) for i in range(count)]
 
 
-@dataclass(frozen=True)
-class BandwidthResult:
-    """Outcomes, rows are realisations, columns forces.
-
-    narrow: of the narrowest band; refined: its first realisations on finer cells; pairs: of each wider band, and of the
-    band before on the same realisations, which no other pair has; springs: of each band, narrowest first.
-    """
-
-    case: Bandwidth
-    narrow: Outcome
-    refined: Outcome
-    pairs: list[tuple[Outcome, Outcome]]
-    rolled_off: Outcome
-    springs: list[Outcome]
-    springs_rolled_off: Outcome
-    unconverged: tuple[str, ...]
-
-
-def run(case: Bandwidth, engine: Engine = SERIAL) -> BandwidthResult:
-    """Press surfaces of each band, and profiles of all."""
-    bands = [case.roughness(bandwidth) for bandwidth in case.bandwidths]
-    starts = np.cumsum([case.surfaces, *case.pairs]).tolist()
-    surfaces: dict[tuple[str, int], list[Surface]] = {
-        ("narrow", 0): case.pressed(bands[0], 0, case.surfaces),
-        ("refined", 0): case.pressed(bands[0], 0, case.refined, finer=2),
-        ("rolled off", 0): case.pressed(case.rolled_off_roughness, 0, case.rolled_off),
+def run(case: Bandwidth, engine: Engine = SERIAL) -> Outcomes:
+    """Press surfaces of each band, "before" and "wider" the same ones, and profiles of all."""
+    *bands, rolled_off = case.ground.values()
+    surfaces = {
+        "narrow": case.pressed(bands[0], 0, case.surfaces),
+        "refined": case.pressed(bands[0], 0, case.refined, finer=2),
+        "rolled off": case.pressed(rolled_off, 0, case.rolled_off),
     }
+    starts = np.cumsum([case.surfaces, *case.pairs]).tolist()
     for i, (first, count) in enumerate(zip(starts, case.pairs, strict=False)):
-        surfaces |= {("before", i): case.pressed(bands[i], first, count)}
-        surfaces |= {("wider", i): case.pressed(bands[i + 1], first, count)}
-    profiles: dict[int, Profiles] = {i: case.profiles_of(band, case.points) for i, band in enumerate(bands)}
-    profiles[-1] = case.profiles_of(case.rolled_off_roughness, case.points)
+        surfaces |= {f"before {i}": case.pressed(bands[i], first, count)}
+        surfaces |= {f"wider {i}": case.pressed(bands[i + 1], first, count)}
+    profiles = {kind: case.profiles_of(ground, case.points) for kind, ground in case.ground.items()}
     bem, springs, unconverged = press(engine, surfaces, profiles)
-    return BandwidthResult(
-        case=case,
-        narrow=bem["narrow", 0],
-        refined=bem["refined", 0],
-        pairs=[(bem["before", i], bem["wider", i]) for i in range(len(case.pairs))],
-        rolled_off=bem["rolled off", 0],
-        springs=[springs[i] for i in range(len(bands))],
-        springs_rolled_off=springs[-1],
-        unconverged=unconverged,
-    )
+    return Outcomes(case, {**bem, **springs}, unconverged)
+
+
+CHANGE, SIZE, OF_BEM = "change of MDR over bem3d, ", "with the roll-off over without, ", " over bem3d"
+MARGINS = {
+    MEAN: Margin(
+        tolerance=FIVE_PER_CENT,
+        reason="5 %, less than half of what MDR is off by in full contact, 13 %",
+        source="no change",
+    ),
+    DEVIATION: Margin(
+        tolerance=DECIBEL * math.log(1.1), reason="10 %, the margin at which Fig. 14.1 is decided", source="no change"
+    ),
+}
+OF_FIT = Margin(
+    tolerance=DECIBEL * math.log(1.06),
+    reason="6 %, less than half of what MDR is off by in full contact, 13 %",
+    source="bem3d",
+)
+FIT, FIT_RANGE = "fit", (0.3, 10.0)
+
+
+def log_mean(stiffness: FloatArray) -> FloatArray:
+    """ln of the mean of realisations."""
+    return np.asarray(np.log(stiffness.mean(axis=0)))
+
+
+def log_deviation(stiffness: FloatArray) -> FloatArray:
+    """ln of the relative standard deviation; minus infinity where realisations differ by rounding alone."""
+    relative = stiffness.std(axis=0, ddof=1) / stiffness.mean(axis=0)
+    return np.asarray(np.log(np.where(relative > ROUNDING, relative, 0.0)))
+
+
+STATISTICS = {MEAN: log_mean, DEVIATION: log_deviation}
+
+
+def change(statistic: Callable[[FloatArray], FloatArray], before: Outcome, after: Outcome) -> Estimates:
+    """From one to another of the same realisations."""
+    count = min(len(before["stiffness"]), len(after["stiffness"]))
+    pairs = np.stack([before["stiffness"][:count], after["stiffness"][:count]], axis=1)
+    return Estimates(jackknifed(lambda rows: statistic(rows[:, 1]) - statistic(rows[:, 0]), pairs))
+
+
+def series(result: Outcomes) -> list[Series]:
+    """Raises NotConvergedError where too few surfaces have converged at one of the forces."""
+    bem = [outcome for key, outcome in result.found.items() if isinstance(key, str)]
+    require_converged(bem, result.unconverged)
+    return [one for quantity in STATISTICS for one in _of(result, quantity)]
+
+
+def _of(result: Outcomes, quantity: str) -> Iterator[Series]:
+    """Of one statistic: both methods, MDR and the fit over boundary elements, and what bands and a roll-off change."""
+    case, statistic = result.case, STATISTICS[quantity]
+
+    def found(key: object) -> Estimates:
+        return Estimates(jackknifed(statistic, result[key]["stiffness"]))
+
+    steps = [change(statistic, result[f"before {i}"], result[f"wider {i}"]) for i in range(len(case.pairs))]
+    springs = {kind: found(kind) for kind in case.ground}
+    bem = dict(zip(springs, [*accumulate(steps, initial=found("narrow")), found("rolled off")], strict=True))
+    left = np.array([abs(e.value) + e.half_width for e in change(statistic, result["narrow"], result["refined"])])
+    shown = partial(Series, along=FORCE, at=case.forces, shown=math.exp)
+    # to first order cells of no size are twice as far away as cells of half the size
+    over = partial(shown, grid=2 * left, scale=DECIBEL, unit="dB", shown=_ratio, fewest=2, family=_ranges(case))
+    for kind, mine in springs.items():
+        where: Where = dict([kind])
+        yield shown(quantity, "bem3d", bem[kind], where=where)
+        yield shown(quantity, "mdr", mine, where=where)
+        judged = {"ranges": spans(case.forces, FIT_RANGE), "margin": OF_FIT if quantity == MEAN else None}
+        yield over(quantity + OF_BEM, "mdr", mine - bem[kind], where=where, **judged)
+        if quantity == MEAN:
+            fit = Estimates.exact(np.log(fitted(case)), 10**9)
+            yield over(quantity + OF_BEM, FIT, fit - bem[kind], where=where, **judged)
+    decades = spans(case.forces, *((first, 10 * first) for first in case.first_forces))
+    changed = partial(over, grid=left, margin=MARGINS[quantity], ranges=decades)
+    for (a, b), step in zip(pairwise(springs), steps, strict=False):
+        apart = change(statistic, result[a], result[b]) - step
+        yield changed(CHANGE + quantity, "mdr over bem3d", apart, where={BANDWIDTH: (a[1], b[1])})
+    (first, *_, rolled), where = springs, {ROLL_OFF: float(case.roll_off)}
+    apart = (springs[rolled] - bem[rolled]) - (springs[first] - bem[first])
+    yield changed(CHANGE + quantity, "mdr over bem3d", apart, where=where)
+    if quantity == DEVIATION:
+        for model, of in (("bem3d", bem), ("mdr", springs)):
+            yield changed(SIZE + quantity, model, of[rolled] - of[first], where=where)
+
+
+def _ranges(case: Bandwidth) -> int:
+    """Numbers of a claim at most, whose intervals hold at once: decades of all bandwidths, of mean and deviation."""
+    return 2 * len(case.first_forces) * max(len(case.bandwidths) - 1, 1)
+
+
+def fitted(case: Bandwidth) -> list[float]:
+    """k / (E* L) of the fit, the flat punch in series with its rough face, at each force."""
+    h = case.height
+    return [
+        closed_forms.rough_punch_stiffness(side=1.0, modulus=1.0, force=force * h, height=h) for force in case.forces
+    ]
+
+
+def _ratio(decibels: float) -> float:
+    return math.exp(decibels / DECIBEL)
+
+
+CHANGES = (CHANGE + MEAN, CHANGE + DEVIATION)
+STUDY = Study(
+    title="Bandwidth, roll-off and size: does the answer of Fig. 14.1 depend on them?",
+    method=(
+        "Punches as in Fig. 14.1, H = {c.hurst:g}, longest wave L, q_max / q_min = {c.bandwidths}, each on four cells "
+        "to its shortest wave. Boundary elements press {c.surfaces} surfaces of the narrowest band, and {c.pairs} of "
+        "the wider ones both in that band and in the one before, with the same long waves. The narrowest band and "
+        "these changes add up to the widest. With a roll-off: {c.rolled_off} surfaces whose spectrum is constant up to "
+        "q_r = {c.roll_off} · 2π/L and the narrowest band beyond. {c.profiles} profiles of {c.points} springs in each "
+        "band, all with the same long waves. Intervals by the jackknife and Student's t. Grid: {c.refined} surfaces of "
+        "the narrowest band on twice as many cells a side; wider bands have as many cells to a wave and more to a "
+        "contact, and are taken to err by no more."
+    ),
+    series=series,
+    claims=(
+        Claim(
+            says="What Fig. 14.1 says of MDR beside boundary elements does not depend on bandwidth.",
+            short="Change of MDR over boundary elements by bandwidth",
+            quantity=CHANGES,
+            where={BANDWIDTH: ...},
+            along="-Fbar",
+            printed=per_cent,
+        ),
+        Claim(
+            says="What Fig. 14.1 says of MDR beside boundary elements does not depend on a roll-off.",
+            short="by a roll-off",
+            quantity=CHANGES,
+            where={ROLL_OFF: ...},
+            along="-Fbar",
+            printed=per_cent,
+        ),
+        Claim(
+            says="The fluctuation of Fig. 14.1 does not depend on how many of its longest waves the punch holds.",
+            quantity=SIZE + DEVIATION,
+            printed=per_cent,
+        ),
+        Claim(
+            says="The fit 1/kbar = 1/1.1523 + 0.48/Fbar has the mean stiffness within 6 % for Fbar from 0.32 to 10.",
+            quantity=MEAN + OF_BEM,
+            model=FIT,
+            along=ROLL_OFF,
+            printed=per_cent,
+        ),
+        Claim(
+            says="MDR has the mean stiffness within 6 % for Fbar from 0.32 to 10.",
+            quantity=MEAN + OF_BEM,
+            model="mdr",
+            along=ROLL_OFF,
+            printed=per_cent,
+        ),
+    ),
+    charts=(
+        Chart(
+            "bandwidth",
+            "H = {c.hurst:g}. (a) Mean stiffness over that of boundary elements: MDR at each bandwidth, with and "
+            "without a roll-off; dotted, the fit. (b) Relative deviation, MDR over bem3d. (c) Relative deviation "
+            "itself: symbols, boundary elements; lines, MDR. Bars: 95 % of the sample, in (a) and (b) with the grid.",
+            (
+                Panel(
+                    FORCE,
+                    "",
+                    (
+                        Curve(MEAN + OF_BEM, "mdr", by=KINDS, bars=True),
+                        Curve(MEAN + OF_BEM, FIT, "dotted", "_", by=KINDS),
+                    ),
+                    "mean stiffness, over bem3d",
+                    ylim=(0.75, 1.25),
+                    lines=(1.0,),
+                ),
+                Panel(
+                    FORCE,
+                    "",
+                    (Curve(DEVIATION + OF_BEM, by=KINDS, bars=True),),
+                    "relative deviation, MDR over bem3d",
+                    log="xy",
+                    ylim=(0.3, 3),
+                    lines=(1.0,),
+                ),
+                Panel(
+                    FORCE,
+                    "",
+                    (
+                        Curve(DEVIATION, "bem3d", "marks", by=KINDS, bars=True),
+                        Curve(DEVIATION, "mdr", "lines", by=KINDS),
+                    ),
+                    "relative deviation",
+                    log="xy",
+                    ylim=(5e-4, 1),
+                ),
+            ),
+            claims=(0, 1),
+        ),
+    ),
+    matrices=(
+        Matrix(
+            name="mean stiffness over boundary elements, Fbar from 0.32 to 10",
+            quantity=MEAN + OF_BEM,
+            rows=KINDS,
+            columns="model",
+            printed=per_cent,
+        ),
+    ),
+)
+CASE = Case(
+    name="bandwidth",
+    chapter=Chapter.PRESSED,
+    place=4,
+    answers="Fig. 14.1 at other bandwidths, with a roll-off, and on larger punches; a fit for the mean stiffness",
+    quick=Bandwidth(surfaces=60, pairs=(10, 6), refined=15, rolled_off=10),
+    full=Bandwidth(
+        cells=64, wider=(4, 16), surfaces=900, pairs=(80, 8), refined=150, rolled_off=50, profiles=2000, points=4096
+    ),
+    run=run,
+    study=STUDY,
+    needs=model_needed.punches,
+)

@@ -4,11 +4,8 @@ from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
-from validation.analysis.multilevel import Linearised
-from validation.analysis.statistics import Estimate
 from validation.engine.engine import Engine, Outcome
 from validation.simulation.rough_punch import (
-    FEW_CELLS,
     Profiles,
     PunchRoughness,
     Surface,
@@ -19,7 +16,7 @@ from validation.simulation.rough_punch import (
     stacked,
 )
 
-Row = dict[str, float]
+MEAN, DEVIATION = "mean stiffness", "relative deviation"
 K = TypeVar("K", bound=Hashable)
 J = TypeVar("J", bound=Hashable)
 
@@ -81,14 +78,3 @@ def press(
     unconverged = [line for key, group in surfaces.items() for line in describe_failures(list(group), pressed[key])]
     springs = zip(profiles, engine.map(press_profiles, list(profiles.values())), strict=True)
     return {key: stacked(rows) for key, rows in pressed.items()}, dict(springs), tuple(unconverged)
-
-
-def interval_columns(name: str, found: Estimate | Linearised, value: Callable[[float], float]) -> Row:
-    """A statistic and both ends of its 95 % interval, in columns of a table."""
-    return {f"{name}{end}": float(value(v)) for end, v in zip(("", " low", " high"), found.interval, strict=True)}
-
-
-def cells_in_contact(contact_fraction: float, cells: int) -> Row:
-    """The mean contact in cells, and whether these are too few to resolve it."""
-    count = contact_fraction * cells**2
-    return {"bem3d cells in contact": count, "bem3d few cells": count < FEW_CELLS}

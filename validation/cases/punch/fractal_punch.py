@@ -1,21 +1,39 @@
-"""Fig. 14.1: rough square punches under equal forces, by both methods; `fractal_punch_evidence.py` reads the result."""
+"""Fig. 14.1: rough square punches under equal forces, by both methods: solves, and statistics on cells of no size."""
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property, partial
 from itertools import pairwise
 
 import numpy as np
 
-from validation.cases.punch.ensembles import PunchEnsembles, press
+from validation.analysis.evidence import Role, Table, table_of
+from validation.analysis.multilevel import (
+    Linearised,
+    Moments,
+    Resolved,
+    combined,
+    multilevel_moments,
+    on_finest,
+    on_no_size,
+)
+from validation.analysis.series import Margin, Series, masked
+from validation.analysis.statistics import FloatArray, nearest
+from validation.analysis.study import Outcomes
+from validation.cases.punch.ensembles import DEVIATION, MEAN, PunchEnsembles, press
+from validation.cases.punch.work import Worked, estimator
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.simulation.light_punch import press_lightly
-from validation.simulation.rough_punch import BEM, MDR, Profiles, PunchRoughness, Surface
+from validation.simulation.rough_punch import BEM, FEW_CELLS, MDR, Profiles, PunchRoughness, Surface, require_converged
 from validation.theory import closed_forms
 
 LONG = "mdr 1.1523 L"
 """The 1D model whose stiffness in full contact is that of the square punch."""
 PAIRS = 4
 """Fewer surfaces on a grid have no error bar worth its name."""
+NOTHING_LEFT = math.log(0.01)
+"""A deviation below 1 % of the other one counts as 1 % of it: springs all in contact have none."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,17 +91,27 @@ class FractalPunch(PunchEnsembles):
         ends = [10.0 ** (first + (last - first) * i / count) for i in range(count + 1)]
         return tuple(pairwise(ends))
 
+    @property
+    def plan(self) -> str:
+        """How many surfaces on each grid, in words."""
+        return "; ".join(
+            f"Fbar = {first:.2g} to {last:.2g}: "
+            + ", ".join(f"{count} on {cells}²" for cells, count in zip(self.grids, row, strict=True) if count)
+            for (first, last), row in zip(self.parts, self.surfaces, strict=True)
+        )
+
     def part_of(self, force: float) -> int:
         """Which row of `surfaces` a force belongs to: each part has its end, and the first has its beginning."""
         return max(sum(force > first * (1 + 1e-9) for first, _ in self.parts) - 1, 0)
 
-    def count(self, force: float, cells: int) -> int:
-        """How many surfaces are pressed with a force on a grid."""
-        return self.surfaces[self.part_of(force)][self.grids.index(cells)]
+    def counts(self, force: float) -> dict[int, int]:
+        """How many surfaces are pressed with a force, on each grid that has any, coarse to fine."""
+        row = self.surfaces[self.part_of(force)]
+        return {cells: count for cells, count in zip(self.grids, row, strict=True) if count}
 
-    def grids_at(self, force: float) -> list[int]:
-        """The grids on which surfaces are pressed with a force, coarse to fine."""
-        return [cells for cells in self.grids if self.count(force, cells)]
+    def decade(self, first: float) -> tuple[int, int]:
+        """Levels of its first and last force."""
+        return nearest(self.forces, first), nearest(self.forces, 10 * first)
 
     def roughness(self, hurst: float, cells: int | None = None) -> PunchRoughness:
         """Of surfaces on a grid, which has no wave shorter than two cells; without one, the whole band."""
@@ -93,7 +121,7 @@ class FractalPunch(PunchEnsembles):
 
     def surface(self, hurst: float, realisation: int, cells: int) -> Surface:
         """One of the solves: one realisation on one grid, at all forces that have so many surfaces there."""
-        forces = tuple(force for force in self.forces if realisation < self.count(force, cells))
+        forces = tuple(force for force in self.forces if realisation < self.counts(force).get(cells, 0))
         return self.surface_of(self.roughness(hurst, cells), realisation, cells, forces)
 
     def springs(self, hurst: float, points: int, length: float, profiles: int) -> Profiles:
@@ -101,28 +129,12 @@ class FractalPunch(PunchEnsembles):
         return replace(self.profiles_of(self.roughness(hurst), points, length), realisations=profiles)
 
 
-@dataclass(frozen=True)
-class Ensemble:
-    """Outcomes for one Hurst exponent, by method and by grid, coarse to fine: cells on a side, or springs.
+def run(case: FractalPunch, engine: Engine = SERIAL) -> Outcomes:
+    """Press all surfaces and all profiles with equal forces.
 
-    Rows of their arrays are realisations, columns are forces; NaN where a realisation was not pressed.
+    Outcomes by Hurst exponent, method, and cells on a side or springs: rows are realisations, columns are forces, NaN
+    where a realisation was not pressed.
     """
-
-    hurst: float
-    outcomes: dict[str, dict[int, Outcome]]
-
-
-@dataclass(frozen=True)
-class FractalPunchResult:
-    """One ensemble a Hurst exponent, and which solves did not converge."""
-
-    case: FractalPunch
-    ensembles: list[Ensemble]
-    unconverged: tuple[str, ...]
-
-
-def run(case: FractalPunch, engine: Engine = SERIAL) -> FractalPunchResult:
-    """Press all surfaces and all profiles with equal forces."""
     surfaces = {
         (hurst, BEM, cells): [case.surface(hurst, i, cells) for i in range(most)]
         for hurst in case.hursts
@@ -136,21 +148,191 @@ def run(case: FractalPunch, engine: Engine = SERIAL) -> FractalPunchResult:
         for points, count in ((case.points, case.profiles), (2 * case.points, case.fine_profiles))
     }
     bem, springs, unconverged = press(engine, surfaces, profiles, press_lightly)
-    found = {key: at_all_forces(case, surfaces[key], outcome) for key, outcome in bem.items()} | springs
-    ensembles = [Ensemble(hurst, {method: {} for method in (BEM, MDR, LONG)}) for hurst in case.hursts]
-    for (hurst, method, size), outcome in found.items():
-        ensembles[case.hursts.index(hurst)].outcomes[method][size] = outcome
-    return FractalPunchResult(case, ensembles, unconverged)
+    placed = {key: at_all_forces(case, surfaces[key], outcome) for key, outcome in bem.items()}
+    return Outcomes(case, {**placed, **springs}, unconverged)
 
 
 def at_all_forces(case: FractalPunch, surfaces: Sequence[Surface], found: Outcome) -> Outcome:
     """What was found at the forces of each surface, put under those of the case; NaN elsewhere."""
     level = {force: i for i, force in enumerate(case.forces)}
 
-    def spread(values: np.ndarray) -> np.ndarray:
+    def spread(values: FloatArray) -> FloatArray:
         placed = np.full((len(surfaces), len(level)), np.nan)
         for row, surface, mine in zip(placed, surfaces, values, strict=True):
             row[[level[force] for force in surface.forces]] = mine[: len(surface.forces)]
         return placed
 
     return {name: spread(values) if values.ndim > 1 else values for name, values in found.items()}
+
+
+@dataclass(frozen=True)
+class PunchStatistics:
+    """Statistics at each force, in natural logarithms; None for the mean over Hurst exponents, whose phases are one."""
+
+    result: Outcomes
+
+    @property
+    def case(self) -> FractalPunch:
+        case: FractalPunch = self.result.case
+        return case
+
+    def outcomes(self, hurst: float, method: str) -> dict[int, Outcome]:
+        """By cells on a side, or springs, coarse to fine."""
+        return {size: found for (h, m, size), found in self.result.found.items() if (h, m) == (hurst, method)}
+
+    def on_grids(self, name: str, hurst: float, method: str, level: int) -> dict[int, FloatArray]:
+        """What each realisation has under one force, on each grid where some were pressed; NaN for the others."""
+        columns = {size: outcome[name][:, level] for size, outcome in self.outcomes(hurst, method).items()}
+        most = max(column.size for column in columns.values())
+        return {
+            size: np.pad(column, (0, most - column.size), constant_values=np.nan)
+            for size, column in columns.items()
+            if np.isfinite(column).any()
+        }
+
+    @cached_property
+    def _moments(self) -> dict[tuple[float, str, int], dict[int, Moments]]:
+        """Of the stiffness by Hurst exponent, method and level of force: on each grid."""
+        return {
+            (hurst, method, level): dict(zip(pressed, multilevel_moments(list(pressed.values())), strict=True))
+            for hurst in self.case.hursts
+            for method in (BEM, MDR, LONG)
+            for level in range(len(self.case.forces))
+            for pressed in [self.on_grids("stiffness", hurst, method, level)]
+        }
+
+    def steps(self, hurst: float, method: str, statistic: str, level: int) -> dict[int, Linearised]:
+        """ln of the mean stiffness, or of the relative deviation, under one force, on each grid."""
+        found = self._moments[hurst, method, level]
+        return {n: mine.log_mean if statistic == MEAN else mine.log_relative_deviation for n, mine in found.items()}
+
+    def at(self, hurst: float | None, method: str, statistic: str, level: int) -> Resolved:
+        """On cells of no size, or on twice the springs."""
+        if hurst is None:
+            every = [self.at(h, method, statistic, level) for h in self.case.hursts]
+            return combined([1 / len(every)] * len(every), every)
+        steps = list(self.steps(hurst, method, statistic, level).values())
+        return on_no_size(steps) if method == BEM else on_finest(steps)
+
+    def ratio(self, hurst: float | None, method: str, statistic: str, level: int) -> Resolved:
+        """Springs over boundary elements; surfaces and profiles are independent."""
+        ratio = self.at(hurst, method, statistic, level).beside(self.at(hurst, BEM, statistic, level))
+        nothing = statistic == DEVIATION and ratio.value.value < NOTHING_LEFT
+        return replace(ratio, value=Linearised(NOTHING_LEFT, np.zeros(1))) if nothing else ratio
+
+    def exponent(self, hurst: float | None, method: str, before: int, after: int) -> Resolved:
+        """d ln k / d ln F of the mean stiffness from one level of force to another."""
+        slope = 1 / math.log(self.case.forces[after] / self.case.forces[before])
+        return combined([-slope, slope], [self.at(hurst, method, MEAN, level) for level in (before, after)])
+
+    def trend(self, method: str, level: int) -> Resolved:
+        """d ln deviation / d H by least squares over the Hurst exponents: positive if the deviation rises with H."""
+        apart = np.array(self.case.hursts) - np.mean(self.case.hursts)
+        return combined(apart / (apart**2).sum(), [self.at(h, method, DEVIATION, level) for h in self.case.hursts])
+
+    def require_converged(self) -> None:
+        """Raises NotConvergedError where too few surfaces have converged at one of the forces."""
+        for (_, method, cells), outcome in self.result.found.items():
+            if method == BEM:
+                pressed = [level for level, force in enumerate(self.case.forces) if cells in self.case.counts(force)]
+                require_converged([{"stiffness": outcome["stiffness"][:, pressed]}], self.result.unconverged)
+
+    def contact(self, hurst: float, level: int, cells: int) -> float:
+        """Mean area of the contacts on a grid, in cells."""
+        return cells**2 * float(np.nanmean(self.result[hurst, BEM, cells]["area"][:, level]))
+
+
+FORCE, H = "Fbar", "H"
+STIFFNESS, SCATTER, SLOPE = "k / (E* L)", "relative deviation of k", "d ln k / d ln F"
+TREND = "d ln deviation / d H"
+LAW, FEW, FRACTION = "1 / (1 + H)", "bem3d, few cells", "contact fraction"
+CONVEX = "largest excess of the slope of the load curve over the stiffnesses at its two ends"
+FLAT = "largest stiffness of any surface over that of the flat punch"
+
+
+def criteria(found: PunchStatistics) -> Iterator[Series]:
+    """F(d) is convex: its slope lies between the stiffnesses at two forces. No punch is stiffer than a flat one."""
+    case = found.case
+    force = case.height * np.array(case.forces)
+    convex = Margin(
+        tolerance=100 * case.tolerance,
+        reason="force, approach and stiffness of every realisation are consistent; residual of the solver, and two "
+        "digits of cancellation in the difference of approaches",
+        source="F(d) is convex",
+        role=Role.CRITERION,
+    )
+    for method in (BEM, MDR):
+        excess = 1.0
+        for outcome in (one for hurst in case.hursts for one in found.outcomes(hurst, method).values()):
+            slope, stiffness = np.diff(force) / np.diff(outcome["approach"], axis=1), outcome["stiffness"]
+            for ratio in (stiffness[:, :-1] / slope, slope / stiffness[:, 1:]):
+                excess = float(np.fmax.reduce(ratio, axis=None, initial=excess))
+        yield Series(CONVEX, method, (excess - 1,), margin=convex)
+    largest = max(float(np.nanmax(found.result[hurst, BEM, case.cells]["stiffness"])) for hurst in case.hursts)
+    deficit = 2 / case.cells
+    flat = Margin(
+        tolerance=deficit / 2,
+        reason="never stiffer than all cells in contact; at the largest force at most two cells a side "
+        f"({deficit:.2g}) softer",
+        source="flat punch: all cells in contact",
+        role=Role.CRITERION,
+    )
+    yield Series(FLAT, BEM, (largest / closed_forms.SQUARE_PUNCH,), reference=1.0 - deficit / 2, margin=flat)
+
+
+def curves(found: PunchStatistics, hurst: float) -> Iterator[Series]:
+    """Statistics of each method force by force, on grids too, and which of them stand on few cells."""
+    case, levels = found.case, range(len(found.case.forces))
+    by_force = partial(Series, where={H: hurst}, along=FORCE, at=case.forces)
+    ends = [(max(i - 1, 0), min(i + 1, len(levels) - 1)) for i in levels]
+    finest = [max(case.counts(force)) for force in case.forces]
+    cells = np.array([found.contact(hurst, i, n) for i, n in zip(levels, finest, strict=True)])
+    for method in (BEM, MDR, LONG):
+        of: dict[tuple[str, Callable[[float], float]], list[Linearised]] = {
+            (STIFFNESS, math.exp): [found.at(hurst, method, MEAN, i).value for i in levels],
+            (SCATTER, math.exp): [found.at(hurst, method, DEVIATION, i).value for i in levels],
+            (SLOPE, float): [found.exponent(hurst, method, *pair).value for pair in ends],
+        }
+        for (quantity, shown), values in of.items():
+            yield by_force(quantity, method, values, shown=shown)
+            if method == BEM:
+                yield by_force(quantity, FEW, masked(values, cells < FEW_CELLS), shown=shown)
+    force, middle = np.array(case.forces), len(levels) // 2
+    law = np.where(force <= 1, (force / force[middle]) ** (1 / (1 + hurst)), math.nan)
+    yield by_force(STIFFNESS, LAW, law * math.exp(found.at(hurst, BEM, MEAN, middle).value.value))
+    yield by_force(SLOPE, LAW, np.full(force.size, 1 / (1 + hurst)))
+    pressed = [found.on_grids("stiffness", hurst, BEM, i).values() for i in levels]
+    yield by_force("surfaces", BEM, [float(max(np.isfinite(one).sum() for one in grids)) for grids in pressed])
+    yield by_force(FRACTION, BEM, cells / np.square(finest))
+    yield by_force(FRACTION, MDR, found.result[hurst, MDR, case.points]["area"].mean(axis=0))
+    for quantity, statistic in ((STIFFNESS, MEAN), (SCATTER, DEVIATION)):
+        steps = [found.steps(hurst, BEM, statistic, i) for i in levels]
+        for n in case.grids:
+            on_grid = [step[n].value if n in step else math.nan for step in steps]
+            yield by_force(f"{quantity} on grids", f"{n}²", on_grid, shown=math.exp)
+
+
+def trends(found: PunchStatistics) -> Iterator[Series]:
+    """Whether the deviation rises with H, where there are several."""
+    case = found.case
+    for method in (BEM, MDR) if len(case.hursts) > 1 else ():
+        by_force = [found.trend(method, level) for level in range(len(case.forces))]
+        values, grid = [t.value for t in by_force], [t.grid for t in by_force]
+        yield Series(TREND, method, values, along=FORCE, at=case.forces, grid=grid)
+
+
+def tables(result: Outcomes) -> tuple[Table, ...]:
+    """What the plan of surfaces costs beside the best one; counted work."""
+    case, found = result.case, PunchStatistics(result)
+    rows = []
+    for part, (first, last) in enumerate(case.parts):
+        pairs = [(h, i) for h in case.hursts for i, force in enumerate(case.forces) if case.part_of(force) == part]
+        stiffness, *works = (
+            [found.on_grids(name, h, BEM, i) for h, i in pairs]
+            for name in ("stiffness", "applications", "frozen applications")
+        )
+        work = [{n: a[n] + b[n] for n in a} for a, b in zip(*works, strict=True)]
+        costs = estimator(case.counts(last), stiffness, work)
+        rows += [{"Fbar from": first, "Fbar to": last, **row} for row in costs]
+    pressed = [result[h, BEM, case.cells] for h in case.hursts]
+    return table_of("estimator", rows), Worked.of(case.cells, case.points, pressed).table

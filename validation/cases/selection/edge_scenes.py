@@ -7,13 +7,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.cases.selection.edge_rails import edge_rail
 from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
+from validation.scenes.level_files import curve
 from validation.scenes.load import Scene
 from validation.scenes.measured import MeasuredHeights
+from validation.scenes.rail import Across, RailScene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
+from validation.scenes.roughness_levels import MOST, RoughnessLevels
 from validation.simulation.surface import draw_surface
 from validation.theory.closed_forms import hertz_force
 
@@ -89,7 +91,7 @@ def _round(rng: Generator, body: str, name: str, draw_face: "Face | None") -> Sc
     approach = radius * 10 ** rng.uniform(-5, -3.5)
     a = math.sqrt(radius * approach)
     heights = {SPHERE: SPHERE_HEIGHTS, ROLLING: ROLLING_HEIGHTS, WHEEL: WHEEL_HEIGHTS}[body]
-    longest = a * float(np.exp(rng.uniform(*np.log(LONGEST))))
+    longest = a * _log_uniform(rng, LONGEST)
     band = _band(rng, approach * 10 ** rng.uniform(*heights), longest)
     settings: dict[str, Any] = {"name": name, "modulus": modulus, "ground": band}
     settings["load"] = hertz_force(radius=radius, modulus=modulus, approach=approach)
@@ -103,14 +105,59 @@ def _round(rng: Generator, body: str, name: str, draw_face: "Face | None") -> Sc
         resonance = math.sqrt(2 * a * modulus / mass)
         ground = settings["ground"]
         # so fast at least that a band of waves is left an octave above the resonance
-        fast = max(float(np.exp(rng.uniform(*np.log(RESONANCES)))), 3.5 * ground.q_min / ground.q_resolved)
+        fast = max(_log_uniform(rng, RESONANCES), 3.5 * ground.q_min / ground.q_resolved)
         settings |= {"mass": mass, "speed": fast * resonance / ground.q_min}
     return RollingScene(radius=radius, **settings)
 
 
 def _band(rng: Generator, height: float, longest: float) -> Roughness:
-    ratio = float(np.exp(rng.uniform(*np.log(BANDS))))
+    ratio = _log_uniform(rng, BANDS)
     return Roughness(rms=height, hurst=rng.uniform(*HURSTS), longest=longest, shortest=longest / ratio)
+
+
+# --- wheels on rails: long and flat ellipses, corrugated rails ---
+
+RADII, CROWNS = (0.15, 0.6), (0.15, 4.0)
+"""Of the wheel along the track [m], and of the crown over that: the ellipse is 0.3 to 2.5 times as wide as long."""
+WHEEL_LOADS, MODULI = (5e3, 1.5e5), (2e10, 2e11)
+"""Of a wheel [N], and E* [Pa]."""
+OFFSETS, TILTS, CORRUGATION = (-10.0, 25.0), (-5.0, 5.0), 20.0
+"""Of levels over the limit of ISO 3095 [dB]: of all bands, a decade of wavelength, and the most of one band."""
+ALPHAS = (0.2, 5.0)
+"""Oblique waves, |k_y| < alpha k_x."""
+
+
+def edge_rail(rng: Generator, name: str) -> RailScene:
+    """A wheel on a rail whose ground is stated in one of four ways."""
+    radius = _log_uniform(rng, RADII)
+    stated: tuple[Across, ...] = ("ridges", "isotropic", _log_uniform(rng, ALPHAS), None)
+    across = stated[int(rng.integers(len(stated)))]
+    # isotropic ground has no corrugation along one line alone
+    levels = _levels(rng, bent=across not in ("isotropic", None))
+    return RailScene(
+        name=name,
+        radius=radius,
+        crown_radius=radius * _log_uniform(rng, CROWNS),
+        load=_log_uniform(rng, WHEEL_LOADS),
+        modulus=_log_uniform(rng, MODULI),
+        roughness=levels,
+        across=across,
+    )
+
+
+def _levels(rng: Generator, bent: bool) -> RoughnessLevels:
+    """bent: whether the levels are tilted and have a corrugation, its neighbouring bands by half."""
+    limit = curve("iso3095-2013")
+    numbers = np.array(limit.bands.numbers)
+    corrugated = np.clip(1 - np.abs(numbers - rng.choice(numbers)) / 2, 0, None)
+    tilt, height = rng.uniform(*TILTS), rng.uniform(0, CORRUGATION)
+    raised = rng.uniform(*OFFSETS) + bent * (tilt * (numbers / 10 + 1.5) + height * corrugated)
+    levels = tuple(np.minimum(np.array(limit.levels) + raised, MOST).tolist())
+    return RoughnessLevels(wavelengths=limit.wavelengths, levels=levels, source="the limit of ISO 3095, changed")
+
+
+def _log_uniform(rng: Generator, ends: tuple[float, float]) -> float:
+    return float(np.exp(rng.uniform(math.log(ends[0]), math.log(ends[1]))))
 
 
 # --- measured faces, made from Gaussian heights ---

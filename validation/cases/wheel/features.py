@@ -1,17 +1,15 @@
 """What an ensemble of wheels shows: each feature of its mean spectrum with its error, and what theory expects of it."""
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis import spectral_features as regions
-from validation.analysis.evidence import Number, Place
-from validation.analysis.features import FEATURES
 from validation.analysis.spectra import band_means
-from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknife_error, log_ratio_of_means
+from validation.analysis.statistics import Estimate, jackknifed, log_ratio_of_means
 from validation.engine.engine import Outcome
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.roughness import Roughness
@@ -23,6 +21,16 @@ FloatArray = NDArray[np.float64]
 PEAK, JUMP, SLOPE, PERIOD, FLOOR, BREAK = "peak", "jump", "slope", "period", "floor", "break"
 PREDICTED = " over predicted"
 """Of floor and break, which the same records predict by their jumps: as ratios they err less."""
+QUANTITIES = {
+    PEAK: "peak ω_eigen",
+    JUMP: "jump",
+    SLOPE: "slope of region 3",
+    PERIOD: "period of the oscillation",
+    FLOOR + PREDICTED: "floor over predicted",
+    BREAK + PREDICTED: "break over predicted",
+}
+LEVEL, OMEGA, DENSITY = "level", "ω [rad/s]", "A [(m/s²)² s]"
+FEATURES = (PEAK, JUMP, SLOPE, PERIOD, FLOOR, FLOOR + PREDICTED, BREAK, BREAK + PREDICTED)
 THIRD_FIRST, THIRD_LAST, OSCILLATION_LAST = 1.1, 0.9, 0.5
 """Region 3 begins at this multiple of the jump, and ends at this of q_max v_0; the oscillation ends earlier, since
 roughness at the edge of the contact smears it from the end."""
@@ -95,30 +103,26 @@ def sixths_of_an_octave(low: float, high: float) -> FloatArray:
     return np.asarray(low * 2 ** (np.arange(0, 6 * math.log2(high / low)) / 6))
 
 
-def spectrum_rows(omega: FloatArray, density: FloatArray, low: float, high: float) -> Iterator[dict[str, object]]:
-    """Means of A in sixths of an octave that hold a line: rows of a table."""
+def in_sixths(omega: FloatArray, density: FloatArray, low: float, high: float) -> tuple[FloatArray, FloatArray]:
+    """Centres of sixths of an octave that hold a line, and means of A there."""
     edges = sixths_of_an_octave(low, high)
-    for centre, mean in zip(np.sqrt(edges[1:] * edges[:-1]), band_means(omega, density, edges), strict=True):
-        if np.isfinite(mean):
-            yield {"omega [rad/s]": float(centre), "A [(m/s2)2 s]": float(mean)}
+    means = band_means(omega, density, edges)
+    return np.sqrt(edges[1:] * edges[:-1])[np.isfinite(means)], means[np.isfinite(means)]
 
 
 def measured(spectrum: Spectrum) -> dict[str, Estimate]:
     """The features that stand out, with standard errors by the jackknife over groups of wheels."""
     groups = len(spectrum.plain)
-    shares = spectrum.jumps.reshape(groups, -1)
-    all_of_them = _features(spectrum, spectrum.plain.mean(axis=0), spectrum.hann.mean(axis=0), spectrum.jumps)
-    without: list[dict[str, float]] = []
-    for i in range(groups):
-        rest = np.arange(groups) != i
-        plain, hann = (s[rest].mean(axis=0) for s in (spectrum.plain, spectrum.hann))
-        without.append(_features(spectrum, plain, hann, shares[rest].ravel()))
-    errors = {name: float(jackknife_error([w.get(name, math.nan) for w in without])) for name in all_of_them}
-    return {
-        name: Estimate(value, errors[name], groups)
-        for name, value in all_of_them.items()
-        if math.isfinite(value) and math.isfinite(errors[name])
-    }
+    jumps = spectrum.jumps.reshape(groups, -1)
+
+    def of(kept: FloatArray) -> FloatArray:
+        some = kept.astype(int)
+        plain, hann = (s[some].mean(axis=0) for s in (spectrum.plain, spectrum.hann))
+        found = _features(spectrum, plain, hann, jumps[some].ravel())
+        return np.array([found.get(name, math.nan) for name in FEATURES])
+
+    found = zip(FEATURES, jackknifed(of, np.arange(float(groups))), strict=True)
+    return {name: one for name, one in found if math.isfinite(one.value) and math.isfinite(one.error)}
 
 
 def expected(spectrum: Spectrum, jumps: FloatArray | None = None) -> dict[str, float]:
@@ -231,18 +235,3 @@ def ratio(mine: Outcome, other: Outcome, band: tuple[float, float], window: str 
     """ln of a level over that of another ensemble without window, group by group."""
     above, below = _of_groups(mine, band, window), _of_groups(other, band, "plain")
     return log_ratio_of_means(above[:, np.newaxis], below[:, np.newaxis], weights=np.ones(1))
-
-
-def level_number(
-    estimate: Estimate, *, model: str, where: Mapping[str, Place], source: str, grid: float = 0.0, among: int = 1
-) -> Number:
-    """A level over a reference in decibels, from natural logarithms; among: points whose intervals hold at once."""
-    return FEATURES["level"].number(
-        POWER_DECIBEL * estimate.value,
-        0.0,
-        source,
-        model=model,
-        where=where,
-        grid=POWER_DECIBEL * grid,
-        sample=POWER_DECIBEL * estimate.half_width_among(among),
-    )

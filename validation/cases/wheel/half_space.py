@@ -1,13 +1,29 @@
 """Boundary elements inside the time loop: the wheel of Fig. 14.4 in three dimensions, beside everything cheaper."""
 
-from collections.abc import Mapping
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property, partial
 
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.analysis.series import Estimates
+from validation.analysis.spectra import RecordSpectra, band_levels, one_third_octaves, record_spectra
+from validation.analysis.statistics import Estimate
+from validation.analysis.study import Outcomes
+from validation.cases.wheel.features import (
+    FloatArray,
+    linear_force_3d,
+    linear_spectrum,
+    resonator,
+)
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.simulation.wheel_on_half_space import WheelStrip, simulate_strip
 from validation.simulation.wheel_on_springs import InputSpectrum, WheelEnsemble, simulate_ensemble
+from validation.theory import wheel as wheel_theory
 
 TABLE = load_wheel_scene("table_14_1")
 QUICK = replace(TABLE, rail=replace(TABLE.rail, shortest=0.8e-3)) if TABLE.rail else TABLE
@@ -86,17 +102,7 @@ class Wheel3D:
         return [replace(one, first=i * count) for i in range(batches)]
 
 
-@dataclass(frozen=True)
-class Result3D:
-    """Outcomes of boundary elements by grid and tolerance, of springs by their input spectrum."""
-
-    case: Wheel3D
-    strips: Mapping[str, list[Outcome]]
-    springs: Mapping[InputSpectrum, list[Outcome]]
-    unconverged: tuple[str, ...]
-
-
-def run(case: Wheel3D, engine: Engine = SERIAL) -> Result3D:
+def run(case: Wheel3D, engine: Engine = SERIAL) -> Outcomes:
     """Simulate all wheels. Raises NotConvergedError where fewer than three strips of the ensemble converge."""
     problems = case.strips_of()
     strips = engine.map_groups(simulate_strip, problems)
@@ -115,4 +121,135 @@ def run(case: Wheel3D, engine: Engine = SERIAL) -> Result3D:
     failed = [name for name, some in springs.items() if any(outcome["failed"] for outcome in some)]
     if failed:
         raise NotConvergedError("wheels on springs do not repeat their motion", failed)
-    return Result3D(case, strips, springs, unconverged)
+    return Outcomes(case, {**strips, **springs}, unconverged)
+
+
+LINEAR_3D, LINEAR_1D, BEM = "linear, 3D", "linear, 1D (14.12)", "bem3d"
+GEIKE, ROLLING = "springs, Geike spectrum", "springs, rolling spectrum"
+MODELS = (LINEAR_3D, LINEAR_1D, GEIKE, ROLLING)
+ON_SPRINGS: dict[str, InputSpectrum] = {GEIKE: "geike", ROLLING: "rolling"}
+CONTACTS = {BEM: "bem", LINEAR_3D: "linear"}
+OVER_BEM = {model: f"{model}, over bem3d" for model in MODELS}
+POINTS = 40
+"""Of a quadrature over a band."""
+
+
+@dataclass(frozen=True)
+class WheelLevels:
+    """Levels of the acceleration in one-third octaves: int A df of positive frequencies, natural logarithms."""
+
+    result: Outcomes
+
+    @cached_property
+    def converged(self) -> list[Outcome]:
+        return [strip for strip in self.result[FINEST] if not strip["failed"]]
+
+    @cached_property
+    def edges(self) -> FloatArray:
+        """Of bands that hold two lines of a strip and end with the roughness."""
+        scene, strip = self.result.case.scene, self.result[FINEST][0]
+        line = 2 * math.pi / (strip["bem"].size * float(strip["time step"]))
+        return one_third_octaves(max(2.0 * scene.eigenfrequency, 2 * line / (2 ** (1 / 3) - 1)), scene.cutoff)
+
+    @property
+    def centres(self) -> FloatArray:
+        return np.asarray(np.sqrt(self.edges[1:] * self.edges[:-1]))
+
+    @property
+    def ranges(self) -> dict[str, NDArray[np.bool_]]:
+        """Bands of the plateau, and of region 3 in two parts."""
+        scene, edges = self.result.case.scene, self.edges
+        middle = math.sqrt(scene.jump * scene.cutoff)
+        low, high = edges[:-1] * (1 + 1e-9), edges[1:] * (1 - 1e-9)
+        return {
+            "region 2": high < 0.95 * scene.jump,
+            "region 3, lower half": (low > 0.99 * scene.jump) & (high <= middle),
+            "region 3, upper half": (low > middle * 0.8) & (high > middle),
+        }
+
+    def of_strips(self, strips: Sequence[Outcome], contact: str, edges: FloatArray | None = None) -> FloatArray:
+        """Levels of each strip, (strips, bands), with Hann's window; contact: "bem" or "linear"."""
+        records = (hann_spectra([strip], contact) for strip in strips)
+        bands = self.edges if edges is None else edges
+        return np.array([band_levels(record.omega, record.density, bands)[:, 0] for record in records])
+
+    def spectra(self, contact: str) -> tuple[FloatArray, FloatArray]:
+        """omega, and A with Hann's window, (strips, frequencies), of the strips that converged."""
+        record = hann_spectra(self.converged, contact)
+        return record.omega, record.density.T
+
+    @cached_property
+    def ratio(self) -> Estimates:
+        """ln of boundary elements over the linear contact on the same strips, band by band."""
+        return Estimates.ratios(*(self.of_strips(self.converged, contact) for contact in ("bem", "linear")))
+
+    @cached_property
+    def grid(self) -> FloatArray:
+        """Error of the grid in that: to first order in the cells, three times the change from 3/4 as many."""
+        case = self.result.case
+        pairs = zip(self.result[FINEST], self.result[COARSER], strict=False)
+        grids = zip(*((fine, coarse) for fine, coarse in pairs if not fine["failed"]), strict=True)
+        fine, coarse = (
+            np.log(self.of_strips(grid, "bem").mean(axis=0)) - np.log(self.of_strips(grid, "linear").mean(axis=0))
+            for grid in grids
+        )
+        return np.asarray(np.abs(fine - coarse) / (case.cells / case.coarse - 1))
+
+    @cached_property
+    def solver(self) -> FloatArray:
+        """Change of the level of a short strip with a tighter residual; zero where that has no line."""
+        loose, tight = (self.of_strips(self.result[name], "bem")[0] for name in (LOOSE, TIGHT))
+        change = np.abs(np.log(loose / tight))
+        return np.where(np.isfinite(change), change, 0.0)
+
+    @cached_property
+    def exact(self) -> dict[str, FloatArray]:
+        """ln of linear theory in three dimensions and in one; minus infinity where it has nothing."""
+        scene, bands = self.result.case.scene, list(zip(self.edges, self.edges[1:], strict=False))
+        in_3d = [_integral(self._density_3d, *band, POINTS) for band in bands]
+        in_1d = [_integral(partial(linear_spectrum, scene), *band, 50 * POINTS) for band in bands]
+        with np.errstate(divide="ignore"):
+            return {LINEAR_3D: np.log(in_3d), LINEAR_1D: np.log(in_1d)}
+
+    def _density_3d(self, omega: FloatArray) -> FloatArray:
+        scene = self.result.case.scene
+        force = linear_force_3d(scene, omega / scene.speed)
+        return wheel_theory.over_frequency(force, speed=scene.speed) * resonator(scene, omega)
+
+    @cached_property
+    def bem(self) -> FloatArray:
+        """ln of the level of boundary elements: that of linear theory, and their ratio on the strips."""
+        return np.asarray(self.exact[LINEAR_3D] + self.ratio.values)
+
+    def on_springs(self, model: str) -> tuple[FloatArray, FloatArray]:
+        """omega, and A with Hann's window, (groups, frequencies)."""
+        batches = self.result[ON_SPRINGS[model]]
+        return batches[0]["omega"], np.concatenate([batch["hann"] for batch in batches])
+
+    @cached_property
+    def springs(self) -> dict[str, FloatArray]:
+        """Levels of groups of wheels, (groups, bands)."""
+        spectra = {model: self.on_springs(model) for model in ON_SPRINGS}
+        return {model: band_levels(omega, groups.T, self.edges).T for model, (omega, groups) in spectra.items()}
+
+    def over_bem(self, model: str) -> Estimates:
+        """ln of a model's level over boundary elements, band by band, with the error of both samples."""
+        errors = np.array([one.error for one in self.ratio])
+        if model in self.exact:
+            values = self.exact[model]
+        else:
+            own = Estimates.ratios(self.springs[model], np.ones(errors.size))
+            values, errors = own.values, np.hypot(errors, [one.error for one in own])
+        count = len(self.converged)
+        return Estimates(Estimate(float(v), float(e), count) for v, e in zip(values - self.bem, errors, strict=True))
+
+
+def _integral(density: Callable[[FloatArray], FloatArray], low: float, high: float, points: int) -> float:
+    omega = np.linspace(low, high, points)
+    return float(np.trapezoid(density(omega), omega)) / (2 * math.pi)
+
+
+def hann_spectra(strips: Sequence[Outcome], contact: str) -> RecordSpectra:
+    """Of the acceleration on each strip, with Hann's window."""
+    series = np.stack([strip[contact] for strip in strips], axis=1)
+    return record_spectra(series, time_step=float(strips[0]["time step"]), window="hann")

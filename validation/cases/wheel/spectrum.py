@@ -1,16 +1,45 @@
 """Fig. 14.4: the spectrum of the acceleration of a rolling wheel, its regions, and what moves them."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 
-from validation.cases.wheel.contact_snapshot import Snapshot, contact_snapshot
+import numpy as np
+
+from validation.analysis.evidence import Role
+from validation.analysis.margins import MARGINS
+from validation.analysis.over_range import worst
+from validation.analysis.series import Estimates, Margin, Series, Where
+from validation.analysis.spectra import band_levels, band_means, one_third_octaves
+from validation.analysis.statistics import POWER_DECIBEL, Estimate
+from validation.analysis.study import Outcomes
+from validation.cases.wheel.contrast import contrast_series, contrasts_of, linear_contrasts
+from validation.cases.wheel.features import (
+    BREAK,
+    FREE_MASS,
+    JUMP,
+    LEVEL,
+    OMEGA,
+    PEAK,
+    PERIOD,
+    PREDICTED,
+    QUANTITIES,
+    SLOPE,
+    Spectrum,
+    expected,
+    in_sixths,
+    measured,
+)
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
+from validation.simulation.contact_snapshot import Snapshot, contact_snapshot
 from validation.simulation.wheel_on_springs import WheelEnsemble, simulate_ensemble
+from validation.theory import wheel as wheel_theory
 
 TABLE = load_wheel_scene("table_14_1")
+SNAPSHOT = "contact at one moment"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,16 +85,7 @@ class WheelSpectrum:
         ]
 
 
-@dataclass(frozen=True)
-class WheelResult:
-    """Batches of each variation, and the contact of one wheel in one and in three dimensions."""
-
-    case: WheelSpectrum
-    batches: Mapping[str, list[Outcome]]
-    snapshot: Outcome
-
-
-def run(case: WheelSpectrum, engine: Engine = SERIAL) -> WheelResult:
+def run(case: WheelSpectrum, engine: Engine = SERIAL) -> Outcomes:
     """Simulate all wheels of all variations."""
     scene = case.scene
     if scene.rail is None and scene.wheel is None:
@@ -75,7 +95,7 @@ def run(case: WheelSpectrum, engine: Engine = SERIAL) -> WheelResult:
     if failed:
         raise NotConvergedError("wheels flew higher than sums are exact for", failed)
     snapshot = Snapshot(scene=scene, cells=case.cells, steps=case.snapshot_steps, seed=case.seed)
-    return WheelResult(case, batches, engine.map(contact_snapshot, [snapshot])[0])
+    return Outcomes(case, {**batches, SNAPSHOT: engine.map(contact_snapshot, [snapshot])[0]})
 
 
 def _varied(scene: WheelScene) -> dict[str, WheelScene]:
@@ -90,3 +110,183 @@ def _varied(scene: WheelScene) -> dict[str, WheelScene]:
     rails |= {f"H = {hurst:g}": replace(rail, hurst=hurst) for hurst in (0.4, 1.0)}
     rails |= {f"h₀ × {factor:g}": replace(rail, rms=factor * rail.rms) for factor in (0.25, 4.0)}
     return varied | {name: replace(scene, rail=one) for name, one in rails.items()}
+
+
+SPECTRUM, VARIED = "A in twelfths of an octave", "A with one parameter changed"
+OSCILLATION, MARKS, PARAMETER = "A over its mean law ω^(-2H-3)", "marks [rad/s]", "parameter"
+NO_WINDOW, HANN, LINEAR = "no window, (14.17)", "Hann's window", "linear theory"
+LOWEST, HIGHEST, PREDICTED_FLOOR = "lowest tenth of wheels", "highest tenth of wheels", "floor predicted"
+SOURCES = {
+    PEAK: "sqrt(2 a E* / M)",
+    JUMP: "q_min v₀, (14.20)",
+    SLOPE: "-2 H - 3, (14.13)",
+    PERIOD: "π v₀ / a, (14.12)",
+    BREAK + PREDICTED: "where (14.14) through the resonator meets that floor",
+}
+"""Of the features that are judged."""
+OF_FIGURE = 5
+"""Numbers of the claim of Fig. 14.4, whose intervals hold at once: four features, and the level of region 3."""
+BANDS_PER_PERIOD = 12
+"""Of the oscillation."""
+PARSEVAL = Margin(tolerance=1e-11, reason="rounding of the Fourier transforms", source="Parseval", role=Role.IDENTITY)
+BALANCE = Margin(
+    tolerance=1e-11,
+    reason="rounding of a sum over all steps",
+    source="Newton: mean force and load balance",
+    role=Role.IDENTITY,
+)
+OVER_LINEAR = MARGINS["level"].beside("(14.12) through the resonator: a contact of fixed radius")
+
+
+def series(result: Outcomes) -> list[Series]:
+    """Features beside theory for the scene and for the worst variation; level and contrast of region 3; identities."""
+    spectra, (mine, *varied) = spectra_of(result), features_by_scene(result)
+    base, spectrum = next(iter(spectra.items()))
+    return [
+        *_identities([batch for name in spectra for batch in result[name]]),
+        *mine.values(),
+        *levels_over_linear(spectrum),
+        *_worst_scenes(varied),
+        *_contrasts(spectrum),
+        *_drawn(spectrum, result[base]),
+        *(_in_sixths(name, one) for name, one in spectra.items() if name != base),
+    ]
+
+
+def spectra_of(result: Outcomes) -> dict[str, Spectrum]:
+    """Of the scene itself first."""
+    return {name: Spectrum.of(scene, result[name]) for name, scene in result.case.variations().items()}
+
+
+def features_by_scene(result: Outcomes) -> list[dict[str, Series]]:
+    """Of the scene itself first, whose intervals hold at once for the figure; those of the others, for all of them."""
+    (base, spectrum), *varied = spectra_of(result).items()
+    return [features_of(base, spectrum, OF_FIGURE), *(features_of(*one, len(varied)) for one in varied)]
+
+
+def features_of(name: str, spectrum: Spectrum, family: int) -> dict[str, Series]:
+    """Those that the spectrum of a scene has, beside theory; family: whose intervals hold at once.
+
+    The floor is that of the jumps by construction, if the roughness ends at q_max: shown, and evidence of nothing.
+    """
+    values, theory = measured(spectrum), expected(spectrum)
+    return {
+        key: Series(
+            quantity,
+            "springs",
+            (values[key],),
+            where={"scene": name},
+            reference=theory.get(key, 1.0),
+            grid=float(spectrum.omega[0]) / 2 if key == JUMP else 0.0,
+            unit="rad/s" if key in (PEAK, JUMP, PERIOD) else "-",
+            margin=MARGINS[key.removesuffix(PREDICTED)].beside(SOURCES[key]) if key in SOURCES else None,
+            family=family,
+        )
+        for key, quantity in QUANTITIES.items()
+        if key in values
+    }
+
+
+def _worst_scenes(varied: list[dict[str, Series]]) -> Iterator[Series]:
+    """Of each feature the scene, with one parameter changed, whose verdict is that of all."""
+    for key in SOURCES:
+        if of_key := [features[key] for features in varied if key in features]:
+            numbered = [replace(n, where={"scene": float(i)}) for i, one in enumerate(of_key) for n in one.numbers]
+            far = of_key[int(worst(numbered, "scene").where["worst at"])]  # type: ignore[arg-type]
+            name = f"worst of {len(of_key)} with one parameter changed: {far.where['scene']}"
+            yield replace(far, where={"scenes": name})
+
+
+def levels_over_linear(spectrum: Spectrum) -> list[Series]:
+    """One-third octaves of region 3 over (14.12) through the resonator, up to where the floor is far below."""
+    scene, omega = spectrum.scene, spectrum.omega
+    first = max(1.2 * scene.jump, FREE_MASS * scene.eigenfrequency)
+    last = min(0.7 * expected(spectrum)[BREAK], 0.9 * scene.cutoff)
+    edges = one_third_octaves(first, last) if first < last else np.empty(0)
+    if edges.size < 2:
+        return []
+    found = Estimates.ratios(band_levels(omega, spectrum.hann.T, edges).T, band_levels(omega, spectrum.linear, edges))
+    centres = np.sqrt(edges[1:] * edges[:-1])
+    over = partial(Series, model="springs over linear theory", scale=POWER_DECIBEL, unit="dB", margin=OVER_LINEAR)
+    value, error = (math.sqrt(np.mean(np.square([getattr(one, name) for one in found]))) for name in ("value", "error"))
+    where: Where = {"region": "region 3"}
+    ends: Where = {OMEGA: (float(centres[0]), float(centres[-1]))}
+    rms = (Estimate(value, error, found[0].samples),)
+    return [
+        over(LEVEL, found=found, where=where, along=OMEGA, at=centres, family=OF_FIGURE),
+        over(f"rms of {LEVEL}", found=rms, where={**where, **ends}, family=OF_FIGURE * centres.size),
+    ]
+
+
+def _contrasts(spectrum: Spectrum) -> list[Series]:
+    """Of the oscillation of region 3, with Hann's window."""
+    scene, omega = spectrum.scene, spectrum.omega
+    linear = linear_contrasts(omega, scene)
+    return [
+        contrast_series("springs", contrasts_of(omega, spectrum.hann, scene), scene, linear),
+        contrast_series(LINEAR, linear, scene),
+    ]
+
+
+def _identities(batches: list[Outcome]) -> Iterator[Series]:
+    """Parseval's theorem and Newton's law."""
+    wheels = sum(batch["jump"].size for batch in batches)
+    yield Series(
+        "integral of A over f, over the mean square acceleration, less one",
+        "",
+        (max(abs(_parseval(batch)) for batch in batches),),
+        where={"batches": f"worst of {len(batches)} batches"},
+        margin=PARSEVAL,
+    )
+    yield Series(
+        "mean of F - F_N less M times the velocity change over T, over the rms of F - F_N",
+        "",
+        (max(float(np.abs(batch["balance"]).max()) for batch in batches),),
+        where={"wheels": f"worst of {wheels} wheels"},
+        margin=BALANCE,
+    )
+
+
+def _parseval(batch: Outcome) -> float:
+    square = float(np.mean(batch["square"]))
+    density = batch["plain"].mean(axis=0)
+    steps = round(float(batch["duration"] / batch["time step"]))
+    weights = np.full(density.size, 2.0)
+    weights[-1] = 2.0 if steps % 2 else 1.0
+    return (float(weights @ density) / float(batch["duration"]) + float(np.mean(batch["mean"] ** 2))) / square - 1
+
+
+def _drawn(spectrum: Spectrum, batches: list[Outcome]) -> Iterator[Series]:
+    """Fig. 14.4 in twelfths of an octave, with the spread over wheels; region 3 over the power law of its level."""
+    scene, omega, theory, edges = spectrum.scene, spectrum.omega, expected(spectrum), batches[0]["bands"]
+    of_wheels, centres = np.concatenate([batch["levels"] for batch in batches], axis=1), np.sqrt(edges[1:] * edges[:-1])
+    # linear theory has nothing below the jump, and is infinite at the resonance
+    linear = {part: np.where(omega < part * scene.jump, 0.0, spectrum.linear) for part in (0.9, 0.5)}
+    hann, leakage = (
+        spectrum.hann.mean(axis=0),
+        partial(wheel_theory.leakage, jump=math.sqrt(np.mean(spectrum.jumps**2))),
+    )
+    for model, values in {
+        NO_WINDOW: of_wheels.mean(axis=1),
+        LOWEST: np.quantile(of_wheels, 0.1, axis=1),
+        HIGHEST: np.quantile(of_wheels, 0.9, axis=1),
+        HANN: band_means(omega, hann, edges),
+        LINEAR: band_means(omega, linear[0.9], edges),
+        PREDICTED_FLOOR: leakage(centres, time_step=spectrum.time_step, duration=spectrum.duration),
+    }.items():
+        yield Series(SPECTRUM, model, values, along=OMEGA, at=centres)
+    width = max(theory[PERIOD] / BANDS_PER_PERIOD, omega[0])
+    bands, law = np.arange(0.9 * scene.jump, 1.1 * scene.cutoff, width), omega ** theory[SLOPE]
+    mean = float(np.mean((linear[0.5] / law)[(omega > scene.jump) & (omega < scene.cutoff)]))
+    for model, density in {NO_WINDOW: spectrum.plain.mean(axis=0), HANN: hann, LINEAR: linear[0.5]}.items():
+        over = band_means(omega, density / law, bands) / mean
+        yield Series(OSCILLATION, model, over, along=OMEGA, at=(bands[1:] + bands[:-1]) / 2)
+    marks = {"ω_eigen": scene.eigenfrequency, "q_min v₀": scene.jump, "break": theory[BREAK], "q_max v₀": scene.cutoff}
+    yield from (Series(MARKS, name, (at,)) for name, at in marks.items())
+
+
+def _in_sixths(name: str, spectrum: Spectrum) -> Series:
+    low, high = float(spectrum.omega[2]), 1.5 * spectrum.scene.cutoff
+    omega, density = in_sixths(spectrum.omega, spectrum.plain.mean(axis=0), low, high)
+    where = {PARAMETER: name.split(" ")[0], "scene": name}
+    return Series(VARIED, "springs", density, where=where, along=OMEGA, at=omega)

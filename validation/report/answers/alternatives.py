@@ -5,7 +5,7 @@ from functools import partial
 from validation.analysis.evidence import Evidence
 from validation.cases.punch.work import WORK, Worked
 from validation.cases.rolling import reduced_models as reduced
-from validation.cases.wheel.half_space_tables import WHEEL
+from validation.cases.wheel.half_space_study import APPLICATIONS, WHEEL
 from validation.report.answers.cells import NumberSource
 from validation.report.answers.question import AlternativeModel, ModelCost
 from validation.report.answers.sources import of_fit, of_moving_wheel, of_strips
@@ -30,7 +30,7 @@ def _times_springs(model: str, evidence: Evidence) -> str:
 
 def steps(evidence: Evidence) -> str:
     work = evidence.table(WHEEL)
-    applications, cells = (work[name][0] for name in ("applications a time step", "cells to a contact radius"))
+    applications, cells = (work[name][0] for name in (APPLICATIONS, "cells to a contact radius"))
     return f"{applications:.0f} applications of the operator in each time step, {cells:.0f} cells to a contact radius"
 
 

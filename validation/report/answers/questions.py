@@ -1,12 +1,12 @@
 """The questions of the first screen, in the order of the cases that answer them."""
 
-from validation.cases.punch import bandwidth_numbers as bandwidth
-from validation.cases.punch import fractal_punch_decades as punch
+from validation.cases.punch import bandwidth
+from validation.cases.punch import ensembles as punch
 from validation.cases.punch import mdr_limits as rolled_off
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling.force_spectrum import LINEAR_3D, ROLLING_SPRINGS, SPRINGS
-from validation.cases.wheel import half_space_levels as wheel
-from validation.cases.wheel.half_space_tables import WHEEL
+from validation.cases.wheel import half_space as wheel
+from validation.cases.wheel.half_space_study import WHEEL
 from validation.report.answers.alternatives import (
     IN_TIME,
     JUDGE,

@@ -1,11 +1,13 @@
 """Which numbers of which case answer a question, and where they stand on its axis."""
 
 from validation.analysis.evidence import Evidence, Number, Place
-from validation.cases.punch import bandwidth_numbers as bandwidth
+from validation.cases.punch import bandwidth
+from validation.cases.punch import ensembles as punch
 from validation.cases.punch import mdr_limits as rolled_off
 from validation.cases.rail import rail_dynamic, rolled_filters, rough_rail
 from validation.cases.rolling import reduced_models
-from validation.cases.wheel.half_space_numbers import LEVEL, OVER_BEM
+from validation.cases.wheel.features import LEVEL
+from validation.cases.wheel.half_space import OVER_BEM
 from validation.report.answers.cells import NumberSource
 
 FORCE, SLOPE = "Fbar", "h' a/d"
@@ -89,7 +91,7 @@ def of_fit(kind: str) -> NumberSource:
     """The fit, at several bandwidths or with a roll-off."""
     return NumberSource(
         case="bandwidth",
-        quantities=(bandwidth.STIFFNESS,),
+        quantities=(punch.MEAN + bandwidth.OF_BEM,),
         model=bandwidth.FIT,
         axis=FORCE,
         series=(kind,),

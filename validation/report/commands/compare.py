@@ -21,7 +21,7 @@ from validation.selection.compare import Comparison
 from validation.selection.exported import table_of_several, to_json_of
 from validation.selection.filter_table import filter_table
 from validation.selection.hierarchy import ContactModel
-from validation.selection.model_names import models_named
+from validation.selection.named_models import models_named
 from validation.selection.quantities import QUANTITIES, models_of, quantities_of
 from validation.selection.several_scenes import SceneProblem, compare_scenes
 from validation.selection.summary import findings, format_seconds, heading, summary

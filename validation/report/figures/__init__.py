@@ -14,10 +14,10 @@ from validation.report.drawing import draw
 
 
 def declared(name: str) -> Chart | None:
-    """The chart of that name, if its case declares one."""
+    """The chart of that name, if its case declares one with panels."""
     case = (CASES | TIMED).get(name.partition("-")[0])
     charts = case.study.charts if case and case.study else ()
-    return next((chart for chart in charts if chart.name == name), None)
+    return next((chart for chart in charts if chart.name == name and chart.panels), None)
 
 
 def drawing(name: str) -> Callable[[Evidence], Figure]:

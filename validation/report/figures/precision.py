@@ -1,5 +1,7 @@
 """Figures of error against cost: a chart a quantity, and all of them in one."""
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -46,7 +48,7 @@ def draw_work(evidence: Evidence) -> Figure:
 
 
 def _style(method: str) -> Style:
-    return STYLES.get(method, NEW)
+    return {**COMMON, **STYLES.get(method, NEW)}
 
 
 def _methods(points: Table) -> list[str]:
@@ -59,78 +61,60 @@ def _methods(points: Table) -> list[str]:
 def _charts(points: Table, cost: str, front: str, label: str) -> Figure:
     charts = list(dict.fromkeys(zip(points["scene"].tolist(), points["quantity"].tolist(), strict=True)))
     figure, axes = panels(3, 4, width=14.0, height=10.0, within=PLACES)
-    for axis, (scene, quantity) in zip(axes, charts, strict=False):
+    for i, (axis, (scene, quantity)) in enumerate(zip(axes, charts, strict=False)):
         mine = points.where(scene=scene, quantity=quantity)
         _chart(axis, mine, cost, front)
-        letter = axis.get_title(loc="left")
-        axis.set_title(f"{letter} {scene}: {quantity} [{mine['unit'][0]}]", loc="left")
+        axis.set_title(f"{axis.get_title(loc='left')} {scene}: {quantity} [{mine['unit'][0]}]", loc="left")
+        axis.set(xlabel=label if i >= len(charts) - 4 else "", ylabel="error" if i % 4 == 0 else "")
     for axis in axes[len(charts) :]:
         axis.set_axis_off()
         axis.set_title("", loc="left")
-    for axis in axes[::4]:
-        axis.set_ylabel("error")
-    for axis in axes[max(len(charts) - 4, 0) : len(charts)]:
-        axis.set_xlabel(label)
-    used = _methods(points)
-    handles = [axes[-1].plot([], [], label=method, **{**COMMON, **_style(method)})[0] for method in used]
+    handles = [axes[-1].plot([], [], label=method, **_style(method))[0] for method in _methods(points)]
     axes[-1].legend(handles=handles, loc="center", fontsize=9)
     return figure
 
 
 def _chart(axis: Axes, points: Table, cost: str, front: str) -> None:
-    scale = 100.0 if points["unit"][0] == "%" else 1.0
-    done = points["status"] == "finished"
+    scale, done = 100.0 if points["unit"][0] == "%" else 1.0, points["status"] == "finished"
     error, half, band = (scale * points[name] for name in ("error", "± sample", "band"))
-    others = done & ~points["reference itself"]
+    x, others = points[cost], done & ~points["reference itself"]
     floor, top = _limits(error[others], half[others], float(band[0]))
-    known = points[cost][np.isfinite(points[cost]) & (points[cost] > 0)]
+    known = x[np.isfinite(x) & (x > 0)]
     axis.set(xscale="log", yscale="log", ylim=(floor / ROOM, top), xlim=(known.min() / ROOM, known.max() * ROOM))
     axis.xaxis.set_major_locator(LogLocator(numticks=6))
     axis.minorticks_off()
     axis.axhspan(floor / ROOM, floor, color="#000000", alpha=0.12, linewidth=0)
-    at = points[front]
-    rank = np.maximum(error + half, floor)[at]
-    order = np.argsort(points[cost][at])
-    ahead = points[cost][at][order], rank[order]
-    axis.step(*ahead, where="post", color="#bbbbbb", linewidth=4.0, zorder=0.5, solid_capstyle="round")
+    ahead = np.flatnonzero(points[front])[np.argsort(x[points[front]])]
+    rank = np.maximum(error + half, floor)[ahead]
+    axis.step(x[ahead], rank, where="post", color="#bbbbbb", linewidth=4.0, zorder=0.5, solid_capstyle="round")
+    quartiles = points["lower quartile [s]"], points["upper quartile [s]"]
     for method in dict.fromkeys(points["method"].tolist()):
-        some = (points["method"] == method) & done
-        _curve(axis, points, some, cost, error, half, floor, {**COMMON, **_style(method)})
-        for x in points[cost][(points["method"] == method) & ~done]:
-            color = _style(method)["color"]
-            known = np.isfinite(x) and x > 0
-            place = (x, axis.get_xaxis_transform()) if known else (0.03, axis.transAxes)
-            axis.plot([place[0]], [0.96], marker="x", color=color, transform=place[1], markersize=6, linestyle="none")
+        mine, style = points["method"] == method, _style(method)
+        some = mine & done & np.isfinite(x)
+        if some.any():
+            across = [np.abs(end - x)[some] for end in quartiles] if cost == "median [s]" else None
+            _curve(axis, x[some], error[some], half[some], floor, across, style)
+        for place in x[mine & ~done]:
+            # along the top; on the left who has no cost
+            at = (place, axis.get_xaxis_transform()) if np.isfinite(place) and place > 0 else (0.03, axis.transAxes)
+            axis.plot([at[0]], [0.96], marker="x", color=style["color"], transform=at[1], markersize=6)
 
 
 def _limits(error: np.ndarray, half: np.ndarray, band: float) -> tuple[float, float]:
     """The edge below which nothing is ranked, no farther down than what is drawn; the top of the chart."""
     positive = error[error > 0]
-    lowest = float(positive.min()) / ROOM if positive.size else band
+    floor = max(band, float(positive.min()) / ROOM if positive.size else band)
     top = float((error + half).max()) if error.size else 10 * band
-    floor = max(band, lowest)
     return floor, max(top, 2 * floor) * ROOM
 
 
 def _curve(
-    axis: Axes,
-    points: Table,
-    some: np.ndarray,
-    cost: str,
-    error: np.ndarray,
-    half: np.ndarray,
-    floor: float,
-    style: Style,
+    axis: Axes, x: np.ndarray, off: np.ndarray, half: np.ndarray, floor: float, across: Any, style: Style
 ) -> None:
-    some = some & np.isfinite(points[cost])
-    if not some.any():
-        return
-    x, off = points[cost][some], error[some]
+    """With bars; who lies below the floor is drawn there, pointing down."""
     y = np.maximum(off, floor)
-    down, up = y - np.maximum(off - half[some], floor), np.maximum(off + half[some], floor) - y
-    across = [x - points["lower quartile [s]"][some], points["upper quartile [s]"][some] - x]
-    bars: Style = {"yerr": [np.maximum(down, 0.0), up], "xerr": across if cost == "median [s]" else None}
-    axis.errorbar(x, y, **bars, **style, **BARS)
+    bars = [np.maximum(y - np.maximum(off - half, floor), 0.0), np.maximum(off + half, floor) - y]
+    axis.errorbar(x, y, yerr=bars, xerr=across, **style, **BARS)
     within = off <= floor
     if within.any():
         pointing = {**style, "marker": "v", "linestyle": "none", "markersize": 7, "markerfacecolor": style["color"]}
@@ -152,9 +136,7 @@ def draw_summary(evidence: Evidence) -> Figure:
     axis.set_xlim(known.min() / ROOM, known.max() * ROOM)
     axis.set_yticks(range(len(rows)), [f"{scene}: {quantity}" for scene, quantity in rows])
     used = [method for method in _methods(evidence.table("points")) if method in summary["method"]]
-    handles = [
-        axis.plot([], [], label=method, **{**COMMON, **_style(method), "linestyle": "none"})[0] for method in used
-    ]
+    handles = [axis.plot([], [], label=method, **{**_style(method), "linestyle": "none"})[0] for method in used]
     figure.legend(handles=handles, loc="upper center", ncols=5, fontsize=8)
     return figure
 
@@ -172,7 +154,7 @@ def _stairs(axis: Axes, place: int, row: Table) -> None:
     x = [seconds for _, seconds in steps]
     axis.plot(x, [place] * len(x), color="#bbbbbb", linewidth=1.2, zorder=0.5)
     for i, ((method, seconds), tolerances) in enumerate(steps.items()):
-        axis.plot([seconds], [place], **{**COMMON, **_style(method), "markersize": 8, "linestyle": "none"})
+        axis.plot([seconds], [place], **{**_style(method), "markersize": 8, "linestyle": "none"})
         beside = (0, -14) if i % 2 else (0, 7)
         axis.annotate(_span(tolerances), (seconds, place), beside, textcoords="offset points", ha="center", fontsize=7)
     without = "; ".join(f"{_span(tolerances)}: {why}" for why, tolerances in none.items())

@@ -2,7 +2,6 @@
 
 import math
 import warnings
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,11 +17,13 @@ from validation.simulation.indentation import (
     height_of,
     highest_of,
     holds_waves,
+    is_pressed,
     side_of,
 )
-from validation.simulation.method import Prepared, Resolution, Result, Solve, Values
-from validation.simulation.model import Cost, ErrorEstimate, GridModel, Sampling, Target
-from validation.simulation.pressed import PressedGrid
+from validation.simulation.method import Prepared, Resolution, Result, Solve
+from validation.simulation.model import Cost, ErrorEstimate, GridModel, Model, Target
+from validation.simulation.model_names import BEM
+from validation.simulation.pressed import cell_applications
 from validation.simulation.sampling import FEWEST, STUDENT, grid_error
 
 FloatArray = NDArray[np.float64]
@@ -45,76 +46,112 @@ MOST = 1000
 """Surfaces that are drawn at the most."""
 
 
-class BoundaryElementsPressed(GridModel):
-    """Surfaces on cells x cells, with the waves that those carry: what half as many a side change is the error.
+def resolutions(target: Target) -> tuple[Resolution, ...]:
+    """Cells a side; measured heights on their own points alone, on a coarser grid the mean of these in each cell."""
+    finest = finest_cells(target.scene)
+    sides = (finest,) if ground_of(target.scene).is_single else (finest // 4, finest // 2, finest)
+    return tuple(on_grid(cells) for cells in sides if cells >= FEW)
 
-    A measured surface is itself; on a coarser grid, the mean of its points in each cell.
-    """
 
-    def serves(self, scene: object, quantity: str) -> bool:
-        return isinstance(scene, IndentationScene) and scene.ground is not None and quantity == "stiffness"
+def references(target: Target, resolution: Resolution) -> tuple[Resolution, ...]:
+    """Each of half as many cells a side: two, of a single surface three; and the points of that, split."""
+    single, cells = ground_of(target.scene).is_single, round(resolution.size)
+    coarser = tuple(on_grid(cells // 2**i) for i in range(1, 4 if single else 3))
+    on_points = single and cells == cells_wanted(target.scene)
+    return (*coarser, on_grid(SPLIT * cells)) if on_points and SPLIT * cells <= MOST_SPLIT else coarser
 
-    def label(self, resolution: Resolution) -> str:
-        return f"{self.name} {resolution.size:g}²"
 
-    def resolutions(self, target: Target) -> tuple[Resolution, ...]:
-        """Measured heights on their own points alone."""
-        finest = finest_cells(target.scene)
-        sides = (finest,) if ground_of(target.scene).is_single else (finest // 4, finest // 2, finest)
-        return tuple(on_grid(cells) for cells in sides if cells >= FEW)
+def scatter(target: Target) -> float:
+    """Of one drawn surface, relative, about."""
+    return SCATTER if target.scene.shape == "punch" else float(SPHERE_SCATTER * target.scene.roughness_ratio)
 
-    def references(self, target: Target, resolution: Resolution) -> tuple[Resolution, ...]:
-        """Each of half as many cells a side: two, of a single surface three; and the points of that, split."""
-        single, cells = ground_of(target.scene).is_single, round(resolution.size)
-        coarser = tuple(on_grid(cells // 2**i) for i in range(1, 4 if single else 3))
-        on_points = single and cells == cells_wanted(target.scene)
-        return (*coarser, on_grid(SPLIT * cells)) if on_points and SPLIT * cells <= MOST_SPLIT else coarser
 
-    def sampling(self, target: Target) -> Sampling:
-        """A single surface, or so many that they leave half of the tolerance."""
-        if ground_of(target.scene).is_single:
-            return Sampling(compared=1)
-        return Sampling(scatter=_scatter(target.scene), fewest=FEWEST, most=MOST, compared=FEWEST)
+def cost(target: Target, resolution: Resolution) -> Cost:
+    work = APPLICATIONS * resolution.size**2
+    return Cost(work=work, seconds=CELL * work + PRESS)
 
-    def cost(self, target: Target, resolution: Resolution) -> Cost:
-        work = APPLICATIONS * resolution.size**2
-        return Cost(work=work, unit="cell applications", seconds=CELL * work + PRESS)
 
-    def estimate(self, target: Target, resolution: Resolution) -> ErrorEstimate:
-        """The sample's part: only a solve tells what the grid leaves."""
-        coarsest = round(min(grid.size for grid in self.references(target, resolution)))
-        if not holds_waves(target.scene, coarsest):
-            return ErrorEstimate.out_of_range(
-                f"a grid of {coarsest}² cells, the reference of its grid error, resolves no wave"
-            )
-        least = STUDENT * _scatter(target.scene) / math.sqrt(MOST)
-        return ErrorEstimate(
-            sample=0.0 if ground_of(target.scene).is_single else max(target.tolerance / 2, least),
-            reason="sample only: the grid error is estimated from coarser grids after the solve",
+def sample_alone(model: Model, target: Target, resolution: Resolution) -> ErrorEstimate:
+    """Only a solve tells what the grid leaves."""
+    coarsest = round(min(grid.size for grid in references(target, resolution)))
+    if not holds_waves(target.scene, coarsest):
+        return ErrorEstimate.out_of_range(
+            f"a grid of {coarsest}² cells, the reference of its grid error, resolves no wave"
         )
+    least = STUDENT * scatter(target) / math.sqrt(MOST)
+    return ErrorEstimate(
+        sample=0.0 if ground_of(target.scene).is_single else max(target.tolerance / 2, least),
+        reason="sample only: the grid error is estimated from coarser grids after the solve",
+    )
 
-    def prepare(self, target: Target, resolution: Resolution) -> Prepared:
-        pressed = PressedGrid(warm_up=False).prepare(RoughBody(target.scene, target.seed), resolution)
-        at_edge = target.scene.shape == "sphere"
-        return lambda realisation: Solve(lambda: _result(pressed(realisation), at_edge), lambda result: result)
 
-    def grid_error(
-        self, target: Target, resolution: Resolution, values: FloatArray, others: FloatArray
-    ) -> tuple[float, str]:
-        """Of the changes of the logarithm from grid to grid, the same surfaces on each."""
-        cells, compared = round(resolution.size), others.shape[1]
-        finer = [grid.size > cells for grid in self.references(target, resolution)]
-        levels = np.log([values[:compared, 0], *others[np.logical_not(finer), :, 0]])
-        changes = levels[:-1] - levels[1:]
-        if ground_of(target.scene).is_single:
-            split = np.log(others[finer, 0, 0] / values[0, 0])
-            grid = grid_error_of_one(target.scene, cells, changes[:, 0], split)
-            grid += hidden(target, resolution, values[0, 0])
-        else:
-            # the waves that a grid leaves out may hide the error at the edge of a punch in its change
-            grid = max(grid_error(changes[1], changes[0]), edge_error(target.scene, cells))
-        last = math.expm1(float(changes[0].mean()))
-        return grid, f"{cells}² cells change {cells // 2}² by {last:+.1%}, surfaces: {len(values)}"
+def prepare(target: Target, resolution: Resolution) -> Prepared:
+    """Surfaces on cells x cells, with the waves that those carry."""
+    scene, cells = target.scene, round(resolution.size)
+    half_space = half_space_of(scene, cells)
+
+    def solve(realisation: int) -> Result:
+        height = height_of(scene, cells, realisation, target.seed)
+        return pressed(scene, half_space, height, resolution.residual)
+
+    return lambda realisation: Solve(lambda: solve(realisation), lambda result: result)
+
+
+def half_space_of(scene: IndentationScene, cells: int) -> bem3d.HalfSpace:
+    """As wide as what it may touch."""
+    return bem3d.HalfSpace(shape=(cells, cells), spacing=side_of(scene) / cells, modulus=scene.modulus)
+
+
+def pressed(scene: IndentationScene, half_space: bem3d.HalfSpace, height: FloatArray, residual: float) -> Result:
+    """Under a rough face, of a sphere over r^2 / 2R, whose contact at the edge of the grid is none."""
+    gap, sphere = -height, scene.shape == "sphere"
+    if sphere:
+        x = ((np.arange(len(gap)) + 0.5) / len(gap) - 0.5) * side_of(scene)
+        gap = gap + (x[:, np.newaxis] ** 2 + x**2) / (2 * scene.size)
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always", bem3d.ContactWarning)
+        try:
+            contact = bem3d.solve(half_space, gap, force=scene.load, tolerance=residual)
+            fixed = bem3d.solve_fixed_area(half_space, contact.pressure > 0)
+        except bem3d.ConvergenceError:
+            return Result({}, failed="a contact did not converge")
+    work = cell_applications(contact, fixed)
+    if sphere and any(issubclass(one.category, bem3d.EdgeWarning) for one in said):
+        return Result({}, work, failed="the contact reached the edge of the grid")
+    found = {"stiffness": np.array(fixed.stiffness), "in contact": np.array(np.count_nonzero(contact.pressure))}
+    return Result(found, work)
+
+
+def left_by_grid(target: Target, resolution: Resolution, values: FloatArray, others: FloatArray) -> tuple[float, str]:
+    """Of the changes of the logarithm from grid to grid, the same surfaces on each."""
+    cells, compared = round(resolution.size), others.shape[1]
+    finer = [grid.size > cells for grid in references(target, resolution)]
+    levels = np.log([values[:compared, 0], *others[np.logical_not(finer), :, 0]])
+    changes = levels[:-1] - levels[1:]
+    if ground_of(target.scene).is_single:
+        split = np.log(others[finer, 0, 0] / values[0, 0])
+        grid = grid_error_of_one(target.scene, cells, changes[:, 0], split)
+        grid += hidden(target, resolution, values[0, 0])
+    else:
+        # the waves that a grid leaves out may hide the error at the edge of a punch in its change
+        grid = max(grid_error(changes[1], changes[0]), edge_error(target.scene, cells))
+    last = math.expm1(float(changes[0].mean()))
+    return grid, f"{cells}² cells change {cells // 2}² by {last:+.1%}, surfaces: {len(values)}"
+
+
+MODEL = GridModel(
+    serves=lambda scene, quantity: is_pressed(scene, quantity) and scene.ground is not None,
+    label=lambda resolution: f"{BEM} {resolution.size:g}²",
+    resolutions=resolutions,
+    references=references,
+    scatter=scatter,
+    most=MOST,
+    compared=FEWEST,
+    cost=cost,
+    claim=sample_alone,
+    prepare=prepare,
+    grid_error=left_by_grid,
+)
 
 
 def on_grid(cells: int) -> Resolution:
@@ -125,24 +162,6 @@ def on_grid(cells: int) -> Resolution:
 def edge_error(scene: IndentationScene, cells: int) -> float:
     """Of the logarithm of the stiffness, by the edge of a punch in full contact; a sphere has no edge."""
     return EDGE / cells if scene.shape == "punch" else 0.0
-
-
-def _scatter(scene: IndentationScene) -> float:
-    """Of one drawn surface, relative, about."""
-    return SCATTER if scene.shape == "punch" else SPHERE_SCATTER * scene.roughness_ratio
-
-
-def _result(solve: Solve, at_edge: bool) -> Result:
-    """at_edge: whether a contact at the edge of the grid is none; a punch ends where its grid does."""
-    with warnings.catch_warnings(record=True) as said:
-        warnings.simplefilter("always", bem3d.ContactWarning)
-        try:
-            found = solve()
-        except bem3d.ConvergenceError:
-            return Result({}, math.nan, failed="a contact did not converge")
-    if at_edge and any(issubclass(one.category, bem3d.EdgeWarning) for one in said):
-        return Result({}, found.work, failed="the contact reached the edge of the grid")
-    return found
 
 
 def grid_error_of_one(scene: IndentationScene, cells: int, changes: FloatArray, split: FloatArray) -> float:
@@ -168,41 +187,5 @@ def hidden(target: Target, resolution: Resolution, stiffness: float) -> float:
     highest = highest_of(scene, cells)
     if np.array_equal(highest, height_of(scene, cells, 0, target.seed)):
         return 0.0
-    body = RoughBody(scene, target.seed, given=highest)
-    found = _result(PressedGrid(warm_up=False).prepare(body, resolution)(0), scene.shape == "sphere")
+    found = pressed(scene, half_space_of(scene, cells), highest, resolution.residual)
     return math.inf if found.failed else abs(math.log(float(found.values["stiffness"]) / stiffness))
-
-
-@dataclass(frozen=True, eq=False)
-class RoughBody:
-    """The body of a scene with its rough face, or with given heights of it."""
-
-    scene: IndentationScene
-    seed: int
-    given: FloatArray | None = None
-
-    def load(self, cells: int) -> dict[str, float]:
-        return {"force": self.scene.load}
-
-    def half_space(self, cells: int) -> bem3d.HalfSpace:
-        """As wide as what it may touch."""
-        spacing = side_of(self.scene) / cells
-        return bem3d.HalfSpace(shape=(cells, cells), spacing=spacing, modulus=self.scene.modulus)
-
-    def gap(self, cells: int, realisation: int) -> FloatArray:
-        """Of the rough face, below a sphere with r^2 / 2R."""
-        height = height_of(self.scene, cells, realisation, self.seed) if self.given is None else self.given
-        if self.scene.shape == "punch":
-            return -height
-        x = ((np.arange(cells) + 0.5) / cells - 0.5) * side_of(self.scene)
-        return -height + (x[:, np.newaxis] ** 2 + x**2) / (2 * self.scene.size)
-
-    def finish(self, contact: bem3d.Contact) -> bem3d.FixedContactArea:
-        return bem3d.solve_fixed_area(contact.problem.half_space, contact.pressure > 0)
-
-    def read(self, contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> Values:
-        assert fixed is not None
-        return {"stiffness": np.array(fixed.stiffness), "in contact": np.array(np.count_nonzero(contact.pressure))}
-
-
-MODEL = BoundaryElementsPressed()

@@ -1,0 +1,288 @@
+"""The wheel in three dimensions: every model beside boundary elements in the time loop."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from validation.analysis import spectral_features
+from validation.analysis.case import Case, Chapter
+from validation.analysis.chart import Chart, Curve, Panel, by_model
+from validation.analysis.claims import Claim
+from validation.analysis.evidence import Role, Table
+from validation.analysis.margins import MARGINS
+from validation.analysis.series import Estimates, Margin, Series
+from validation.analysis.spectra import band_means
+from validation.analysis.statistics import POWER_DECIBEL, jackknifed
+from validation.analysis.study import Outcomes, Study
+from validation.cases.wheel import half_space as wheel
+from validation.cases.wheel.contrast import CONTRAST, ZERO, contrast_series, contrasts_of, linear_contrasts
+from validation.cases.wheel.features import DENSITY, LEVEL, OMEGA, QUANTITIES, SLOPE, FloatArray, hurst, linear_force_3d
+from validation.scenes.description import slope_ratio
+from validation.selection import model_needed
+
+LEVELS, OVER = "one-third octave level [dB over (m/s²)²]", "level over boundary elements"
+OSCILLATION, MARKS = "A of region 3", "marks [rad/s]"
+WHEEL, APPLICATIONS = "wheel", "applications a time step"
+OF_FIGURE = 5
+"""Numbers of the claim of Fig. 14.4, whose intervals hold at once: levels of three ranges, slope, contrast."""
+REPEATED = Margin(
+    tolerance=1e-9,
+    reason="rounding of a sum over all steps",
+    source="zero: a periodic motion has no mean acceleration",
+    role=Role.CRITERION,
+)
+decibels = partial(Series, scale=POWER_DECIBEL, unit="dB")
+
+
+def series(result: Outcomes) -> list[Series]:
+    """Levels over boundary elements, the worst in the plateau and parts of region 3; slope, contrast."""
+    levels = wheel.WheelLevels(result)
+    return [_mean(levels), *_of_bands(levels), *_slopes(levels), *_contrasts(levels), *_oscillation(levels)]
+
+
+def _mean(levels: wheel.WheelLevels) -> Series:
+    """A motion that repeats itself gains no velocity."""
+    records = [strip["linear"] for strip in levels.result[wheel.FINEST]]
+    worst = max(abs(float(one.mean())) / float(one.std()) for one in records)
+    where = {"strips": "worst strip"}
+    return Series("mean acceleration over its rms", "linear, steady-state", (worst,), where=where, margin=REPEATED)
+
+
+def _of_bands(levels: wheel.WheelLevels) -> Iterator[Series]:
+    """Each one-third octave, and those of each range; none of a model that has nothing somewhere there."""
+    left = levels.grid + levels.solver
+    bands = partial(decibels, along=OMEGA, at=levels.centres, grid=left)
+    bem = Estimates(replace(one, value=value) for one, value in zip(levels.ratio, levels.bem.tolist(), strict=True))
+    yield bands(LEVELS, wheel.BEM, bem)
+    yield bands(OVER, wheel.BEM, Estimates(replace(one, value=0.0) for one in levels.ratio))
+    margin = MARGINS["level"].beside("boundary elements in the time loop")
+    for model in wheel.MODELS:
+        over = levels.over_bem(model)
+        yield decibels(LEVELS, model, over.values + levels.bem, along=OMEGA, at=levels.centres)
+        yield bands(OVER, model, over)
+        for name, inside in levels.ranges.items():
+            yield decibels(
+                LEVEL,
+                wheel.OVER_BEM[model],
+                [over[i] for i in np.flatnonzero(inside)],
+                where={"range": name},
+                along=OMEGA,
+                at=levels.centres[inside],
+                grid=left[inside],
+                margin=margin,
+                fewest=max(int(inside.sum()), 1),
+                family=OF_FIGURE,
+            )
+    yield Series(MARKS, "q_min v₀", (levels.result.case.scene.jump,))
+
+
+def _slopes(levels: wheel.WheelLevels) -> Iterator[Series]:
+    """The power law of region 3, where it has four periods of the oscillation, on the same strips for both."""
+    scene = levels.result.case.scene
+    first, last, period = 1.1 * scene.jump, 0.7 * scene.cutoff, scene.oscillation_period
+    if last - first < 4 * period:
+        return
+    for model, contact in wheel.CONTACTS.items():
+        omega, density = levels.spectra(contact)
+
+        def of(some: FloatArray, omega: FloatArray = omega) -> FloatArray:
+            return np.array(spectral_features.slope(omega, some.mean(axis=0), first, last, period))
+
+        yield Series(
+            QUANTITIES[SLOPE],
+            model,
+            jackknifed(of, density),
+            where={"region": "region 3"},
+            reference=-2 * hurst(scene) - 3,
+            family=OF_FIGURE,
+            margin=MARGINS[SLOPE].beside("-2 H - 3, (14.13); the same in linear theory in 3D"),
+        )
+
+
+def _spectra(levels: wheel.WheelLevels) -> dict[str, tuple[FloatArray, FloatArray]]:
+    """omega and A, (strips or groups, frequencies), of boundary elements, the linear contact and springs."""
+    return {
+        **{model: levels.spectra(contact) for model, contact in wheel.CONTACTS.items()},
+        wheel.GEIKE: levels.on_springs(wheel.GEIKE),
+    }
+
+
+def _contrasts(levels: wheel.WheelLevels) -> Iterator[Series]:
+    """Of boundary elements beside sin²(q a); of the linear contact on the same strips, and of springs."""
+    scene = levels.result.case.scene
+    for model, (omega, density) in _spectra(levels).items():
+        found, linear = contrasts_of(omega, density, scene), linear_contrasts(omega, scene)
+        yield contrast_series(model, found, scene, linear if model == wheel.BEM else None, OF_FIGURE)
+        if model == wheel.BEM:
+            yield contrast_series(wheel.LINEAR_1D, linear, scene)
+
+
+def _oscillation(levels: wheel.WheelLevels) -> Iterator[Series]:
+    """Spectra in bands of a twelfth of the period of the oscillation."""
+    scene, spectra = levels.result.case.scene, _spectra(levels)
+    period, line = scene.oscillation_period, float(spectra[wheel.BEM][0][0])
+    edges = np.arange(0.7 * scene.jump, min(scene.cutoff, 12 * period), max(period / 12, 2 * line))
+    for model, (omega, density) in spectra.items():
+        means = band_means(omega, density.mean(axis=0), edges)
+        yield Series(OSCILLATION, model, means, along=OMEGA, at=(edges[1:] + edges[:-1]) / 2)
+
+
+def of_wheel(case: wheel.Wheel3D, applications: float) -> dict[str, float]:
+    """Its roughness over the approach, the slope of that along the track, of all waves, and what a time step takes."""
+    scene = case.scene
+    return {
+        "h/d": scene.rms / scene.approach,
+        "h' a/d": slope_ratio(scene.slope_along, scene),
+        "cells to a contact radius": case.cells,
+        APPLICATIONS: applications,
+    }
+
+
+def of_regions(levels: wheel.WheelLevels) -> dict[str, float]:
+    """C_F of linear theory in 3D at the resonance over that where the band begins, so that roughness excites it; how
+    far boundary elements fall beyond the roughness, from its last tenth [dB]."""
+    scene = levels.result.case.scene
+    places = np.array([scene.eigenfrequency, 1.001 * scene.jump]) / scene.speed
+    at_resonance, behind = linear_force_3d(scene, places)
+    inside, outside = (
+        levels.of_strips(levels.converged, "bem", np.array(band) * scene.cutoff)[:, 0].mean() / (band[1] - band[0])
+        for band in ((0.9, 1.0), (1.3, 1.8))
+    )
+    return {
+        "force at ω_eigen over that at q_min v₀ [dB]": POWER_DECIBEL * math.log(at_resonance / behind),
+        "A beyond 1.3 q_max v₀ over that before q_max v₀ [dB]": POWER_DECIBEL * math.log(outside / inside),
+    }
+
+
+def tables(result: Outcomes) -> list[Table]:
+    levels = wheel.WheelLevels(result)
+    applications = float(np.mean([strip["applications"] for strip in levels.converged]))
+    values = of_wheel(result.case, applications) | of_regions(levels)
+    return [Table(WHEEL, {name: [value] for name, value in values.items()})]
+
+
+def over_bem(says: str, short: str, model: str) -> Claim:
+    """Linear theory ends at short waves, along which contact is lost."""
+    return Claim(says=says, short=short, quantity=LEVEL, model=wheel.OVER_BEM[model], along="range")
+
+
+MODEL_STYLES = {
+    wheel.LINEAR_3D: "thick",
+    wheel.LINEAR_1D: "exact",
+    wheel.GEIKE: "mdr",
+    wheel.ROLLING: "triangles",
+}
+BANDS = Panel(
+    OMEGA,
+    LEVELS,
+    by_model(LEVELS, {**MODEL_STYLES, wheel.BEM: "bem"}, bars=True),
+    decades=75.0,
+    marks=MARKS,
+)
+DIFFERENCES = Panel(
+    OMEGA,
+    "over boundary elements [dB]",
+    (Curve(OVER, wheel.BEM, "guide", "_", band=True), *by_model(OVER, MODEL_STYLES)),
+    ylim=(-12.0, 12.0),
+    lines=(-3.0, -1.0, 1.0, 3.0),
+    marks=MARKS,
+)
+THIRD = Panel(
+    OMEGA,
+    DENSITY,
+    (
+        Curve(OSCILLATION, wheel.LINEAR_3D, "thick", wheel.LINEAR_3D),
+        Curve(OSCILLATION, wheel.GEIKE, "mdr line", f"{wheel.GEIKE}, region 3"),
+        Curve(OSCILLATION, wheel.BEM, "bem line", f"{wheel.BEM}, region 3"),
+    ),
+    log="y",
+)
+ZEROS = Panel(
+    ZERO,
+    "maxima over zeros [dB]",
+    (
+        *by_model(CONTRAST, {wheel.LINEAR_1D: "exact", wheel.GEIKE: "mdr", wheel.BEM: "bem"}, bars=True),
+        Curve(CONTRAST, wheel.LINEAR_3D, "crosses", f"{wheel.LINEAR_3D}, contrast", bars=True),
+    ),
+    log="",
+    lines=(0.0,),
+)
+STUDY = Study(
+    title="The wheel in three dimensions: boundary elements inside the time loop",
+    method=(
+        "{c.strips} wheels of {c.scene.name} over isotropic surfaces, waves of {c.scene.rail.longest:g} to "
+        "{c.scene.rail.shortest:g} m, H = {c.scene.rail.hurst:g}; contact by boundary elements in each of "
+        "{c.strip.shape[0]} time steps, {c.cells} cells to a contact radius, residual {c.tolerance:g}; surfaces "
+        "periodic, {c.strip.shape[1]} cells wide, half a natural period longer than {c.periods}. The linear contact of "
+        "fixed radius rolls on the same surfaces; boundary elements begin in its steady state. "
+        "{c.wheels} wheels on springs move in their steady state, on tracks of Geike's spectrum of these surfaces, or "
+        "of the rolling spectrum, with which springs have the force level of the half-space. All use Hann's window. "
+        "Levels of boundary elements are over the linear contact on the same surfaces, times linear theory; grid: from "
+        f"{{c.coarse}} cells to a radius to first order; solver: from a residual {wheel.TIGHTER} times smaller. "
+        "Nothing damps the wheel, and in 3D roughness excites its resonance, so that all begin in the steady state and "
+        "bands begin at twice the eigenfrequency."
+    ),
+    series=series,
+    claims=(
+        Claim(
+            says="Boundary elements in the time loop confirm Fig. 14.4.",
+            short="Springs of Fig. 14.4 over boundary elements in the time loop",
+            either=(
+                {"quantity": LEVEL, "model": wheel.OVER_BEM[wheel.GEIKE]},
+                {"quantity": QUANTITIES[SLOPE], "model": wheel.BEM},
+                {"quantity": CONTRAST},
+            ),
+        ),
+        over_bem(
+            "Linear theory in three dimensions has the acceleration of the wheel.",
+            "linear theory in 3D",
+            wheel.LINEAR_3D,
+        ),
+        over_bem(
+            "Springs of the rolling spectrum have the acceleration of the wheel in three dimensions.",
+            "springs of the rolling spectrum",
+            wheel.ROLLING,
+        ),
+    ),
+    charts=(
+        Chart(
+            "wheel_3d",
+            "(a) Acceleration of the wheel in one-third octaves, 95 % of sample, grid and solver. (b) The same over "
+            "boundary elements, their interval shaded; lines: ± 1 and ± 3 dB. Region 2 ends at q_min v₀. (c) The "
+            "oscillation of region 3. (d) Its contrast at each zero of sin²(q a), 95 %.",
+            (BANDS, DIFFERENCES, THIRD, ZEROS),
+            claims=(0, 1),
+            columns=2,
+            width=11.0,
+            height=7.4,
+        ),
+    ),
+    tables=tables,
+    printed=(WHEEL,),
+)
+CASE = Case(
+    name="wheel_3d",
+    chapter=Chapter.WHEEL,
+    place=3,
+    answers="Boundary elements inside the time loop: the wheel in three dimensions, against every cheaper model",
+    quick=wheel.Wheel3D(strips=3, wheels=30),
+    full=wheel.Wheel3D(
+        scene=wheel.TABLE,
+        strips=8,
+        periods=4,
+        width=4,
+        cells=40,
+        shared=10,
+        coarse=30,
+        coarser=3,
+        tolerance=0.0001,
+        short=1,
+        wheels=200,
+    ),
+    run=wheel.run,
+    study=STUDY,
+    needs=model_needed.wheel,
+)

@@ -1,0 +1,36 @@
+"""The names of all models, in the order in which models of equal cost are tried and listed.
+
+Models of one kind have one name, whatever they are asked for: boundary elements press a body, and roll with a wheel and
+on a rail. On a rail, where a scene has springs on several tracks, the name of springs says which.
+"""
+
+BEM = "boundary elements"
+CLOSED_FORM, FIT = "closed form", "fit"
+FILTER_1D, FILTER_3D = "linear filter, 1D", "linear filter, 3D"
+PRESSED_LAYER = "pressed layer"
+LINEAR, LINEAR_ON_LINE, REMINGTON = "linear, ellipse", "linear, on the line", "Remington"
+BED, ONE_SIDED_BED = "spring bed (DPRS), linear", "spring bed (DPRS), one-sided"
+SPRINGS_GEIKE, SPRINGS_ON_LINE = "springs, Geike's rule", "springs on the line"
+SPRINGS_ON_MEAN, SPRINGS_ROLLING = "springs on the mean across", "springs, rolling spectrum"
+SPRINGS, SPRINGS_THAT_READ = "springs", "springs that read the surface"
+MODELS = (
+    *(BEM, CLOSED_FORM, FIT, FILTER_1D, FILTER_3D, PRESSED_LAYER, LINEAR, LINEAR_ON_LINE, REMINGTON, BED),
+    *(ONE_SIDED_BED, SPRINGS_GEIKE, SPRINGS_ON_LINE, SPRINGS_ON_MEAN, SPRINGS_ROLLING, SPRINGS, SPRINGS_THAT_READ),
+)
+LINE, LINEAR_ON_MEAN = "line roughness", "linear, on the mean across"
+LINEAR_ROLLING, LINEAR_GEIKE = "linear, rolling spectrum", "linear, Geike's rule"
+"""What is beside models of a rail and no model of `compare`: the roughness itself, and springs that all touch."""
+TWINS = {
+    **{BEM: LINEAR, SPRINGS_THAT_READ: LINEAR, SPRINGS_ON_LINE: LINEAR_ON_LINE, SPRINGS_ON_MEAN: LINEAR_ON_MEAN},
+    **{ONE_SIDED_BED: BED, SPRINGS_ROLLING: LINEAR_ROLLING, SPRINGS_GEIKE: LINEAR_GEIKE},
+}
+"""On a rail the linear model of each one-sided one: the same where all touches."""
+MDR, MDR_ROLLING = "MDR", "MDR, rolling spectrum"
+"""Springs on charts of accuracy over time, where their number is varied, in place of `SPRINGS`."""
+SHORT = {"bem": BEM}
+"""Other names that users may give; "mdr" are all springs by the method of dimensionality reduction."""
+
+
+def twin_of(model: str) -> str:
+    """The linear model of a one-sided one; of any other, itself."""
+    return TWINS.get(model, model)
