@@ -35,10 +35,9 @@ from validation.cases.rolling.validity import (
     SPECTRA,
     Validity,
 )
-from validation.simulation import track_stiffness
-from validation.simulation.linear_levels import level_1d, level_3d
+from validation.simulation import rolling_strip
 from validation.simulation.reduced_pair import LAYER, MODELS, READ, over_boundary_elements, roll_reduced
-from validation.simulation.rolling_strip import roll_strip, strip_levels
+from validation.simulation.rolling_strip import level_1d, level_3d, roll_strip, strip_levels
 from validation.simulation.track_spectrum import INPUT_SPECTRA
 
 RNG = np.random.default_rng(0)
@@ -170,7 +169,7 @@ def test_the_stiffness_along_a_track_is_the_change_of_force_with_approach(height
     surface = replace(SMALL.rough_strip(1.0), height=height).surface(8, 0)
     track = bem3d.Track(height=np.ascontiguousarray(surface), spacing=1 / 8, radius=1.0, modulus=1.0)
     wheel = bem3d.RollingContact(track, tolerance=1e-9)
-    stiffness = track_stiffness.tangent_stiffness(wheel, 5)
+    stiffness = rolling_strip.tangent_stiffness(wheel, 5)
     approach, step = wheel.carry(5, 4 / 3).approach, 1e-4
     more, less = (wheel.press(5, approach + sign * step).force for sign in (1, -1))
     assert stiffness == pytest.approx((more - less) / (2 * step), rel=0.01)
@@ -181,7 +180,7 @@ def test_the_stiffness_along_a_track_is_the_change_of_force_with_approach(height
 def test_low_tracks_have_the_stiffness_of_the_smooth_wheel():
     tracks = SMALL.tracks_of(1.0, "geike")
     tracks = replace(tracks, scene=replace(tracks.scene, height=1e-6))
-    along = track_stiffness.roll_loaded_tracks(tracks)
+    along = rolling_strip.roll_loaded_tracks(tracks)
     assert along["mean"] == pytest.approx(1, abs=2 / tracks.springs)
     assert np.sqrt(along["variance"]).max() < 1 / tracks.springs
 

@@ -8,7 +8,7 @@ import pytest
 from validation.analysis.evidence import ClaimStatus, number_with
 from validation.cases.rail.rail_sound import LONG, LOW, SHORT, WEIGHTED, RailSound, RailSoundResult, shipped_rail
 from validation.cases.rail.rail_sound_study import BELOW, IN_BANDS, LEVEL, STUDY
-from validation.simulation.equivalent_displacement import BEM, LINEAR, SPRINGS_THAT_READ
+from validation.simulation.model_names import BEM, LINEAR, SPRINGS_THAT_READ
 from validation.simulation.rail_sound import GEIKE
 
 CASE = RailSound(rail=shipped_rail(), seconds=0.1, repeats=1)

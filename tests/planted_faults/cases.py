@@ -31,7 +31,6 @@ from validation.analysis import multilevel, statistics
 from validation.analysis import series as analysis_series
 from validation.analysis.evidence import Verdict
 from validation.analysis.multilevel import Resolved
-from validation.analysis.over_range import signed_mean
 from validation.analysis.spectra import waves
 from validation.cases.exact import geike, square_punch
 from validation.cases.limits import sweeps as limits
@@ -53,13 +52,12 @@ from validation.simulation import (
     integrators,
     limits_of_springs,
     reduced_pair,
-    rolled_off,
+    rolling_strip,
     rough_punch,
-    track_stiffness,
 )
 from validation.simulation import spring_tracks as rough_springs
 from validation.simulation import wheel_on_springs as wheel_ensemble
-from validation.simulation.published_contact import PublishedContact
+from validation.simulation.exact_contacts import PublishedContact
 from validation.simulation.rail_strip import RailStrip
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory import rolling as rolling_theory
@@ -170,7 +168,7 @@ FAULTS = {
         functools.partial(test_edge_scenes.test_claims_hold_on_measured_faces_and_few_of_them_are_refused, "sphere"),
     ),
     "no plateau below the roll-off": (
-        (rolled_off.PlateauSpectrum, "c2d", mdr.SelfAffine.c2d),
+        (rough_punch.PlateauSpectrum, "c2d", mdr.SelfAffine.c2d),
         test_bandwidth.test_the_plateau_is_flat_and_the_band_beyond_is_self_affine,
     ),
     "a wide band without the change from the narrow one": (
@@ -218,7 +216,11 @@ FAULTS = {
         functools.partial(test_fractal_punch.test_verdicts_on_known_deviations, 1.25, 60, Verdict.UNDECIDED),
     ),
     "the mean of a decade for its worst force": (
-        (analysis_series, "worst", lambda points, parameter: replace(points[0], value=signed_mean(points))),
+        (
+            analysis_series,
+            "worst",
+            lambda points, parameter: replace(points[0], value=float(np.mean([p.difference for p in points]))),
+        ),
         test_fractal_punch.test_a_decade_is_judged_by_its_worst_force,
     ),
     "a fine application as cheap as a coarse one": (
@@ -275,7 +277,7 @@ FAULTS = {
         test_from_force_to_roughness_and_stiffness.test_a_reduced_model_stands_beside_boundary_elements_on_the_surface_itself,
     ),
     "stiffness of the frame for that of the contact": (
-        (track_stiffness, "tangent_stiffness", whole_frame_in_contact),
+        (rolling_strip, "tangent_stiffness", whole_frame_in_contact),
         functools.partial(
             test_from_force_to_roughness_and_stiffness.test_the_stiffness_along_a_track_is_the_change_of_force_with_approach,
             0.3,

@@ -12,9 +12,10 @@ from tests.simulation import test_calibration, test_rail_error_bars, test_rail_f
 from validation.analysis import graduation
 from validation.analysis.nominal_bands import NominalBands
 from validation.scenes import isotropic_line
-from validation.selection import calibrate, contact_force, filter_table, rail_model, speed_accuracy
-from validation.selection.hierarchy import Answer
-from validation.simulation import equivalent_displacement, rail_ground, rail_models, rail_quantity
+from validation.selection import calibrate, contact_force, exported, rail_model, side_by_side
+from validation.selection.scene_model import Answer
+from validation.simulation import equivalent_displacement, rail_models, rail_quantity, rail_strip
+from validation.simulation.model_names import ONE_SIDED_BED
 from validation.simulation.rail_models import ContactFilter
 from validation.simulation.rail_quantity import RailQuantity
 
@@ -68,12 +69,12 @@ def smooth_line_alone(**waves):
 
 
 def by_smooth_levels(scene):
-    slope = rail_ground.strip_bands(scene).slope_of_spectrum(rail_ground.line_of(scene))
+    slope = rail_strip.strip_bands(scene).slope_of_spectrum(rail_strip.line_of(scene))
     return slope * scene.contact.along / scene.contact.approach
 
 
 slope_error, borne_by = graduation.Graduation.slope_error, equivalent_displacement.borne_by
-ground_of_strip = rail_ground.RailGround
+ground_of_strip = rail_strip.RailGround
 smoothing_error, stands_out = RailQuantity.smoothing_error.func, RailQuantity.stands_out.fget
 BARS, SCATTERED, FORCE = test_rail_error_bars, test_scattered_levels, test_contact_force
 FAULTS = {
@@ -137,7 +138,9 @@ FAULTS = {
     ),
     "a bed of springs under another load": (
         (equivalent_displacement, "borne_by", loaded_by_half_more),
-        test_rail_filters.test_a_one_sided_bed_follows_its_linear_twin_on_a_smoother_rail,
+        functools.partial(
+            test_rail_filters.test_one_sided_models_follow_their_linear_twin_on_a_smoother_rail, ONE_SIDED_BED
+        ),
     ),
     "a force at nominal frequencies": (
         (NominalBands, "wavelengths", property(lambda bands: bands.nominal)),
@@ -152,7 +155,7 @@ FAULTS = {
         FORCE.test_a_filter_without_some_bands_is_beside_the_chosen_one_in_its_own_bands,
     ),
     "decibels of a power as those of an amplitude": (
-        (speed_accuracy, "reference_error", lambda found, one: 10 * np.log10(1 + one.error)),
+        (side_by_side, "decibels", lambda error: 10 * np.log10(1 + error)),
         test_own_scene.test_a_distance_in_decibels_has_the_errors_of_its_band_and_the_reference_that_of_its_worst,
     ),
     "few waves that weigh as much as many": (
@@ -180,7 +183,7 @@ FAULTS = {
         SCATTERED.test_a_corrugation_costs_its_own_bands_alone_and_they_lie_between_ridges_and_isotropic_ground,
     ),
     "strips without a corrugation": (
-        (rail_ground, "RailGround", smooth_line_alone),
+        (rail_strip, "RailGround", smooth_line_alone),
         SCATTERED.test_strips_have_the_power_of_what_stands_out,
     ),
     "the loss of contact of smooth levels alone": (
@@ -201,7 +204,7 @@ FAULTS = {
         ),
     ),
     "long waves that pass under every filter": (
-        (filter_table, "of_longer_waves", lambda model, target: np.zeros(35)),
+        (exported, "of_longer_waves", lambda model, target: np.zeros(35)),
         test_filter_table.test_springs_on_geikes_spectrum_are_off_for_long_waves_too,
     ),
     "levels counted that no one hears": (

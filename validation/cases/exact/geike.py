@@ -16,7 +16,7 @@ from validation.analysis.series import Margin, Series, single
 from validation.analysis.study import Outcomes, Study
 from validation.cases.exact.spectral_moments import line_moment, mean_power_of_cosine, surface_moment
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation.drawn_roughness import RoughnessDraw, measure_profile, measure_surface
+from validation.simulation.surface import RoughnessDraw, measure_profile, measure_surface
 
 
 @dataclass(frozen=True, kw_only=True)

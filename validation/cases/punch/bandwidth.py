@@ -21,8 +21,7 @@ from validation.analysis.study import Outcomes, Study
 from validation.cases.punch.ensembles import DEVIATION, MEAN, PunchEnsembles, press
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.selection import model_needed
-from validation.simulation.rolled_off import RolledOffRoughness
-from validation.simulation.rough_punch import PunchRoughness, Surface, require_converged
+from validation.simulation.rough_punch import PunchRoughness, RolledOffRoughness, Surface, require_converged
 from validation.theory import closed_forms
 
 BANDWIDTH, ROLL_OFF, FORCE = "q_max / q_min", "q_r L / 2π", "Fbar"

@@ -37,16 +37,18 @@ from validation.cases.rail.rolled_filters import (
     models_of,
     run_filters,
 )
-from validation.simulation.equivalent_displacement import (
+from validation.simulation.model_names import (
     BED,
     BEM,
     LINEAR,
     LINEAR_ON_LINE,
     LINEAR_ON_MEAN,
+    SPRINGS_GEIKE,
+    SPRINGS_ROLLING,
     SPRINGS_THAT_READ,
+    twin_of,
 )
-from validation.simulation.rail_ground import SHORTEST, strip_bands
-from validation.simulation.spectral_springs import SPRINGS_GEIKE, SPRINGS_ROLLING, twin_of
+from validation.simulation.rail_strip import SHORTEST, strip_bands
 
 OVER_LINEAR, OF_WHEELS = "A3 over linear theory of the ellipse", "A3 of five wheels"
 OVER_TABLE, SPEED = "A3 over the published table", "speed [km/h]"

@@ -9,18 +9,17 @@ from numpy.typing import NDArray
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, Matrix
+from validation.analysis.claims import Claim, Matrix, decibels
 from validation.analysis.evidence import Role
 from validation.analysis.series import Margin, Series, Where, only
 from validation.analysis.study import Outcomes, Study
-from validation.analysis.wording import decibels
 from validation.cases.rail.filters import ACROSS, COUNTED, SPEEDS, counted, linear_filter, scene_of, weighted_difference
 from validation.cases.rail.published import RailWheel
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine
-from validation.simulation.equivalent_displacement import LINEAR
-from validation.simulation.published_contact import APPROACH, PRESSURE, PublishedContact, press_ellipse
-from validation.simulation.rail_ground import StatedAcross
+from validation.simulation.exact_contacts import APPROACH, PRESSURE, PublishedContact, press_ellipse
+from validation.simulation.model_names import LINEAR
+from validation.simulation.rail_strip import StatedAcross
 
 FloatArray = NDArray[np.float64]
 

@@ -9,21 +9,30 @@ from numpy.typing import NDArray
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim
+from validation.analysis.claims import Claim, decibels
 from validation.analysis.evidence import Role
 from validation.analysis.series import Margin, Series, Where
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknifed
 from validation.analysis.study import Outcomes, Study
-from validation.analysis.wording import decibels
 from validation.cases.rail.filters import counted, decibel, linear_filter, scene_of
 from validation.cases.rail.published import RailWheel
 from validation.engine.engine import SERIAL, Engine
 from validation.scenes.rail import RailScene
-from validation.simulation.equivalent_displacement import LINE, LINEAR, LINEAR_MODELS, LINEAR_ON_LINE
-from validation.simulation.parallel_lines import ParallelLines, lines_across, mean_of_lines, measure_lines
-from validation.simulation.rail_ground import StatedAcross, line_of, strip_bands, strip_of, structure_of
-from validation.simulation.rail_strip import RailStrip
+from validation.simulation.equivalent_displacement import LINEAR_MODELS
+from validation.simulation.model_names import LINE, LINEAR, LINEAR_ON_LINE
+from validation.simulation.rail_strip import (
+    ParallelLines,
+    RailStrip,
+    StatedAcross,
+    line_of,
+    lines_across,
+    mean_of_lines,
+    measure_lines,
+    strip_bands,
+    strip_of,
+    structure_of,
+)
 
 FloatArray = NDArray[np.float64]
 

@@ -18,8 +18,7 @@ from validation.analysis.study import Outcomes, Study
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.level_files import curve
-from validation.simulation.rail_ground import RailGround
-from validation.simulation.rail_strip import RailStrip
+from validation.simulation.rail_strip import RailGround, RailStrip
 from validation.simulation.wheel_on_rail import BEM, SPRINGS, WheelOnRail, roll_and_move
 from validation.theory.elliptic_contact import EllipticContact, elliptic_contact
 from validation.theory.line_spectrum import LineSpectrum

@@ -23,7 +23,7 @@ from validation.cases.rail.rail_sound import (
     run,
     shipped_rail,
 )
-from validation.simulation.equivalent_displacement import BEM, LINEAR, SPRINGS_THAT_READ
+from validation.simulation.model_names import BEM, LINEAR, SPRINGS_THAT_READ
 from validation.simulation.rail_sound import GEIKE, ISOTROPIC
 
 LEVEL, IN_BANDS, FORCE = "level of the contact force", "level in one-third octaves", "contact force less its mean"

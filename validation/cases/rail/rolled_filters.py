@@ -16,28 +16,22 @@ from validation.cases.rail.published import RailWheel
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import SERIAL, Engine
 from validation.scenes.rail import RailScene
-from validation.simulation.equivalent_displacement import (
+from validation.simulation.equivalent_displacement import RolledRail, log_over, roll_rail
+from validation.simulation.model_names import (
     BED,
     BEM,
     LINEAR,
     LINEAR_ON_LINE,
     LINEAR_ON_MEAN,
     ONE_SIDED_BED,
+    SPRINGS_GEIKE,
     SPRINGS_ON_LINE,
     SPRINGS_ON_MEAN,
-    SPRINGS_THAT_READ,
-    RolledRail,
-    log_over,
-    roll_rail,
-)
-from validation.simulation.rail_ground import strip_bands, strip_of
-from validation.simulation.spectral_springs import (
-    SPRINGS_GEIKE,
     SPRINGS_ROLLING,
-    SpectralRail,
-    roll_spectral_springs,
+    SPRINGS_THAT_READ,
     twin_of,
 )
+from validation.simulation.rail_strip import strip_bands, strip_of
 
 Key = tuple[RailWheel, float, str]
 """Wheel, dB over the levels, and what lies across, by its name."""
@@ -83,15 +77,10 @@ class RolledFilters:
 
     def problems(self, key: Key, cells: int) -> list[RolledRail]:
         """Strips of one kind on one grid."""
-        scene, across = self.scene(key), ACROSS[key[2]]
+        scene, across, models = self.scene(key), ACROSS[key[2]], (BEM, *RIVALS, *spectral_models(key))
         return [
-            RolledRail(strip=strip_of(scene, across, cells, i, self.seed), models=(BEM, *RIVALS))
-            for i in range(self.strips)
+            RolledRail(strip=strip_of(scene, across, cells, i, self.seed), models=models) for i in range(self.strips)
         ]
-
-    def spectral_problems(self, key: Key, cells: int) -> list[SpectralRail]:
-        """The same strips under springs of input spectra."""
-        return [SpectralRail(strip=one.strip, models=spectral_models(key)) for one in self.problems(key, cells)]
 
 
 def spectral_models(key: Key) -> tuple[str, ...]:
@@ -168,15 +157,7 @@ def run_filters(case: RolledFilters, engine: Engine = SERIAL) -> RolledFiltersRe
     groups: dict[tuple[Key, int], Sequence[RolledRail]] = {
         (key, cells): case.problems(key, cells) for key in case.keys for cells in case.cells
     }
-    rolled = engine.map_groups(roll_rail, groups)
-    spectral = engine.map_groups(roll_spectral_springs, {(key, n): case.spectral_problems(key, n) for key, n in groups})
-    outcomes = {
-        kind: [
-            {**springs, **one, "failed": springs["failed"] + one["failed"]}
-            for springs, one in zip(spectral[kind], found, strict=True)
-        ]
-        for kind, found in rolled.items()
-    }
+    outcomes = engine.map_groups(roll_rail, groups)
     lost = tuple(
         f"strip {i}, {wheel.label}, {offset:+g} dB, {name}, {cells} cells to an axis: {int(one['failed'])} positions"
         for ((wheel, offset, name), cells), found in outcomes.items()

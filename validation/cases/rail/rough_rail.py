@@ -25,16 +25,18 @@ from validation.cases.rail.rolled_filters import (
     millimetres,
     run_filters,
 )
-from validation.simulation.equivalent_displacement import (
-    AREA,
+from validation.simulation.equivalent_displacement import AREA
+from validation.simulation.model_names import (
     BEM,
     LINEAR,
     ONE_SIDED_BED,
+    SPRINGS_GEIKE,
     SPRINGS_ON_LINE,
+    SPRINGS_ROLLING,
     SPRINGS_THAT_READ,
+    twin_of,
 )
-from validation.simulation.rail_ground import SHORTEST, lost_contact_number, strip_bands
-from validation.simulation.spectral_springs import SPRINGS_GEIKE, SPRINGS_ROLLING, twin_of
+from validation.simulation.rail_strip import SHORTEST, lost_contact_number, strip_bands
 
 MODELS = (LINEAR, SPRINGS_THAT_READ, ONE_SIDED_BED, SPRINGS_ON_LINE, SPRINGS_ROLLING, SPRINGS_GEIKE)
 OFFSET, WAVES, GROUND = "offset [dB]", "waves of h'", "isotropic ground"

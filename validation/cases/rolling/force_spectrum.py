@@ -18,8 +18,19 @@ from validation.analysis.study import Outcomes
 from validation.cases.rolling.settings import HEIGHT, THREE_DECIBELS, Q, SelfAffineSettings, slopes_of
 from validation.engine.convergence import require_realisations
 from validation.engine.engine import SERIAL, Engine
-from validation.simulation.linear_levels import ROUNDING, coherence, correlation, force_3d, level_1d, level_3d
-from validation.simulation.rolling_strip import HERTZ, Strip, roll_strips, roll_tracks, strip_levels
+from validation.simulation.rolling_strip import (
+    HERTZ,
+    ROUNDING,
+    Strip,
+    coherence,
+    correlation,
+    force_3d,
+    level_1d,
+    level_3d,
+    roll_strips,
+    roll_tracks,
+    strip_levels,
+)
 from validation.simulation.track_spectrum import InputSpectrum, TrackSpectrum
 from validation.theory.rolling import force_spectrum_1d, level_ratio, mean_force_spectrum_1d
 

@@ -17,13 +17,13 @@ from validation.analysis.statistics import POWER_DECIBEL, Estimate, nearest
 from validation.analysis.study import Outcomes, Study
 from validation.cases.rolling.settings import HEIGHT, THREE_DECIBELS, Q, RollingSettings
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation.input_profiles import InputProfiles, press_input_profiles
-from validation.simulation.linear_levels import ROUNDING, level_1d, level_3d
-from validation.simulation.rolling_strip import roll_strips, roll_tracks, strip_levels
+from validation.simulation.rolling_strip import ROUNDING, level_1d, level_3d, roll_strips, roll_tracks, strip_levels
 from validation.simulation.rough_punch import (
+    InputProfiles,
     PunchRoughness,
     Surface,
     describe_failures,
+    press_input_profiles,
     press_surface,
     require_converged,
     stacked,

@@ -26,8 +26,7 @@ from validation.cases.rolling.settings import (
     slopes_of,
 )
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation.linear_levels import level_3d, over_bands
-from validation.simulation.rolling_strip import HERTZ, roll_strips, strip_levels
+from validation.simulation.rolling_strip import HERTZ, level_3d, over_bands, roll_strips, strip_levels
 from validation.simulation.track_spectrum import PiecewisePowerLaw, TrackSpectrum
 from validation.theory.rolling import force_spectrum_1d, mean_force_spectrum_1d
 

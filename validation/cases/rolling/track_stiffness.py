@@ -18,7 +18,14 @@ from validation.analysis.statistics import POWER_DECIBEL, Estimate, extrapolated
 from validation.analysis.study import Outcomes, Study
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation.rolling_strip import HERTZ, RoughStrip, Tracks
+from validation.simulation.rolling_strip import (
+    HERTZ,
+    LoadedStrip,
+    RoughStrip,
+    Tracks,
+    roll_loaded_strip,
+    roll_loaded_tracks,
+)
 from validation.simulation.rough_punch import (
     Profiles,
     PunchRoughness,
@@ -30,7 +37,6 @@ from validation.simulation.rough_punch import (
     stacked,
 )
 from validation.simulation.track_spectrum import INPUT_SPECTRA, InputSpectrum, PiecewisePowerLaw, self_affine
-from validation.simulation.track_stiffness import LoadedStrip, roll_loaded_strip, roll_loaded_tracks
 
 FloatArray = NDArray[np.float64]
 ROUNDING = 1e-9

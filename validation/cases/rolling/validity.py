@@ -20,9 +20,8 @@ from validation.engine.convergence import require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.description import slope_ratio
 from validation.scenes.dynamic_wheel import load_wheel_scene
-from validation.simulation.linear_levels import correlation
 from validation.simulation.reduced_pair import LAYER, MODELS, READ, over_boundary_elements, roll_reduced
-from validation.simulation.rolling_strip import RoughStrip, Strip, roll_strips, strip_levels
+from validation.simulation.rolling_strip import RoughStrip, Strip, correlation, roll_strips, strip_levels
 from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
 from validation.theory.rolling import slope_in_one_direction
 
