@@ -155,6 +155,11 @@ def test_grid_and_sample_are_independent_and_the_model_is_not():
     assert Answer(**parts, failed="lost").error == Answer(**{**parts, "grid": math.inf}).error == math.inf
 
 
+def test_a_distance_is_over_all_numbers():
+    assert distance(np.array([2.0, 1.0]), np.array([1.0, 1.0])) == pytest.approx(math.log(2) / math.sqrt(2))
+    assert distance(np.array([1.1]), np.array([1.0])) == pytest.approx(distance(np.array([1.0]), np.array([1.1])))
+
+
 @pytest.mark.slow
 def test_the_error_of_a_mean_covers_it_in_95_of_100():
     rng = np.random.default_rng(5)

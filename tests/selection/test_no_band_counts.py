@@ -56,6 +56,7 @@ def test_a_solve_leaves_its_bands_and_no_error():
 def test_the_longest_band_that_counts_is_enough_for_an_answer():
     found = compare(of_bands(slice(21, 29)), "contact-filter", "3 dB")
     assert found.met and (found.value > COUNTED).sum() == 1
+    assert not compare(SHORT, "equivalent-roughness", "1 dB").met
 
 
 def test_a_trial_without_a_band_that_counts_has_no_true_error():

@@ -19,7 +19,9 @@ SCHEMA = json.loads((resources.files("validation.selection") / "comparison.schem
 
 @pytest.mark.parametrize("name", bundled_for_compare())
 def test_every_quantity_of_every_scene_is_as_the_schema_says(name):
-    for quantity in quantities_of(validation.load_scene(name)):
+    scene = validation.load_scene(name)
+    assert scene.diagnose() == ()
+    for quantity in quantities_of(scene):
         found = planted(name, quantity)
         written = json.loads(validation.to_json(found))
         assert faults(written, SCHEMA, SCHEMA) == []
