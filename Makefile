@@ -59,7 +59,7 @@ thorough: $(READY)  ## the property tests on many more examples
 	HYPOTHESIS_PROFILE=thorough $(RUN) pytest -n auto $(ARGS)
 
 # who looks at the methods; reports and cases execute them without looking
-METHODS := tests/mdr tests/bem3d tests/theory tests/test_bad_input.py tests/test_read_only_results.py
+METHODS := tests/mdr tests/bem3d tests/theory tests/test_bad_input.py tests/test_interpreter.py tests/test_read_only_results.py
 # who looks at what makes verdicts and claims
 GUARDS := tests/analysis tests/theory tests/scenes tests/simulation tests/selection tests/benchmarks tests/cases tests/engine tests/report
 

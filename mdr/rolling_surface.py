@@ -71,6 +71,8 @@ def roll_surface(
     499.3 to 567.0 N
     """
     heights = finite_array("height", height, ndim=2, copy=False)
+    if isinstance(spacing, tuple) and len(spacing) != 2:
+        raise ValueError(f"spacing must be one number or two (along, across), got {spacing!r}")
     dx, dy = spacing if isinstance(spacing, tuple) else (spacing, spacing)
     steps, wheel = (positive("spacing", dx), positive("spacing", dy)), spring_wheel(radius, modulus)
     if (approach is None) == (force is None):

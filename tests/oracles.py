@@ -8,31 +8,23 @@ import numpy as np
 from scipy import integrate, linalg, optimize, signal
 
 
-@functools.cache
 def love_by_logarithms(x, y, dx, dy):
-    """int dA / r over a cell by the four logarithms of the textbook, one cell at a time."""
-    a, b = dx / 2, dy / 2
+    """int dA / r over cells by the four logarithms of the textbook."""
     total = 0.0
-    for this, that, half_this, half_that in ((x, y, a, b), (y, x, b, a)):
+    for this, that, half_this, half_that in ((x, y, dx / 2, dy / 2), (y, x, dy / 2, dx / 2)):
         for sign in (1, -1):
-            arm = this + sign * half_this
-            above = (that + half_that) + math.hypot(that + half_that, arm)
-            below = (that - half_that) + math.hypot(that - half_that, arm)
-            total += sign * arm * math.log(above / below)
+            arm, above, below = this + sign * half_this, that + half_that, that - half_that
+            total += sign * arm * np.log((above + np.hypot(above, arm)) / (below + np.hypot(below, arm)))
     return total
 
 
 def dense_operator(half_space):
-    """K as a matrix over all cells, row by row."""
+    """K as a matrix over all cells."""
     (nx, ny), (dx, dy) = half_space.shape, half_space.steps
-    cells = [(i, j) for i in range(nx) for j in range(ny)]
+    i, j = (np.subtract.outer(index, index) for index in np.indices((nx, ny)).reshape(2, -1))
     if half_space.periodic:
-        green = [[_periodic_green(i - k, j - m, (nx, ny), (dx, dy)) for k, m in cells] for i, j in cells]
-        return np.array(green) / half_space.modulus
-    factor = 1 / (math.pi * half_space.modulus)
-    return np.array(
-        [[factor * love_by_logarithms((i - k) * dx, (j - m) * dy, dx, dy) for k, m in cells] for i, j in cells]
-    )
+        return _periodic_green(i, j, (nx, ny), (dx, dy)) / half_space.modulus
+    return love_by_logarithms(i * dx, j * dy, dx, dy) / (math.pi * half_space.modulus)
 
 
 def displacement(half_space, pressure):
@@ -44,32 +36,27 @@ def displacement(half_space, pressure):
         green = np.divide(2 / half_space.modulus, q, out=np.zeros(q.shape), where=q > 0)
         return np.fft.ifft2(green * np.fft.fft2(pressure)).real
     i, j = np.meshgrid(np.arange(1 - nx, nx), np.arange(1 - ny, ny), indexing="ij")
-    kernel = _many_loves(i * dx, j * dy, dx / 2, dy / 2) / (math.pi * half_space.modulus)
+    kernel = love_by_logarithms(i * dx, j * dy, dx, dy) / (math.pi * half_space.modulus)
     return signal.oaconvolve(kernel, pressure, mode="valid")
 
 
-def _many_loves(x, y, a, b):
-    """`love_by_logarithms` for arrays."""
-    total = np.zeros(x.shape)
-    for this, that, half_this, half_that in ((x, y, a, b), (y, x, b, a)):
-        for sign in (1, -1):
-            arm = this + sign * half_this
-            above, below = that + half_that, that - half_that
-            total += sign * arm * np.log((above + np.hypot(above, arm)) / (below + np.hypot(below, arm)))
-    return total
+def residual(half_space, gap, pressure, approach):
+    """The mean gap under pressure or the deepest overlap, whichever is larger, over the overlap without pressure."""
+    w = gap + displacement(half_space, pressure) - approach
+    return max((pressure * np.abs(w)).sum() / pressure.sum(), -w.min()) / (approach - gap.min())
 
 
 def _periodic_green(i, j, shape, spacing):
     """sum over the waves of the grid of 2 cos(q.x) / (|q| number of cells), zero mode left out; E* = 1."""
     nx, ny = shape
-    total = 0.0
+    total = np.zeros(i.shape)
     for k in range(nx):
         for m in range(ny):
             wave_x = (k if 2 * k <= nx else k - nx) / (nx * spacing[0])
             wave_y = (m if 2 * m <= ny else m - ny) / (ny * spacing[1])
             q = 2 * math.pi * math.hypot(wave_x, wave_y)
             if q > 0:
-                total += 2 / q * math.cos(2 * math.pi * (k * i / nx + m * j / ny))
+                total += 2 / q * np.cos(2 * math.pi * (k * i / nx + m * j / ny))
     return total / (nx * ny)
 
 
@@ -133,12 +120,7 @@ def flat_square_by_graded_cells(cells):
     middle, width = (edges[1:] + edges[:-1]) / 2, np.diff(edges)
     x, y = (g.ravel() for g in np.meshgrid(middle, middle, indexing="ij"))
     dx, dy = (g.ravel() for g in np.meshgrid(width, width, indexing="ij"))
-    matrix = np.array(
-        [
-            [love_by_logarithms(x[i] - x[j], y[i] - y[j], dx[j], dy[j]) / math.pi for j in range(x.size)]
-            for i in range(x.size)
-        ]
-    )
+    matrix = love_by_logarithms(np.subtract.outer(x, x), np.subtract.outer(y, y), dx, dy) / math.pi
     return float(np.sum(linalg.solve(matrix, np.ones(x.size)) * dx * dy))
 
 
@@ -157,19 +139,19 @@ def rms_scatter_of_gaussian_draws(hurst, *, last, dimensions):
     return math.sqrt(2 * sum(v**2 for v in power)) / sum(power)
 
 
-def wheel_on_springs(height, *, spacing, radius, approach):
-    """Compressions summed over springs under a wheel at each point of a periodic track, springs one by one.
+def wheel_on_springs(height, *, spacing, radius, approach, places=None, rounding=1e-13):
+    """Compressions summed over springs under a wheel at places of a periodic track; at all points if none are given.
 
     Returns sum_j max(d - x_j^2 / R + h_j, 0), and the least and the most that may be in contact, since rounding decides
     of springs that just touch.
     """
-    points = len(height)
-    approach = np.broadcast_to(approach, points)
+    places = np.arange(len(height)) if places is None else np.asarray(places)
+    approach = np.broadcast_to(approach, places.size)
     reach = math.sqrt(radius * max(approach.max() + height.max(), 0.0)) / spacing
     j = np.arange(-math.ceil(reach) - 1, math.ceil(reach) + 2)
-    near = height[(np.arange(points)[:, np.newaxis] + j) % points]
+    near = height[(places[:, np.newaxis] + j) % len(height)]
     compression = approach[:, np.newaxis] - (j * spacing) ** 2 / radius + near
-    rounding = 1e-13 * (np.abs(approach).max() + np.abs(height).max())
+    rounding = rounding * (np.abs(approach).max() + np.abs(height).max())
     total = np.array([math.fsum(row[row > 0]) for row in compression])
     return total, (compression > rounding).sum(axis=1), (compression > -rounding).sum(axis=1)
 
@@ -194,23 +176,6 @@ def approach_by_fractions(height, place, *, spacing, radius, wanted):
         largest = max(largest, abs(level), profile)
         approach, pressed = (wanted - total) / (n + 1), n + 1
     return float(approach), pressed, float(max(largest, approach + max(springs)[0]))
-
-
-def springs_under_a_wheel(height, place, *, spacing, radius, approach):
-    """Compressions of the springs under one wheel over one place of a periodic track, walked outwards one by one.
-
-    Returns sum_j max(d - x_j^2 / R + h_j, 0), and how many may touch, those that just do not included.
-    """
-    points, highest = len(height), max(height)
-    compressions, near, j = [], 0, 0
-    while approach - (j * spacing) ** 2 / radius + highest > -1e-9 * (abs(approach) + abs(highest)):
-        for side in {-j, j}:
-            compression = approach - (side * spacing) ** 2 / radius + height[(place + side) % points]
-            near += compression > -1e-9 * (abs(approach) + abs(highest))
-            if compression > 0:
-                compressions.append(compression)
-        j += 1
-    return math.fsum(compressions), near
 
 
 def free_vibration_by_small_steps(highest, *, turns=None):

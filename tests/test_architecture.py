@@ -39,17 +39,7 @@ def rooms(source):
     return {name.partition(".")[0] for name in imported(source)}
 
 
-ROOMS = (
-    "theory",
-    "analysis",
-    "engine",
-    "scenes",
-    "simulation",
-    "selection",
-    "benchmarks",
-    "cases",
-    "report",
-)
+ROOMS = ("theory", "analysis", "engine", "scenes", "simulation", "selection", "benchmarks", "cases", "report")
 BASE = {"theory", "analysis", "engine", "scenes", "mdr", "bem3d"}
 MAY_IMPORT = {
     "mdr": set(),

@@ -48,27 +48,6 @@ def test_a_slope_in_one_direction_and_the_gradient():
     assert 2 * trapezoid(q[1:] ** 2 * mdr.geike(q[1:], ROUGH.c2d), q[1:]) == pytest.approx(gradient, rel=1e-3)
 
 
-def test_amplitudes_of_waves():
-    profile = mdr.rough_profile(ROUGH.c1d, length=L, points=N, rng=np.random.default_rng(1))
-    surface = bem3d.rough_surface(ROUGH.c2d, shape=(N, N), spacing=SPACING, rng=np.random.default_rng(1))
-    waves = 2 * np.pi / L * np.arange(17, 60)
-    assert np.abs(np.fft.fft(profile) / N)[17:60] == pytest.approx(np.sqrt(2 * np.pi * ROUGH.c1d(waves) / L))
-    assert np.abs(np.fft.fft2(surface) / N**2)[17:60, 0] == pytest.approx(2 * np.pi / L * np.sqrt(ROUGH.c2d(waves)))
-
-
-@pytest.mark.parametrize("periodic", [False, True])
-def test_displacement_goes_into_the_half_space(periodic):
-    half_space = bem3d.HalfSpace(shape=(N, N), spacing=SPACING, modulus=E, periodic=periodic)
-    if periodic:
-        pressure = np.cos(WAVE * X)[:, np.newaxis] * np.ones(N)
-        assert np.abs(half_space.displacement(pressure) * E * WAVE - 2 * pressure).max() < 1e-12
-        assert np.abs(half_space.displacement(np.ones((N, N)))).max() < 1e-25
-    else:
-        pressure = np.zeros((N, N))
-        pressure[3, 4] = 1.0
-        assert half_space.displacement(pressure)[3, 4] == pytest.approx(4 * math.asinh(1) * SPACING / (np.pi * E))
-
-
 @pytest.mark.parametrize("periodic", [False, True])
 def test_a_bump_is_a_smaller_gap_and_contact_begins_at_minus_its_height(periodic):
     height = 1e-7 * np.cos(2 * np.pi / L * X)[:, np.newaxis] * np.cos(2 * np.pi / L * X)
@@ -81,16 +60,6 @@ def test_a_bump_is_a_smaller_gap_and_contact_begins_at_minus_its_height(periodic
     assert np.abs(separation[contact.pressure > 0]).max() < 1e-5 * height.max()
     curve = mdr.load_curve(height[0], length=L, modulus=E)
     assert curve.approach[0] == -height[0].max()
-
-
-def test_springs():
-    x = np.linspace(-1e-3, 1e-3, 7)
-    assert mdr.sphere_profile(x, radius=0.5) == pytest.approx(x**2 / 0.5)
-    sphere = mdr.press_sphere(radius=0.5, modulus=E, approach=1e-6)
-    assert sphere.force == pytest.approx(4 / 3 * E * math.sqrt(0.5) * 1e-6**1.5)
-    assert sphere.contact_radius**2 == pytest.approx(0.5 * 1e-6)
-    assert sphere.stiffness == pytest.approx(2 * E * sphere.contact_radius)
-    assert mdr.load_curve(np.zeros(8), length=L, modulus=E).at_approach(1e-6).stiffness == pytest.approx(E * L)
 
 
 def test_factors_of_surface_topography():

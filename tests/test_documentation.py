@@ -30,15 +30,8 @@ HELPERS = {
 METHODS = {
     *("mdr.geike", "mdr.line_trace", "mdr.load_curve", "mdr.rough_profile", "mdr.roll", "mdr.roll_surface"),
     *("mdr.rolling_spectrum", "mdr.sphere_profile", "mdr.stiffness_under", "mdr.press_sphere", "mdr.SelfAffine"),
-    *(
-        "bem3d.HalfSpace",
-        "bem3d.solve",
-        "bem3d.solve_fixed_area",
-        "bem3d.indent_few_cells",
-        "bem3d.residual",
-        "bem3d.rough_surface",
-    ),
-    *("bem3d.solve_polonsky_keer", "bem3d.roll"),
+    *("bem3d.HalfSpace", "bem3d.solve", "bem3d.solve_fixed_area", "bem3d.indent_few_cells", "bem3d.residual"),
+    *("bem3d.rough_surface", "bem3d.solve_polonsky_keer", "bem3d.roll"),
 }
 """What has a formula in the two methods."""
 

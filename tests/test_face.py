@@ -55,12 +55,7 @@ def test_a_number_comes_in_si_units_with_its_relative_error():
     assert result.value == pytest.approx([SPHERE.stiffness])
     assert (result.error, result.wavenumbers.size) == (0.0, 0)
     (first,) = (model for model in result.models if model.name == "closed form")
-    assert (first.name, first.status, first.error, first.reason) == (
-        "closed form",
-        "accepted",
-        0.0,
-        "exact for a smooth body",
-    )
+    assert (first.status, first.error, first.reason) == ("accepted", 0.0, "exact for a smooth body")
     assert first.cost > 0
 
 
@@ -117,9 +112,8 @@ def test_bad_input_is_refused_in_one_sentence(arguments, error, sentence):
 
 @pytest.mark.parametrize("name", ["nowhere", 5])
 def test_a_scene_that_is_not_there_is_refused_with_those_that_are(name):
-    with pytest.raises(
-        ValueError, match=f'^scene must be a file, as "./{name}.toml", or one of rail, rolling_wheel, .*sphere'
-    ):
+    sentence = f'^scene must be a file, as "./{name}.toml", or one of rail, rolling_wheel, .*sphere'
+    with pytest.raises(ValueError, match=sentence):
         validation.load_scene(name)
 
 

@@ -84,11 +84,14 @@ def test_an_older_view_changes_no_other_result():
     strip = bem3d.Track(height=height, spacing=0.25, radius=1.0, modulus=1.0)
     curve = mdr.load_curve(height[:, 0], length=1.0, modulus=1.0)
     wheel = mdr.roll(height[:, 0], **{**WHEEL, "approach": approach})
+    in_step = mdr.RollingEnsemble(height, spacing=0.25, radius=1.0, modulus=1.0, force=4 / 3)
+    borne = in_step.force(0, np.ones(20))
     own = dataclasses.replace(wheel, force=approach)
     expected = curve.approach.copy()
     view[:], above[:] = 7.0, 7.0
     assert np.array_equal(strip.height, HEIGHT)
     assert np.array_equal(curve.approach, expected)
+    assert np.array_equal(in_step.force(0, np.ones(20)), borne)
     assert np.array_equal(wheel.approach, np.ones(24))
     assert np.array_equal(own.force, np.ones(24))
 

@@ -4,9 +4,20 @@ import math
 from dataclasses import replace
 
 import pytest
+from hypothesis import given
 
-from tests.analysis.test_judged_claims import point
-from validation.analysis.claims import Claim, Matrix, off_by, per_cent, times, times_source
+from tests.analysis.test_judged_claims import point, points_with, verdicts
+from validation.analysis.claims import (
+    Claim,
+    Matrix,
+    beside,
+    decibels,
+    farthest_off,
+    off_by,
+    per_cent,
+    times,
+    times_source,
+)
 from validation.analysis.evidence import ClaimStatus, Role, Verdict
 
 AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
@@ -42,15 +53,35 @@ def test_status_limits_and_headline_follow_from_verdicts(verdicts, status, limit
     assert CLAIM.headline(judged) == headline
 
 
-def test_limits_from_the_last_value_on():
-    judged = Claim(says="It is so.", along="-h/d").judged(by_height(DIFFER, AGREE, AGREE))
-    assert (judged.status, judged.limits) == (ClaimStatus.LIMITED, "h/d from 1 on")
+@given(verdicts)
+def test_limits_are_the_first_piece_of_a_range(found):
+    """What agrees behind a counterexample is outside of the limits."""
+    numbers = points_with(found)
+    inside = Claim(says="It is so.", along="q a").judged(numbers).inside
+    assert inside == (numbers[: len(inside)] if set(found) != {AGREE} else ())
+    assert all(number.verdict is AGREE for number in inside)
+    assert set(found) == {AGREE} or found[len(inside)] is not AGREE
 
 
-def test_limits_along_quantities_name_those_that_agree():
-    numbers = [number(v, quantity=q) for q, v in (("height", DIFFER), ("gradient", AGREE), ("curvature", AGREE))]
-    judged = Claim(says="It is so.", along="-quantity").judged(numbers)
-    assert (judged.status, judged.limits) == (ClaimStatus.LIMITED, "in curvature, gradient")
+def test_only_what_differs_is_off():
+    low, agreeing, undecided = point(-4.0, at=1.0), point(0.5, at=2.0), point(9.0, 9.0, at=3.0)
+    assert farthest_off([agreeing, undecided, low]) is low
+    assert farthest_off([agreeing, undecided]) is undecided
+
+
+OF_QUANTITIES = [number(v, quantity=q) for q, v in (("height", DIFFER), ("gradient", AGREE), ("curvature", AGREE))]
+
+
+@pytest.mark.parametrize(
+    ("along", "numbers", "limits"),
+    [
+        ("-h/d", by_height(DIFFER, AGREE, AGREE), "h/d from 1 on"),
+        ("-quantity", OF_QUANTITIES, "in curvature, gradient"),
+    ],
+)
+def test_limits_from_the_last_value_on_or_along_quantities(along, numbers, limits):
+    judged = Claim(says="It is so.", along=along).judged(numbers)
+    assert (judged.status, judged.limits) == (ClaimStatus.LIMITED, limits)
 
 
 def test_limits_need_a_number_of_each_quantity():
@@ -84,7 +115,6 @@ def test_members_are_chosen_by_quantity_model_and_conditions():
     assert chosen(model="a", where={"across": ...}) == [("a", "ridges"), ("a", "ground")]
     assert chosen(model="a", where={"across": lambda across: across != "ridges"}) == [("a", "ground")]
     assert chosen(model=("a", "b"), where={"across": "ridges"}) == [("a", "ridges"), ("b", "ridges")]
-    assert chosen(model="a", where={"across": lambda across: across != "ridges"}) == [("a", "ground")]
     both = ({"model": "b"}, {"where": {"h/d": 0.1}})
     assert chosen(either=both) == [("b", "ridges"), ("b", "ground"), ("a", 0.1)]
 
@@ -111,38 +141,45 @@ def test_of_many_models_at_once_it_is_counted_how_many_agree():
     assert claim.headline(judged) == "It: 2 of 4"
 
 
-def test_a_worst_point_is_said_to_be_at_its_place_and_not_at_a_range():
-    worst = point(3.0, 0.1, quantity="level", model="m", where={"h/d": 1.0, "q a": (1.0, 4.0), "worst at": 2.0})
-    assert Claim(says="It is so.").judged([worst]).answer == "No: +3.00 ± 0.10 dB at h/d = 1, q a = 2."
+@pytest.mark.parametrize(
+    ("where", "said"),
+    [
+        ({"h/d": 1.0, "q a": (1.0, 4.0), "worst at": 2.0}, " at h/d = 1, q a = 2"),
+        ({"band": "below it", "f [Hz]": (177.0, 1402.0)}, ", below it, f [Hz] = 177 to 1402"),
+    ],
+)
+def test_a_worst_point_is_at_its_place_and_names_follow_after_a_comma(where, said):
+    answer = Claim(says="It is so.").judged([point(3.0, 0.1, quantity="level", model="m", where=where)]).answer
+    assert answer == f"No: +3.00 ± 0.10 dB{said}."
 
 
 @pytest.mark.parametrize(
-    ("value", "half", "said"), [(51.0, 0.0, "350 times (350 to 350)"), (-6.0, 1.0, "0.5 times (0.45 to 0.56)")]
+    ("printed", "value", "half_width", "said"),
+    [
+        (decibels, 0.24, 0.51, "+0.2 ± 0.5 dB"),
+        (decibels, -1.26, 0.04, "-1.3 dB"),
+        (decibels, -0.04, 0.01, "less than 0.05 dB"),
+        (decibels, -0.04, 0.3, "+0.0 ± 0.3 dB"),
+        (times, 51.0, 0.0, "350 times (350 to 350)"),
+        (times, -6.0, 1.0, "0.5 times (0.45 to 0.56)"),
+        (per_cent, 20 * math.log10(2), 0.0, "+100.0 % (+100.0 to +100.0)"),
+        (per_cent, -40.0, 0.0, "none left"),
+        (off_by, 1.0, 0.0, "off by +1.0e+00 dB"),
+        (times_source, 0.5, 0.0, "0.5 times that of s"),
+        (beside, 3.0, 0.1, "+3.00 ± 0.10 dB"),
+    ],
 )
-def test_large_ratios_have_no_exponent(value, half, said):
-    assert times(point(value, half)) == said
+def test_a_number_is_printed_as_its_quantity(printed, value, half_width, said):
+    assert printed(point(value, half_width)) == said
 
 
-def test_a_closed_form_leaves_a_difference():
-    assert off_by(point(1.0, quantity="k", model="m")) == "off by +1.0e+00 dB"
-    assert times_source(replace(point(0.5), source="tamaas")) == "0.5 times that of tamaas"
-
-
-def test_places_with_a_name_follow_after_a_comma_and_large_values_have_no_power_of_ten():
-    found = point(3.0, 0.1, quantity="level", model="m", where={"band": "below it", "f [Hz]": (177.0, 1402.0)})
-    assert Claim(says="It is so.").judged([found]).answer == "No: +3.00 ± 0.10 dB, below it, f [Hz] = 177 to 1402."
-
-
-def test_a_ratio_in_decibels_is_printed_in_per_cent():
-    six_decibels = point(20 * math.log10(2), 0.0, quantity="k", model="m")
-    assert per_cent(six_decibels) == "+100.0 % (+100.0 to +100.0)"
-    assert per_cent(replace(six_decibels, value=-40.0)) == "none left"
+def test_a_reference_of_five_digits_has_no_exponent():
+    assert beside(point(12520.0, 190.0, reference=12566.4, tolerance=377.0)) == "12520 ± 190 beside 12566 dB"
 
 
 def test_a_matrix_has_a_cell_for_each_number_with_its_verdict():
-    numbers = [number(v, model=m, across=a) for m, v in (("a", AGREE), ("b", DIFFER)) for a in ("ridges", "ground")][
-        :-1
-    ]
+    places = [("a", AGREE, "ridges"), ("a", AGREE, "ground"), ("b", DIFFER, "ridges")]
+    numbers = [number(verdict, model=model, across=across) for model, verdict, across in places]
     table = Matrix(name="t", quantity="level", rows=("across",), columns="model").table(numbers)
     assert table.columns["across"] == ("ridges", "ground")
     assert [str(cell) for cell in table.columns["a"]] == ["+0.20 ± 0.10 dB: agree"] * 2

@@ -19,7 +19,6 @@ from validation.analysis.statistics import (
     log_ratio_of_means,
     log_relative_deviation,
     mean_estimate,
-    mean_of,
     ratio_of_means,
     sample,
 )
@@ -77,24 +76,6 @@ def test_the_interval_of_a_difference_is_that_of_welch(sizes, spreads):
         return ends(one.minus(other))
 
     assert holds(covered(drawn, 3.0), short=0.01, wide=0.02)
-
-
-@pytest.mark.parametrize("spreads", [(1.0, 1.0, 1.0), (1.0, 0.05, 0.05)])
-def test_the_interval_of_a_mean_of_estimates(spreads):
-    """Where one of them scatters most, its degrees of freedom are all that there are; Welch errs to the safe side."""
-    rng = np.random.default_rng(3)
-
-    def drawn():
-        return ends(mean_of([mean_estimate(1 + s * rng.standard_normal(4)) for s in spreads]))
-
-    assert holds(covered(drawn, 1.0), wide=0.03)
-
-
-def test_a_mean_of_equal_estimates_has_their_degrees_of_freedom_together():
-    """Seven of n - 1 each, and not 7 n - 1."""
-    together = mean_of([Estimate(2.0, 0.1, 4)] * 7)
-    assert together.samples == 7 * 3 + 1
-    assert together.error == pytest.approx(0.1 / math.sqrt(7))
 
 
 def test_an_error_that_is_not_known_stays_unknown():

@@ -5,7 +5,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from validation.analysis.difference import difference
 from validation.analysis.evidence import Number, Role, Table, Verdict, grouped
 from validation.analysis.statistics import (
     Estimate,
@@ -13,7 +12,6 @@ from validation.analysis.statistics import (
     decade_slope,
     decade_weights,
     difference_of_halves,
-    local_slope,
     log_deviation_over,
     log_mean,
     log_relative_deviation,
@@ -154,8 +152,6 @@ def test_weights_of_a_decade():
         for power in (-3, -2, -1, 0):
             assert decade_weights(forces, 10.0**power) @ line == pytest.approx(2 + 3 * (power + 0.5))
             assert decade_slope(forces, 10.0**power) @ line == pytest.approx(3 / np.log(10))
-        for level in range(len(forces)):
-            assert local_slope(forces, level) @ line == pytest.approx(3 / np.log(10))
 
 
 def test_deviation_over_levels_where_some_have_none():
@@ -174,18 +170,6 @@ def test_difference_of_estimates(a, b, n, m):
     assert apart.value == 2.0
     assert apart.error == pytest.approx(np.hypot(a, b))
     assert min(n, m) - 1 <= apart.samples <= n + m
-
-
-def test_a_difference_is_beside_zero_or_beside_the_other_itself():
-    mine, other = Estimate(3.0, 0.3, 9), Estimate(1.0, 0.4, 9)
-    key = {"quantity": "x", "model": "m", "where": {}, "source": "s", "tolerance": 1.0, "reason": "r", "scale": 2.0}
-    relative, absolute = (difference(mine, other, absolute=choice, **key) for choice in (False, True))
-    assert (relative.value, relative.reference) == (4.0, 0.0)
-    assert (absolute.value, absolute.reference) == (6.0, 2.0)
-    assert relative.sample == absolute.sample == 2 * mine.minus(other).half_width
-    assert difference(mine, **key).value == 6.0
-    with pytest.raises(ValueError, match="absolute without other"):
-        difference(mine, absolute=True, **key)
 
 
 @pytest.mark.parametrize(

@@ -284,16 +284,6 @@ def test_pairs_count_where_both_are():
     np.testing.assert_allclose(both.moments[0], expected)
 
 
-@pytest.mark.parametrize(("level", "slope"), [(0, (0, 1)), (1, (0, 2)), (2, (1, 3)), (3, (2, 3))])
-def test_a_local_slope_is_that_between_the_neighbours(level, slope):
-    forces = (1.0, 2.0, 5.0, 30.0)
-    weights = statistics.local_slope(forces, level)
-    before, after = slope
-    expected = np.zeros(4)
-    expected[after], expected[before] = 1, -1
-    np.testing.assert_allclose(weights, expected / math.log(forces[after] / forces[before]))
-
-
 def test_weights_of_a_decade_one_by_one():
     """Ends of the decade count half, and what lies just outside not at all."""
     forces = 10.0 ** np.array([-1.5, -1, -0.5, -0.2, 0, 0.5])

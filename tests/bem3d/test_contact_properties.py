@@ -5,25 +5,16 @@ import pickle
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import given
 from hypothesis import strategies as st
 
 import bem3d
 from bem3d import convolution
-from tests.oracles import approach_by_least_squares, contact_by_least_squares, dense_operator
-from tests.strategies import pressed, scales
+from tests.oracles import dense_operator
+from tests.strategies import pressed
 
 TIGHT = 1e-12
-# two solves of one scaled problem stop at different iterations: both must be past what is compared
-DEEP = 1e-13
-
-
-def moved(contact, step):
-    """The same gap, pressed by a little more or less."""
-    problem = contact.problem
-    return bem3d.solve(
-        problem.half_space, problem.gap, approach=contact.approach + step, start=contact, tolerance=contact.tolerance
-    )
+exponents = st.integers(-30, 30)
 
 
 @pytest.mark.slow
@@ -36,92 +27,25 @@ def test_complementarity(problem):
     w = gap + (dense @ p).reshape(gap.shape) - contact.approach
     # rounding is of the size of the terms of the sum, which may cancel
     allowed = 1.001e-9 * (contact.approach - gap.min()) + 1e-13 * (1 + (np.abs(dense) @ p).max())
+    assert problem.prescribed.get("force", contact.force) == pytest.approx(contact.force, rel=1e-12)
     assert (contact.pressure >= 0).all()
     assert -w.min() <= allowed
     assert np.sum(contact.pressure * np.abs(w)) <= allowed * contact.pressure.sum()
 
 
 @pytest.mark.slow
-@given(problem=pressed(periodic=False, by=("approach",)))
-def test_pressure_is_that_of_the_dense_least_squares_solution(problem):
-    contact = problem.solve(tolerance=TIGHT)
-    dense = contact_by_least_squares(problem.half_space, problem.gap, contact.approach)
-    np.testing.assert_allclose(contact.pressure, dense, atol=1e-9 * dense.max(initial=1e-300))
-
-
-@pytest.mark.slow
-@given(problem=pressed(periodic=False, by=("force",), most=7))
-def test_approach_is_that_of_the_dense_solution_under_the_same_force(problem):
-    contact = problem.solve(tolerance=TIGHT)
-    dense = approach_by_least_squares(problem.half_space, problem.gap, problem.prescribed["force"])
-    assert contact.force == pytest.approx(problem.prescribed["force"], rel=1e-12)
-    assert contact.approach == pytest.approx(dense, abs=1e-8 * (dense - problem.gap.min()))
-
-
-@pytest.mark.slow
-@given(problem=pressed(periodic=False), scale=scales, modulus=scales)
-def test_scaling_with_lengths_and_modulus(problem, scale, modulus):
-    """All lengths times s, E* times m: approach ~ s, pressure ~ m, force ~ m s^2, stiffness ~ m s."""
-    one = problem.solve(tolerance=DEEP)
-    old = problem.half_space
-    half_space = bem3d.HalfSpace(shape=old.shape, spacing=(scale * old.steps[0], scale * old.steps[1]), modulus=modulus)
-    factor = {"approach": scale, "force": modulus * scale**2}
-    prescribed = {name: factor[name] * value for name, value in problem.prescribed.items()}
-    other = bem3d.solve(half_space, scale * problem.gap, **prescribed, tolerance=DEEP)
-    assert other.force == pytest.approx(one.force * modulus * scale**2, rel=1e-12)
-    overlap = one.approach - problem.gap.min()
-    assert other.approach / scale == pytest.approx(one.approach, abs=1e-12 * overlap)
-    if np.array_equal(one.pressure > 0, other.pressure > 0):
-        k = [contact.stiffness(tolerance=1e-12) for contact in (one, other)]
-        assert k[1] == pytest.approx(k[0] * modulus * scale, rel=1e-11)
-
-
-@pytest.mark.slow
-@given(problem=pressed(), exponent=st.integers(-30, 30), other=st.integers(-30, 30))
-def test_scaling_by_powers_of_two_is_exact(problem, exponent, other):
-    """No absolute number hides anywhere: the same bits come out."""
-    scale, modulus = 2.0**exponent, 2.0**other
+@given(problem=pressed(), metre=exponents, height=exponents, pascal=exponents)
+def test_scaling_by_powers_of_two_is_exact(problem, metre, height, pascal):
+    """Lengths times s, heights times h, E* times m: p ~ m h / s, F ~ m h s. No absolute number hides anywhere."""
+    scale, high, modulus = 2.0**metre, 2.0**height, 2.0**pascal
     old = problem.half_space
     spacing = (scale * old.steps[0], scale * old.steps[1])
     half_space = bem3d.HalfSpace(shape=old.shape, spacing=spacing, modulus=modulus, periodic=old.periodic)
-    factor = {"approach": scale, "force": modulus * scale**2}
+    factor = {"approach": high, "force": modulus * high * scale}
     prescribed = {name: factor[name] * value for name, value in problem.prescribed.items()}
-    contact = bem3d.solve(half_space, scale * problem.gap, **prescribed)
-    np.testing.assert_array_equal(contact.pressure, modulus * problem.solve().pressure)
-
-
-@pytest.mark.slow
-@given(problem=pressed(by=("approach",)), step=st.floats(1e-3, 1))
-def test_force_grows_with_approach(problem, step):
-    contact = problem.solve(tolerance=TIGHT)
-    if problem.half_space.periodic:
-        step *= 0.5 * (problem.gap.mean() - contact.approach)
-    further = moved(contact, step)
-    assert further.force >= contact.force * (1 - 1e-10)
-    assert further.area >= contact.area or further.force > contact.force
-
-
-@pytest.mark.slow
-@given(problem=pressed())
-def test_mirror_and_transpose(problem):
-    one = problem.solve(tolerance=TIGHT)
-    half_space = problem.half_space
-    turned = bem3d.HalfSpace(
-        shape=half_space.shape[::-1], spacing=half_space.steps[::-1], modulus=1.0, periodic=half_space.periodic
-    )
-    other = bem3d.solve(turned, problem.gap[::-1].T, **problem.prescribed, tolerance=TIGHT)
-    np.testing.assert_allclose(other.pressure.T[::-1], one.pressure, atol=1e-8 * one.pressure.max())
-
-
-@pytest.mark.slow
-@given(problem=pressed(periodic=False))
-def test_stiffness_is_the_finite_difference(problem):
-    """F(d) is linear while no cell enters or leaves: then the difference quotient is the stiffness, to the residual."""
-    contact = problem.solve(tolerance=TIGHT)
-    step = 1e-5 * (contact.approach - problem.gap.min())
-    low, high = moved(contact, -step), moved(contact, step)
-    assume(np.array_equal(low.pressure > 0, high.pressure > 0))
-    assert (high.force - low.force) / (2 * step) == pytest.approx(contact.stiffness(), rel=1e-5)
+    one, other = problem.solve(), bem3d.solve(half_space, high * problem.gap, **prescribed)
+    np.testing.assert_array_equal(other.pressure, modulus * high / scale * one.pressure)
+    assert other.stiffness() == modulus * scale * one.stiffness()
 
 
 @pytest.mark.slow
@@ -135,23 +59,6 @@ def test_stiffness_is_that_of_the_dense_contact(problem):
 
 
 @pytest.mark.slow
-@given(problem=pressed(periodic=False, most=6, by=("approach",)))
-def test_energy_is_the_integral_of_the_force(problem):
-    """1/2 sum(p u) dx dy = int F dd: F is piecewise linear, so the trapezium error is of second order in the steps.
-
-    It is at most (largest change of the stiffness on a step) (step)^2 / 8 for each step.
-    """
-    half_space, gap = problem.half_space, problem.gap
-    approaches = np.linspace(gap.min(), problem.prescribed["approach"], 41)
-    path = [bem3d.solve(half_space, gap, approach=d, tolerance=1e-11) for d in approaches]
-    last = path[-1]
-    energy = 0.5 * np.sum(last.pressure * half_space.displacement(last.pressure)) * half_space.cell_area
-    work = np.trapezoid([contact.force for contact in path], approaches)
-    bound = last.stiffness() * (approaches[1] - approaches[0]) ** 2 / 8
-    assert -1e-9 * energy <= work - energy <= bound + 1e-9 * energy
-
-
-@pytest.mark.slow
 @given(problem=pressed())
 def test_a_start_does_not_change_the_answer(problem):
     cold = problem.solve(tolerance=TIGHT)
@@ -160,17 +67,6 @@ def test_a_start_does_not_change_the_answer(problem):
         warm = problem.solve(tolerance=TIGHT, start=start)
         np.testing.assert_allclose(warm.pressure, cold.pressure, atol=1e-8 * cold.pressure.max())
     assert problem.solve(tolerance=1e-9, start=cold).iterations <= 1
-
-
-@pytest.mark.slow
-@given(problem=pressed(by=("force",)))
-def test_force_and_approach_are_two_ways_to_one_contact(problem):
-    by_force = problem.solve(tolerance=TIGHT)
-    assume(not (problem.half_space.periodic and by_force.approach >= problem.gap.mean() - 1e-9))
-    by_approach = bem3d.solve(
-        problem.half_space, problem.gap, approach=by_force.approach, start=by_force, tolerance=TIGHT
-    )
-    assert by_approach.force == pytest.approx(by_force.force, rel=1e-6)
 
 
 @pytest.mark.parametrize(
@@ -207,7 +103,7 @@ def test_no_contact():
         contact = solver(half_space, gap, **prescribed)
         assert (contact.force, contact.area, contact.residual, contact.stiffness()) == (0, 0, 0, 0)
         assert contact.approach == prescribed.get("approach", 0.5)
-        assert contact.status == "converged"
+        assert (contact.status, contact.operator_applications, contact.history) == ("converged", 0, (0.0,))
 
 
 def test_full_contact_of_a_periodic_half_space():
@@ -245,33 +141,6 @@ def test_result_carries_its_problem_and_its_costs(solver, monkeypatch):
     np.testing.assert_array_equal(contact.problem.gap, gap)
 
 
-@pytest.mark.parametrize("prescribed", [{"approach": 0.7}, {"force": 3.0}])
-def test_not_converged_is_never_success(prescribed):
-    half_space = bem3d.HalfSpace(shape=(8, 8), spacing=1.0, modulus=1.0)
-    gap = np.random.default_rng(0).random((8, 8))
-    with pytest.raises(bem3d.ConvergenceError, match="after 2 iterations") as caught:
-        bem3d.solve(half_space, gap, **prescribed, tolerance=1e-10, max_iterations=2)
-    assert len(caught.value.history) == 3
-    result = bem3d.solve(half_space, gap, **prescribed, tolerance=1e-10, max_iterations=2, raise_on_failure=False)
-    assert result.status == "iteration limit"
-    assert not result.converged
-    with pytest.raises(bem3d.ConvergenceError, match="no stiffness"):
-        result.stiffness()
-    with pytest.raises(bem3d.ConvergenceError, match="frozen-contact"):
-        bem3d.solve_fixed_area(half_space, gap < 0.5, tolerance=1e-10, max_iterations=2)
-    frozen = bem3d.solve_fixed_area(half_space, gap < 0.5, max_iterations=2, raise_on_failure=False)
-    assert not frozen.converged
-
-
-def test_a_result_is_short_to_look_at():
-    """Numbers, no arrays."""
-    half_space = bem3d.HalfSpace(shape=(40, 40), spacing=1.0, modulus=1.0)
-    gap = np.random.default_rng(0).random((40, 40))
-    (contact,) = bem3d.indent(half_space, gap, approaches=[0.5], stiffness=True)
-    assert "approach=0.5" in repr(contact)
-    assert len(repr(contact)) < 200
-
-
 def test_a_failure_comes_home_from_another_process():
     """With its sentence, its history and what was reached."""
     half_space = bem3d.HalfSpace(shape=(8, 8), spacing=1.0, modulus=1.0)
@@ -296,21 +165,12 @@ def test_textbook_iteration_may_cycle_under_a_force():
     assert bem3d.solve(half_space, gap, force=1.0, tolerance=TIGHT).converged
 
 
-def test_results_are_copies():
-    """Neither the caller's gap nor a start that is already a solution is shared with the result."""
-    half_space = bem3d.HalfSpace(shape=(8, 8), spacing=1.0, modulus=1.0)
-    gap = np.random.default_rng(0).random((8, 8))
-    contact = bem3d.solve(half_space, gap, approach=0.7, tolerance=1e-8)
-    kept = contact.problem.gap.copy()
-    gap += 100
-    np.testing.assert_array_equal(contact.problem.gap, kept)
-    start = contact.pressure.copy()
-    again = bem3d.solve(half_space, kept, approach=0.7, tolerance=1e-6, start=start)
+def test_a_start_that_is_a_solution_is_not_shared():
+    half_space, gap = bem3d.HalfSpace(shape=(8, 8), spacing=1.0, modulus=1.0), np.random.default_rng(0).random((8, 8))
+    start = bem3d.solve(half_space, gap, approach=0.7, tolerance=1e-8).pressure.copy()
+    again = bem3d.solve(half_space, gap, approach=0.7, tolerance=1e-6, start=start)
     assert again.iterations == 0
     assert not np.shares_memory(again.pressure, start)
-    for array in (again.pressure, again.problem.gap):
-        with pytest.raises(ValueError, match="read-only"):
-            array[0, 0] = 1.0
 
 
 @pytest.mark.parametrize("side", [4, 40])
@@ -323,10 +183,3 @@ def test_numbers_that_overflow_are_an_honest_failure(prescribed, side):
     assert contact.converged == (contact.residual <= contact.tolerance)
     if contact.converged:
         assert np.isfinite([contact.force, contact.approach]).all()
-
-
-def test_unreachable_tolerance_is_an_honest_failure():
-    half_space = bem3d.HalfSpace(shape=(8, 8), spacing=1.0, modulus=1.0)
-    gap = np.random.default_rng(0).random((8, 8))
-    with pytest.raises(bem3d.ConvergenceError):
-        bem3d.solve(half_space, gap, approach=0.7, tolerance=1e-30, max_iterations=200)

@@ -30,24 +30,16 @@ def test_sphere_force_at_second_order():
 
 
 @pytest.mark.parametrize("offset", [(0.0, 0.0), (0.5, 0.5), (0.3, 0.1)])
-def test_sphere_anywhere_between_the_cells(offset):
-    """The centre on a corner, a centre or anywhere in a cell: the same bound."""
+@pytest.mark.parametrize("across", [1, 2])
+def test_sphere_anywhere_between_the_cells(offset, across):
+    """The centre on a corner, a centre or anywhere in a cell, on squares and on longer cells: the same bound."""
     n = 24
-    x, y = ((np.arange(4 * n) - 2 * n + 0.5 + shift) / n for shift in offset)
-    half_space = bem3d.HalfSpace(shape=(4 * n, 4 * n), spacing=1 / n, modulus=1.0)
-    gap = (x[:, np.newaxis] ** 2 + y**2) / 2
-    contact = bem3d.solve(half_space, gap, approach=1.0, tolerance=1e-8)
-    assert contact.force == pytest.approx(4 / 3, rel=0.25 / n**2)
-    assert contact.stiffness() == pytest.approx(2.0, rel=1 / n)
-
-
-def test_sphere_on_cells_that_are_no_squares():
-    n = 24
-    dx, dy = 1 / n, 1 / (2 * n)
-    x, y = (np.arange(3 * n) - 1.5 * n + 0.5) * dx, (np.arange(6 * n) - 3 * n + 0.5) * dy
-    half_space = bem3d.HalfSpace(shape=(3 * n, 6 * n), spacing=(dx, dy), modulus=1.0)
+    sides, steps = (4 * n, 4 * n * across), (1 / n, 1 / (n * across))
+    x, y = ((np.arange(m) - m / 2 + 0.5 + shift) * d for m, d, shift in zip(sides, steps, offset, strict=True))
+    half_space = bem3d.HalfSpace(shape=sides, spacing=steps, modulus=1.0)
     contact = bem3d.solve(half_space, (x[:, np.newaxis] ** 2 + y**2) / 2, approach=1.0, tolerance=1e-8)
     assert contact.force == pytest.approx(4 / 3, rel=0.25 / n**2)
+    assert contact.stiffness() == pytest.approx(2.0, rel=1 / n)
 
 
 def test_a_wider_grid_changes_nothing():

@@ -82,12 +82,3 @@ def test_equal_radii_are_a_sphere_to_the_last_digit():
     settings = {"spacing": 1e-4, "modulus": 2e11, "force": 900.0, "positions": 6}
     sphere, pair = (bem3d.roll(height, radius=radius, **settings) for radius in (0.5, (0.5, 0.5)))
     np.testing.assert_array_equal(sphere.approach, pair.approach)
-
-
-@pytest.mark.parametrize(
-    ("radius", "message"),
-    [((1.0, 1.0, 1.0), "one number or two"), ((1.0, -1.0), r"radius\[1\]"), ((math.nan, 1.0), r"radius\[0\]")],
-)
-def test_radii_that_are_none_are_refused(radius, message):
-    with pytest.raises(ValueError, match=message):
-        bem3d.Track(height=np.zeros((8, 8)), spacing=1.0, radius=radius, modulus=1.0)

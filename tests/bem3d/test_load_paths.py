@@ -43,14 +43,6 @@ def test_a_punch_that_keeps_its_cells_is_predicted(path, stiffness, tolerance):
     assert last.operator_applications == 1
 
 
-def test_a_finer_stiffness_than_the_path_has_brought_is_solved_for():
-    contact = next(bem3d.indent(BODY, GAP, forces=[1.0], stiffness=True))
-    assert contact.frozen.residual > 1e-9
-    exact = contact.stiffness(tolerance=1e-9)
-    assert exact != contact.frozen.stiffness
-    assert exact == pytest.approx(contact.frozen.stiffness, rel=1e-6)
-
-
 @pytest.mark.slow
 @given(problem=pressed(most=12, by=("force",)))
 def test_error_of_the_stiffness_is_the_residual_squared(problem):
@@ -99,38 +91,6 @@ def test_contacts_come_one_by_one(monkeypatch):
     assert [problem.force for problem in solved] == [1.0]
     with pytest.raises(ValueError, match=r"forces\[1\] must be zero or positive, got -1"):
         bem3d.indent(BODY, GAP, forces=[1.0, -1.0])
-
-
-@pytest.mark.parametrize(
-    ("settings", "sentence"),
-    [
-        ({}, "give either approaches or forces, got approaches=None and forces=None"),
-        ({"forces": [1.0], "approaches": [1.0]}, "give either approaches or forces"),
-        ({"forces": []}, "forces must be a flat sequence of numbers, one at least"),
-        ({"forces": 1.0}, "forces must be a flat sequence"),
-        ({"forces": [[1.0]]}, "forces must be a flat sequence"),
-        ({"forces": [1.0, float("nan")]}, r"forces\[1\] must be finite, got nan"),
-        ({"approaches": [1.0, float("inf")]}, r"approaches\[1\] must be finite, got inf"),
-        ({"forces": [1.0], "tolerance": 0.0}, "tolerance must lie between 0 and 1"),
-        ({"forces": [1.0], "max_iterations": 0}, "max_iterations must be at least 1"),
-    ],
-)
-def test_bad_paths_are_refused(settings, sentence):
-    with pytest.raises(ValueError, match=sentence):
-        bem3d.indent(BODY, GAP, **settings)
-
-
-def test_a_path_that_does_not_converge():
-    """Raised where it happens; or a status, after which the path goes on from a cold start."""
-    path = bem3d.indent(BODY, GAP, forces=[1.0, 2.0], max_iterations=1)
-    with pytest.raises(bem3d.ConvergenceError, match="iteration limit"):
-        next(path)
-    contacts = list(
-        bem3d.indent(BODY, GAP, forces=[1.0, 2.0], max_iterations=1, stiffness=True, raise_on_failure=False)
-    )
-    assert [contact.status for contact in contacts] == ["iteration limit"] * 2
-    with pytest.raises(bem3d.ConvergenceError, match="no stiffness"):
-        contacts[0].stiffness()
 
 
 def test_a_stiffness_that_was_brought_along_is_not_solved_for_again(monkeypatch):

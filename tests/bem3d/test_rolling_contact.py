@@ -7,10 +7,6 @@ import pytest
 
 import bem3d
 from bem3d import convolution
-from bem3d.projected_cg import Load
-from bem3d.rolling_frame import Frame
-from bem3d.rolling_solve import _pressing
-from bem3d.window import Candidates
 from validation.theory.rolling import linear_force, response
 
 TOLERANCE = 1e-6
@@ -92,40 +88,6 @@ def test_a_prescribed_force_is_borne_at_every_position(name):
     assert np.abs(found.force / 0.7 - 1).max() <= 1e-12
 
 
-@pytest.mark.parametrize("name", ["smooth", "as rough as deep"])
-def test_pressures_solve_the_contact_on_all_of_the_strip(name):
-    """p >= 0, w >= 0, p w = 0 within the residual, with u applied anew on a grid that holds the strip."""
-    height, spacing = STRIPS[name], 1 / CELLS[name]
-    track = bem3d.Track(height=height, spacing=spacing, **SPHERE)
-    wheel = bem3d.RollingContact(track, tolerance=TOLERANCE)
-    nx, ny = height.shape
-    body = bem3d.HalfSpace(shape=height.shape, spacing=spacing, modulus=1.0)
-    for position in range(8):
-        contact = wheel.press(position, 1.0)
-        last = wheel._past[-1]
-        whole = Frame(track, ((-(nx // 2), nx - nx // 2), (0, ny)))
-        pressure, gap = whole.take(last.pressure, last.frame), whole.gap(position)
-        x, y, shown = wheel.pressure()
-        assert np.sort(shown[shown > 0]).tolist() == np.sort(pressure[pressure > 0]).tolist()
-        # (x, y) of the middle of the pressure, by rows counted from the wheel and columns from the middle
-        rows, columns = np.arange(nx) - nx // 2, np.arange(ny) - (ny - 1) / 2
-        assert (x @ shown).sum() == pytest.approx(spacing * (rows @ pressure).sum(), abs=1e-12 * pressure.sum())
-        assert (shown @ y).sum() == pytest.approx(spacing * (pressure @ columns).sum(), abs=1e-12 * pressure.sum())
-        assert pressure.min() >= 0
-        assert pressure.sum() * spacing**2 == pytest.approx(contact.force, rel=1e-14)
-        w = gap + body.displacement(pressure) - 1.0
-        assert bem3d.residual(pressure, w, 1.0 - float(gap.min())) <= TOLERANCE * (1 + 1e-6)
-
-
-def test_a_track_is_a_copy():
-    height = np.zeros((8, 7))
-    track = bem3d.Track(height=height, spacing=1.0, radius=4.0, modulus=1.0)
-    height += 1.0
-    assert not track.height.any()
-    with pytest.raises(ValueError, match="read-only"):
-        track.height[0, 0] = 1.0
-
-
 def test_there_is_no_pressure_before_a_position_is_solved():
     wheel = bem3d.RollingContact(bem3d.Track(height=STRIPS["flat"], spacing=1 / 6, **SPHERE), max_iterations=1)
     with pytest.raises(ValueError, match="there is no pressure"):
@@ -143,16 +105,6 @@ def test_the_plane_from_which_heights_count_does_not_matter_under_a_force(offset
     plain, moved = (bem3d.roll(h, **settings) for h in (height, height + offset))
     assert moved.approach == pytest.approx(plain.approach - offset, abs=2 * ERROR)
     assert np.abs(moved.area - plain.area).max() <= 2 / 7**2
-
-
-@pytest.mark.parametrize("by", ["approach", "force"])
-def test_a_shift_of_the_strip_shifts_the_force(by):
-    height = noisy(6, 0.2)
-    settings = {"spacing": 1 / 6, **SPHERE, by: 1.0, "tolerance": TOLERANCE}
-    there = bem3d.roll(height, **settings)
-    here = bem3d.roll(np.roll(height, 7, axis=0), **settings)
-    assert here.force == pytest.approx(np.roll(there.force, 7), rel=ERROR)
-    assert here.approach == pytest.approx(np.roll(there.approach, 7), rel=ERROR)
 
 
 @pytest.mark.parametrize(("unit", "metre"), [(2.0**38, 2.0**-10), (210e9, 1e-3), (1e-3, 1e6)])
@@ -219,28 +171,6 @@ def test_the_odd_part_is_linear_theory_and_the_even_part_of_second_order():
     assert rms(slopes[-1] - exact) <= 0.02 * rms(exact)
 
 
-@pytest.mark.parametrize("seed", range(40))
-@pytest.mark.parametrize("by", ["approach", "force"])
-def test_a_start_that_pulls_is_made_one_that_presses(by, seed):
-    """Nowhere negative, under the same force, with the displacement that it has; at worst it presses evenly."""
-    rng = np.random.default_rng(seed)
-    pressure, separation = rng.normal(size=3) + 0.2, 30 * rng.normal(size=3)
-    if seed == 0:
-        # the step takes all from the one cell that presses, and the other must not have any
-        pressure, separation = np.array([0.3094, -0.064]), np.array([-1.0293, 2.9952])
-    shape = (1, pressure.size)
-    cells = Candidates(bem3d.HalfSpace(shape=shape, spacing=1.0, modulus=1.0), np.ones(shape, dtype=bool))
-    if pressure.sum() <= 0:
-        return
-    load = Load(total=float(pressure.sum())) if by == "force" else Load(overlap=1.0)
-    pressing, moved = _pressing(cells, pressure, separation, load)
-    assert (pressing >= 0).all()
-    np.testing.assert_allclose(moved - separation, cells.displacement(pressing - pressure), atol=1e-12)
-    if by == "force":
-        assert pressing.sum() == pytest.approx(pressure.sum(), rel=1e-12)
-        assert seed or pressing[0] == pressing[1]
-
-
 def bumpy(*, row, column=0.0, cells=6, tall=4.0):
     """A flat strip with one tall bump, of a cell, so many radii from where the wheel starts."""
     height = np.zeros((14 * cells, 9 * cells))
@@ -266,14 +196,6 @@ def test_a_bump_far_ahead_is_touched_before_the_frame_has_reached_it(by, column)
         assert found.approach[position] == pytest.approx(contact.approach, abs=ERROR * overlap)
 
 
-def test_a_bump_far_ahead_is_touched_at_the_first_position():
-    height = bumpy(row=2.5)
-    found = bem3d.roll(height, spacing=1 / 6, **SPHERE, approach=1.0, positions=1, tolerance=TOLERANCE)
-    contact = cold(height, 1 / 6, 0, approach=1.0)
-    assert found.force[0] == pytest.approx(contact.force, rel=10 * ERROR)
-    assert found.force[0] > 1.01 * HERTZ
-
-
 def test_no_contact_but_of_a_bump_outside_of_the_frame():
     """The wheel is lifted above the plane; only the bump, beyond the frame of before, reaches it."""
     height = bumpy(row=3)
@@ -282,15 +204,6 @@ def test_no_contact_but_of_a_bump_outside_of_the_frame():
     contact = wheel.press(4, -0.2)
     assert contact.area == pytest.approx(1 / 36)
     assert contact.force == pytest.approx(cold(height, 1 / 6, 4, approach=-0.2).force, rel=10 * ERROR)
-
-
-def test_a_contact_that_reaches_the_edge_of_the_strip():
-    height = np.zeros((60, 18))
-    height[30, -1] = 2.0
-    with pytest.raises(ValueError, match="wider than the contact, which reaches the edge of the strip of 18 cells"):
-        bem3d.roll(height, spacing=1 / 6, **SPHERE, approach=1.0)
-    # until it does, the strip is wide enough
-    assert bem3d.roll(height, spacing=1 / 6, **SPHERE, approach=1.0, positions=10).converged.all()
 
 
 @pytest.mark.parametrize("row", [3, 9, 10, 11])
@@ -315,15 +228,6 @@ def test_a_contact_that_the_wheel_leaves_behind(prescribed):
         )
         assert found.force[position] == pytest.approx(cold.force[0], rel=1e-5, abs=1e-9)
         assert found.approach[position] == pytest.approx(cold.approach[0], rel=1e-5)
-
-
-def test_a_position_that_does_not_converge_is_an_error_with_its_history():
-    settings = {"spacing": 1 / 6, **SPHERE, "approach": 1.0, "tolerance": 1e-9}
-    with pytest.raises(bem3d.ConvergenceError, match=r"residual .* after 3 iterations .* at position 0") as caught:
-        bem3d.roll(noisy(6, 0.3), **settings, max_iterations=3)
-    assert len(caught.value.history) == 4
-    assert caught.value.history[-1] > 1e-9
-    assert not caught.value.result.converged
 
 
 def test_a_position_that_does_not_converge_is_marked_and_the_wheel_goes_on():

@@ -69,31 +69,3 @@ def test_a_profile_whose_top_is_beside_the_middle_moves_the_contact():
     assert beside.approach == pytest.approx(middle.approach, rel=1e-5)
     _, places, pressure = wheels[1].pressure()
     assert places[pressure.sum(axis=0).argmax()] == pytest.approx(10 * 2.5e-4)
-
-
-PARABOLA = -(across(48, 2.5e-4) ** 2) / 0.6
-
-
-@pytest.mark.parametrize(
-    ("profile", "error", "said"),
-    [
-        (PARABOLA[:-1], ValueError, r"transverse_profile must have shape \(48,\), got shape \(47,\)"),
-        (PARABOLA[:, np.newaxis], ValueError, r"must have shape \(48,\)"),
-        (np.where(np.arange(48) == 3, np.nan, PARABOLA), ValueError, "transverse_profile must be finite, got 1 NaN"),
-        (np.ma.masked_less(PARABOLA, -1e-5), ValueError, "transverse_profile must have a value everywhere"),
-        (["a"] * 48, TypeError, "transverse_profile must hold real numbers"),
-        (PARABOLA + 1e-3, ValueError, "must be zero at its highest point, got 0.000999"),
-        (PARABOLA - 1e-3, ValueError, "must be zero at its highest point, got -0.001"),
-        (-PARABOLA, ValueError, "must be highest inside of the strip, got its top in column 0"),
-        (np.maximum(PARABOLA, -2e-5) * 0, ValueError, "must be highest inside of the strip"),
-        (np.where(np.abs(np.arange(48) - 24) < 20, 0.0, -1e-4), ValueError, "must fall from its highest point"),
-    ],
-)
-def test_profiles_that_are_none_are_refused(profile, error, said):
-    with pytest.raises(error, match=said):
-        bem3d.roll(STRIP, radius=0.46, transverse_profile=profile, approach=1e-5, **SETTINGS)
-
-
-def test_a_profile_takes_the_place_of_one_of_two_radii():
-    with pytest.raises(TypeError, match=r"radius must be a real number, got \(0.46, 0.3\)"):
-        bem3d.roll(STRIP, radius=(0.46, 0.3), transverse_profile=PARABOLA, approach=1e-5, **SETTINGS)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy import integrate
 
-from validation.analysis.answers import SHORT
+from validation.analysis.claims import STATUS_WORDS
 from validation.analysis.evidence import ClaimStatus, Verdict, numbers_with
 from validation.analysis.spectra import Bands
 from validation.cases.rolling import force_spectrum as rolling
@@ -170,7 +170,7 @@ def test_claims_of_rolling_follow_their_numbers(rolled):
     for result, status in ((exact, ClaimStatus.HOLDS), (louder(exact, 2.0), ClaimStatus.CONTRADICTED)):
         (claim,) = (claim for claim in CASE.evidence(result).claims if claim.claim.startswith("Linear theory in 3D"))
         assert claim.status is status
-        assert claim.answer.startswith(SHORT[status])
+        assert claim.answer.startswith(STATUS_WORDS[status])
     geike = CASE.evidence(exact).claims[0]
     assert geike.claim == CASE.claim
     assert geike.status is ClaimStatus.CONTRADICTED
@@ -195,7 +195,7 @@ def test_the_first_screen_finds_the_numbers_of_rolling(rolled):
     rows = {row.question.name: row for row in answered_questions([section])}
     slope = 0.01 * SMALL.spectrum.slope_along
     for name in ("rolling-rms", "rolling-spectrum"):
-        assert rows[name].strip[1].place == f"{slope:.2g}"
+        assert rows[name].strip[1][0] == f"{slope:.2g}"
         assert rows[name].measured.endswith("H = 0.7")
     assert rows["rolling-spectrum"].word == "No"
 

@@ -7,7 +7,6 @@ import json
 import os
 import subprocess
 import sys
-import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -27,21 +26,6 @@ def test_results_come_in_order_and_once(problems, tmp_path):
     assert computed(problems[0].log) == [0, 1, 2, 3, 4]
     assert same(first, again)
     assert same(first, Engine().map(toy, problems))
-
-
-def test_damaged_and_foreign_files_are_computed_anew(problems, tmp_path):
-    store = tmp_path / "store"
-    first = Engine(store=store).map(toy, problems)
-    files = sorted(store.iterdir())
-    assert len(files) == 5
-    whole = files[0].read_bytes()
-    files[0].write_bytes(whole[: len(whole) // 2])
-    files[1].write_bytes(b"")
-    files[2].write_bytes(os.urandom(1000))
-    files[3].write_bytes(files[4].read_bytes())
-    assert same(first, Engine(store=store).map(toy, problems))
-    assert len(computed(problems[0].log)) == 9
-    assert files[0].read_bytes() == whole
 
 
 @pytest.mark.slow
@@ -65,12 +49,12 @@ def sealed(archive):
     return archive + hashlib.sha256(archive).digest()
 
 
-def repacked(contents, change, pack=np.savez):
+def repacked(contents, change):
     """The same archive with other arrays in it, and a right seal."""
     with np.load(io.BytesIO(contents[: -stored.SEAL])) as arrays:
         held = {name: arrays[name] for name in arrays.files}
     archive = io.BytesIO()
-    pack(archive, **change(held))
+    np.savez(archive, **change(held))
     return sealed(archive.getvalue())
 
 
@@ -88,22 +72,10 @@ def relabelled(contents, **changes):
     return repacked(contents, change)
 
 
-def entry(name, contents):
-    """An archive of one entry that no array fills."""
-    archive = io.BytesIO()
-    with zipfile.ZipFile(archive, "w") as entries:
-        entries.writestr(name, contents)
-    return sealed(archive.getvalue())
-
-
-def promising(shape):
-    """A header without the array behind it."""
-    header = io.BytesIO()
-    np.lib.format.write_array_header_1_0(header, {"descr": "<f8", "fortran_order": False, "shape": shape})
-    return header.getvalue()
-
-
 FORGED = {
+    "the first half": lambda whole: whole[: len(whole) // 2],
+    "nothing": lambda whole: b"",
+    "noise": lambda whole: os.urandom(1000),
     "a missing array": lambda whole: repacked(whole, without("value")),
     "one too many": lambda whole: repacked(whole, lambda held: held | {"more": np.ones(2)}),
     "another shape": lambda whole: repacked(whole, lambda held: held | {"value": np.ones((2, 2))}),
@@ -113,11 +85,6 @@ FORGED = {
     "a label that is a number": lambda whole: repacked(whole, lambda held: held | {stored.LABEL: np.ones(1)}),
     "an older format": lambda whole: relabelled(whole, format=1),
     "another problem": lambda whole: relabelled(whole, key="another"),
-    "compressed": lambda whole: repacked(whole, lambda held: held, np.savez_compressed),
-    "a bomb": lambda whole: repacked(whole, lambda held: held | {"value": np.zeros(10**7)}, np.savez_compressed),
-    "a header of 1e14 numbers": lambda whole: entry("value.npy", promising((10**14,))),
-    "a header of negative size": lambda whole: entry("value.npy", promising((-1,))),
-    "no array": lambda whole: entry("value.npy", b"text"),
     "no archive": lambda whole: sealed(b"text"),
     "a seal alone": lambda whole: sealed(b""),
     "an archive of others": lambda whole: whole[: -stored.SEAL],
@@ -126,7 +93,7 @@ FORGED = {
 
 @pytest.mark.parametrize("forged", FORGED.values(), ids=FORGED)
 def test_what_is_not_as_it_was_written_is_computed_anew(forged, problems, tmp_path):
-    """Though the seal is right: never taken, never an error, and written over."""
+    """Though the seal may be right: never taken, never an error, and written over."""
     engine = Engine(store=tmp_path / "store")
     first = engine.map(toy, problems[:1])
     (path,) = (tmp_path / "store").iterdir()
@@ -177,7 +144,7 @@ def test_a_place_that_something_else_has_taken_is_refused(kind, problems, tmp_pa
 
 
 def test_what_is_timed_is_timed_anew(problems, tmp_path):
-    """Of the solves that were asked for, under whatever name they are stored; others, and files of others, stay."""
+    """Results of this run are forgotten; others, and files of others, stay."""
     engine = Engine(store=tmp_path)
     engine.map(other_toy, problems[:1])
     (kept,) = (path.name for path in tmp_path.glob("*.npz"))
@@ -279,12 +246,6 @@ def test_another_version_of_a_library_is_another_version_of_the_numerics(library
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(importlib.metadata, "version", lambda name: "9" if name == library else version(name))
         assert digest() != here
-
-
-def test_one_part_that_fails_is_a_failed_solve():
-    assert ensemble._failed({"failed": np.array([0.0, 1.0])})
-    assert not ensemble._failed({"failed": np.zeros(2)})
-    assert not ensemble._failed({})
 
 
 def test_an_engine_is_its_settings():

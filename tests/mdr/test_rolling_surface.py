@@ -118,27 +118,6 @@ def test_weights_across_are_a_mean_and_that_of_the_flat_punch(half_widths, point
         assert square == pytest.approx(b**2 / 2, abs=(8.0 / points) * max(b, 8.0 / points))
 
 
-@pytest.mark.parametrize(
-    ("wrong", "message"),
-    [
-        ({"height": np.zeros(5)}, "height"),
-        ({"height": np.full((60, 41), np.nan)}, "finite"),
-        ({"height": np.zeros((20, 41))}, "longer"),
-        ({"height": np.zeros((60, 20))}, "wider"),
-        ({"spacing": 0.0}, "spacing"),
-        ({"radius": (1.0, -1.0)}, "radius"),
-        ({"modulus": math.inf}, "modulus"),
-        ({"approach": -1.0}, "approach"),
-        ({"force": 1.0}, "either approach or force"),
-        ({"height": np.pad(np.full((1, 1), 1e6), ((0, 59), (20, 20)))}, "springs on each side"),
-    ],
-)
-def test_bad_input_is_named(wrong, message):
-    _, given_ = settings(1.0, cells=16)
-    with pytest.raises(ValueError, match=message):
-        mdr.roll_surface(**{"height": np.zeros((60, 41)), **given_, "approach": D} | wrong)
-
-
 def test_few_springs_are_warned_of():
     _, given_ = settings(1.0, cells=4)
     with pytest.warns(mdr.SpringResolutionWarning):

@@ -1,12 +1,13 @@
 """Warnings of springs, with numbers, of what an answer may still be wrong about."""
 
+import math
 import warnings
+from functools import partial
 
 import numpy as np
 import pytest
 
 import mdr
-from mdr import diagnostics
 
 WHEEL = {"radius": 1.0, "modulus": 1.0, "approach": 1.0}
 
@@ -24,36 +25,6 @@ def parabola(springs):
     return mdr.load_curve(-mdr.sphere_profile(x, radius=1.0), length=16.0, modulus=1.0)
 
 
-@pytest.mark.parametrize(("springs", "warned"), [(4, True), (14, True), (16, False), (40, False)])
-def test_few_springs_in_contact(springs, warned):
-    point, found = said(parabola(springs).at_approach, 1.0)
-    assert round(point.stiffness * springs / 2) == springs
-    assert [category for category, _, _ in found] == [mdr.SpringResolutionWarning] * warned
-    if warned:
-        _, sentence, place = found[0]
-        assert sentence.startswith(f"only {springs} springs in contact: k may be {1 / springs:.0%} off")
-        assert place == __file__
-
-
-def test_one_spring_and_no_spring():
-    curve = parabola(4)
-    _, ((_, sentence, _),) = said(curve.at_force, 1e-9)
-    assert sentence.startswith("only 2 springs in contact")
-    _, ((_, sentence, _),) = said(mdr.load_curve([0.0, 1.0, 0.0], length=1.0, modulus=1.0).at_force, 1e-9)
-    assert sentence.startswith("only 1 spring in contact: the answer is that of the spacing, not of the profile")
-    assert said(curve.at_force, 0.0)[1] == []
-
-
-def test_many_loads_are_warned_of_once():
-    curve = parabola(40)
-    _, ((_, sentence, _),) = said(curve.at_approach, np.array([-1.0, 0.01, 0.02, 1.0]))
-    assert sentence.startswith("only 4 springs in contact at 2 of 4 loads, at the lightest: k may be 25% off")
-
-
-def test_no_warning_of_a_punch_all_of_whose_springs_carry():
-    assert said(mdr.load_curve(np.zeros(5), length=1.0, modulus=1.0).at_approach, 1.0)[1] == []
-
-
 @pytest.mark.parametrize("springs", [5, 9, 15])
 def test_error_of_few_springs_is_that_of_the_warning(springs):
     """Springs anywhere under a parabola: never off by more than a spring, and 1 / sqrt(6) of one in the mean square."""
@@ -66,33 +37,62 @@ def test_error_of_few_springs_is_that_of_the_warning(springs):
     assert np.sqrt(np.mean((counts - lengths[:, np.newaxis]) ** 2)) == pytest.approx(1 / np.sqrt(6), rel=0.01)
 
 
-@pytest.mark.parametrize(("waves", "warned"), [(25, True), (17, True), (16, False), (8, False)])
-def test_short_waves(waves, warned):
+def drawn(waves):
     """So many of the shortest on 64 springs."""
     band = mdr.SelfAffine(hurst=0.8, q_min=2 * np.pi, q_max=2 * np.pi * waves, rms=1e-2)
-    _, found = said(mdr.rough_profile, band.c1d, length=1.0, points=64, rng=np.random.default_rng(0))
-    assert [category for category, _, _ in found] == [mdr.SpringResolutionWarning] * warned
-    if warned:
-        assert found[0][1].startswith(f"the shortest wave of the spectrum has {64 / waves:.2g} springs, fewer than 4")
-        assert found[0][2] == __file__
+    mdr.rough_profile(band.c1d, length=1.0, points=64, rng=np.random.default_rng(0))
 
 
-@pytest.mark.parametrize("roll", [mdr.roll, mdr.rolling_force])
-@pytest.mark.parametrize(("springs", "warned"), [(5, True), (15, True), (16, False), (60, False)])
-def test_a_smooth_contact_of_few_springs(roll, springs, warned):
-    _, found = said(roll, np.zeros(8 * springs), spacing=2 / springs, **WHEEL)
-    assert [category for category, _, _ in found] == [mdr.SpringResolutionWarning] * warned
-    if warned:
-        assert found[0][1].startswith(f"the contact of the smooth wheel has only {springs} springs")
-        assert found[0][2] == __file__
-    _, in_step = said(
-        mdr.RollingEnsemble, np.zeros((8 * springs, 2)), spacing=2 / springs, radius=1.0, modulus=1.0, force=4 / 3
+def rolled(roll, springs):
+    """A smooth wheel with so many springs to its contact."""
+    roll(np.zeros(8 * springs), spacing=2 / springs, **WHEEL)
+
+
+def in_step(height, spacing, **wheel):
+    force = 4 / 3 * wheel["modulus"] * math.sqrt(wheel["radius"]) * wheel.pop("approach") ** 1.5
+    mdr.RollingEnsemble(height[:, np.newaxis], spacing=spacing, **wheel, force=force * (1 - 1e-12))
+
+
+def under(*forces):
+    """One spring that stands out of three."""
+    mdr.load_curve([0.0, 1.0, 0.0], length=1.0, modulus=1.0).at_force(np.array(forces))
+
+
+ROLLS = (mdr.roll, mdr.rolling_force, in_step)
+FEW, SHORT = "springs in contact: k may be", "the shortest wave of the spectrum has"
+SMOOTH = "the contact of the smooth wheel has only"
+WARNED = {
+    "4 springs": (lambda: parabola(4).at_approach(1.0), f"only 4 {FEW} 25% off; take more springs"),
+    "14 springs": (lambda: parabola(14).at_approach(1.0), f"only 14 {FEW} 7% off"),
+    "16 springs": (lambda: parabola(16).at_approach(1.0), None),
+    "two springs": (lambda: parabola(4).at_force(1e-9), f"only 2 {FEW} 50% off"),
+    "one spring": (lambda: under(1e-9), "only 1 spring in contact: the answer is that of the spacing, not of the"),
+    "one spring or all": (lambda: under(1e-9, 9.0), "only 1 spring in contact at 1 of 2 loads, at the lightest: the"),
+    "no spring": (lambda: parabola(4).at_force(0.0), None),
+    "no spring or many": (lambda: parabola(40).at_approach(np.array([-1.0, 1.0])), None),
+    "many loads": (
+        lambda: parabola(40).at_approach(np.array([-1.0, 0.01, 0.02, 1.0])),
+        "only 4 springs in contact at 2 of 4 loads, at the lightest: k may be 25% off",
+    ),
+    "a punch": (lambda: mdr.load_curve(np.zeros(5), length=1.0, modulus=1.0).at_approach(1.0), None),
+    "short waves": (lambda: drawn(25), f"{SHORT} 2.6 springs, fewer than 4"),
+    "waves just too short": (lambda: drawn(17), f"{SHORT} 3.8 springs, fewer than 4"),
+    "waves just long enough": (lambda: drawn(16), None),
+    **{f"5 under {roll.__name__}": (partial(rolled, roll, 5), f"{SMOOTH} 5 springs") for roll in ROLLS},
+    **{f"15 under {roll.__name__}": (partial(rolled, roll, 15), f"{SMOOTH} 15 springs") for roll in ROLLS},
+    **{f"16 under {roll.__name__}": (partial(rolled, roll, 16), None) for roll in ROLLS},
+    "no contact": (lambda: mdr.roll(np.zeros(80), **{**WHEEL, "approach": np.full(80, -1.0)}, spacing=0.05), None),
+}
+
+
+@pytest.mark.parametrize("what", WARNED)
+def test_what_is_warned_of(what):
+    call, words = WARNED[what]
+    _, found = said(call)
+    assert [(category, place) for category, _, place in found] == [(mdr.SpringResolutionWarning, __file__)] * bool(
+        words
     )
-    assert [warning[:2] for warning in in_step] == [warning[:2] for warning in found]
-
-
-def test_no_contact_is_no_contact_of_few_springs():
-    assert said(mdr.roll, np.zeros(80), spacing=0.05, radius=1.0, modulus=1.0, approach=np.full(80, -1.0))[1] == []
+    assert all(sentence.startswith(words) for _, sentence, _ in found)
 
 
 @pytest.mark.parametrize(
@@ -105,18 +105,10 @@ def test_warnings_of_the_units_of_a_sphere(modulus, approach, asked):
     _, rolled = said(mdr.roll, np.zeros(200), **wheel, approach=approach)
     _, borne = said(mdr.roll, np.zeros(200), **wheel, force=contact.force * (1 - 1e-12))
     _, forced = said(mdr.rolling_force, np.zeros(200), **wheel, approach=approach)
-    _, in_step = said(mdr.RollingEnsemble, np.zeros((200, 1)), **wheel, force=contact.force * (1 - 1e-12))
+    _, ensemble = said(mdr.RollingEnsemble, np.zeros((200, 1)), **wheel, force=contact.force * (1 - 1e-12))
     sentence = "the radius of contact is 1.1 times that of the sphere: are the units right?"
-    for told in (found, rolled, borne, forced, in_step):
+    for told in (found, rolled, borne, forced, ensemble):
         assert told == [(mdr.SpringUnitsWarning, sentence, __file__)] * asked
-
-
-def test_warning_of_a_modulus_in_gigapascals():
-    """2 GPa typed as 2."""
-    assert said(mdr.press_sphere, radius=1e-2, modulus=2e9, force=50.0)[1] == []
-    ((category, sentence, _),) = said(mdr.press_sphere, radius=1e-2, modulus=2.0, force=50.0)[1]
-    assert category is mdr.SpringUnitsWarning
-    assert sentence == "the radius of contact is 57.2 times that of the sphere: are the units right?"
 
 
 def rough(height, q_max=3.0):
@@ -146,49 +138,7 @@ def test_no_warning_of_low_roughness(height, warned):
     _, found = said(mdr.roll, rough(height), spacing=1 / 32, **WHEEL, contact="linear")
     assert [category for category, _, _ in found] == [mdr.LinearityWarning] * warned
     assert said(mdr.roll, rough(height), spacing=1 / 32, **WHEEL)[1] == []
-
-
-def test_no_warning_of_a_smooth_track():
     assert said(mdr.roll, np.zeros(800), spacing=1 / 32, **WHEEL, contact="full")[1] == []
-
-
-@pytest.mark.parametrize(
-    ("pressed", "sentence"),
-    [
-        ([1], "only 1 spring in contact: the answer is that of the spacing, not of the profile"),
-        ([2], "only 2 springs in contact: k may be 50% off"),
-        ([5, 900], "only 5 springs in contact at 1 of 2 loads, at the lightest: k may be 20% off"),
-        ([0, 900, 1, 3], "only 1 spring in contact at 2 of 4 loads, at the lightest: the answer is that of the "
-         "spacing, not of the profile"),
-        ([0, 900], None),
-    ],
-)  # fmt: skip
-def test_warning_of_few_springs_has_their_number(pressed, sentence):
-    found = diagnostics.diagnose_load(np.array(pressed), 1000)
-    more = "; take more springs (16 or more in contact are not warned of)"
-    assert [warning.detail for warning in found] == ([] if sentence is None else [sentence + more])
-
-
-def test_warning_of_a_linear_contact_has_the_part_it_leaves_out():
-    """(h^2 behind + h^2 ahead) / 4 d, its deviation over that of the force."""
-    rng = np.random.default_rng(2)
-    height, change = 0.3 * rng.normal(size=50), 0.2 * rng.normal(size=50)
-    left_out = np.array([(height[i - 7] ** 2 + height[(i + 7) % 50] ** 2) / (4 * 0.8) for i in range(50)])
-    part = np.std(left_out) / np.std(change)
-    (warning,) = diagnostics.diagnose_linearity(height, change, approach=0.8, reach=7)
-    assert type(warning) is mdr.LinearityWarning
-    assert warning.detail.startswith(
-        f"roughness of h_rms / d = {np.std(height) / 0.8:.2g} moves the ends of the contact"
-    )
-    assert f"to second order {part:.0%} of the fluctuation of its force" in warning.detail
-
-
-@pytest.mark.parametrize(("short", "warned"), [(0.9e-9, 0), (1.1e-9, 1), (1.9e-9, 1)])
-def test_a_wave_or_a_wheel_is_too_short_by_a_billionth(short, warned):
-    """Four springs to a wave, sixteen under a wheel."""
-    q = np.array([1.0, 2 * np.pi / (4 * (1 - short)), 3.0])
-    assert len(diagnostics.diagnose_waves(np.array([1.0, 1.0, 0.0]), q, 1.0)) == warned
-    assert len(diagnostics.diagnose_wheel(16 * (1 - short))) == warned
 
 
 @pytest.mark.parametrize("contact", ["linear", "full"])

@@ -90,12 +90,8 @@ def _survivors(survey: Survey, reasons: Reasons) -> list[str]:
     rows = ["| file | where | change | why it lives |", "|---|---|---|---|"]
     for mutant in left:
         reason = reasons.get(mutant.path, {}).get(mutant.key, "**no test notices**")
-        rows.append(_row([mutant.path, mutant.scope, _code(mutant.change), reason]))
+        rows.append(_row([mutant.path, mutant.scope, f"`{mutant.change}`", reason]))
     return ["## Survivors", "", *(rows if left else ["None."])]
-
-
-def _code(change: str) -> str:
-    return f"`{change}`"
 
 
 def _row(cells: Iterable[str]) -> str:

@@ -1,8 +1,8 @@
 """Faults planted in what `tests/bem3d` looks at: where, what is wrong there, and the test that must catch it."""
 
 import dataclasses
-import functools
 import math
+from functools import partial
 
 import numpy as np
 import scipy
@@ -24,20 +24,18 @@ from bem3d import rolling_solve as wheel_on_strip
 from bem3d.rolling_frame import Frame, Track
 from bem3d.smooth_wheel import smooth_contact
 from bem3d.transverse_profile import equivalent_radius
-from tests.bem3d import (
-    test_accepted_solves,
-    test_contact_properties,
-    test_convergence_rates,
-    test_elliptic_wheels,
-    test_few_cells,
-    test_load_paths,
-    test_operator_against_dense_twin,
-    test_rolling_contact,
-    test_rolling_frame,
-    test_transverse_profile,
-    test_windows_and_starts,
-)
-from tests.bem3d import test_warnings as test_doubts
+from tests.bem3d import test_accepted_solves as accepted
+from tests.bem3d import test_contact_properties as properties
+from tests.bem3d import test_convergence_rates as rates
+from tests.bem3d import test_elliptic_wheels as ellipses
+from tests.bem3d import test_few_cells as of_few_cells
+from tests.bem3d import test_load_paths as paths
+from tests.bem3d import test_operator_against_dense_twin as dense_twin
+from tests.bem3d import test_rolling_contact as rolled
+from tests.bem3d import test_rolling_frame as frames
+from tests.bem3d import test_transverse_profile as profiles
+from tests.bem3d import test_warnings as doubts
+from tests.bem3d import test_windows_and_starts as windows
 from tests.planted_faults.wrong import E_FOR_E_STAR, scaled
 from validation.theory import closed_forms
 from validation.theory import rolling as rolling_theory
@@ -125,10 +123,16 @@ judged = window_solve.IterationState.record_residual
 moments = Frame._moments
 
 
+COLD_SOLVE = partial(rolled.test_each_position_is_that_of_a_cold_solve, "smooth", "approach")
+UNIT_OF_FORCE = partial(of_few_cells.test_the_modulus_is_the_unit_of_force, 3.0)
+
+CUT_SHORT = partial(accepted.test_a_solve_that_is_cut_short_says_so, "solve", 3)
+WORN_PROFILE = profiles.test_a_worn_profile_against_a_fine_solve_of_the_plain_contact
+
 FAULTS = {
     "a profile across that is half as high as it is": (
         (rolling_frame, "checked_profile", lambda z, columns, step: np.asarray(z) / 2),
-        test_transverse_profile.test_a_worn_profile_against_a_fine_solve_of_the_plain_contact,
+        WORN_PROFILE,
     ),
     "a profile across for the parabola that it is about": (
         (
@@ -138,173 +142,142 @@ FAULTS = {
                 -(((np.arange(columns) - (columns - 1) / 2) * step) ** 2) / (2 * equivalent_radius(z, step))
             ),
         ),
-        test_transverse_profile.test_a_worn_profile_against_a_fine_solve_of_the_plain_contact,
+        WORN_PROFILE,
     ),
     "E for E* in boundary elements": (
         (kernel, "free_space_symbol", scaled(kernel.free_space_symbol, E_FOR_E_STAR)),
-        test_convergence_rates.test_sphere_force_at_second_order,
+        rates.test_sphere_force_at_second_order,
     ),
     "E for E* among few cells": (
         (few_cells, "_influence", scaled(few_cells._influence, E_FOR_E_STAR)),
-        test_few_cells.test_one_cell_is_as_soft_as_it_is_alone,
+        of_few_cells.test_one_cell_is_as_soft_as_it_is_alone,
     ),
     "a cell that has left, kept for the rounding of its pressure": (
         (projected_cg, "_left_over", lambda pressure, change: np.maximum(pressure + change, 0.0)),
-        test_few_cells.test_a_cell_that_leaves_the_contact_keeps_no_rounding_of_its_pressure,
+        of_few_cells.test_a_cell_that_leaves_the_contact_keeps_no_rounding_of_its_pressure,
     ),
     "a second modulus among few cells": (
         (few_cells, "_influence", lambda body: influence(body) / body.modulus),
-        functools.partial(test_few_cells.test_the_modulus_is_the_unit_of_force, 3.0),
+        UNIT_OF_FORCE,
     ),
-    "few cells on the body that was pressed before": (
-        (few_cells, "_influence", of_the_first_body({})),
-        functools.partial(test_few_cells.test_the_modulus_is_the_unit_of_force, 3.0),
-    ),
+    "few cells on the body that was pressed before": ((few_cells, "_influence", of_the_first_body({})), UNIT_OF_FORCE),
     "the sum of the pressure for its energy": (
         (few_cells, "_sum_of_unit_pressure", summed_pressure),
-        functools.partial(test_few_cells.test_stiffness_of_a_flat_punch_is_that_of_a_direct_solve, (1.0, 1.0)),
+        partial(of_few_cells.test_stiffness_of_a_flat_punch_is_that_of_a_direct_solve, (1.0, 1.0)),
     ),
     "few cells as wide as they are long": (
         (few_cells, "_influence", among_square_cells),
-        test_few_cells.test_one_cell_is_as_soft_as_it_is_alone,
+        of_few_cells.test_one_cell_is_as_soft_as_it_is_alone,
     ),
     "the cells that are looked at first, and no others": (
         (few_cells, "GROWTH", 1),
-        test_few_cells.test_the_residual_is_that_of_the_whole_grid,
+        of_few_cells.test_the_residual_is_that_of_the_whole_grid,
     ),
     "few cells judged by a forgiving residual": (
         (few_cells, "residual", forgiving_residual),
-        test_few_cells.test_the_residual_is_that_of_the_whole_grid,
+        of_few_cells.test_the_residual_is_that_of_the_whole_grid,
     ),
     "a stiffness of few cells within a tenth": (
         (few_cells, "STIFFNESS_TOLERANCE", 0.1),
-        test_few_cells.test_stiffness_is_the_slope_of_the_load,
+        of_few_cells.test_stiffness_is_the_slope_of_the_load,
     ),
     "1.1419 for 1.1523 under the square punch": (
         (closed_forms, "SQUARE_PUNCH", 1.012 * 2 / math.sqrt(math.pi)),
-        test_convergence_rates.test_square_punch_at_first_order,
+        rates.test_square_punch_at_first_order,
     ),
     "pi lost in the pressure that closes a wave": (
         (closed_forms, "westergaard_full_pressure", scaled(closed_forms.westergaard_full_pressure, 1 / np.pi)),
-        test_convergence_rates.test_wave_pressure_at_first_order,
+        rates.test_wave_pressure_at_first_order,
     ),
     "factor 2 lost in the periodic symbol": (
         (kernel, "periodic_symbol", scaled(kernel.periodic_symbol, 0.5)),
-        test_convergence_rates.test_wave_pressure_at_first_order,
+        rates.test_wave_pressure_at_first_order,
     ),
     "factor 2 lost in the periodic symbol, against the dense twin": (
         (kernel, "periodic_symbol", scaled(kernel.periodic_symbol, 0.5)),
-        test_operator_against_dense_twin.test_displacement,
+        dense_twin.test_displacement,
     ),
-    "no padding": (
-        (halfspace, "_doubled", lambda points: points + points % 2),
-        test_operator_against_dense_twin.test_displacement,
-    ),
+    "no padding": ((halfspace, "_doubled", lambda points: points + points % 2), dense_twin.test_displacement),
     "a symbol that repeats instead of mirroring": (
         (convolution, "_halfplane", repeated),
-        test_operator_against_dense_twin.test_displacement_by_some_columns_at_a_time,
+        dense_twin.test_displacement_by_some_columns_at_a_time,
     ),
     "columns a power of two apart": (
         (convolution, "COLUMNS_AT_ONCE", 32),
-        functools.partial(
-            test_operator_against_dense_twin.test_rows_of_a_block_of_columns_are_not_a_power_of_two_apart, 1024
-        ),
+        partial(dense_twin.test_rows_of_a_block_of_columns_are_not_a_power_of_two_apart, 1024),
     ),
     # 2n - 2 points would do, since the kernel is even: the two farthest distances may share a point
     "padding two points short": (
         (halfspace, "_doubled", lambda points: max(points + points % 2, 2 * points - 4)),
-        test_operator_against_dense_twin.test_displacement,
+        dense_twin.test_displacement,
     ),
     "no padding, seen in a contact": (
         (halfspace, "_doubled", lambda points: points + points % 2),
-        test_convergence_rates.test_a_wider_grid_changes_nothing,
+        rates.test_a_wider_grid_changes_nothing,
     ),
-    "kernel shifted by half a cell": (
-        (kernel, "love_table", shifted_table),
-        test_operator_against_dense_twin.test_displacement,
-    ),
-    "half of the corner function": (
-        (kernel, "corner", one_sided_corner),
-        test_operator_against_dense_twin.test_love_against_quadrature,
-    ),
+    "kernel shifted by half a cell": ((kernel, "love_table", shifted_table), dense_twin.test_displacement),
+    "half of the corner function": ((kernel, "corner", one_sided_corner), dense_twin.test_love_against_quadrature),
     "stiffness of a contact grown by a cell": (
         (contact, "solve_fixed_area", grown_contact),
-        test_contact_properties.test_stiffness_is_that_of_the_dense_contact,
+        properties.test_stiffness_is_that_of_the_dense_contact,
     ),
     "a residual that forgives": (
         ((window_solve, projected_cg), "residual", forgiving_residual),
-        test_convergence_rates.test_a_wider_grid_changes_nothing,
+        rates.test_a_wider_grid_changes_nothing,
     ),
     "a residual blind to penetration": (
         ((window_solve, projected_cg), "residual", blind_to_penetration),
-        test_contact_properties.test_complementarity,
+        properties.test_complementarity,
     ),
     "a window that cuts cells off": (
         (window_solve, "smallest_box", half_a_window),
-        functools.partial(
-            test_windows_and_starts.test_contacts_anywhere_on_the_grid, [(8, 8, 0.0), (110, 70, 0.2)], 1000.0
-        ),
+        partial(windows.test_contacts_anywhere_on_the_grid, [(8, 8, 0.0), (110, 70, 0.2)], 1000.0),
     ),
     "stiffness to first order in the residual": (
         (bem3d, "solve_fixed_area", sum_of_the_pressure),
-        test_load_paths.test_error_of_the_stiffness_is_the_residual_squared,
+        paths.test_error_of_the_stiffness_is_the_residual_squared,
     ),
     "factor 2 lost in linear theory, seen by boundary elements": (
-        (test_rolling_contact, "response", scaled(rolling_theory.response, 0.5)),
-        functools.partial(test_rolling_contact.test_ridges_across_the_track_tend_to_the_filter, 1),
+        (rolled, "response", scaled(rolling_theory.response, 0.5)),
+        partial(rolled.test_ridges_across_the_track_tend_to_the_filter, 1),
     ),
-    "x^2 / R under the sphere": (
-        (Track, "wheel", scaled(Track.wheel, 2.0)),
-        functools.partial(test_rolling_contact.test_each_position_is_that_of_a_cold_solve, "smooth", "approach"),
-    ),
-    "the wheel half a cell ahead": (
-        (Track, "along", half_a_cell_ahead),
-        functools.partial(test_rolling_contact.test_each_position_is_that_of_a_cold_solve, "smooth", "approach"),
-    ),
-    "the wheel half a cell aside": (
-        (Track, "across", half_a_cell_aside),
-        functools.partial(test_rolling_contact.test_each_position_is_that_of_a_cold_solve, "smooth", "approach"),
-    ),
+    "x^2 / R under the sphere": ((Track, "wheel", scaled(Track.wheel, 2.0)), COLD_SOLVE),
+    "the wheel half a cell ahead": ((Track, "along", half_a_cell_ahead), COLD_SOLVE),
+    "the wheel half a cell aside": ((Track, "across", half_a_cell_aside), COLD_SOLVE),
     "a frame that is trusted": (
         (Frame, "outside", lambda *_: None),
-        functools.partial(
-            test_rolling_contact.test_a_bump_far_ahead_is_touched_before_the_frame_has_reached_it, "approach", 0.0
-        ),
+        partial(rolled.test_a_bump_far_ahead_is_touched_before_the_frame_has_reached_it, "approach", 0.0),
     ),
     "a bound four times as large": (
         (Frame, "_moments", four_times_the_force),
-        test_rolling_frame.test_cells_that_a_frame_rules_out_are_open,
+        frames.test_cells_that_a_frame_rules_out_are_open,
     ),
     "a residual of rolling that is not looked at": (
         (wheel_on_strip, "residual", lambda *_: 0.0),
-        functools.partial(
-            test_rolling_contact.test_pressures_solve_the_contact_on_all_of_the_strip, "as rough as deep"
-        ),
+        accepted.test_every_position_of_a_wheel_is_within_its_tolerance,
     ),
     "a modulus in gigapascals that nobody asks about": (
         (contact, "diagnose_units", lambda **_: ()),
-        test_doubts.test_warning_of_a_modulus_in_gigapascals,
+        doubts.test_warning_of_a_modulus_in_gigapascals,
     ),
     "accepted at ten times its tolerance": (
         (window_solve.IterationState, "record_residual", at_ten_times_the_tolerance),
-        functools.partial(test_accepted_solves.test_the_tolerance_is_that_of_the_caller, 9.9e-4, None),
+        partial(accepted.test_the_tolerance_is_that_of_the_caller, 9.9e-4, None),
     ),
     "accepted at ten times its tolerance, seen by a solve": (
         (window_solve.IterationState, "record_residual", at_ten_times_the_tolerance),
-        functools.partial(test_accepted_solves.test_a_solve_that_is_cut_short_says_so, "solve", 3),
+        CUT_SHORT,
     ),
     "the iteration limit taken for convergence": (
         (contact.Contact, "converged", property(whoever_has_ended)),
-        functools.partial(test_accepted_solves.test_a_solve_that_is_cut_short_says_so, "solve", 3),
+        CUT_SHORT,
     ),
     "the radii along and across exchanged": (
         (Track, "radii", property(lambda track: track.radius[::-1])),
-        functools.partial(
-            test_elliptic_wheels.test_low_waves_under_an_ellipse_have_the_filter_of_the_half_space, (1.0, 0.2), (1, 0)
-        ),
+        partial(ellipses.test_low_waves_under_an_ellipse_have_the_filter_of_the_half_space, (1.0, 0.2), (1, 0)),
     ),
     "a circle of the mean radius for an ellipse": (
         (rolling_frame, "smooth_contact", lambda radii: smooth_contact((math.sqrt(radii[0] * radii[1]),) * 2)),
-        test_elliptic_wheels.test_the_expected_contact_is_the_ellipse_of_hertz,
+        ellipses.test_the_expected_contact_is_the_ellipse_of_hertz,
     ),
 }

@@ -31,7 +31,6 @@ from validation.analysis import multilevel, statistics
 from validation.analysis import series as analysis_series
 from validation.analysis.evidence import Verdict
 from validation.analysis.multilevel import Resolved
-from validation.analysis.over_range import signed_mean
 from validation.analysis.spectra import waves
 from validation.cases.exact import geike, square_punch
 from validation.cases.limits import sweeps as limits
@@ -217,7 +216,11 @@ FAULTS = {
         functools.partial(test_fractal_punch.test_verdicts_on_known_deviations, 1.25, 60, Verdict.UNDECIDED),
     ),
     "the mean of a decade for its worst force": (
-        (analysis_series, "worst", lambda points, parameter: replace(points[0], value=signed_mean(points))),
+        (
+            analysis_series,
+            "worst",
+            lambda points, parameter: replace(points[0], value=float(np.mean([p.difference for p in points]))),
+        ),
         test_fractal_punch.test_a_decade_is_judged_by_its_worst_force,
     ),
     "a fine application as cheap as a coarse one": (

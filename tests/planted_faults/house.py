@@ -7,5 +7,5 @@ FAULTS = {
     "a gap that the caller may still write to": (
         (problem, "kept", lambda values: values),
         test_read_only_results.test_an_older_view_of_the_gap_changes_no_problem,
-    ),
+    )
 }

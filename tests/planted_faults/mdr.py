@@ -1,8 +1,8 @@
 """Faults planted in what `tests/mdr` looks at: where, what is wrong there, and the test that must catch it."""
 
-import functools
 import math
 import types
+from functools import partial
 
 import numpy as np
 
@@ -17,18 +17,15 @@ from mdr.approach_by_sorting import Borne, by_sorting
 from mdr.candidate_springs import Near
 from mdr.diagnostics import diagnose_linearity
 from mdr.rolling_surface import weights_across
-from tests.mdr import (
-    test_drawn_roughness,
-    test_elliptic_wheels,
-    test_geike_mapping,
-    test_rolling_springs,
-    test_rolling_surface,
-    test_springs_against_brute_force,
-)
-from tests.mdr import test_rolling_ensemble as test_wheels_on_springs
-from tests.mdr import test_spring_warnings as test_doubts_of_springs
-from tests.planted_faults.wrong import E_FOR_E_STAR, POISSON, force_in_step, one_sided_spectrum, scaled
-from validation.analysis import spectra
+from tests.mdr import test_drawn_roughness as drawn
+from tests.mdr import test_elliptic_wheels as ellipses
+from tests.mdr import test_geike_mapping as of_geike
+from tests.mdr import test_rolling_ensemble as in_step
+from tests.mdr import test_rolling_springs as of_springs
+from tests.mdr import test_rolling_surface as of_surfaces
+from tests.mdr import test_spring_warnings as doubts
+from tests.mdr import test_springs_against_brute_force as brute_force
+from tests.planted_faults.wrong import E_FOR_E_STAR, POISSON, force_in_step, scaled
 from validation.theory import closed_forms
 from validation.theory import rolling as rolling_theory
 
@@ -120,132 +117,105 @@ def ends_that_move_twice_as_far(height, change, **contact):
 reach = wheel_on_springs.SpringTrack.reach
 
 
+PROFILE_BY_WAVES = partial(drawn.test_a_profile_is_the_sum_of_its_waves_in_the_order_of_their_numbers, 20, "fixed")
+SURFACE_BY_WAVES = partial(drawn.test_a_surface_is_the_sum_of_its_waves_ring_by_ring, (6, 6), (1, 1), "fixed")
+IN_STEP = partial(in_step.test_force_to_1e_12_of_the_smooth_wheel, 7.3, 0.1)
+
 FAULTS = {
-    "E for E* in springs": (
-        (mdr, "load_curve", softer_curve),
-        test_springs_against_brute_force.test_force_and_stiffness_at_an_approach,
-    ),
+    "E for E* in springs": ((mdr, "load_curve", softer_curve), brute_force.test_force_and_stiffness_at_an_approach),
     "level of the rolling force for that of the line trace": (
         (closed_forms, "line_trace_ratio", level_of_the_rolling_force),
-        test_geike_mapping.test_line_trace_of_a_wide_power_law,
+        of_geike.test_line_trace_of_a_wide_power_law,
     ),
     "surface shifted by half a cell": (
         (surface, "_half_a_cell", lambda mode, points: np.ones(mode.shape)),
-        test_drawn_roughness.test_a_finer_grid_draws_the_same_roughness,
+        SURFACE_BY_WAVES,
     ),
     "spectrum of a surface without its mirror images": (
         (surface, "_hermitian", lambda wave, amplitudes: wave),
-        test_drawn_roughness.test_surface_moments_are_the_sums_over_its_waves,
+        SURFACE_BY_WAVES,
     ),
     "one-sided spectrum taken for two-sided": (
         (bem3d, "rough_surface", scaled(bem3d.rough_surface, np.sqrt(2))),
-        test_drawn_roughness.test_surface_moments_are_the_sums_over_its_waves,
+        SURFACE_BY_WAVES,
     ),
-    "(14.9) as printed": (
-        (profile_module, "_resolved", printed_formula),
-        test_drawn_roughness.test_profile_moments_are_the_sums_over_its_waves,
-    ),
+    "(14.9) as printed": ((profile_module, "_resolved", printed_formula), PROFILE_BY_WAVES),
     "line trace for Geike": (
         (mdr.SelfAffine, "c1d", mdr.SelfAffine.line),
-        functools.partial(test_geike_mapping.test_moments_of_power_laws_are_kept, n=2),
+        partial(of_geike.test_moments_of_power_laws_are_kept, n=2),
     ),
     "q C_2D for Geike": (
         (mdr, "geike", scaled(mdr.geike, 1 / np.pi)),
-        functools.partial(test_geike_mapping.test_moments_of_arbitrary_spectra_are_kept, n=0),
+        partial(of_geike.test_moments_of_arbitrary_spectra_are_kept, n=0),
     ),
     "2 pi q C_2D for Geike": (
         (mdr, "geike", scaled(mdr.geike, 2.0)),
-        functools.partial(test_geike_mapping.test_moments_of_arbitrary_spectra_are_kept, n=0),
+        partial(of_geike.test_moments_of_arbitrary_spectra_are_kept, n=0),
     ),
     "x^2 / 2R in one dimension": (
         (mdr, "sphere_profile", half_of_the_parabola),
-        functools.partial(
-            test_springs_against_brute_force.test_springs_under_a_parabola_tend_to_the_sphere_at_second_order, 0.1
-        ),
+        partial(brute_force.test_springs_under_a_parabola_tend_to_the_sphere_at_second_order, 0.1),
     ),
-    "1.1523 L for L": (
-        (mdr, "load_curve", stretched_curve),
-        test_springs_against_brute_force.test_force_and_stiffness_at_an_approach,
-    ),
-    "phases on half of the circle": (
-        (profile_module, "_random_waves", half_a_circle),
-        test_drawn_roughness.test_profiles_look_the_same_up_and_down,
-    ),
+    "1.1523 L for L": ((mdr, "load_curve", stretched_curve), brute_force.test_force_and_stiffness_at_an_approach),
+    "phases on half of the circle": ((profile_module, "_random_waves", half_a_circle), PROFILE_BY_WAVES),
     "factor 4 lost in (14.12)": (
         (rolling_theory, "response", scaled(rolling_theory.response, 0.5)),
-        test_rolling_springs.test_spectrum_of_the_linear_force_is_14_12,
+        of_springs.test_spectrum_of_the_linear_force_is_14_12,
     ),
     "a for 2a under the wheel": (
         (wheel_on_springs.SpringTrack, "reach", half_the_contact),
-        test_rolling_springs.test_full_contact_tends_to_the_filter_at_second_order,
+        of_springs.test_full_contact_tends_to_the_filter_at_second_order,
     ),
     "x^2 / 2R under the wheel": (
         (wheel_on_springs.SpringTrack, "wheel", scaled(wheel_on_springs.SpringTrack.wheel, 0.5)),
-        test_rolling_springs.test_force_is_the_sum_over_all_springs,
+        of_springs.test_force_is_the_sum_over_all_springs,
     ),
     "springs that pull under the smooth wheel": (
         (wheel_on_springs, "_one_sided", springs_that_pull),
-        test_rolling_springs.test_one_sided_force_leaves_the_linear_one_at_second_order,
+        of_springs.test_one_sided_force_leaves_the_linear_one_at_second_order,
     ),
     "springs that pull wherever they are in doubt": (
         (wheel_on_springs, "np", in_numpy({"maximum": springs_that_pull_at_the_edge})),
-        test_rolling_springs.test_force_is_the_sum_over_all_springs,
-    ),
-    "one-sided spectrum of the force": (
-        (spectra.Waves, "spectrum", property(one_sided_spectrum)),
-        test_rolling_springs.test_variance_of_the_force_is_that_of_its_spectrum,
+        of_springs.test_force_is_the_sum_over_all_springs,
     ),
     "x^2 / 2R under many wheels": (
         (mdr.RollingEnsemble, "_profile", scaled(mdr.RollingEnsemble._profile, 0.5)),
-        functools.partial(test_wheels_on_springs.test_force_to_1e_12_of_the_smooth_wheel, 7.3, 0.1),
+        IN_STEP,
     ),
-    "many wheels half a cell ahead": (
-        (mdr.RollingEnsemble, "_profile", profile_half_a_cell_ahead),
-        test_wheels_on_springs.test_a_wheel_of_equal_springs_rolls_the_same_in_either_direction,
-    ),
-    "many wheels a cell ahead": (
-        (mdr.RollingEnsemble, "force", a_place_late),
-        functools.partial(test_wheels_on_springs.test_force_to_1e_12_of_the_smooth_wheel, 7.3, 0.1),
-    ),
+    "many wheels half a cell ahead": ((mdr.RollingEnsemble, "_profile", profile_half_a_cell_ahead), IN_STEP),
+    "many wheels a cell ahead": ((mdr.RollingEnsemble, "force", a_place_late), IN_STEP),
     "springs that pull under many wheels": (
         (wheels_in_step, "np", in_numpy({"maximum": springs_that_pull_in_step})),
-        functools.partial(test_wheels_on_springs.test_force_to_1e_12_of_the_smooth_wheel, 30.0, 0.1),
+        partial(in_step.test_force_to_1e_12_of_the_smooth_wheel, 30.0, 0.1),
     ),
-    "springs that pull on a wheel in the air": (
-        (wheels_in_step, "np", in_numpy({"maximum": springs_that_pull_in_step})),
-        functools.partial(test_wheels_on_springs.test_far_above_the_track_there_is_no_force, -50.0),
-    ),
-    "E for E* under many wheels": (
-        (mdr.RollingEnsemble, "force", scaled(force_in_step, E_FOR_E_STAR)),
-        functools.partial(test_wheels_on_springs.test_force_to_1e_12_of_the_smooth_wheel, 7.3, 0.1),
-    ),
+    "E for E* under many wheels": ((mdr.RollingEnsemble, "force", scaled(force_in_step, E_FOR_E_STAR)), IN_STEP),
     "sums that round": (
         (wheels_in_step, "np", in_numpy({"rint": not_rounded})),
-        test_wheels_on_springs.test_forces_are_independent_of_the_batch_to_the_last_bit,
+        in_step.test_forces_are_independent_of_the_batch_to_the_last_bit,
     ),
     "springs that say nothing of short waves": (
         (profile_module, "diagnose_waves", lambda *_: ()),
-        functools.partial(test_doubts_of_springs.test_short_waves, 25, True),
+        partial(doubts.test_what_is_warned_of, "short waves"),
     ),
     "few springs that say nothing": (
         (foundation, "diagnose_load", lambda *_: ()),
-        functools.partial(test_doubts_of_springs.test_few_springs_in_contact, 4, True),
+        partial(doubts.test_what_is_warned_of, "4 springs"),
     ),
     "ends of a linear contact that move twice as far": (
         (wheel_on_springs, "diagnose_linearity", ends_that_move_twice_as_far),
-        functools.partial(test_doubts_of_springs.test_the_ends_of_a_linear_contact_move_as_warned, "linear", None),
+        partial(doubts.test_the_ends_of_a_linear_contact_move_as_warned, "linear", None),
     ),
     "a spike that nobody rolls over": (
         (Near, "beyond", lambda _, offsets: np.zeros(offsets.shape, dtype=bool)),
-        test_rolling_springs.test_a_light_wheel_over_a_spike_of_a_thousand_times_the_roughness,
+        of_springs.test_a_light_wheel_over_a_spike_of_a_thousand_times_the_roughness,
     ),
     "a light wheel on its highest spring alone": (
         (wheel_on_springs, "by_sorting", on_the_highest_spring_alone),
-        functools.partial(test_rolling_springs.test_a_light_wheel_over_a_spike, 0.1),
+        partial(of_springs.test_a_light_wheel_over_a_spike, 0.1),
     ),
     "a contact wider than its sphere that nobody asks about": (
         (sphere, "diagnose_units", lambda **_: ()),
-        functools.partial(test_doubts_of_springs.test_warnings_of_the_units_of_a_sphere, 1.0, 1.21, 1),
+        partial(doubts.test_warnings_of_the_units_of_a_sphere, 1.0, 1.21, 1),
     ),
     "springs of an ellipse as stiff as those of a sphere": (
         (
@@ -253,7 +223,7 @@ FAULTS = {
             "spring_wheel",
             lambda radius, modulus: elliptic_wheel.spring_wheel(radius, 1.0)._replace(modulus=modulus),
         ),
-        test_elliptic_wheels.test_the_smooth_wheel_rolls_at_the_approach_of_the_ellipse,
+        ellipses.test_the_smooth_wheel_rolls_at_the_approach_of_the_ellipse,
     ),
     "an ensemble on the springs of a sphere": (
         (
@@ -261,17 +231,15 @@ FAULTS = {
             "spring_wheel",
             lambda radius, modulus: elliptic_wheel.spring_wheel(radius, modulus)._replace(modulus=modulus),
         ),
-        test_elliptic_wheels.test_an_ensemble_rolls_as_its_wheels_one_by_one,
+        ellipses.test_an_ensemble_rolls_as_its_wheels_one_by_one,
     ),
     "the radius along the track for that of the contact": (
-        (test_elliptic_wheels, "spring_wheel", lambda radius, modulus: (radius[0], modulus, 1.0)),
-        functools.partial(test_elliptic_wheels.test_springs_have_the_load_curve_of_one_ellipse, (0.46, 0.3)),
+        (ellipses, "spring_wheel", lambda radius, modulus: (radius[0], modulus, 1.0)),
+        ellipses.test_springs_have_the_load_curve_and_the_length_of_the_ellipse,
     ),
     "equal weights across the contact": (
         (rolling_surface, "weights_across", even_across),
-        functools.partial(
-            test_rolling_surface.test_low_waves_of_any_direction_have_the_filter_of_the_half_space, 1.0, (0, 3)
-        ),
+        partial(of_surfaces.test_low_waves_of_any_direction_have_the_filter_of_the_half_space, 1.0, (0, 3)),
     ),
     "one width across for all springs": (
         (
@@ -279,6 +247,6 @@ FAULTS = {
             "weights_across",
             lambda widths, points, step: weights_across(np.full_like(widths, widths.max()), points, step),
         ),
-        test_rolling_surface.test_it_is_a_sum_over_springs_and_across,
+        of_surfaces.test_it_is_a_sum_over_springs_and_across,
     ),
 }

@@ -1,14 +1,17 @@
 """Faults planted in what `tests/theory` looks at: where, what is wrong there, and the test that must catch it."""
 
-import functools
 import importlib
 import math
+from functools import partial
 
 import numpy as np
 
 import mdr
 from tests.planted_faults.wrong import one_sided_spectrum, scaled
-from tests.theory import test_closed_forms, test_rolling_theory, test_spring_input, test_transverse_structure
+from tests.theory import test_closed_forms as forms
+from tests.theory import test_rolling_theory as of_rolling
+from tests.theory import test_spring_input as of_input
+from tests.theory import test_transverse_structure as across
 from validation.analysis import spectra
 from validation.theory import closed_forms, spring_input, transverse_structure
 from validation.theory import rolling as rolling_theory
@@ -35,7 +38,7 @@ def with_half_of_the_contact(q, c1d, *, contact_radius, radius, **settings):
     )
 
 
-FAR_WAVES = test_transverse_structure.test_far_waves_are_all_there_once_and_a_fast_filter_has_its_mean
+FAR_WAVES = across.test_far_waves_are_all_there_once_and_a_fast_filter_has_its_mean
 periods, panels_across = transverse_structure._periods, transverse_structure._panels_across
 
 
@@ -60,79 +63,74 @@ ellipse_of_springs = spring_input.rolling_input_filter
 FAULTS = {
     "a circle for the ellipse in the rolling spectrum of a rail": (
         (spring_input, "rolling_input_filter", circle_for_the_ellipse),
-        functools.partial(test_spring_input.test_on_a_circle_it_is_the_rolling_spectrum_of_a_wheel, 700.0),
+        partial(of_input.test_on_a_circle_it_is_the_rolling_spectrum_of_a_wheel, 700.0),
     ),
     "Geike's rule over the line without pi": (
         (spring_input, "geike_over_line", scaled(spring_input.geike_over_line, 1 / math.pi)),
-        functools.partial(test_spring_input.test_geikes_rule_over_the_line_of_a_power_law, 2.0),
+        partial(of_input.test_geikes_rule_over_the_line_of_a_power_law, 2.0),
     ),
     "2/3 for 4/3 in the force of Hertz": (
         (closed_forms, "hertz_force", scaled(closed_forms.hertz_force, 0.5)),
-        test_closed_forms.test_hertz_pressure_integrates_to_the_force,
+        forms.test_hertz_pressure_integrates_to_the_force,
     ),
     "a for 2a in the stiffness of Hertz": (
         (closed_forms, "circular_punch_stiffness", scaled(closed_forms.circular_punch_stiffness, 0.5)),
-        test_closed_forms.test_hertz_stiffness_is_that_of_the_punch_of_its_radius,
+        forms.test_hertz_stiffness_is_that_of_the_punch_of_its_radius,
     ),
     "Persson without the root of two": (
         (closed_forms, "persson_contact_fraction", half_of_the_slope),
-        test_closed_forms.test_persson,
+        forms.test_persson,
     ),
     "Geike for the line trace in rolling": (
         (mdr.SelfAffine, "line", mdr.SelfAffine.c1d),
-        functools.partial(test_rolling_theory.test_small_wheels_are_fed_the_line_trace, 0.7),
+        partial(of_rolling.test_small_wheels_are_fed_the_line_trace, 0.7),
     ),
     "springs that roll fed by Geike": (
         (feed, "_across", geike_for_rolling),
-        functools.partial(
-            test_rolling_theory.test_springs_that_are_fed_for_rolling_have_the_level_of_the_half_space, 0.7, 1.0
-        ),
+        partial(of_rolling.test_springs_that_are_fed_for_rolling_have_the_level_of_the_half_space, 0.7, 1.0),
     ),
     "springs that roll fed by the line trace": (
         (feed, "_across", line_for_rolling),
-        functools.partial(test_rolling_theory.test_large_wheels_are_fed_less_than_geike, 0.7),
+        partial(of_rolling.test_large_wheels_are_fed_less_than_geike, 0.7),
     ),
     "factor 4 lost in the spectrum of the half-space": (
         (rolling_theory, "response", scaled(rolling_theory.response, 0.5)),
-        functools.partial(test_rolling_theory.test_force_spectrum_by_adaptive_quadrature, 0.7, 1.7),
+        partial(of_rolling.test_force_spectrum_by_adaptive_quadrature, 0.7, 1.7),
     ),
     "one-sided spectrum of a track": (
         (spectra.Waves, "spectrum", property(one_sided_spectrum)),
-        test_rolling_theory.test_spectra_of_profiles_are_the_ones_they_are_drawn_from,
+        of_rolling.test_spectra_of_profiles_are_the_ones_they_are_drawn_from,
     ),
     "half of Abel's inverse": (
         (LineSpectrum, "isotropic", scaled(LineSpectrum.isotropic, 0.5)),
-        functools.partial(test_transverse_structure.test_a_line_over_its_surface_is_that_line, 50.0),
+        partial(across.test_a_line_over_its_surface_is_that_line, 50.0),
     ),
     "a place for its period, where a contact is many waves wide": (
         (transverse_structure, "_periods", lambda ends, period: transverse_structure.gauss(ends)),
-        functools.partial(test_transverse_structure.test_some_periods_stand_for_all, transverse_structure.Ridges()),
+        partial(across.test_some_periods_stand_for_all, transverse_structure.Ridges()),
     ),
     "a work that grows with a contact that is many waves wide": (
         (transverse_structure, "FAR", math.inf),
-        functools.partial(
-            test_transverse_structure.test_work_ends_where_the_contact_is_many_waves_wide,
-            transverse_structure.WaveBand(1.0),
-        ),
+        partial(across.test_work_ends_where_the_contact_is_many_waves_wide, transverse_structure.WaveBand(1.0)),
     ),
     "ridges for isotropic ground": (
         (transverse_structure.IsotropicGround, "mean_square", transverse_structure.Ridges.mean_square),
-        functools.partial(test_transverse_structure.test_the_mean_over_isotropic_ground, 150.0),
+        partial(across.test_the_mean_over_isotropic_ground, 150.0),
     ),
     "a line that keeps the waves which its surface has lost": (
         (transverse_structure.IsotropicGround, "line_power", lambda ground, q: ground.line(q)),
-        test_transverse_structure.test_ground_without_its_shortest_waves_has_the_line_that_is_left,
+        across.test_ground_without_its_shortest_waves_has_the_line_that_is_left,
     ),
     "far waves over half of a period": (
         (transverse_structure, "_periods", half_of_a_period),
-        functools.partial(FAR_WAVES, transverse_structure.WaveBand(0.7)),
+        partial(FAR_WAVES, transverse_structure.WaveBand(0.7)),
     ),
     "near waves counted among the far, too": (
         (transverse_structure, "_panels_across", near_waves_among_the_far),
-        functools.partial(FAR_WAVES, transverse_structure.WaveBand(0.7)),
+        partial(FAR_WAVES, transverse_structure.WaveBand(0.7)),
     ),
     "the second order of springs with zeros of a contact half as long": (
-        (test_rolling_theory, "second_order_force_spectrum", with_half_of_the_contact),
-        test_rolling_theory.test_the_second_order_of_an_even_band_has_the_zeros_of_both_ends,
+        (of_rolling, "second_order_force_spectrum", with_half_of_the_contact),
+        of_rolling.test_the_second_order_of_an_even_band_has_the_zeros_of_both_ends,
     ),
 }

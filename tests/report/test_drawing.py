@@ -73,12 +73,6 @@ def test_each_model_has_its_style_and_bars_where_it_has_an_interval():
     assert axis.get_legend_handles_labels()[1] == ["mdr", "bem"]
 
 
-def test_facets_have_an_axis_each_with_their_rows_alone():
-    axes = drawn(Curve("level", "bem", "exact", "b"), facet="h/d")
-    assert [axis.get_title() for axis in axes] == ["h/d = 0.1", "h/d = 1"]
-    np.testing.assert_array_equal(axes[1].lines[0].get_ydata(), [7, 8, 9])
-
-
 def test_markers_are_apart_and_ticks_at_the_values():
     (axis,) = drawn(Curve("level", "bem", "exact", "b", of={"h/d": "first"}, apart=0.1), ticked=True)
     assert axis.lines[0].get_markevery() == 0.1
@@ -139,10 +133,19 @@ def test_a_quantity_that_a_run_does_not_have_leaves_its_panel_empty():
 def test_values_of_a_quantity_are_marked_by_the_names_of_their_models():
     marks = Table("marks", {"model": ["ω_eigen", "q_min v₀"], "value": [1.5, 3.0]})
     evidence = Evidence(title="t", method="", numbers=(), tables=(TABLE, marks), conclusions=(), captions={})
-    chart = Chart("c", "", (Panel("q a", "y", (Curve("level", "bem", label="b"),), marks="marks"),))
+    marked = Curve("marks", style="guide", upright=True)
+    chart = Chart("c", "", (Panel("q a", "y", (Curve("level", "bem", label="b"), marked)),))
     (axis,) = draw(chart, evidence).axes
     assert {text.get_text(): text.get_position()[0] for text in axis.texts} == {"ω_eigen": 1.5, "q_min v₀": 3.0}
     assert chart.tables == ("level", "marks")
+
+
+def test_decades_are_those_below_the_largest_value_and_not_below_a_line_across_the_panel():
+    small = Table("level", {**TABLE.columns, "value": (1e-6 * VALUE).tolist()})
+    marked = Curve("level", "bem", "guide", "_", upright=True)
+    panel = Panel("q a", "y", (Curve("level", label="b"), marked), log="xy", decades=3.0)
+    (axis,) = draw(Chart("c", "", (panel,)), replace(EVIDENCE, tables=(small,))).axes
+    assert axis.get_ylim() == pytest.approx((1e-9 * VALUE[-1], 6e-6 * VALUE[-1]))
 
 
 def test_the_cells_of_a_map_are_those_of_their_parameters():
@@ -156,6 +159,7 @@ def test_panels_share_an_axis_where_they_say_so():
     first, second = draw(Chart("c", "", panels, sharey=True), EVIDENCE).axes
     assert first.get_ylim() == second.get_ylim()
     assert first.get_ylim()[0] == 0 and first.get_ylim()[1] > VALUE.max()
+    assert (first.get_ylabel(), second.get_ylabel()) == ("y", "")
 
 
 @pytest.mark.parametrize(
@@ -173,10 +177,3 @@ def test_several_columns_have_an_axis_for_each_of_their_values():
     np.testing.assert_array_equal(axes[3].lines[0].get_ydata(), [10, 11, 12])
     # a mark that the panel does not reach is not drawn
     assert [list(line.get_xdata()) for line in axes[3].lines[1:]] == [[2.0, 2.0]]
-
-
-def test_panels_with_one_vertical_axis_are_labelled_at_the_left_alone():
-    panel = Panel("q a", "y", (Curve("level", "bem", label="b"),), facet="h/d")
-    left, right = draw(Chart("c", "", (panel,), sharey=True), EVIDENCE).axes
-    assert (left.get_ylabel(), right.get_ylabel()) == ("y", "")
-    assert left.get_ylim() == right.get_ylim()

@@ -3,8 +3,8 @@
 import csv
 import io
 import math
+import re
 from dataclasses import replace
-from html.parser import HTMLParser
 
 import numpy as np
 import pytest
@@ -19,10 +19,7 @@ from validation.analysis.evidence import (
     Table,
     Verdict,
     VerdictCell,
-    columns,
-    if_confirmed,
     plus_minus,
-    with_reference,
 )
 from validation.report import drawing, formats, page
 from validation.report.contents import CASES
@@ -38,30 +35,6 @@ widths = st.floats(1e-6, 1e4)
 def number(value=1.0, **changes):
     settings = {"reference": 1.0, "source": "s", "tolerance": 0.1, "reason": "r", "unit": "dB", **changes}
     return Number(**{"quantity": "x", "value": value, **settings})
-
-
-class Rows(HTMLParser):
-    """Cells of all tables of a page, row by row; pieces of a cell apart."""
-
-    def __init__(self, page):
-        super().__init__()
-        self.rows, self._in = [], False
-        self.feed(page)
-
-    def handle_starttag(self, tag, attrs):
-        if tag == "tr":
-            self.rows.append([])
-        if tag in ("td", "th"):
-            self.rows[-1].append([])
-            self._in = True
-
-    def handle_endtag(self, tag):
-        if tag in ("td", "th"):
-            self._in = False
-
-    def handle_data(self, data):
-        if self._in and data.strip():
-            self.rows[-1][-1].append(data.strip())
 
 
 def evidence_with(numbers, page_tables=(), claims=()):
@@ -84,11 +57,6 @@ def html_of(section, documentation=""):
     about |= {"documentation": documentation}
     pages = page.pages([section], "full", about, None)
     return pages.pop("index.html").decode() + "".join(chapter.decode() for chapter in pages.values())
-
-
-def page_of(numbers, page_tables=()):
-    """Its rows."""
-    return Rows(html_of(Section("geike", CASES["geike"], "none", {}, evidence_with(numbers, page_tables)))).rows
 
 
 def test_the_page_links_to_the_documentation_that_is_built(tmp_path):
@@ -135,33 +103,8 @@ def test_every_verdict_has_its_word_and_sign():
 
 def test_criteria_of_the_page_are_those_of_the_numbers():
     findings = [number(v, quantity=f"y{v}", tolerance=0.5, role=Role.FINDING) for v in (1.0, 1.1, 9.0)]
-    text = " ".join(" ".join(cell) for row in page_of([*NUMBERS, *findings]) for cell in row)
-    assert "criteria met 1 of 2" in text
-
-
-def test_tables_of_the_page_keep_their_columns():
-    table = Table(
-        "shown", {"force [N]": ["1.5", "2.5"], "verdict": [VerdictCell("+1 %", Verdict.AGREE), "no"], "k": [0.25, 3]}
-    )
-    rows = page_of((), [table])
-    at = next(i for i, row in enumerate(rows) if row and row[0] == ["force [N]"])
-    assert rows[at : at + 3] == [
-        [["force [N]"], ["verdict"], ["k"]],
-        [["1.5"], ["+1 %", "✓ agree"], ["0.25"]],
-        [["2.5"], ["no"], ["3"]],
-    ]
-
-
-def test_a_table_is_found_by_its_name():
-    tables = tuple(Table(name, {"x": [i]}) for i, name in enumerate(("first", "second", "third")))
-    shown = Evidence(title="t", method="c", numbers=(), tables=tables, conclusions=(), captions={})
-    assert [shown.table(name)["x"][0] for name in ("third", "first", "second")] == [2, 0, 1]
-
-
-def test_columns_are_plain_values():
-    found = columns(**{"x [m]": np.arange(2.0), "n": [1, 2]})
-    assert found == {"x [m]": [0.0, 1.0], "n": [1, 2]}
-    assert all(type(value) is float for value in found["x [m]"])
+    page = html_of(Section("geike", CASES["geike"], "none", {}, evidence_with([*NUMBERS, *findings])))
+    assert "criteria met 1 of 2" in " ".join(re.sub("<[^>]*>", " ", page).split())
 
 
 @given(st.lists(st.floats(-1e12, 1e12), min_size=1, max_size=5), st.integers(1, 4))
@@ -222,25 +165,3 @@ def test_a_number_in_a_sentence():
     assert replace(n, unit="-").sentence == "x = 1.25 ± 0.05, agree with 1 within 0.5"
     assert replace(n, value=3.0).sentence == "x = 3 dB ± 0.05 dB, differ with 1 dB within 0.5 dB"
     assert replace(n, value=1.5).sentence == "x = 1.5 dB ± 0.05 dB, undecided with 1 dB within 0.5 dB"
-
-
-def test_a_number_beside_its_reference():
-    n = number(1.25, reference=1.0, tolerance=0.5, grid=0.02, sample=0.03)
-    assert with_reference(n) == "1.250 ± 0.050 beside 1 dB (agree within 0.5, off by +0.25 dB)"
-    assert with_reference(replace(n, unit="-", value=0.9)) == "0.900 ± 0.050 beside 1 (agree within 0.5, off by -0.1)"
-    # an interval that holds the difference, or none at all, leaves nothing to tell
-    assert with_reference(replace(n, value=1.04)) == "1.040 ± 0.050 beside 1 dB (agree within 0.5)"
-    assert with_reference(replace(n, grid=0.0, sample=0.0)) == "1.25 beside 1 dB (agree within 0.5)"
-    assert with_reference(replace(n, value=9.0)) == "9.000 ± 0.050 beside 1 dB (differ within 0.5)"
-    even = number(1.25, reference=1.0, tolerance=0.5, sample=0.25)
-    assert with_reference(even) == "1.25 ± 0.25 beside 1 dB (agree within 0.5)"
-
-
-def test_a_claim_holds_with_all_of_its_numbers():
-    good, bad = number(1.0), number(5.0)
-    assert if_confirmed("So it is.", [good, good]) == "So it is."
-    wide = number(1.0, sample=1.0)
-    for numbers in ([bad], [good, bad], [bad, good], [bad, wide]):
-        assert if_confirmed("So it is.", numbers) == "Contradicted by this run: So it is."
-    for numbers in ([wide], [good, wide]):
-        assert if_confirmed("So it is.", numbers) == "Not confirmed by this run: So it is."

@@ -64,17 +64,9 @@ def test_names_of_any_length_stay_inside_a_figure():
 
 
 def test_curves_of_several_scenes_are_named_in_the_legend():
-    table = Table(
-        "contact-filter",
-        {
-            "wavelength_mm": [10.0, 5.0] * 2,
-            "frequency_hz": [np.nan] * 4,
-            **{column: [0.0, -1.0] * 2 for column in ("value", "low", "high")},
-            "unit": ["dB"] * 4,
-            "scene": ["_one", "_one", "$two$", "$two$"],
-            "selected": [True] * 4,
-        },
-    )
+    columns = {name: [0.0, -1.0] * 2 for name in ("value", "low", "high")} | {"wavelength_mm": [10.0, 5.0] * 2}
+    columns |= {"frequency_hz": [np.nan] * 4, "unit": ["dB"] * 4, "selected": [True] * 4}
+    table = Table("contact-filter", columns | {"scene": ["_one", "_one", "$two$", "$two$"]})
     figure = Figure()
     compared._spectra(figure.subplots(), selected_of_several(table))
     style.plain_figure(figure)

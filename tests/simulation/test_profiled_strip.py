@@ -8,8 +8,7 @@ import pytest
 
 import bem3d
 from validation import compare, load_scene
-from validation.scenes.profiled_rail import ProfiledRail
-from validation.scenes.rail import RailScene
+from validation.scenes.rail import ProfiledRail, RailScene
 from validation.scenes.transverse_profile import TransverseProfile, both_together
 from validation.simulation import rail_models
 from validation.simulation.equivalent_displacement import (

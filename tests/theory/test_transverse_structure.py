@@ -6,17 +6,10 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 from scipy import integrate
 
 from validation.theory import transverse_structure
-from validation.theory.contact_filters import (
-    half_space_filter,
-    remington_filter,
-    row_of_means_filter,
-    spring_bed_filter,
-)
+from validation.theory.contact_filters import half_space_filter, row_of_means_filter, spring_bed_filter
 from validation.theory.line_spectrum import LineSpectrum
 from validation.theory.transverse_structure import IsotropicGround, Ridges, WaveBand, has_isotropic_surface
 
@@ -67,11 +60,6 @@ def test_a_line_over_its_surface_is_that_line(q):
     assert 2 * found / float(RAIL(q)) == pytest.approx(1.0, rel=1e-7)
 
 
-def test_a_spectrum_that_rises_too_steeply_has_no_isotropic_surface():
-    with pytest.raises(ValueError, match="no isotropic surface has this line"):
-        IsotropicGround(LineSpectrum((1.0, 2.0, 4.0), (1.0, 20.0, 10.0)))
-
-
 @pytest.mark.parametrize("last", [1e-19, 1e-27, 1e-35])
 def test_long_waves_of_a_surface_do_not_see_a_cliff_of_its_line(last):
     """Of long waves all ends are alike that fall at once: beside one that falls by 20 dB in a third of an octave."""
@@ -93,7 +81,10 @@ def test_a_steeper_line_has_larger_exponents_and_longer_waves_do_not_fall():
 
 def test_lines_of_isotropic_surfaces_are_those_that_nowhere_rise_too_steeply():
     assert has_isotropic_surface(RAIL) and has_isotropic_surface(LineSpectrum((1.0, 2.0), (1.0, 1.0)))
-    assert not has_isotropic_surface(LineSpectrum((1.0, 2.0, 4.0), (1.0, 20.0, 10.0)))
+    steep = LineSpectrum((1.0, 2.0, 4.0), (1.0, 20.0, 10.0))
+    assert not has_isotropic_surface(steep)
+    with pytest.raises(ValueError, match="no isotropic surface has this line"):
+        IsotropicGround(steep)
 
 
 @pytest.mark.slow
@@ -135,13 +126,6 @@ def test_ground_without_its_shortest_waves_has_the_line_that_is_left():
     assert float(ground.c2d(2.001e3)) == 0.0
 
 
-@given(kb=st.floats(0.01, 40), alpha=st.floats(0.05, 3))
-def test_remington_is_a_band_of_waves_on_a_circle_of_springs(kb, alpha):
-    transfer = partial(spring_bed_filter, semi_axes=(1.0, 1.0))
-    band = WaveBand(alpha).mean_square(kb, transfer, semi_axis=1.0)
-    assert float(band) == pytest.approx(float(remington_filter(kb, radius=1.0, alpha=alpha)), rel=1e-7, abs=1e-12)
-
-
 def test_a_narrow_band_is_ridges_and_its_density_has_the_line():
     transfer = partial(half_space_filter, semi_axes=AXES)
     q = np.geomspace(3.0, 1e3, 12)
@@ -169,17 +153,6 @@ def test_the_row_of_means_is_a_uniform_mean_over_a_rectangle():
     x, y = (np.linspace(-a, a, 801) for a in (2.0, 0.7))
     mean = np.cos(1.3 * x).mean() * np.cos(2.1 * y).mean()
     assert float(row_of_means_filter(1.3, 2.1, semi_axes=(2.0, 0.7))) == pytest.approx(mean, abs=2e-3)
-
-
-def test_remingtons_integral_is_the_mean_of_the_bed_of_springs_to_rounding():
-    """2 J_1(S)/S by the mean of a wave over a disc, J_1 by its own integral, over the band by adaptive quadrature."""
-
-    def bed(s):
-        return integrate.quad(lambda u: math.cos(s * u) * math.sqrt(1 - u * u) * 4 / math.pi, 0, 1, epsabs=1e-14)[0]
-
-    for kb, alpha in ((0.3, 1.0), (2.0, 0.5), (5.0, 2.0)):
-        mean = integrate.quad(lambda t, kb=kb: bed(kb * math.hypot(1, t)) ** 2, 0, alpha, epsabs=1e-14)[0] / alpha
-        assert float(remington_filter(kb, radius=1.0, alpha=alpha)) == pytest.approx(mean, rel=1e-9)
 
 
 # --- contacts that are wide beside the waves ---
@@ -220,11 +193,6 @@ def differences_from_all_periods(structure, axes, wavelength):
 def test_some_periods_stand_for_all(structure):
     """What is left of the oscillation between them falls with their number; all bands are below -40 dB here."""
     assert np.abs(differences_from_all_periods(structure, WIDE, 1e-3)).max() < 0.1
-
-
-def test_contacts_of_steel_are_integrated_over_all_periods():
-    edges = 2 * np.pi / 0.8e-3 * np.array([10**-0.05, 10**0.05])
-    assert edges[-1] * 7.2e-3 < transverse_structure.FAR
 
 
 @pytest.mark.parametrize("structure", [Ridges(), WaveBand(1.0), WaveBand(20.0), IsotropicGround(RAIL)])

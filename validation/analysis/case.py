@@ -25,10 +25,6 @@ class Chapter(StrEnum):
     SELECTION = "The cheapest sufficient model"
 
 
-def none(_: Any) -> "Evidence":
-    raise NotImplementedError
-
-
 @dataclass(frozen=True, kw_only=True)
 class Case:
     """What the report says about one claim. A module of `validation` that holds one as `CASE` is found by it.
@@ -36,7 +32,8 @@ class Case:
     name: on the command line, of its figures and of its data; chapter, place: where it stands, cases of a chapter in
     the order of their places; answers: which figure or question; quick, full: its settings, frozen dataclasses, in both
     sizes; run: result of settings and an engine; study: what the result shows, whose first claim is that of the case;
-    needs: which model it takes, a text or a function of the settings; timed: whether it is run last and alone.
+    needs: which model it takes, a text or a function of the settings; timed: whether it is run last and alone;
+    evidence: of a result, by default as the study declares it.
     """
 
     name: str
@@ -47,16 +44,18 @@ class Case:
     full: Any
     run: Callable[[Any, Any], Any]
     needs: Callable[[Any], str] | str
+    study: "Study"
     timed: bool = False
-    study: "Study | None" = None
-    claim: str = ""
-    evidence: "Callable[[Any], Evidence]" = none
+    evidence: "Callable[[Any], Evidence]" = None  # type: ignore[assignment]
 
     def __post_init__(self) -> None:
-        if self.study is not None and self.evidence is none:
-            object.__setattr__(self, "claim", self.study.claims[0].says)
-            if self.evidence is none:
-                object.__setattr__(self, "evidence", self.study.evidence)
+        if self.evidence is None:
+            object.__setattr__(self, "evidence", self.study.evidence)
+
+    @property
+    def claim(self) -> str:
+        """The first of the study."""
+        return self.study.claims[0].says
 
     def settings(self, profile: Profile, seed: int | None, scene: Any = None) -> Any:
         """Of that size, with the seed where it draws anything, and the scene where it has one."""

@@ -17,7 +17,7 @@ class Curve:
     that other columns have, "first" for the first; bars, band: whether intervals are drawn; down: from curve to curve;
     apart: from marker to marker, of the diagonal of the panel, all markers where zero; beside: x of a curve with bars
     over that of the last one, on a logarithmic axis; upright: whether the values are places on the horizontal axis,
-    drawn as lines across the panel.
+    drawn as lines across the panel, without a label by the names of their models.
     """
 
     quantity: str
@@ -46,8 +46,8 @@ class Panel:
 
     facet: a column, or several, a panel for each of their values; log: the axes that are logarithmic; decades: of y
     below the largest value, or its units where y is linear; judged: the quantity whose verdicts are drawn; shade,
-    lines: of y; at: of x, dotted, where the panel reaches it; marks: the quantity whose values are marked on x by the
-    names of their models; downward: from the largest x on; ticked: at the values of x alone; legend: its place.
+    lines: of y; at: of x, dotted, where the panel reaches it; downward: from the largest x on; ticked: at the values of
+    x alone; legend: its place.
     """
 
     x: str
@@ -64,7 +64,6 @@ class Panel:
     shade: tuple[float, float] | None = None
     lines: tuple[float, ...] = ()
     at: tuple[float, ...] = ()
-    marks: str = ""
     downward: bool = False
     ticked: bool = False
     legend: str = ""
@@ -108,6 +107,5 @@ class Chart:
         if isinstance(self.panels, Map):
             return (self.panels.quantity,)
         curves = [curve.quantity for panel in self.panels for curve in panel.curves]
-        marks = [panel.marks for panel in self.panels if panel.marks]
         judged = [panel.judged + JUDGED for panel in self.panels if panel.judged]
-        return tuple(dict.fromkeys([*curves, *marks, *judged]))
+        return tuple(dict.fromkeys([*curves, *judged]))

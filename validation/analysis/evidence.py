@@ -112,11 +112,15 @@ class Number:
     @property
     def sentence(self) -> str:
         """All of it in a line."""
-        unit = "" if self.unit == "-" else f" {self.unit}"
         return (
-            f"{self.label} = {self.value:.6g}{unit} ± {self.uncertainty:.2g}{unit}, {self.verdict} with "
-            f"{self.reference:.6g}{unit} within {self.tolerance:.2g}{unit}"
+            f"{self.label} = {self.value:.6g}{self.behind} ± {self.uncertainty:.2g}{self.behind}, {self.verdict} with "
+            f"{self.reference:.6g}{self.behind} within {self.tolerance:.2g}{self.behind}"
         )
+
+    @property
+    def behind(self) -> str:
+        """Its unit as it stands behind a value, nothing where it has none."""
+        return "" if self.unit == "-" else f" {self.unit}"
 
     @property
     def met(self) -> bool:
@@ -178,8 +182,11 @@ class Table:
 
     def where(self, **equal: object) -> "Table":
         """The rows whose columns have the given values."""
-        keep = np.logical_and.reduce([self[name] == value for name, value in equal.items()])
-        return Table(self.name, {name: self[name][keep].tolist() for name in self.columns})
+        return self.rows(np.logical_and.reduce([self[name] == value for name, value in equal.items()]))
+
+    def rows(self, kept: ArrayLike) -> "Table":
+        """By a mask, or by their numbers."""
+        return Table(self.name, {name: self[name][np.asarray(kept)].tolist() for name in self.columns})
 
 
 def table_of(name: str, rows: Sequence[Mapping[str, object]]) -> Table:
@@ -306,30 +313,3 @@ def plus_minus(value: float, half_width: float) -> str:
     if place < 8:
         return f"{rounded:.{max(place, 0)}f} ± {half:.{max(place, 0)}f}"
     return f"{value:.5g} ± {half_width:.2g}"
-
-
-def with_reference(number: Number) -> str:
-    """Value, interval, reference and verdict, with what is left of a difference that the interval does not hold."""
-    unit = "" if number.unit == "-" else f" {number.unit}"
-    off = (
-        f", off by {number.difference:+.2g}{unit}"
-        if number.verdict is Verdict.AGREE and abs(number.difference) > number.uncertainty > 0
-        else ""
-    )
-    return (
-        f"{plus_minus(number.value, number.uncertainty)} beside {number.reference:.5g}{unit} ({number.verdict} within "
-        f"{number.tolerance:.3g}{off})"
-    )
-
-
-def if_confirmed(sentence: str, numbers: Sequence[Number]) -> str:
-    """A conclusion that holds as long as all its numbers agree; one that differs contradicts it."""
-    verdicts = {number.verdict for number in numbers}
-    if Verdict.DIFFER in verdicts:
-        return f"Contradicted by this run: {sentence}"
-    return f"Not confirmed by this run: {sentence}" if Verdict.UNDECIDED in verdicts else sentence
-
-
-def columns(**arrays: ArrayLike) -> dict[str, Sequence[object]]:
-    """Plain Python values of arrays, one list a column."""
-    return {name: np.asarray(array).tolist() for name, array in arrays.items()}

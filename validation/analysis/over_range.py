@@ -48,11 +48,6 @@ def root_mean_square(points: Sequence[Number], parameter: str, tolerance: float,
     )
 
 
-def signed_mean(points: Sequence[Number]) -> float:
-    """Of value - reference: what the verdict of a range must not be taken from."""
-    return float(np.mean([point.difference for point in points]))
-
-
 def _range(points: Sequence[Number], parameter: str, point: Number) -> dict[str, Place]:
     """The conditions of a point, with the range of all in place of its own parameter."""
     ends = [end for p in points for end in _ends(p.where[parameter])]

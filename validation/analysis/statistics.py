@@ -109,12 +109,6 @@ def jackknifed(value: Callable[[FloatArray], FloatArray], rows: FloatArray) -> l
     return [Estimate(float(v), float(e), len(groups)) for v, e in zip(found, errors, strict=True)]
 
 
-def mean_of(estimates: Sequence[Estimate]) -> Estimate:
-    """Of independent estimates."""
-    both = _sum_of_independent(sum(e.value for e in estimates), estimates)
-    return Estimate(both.value / len(estimates), both.error / len(estimates), both.samples)
-
-
 def mean_estimate(values: FloatArray) -> Estimate:
     """The mean of a sample, two values at least, NaN for what is lost."""
     known = values[np.isfinite(values)]
@@ -265,11 +259,6 @@ def slope_weights(forces: Sequence[float], before: int, after: int) -> FloatArra
     weights = np.zeros(len(forces))
     weights[after], weights[before] = 1.0, -1.0
     return np.asarray(weights / math.log(forces[after] / forces[before]))
-
-
-def local_slope(forces: Sequence[float], level: int) -> FloatArray:
-    """Those between the neighbours of a level; at the ends, between the end and its neighbour."""
-    return slope_weights(forces, max(level - 1, 0), min(level + 1, len(forces) - 1))
 
 
 def decade_slope(forces: Sequence[float], first: float) -> FloatArray:

@@ -1,7 +1,7 @@
 """A case from its declaration: series in, evidence out."""
 
 import string
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -10,7 +10,6 @@ from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Evidence, Number, Table
 from validation.analysis.series import Series, numbers_of, tables_of
 from validation.analysis.sound import Sounds
-from validation.analysis.wording import title
 
 PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 
@@ -26,6 +25,11 @@ class Settings(string.Formatter):
             power = int(f"{value:e}".partition("e")[2]) // 3 * 3
             return f"{value / 10.0**power:.5g} {PREFIXES[power]}"
         return str(super().format_field(value, format_spec))
+
+
+def _title(clauses: Iterable[str]) -> str:
+    text = "; ".join(clauses)
+    return f"{text[:1].upper()}{text[1:]}"
 
 
 def nothing(*_: Any) -> tuple[()]:
@@ -74,7 +78,8 @@ class Study:
             conclusions=tuple(self.notes(result)),
             captions={chart.name: self._filled(chart.caption, case) for chart in self.charts},
             headlines={
-                chart.name: title(*(said.get(filled[i].says, "") for i in chart.claims)) for chart in self.charts
+                chart.name: _title(said[filled[i].says] for i in chart.claims if filled[i].says in said)
+                for chart in self.charts
             },
             finding=f"{'; '.join(list(said.values())[:2])}.",
             unconverged=result.unconverged,

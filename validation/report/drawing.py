@@ -99,8 +99,6 @@ def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidenc
         _verdicts(axis, _chosen(evidence.table(panel.judged + JUDGED), facet))
     axis.set(xlabel=panel.x, ylabel=panel.y, title=panel.title or ", ".join(_said(*f) for f in facet.items()))
     axis.set(xscale="log" if "x" in panel.log else "linear", yscale="log" if "y" in panel.log else "linear")
-    if panel.marks:
-        _marks(axis, _chosen(evidence.table(panel.marks), facet))
     if panel.legend and axis.get_legend_handles_labels()[1]:
         axis.legend(loc=panel.legend, fontsize=7)  # type: ignore[call-overload]
 
@@ -115,17 +113,11 @@ def _verdicts(axis: Axes, judged: Table) -> None:
         axis.text(math.sqrt(x * to), 0.97, SIGN[verdict], transform=axis.get_xaxis_transform(), ha="center", va="top")
 
 
-def _marks(axis: Axes, marks: Table) -> None:
-    """Vertical lines with their names at the lower end."""
-    for name, x in zip(marks["model"], marks["value"], strict=True):
-        axis.axvline(x, **GUIDE)
-        where = axis.get_xaxis_transform()
-        axis.text(x, 0.02, name, transform=where, rotation=90, va="bottom", ha="right", fontsize=7)
-
-
 def _limits(axis: Axes, panel: Panel) -> None:
+    # lines across the panel have ends in parts of it
+    lines = [line for line in axis.lines if line.get_transform() == axis.transData]
     if panel.decades:
-        top = max((np.nanmax(np.asarray(line.get_ydata(), dtype=np.float64)) for line in axis.lines), default=1.0)
+        top = max((np.nanmax(np.asarray(line.get_ydata(), dtype=np.float64)) for line in lines), default=1.0)
         low = top * 10**-panel.decades if "y" in panel.log else top - panel.decades
         axis.set_ylim(low, 6 * top if "y" in panel.log else top + 0.1 * panel.decades)
     if panel.xlim:
@@ -133,7 +125,7 @@ def _limits(axis: Axes, panel: Panel) -> None:
     if panel.ylim:
         axis.set_ylim(*panel.ylim)
     if panel.ticked:
-        tick(axis, np.unique(np.concatenate([line.get_xdata() for line in axis.lines])))
+        tick(axis, np.unique(np.concatenate([line.get_xdata() for line in lines])))
     elif "x" in panel.log and axis.get_xlim()[1] < LARGE:
         tick(axis, _round(*axis.get_xlim()))
     if "y" in panel.log and axis.get_ylim()[1] < FEW_DECADES * axis.get_ylim()[0]:
@@ -170,8 +162,7 @@ def _chosen(table: Table, of: Mapping[str, object]) -> Table:
         if name in table.columns and wanted != ():
             column = table[name]
             values = (column[0],) if wanted == FIRST else wanted if isinstance(wanted, tuple) else (wanted,)
-            keep = np.isin(column, np.asarray(values, dtype=column.dtype))
-            table = Table(table.name, {key: table[key][keep].tolist() for key in table.columns})
+            table = table.rows(np.isin(column, np.asarray(values, dtype=column.dtype)))
     return table
 
 
@@ -179,40 +170,38 @@ def _families(curve: Curve, table: Table) -> Iterator[tuple[tuple[str, ...], dic
     size = len(next(iter(table.columns.values())))
     keys = list(zip(*(map(str, table.columns[name]) for name in curve.by), strict=True)) or [()] * size
     for key in dict.fromkeys(keys):
-        keep = [i for i in range(size) if keys[i] == key]
-        mine = Table(table.name, {name: [column[i] for i in keep] for name, column in table.columns.items()})
+        mine = table.rows([i for i in range(size) if keys[i] == key])
         yield key, {name: column[0] for name, column in mine.columns.items()}, mine
 
 
 def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str, object], i: int, count: int) -> None:
-    above, x = 0.0 if "y" in panel.log else -np.inf, panel.x
     style = {**(STYLES.get(curve.style) or {**graded(i, count), **GRADED[curve.style]})}
-    if curve.apart:
-        style["markevery"] = curve.apart
-    y, low, high = (visible(mine[name], above=above) for name in ("value", "low", "high"))
     where = {name: value for name, value in values.items() if value == value}
-    if curve.style == "graded":
-        style = {**style, "markevery": max(y.size // FEW, 1)}
     label = curve.label or ", ".join(_said(name, where[name]) for name in curve.by if name in where)
-    down = i * curve.down
-    if curve.style == "interval":
-        axis.fill_between(mine[x], low, high, color=style["color"], alpha=0.2, linewidth=0, label=label)
-        return
     if curve.upright:
-        for at in mine["value"]:
-            axis.axvline(at, label=label, **style)
+        for x, name in zip(mine["value"], mine["model"], strict=True):
+            axis.axvline(x, label=label or "_", **style)
+            up = axis.get_xaxis_transform()
+            axis.text(x, 0.02, "" if label else name, transform=up, rotation=90, va="bottom", ha="right", fontsize=7)
         return
+    x, above, down = mine[panel.x], 0.0 if "y" in panel.log else -np.inf, i * curve.down
+    y, low, high = (visible(mine[name], above=above) for name in ENDS)
+    if curve.style == "interval":
+        axis.fill_between(x, low, high, color=style["color"], alpha=0.2, linewidth=0, label=label)
+        return
+    if curve.apart or curve.style == "graded":
+        style["markevery"] = curve.apart or max(y.size // FEW, 1)
     if curve.bars and np.any(high > low):
         # down to nothing: on a logarithmic axis a decade
         down_to = np.where(np.asarray(mine["low"]) > above, low, 0.1 * y)
         bars = [np.nan_to_num(y - down_to), np.nan_to_num(high - y)]
         # moved a little, so that intervals stand side by side
         beside = curve.beside**i if "x" in panel.log else 1.0
-        axis.errorbar(beside * mine[x], y - down, yerr=bars, capsize=1.5, elinewidth=0.7, label=label, **style)
+        axis.errorbar(beside * x, y - down, yerr=bars, capsize=1.5, elinewidth=0.7, label=label, **style)
     else:
-        axis.plot(mine[x], y - down, label=label, **style)
+        axis.plot(x, y - down, label=label, **style)
     if curve.band:
-        axis.fill_between(mine[x], low, high, color=style["color"], alpha=0.15, linewidth=0)
+        axis.fill_between(x, low, high, color=style["color"], alpha=0.15, linewidth=0)
 
 
 def _map(chart: Chart, what: Map, table: Table) -> Figure:

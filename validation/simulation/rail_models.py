@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL
 from validation.engine.engine import Outcome
-from validation.scenes.profiled_rail import ProfiledRail
-from validation.scenes.rail import RailScene
+from validation.scenes.rail import ProfiledRail, RailScene
 from validation.simulation.equivalent_displacement import LINEAR_MODELS, RolledRail, log_over, roll_rail
 from validation.simulation.method import Resolution, Result, Values
 from validation.simulation.model import Cost, ErrorEstimate, Model, Target, model

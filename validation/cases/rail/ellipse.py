@@ -9,11 +9,10 @@ from numpy.typing import NDArray
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, Matrix
+from validation.analysis.claims import Claim, Matrix, decibels
 from validation.analysis.evidence import Role
 from validation.analysis.series import Margin, Series, Where, only
 from validation.analysis.study import Outcomes, Study
-from validation.analysis.wording import decibels
 from validation.cases.rail.filters import ACROSS, COUNTED, SPEEDS, counted, linear_filter, scene_of, weighted_difference
 from validation.cases.rail.published import RailWheel
 from validation.engine.convergence import NotConvergedError

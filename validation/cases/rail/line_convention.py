@@ -9,13 +9,12 @@ from numpy.typing import NDArray
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim
+from validation.analysis.claims import Claim, decibels
 from validation.analysis.evidence import Role
 from validation.analysis.series import Margin, Series, Where
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknifed
 from validation.analysis.study import Outcomes, Study
-from validation.analysis.wording import decibels
 from validation.cases.rail.filters import counted, decibel, linear_filter, scene_of
 from validation.cases.rail.published import RailWheel
 from validation.engine.engine import SERIAL, Engine

@@ -9,7 +9,6 @@ from scipy import stats
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart
 from validation.analysis.claims import Claim
-from validation.analysis.digits import in_four_digits
 from validation.analysis.evidence import Columns, Table, grouped, table_of
 from validation.analysis.series import Margin, Series
 from validation.analysis.statistics import Interval
@@ -59,6 +58,13 @@ NONE = "none"
 Some = slice | np.ndarray
 ESTIMATED, TRUE, OF_REFERENCE = "estimated error", "true error", "error of the reference"
 OF_FINE = "error of fine boundary elements"
+
+
+def in_four_digits(table: Table) -> Table:
+    """Of many points, which are drawn and read, and not computed with."""
+    columns = {name: table[name].tolist() for name in table.columns}
+    rounded = {n: [float(f"{x:.4g}") if isinstance(x, float) else x for x in mine] for n, mine in columns.items()}
+    return Table(table.name, rounded)
 
 
 def scenes_of(result: Outcomes) -> Table:

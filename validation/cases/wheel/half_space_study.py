@@ -175,20 +175,19 @@ MODEL_STYLES = {
     wheel.GEIKE: "mdr",
     wheel.ROLLING: "triangles",
 }
+MARKED = Curve(MARKS, style="guide", upright=True)
 BANDS = Panel(
     OMEGA,
     LEVELS,
-    by_model(LEVELS, {**MODEL_STYLES, wheel.BEM: "bem"}, bars=True),
+    (*by_model(LEVELS, {**MODEL_STYLES, wheel.BEM: "bem"}, bars=True), MARKED),
     decades=75.0,
-    marks=MARKS,
 )
 DIFFERENCES = Panel(
     OMEGA,
     "over boundary elements [dB]",
-    (Curve(OVER, wheel.BEM, "guide", "_", band=True), *by_model(OVER, MODEL_STYLES)),
+    (Curve(OVER, wheel.BEM, "guide", "_", band=True), *by_model(OVER, MODEL_STYLES), MARKED),
     ylim=(-12.0, 12.0),
     lines=(-3.0, -1.0, 1.0, 3.0),
-    marks=MARKS,
 )
 THIRD = Panel(
     OMEGA,

@@ -302,7 +302,12 @@ STUDY = Study(
                 plateau_panel(SHORT_STEADY, Curve(A, SHORT_OPEN, "guide", "springs, open tracks")),
                 plateau_panel(LONG_STEADY),
                 Panel(OVER_EIGEN, DENSITY, (Curve(BY_SPEED, by=(RATIO,)),), log="xy"),
-                Panel(RATIO, VALLEY, (Curve(VALLEY, label="_"),), lines=(APART,), marks=MERGES),
+                Panel(
+                    RATIO,
+                    VALLEY,
+                    (Curve(VALLEY, label="_"), Curve(MERGES, style="guide", upright=True)),
+                    lines=(APART,),
+                ),
             ),
             claims=(0, 2),
             columns=2,

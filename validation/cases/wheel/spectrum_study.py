@@ -8,7 +8,7 @@ import numpy as np
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel, by_model
 from validation.analysis.claims import Claim, Matrix
-from validation.analysis.evidence import Table, columns
+from validation.analysis.evidence import Table
 from validation.analysis.study import Outcomes, Study
 from validation.cases.wheel import spectrum
 from validation.cases.wheel.contrast import CONTRAST, ZERO
@@ -43,14 +43,14 @@ def tables(result: Outcomes) -> list[Table]:
     """The scene, each feature of each variation with its verdict, and the contact at one moment."""
     snapshot, pairs = result[spectrum.SNAPSHOT], describe(result.case.scene)
     x, y = np.meshgrid(snapshot["x"], snapshot["y"], indexing="ij")
-    pressure = {"x / a": x.ravel(), "y / a": y.ravel(), "p / p0": snapshot["pressure"].ravel()}
+    pressure = zip(("x / a", "y / a", "p / p0"), (x, y, snapshot["pressure"]), strict=True)
     return [
         Table("the scene", dict(zip(("quantity", "value"), map(list, zip(*pairs, strict=True)), strict=True))),
         PARAMETERS.table(
             [n for scene in spectrum.features_by_scene(result) for one in scene.values() for n in one.numbers]
         ),
-        Table("springs", columns(**dict(zip(SPRING_COLUMNS, snapshot["springs"], strict=True)))),
-        Table("pressure", columns(**pressure)),
+        Table("springs", dict(zip(SPRING_COLUMNS, snapshot["springs"].tolist(), strict=True))),
+        Table("pressure", {name: values.ravel().tolist() for name, values in pressure}),
     ]
 
 
@@ -82,20 +82,22 @@ def is_of_the_book(scene: WheelScene) -> bool:
 WHOLE = Panel(
     OMEGA,
     DENSITY,
-    by_model(
-        spectrum.SPECTRUM,
-        {
-            spectrum.LINEAR: "thick",
-            spectrum.LOWEST: "dotted",
-            spectrum.HIGHEST: "dotted",
-            spectrum.NO_WINDOW: "mdr line",
-            spectrum.HANN: "exact",
-            spectrum.PREDICTED_FLOOR: "bem line",
-        },
+    (
+        *by_model(
+            spectrum.SPECTRUM,
+            {
+                spectrum.LINEAR: "thick",
+                spectrum.LOWEST: "dotted",
+                spectrum.HIGHEST: "dotted",
+                spectrum.NO_WINDOW: "mdr line",
+                spectrum.HANN: "exact",
+                spectrum.PREDICTED_FLOOR: "bem line",
+            },
+        ),
+        Curve(spectrum.MARKS, style="guide", upright=True),
     ),
     log="xy",
     decades=13.0,
-    marks=spectrum.MARKS,
     legend="upper right",
 )
 STYLES = {spectrum.LINEAR: "thick", spectrum.NO_WINDOW: "mdr line", spectrum.HANN: "exact"}

@@ -1,13 +1,12 @@
-"""The rows of the first screen, from the sections of a report."""
+"""The rows of the first screen, from the sections of a report: words change with the verdicts of the numbers."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 
-from validation.analysis.evidence import Evidence
-from validation.report.answers.cells import Enough, RangeCell, ends, runs, span
-from validation.report.answers.question import AlternativeModel, Question
-from validation.report.answers.questions import QUESTIONS
-from validation.report.answers.words import first_word, measured, per_cent, sentence, times
+from validation.analysis.evidence import Evidence, Number, Place, Verdict
+from validation.report.answers.questions import QUESTIONS, Alternative, Printed, Question, per_cent, times
+from validation.report.answers.strip import WORDS, Cell, Source, ends, span
 from validation.report.section import Section
 
 MAP = "reduced_models-map"
@@ -16,46 +15,30 @@ NOT_RUN, NO_RESULT, NOT_MEASURED = "Not run", "No result", "Not measured"
 
 
 @dataclass(frozen=True)
-class StripCell:
-    """A cell of a strip as it is printed: its place, its letter; enough: of `Enough`, or empty where not measured."""
-
-    place: str
-    enough: str
-    word: str
-
-
-@dataclass(frozen=True)
-class OfferedModel:
-    """What could be taken: where it is enough and what it costs; case: that says so, if it was run."""
-
-    text: str
-    case: str
-
-
-@dataclass(frozen=True)
 class AnsweredQuestion:
-    """A row: the strip, its range and margin, the answer in a word and in a sentence, what else could be taken.
+    """A row: the answer in a word and in a sentence; the case, if it was run; the strip, places with their words; its
+    range and margin.
 
-    within: the margin itself; evidence: the case, if it was run.
+    within: the margin itself; instead: where each model is enough and what it costs, with the case that says so, if it
+    was run.
     """
 
     question: Question
     word: str
-    answer: str = ""
-    strip: tuple[StripCell, ...] = ()
+    answer: str
+    evidence: str = ""
+    strip: tuple[tuple[str, str], ...] = ()
     measured: str = ""
     margin: str = ""
     within: str = ""
-    instead: tuple[OfferedModel, ...] = ()
-    evidence: str = ""
+    instead: tuple[tuple[str, str], ...] = ()
 
 
 def answered_questions(sections: Sequence[Section]) -> list[AnsweredQuestion]:
     """All rows; none where the report has no case of any of them."""
     found = {section.name: section for section in sections}
-    if not any(question.source.case in found for question in QUESTIONS):
-        return []
-    return [_answered(question, found) for question in QUESTIONS]
+    asked = any(question.source.case in found for question in QUESTIONS)
+    return [_answered(question, found) for question in QUESTIONS] if asked else []
 
 
 def plain(rows: Sequence[AnsweredQuestion]) -> list[dict[str, object]]:
@@ -64,98 +47,154 @@ def plain(rows: Sequence[AnsweredQuestion]) -> list[dict[str, object]]:
         {
             "question": row.question.asks,
             "case": row.question.source.case,
-            "number that decides": row.question.axis,
+            "number that decides": row.question.source.over,
             "answer": row.word,
             "sentence": row.answer,
-            "strip": [{"place": cell.place, "enough": cell.word} for cell in row.strip],
+            "strip": [{"place": place, "enough": word} for place, word in row.strip],
             "measured": row.measured,
             "margin": row.margin,
-            "instead": [model.text for model in row.instead],
+            "instead": [text for text, _ in row.instead],
         }
         for row in rows
     ]
 
 
 def _answered(question: Question, sections: Mapping[str, Section]) -> AnsweredQuestion:
-    section = sections.get(question.source.case)
+    source, section = question.source, sections.get(question.source.case)
     if section is None:
-        return AnsweredQuestion(question, NOT_RUN, f"The case {question.source.case} is not in this report.")
+        return AnsweredQuestion(question, NOT_RUN, f"The case {source.case} is not in this report.")
     if section.evidence is None:
-        return AnsweredQuestion(
-            question, NO_RESULT, f"The case {section.name} did not converge.", evidence=section.name
-        )
-    cells = question.source.cells(section.evidence)
+        return AnsweredQuestion(question, NO_RESULT, f"The case {section.name} did not converge.", section.name)
+    cells = source.cells(section.evidence)
     if not cells:
-        return AnsweredQuestion(question, NOT_MEASURED, f"{section.name} has no number for it.", evidence=section.name)
-    told = (*question.source.series, *question.told)
+        return AnsweredQuestion(question, NOT_MEASURED, f"{section.name} has no number for it.", section.name)
+    numbers, verdicts = _numbers(cells), {cell.verdict for cell in cells}
+    within = _margins(question, numbers)
     evidence = {name: one.evidence for name, one in sections.items() if one.evidence}
+    offered = [(_offered(model, question, within, evidence), model) for model in question.instead]
+    cases = [(text, model.source.case if model.source else model.counted) for text, model in offered if text]
     return AnsweredQuestion(
         question,
-        first_word(cells),
-        sentence(cells, question.axis, question.printed),
-        _strip(cells),
-        ", ".join(filter(None, (measured(cells, question.axis, told), question.of_scene(section)))),
-        " ".join(dict.fromkeys(number.reason for cell in cells for number in cell.numbers)),
-        _margins(question, cells),
-        tuple(_instead(cells, question, evidence)),
+        _word(verdicts),
+        sentence(cells, source.over, question.printed),
         section.name,
+        tuple(_strip(cells)),
+        ", ".join([*_measured(cells, source), *_of_scene(question, section)]),
+        " ".join(dict.fromkeys(number.reason for number in numbers)),
+        within,
+        tuple((text, case if case in evidence else "") for text, case in cases if verdicts != {Verdict.AGREE}),
     )
 
 
-def _strip(cells: Sequence[RangeCell]) -> tuple[StripCell, ...]:
+def _numbers(cells: Iterable[Cell]) -> list[Number]:
+    return [number for cell in cells for number in cell.numbers]
+
+
+def _strip(cells: Sequence[Cell]) -> list[tuple[str, str]]:
     """With what was not measured at both ends of an axis that has any."""
-    places = [cell.place for cell in cells]
-    inside = [StripCell(_printed(cell), cell.enough.value, cell.enough.value) for cell in cells]
+    inside, places = [(span([cell.place]), WORDS[cell.verdict]) for cell in cells], [cell.place for cell in cells]
     if any(isinstance(place, str) for place in places):
-        return tuple(inside)
-    low, high = ends(places[0])[0], ends(places[-1])[1]
-    below, above = (StripCell(text, "", "not measured") for text in (f"< {low:.2g}", f"> {high:.2g}"))
-    return (below, *inside, above)
+        return inside
+    below, above = f"< {ends(places[0])[0]:.2g}", f"> {ends(places[-1])[1]:.2g}"
+    return [(below, NOT_MEASURED.lower()), *inside, (above, NOT_MEASURED.lower())]
 
 
-def _printed(cell: RangeCell) -> str:
-    if isinstance(cell.place, str):
-        return cell.place
-    low, high = ends(cell.place)
-    return f"{low:.2g}" if low == high else f"{low:.3g} to {high:.3g}"
+def _measured(cells: Sequence[Cell], source: Source) -> list[str]:
+    """The whole range, and the conditions of its numbers: outside nothing is known."""
+    ranges: dict[str, list[Place]] = {source.over: [cell.place for cell in cells if not isinstance(cell.place, str)]}
+    for name in (*((source.axis,) if source.read else ()), *source.series):
+        ranges[name] = [number.where[name] for number in _numbers(cells) if name in number.where]
+    return [span(places, name) for name, places in ranges.items() if places]
 
 
-def _instead(cells: Sequence[RangeCell], question: Question, evidence: Mapping[str, Evidence]) -> list[OfferedModel]:
-    """Each model with where it is enough and what it costs, as long as MDR is not enough everywhere."""
-    if all(cell.enough is Enough.YES for cell in cells):
-        return []
-    found = [
-        (_offered(model, question, evidence), model.source.case if model.source else model.cost.case)
-        for model in question.alternatives
-    ]
-    return [OfferedModel(text, case if case in evidence else "") for text, case in found if text]
+def _of_scene(question: Question, section: Section) -> list[str]:
+    """What its case says of it; a case that is kept from before it said so has no such column."""
+    said = [f"H = {section.settings['hurst']:g}"] if "hurst" in section.settings else []
+    if question.of_scene and section.evidence:
+        table, column = question.of_scene
+        values = section.evidence.table(table).columns.get(column, ())
+        said += [f"{column} = {value if isinstance(value, str) else f'{value:.2g}'}" for value in values[:1]]
+    return said
 
 
-def _offered(model: AlternativeModel, question: Question, evidence: Mapping[str, Evidence]) -> str:
-    """Empty where it was not run or is enough nowhere."""
-    cost = f" ({model.cost.text(evidence[model.cost.case])})" if model.cost.case in evidence else ""
+def _offered(model: Alternative, question: Question, within: str, evidence: Mapping[str, Evidence]) -> str:
+    """A model where it is enough, within its margin where that is another one, and its cost; empty where it is enough
+    nowhere or was not run.
+    """
+    cost = model.cost if isinstance(model.cost, str) else ""
+    if not isinstance(model.cost, str) and model.counted in evidence:
+        cost = model.cost(evidence[model.counted])
+    behind = f" ({cost})" if cost else ""
     if model.source is None:
-        return f"{model.name}{cost}"
-    if model.source.case not in evidence:
-        return ""
-    mine = model.source.cells(evidence[model.source.case])
-    where = " and ".join(span(piece, model.axis or question.axis) for piece in runs(mine, Enough.YES))
-    margin = _other_margin(model, question, mine, question.source.cells(evidence[question.source.case]))
-    return f"{model.name} {where}{margin}{cost}" if where else ""
+        return f"{model.name}{behind}"
+    cells = model.source.cells(evidence[model.source.case]) if model.source.case in evidence else []
+    margin = _margins(question, _numbers(cells))
+    by = f", within {margin} {model.by}".rstrip() if model.by or margin != within else ""
+    where = _where(cells, Verdict.AGREE, model.source.over)
+    return f"{model.name} {where}{by}{behind}" if where else ""
 
 
-def _other_margin(
-    model: AlternativeModel, question: Question, mine: Sequence[RangeCell], judged: Sequence[RangeCell]
-) -> str:
-    """Where it is not judged as the question is."""
-    found, other = ({number.tolerance for cell in cells for number in cell.numbers} for cells in (mine, judged))
-    if found == other and not model.by:
-        return ""
-    return f", within {_margins(question, mine)} {model.by}".rstrip()
-
-
-def _margins(question: Question, cells: Sequence[RangeCell]) -> str:
+def _margins(question: Question, numbers: Sequence[Number]) -> str:
     """Tolerances of the numbers; of what is printed as a factor, in per cent."""
     printed = per_cent if question.printed is times else question.printed
-    tolerances = sorted({number.tolerance for cell in cells for number in cell.numbers})
+    tolerances = sorted({number.tolerance for number in numbers})
     return " and ".join(printed(tolerance).removeprefix("+") for tolerance in tolerances)
+
+
+def _word(verdicts: set[Verdict]) -> str:
+    """The whole strip."""
+    if Verdict.AGREE in verdicts:
+        return "Yes" if len(verdicts) == 1 else "In part"
+    return WORDS[verdicts.pop()].capitalize() if len(verdicts) == 1 else "No or open"
+
+
+def _where(cells: Sequence[Cell], verdict: Verdict, over: str) -> str:
+    """Neighbouring cells that say it: "at h' a/d = 0.3", "from Fbar = 0.1 to 1 and at Fbar = 9", "in region 2"."""
+    said = []
+    for found, group in groupby(cells, key=lambda cell: cell.verdict):
+        places = [cell.place for cell in group]
+        text = span(places, over)
+        word = "in" if isinstance(places[0], str) else "from" if " to " in text else "at"
+        said += [f"{word} {text}"] if found is verdict else []
+    return " and ".join(said)
+
+
+def sentence(cells: Sequence[Cell], over: str, printed: Printed) -> str:
+    """Where it is enough, where not, where open; each with the numbers that say so."""
+    clauses = []
+    for verdict, word in ((Verdict.AGREE, "enough"), (Verdict.DIFFER, "not enough"), (Verdict.UNDECIDED, "open")):
+        if where := _where(cells, verdict, over):
+            numbers = _numbers(cell for cell in cells if cell.verdict is verdict)
+            clauses.append(f"{word} {where} ({_found(verdict, numbers, printed)})")
+    text = "; ".join(clauses)
+    return f"{text[0].upper()}{text[1:]}."
+
+
+def _found(verdict: Verdict, numbers: Sequence[Number], printed: Printed) -> str:
+    mine = [number for number in numbers if number.verdict is verdict]
+    if verdict is Verdict.DIFFER:
+        count = f"{len(mine)} of {len(numbers)} numbers differ" if len(numbers) > 1 else "it differs"
+        return f"{count}: {_by_quantity(mine, printed)}"
+    if not mine:
+        return "some numbers are missing"
+    ends = (number.difference + sign * number.uncertainty for number in mine for sign in (-1, 1))
+    return f"{'all intervals within' if verdict is Verdict.AGREE else 'intervals from'} {from_to(ends, printed)}"
+
+
+def _by_quantity(numbers: Sequence[Number], printed: Printed) -> str:
+    """The least and the largest, below and above the reference; apart where there are several quantities."""
+    quantities = list(dict.fromkeys(number.quantity for number in numbers))
+    found = []
+    for quantity in quantities:
+        values = [number.difference for number in numbers if number.quantity == quantity]
+        sides = [value for value in values if value < 0], [value for value in values if value >= 0]
+        name = f"{quantity} " if len(quantities) > 1 else ""
+        found.append(name + " and ".join(from_to(side, printed) for side in sides if side))
+    return ", ".join(found)
+
+
+def from_to(values: Iterable[float], printed: Printed) -> str:
+    """The least and the largest, the unit once: "-13 to -11 %"."""
+    both = sorted(values)
+    first, last = printed(both[0]), printed(both[-1])
+    return last if first == last else f"{first.split(' ')[0]} to {last}"

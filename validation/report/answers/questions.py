@@ -1,147 +1,218 @@
-"""The questions of the first screen, in the order of the cases that answer them."""
+"""The questions of the first screen, in the order of their cases: which numbers answer them, and what else to take."""
 
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+from validation.analysis.evidence import Evidence
+from validation.analysis.statistics import DECIBEL
 from validation.cases.punch import bandwidth
 from validation.cases.punch import ensembles as punch
-from validation.cases.punch import mdr_limits as rolled_off
+from validation.cases.punch import mdr_limits as limits
+from validation.cases.punch.work import WORK, Worked
+from validation.cases.rail import rail_dynamic, rolled_filters, rough_rail
 from validation.cases.rolling import force_spectrum as rolling
-from validation.cases.rolling.force_spectrum import LINEAR_3D, ROLLING_SPRINGS, SPRINGS
+from validation.cases.rolling import reduced_models as reduced
 from validation.cases.wheel import half_space as wheel
-from validation.cases.wheel.half_space_study import WHEEL
-from validation.report.answers.alternatives import (
-    IN_TIME,
-    JUDGE,
-    LAYER,
-    MOVING,
-    READ,
-    fit,
-    linear,
-    pressed,
-    rolling_springs,
+from validation.cases.wheel.features import LEVEL
+from validation.cases.wheel.half_space_study import APPLICATIONS, WHEEL
+from validation.report.answers.strip import Source
+
+CONTACT, SPRINGS, BEM = "roughness and contact", "springs, Geike's rule", "boundary elements"
+Printed = Callable[[float], str]
+"""From the difference of a number in decibels to a text with its unit."""
+
+
+def per_cent(decibels: float) -> str:
+    """Of an amplitude: -12 %."""
+    return f"{round(100 * math.expm1(decibels / DECIBEL)) + 0:+d} %"
+
+
+def times(decibels: float) -> str:
+    """Of an amplitude: 0.53 times, 350 times."""
+    return f"{float(f'{math.exp(decibels / DECIBEL):.2g}'):g} times"
+
+
+def in_decibels(decibels: float) -> str:
+    return f"{round(decibels, 1) + 0.0:+.3g} dB"
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """What could be taken in the place of MDR; without a source it is what the others are judged by.
+
+    cost: a text, or one of the evidence of the case that counted it; by: what its margin is of, where that is not the
+    quantity of the question.
+    """
+
+    name: str
+    source: Source | None
+    cost: str | Callable[[Evidence], str]
+    counted: str = ""
+    by: str = ""
+
+
+@dataclass(frozen=True)
+class Question:
+    """A row of the first screen.
+
+    asks: without "is MDR enough?"; source: its numbers; printed: their differences; instead: the cheapest first; model:
+    what stands for MDR; of_scene: a table and the column of it that says what else the numbers were measured for.
+    """
+
+    name: str
+    asks: str
+    source: Source
+    printed: Printed
+    instead: tuple[Alternative, ...]
+    model: str = SPRINGS
+    of_scene: tuple[str, str] | None = None
+
+
+def worked(evidence: Evidence) -> str:
+    """A contact on boundary elements, beside the springs."""
+    work = Worked.read(evidence.table(WORK))
+    return (
+        f"{work.applications:.0f} applications of the operator to {work.cells}² cells a surface and load; springs: "
+        f"one sort of {work.springs} for all loads"
+    )
+
+
+def times_springs(model: str, evidence: Evidence) -> str:
+    mine = evidence.table(reduced.WORK).where(model=model)["value"]
+    least, most = (f"{float(f'{times:.2g}'):,g}" for times in (mine.min(), mine.max()))
+    return f"{least if least == most else f'{least} to {most}'} times the counted work of springs on a line"
+
+
+def steps(evidence: Evidence) -> str:
+    work = evidence.table(WHEEL)
+    applications, cells = (work[name][0] for name in (APPLICATIONS, "cells to a contact radius"))
+    return f"{applications:.0f} applications of the operator in each time step, {cells:.0f} cells to a contact radius"
+
+
+def counted(name: str, model: str, source: Source | None = None, by: str = "") -> Alternative:
+    """With the work of a model on the strips of reduced models."""
+    return Alternative(name, source, partial(times_springs, model), "reduced_models", by)
+
+
+INTEGRAL, BY_FORMULA, OF_SPRINGS = "an integral over the spectrum", "a formula", "the work of springs"
+LINEAR_3D, EQUIVALENT = "linear theory in 3D", "springs, rolling-equivalent spectrum"
+FIT = partial(Alternative, "the fit 1/kbar = 1/1.1523 + 0.48/Fbar", cost=BY_FORMULA)
+PRESSED = partial(Alternative, BEM, None, worked)
+over_force = partial(Source, axis=limits.FORCE, over=limits.FORCE)
+of_punch = partial(over_force, case="fractal_punch", model=limits.OVER, where={"H": float}, series=("H",))
+of_limits = partial(over_force, case="mdr_limits", model=limits.OVER, series=(limits.ROLL_OFF,))
+of_fit = partial(
+    over_force, case="bandwidth", series=bandwidth.KINDS, quantity=punch.MEAN + bandwidth.OF_BEM, model=bandwidth.FIT
 )
-from validation.report.answers.question import AlternativeModel, Question
-from validation.report.answers.sources import (
-    FORCE,
-    SLOPE,
-    not_modelled,
-    of_punch,
-    of_rail,
-    of_rolling,
-    of_wheel,
-    waves_of_slope,
+of_rolling = partial(
+    Source, case="rolling", axis="h/d", over=reduced.SLOPE, read=(reduced.SLOPE, "value"), series=("q a",)
 )
-from validation.report.answers.words import in_decibels, per_cent, times
-from validation.report.section import Section
-
-GEIKE = "springs, Geike's rule"
-
-
-def _slope_of_wheel(section: Section) -> str:
-    assert section.evidence
-    return f"h' a/d = {section.evidence.table(WHEEL)[SLOPE][0]:.2g}"
-
-
-def _waves_of_rail(section: Section) -> str:
-    assert section.evidence
-    return waves_of_slope(section.evidence)
-
-
-def _hurst(section: Section) -> str:
-    return f"H = {section.settings['hurst']:g}"
-
-
+of_strips = partial(
+    Source,
+    case="reduced_models",
+    quantity=reduced.OFF,
+    axis=reduced.SLOPE,
+    over=reduced.SLOPE,
+    series=("H", reduced.Q),
+)
+of_rail = partial(
+    Source,
+    case="rough_rail",
+    quantity=rolled_filters.OVER_BEM,
+    where={"waves": rough_rail.LONG},
+    axis=rough_rail.OFFSET,
+    over="h' a_x/d",
+    read=(CONTACT, "h' a_x / d"),
+)
+of_wheel = partial(Source, case="wheel_3d", quantity=LEVEL, axis="range", over="the spectrum")
+BEM_IN_MOTION, SPRINGS_IN_MOTION = rail_dynamic.MODELS
+MOVING = Source(
+    case="rail_dynamic",
+    quantity=rail_dynamic.RMS + rail_dynamic.BESIDE,
+    model=f"{SPRINGS_IN_MOTION} over {BEM_IN_MOTION}",
+    axis=rail_dynamic.OFFSET,
+    over=rail_dynamic.OFFSET,
+)
+GEIKE, LINEAR, ROLLING = (
+    model + rolling.OVER for model in (rolling.SPRINGS, rolling.LINEAR_3D, rolling.ROLLING_SPRINGS)
+)
+READ, ON_LINE = rolled_filters.RIVALS[:2]
+JUDGE, OCTAVES = counted(BEM, reduced.JUDGE), "rms over octaves"
 QUESTIONS = (
     Question(
-        name="mean-stiffness",
-        asks="Stiffness of a rough punch, its mean over surfaces",
-        axis=FORCE,
-        model=GEIKE,
-        source=of_punch(punch.MEAN),
-        printed=per_cent,
-        alternatives=(fit(bandwidth.BANDWIDTH), pressed("fractal_punch")),
+        "mean-stiffness",
+        "Stiffness of a rough punch, its mean over surfaces",
+        of_punch(quantity=punch.MEAN),
+        per_cent,
+        (FIT(of_fit(where={bandwidth.BANDWIDTH: ...})), PRESSED("fractal_punch")),
     ),
     Question(
-        name="scatter",
-        asks="Scatter of that stiffness over surfaces",
-        axis=FORCE,
-        model=GEIKE,
-        source=of_punch(punch.DEVIATION),
-        printed=per_cent,
-        alternatives=(pressed("fractal_punch"),),
+        "scatter",
+        "Scatter of that stiffness over surfaces",
+        of_punch(quantity=punch.DEVIATION),
+        per_cent,
+        (PRESSED("fractal_punch"),),
     ),
     Question(
-        name="area-and-gap",
-        asks="True contact area and mean gap of a rough punch",
-        axis=FORCE,
-        model=GEIKE,
-        source=not_modelled(rolled_off.AREA, rolled_off.GAP, rolled=False),
-        printed=times,
-        of_scene=_hurst,
-        alternatives=(pressed("mdr_limits"),),
+        "area-and-gap",
+        "True contact area and mean gap of a rough punch",
+        of_limits(quantity=(limits.AREA, limits.GAP)),
+        times,
+        (PRESSED("mdr_limits"),),
     ),
     Question(
-        name="roll-off",
-        asks="Stiffness of roughness with a roll-off",
-        axis=FORCE,
-        model=GEIKE,
-        source=not_modelled(rolled_off.STIFFNESS, rolled=True),
-        printed=per_cent,
-        of_scene=_hurst,
-        alternatives=(fit(bandwidth.ROLL_OFF), pressed("mdr_limits")),
+        "roll-off",
+        "Stiffness of roughness with a roll-off",
+        of_limits(quantity=limits.STIFFNESS, where={limits.ROLL_OFF: lambda place: place != 1}),
+        per_cent,
+        (FIT(of_fit(where={bandwidth.ROLL_OFF: ...})), PRESSED("mdr_limits")),
     ),
     Question(
-        name="rolling-rms",
-        asks="Rms force of a rolling wheel",
-        axis=SLOPE,
-        model=GEIKE,
-        source=of_rolling(rolling.RMS_FORCE, SPRINGS),
-        printed=per_cent,
-        of_scene=_hurst,
-        alternatives=(linear(of_rolling(rolling.RMS_FORCE, LINEAR_3D)), JUDGE),
+        "rolling-rms",
+        "Rms force of a rolling wheel",
+        of_rolling(quantity=rolling.RMS_FORCE, model=GEIKE),
+        per_cent,
+        (Alternative(LINEAR_3D, of_rolling(quantity=rolling.RMS_FORCE, model=LINEAR), INTEGRAL), JUDGE),
     ),
     Question(
-        name="rolling-spectrum",
-        asks="Force spectrum of a rolling wheel, band by band",
-        axis=SLOPE,
-        model=GEIKE,
-        source=of_rolling(rolling.LEVEL, SPRINGS),
-        printed=in_decibels,
-        of_scene=_hurst,
-        alternatives=(
-            linear(of_rolling(rolling.LEVEL, LINEAR_3D)),
-            rolling_springs(of_rolling(rolling.LEVEL, ROLLING_SPRINGS)),
-            READ,
-            LAYER,
+        "rolling-spectrum",
+        "Force spectrum of a rolling wheel, band by band",
+        of_rolling(quantity=rolling.LEVEL, model=GEIKE),
+        in_decibels,
+        (
+            Alternative(LINEAR_3D, of_rolling(quantity=rolling.LEVEL, model=LINEAR), INTEGRAL),
+            Alternative(EQUIVALENT, of_rolling(quantity=rolling.LEVEL, model=ROLLING), OF_SPRINGS),
+            counted(reduced.READ, reduced.READ, of_strips(model=reduced.READ), OCTAVES),
+            counted(reduced.LAYER, reduced.COARSE_LAYER, of_strips(model=reduced.COARSE_LAYER), OCTAVES),
             JUDGE,
         ),
     ),
     Question(
-        name="contact-filter",
-        asks="Contact filter of a wheel on a rail",
-        axis="h' a_x/d",
-        model="springs on the measured line, isotropic ground",
-        source=of_rail("springs on the line"),
-        told=("offset [dB]",),
-        printed=in_decibels,
-        of_scene=_waves_of_rail,
-        alternatives=(
-            linear(of_rail("linear, ellipse"), "linear theory of the ellipse"),
-            AlternativeModel(name=READ.name, cost=READ.cost, source=of_rail("springs that read the surface")),
+        "contact-filter",
+        "Contact filter of a wheel on a rail",
+        of_rail(model=ON_LINE),
+        in_decibels,
+        (
+            Alternative("linear theory of the ellipse", of_rail(model=rolled_filters.FILTERS[0]), INTEGRAL),
+            counted(reduced.READ, reduced.READ, of_rail(model=READ)),
             JUDGE,
         ),
+        "springs on the measured line, isotropic ground",
+        (CONTACT, rough_rail.WAVES),
     ),
     Question(
-        name="dynamic-wheel",
-        asks="Acceleration of a dynamic wheel, band by band",
-        axis="the spectrum",
-        model=GEIKE,
-        source=of_wheel(wheel.GEIKE),
-        printed=in_decibels,
-        of_scene=_slope_of_wheel,
-        alternatives=(
-            linear(of_wheel(wheel.LINEAR_3D)),
-            rolling_springs(of_wheel(wheel.ROLLING)),
-            MOVING,
-            IN_TIME,
+        "dynamic-wheel",
+        "Acceleration of a dynamic wheel, band by band",
+        of_wheel(model=wheel.OVER_BEM[wheel.GEIKE]),
+        in_decibels,
+        (
+            Alternative(LINEAR_3D, of_wheel(model=wheel.OVER_BEM[wheel.LINEAR_3D]), INTEGRAL),
+            Alternative(EQUIVALENT, of_wheel(model=wheel.OVER_BEM[wheel.ROLLING]), OF_SPRINGS),
+            counted(f"on a rail, {reduced.READ} in the time loop", reduced.READ, MOVING, "rms over bands"),
+            Alternative(f"{BEM} in the time loop", None, steps, "wheel_3d"),
         ),
+        of_scene=(WHEEL, reduced.SLOPE),
     ),
 )

@@ -1,0 +1,90 @@
+"""Whether a model is enough, place by place of the range that decides, by the verdicts of all its numbers there."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from validation.analysis.claims import Choice
+from validation.analysis.evidence import Evidence, Number, Place, Verdict
+
+WORDS = {Verdict.AGREE: "yes", Verdict.DIFFER: "no", Verdict.UNDECIDED: "open"}
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A place on the axis and the numbers there; lacking: how many series that other places have are missing here."""
+
+    place: Place
+    numbers: tuple[Number, ...]
+    lacking: int = 0
+
+    @property
+    def verdict(self) -> Verdict:
+        """One counterexample is enough for no; one that is undecided, and one that lacks, leaves it open."""
+        verdicts = {number.verdict for number in self.numbers}
+        if Verdict.DIFFER in verdicts:
+            return Verdict.DIFFER
+        return Verdict.UNDECIDED if Verdict.UNDECIDED in verdicts or self.lacking else Verdict.AGREE
+
+
+@dataclass(frozen=True, kw_only=True)
+class Source(Choice):
+    """Where the numbers of a model stand.
+
+    case: whose; axis: the condition that decides; over: how it is printed, or what is printed in its place, which a
+    table has in a column, read, by the condition; series: conditions with numbers of their own at each place.
+    """
+
+    case: str
+    axis: str
+    over: str
+    read: tuple[str, str] | None = None
+    series: tuple[str, ...] = ()
+
+    def cells(self, evidence: Evidence) -> list[Cell]:
+        """In the order of the axis; names in the order of the numbers."""
+        found: dict[Place, list[Number]] = {}
+        for number in self.chosen(evidence.numbers):
+            if self.axis in number.where:
+                found.setdefault(self._place(number.where[self.axis], evidence), []).append(number)
+        every = {self._series(number) for numbers in found.values() for number in numbers}
+        return [
+            Cell(place, tuple(numbers), len(every - {self._series(number) for number in numbers}))
+            for place, numbers in _apart(found).items()
+        ]
+
+    def _place(self, place: Place, evidence: Evidence) -> Place:
+        if self.read is None:
+            return place
+        table, column = self.read
+        return float(evidence.table(table).where(**{self.axis: place})[column][0])
+
+    def _series(self, number: Number) -> tuple[object, ...]:
+        return (number.quantity, *(number.where.get(name) for name in self.series))
+
+
+def _apart(found: dict[Place, list[Number]]) -> dict[Place, list[Number]]:
+    """In the order of the axis; ranges that overlap, as where one quantity was measured less far, are one place."""
+    joined: dict[Place, list[Number]] = {}
+    for place in found if any(isinstance(place, str) for place in found) else sorted(found, key=ends):
+        before = next(reversed(joined), "")
+        if isinstance(before, str) or isinstance(place, str) or ends(place)[0] >= ends(before)[1]:
+            joined[place] = found[place]
+        else:
+            both = (ends(before)[0], max(ends(before)[1], ends(place)[1]))
+            joined[both] = [*joined.pop(before), *found[place]]
+    return joined
+
+
+def ends(place: Place) -> tuple[float, float]:
+    """Of a range, or twice the value."""
+    assert not isinstance(place, str)
+    return place if isinstance(place, tuple) else (place, place)
+
+
+def span(places: Sequence[Place], name: str = "") -> str:
+    """ "Fbar = 0.1 to 10", "h' a/d = 0.3", "-10 to 10 dB over the curve", "0.1 to 1", or names."""
+    if isinstance(places[0], str):
+        return ", ".join(map(str, dict.fromkeys(places)))
+    low, high = min(ends(place)[0] for place in places), max(ends(place)[1] for place in places)
+    both = f"{low:.2g}" if low == high else f"{low:.2g} to {high:.2g}"
+    return f"{both} {name}" if name.startswith("dB ") else f"{name} = {both}" if name else both
