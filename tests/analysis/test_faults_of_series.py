@@ -7,7 +7,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from validation.simulation.rail_ground import strip_bands
 
 from tests.analysis.test_declared_claims import AGREE, DIFFER, by_height
 from tests.analysis.test_declared_claims import number as planted
@@ -26,6 +25,7 @@ from validation.cases.rolling import force_spectrum
 from validation.cases.rolling.force_spectrum import SPRINGS
 from validation.cases.wheel import half_space, half_space_study
 from validation.simulation.equivalent_displacement import BEM, LINEAR, LINEAR_ON_LINE, SPRINGS_ON_LINE
+from validation.simulation.rail_strip import strip_bands
 from validation.theory.rolling import level_ratio
 
 
