@@ -24,7 +24,7 @@ from validation.cases.rail.rolled_filters import OVER_BEM, RolledFilters, Rolled
 from validation.cases.rolling import force_spectrum
 from validation.cases.rolling.force_spectrum import SPRINGS
 from validation.cases.wheel import half_space, half_space_study
-from validation.simulation.equivalent_displacement import BEM, LINEAR, LINEAR_ON_LINE, SPRINGS_ON_LINE
+from validation.simulation.model_names import BEM, LINEAR, LINEAR_ON_LINE, SPRINGS_ON_LINE
 from validation.simulation.rail_strip import strip_bands
 from validation.theory.rolling import level_ratio
 
