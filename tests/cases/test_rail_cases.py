@@ -14,7 +14,7 @@ from validation.analysis.statistics import POWER_DECIBEL
 from validation.cases.rail import ellipse, filters, line_convention, published, rolled_filters
 from validation.engine.engine import SERIAL
 from validation.simulation import equivalent_displacement as displacement
-from validation.simulation.equivalent_displacement import BEM, LINEAR, LINEAR_ON_LINE, SPRINGS_THAT_READ
+from validation.simulation.model_names import BEM, LINEAR, LINEAR_ON_LINE, SPRINGS_THAT_READ
 from validation.simulation.rail_strip import RailStrip, strip_bands
 
 WHEEL = published.RailWheel(50, 920)

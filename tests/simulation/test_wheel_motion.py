@@ -12,7 +12,6 @@ from tests.simulation.wheels import GRAVITY, SCHEMES, ULP, WHEEL, drift, laws, q
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import BoundaryElementsLaw, HertzLaw, LinearLaw, SpringsLaw
 from validation.simulation.motion import simulate
-from validation.theory.rolling import linear_force
 
 # --- smooth tracks ----------------------------------------------------------------------------------------------------
 
@@ -246,31 +245,6 @@ def strips(cells, height, wheels=1):
     x = 2 * np.pi * (np.arange(nx) + 0.5)[:, np.newaxis] / nx
     y = 2 * np.pi * (np.arange(ny) + 0.5) / ny
     return [height * (np.cos(2 * x + y + i) + np.cos(x - 0.4 * i)) for i in range(wheels)]
-
-
-def three_dimensional(cells, height, steps=30, dt=0.1):
-    """Motion on boundary elements and that of the linear law with the 3D filter, both over their motion at rest."""
-    strip = strips(cells, height)[0]
-    change = linear_force(strip, spacing=1 / cells, radius=1.0, modulus=1.0, approach=1.0) - 4 / 3
-    law = LinearLaw(WHEEL, change[:, np.newaxis])
-    d, v = law.steady_state(dt)
-    settings = {"time_step": dt, "steps": steps, "velocity": v, "path": True}
-    rest = BoundaryElementsLaw(WHEEL, [0 * strip], 1 / cells, tolerance=1e-6).at_rest(0)
-    solved = BoundaryElementsLaw(WHEEL, [strip], 1 / cells, tolerance=1e-6)
-    found = simulate(WHEEL, solved, approach=d - 1 + rest, **settings).path - rest
-    expected = simulate(WHEEL, law, approach=d, **settings).path - 1
-    assert solved.operator_applications > steps
-    return found, expected
-
-
-@pytest.mark.parametrize("cells", [4, 6])
-def test_boundary_elements_in_the_loop_follow_linear_theory_in_three_dimensions(cells):
-    """The residual tells 1e-6 of d; nonlinearity h / d; the grid, as for a ragged circle, (dx / a)^(3/2) or less."""
-    height = 0.01
-    found, expected = three_dimensional(cells, height)
-    assert np.abs(expected).max() > 0.1 * height
-    error = np.abs(found - expected).max() / np.abs(expected).max()
-    assert error <= 2 * height + cells**-1.5
 
 
 def test_wheels_on_boundary_elements_do_not_know_of_each_other():

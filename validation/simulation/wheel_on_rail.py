@@ -91,12 +91,7 @@ class SurfaceSpringsLaw:
         return np.asarray(self.spring * np.maximum(approach[:, np.newaxis] + level, 0.0).sum(axis=1))
 
     def at_rest(self, place: int) -> FloatArray:
-        return self.rolled.approach[place : place + 1].copy()
-
-    @cached_property
-    def rolled(self) -> mdr.RollingTrack:
-        """Under a constant force."""
-        return roll_springs(self.strip, self.strip.surface, mdr.roll_surface)
+        return roll_springs(self.strip, self.strip.surface, mdr.roll_surface).approach[place : place + 1].copy()
 
 
 def roll_and_move(case: WheelOnRail) -> Outcome:
@@ -132,11 +127,11 @@ def lift(wheel: Wheel, force: FloatArray, approach: FloatArray) -> FloatArray:
 
 def at_constant_load(case: WheelOnRail) -> FloatArray:
     """d_N - d."""
-    strip, law = case.strip, case.law()
-    if isinstance(law, SurfaceSpringsLaw):
-        return np.asarray(case.wheel.approach - law.rolled.approach)
-    found = roll_boundary_elements(strip, case.tolerance, raise_on_failure=True)
-    return np.asarray(case.wheel.approach - found.approach)
+    if case.model == BEM:
+        approach = roll_boundary_elements(case.strip, case.tolerance, raise_on_failure=True).approach
+    else:
+        approach = roll_springs(case.strip, case.strip.surface, mdr.roll_surface).approach
+    return np.asarray(case.wheel.approach - approach)
 
 
 def in_motion(case: WheelOnRail) -> tuple[FloatArray, FloatArray]:
