@@ -146,5 +146,5 @@ def test_a_picture_that_is_not_the_same_is_noticed(plain: str, fault: str) -> No
 
 
 def test_half_of_the_bytes(plain: str) -> None:
-    # a committed reference is to stay under 10 MB with each figure in it twice, in the page and beside it
+    # a committed report is to stay under 8 MB
     assert len(compact(plain)) < 0.5 * len(plain)
