@@ -145,9 +145,9 @@ def test_a_rail_has_one_slope_of_its_strips_and_one_of_all_bands():
     assert RailQuantity(scene, "contact-filter").lost == pytest.approx(strips * over, rel=1e-3)
     reasons = [model.estimate().reason for model in models_of(scene, "contact-filter", 0.1, 0)]
     assert any(f"h' a_x / d = {strips * over:.2g} of waves of 50 to 3.15 mm" in reason for reason in reasons)
-    of_case = rough_rail.roughness(SimpleNamespace(scene=lambda key: scene), ("", 0.0, ""))
-    assert of_case.found == pytest.approx([strips * over], rel=1e-3)
-    assert of_case.where[rough_rail.WAVES] == "50 to 3.15 mm"
+    table = rough_rail.roughness(SimpleNamespace(keys=[("", 0.0, "")], scene=lambda key: scene))
+    assert table["h' a_x / d"][0] == pytest.approx(strips * over, rel=1e-3)
+    assert table[rough_rail.WAVES][0] == "50 to 3.15 mm"
 
 
 def test_a_strip_of_a_rail_has_the_slope_along_the_track():

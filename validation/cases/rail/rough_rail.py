@@ -9,8 +9,9 @@ import numpy as np
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, Matrix
+from validation.analysis.evidence import Table
 from validation.analysis.margins import FIELD
-from validation.analysis.series import Estimates, Margin, Series, Where, masked, only
+from validation.analysis.series import Estimates, Margin, Series, masked, only
 from validation.analysis.statistics import mean_estimate
 from validation.analysis.study import Study
 from validation.cases.rail import rolled_filters as rolled
@@ -29,7 +30,7 @@ from validation.simulation.model_names import (
 from validation.simulation.rail_strip import SHORTEST, lost_contact_number, strip_bands
 
 MODELS = (LINEAR, SPRINGS_THAT_READ, ONE_SIDED_BED, SPRINGS_ON_LINE, SPRINGS_ROLLING, SPRINGS_GEIKE)
-OFFSET, WAVES, GROUND, ROUGHNESS = "offset [dB]", "waves of h'", "isotropic ground", "h' a_x / d"
+OFFSET, WAVES, GROUND = "offset [dB]", "waves of h'", "isotropic ground"
 SHORT, LONG = "waves beyond the first zero", "bands that count"
 OF_BEM, LOST = "interval of A3 of boundary elements", "area in contact over that of the smooth wheel"
 FULL_CONTACT = Margin(
@@ -42,9 +43,7 @@ FULL_CONTACT = Margin(
 def series(result: rolled.RolledFiltersResult) -> list[Series]:
     """Filters, models over boundary elements, and the area in contact, roughness by roughness."""
     return [
-        one
-        for key in result.case.keys
-        for one in (*result.filters(key), *_over_bem(result, key), _area(result, key), roughness(result.case, key))
+        one for key in result.case.keys for one in (*result.filters(key), *_over_bem(result, key), _area(result, key))
     ]
 
 
@@ -76,11 +75,17 @@ def _area(result: rolled.RolledFiltersResult, key: rolled.Key) -> Series:
     return Series(LOST, BEM, (fine,), where={OFFSET: key[1]}, reference=1.0, grid=(left,), margin=FULL_CONTACT)
 
 
-def roughness(case: rolled.RolledFilters, key: rolled.Key) -> Series:
+def roughness(case: rolled.RolledFilters) -> Table:
     """How rough the rail is, by h' of the waves of the strips."""
-    scene = case.scene(key)
-    where: Where = {OFFSET: key[1], WAVES: strip_bands(scene).span}
-    return Series(ROUGHNESS, "surface", (lost_contact_number(scene),), where=where)
+    scenes = {key[1]: case.scene(key) for key in case.keys}
+    return Table(
+        "roughness and contact",
+        {
+            OFFSET: list(scenes),
+            WAVES: [strip_bands(scene).span for scene in scenes.values()],
+            "h' a_x / d": [round(lost_contact_number(scene), 4) for scene in scenes.values()],
+        },
+    )
 
 
 SHOWN = (LINEAR, SPRINGS_THAT_READ, ONE_SIDED_BED)
@@ -153,7 +158,8 @@ STUDY = Study(
         Matrix(name="over boundary elements", quantity=rolled.OVER_BEM, rows=("model", "waves"), columns=OFFSET),
         Matrix(name=LOST, quantity=LOST, rows=("model",), columns=OFFSET),
     ),
-    printed=(ROUGHNESS,),
+    printed=("roughness and contact",),
+    tables=lambda result: (roughness(result.case),),
 )
 CASE = Case(
     name="rough_rail",
