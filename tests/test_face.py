@@ -12,7 +12,8 @@ import pytest
 import validation
 from validation.__main__ import main
 from validation.selection.compare import Comparison
-from validation.selection.hierarchy import Answer, Candidate, Selection
+from validation.selection.hierarchy import Candidate, Selection
+from validation.selection.scene_model import Answer
 from validation.simulation.model import Cost, ErrorEstimate
 from validation.simulation.rolling_quantity import RollingQuantity
 

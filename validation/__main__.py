@@ -28,7 +28,8 @@ COMMANDS = {
     "race": "our solver and the other packages that are installed; the full size takes half an hour",
     "cases": "list the cases and what each shows",
 }
-"""A module of `validation.report.commands` each, imported when its command is given."""
+TIMED = ("precision", "race")
+"""Of one module; each of the others has its own in `validation.report.commands`, imported when its command is given."""
 
 STDOUT = 1
 """Its file descriptor."""
@@ -96,7 +97,8 @@ class _CommandParser(_Parser):
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         command = self.prog.split()[-1]
-        import_module(f"validation.report.commands.{command}").describe(self)
+        module = "timed" if command in TIMED else command
+        import_module(f"validation.report.commands.{module}").describe(self)
         return super().parse_known_args(args, namespace)
 
 

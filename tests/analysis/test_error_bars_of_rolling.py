@@ -13,7 +13,7 @@ from validation.analysis.study import Outcomes
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import input_spectrum as rolling_input
 from validation.cases.rolling.force_spectrum import LEVEL, MEAN, NONLINEAR, OVER, SPRINGS, VARIANCE
-from validation.simulation.linear_levels import level_3d
+from validation.simulation.rolling_strip import level_3d
 
 ROLLING = rolling.ForceSpectrum(heights=(0.1,), last=4.0, lowest=0.5, length=32.0, strips=4, refined=3, tracks=30)
 

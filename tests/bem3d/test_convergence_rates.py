@@ -6,9 +6,7 @@ import pytest
 import bem3d
 from tests.oracles import flat_square_by_graded_cells
 from validation.cases.exact import hertz, westergaard
-from validation.simulation.flat_punches import FlatPunches, press_flat_punches
-from validation.simulation.periodic_wave import press_wave
-from validation.simulation.smooth_sphere import press_sphere_by_bem
+from validation.simulation.exact_contacts import FlatPunches, press_flat_punches, press_sphere_by_bem, press_wave
 from validation.theory import closed_forms
 
 

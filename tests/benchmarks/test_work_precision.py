@@ -257,7 +257,7 @@ STRIP = WheelProblem(realisations=3, wheels=6)
 
 def test_the_filtered_acceleration_is_the_motion_that_repeats_itself():
     strip = STRIP.strip(0, 6, 1e-5)
-    linear = linear_law_3d(strip, strip.surface())
+    linear = linear_law_3d(strip.scene.body, strip.surface(), strip.spacing)
     time_step = strip.spacing / strip.scene.speed
     approach, velocity = linear.steady_state(time_step)
     steps = len(linear.change)

@@ -1,9 +1,12 @@
 """The bands of one punch: common long waves, a plateau, changes from band to band, and claims on planted answers."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
-from validation.analysis.evidence import ClaimStatus, number_with, numbers_with
+from tests.cases.planted import statuses
+from validation.analysis.evidence import ClaimStatus, numbers_with
 from validation.analysis.statistics import student
 from validation.analysis.study import Outcomes
 from validation.cases.punch import bandwidth
@@ -19,9 +22,7 @@ from validation.cases.punch.bandwidth import (
     change,
     series,
 )
-from validation.engine.engine import Engine
 from validation.simulation.rough_punch import FEW_CELLS
-from validation.theory import closed_forms
 
 CASE = Bandwidth(cells=16, surfaces=12, pairs=(4, 3), refined=3, rolled_off=4, profiles=20, points=256)
 
@@ -57,22 +58,19 @@ def test_the_plateau_is_flat_and_the_band_beyond_is_self_affine():
 
 def test_every_pair_has_realisations_of_its_own_and_finer_cells_the_first_ones():
     """Else the changes would not be independent of the narrowest band."""
-    drawn = {}
 
-    class Recorder(Engine):
-        def map_groups(self, solve, groups):
-            drawn.update({key: [(s.realisation, s.cells) for s in group] for key, group in groups.items()})
-            raise InterruptedError
+    def drawn(solve, groups):
+        raise InterruptedError(groups)
 
-    with pytest.raises(InterruptedError):
-        bandwidth.run(CASE, Recorder())
-    numbers = {key: [realisation for realisation, _ in group] for key, group in drawn.items()}
+    with pytest.raises(InterruptedError) as caught:
+        bandwidth.run(CASE, SimpleNamespace(map_groups=drawn))
+    (groups,) = caught.value.args
+    numbers = {key: [surface.realisation for surface in group] for key, group in groups.items()}
     assert numbers["before 0"] == numbers["wider 0"] and numbers["before 1"] == numbers["wider 1"]
-    independent = [set(numbers[key]) for key in ("narrow", "wider 0", "wider 1")]
-    assert len(set.union(*independent)) == sum(map(len, independent))
+    independent = [number for key in ("narrow", "wider 0", "wider 1") for number in numbers[key]]
+    assert len(set(independent)) == len(independent)
     assert numbers["refined"] == numbers["narrow"][:3]
-    cells = [drawn[key][0][1] for key in ("narrow", "refined", "wider 0", "wider 1")]
-    assert cells == [16, 32, 32, 64]
+    assert [groups[key][0].cells for key in ("narrow", "refined", "wider 0", "wider 1")] == [16, 32, 32, 64]
 
 
 def lognormal(rng, count, *, mean, deviation, common=None):
@@ -103,27 +101,15 @@ def planted(*, wide=1.0, rolled_off=1.0, size=0.5, mdr=1.0, surfaces=16000):
     """Boundary elements with the stiffness of the fit and MDR `mdr` times as stiff; in the widest band MDR `wide` times
     more, with a roll-off `rolled_off` times more, and there with `size` times the deviation."""
     case = Bandwidth(surfaces=surfaces, pairs=(40, 40), refined=surfaces, rolled_off=surfaces, profiles=surfaces)
-    rng = np.random.default_rng(3)
-    forces, h = np.array(case.forces), case.height
-    mean = np.array([closed_forms.rough_punch_stiffness(side=1.0, modulus=1.0, force=f * h, height=h) for f in forces])
+    rng, mean = np.random.default_rng(3), np.array(bandwidth.fitted(case))
 
     def outcome(factor=1.0, deviation=0.1, count=surfaces):
-        found, _ = lognormal(rng, count, mean=factor * mean, deviation=np.full(forces.size, deviation))
-        work = np.ones((count, forces.size))
-        return {"stiffness": found, "applications": work, "frozen applications": work}
+        return {"stiffness": lognormal(rng, count, mean=factor * mean, deviation=np.full(mean.size, deviation))[0]}
 
     narrow, pair, springs = outcome(), outcome(count=40), outcome(mdr)
-    wider = springs | {"stiffness": wide * springs["stiffness"]}
-    return STUDY.evidence(
-        result_of(
-            case,
-            narrow,
-            pair,
-            pair,
-            outcome(deviation=0.1 * size),
-            [springs, springs, wider, outcome(mdr * rolled_off, 0.1 * size)],
-        )
-    )
+    rolled = outcome(deviation=0.1 * size)
+    wider = {"stiffness": wide * springs["stiffness"]}
+    return result_of(case, narrow, pair, pair, rolled, [springs, springs, wider, outcome(mdr * rolled_off, 0.1 * size)])
 
 
 def result_of(case, narrow, before, wider, rolled_off, springs):
@@ -133,47 +119,39 @@ def result_of(case, narrow, before, wider, rolled_off, springs):
 
 
 HOLDS, LIMITED, CONTRADICTED = ClaimStatus.HOLDS, ClaimStatus.LIMITED, ClaimStatus.CONTRADICTED
-
-
-def with_the_fit(found):
-    (rolled_off,) = numbers_with(found.numbers, MEAN + OF_BEM, "fit", **{ROLL_OFF: 4.0})
-    assert rolled_off.value == pytest.approx(0, abs=0.1)
-
-
-def with_the_change(found):
-    for n in numbers_with(found.numbers, CHANGE + MEAN, **{BANDWIDTH: (16, 32)}):
-        assert n.value == pytest.approx(20 * np.log10(1.2), abs=1e-6)
-    assert "+20.0 % (+20.0 to +20.0)" in found.claims[0].answer
-
-
-def with_stiffer_springs(found):
-    assert number_with(found.numbers, MEAN + OF_BEM, "mdr", **{BANDWIDTH: 32.0}).value > 1.5
+WITH_THE_FIT = MEAN + OF_BEM, "fit", {ROLL_OFF: 4.0}, pytest.approx(0, abs=0.1)
+CHANGED = CHANGE + MEAN, None, {BANDWIDTH: (16.0, 32.0)}, pytest.approx(20 * np.log10(1.2), abs=1e-6)
+STIFFER = MEAN + OF_BEM, "mdr", {BANDWIDTH: 32.0}, pytest.approx(20 * np.log10(1.2), abs=0.1)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("planting", "expected", "numbers"),
+    ("planting", "expected", "number"),
     [
-        ({"size": 1.0}, [HOLDS, HOLDS, HOLDS, HOLDS, HOLDS], with_the_fit),
-        ({}, [HOLDS, HOLDS, CONTRADICTED, HOLDS, HOLDS], with_the_fit),
-        ({"wide": 1.2}, [CONTRADICTED, HOLDS, CONTRADICTED, HOLDS, CONTRADICTED], with_the_change),
-        ({"rolled_off": 0.85}, [HOLDS, CONTRADICTED, CONTRADICTED, HOLDS, LIMITED], with_the_fit),
-        ({"mdr": 1.2}, [HOLDS, HOLDS, CONTRADICTED, HOLDS, CONTRADICTED], with_stiffer_springs),
+        ({"size": 1.0}, [HOLDS, HOLDS, HOLDS, HOLDS, HOLDS], WITH_THE_FIT),
+        ({}, [HOLDS, HOLDS, CONTRADICTED, HOLDS, HOLDS], WITH_THE_FIT),
+        ({"wide": 1.2}, [CONTRADICTED, HOLDS, CONTRADICTED, HOLDS, CONTRADICTED], CHANGED),
+        ({"rolled_off": 0.85}, [HOLDS, CONTRADICTED, CONTRADICTED, HOLDS, LIMITED], WITH_THE_FIT),
+        ({"mdr": 1.2}, [HOLDS, HOLDS, CONTRADICTED, HOLDS, CONTRADICTED], STIFFER),
     ],
 )
-def test_claims_and_numbers_follow_a_planted_answer(planting, expected, numbers):
+def test_claims_and_numbers_follow_a_planted_answer(planting, expected, number):
     """One evidence for both, since it takes seconds."""
-    found = planted(**planting)
-    assert [claim.status for claim in found.claims] == expected
-    numbers(found)
+    found, (quantity, model, where, value) = STUDY.evidence(planted(**planting)), number
+    assert statuses(found) == expected
+    numbers = numbers_with(found.numbers, quantity, model, **where)
+    assert numbers and all(one.value == value for one in numbers)
+
+
+def of_bem(result, quantity):
+    return [one.found for one in series(result) if (one.quantity, one.model) == (quantity, "bem3d")]
 
 
 def test_a_planted_change_of_boundary_elements_adds_up():
     """Pairs that are 10 % stiffer in each wider band: the widest is 1.1^2 times as stiff as the narrowest."""
     one = np.random.default_rng(0).uniform(1, 2, (8, 7))
     stiff = {"stiffness": one}
-    found = series(result_of(CASE, stiff, stiff, {"stiffness": 1.1 * one}, stiff, [stiff] * 4))
-    bem = [s.found for s in found if (s.quantity, s.model) == (MEAN, "bem3d")]
+    bem = of_bem(result_of(CASE, stiff, stiff, {"stiffness": 1.1 * one}, stiff, [stiff] * 4), MEAN)
     for narrow, wide in zip(bem[0], bem[2], strict=True):
         assert wide.value - narrow.value == pytest.approx(2 * np.log(1.1), rel=1e-9)
 
@@ -184,7 +162,7 @@ def test_a_wide_band_is_the_narrow_one_and_the_changes():
     case = Bandwidth(cells=16, surfaces=60, pairs=(30, 30), refined=3, rolled_off=3, profiles=20, points=256)
     result = bandwidth.run(case)
     for quantity, statistic in STATISTICS.items():
-        bem = [s.found for s in series(result) if (s.quantity, s.model) == (quantity, "bem3d")]
+        bem = of_bem(result, quantity)
         for band in (1, 2):
             direct = statistic(result[f"wider {band - 1}"]["stiffness"])
             for one, other in zip(bem[band], direct, strict=True):

@@ -8,15 +8,13 @@ from scipy import special
 
 import bem3d
 import mdr
+from tests.cases.planted import changed, judged, verdicts, whole
 from tests.oracles import dense_operator
-from validation.analysis.evidence import Verdict, numbers_with
+from validation.analysis.evidence import Verdict
 from validation.cases.limits import limits as case
 from validation.cases.limits.sweeps import LIMITS, Failing, Judged, Limit, LimitName, Probe, Sweep
 from validation.simulation import limits_of_half_space as elements
 from validation.simulation import limits_of_springs as springs
-from validation.simulation.contact_laws import HertzLaw
-from validation.simulation.free_vibration import WHEEL
-from validation.simulation.motion import simulate
 from validation.simulation.probing import recorded, swept
 from validation.simulation.track_spectrum import self_affine
 from validation.theory.rolling import force_variance
@@ -34,8 +32,6 @@ SMALL = case.Limits(
     tolerances=(1e-2, 1e-4, 1e-6),
 )
 TITLES = [limit.named.title for limit in LIMITS]
-DERIVED = [limit.named.title for limit in LIMITS if limit.judged.derived]
-WARNED = [limit.named.title for limit in LIMITS if limit.judged.warned]
 STEEP = Limit(
     LimitName("none", "x to the second", "x"),
     Probe(swept, (1.0, 2.0)),
@@ -62,83 +58,56 @@ def verdict(series):
 
 @pytest.mark.slow
 def test_all_criteria_are_met(result):
-    evidence = case.CASE.evidence(result)
-    assert [n.sentence for n in evidence.numbers if not n.met] == []
-    assert evidence.unconverged == ()
-    assert "19 of 20" in evidence.finding
-
-
-def test_titles_are_unique():
+    whole(case.CASE.evidence(result))
     assert len(set(TITLES)) == len(TITLES)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("title", TITLES)
 def test_each_limit_fails_on_its_side(result, title):
-    """More past the threshold than before it, and past the tolerance there."""
+    """More past the threshold than before it, and past the tolerance there; one elsewhere is noticed where theory has
+    it, and so are silence and crying wolf where a user is warned."""
     sweep = found(result, title)
     assert (np.diff(sweep.values) > 0).all()
     good, failed = sweep.error[sweep.before_threshold], sweep.error[sweep.past_threshold]
     assert good.size and failed.size
     assert np.median(failed) > max(np.median(good), sweep.limit.fails.tolerance)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("title", DERIVED)
-def test_thresholds_are_where_theory_says_and_one_elsewhere_is_noticed(result, title):
-    sweep = found(result, title)
-    assert sweep.predicted
-    assert verdict(case.threshold(sweep)) is Verdict.AGREE
-    for shift in (2 * sweep.limit.judged.factor**2, 0.5 / sweep.limit.judged.factor**2):
-        elsewhere = replace(sweep, predicted_threshold=shift * sweep.predicted_threshold)
-        assert verdict(case.threshold(elsewhere)) is Verdict.DIFFER
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("title", WARNED)
-def test_a_user_past_the_threshold_is_warned_and_silence_and_crying_wolf_are_noticed(result, title):
-    sweep = found(result, title)
-    assert verdict(case.warnings(sweep)) is Verdict.AGREE
-    for words in ("", "wolf"):
-        wrong = replace(sweep, messages=(words,) * sweep.values.size)
-        assert verdict(case.warnings(wrong)) is Verdict.DIFFER
+    if sweep.limit.judged.derived:
+        assert sweep.predicted and verdict(case.threshold(sweep)) is Verdict.AGREE
+        for shift in (2 * sweep.limit.judged.factor**2, 0.5 / sweep.limit.judged.factor**2):
+            elsewhere = replace(sweep, predicted_threshold=shift * sweep.predicted_threshold)
+            assert verdict(case.threshold(elsewhere)) is Verdict.DIFFER
+    if sweep.limit.judged.warned:
+        assert verdict(case.warnings(sweep)) is Verdict.AGREE
+        for words in ("", "wolf"):
+            wrong = replace(sweep, messages=(words,) * sweep.values.size)
+            assert verdict(case.warnings(wrong)) is Verdict.DIFFER
 
 
 @pytest.mark.slow
 def test_an_outcome_elsewhere_changes_the_claims(result):
     elsewhere = [replace(sweep, predicted_threshold=100 * sweep.predicted_threshold) for sweep in result["sweeps"]]
-    _, predicted, _ = case.CASE.evidence(replace(result, found={**result.found, "sweeps": elsewhere})).claims
-    assert "(0 of 20 agree)" in predicted.answer
+    _, predicted, _ = case.CASE.evidence(changed(result, sweeps=elsewhere)).claims
+    assert (predicted.count(Verdict.AGREE), len(predicted.numbers)) == (0, 20)
 
 
 @pytest.mark.slow
-def test_recorded_messages_are_those_of_the_code(result):
-    """The same calls once more."""
-    body, gap = elements.half_space(8, 1 / 1.2), elements.sphere(8, 1 / 1.2, 0.0625)
-    with pytest.warns(bem3d.ResolutionWarning) as caught:
-        bem3d.solve(body, gap, approach=1.0)
-    assert found(result, "contact of few cells").messages[2] == f"ResolutionWarning: {caught[0].message.detail}"
-    with pytest.raises(ValueError, match="time_step") as refused:
-        simulate(WHEEL, HertzLaw(WHEEL), time_step=3.0 / WHEEL.eigenfrequency, steps=1)
-    assert found(result, "long time step").messages[-1] == f"ValueError: {refused.value}"
-    assert any("), which touches alone, carries" in words for words in found(result, "one bad cell").messages)
-    assert found(result, "huge force, full contact").messages[-1].startswith("ConvergenceError: residual")
-    assert (
-        found(result, "full contact by approach")
-        .messages[-1]
-        .startswith("ValueError: approach must stay below the mean gap")
-    )
-    assert found(result, "edge of the grid").messages[0].startswith("EdgeWarning: ")
-    assert found(result, "narrow strip").messages[0].startswith("ValueError: height must be wider than the contact")
-    assert (
-        found(result, "springs too far apart").messages[0].startswith("ValueError: c1d must vanish beyond the Nyquist")
-    )
-    assert (
-        found(result, "springs too far apart")
-        .messages[1]
-        .startswith("SpringResolutionWarning: the shortest wave of the spectrum has 2.2 s")
-    )
-    assert found(result, "rough track").messages[-1].startswith("LinearityWarning: roughness of h_rms / d = 1 ")
+@pytest.mark.parametrize(
+    ("title", "place", "said"),
+    [
+        ("contact of few cells", 2, "ResolutionWarning: "),
+        ("long time step", -1, "ValueError: time_step must"),
+        ("huge force, full contact", -1, "ConvergenceError: residual"),
+        ("full contact by approach", -1, "ValueError: approach must stay below the mean gap"),
+        ("edge of the grid", 0, "EdgeWarning: "),
+        ("narrow strip", 0, "ValueError: height must be wider than the contact"),
+        ("springs too far apart", 0, "ValueError: c1d must vanish beyond the Nyquist"),
+        ("springs too far apart", 1, "SpringResolutionWarning: the shortest wave of the spectrum has 2.2 s"),
+        ("rough track", -1, "LinearityWarning: roughness of h_rms / d = 1 "),
+    ],
+)
+def test_recorded_messages_are_those_of_the_code(result, title, place, said):
+    assert found(result, title).messages[place].startswith(said)
 
 
 @pytest.mark.parametrize("side", ["above", "below"])
@@ -241,28 +210,23 @@ def test_theory_of_small_changes_of_energy():
 
 
 @pytest.mark.slow
-def test_a_residual_that_forgives_is_noticed(result):
+def test_a_residual_that_forgives_and_iterations_that_grow_are_noticed(result):
     forgiving = [(grid, {**found, "residual": 1e-3 * found["residual"]}) for grid, found in result["judged"]]
-    numbers = case.CASE.evidence(replace(result, found={**result.found, "judged": forgiving})).numbers
-    assert {n.verdict for n in numbers_with(numbers, "largest ratio of the true error to the residual")} == {
-        Verdict.DIFFER
-    }
-
-
-@pytest.mark.slow
-def test_iterations_that_grow_are_noticed(result):
-    growing = [(g, {**found, "iterations": found["iterations"] * g.cells}) for g, found in result["iterated"]]
-    numbers = case.CASE.evidence(replace(result, found={**result.found, "iterated": growing})).numbers
-    found = [n for solver in case.EXPECTED_EXPONENTS for n in numbers_with(numbers, model=solver)]
-    assert len(found) == 6 and Verdict.AGREE not in {n.verdict for n in found}
+    growing = [(grid, {**found, "iterations": found["iterations"] * grid.cells}) for grid, found in result["iterated"]]
+    planted = changed(result, judged=forgiving, iterated=growing)
+    assert verdicts(case.CASE, planted, "largest ratio of the true error to the residual") == {Verdict.DIFFER}
+    grown = [n for solver in case.EXPECTED_EXPONENTS for n in judged(case.CASE, planted, model=solver)]
+    assert len(grown) == 6 and Verdict.AGREE not in {n.verdict for n in grown}
 
 
 @pytest.mark.slow
 def test_input_without_an_answer_is_refused(result):
-    answers = result["unanswered"]
-    assert answers["bem3d.solve, zero force"] == "force 0, stiffness 0"
-    assert answers["bem3d.solve, infinite force"] == "ValueError: force must be finite, got inf"
-    assert answers["bem3d.solve, one NaN cell"].startswith("ValueError: gap must be finite, got 1 NaN or infinite")
-    assert answers["bem3d.solve, one infinite cell"].startswith("ValueError: gap must be finite")
-    assert answers["bem3d.solve, periodic, full contact under a force"] == "force 1000, stiffness inf"
-    assert answers["mdr.load_curve, one NaN height"].startswith("ValueError: height must be finite")
+    expected = {
+        "bem3d.solve, zero force": "force 0, stiffness 0",
+        "bem3d.solve, infinite force": "ValueError: force must be finite, got inf",
+        "bem3d.solve, one NaN cell": "ValueError: gap must be finite, got 1 NaN or infinite",
+        "bem3d.solve, one infinite cell": "ValueError: gap must be finite",
+        "bem3d.solve, periodic, full contact under a force": "force 1000, stiffness inf",
+        "mdr.load_curve, one NaN height": "ValueError: height must be finite",
+    }
+    assert {name: result["unanswered"][name][: len(said)] for name, said in expected.items()} == expected

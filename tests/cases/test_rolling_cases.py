@@ -1,25 +1,36 @@
 """The cases of rolling: what they draw and roll, and verdicts on planted changes."""
 
 import math
-from dataclasses import asdict, replace
+from dataclasses import asdict
 
 import numpy as np
 import pytest
 from scipy import integrate
 
-from validation.analysis.claims import STATUS_WORDS
-from validation.analysis.evidence import ClaimStatus, Verdict, numbers_with
+from tests.analysis.test_judged_claims import point
+from tests.cases.planted import changed, judged
+from validation.analysis.evidence import ClaimStatus, Verdict
 from validation.analysis.spectra import Bands
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import input_spectrum as rolling_input
+from validation.cases.rolling import reduced_models as reduced
 from validation.cases.rolling import ridges
 from validation.cases.rolling.force_spectrum import LEVEL, LINEAR_3D, OVER, RMS_FORCE, SPRINGS, bem_over_linear
 from validation.cases.rolling.force_spectrum_study import CASE
 from validation.report.answers.first_screen import answered_questions
 from validation.report.section import Section
 from validation.simulation import rolling_strip
-from validation.simulation.linear_levels import coherence, correlation
-from validation.simulation.rolling_strip import RoughStrip, Strip, Tracks, crop_to_reach, roll_strip, roll_tracks
+from validation.simulation.rolling_strip import (
+    RoughStrip,
+    Strip,
+    Tracks,
+    coherence,
+    correlation,
+    crop_to_reach,
+    levels_beside_linear,
+    roll_strip,
+    roll_tracks,
+)
 from validation.simulation.track_spectrum import INPUT_SPECTRA, PiecewisePowerLaw, TrackSpectrum, self_affine
 from validation.theory.rolling import force_variance, linear_force
 
@@ -60,31 +71,11 @@ def test_power_laws_have_unit_height_and_are_continuous(spectrum):
     assert (spectrum.c2d([0.99 * spectrum.edges[0], 1.01 * spectrum.edges[-1]]) == 0).all()
 
 
-def test_a_spectrum_needs_an_exponent_a_piece():
-    with pytest.raises(ValueError, match="edges must be one more than exponents, got 2 and 2"):
-        PiecewisePowerLaw(edges=(1.0, 2.0), exponents=(1.0, 2.0))
-
-
-def test_a_strip_of_parts_of_cells_is_refused():
-    with pytest.raises(ValueError, match=r"length must be a whole number of cells, got 50\.26"):
-        rough(length=2 * math.pi).surface(8, 0)
-
-
 def test_strips_are_the_same_surface_on_finer_cells():
     """The same waves: the coarse heights are those of the fine surface, half a fine cell between its centres."""
     coarse, fine = rough().surface(8, 1), rough().surface(24, 1)
     assert fine[1::3, 1::3] == pytest.approx(coarse, abs=1e-10)
     assert coarse.std() == pytest.approx(0.1, rel=1e-12)
-
-
-def test_what_is_rolled_over_is_the_middle_of_the_surface():
-    surface = rough().surface(8, 1)
-    part = crop_to_reach(surface, 1 / 8)
-    cut = (surface.shape[1] - part.shape[1]) / 2
-    assert cut == int(cut) > 0
-    np.testing.assert_array_equal(part, surface[:, int(cut) : -int(cut)])
-    # no cell left out can overlap, not even the highest
-    assert (part.shape[1] / 2 / 8) ** 2 / 2 >= 1 + surface.max()
 
 
 @pytest.mark.slow
@@ -121,62 +112,71 @@ def test_inputs_are_ordered_along_the_track(name):
     assert (TrackSpectrum(spectrum, name)(np.array([[4.0], [0.5]]))[:, 0] == at[name]).all()
 
 
-def changed(result, **columns):
+def test_strips_that_cannot_be_are_refused():
+    with pytest.raises(ValueError, match="edges must be one more than exponents, got 2 and 2"):
+        PiecewisePowerLaw(edges=(1.0, 2.0), exponents=(1.0, 2.0))
+    with pytest.raises(ValueError, match=r"length must be a whole number of cells, got 50\.26"):
+        rough(length=2 * math.pi).surface(8, 0)
+
+
+def test_what_is_rolled_over_is_the_middle_of_the_surface():
+    surface = rough().surface(8, 1)
+    part = crop_to_reach(surface, 1 / 8)
+    cut = (surface.shape[1] - part.shape[1]) / 2
+    assert cut == int(cut) > 0
+    np.testing.assert_array_equal(part, surface[:, int(cut) : -int(cut)])
+    # no cell left out can overlap, not even the highest
+    assert (part.shape[1] / 2 / 8) ** 2 / 2 >= 1 + surface.max()
+
+
+# --- evidence ---
+
+
+def bem_with(result, **columns):
     """Boundary elements, on both grids, with other columns: functions of their outcome."""
-    of_bem = {(name, h): result[name, h] for name in ("bem3d", "refined") for h in result.case.heights}
-    new = {key: {**one, **{name: of(one) for name, of in columns.items()}} for key, one in of_bem.items()}
-    return replace(result, found={**result.found, **new})
+    keys = [(name, h) for name in ("bem3d", "refined") for h in result.case.heights]
+    return changed(result, {key: result[key] | {n: of(result[key]) for n, of in columns.items()} for key in keys})
 
 
-def louder(result, factor):
-    """Boundary elements whose fluctuation is so many times as large."""
-    return changed(result, level=lambda one: factor**2 * one["level"])
-
-
-def of_linear_theory(result):
-    return numbers_with(CASE.evidence(result).numbers, LEVEL, LINEAR_3D + OVER)
+def at(result, quantity, model):
+    """Over boundary elements."""
+    return judged(CASE, result, quantity, model + OVER)
 
 
 @pytest.mark.slow
-def test_boundary_elements_agree_with_linear_theory(rolled):
+def test_boundary_elements_agree_with_linear_theory_and_six_decibels_more_differ(rolled):
     """Below the band and in its long waves, at h/d = 0.01, with error bars of coarse grids."""
-    for number in of_linear_theory(rolled)[:2]:
+    for number in at(rolled, LEVEL, LINEAR_3D)[:2]:
         assert abs(number.difference) <= 0.3 + number.uncertainty
-
-
-@pytest.mark.slow
-def test_six_decibels_more_are_six_decibels_and_differ(rolled):
-    more = louder(rolled, 10 ** (6 / 20))
-    (before, finer), (after, still) = (bem_over_linear(result, 0.01) for result in (rolled, more))
+    louder = bem_with(rolled, level=lambda one: 10**0.6 * one["level"])
+    (before, finer), (after, still) = (bem_over_linear(result, 0.01) for result in (rolled, louder))
     assert 10 / math.log(10) * (after.values - before.values) == pytest.approx(6, abs=1e-9)
     assert still.values == pytest.approx(finer.values, rel=1e-6)
-    number = of_linear_theory(more)[0]
-    assert number.verdict is Verdict.DIFFER
-    assert not number.met
+    number = at(louder, LEVEL, LINEAR_3D)[0]
+    assert number.verdict is Verdict.DIFFER and not number.met
 
 
 @pytest.mark.slow
-def test_claims_of_rolling_follow_their_numbers(rolled):
-    """Linear theory holds where boundary elements are linear theory, and is contradicted where they are 6 dB louder."""
-    exact = changed(rolled, level=lambda one: one["linear level"])
-    for result, status in ((exact, ClaimStatus.HOLDS), (louder(exact, 2.0), ClaimStatus.CONTRADICTED)):
-        (claim,) = (claim for claim in CASE.evidence(result).claims if claim.claim.startswith("Linear theory in 3D"))
-        assert claim.status is status
-        assert claim.answer.startswith(STATUS_WORDS[status])
-    geike = CASE.evidence(exact).claims[0]
-    assert geike.claim == CASE.claim
-    assert geike.status is ClaimStatus.CONTRADICTED
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("factor", "verdict"), [(1.0, Verdict.AGREE), (1.2, Verdict.DIFFER)])
-def test_the_rms_force_of_springs_is_judged_beside_boundary_elements(rolled, factor, verdict):
-    """20 % more of the fluctuation of both grids is 20 % less of springs over them, beyond 10 %."""
-    exact = changed(rolled, variance=lambda one: factor**2 * one["linear variance"])
-    (number,) = numbers_with(CASE.evidence(exact).numbers, RMS_FORCE, LINEAR_3D + OVER)
+@pytest.mark.parametrize(
+    ("factor", "verdict", "status"),
+    [(1.0, Verdict.AGREE, ClaimStatus.HOLDS), (1.2, Verdict.DIFFER, ClaimStatus.CONTRADICTED)],
+)
+def test_level_and_rms_force_are_judged_beside_boundary_elements(rolled, factor, verdict, status):
+    """Where these are linear theory it holds. 20 % more of their fluctuation on both grids are 20 % less of springs
+    over them, beyond 10 %; their level four times as high is beyond 3 dB."""
+    exact = bem_with(
+        rolled,
+        variance=lambda one: factor**2 * one["linear variance"],
+        level=lambda one: factor**7.6 * one["linear level"],
+    )
+    (number,) = at(exact, RMS_FORCE, LINEAR_3D)
     assert number.value == pytest.approx(-20 * math.log10(factor), abs=1e-9)
     assert number.verdict is verdict
-    (springs,) = numbers_with(CASE.evidence(rolled).numbers, RMS_FORCE, SPRINGS + OVER)
+    geike, *claims = CASE.evidence(exact).claims
+    assert geike.status is ClaimStatus.CONTRADICTED
+    (claim,) = (claim for claim in claims if claim.claim.startswith("Linear theory in 3D"))
+    assert claim.status is status
+    (springs,) = at(rolled, RMS_FORCE, SPRINGS)
     assert abs(springs.difference) <= 0.2 + springs.uncertainty
 
 
@@ -185,9 +185,8 @@ def test_the_first_screen_finds_the_numbers_of_rolling(rolled):
     """Both of its questions, over h' a/d."""
     section = Section("rolling", CASE, "", asdict(SMALL), CASE.evidence(rolled))
     rows = {row.question.name: row for row in answered_questions([section])}
-    slope = 0.01 * SMALL.spectrum.slope_along
     for name in ("rolling-rms", "rolling-spectrum"):
-        assert rows[name].strip[1][0] == f"{slope:.2g}"
+        assert rows[name].strip[1][0] == f"{0.01 * SMALL.spectrum.slope_along:.2g}"
         assert rows[name].measured.endswith("H = 0.7")
     assert rows["rolling-spectrum"].word == "No"
 
@@ -197,36 +196,30 @@ def test_a_strip_that_was_lost_counts_in_nothing(rolled):
     bem = {name: values.copy() for name, values in rolled["bem3d", 0.01].items()}
     for name, values in bem.items():
         values[(slice(None), 3) if name == "cross" else 3] = np.nan
-    numbers = CASE.evidence(replace(rolled, found={**rolled.found, ("bem3d", 0.01): bem})).numbers
-    assert np.isfinite([number.value for number in numbers]).all()
+    assert np.isfinite([n.value for n in judged(CASE, changed(rolled, {("bem3d", 0.01): bem}))]).all()
 
 
 @pytest.mark.slow
 def test_coherence_is_one_for_copies_and_small_for_strangers(rolled):
-    outcome = rolled["bem3d", 0.01]
-    copied = {
-        **outcome,
-        "level": 4 * outcome["linear level"],
-        "cross": np.stack([2 * outcome["linear level"], 0 * outcome["linear level"]]),
-    }
+    outcome, linear = rolled["bem3d", 0.01], rolled["bem3d", 0.01]["linear level"]
+    copied = outcome | {"level": 4 * linear, "cross": np.stack([2 * linear, 0 * linear])}
     assert coherence(copied) == pytest.approx(1)
     assert correlation(copied) == pytest.approx((1, 2))
-    rng = np.random.default_rng(0)
-    strange = rolling_strip.levels_beside_linear(*rng.normal(size=(2, 1, 4096)), 1.0, Bands((0.1, 3.0)))
+    strange = levels_beside_linear(*np.random.default_rng(0).normal(size=(2, 1, 4096)), 1.0, Bands((0.1, 3.0)))
     assert coherence(strange) < 0.01
 
 
 @pytest.mark.slow
-def test_ridges_agree_and_a_lost_factor_does_not(monkeypatch):
-    case = ridges.RollingOverRidges(length=20, shortest=6.0, cells=(6, 8), springs=(8.5, 16.5))
-    result, evidence = ridges.run(case), ridges.CASE.evidence
-    assert all(number.met for number in evidence(result).numbers)
-    halved = {key: response / 2 for key, response in result.found.items()}
-    missed = [n for n in evidence(replace(result, found=halved)).numbers if not n.met]
-    assert {n.model for n in missed} == {ridges.BEM, ridges.FILTER, ridges.FULL, ridges.SPRINGS}
+def test_ridges_agree_and_a_lost_factor_does_not():
+    result = ridges.run(ridges.RollingOverRidges(length=20, shortest=6.0, cells=(6, 8), springs=(8.5, 16.5)))
     # the phase counts as much as the amplitude
-    turned = {key: response * np.exp(0.3j) for key, response in result.found.items()}
-    assert sum(not n.met for n in evidence(replace(result, found=turned)).numbers) >= 5
+    responses = ({key: factor * r for key, r in result.found.items()} for factor in (1.0, 0.5, np.exp(0.3j)))
+    whole, halved, turned = (
+        [n.model for n in judged(ridges.CASE, changed(result, one)) if not n.met] for one in responses
+    )
+    assert whole == []
+    assert set(halved) == {ridges.BEM, ridges.FILTER, ridges.FULL, ridges.SPRINGS}
+    assert len(turned) >= 5
 
 
 def test_linear_force_of_a_lone_wave_on_a_strip():
@@ -238,3 +231,25 @@ def test_linear_force_of_a_lone_wave_on_a_strip():
     k = math.hypot(qx, qy)
     force = linear_force(height, spacing=dx, radius=1.0, modulus=1.0, approach=1.0)
     assert force - 4 / 3 == pytest.approx(2 * math.sin(k) / k * 1e-3 * np.cos(qx * x + 0.3), abs=1e-12)
+
+
+# --- reduced models ---
+
+
+@pytest.mark.parametrize(
+    ("strips", "counted", "status"),
+    [
+        # 0.687 is as near to 1 / sqrt(2) as 0.728: the strip that is open there keeps the claim open
+        ({0.571: (1.5, 0.6), 0.728: (2.7, 0.6), 0.687: (1.6, 1.0), 1.9: (6, 2)}, {0.687, 0.728}, ClaimStatus.OPEN),
+        # where no strip is at the limit, the roughest below it counts
+        ({0.2: (3.0, 0.1), 0.8: (3.0, 0.1)}, {0.8}, ClaimStatus.HOLDS),
+    ],
+)
+def test_all_strips_at_a_limit_count(strips, counted, status):
+    numbers = [
+        point(*found, quantity=reduced.OFF, model=reduced.READ, where={"h' a/d": slope})
+        for slope, found in strips.items()
+    ]
+    judged = reduced.STUDY.claims[2].judged(numbers)
+    assert {number.where["h' a/d"] for number in judged.numbers} == counted
+    assert judged.status is status

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.cases.wheel_scenes import BOTH, LITTLE, ROUNDING, SMALL, TRACKS, power, rides
+from tests.cases.planted import BOTH, LITTLE, ROUNDING, SMALL, TRACKS, power, rides
 from validation.analysis import spectra
 from validation.cases.wheel import features as wheel_features
 from validation.cases.wheel.features import FLOOR, PREDICTED, Spectrum
@@ -71,21 +71,11 @@ def test_the_roughness_of_a_wheel_repeats_after_its_circumference():
 def test_rail_and_wheel_add_as_spectra():
     """Heights add to the last bit; where they are independent the cross terms of 40 pairs are below four standard
     errors of a mean of products of independent waves."""
-    count = 40
-    steps = rides(BOTH).steps
-    both = rides(BOTH, count=count).heights()[:steps]
-    rail = rides(replace(BOTH, wheel=None), count=count).heights()[:steps]
-    wheel_alone = replace(BOTH, rail=None)
-    around = wheel_ensemble.WheelEnsemble._drawn
-    of_wheel = np.stack(
-        [
-            np.resize(
-                around(rides(wheel_alone), BOTH.wheel, BOTH.circumference_points, wheel_ensemble.WHEEL, i), len(rail)
-            )
-            for i in range(count)
-        ],
-        axis=1,
-    )
+    count, steps = 40, rides(BOTH).steps
+    alone = rides(replace(BOTH, rail=None))
+    turns = [alone._drawn(BOTH.wheel, BOTH.circumference_points, wheel_ensemble.WHEEL, i) for i in range(count)]
+    both, rail = (rides(one, count=count).heights()[:steps] for one in (BOTH, replace(BOTH, wheel=None)))
+    of_wheel = np.stack([np.resize(one, steps) for one in turns], axis=1)
     assert both == pytest.approx(rail + of_wheel, abs=1e-18)
     found = power(both).sum(axis=0) - power(rail).sum(axis=0) - power(of_wheel).sum(axis=0)
     assert abs(found.mean()) <= 4 * found.std() / math.sqrt(count)
@@ -97,17 +87,16 @@ def test_rail_and_wheel_add_as_spectra():
 
 def test_the_rolling_spectrum_has_long_waves_and_geikes_has_none():
     """Below q_min, what crosses the track aslant; above, Geike's has more in every wave."""
-    tracks = {feed: rides(track="steady-state", input_spectrum=feed) for feed in ("geike", "rolling")}
-    found = {feed: power(ride.heights())[:, 0] for feed, ride in tracks.items()}
-    steps = tracks["geike"].places
+    tracks = [rides(track="steady-state", input_spectrum=feed) for feed in ("geike", "rolling")]
+    geike, rolling = (power(track.heights())[:, 0] for track in tracks)
+    steps = tracks[0].places
     q = 2 * np.pi * np.arange(1, steps // 2 + 1) / (steps * SMALL.spacing)
-    below, inside = q < SMALL.rail.q_min, (q > SMALL.rail.q_min) & (q < SMALL.rail.q_max)
+    below, beyond = q < SMALL.rail.q_min, q > SMALL.rail.q_max
+    inside = ~below & ~beyond
     assert below.sum() >= 10
-    assert found["geike"][below].sum() <= 1e-24 * found["geike"].sum()
-    assert (found["rolling"][below] > 1e-6 * found["rolling"].sum()).all()
-    assert (found["rolling"][inside] < found["geike"][inside]).all()
-    beyond = q > SMALL.rail.q_max
-    assert found["rolling"][beyond].sum() <= 1e-24 * found["rolling"].sum()
+    assert geike[below].sum() <= 1e-24 * geike.sum()
+    assert (rolling[below] > 1e-6 * rolling.sum()).all() and (rolling[inside] < geike[inside]).all()
+    assert rolling[beyond].sum() <= 1e-24 * rolling.sum()
 
 
 @pytest.mark.parametrize("linear", [False, True], ids=["springs", "linear"])
@@ -129,10 +118,9 @@ def test_batches_of_any_size_give_equal_bits(track, linear):
 
 
 def test_groups_are_means_of_their_wheels():
-    apart = simulate_ensemble(rides(count=6, groups=6))
-    groups = simulate_ensemble(rides(count=6, groups=2))
+    apart, groups = (simulate_ensemble(rides(count=6, groups=groups)) for groups in (6, 2))
     for name in ("plain", "hann"):
-        means = np.stack([apart[name][:3].mean(axis=0), apart[name][3:].mean(axis=0)])
+        means = apart[name].reshape(2, 3, -1).mean(axis=1)
         assert groups[name] == pytest.approx(means, rel=1e-9, abs=0), name
     with pytest.raises(ValueError, match="count must be a multiple of groups, got 5 and 2"):
         rides(count=5, groups=2)
@@ -147,14 +135,9 @@ def test_the_balance_of_forces_holds_to_rounding(track, release, linear):
     gravity = SMALL.load / SMALL.mass
     room = 8 * 2.0**-53 * max(gravity / float(np.sqrt(outcome["square"].min())), 1.0) * math.sqrt(ride.steps)
     assert np.abs(outcome["balance"]).max() <= room < 1e-11
-
-
-def test_a_force_of_another_load_is_out_of_balance():
-    """Negative control: a velocity that is a thousandth off."""
-    heights = rides(count=2).heights()
-    law = wheel_ensemble.SpringsLaw(SMALL.body, heights, SMALL.spacing)
+    # a velocity that is a thousandth off is out of balance
+    law = wheel_ensemble.SpringsLaw(SMALL.body, ride.heights(), SMALL.spacing)
     motion = simulate(SMALL.body, law, time_step=SMALL.time_step, steps=300)
-    assert np.abs(wheel_ensemble.balance(motion)).max() < 1e-13
     assert np.abs(wheel_ensemble.balance(replace(motion, velocity=1.001 * motion.velocity))).min() > 1e-8
 
 
@@ -193,8 +176,7 @@ def test_the_linear_contact_has_its_closed_form_wave_by_wave():
 def test_the_linear_contact_on_open_tracks_has_its_closed_form_band_by_band():
     """Within four standard errors over wheels, and a band's part of the sum over waves in place of the integral."""
     ride = rides(count=40, groups=40, linear=True)
-    outcome = simulate_ensemble(ride)
-    spectrum = Spectrum.of(SMALL, [outcome])
+    spectrum = Spectrum.of(SMALL, [simulate_ensemble(ride)])
     edges = spectra.one_third_octaves(1.1 * SMALL.jump, 0.9 * SMALL.cutoff)
     found = spectra.band_levels(spectrum.omega, spectrum.hann.T, edges)
     exact = spectra.band_levels(spectrum.omega, spectrum.linear, edges)
@@ -202,17 +184,6 @@ def test_the_linear_contact_on_open_tracks_has_its_closed_form_band_by_band():
     whole = 2 * np.pi / (SMALL.rail.q_min * ride.places * SMALL.spacing)
     assert exact.size >= 10
     assert (np.abs(found.mean(axis=1) - exact) <= 4 * error + whole * exact).all()
-
-
-def test_a_steady_linear_contact_has_nothing_outside_of_its_waves():
-    """Rounding: 1e-16 of its size in each step, squared; open tracks leak there."""
-    for track, most in (("steady-state", 1e-24), ("open", 1.0)):
-        outcome = simulate_ensemble(rides(count=2, track=track, linear=True))
-        omega, density = outcome["omega"], outcome["plain"][0]
-        outside = (omega < 0.99 * SMALL.jump) | (omega > 1.01 * SMALL.cutoff)
-        share = density[outside].max() / density.max()
-        assert share <= most
-        assert track == "steady-state" or share > 1e-4
 
 
 def test_the_floor_of_an_open_record_is_its_jump():

@@ -7,7 +7,6 @@ import json
 import os
 import subprocess
 import sys
-import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -50,12 +49,12 @@ def sealed(archive):
     return archive + hashlib.sha256(archive).digest()
 
 
-def repacked(contents, change, pack=np.savez):
+def repacked(contents, change):
     """The same archive with other arrays in it, and a right seal."""
     with np.load(io.BytesIO(contents[: -stored.SEAL])) as arrays:
         held = {name: arrays[name] for name in arrays.files}
     archive = io.BytesIO()
-    pack(archive, **change(held))
+    np.savez(archive, **change(held))
     return sealed(archive.getvalue())
 
 
@@ -73,21 +72,6 @@ def relabelled(contents, **changes):
     return repacked(contents, change)
 
 
-def entry(name, contents):
-    """An archive of one entry that no array fills."""
-    archive = io.BytesIO()
-    with zipfile.ZipFile(archive, "w") as entries:
-        entries.writestr(name, contents)
-    return sealed(archive.getvalue())
-
-
-def promising(shape):
-    """A header without the array behind it."""
-    header = io.BytesIO()
-    np.lib.format.write_array_header_1_0(header, {"descr": "<f8", "fortran_order": False, "shape": shape})
-    return header.getvalue()
-
-
 FORGED = {
     "the first half": lambda whole: whole[: len(whole) // 2],
     "nothing": lambda whole: b"",
@@ -101,11 +85,6 @@ FORGED = {
     "a label that is a number": lambda whole: repacked(whole, lambda held: held | {stored.LABEL: np.ones(1)}),
     "an older format": lambda whole: relabelled(whole, format=1),
     "another problem": lambda whole: relabelled(whole, key="another"),
-    "compressed": lambda whole: repacked(whole, lambda held: held, np.savez_compressed),
-    "a bomb": lambda whole: repacked(whole, lambda held: held | {"value": np.zeros(10**7)}, np.savez_compressed),
-    "a header of 1e14 numbers": lambda whole: entry("value.npy", promising((10**14,))),
-    "a header of negative size": lambda whole: entry("value.npy", promising((-1,))),
-    "no array": lambda whole: entry("value.npy", b"text"),
     "no archive": lambda whole: sealed(b"text"),
     "a seal alone": lambda whole: sealed(b""),
     "an archive of others": lambda whole: whole[: -stored.SEAL],
@@ -165,7 +144,7 @@ def test_a_place_that_something_else_has_taken_is_refused(kind, problems, tmp_pa
 
 
 def test_what_is_timed_is_timed_anew(problems, tmp_path):
-    """Of the solves that were asked for, under whatever name they are stored; others, and files of others, stay."""
+    """Results of this run are forgotten; others, and files of others, stay."""
     engine = Engine(store=tmp_path)
     engine.map(other_toy, problems[:1])
     (kept,) = (path.name for path in tmp_path.glob("*.npz"))

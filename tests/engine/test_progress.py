@@ -120,7 +120,7 @@ def test_a_log_has_a_line_every_few_seconds(monkeypatch, clock):
     lines = printed(monkeypatch, clock, terminal=False).splitlines()
     lines.remove("a section")
     assert len(lines) == 33 // progress.SECONDS_BETWEEN_LINES
-    assert lines[0].startswith("hertz: press 31/100, whole report about")
+    assert lines[0].startswith("hertz: press 31/100, about")
 
 
 def test_a_terminal_has_one_line_that_is_rewritten_and_gone_at_the_end(monkeypatch, clock):
@@ -140,12 +140,12 @@ def test_a_run_that_stands_still_is_seen(monkeypatch):
     with Progress({"hertz": 1.0}) as run:
         while stream.getvalue().count("\n") < 2:
             run._over.wait(0.01)
-    assert stream.getvalue().startswith("hertz, whole report")
+    assert stream.getvalue().startswith("hertz, a few seconds left")
 
 
 def test_a_run_of_one_part_follows_its_own_pace(clock):
     """Half of its solves took a minute, whatever it was taken for; the other half, and what follows, take longer."""
-    run = Progress({"sound": progress.UNKNOWN}, whole="", shown=False, clock=clock)
+    run = Progress({"sound": progress.UNKNOWN}, shown=False, clock=clock)
     part = run.parts["sound"]
     part.begin("roll", total=20)
     for _ in range(10):

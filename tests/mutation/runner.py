@@ -62,6 +62,13 @@ class Field:
 
 
 VERDICTS = (
+    "validation/analysis/series.py",
+    "validation/analysis/over_range.py",
+    "validation/analysis/claims.py",
+    "validation/analysis/study.py",
+    "validation/analysis/margins.py",
+    "validation/simulation/limit_sweeps.py",
+    "validation/simulation/probing.py",
     "validation/analysis/statistics.py",
     "validation/analysis/evidence.py",
     "validation/analysis/spectra.py",

@@ -1,9 +1,8 @@
 """Faults planted in what `tests/cases` looks at: where, what is wrong there, and the test that must catch it."""
 
-import dataclasses
-import functools
 import types
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -16,7 +15,6 @@ from tests.cases import (
     test_exact_cases,
     test_flags,
     test_fractal_punch,
-    test_from_force_to_roughness_and_stiffness,
     test_limits,
     test_rail_cases,
     test_rail_sound,
@@ -24,23 +22,21 @@ from tests.cases import (
     test_wheel_ensembles,
     test_wheel_regions,
     test_wheel_stability,
-    test_whose_surfaces,
 )
+from tests.cases import test_from_force_to_roughness_and_stiffness as test_force
 from tests.planted_faults.wrong import scaled
 from validation.analysis import multilevel, statistics
 from validation.analysis import series as analysis_series
 from validation.analysis.evidence import Verdict
 from validation.analysis.multilevel import Resolved
 from validation.analysis.spectra import waves
+from validation.analysis.statistics import mean_estimate
 from validation.cases.exact import geike, square_punch
 from validation.cases.limits import sweeps as limits
 from validation.cases.punch import bandwidth, ensembles, fractal_punch, work
 from validation.cases.rail import filters as rail_filters
 from validation.cases.rail import line_convention, published, rail_sound
-from validation.cases.rolling import (
-    roughness_from_force,
-    validity,
-)
+from validation.cases.rolling import roughness_from_force, validity
 from validation.cases.selection import model_selection as calibration
 from validation.cases.wheel import contrast, regions
 from validation.engine.random_numbers import random_generator
@@ -51,51 +47,31 @@ from validation.simulation import (
     indentation,
     integrators,
     limits_of_springs,
-    reduced_pair,
-    rolled_off,
+    reduced_strip,
+    rolling_strip,
     rough_punch,
-    track_stiffness,
 )
 from validation.simulation import spring_tracks as rough_springs
 from validation.simulation import wheel_on_springs as wheel_ensemble
-from validation.simulation.published_contact import PublishedContact
+from validation.simulation.exact_contacts import PublishedContact
 from validation.simulation.rail_strip import RailStrip
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
 
-REAL_SCENE, REAL_WEIGHTING = rail_filters.scene_of, rail_filters.a_weighting
+REAL_SCENE, REAL_WEIGHTING, combined = rail_filters.scene_of, rail_filters.a_weighting, multilevel.combined
+zeros_of, amplification = contrast.zeros_of, free_vibration.amplification
+linear_response = rough_springs.linear_response
+places_of, heights_of = wheel_ensemble.WheelEnsemble.places.fget, wheel_ensemble.WheelEnsemble.heights
 
 
-def in_the_case(attribute, wrong):
-    """A fault that only the fractal punch sees: its own view of a module, with one name changed."""
-    view = types.SimpleNamespace(**{name: getattr(attribute, name) for name in attribute.__all__})
-    for name, value in wrong.items():
-        setattr(view, name, value)
-    return view
+def pressed_by(indent):
+    """A fault that only the fractal punch sees: its own view of bem3d, with another path of contacts."""
+    return types.SimpleNamespace(**{name: getattr(bem3d, name) for name in bem3d.__all__} | {"indent": indent})
 
 
-combined = multilevel.combined
-
-
-def of_each_hurst_exponent(mine, kind, realisation):
-    return random_generator(mine.seed, kind, round(1000 * mine.hurst), realisation)
-
-
-def half_of_the_force(half_space, gap, *, forces, **settings):
-    return bem3d.indent(half_space, gap, forces=[force / 2 for force in forces], **settings)
-
-
-def upside_down(half_space, gap, **settings):
-    return bem3d.indent(half_space, -gap, **settings)
-
-
-def twice_the_same(entropy, *key):
-    return random_generator(entropy, *key[:-1], key[-1] // 2)
-
-
-def area_whatever_the_force(strips):
-    return statistics.mean_estimate(np.array([strip["area"].mean() for strip in strips]))
+def halves(forces):
+    return [force / 2 for force in forces]
 
 
 def whole_frame_in_contact(wheel, position):
@@ -103,15 +79,6 @@ def whole_frame_in_contact(wheel, position):
     pressure = wheel.pressure()[2]
     body = bem3d.HalfSpace(shape=pressure.shape, spacing=wheel.track.spacing, modulus=1.0)
     return bem3d.solve_fixed_area(body, np.ones(pressure.shape, dtype=bool)).stiffness
-
-
-def half_of_the_limit(scheme, x):
-    return amplification(scheme, 2 * np.asarray(x))
-
-
-def of_a_continuum(track, stride):
-    """Springs however coarse taken for the finest."""
-    return linear_response(track, 1)
 
 
 class LineForGeike(mdr.SelfAffine):
@@ -124,41 +91,15 @@ def line_for_geike(roughness):
 
 
 def gap_of_the_rigid_surface(surface):
-    """The mean gap as if the half-space did not yield."""
+    """As if the half-space did not yield."""
     outcome = rough_punch.press_surface(surface)
     return {**outcome, "gap": -outcome["approach"]}
-
-
-def half_of_the_circumference(scene):
-    """pi R / dx."""
-    return round(np.pi * scene.radius / scene.spacing)
-
-
-def always_open(rides):
-    """Places of an open track, whatever the track."""
-    return places_of(dataclasses.replace(rides, track="open"))
-
-
-def by_geike(rides):
-    return heights_of(dataclasses.replace(rides, input_spectrum="geike"))
-
-
-def without_resonance(omega, *, eigenfrequency, mass):
-    """a = dF / M."""
-    return np.full(np.shape(omega), mass**-2.0)
-
-
-zeros_of = contrast.zeros_of
-places_of = wheel_ensemble.WheelEnsemble.places.fget
-heights_of = wheel_ensemble.WheelEnsemble.heights
-amplification = free_vibration.amplification
-linear_response = rough_springs.linear_response
 
 
 FAULTS = {
     "a weighting of amplitudes taken twice": (
         (rail_sound, "a_weighting", lambda f: 2 * REAL_WEIGHTING(f)),
-        functools.partial(test_rail_sound.test_a_level_has_the_weight_of_the_standard, 100, -19.1),
+        partial(test_rail_sound.test_a_level_has_the_weight_of_the_standard, 100, -19.1),
     ),
     "levels of all frequencies in each range": (
         (rail_sound, "filtered", lambda signal, gain: signal),
@@ -166,10 +107,10 @@ FAULTS = {
     ),
     "a window of a measured sphere that ends at its contact": (
         (indentation, "MARGIN", 2),
-        functools.partial(test_edge_scenes.test_claims_hold_on_measured_faces_and_few_of_them_are_refused, "sphere"),
+        partial(test_edge_scenes.test_claims_hold_on_measured_faces_and_few_of_them_are_refused, "sphere"),
     ),
     "no plateau below the roll-off": (
-        (rolled_off.PlateauSpectrum, "c2d", mdr.SelfAffine.c2d),
+        (rough_punch.PlateauSpectrum, "c2d", mdr.SelfAffine.c2d),
         test_bandwidth.test_the_plateau_is_flat_and_the_band_beyond_is_self_affine,
     ),
     "a wide band without the change from the narrow one": (
@@ -178,7 +119,7 @@ FAULTS = {
     ),
     "half of the jackknife's error in a change": (
         (statistics, "jackknife_error", scaled(statistics.jackknife_error, 0.5)),
-        functools.partial(test_bandwidth.test_intervals_of_a_change_hold_it_as_often_as_they_say, "mean stiffness"),
+        partial(test_bandwidth.test_intervals_of_a_change_hold_it_as_often_as_they_say, "mean stiffness"),
     ),
     "the stiffness of the square is that of the finest grid": (
         (square_punch, "first_order_limit", lambda values: values[-1]),
@@ -190,18 +131,22 @@ FAULTS = {
     ),
     "line trace for Geike in Fig. 14.1": (
         (PunchRoughness, "spectrum", property(line_for_geike)),
-        functools.partial(test_fractal_punch.test_profiles_are_those_of_geikes_spectrum, 1.0),
+        partial(test_fractal_punch.test_profiles_are_those_of_geikes_spectrum, 1.0),
     ),
     "half of the force in Fig. 14.1": (
-        (rough_punch, "bem3d", in_the_case(bem3d, {"indent": half_of_the_force})),
+        (
+            rough_punch,
+            "bem3d",
+            pressed_by(lambda *args, forces, **more: bem3d.indent(*args, forces=halves(forces), **more)),
+        ),
         test_fractal_punch.test_surfaces_are_pressed_as_they_stand,
     ),
     "surfaces pressed upside down": (
-        (rough_punch, "bem3d", in_the_case(bem3d, {"indent": upside_down})),
+        (rough_punch, "bem3d", pressed_by(lambda half_space, gap, **more: bem3d.indent(half_space, -gap, **more))),
         test_fractal_punch.test_surfaces_are_pressed_as_they_stand,
     ),
     "every profile drawn twice": (
-        (rough_punch, "random_generator", twice_the_same),
+        (rough_punch, "random_generator", lambda entropy, *key: random_generator(entropy, *key[:-1], key[-1] // 2)),
         test_fractal_punch.test_no_realisation_is_counted_twice,
     ),
     "no grid error": (
@@ -214,7 +159,7 @@ FAULTS = {
     ),
     "a third of the interval": (
         (multilevel, "student", lambda freedom, confidence=0.95: 2 / 3),
-        functools.partial(test_fractal_punch.test_verdicts_on_known_deviations, 1.25, 60, Verdict.UNDECIDED),
+        partial(test_fractal_punch.test_verdicts_on_known_deviations, 1.25, 60, Verdict.UNDECIDED),
     ),
     "the mean of a decade for its worst force": (
         (
@@ -233,7 +178,7 @@ FAULTS = {
         test_fractal_punch.test_the_order_of_the_curves_is_found_or_shown_to_be_absent,
     ),
     "other phases for every Hurst exponent": (
-        (PunchRoughness, "_generator", of_each_hurst_exponent),
+        (PunchRoughness, "_generator", lambda mine, *key: random_generator(mine.seed, round(1000 * mine.hurst), *key)),
         test_fractal_punch.test_hurst_exponents_have_common_phases,
     ),
     "mean gap of a half-space that does not yield": (
@@ -241,55 +186,47 @@ FAULTS = {
         test_fractal_punch.test_surfaces_are_pressed_as_they_stand,
     ),
     "half of the longest step": (
-        (free_vibration, "amplification", half_of_the_limit),
-        functools.partial(test_wheel_stability.test_limits_are_those_of_the_eigenvalue, integrators.VELOCITY_VERLET),
+        (free_vibration, "amplification", lambda scheme, x: amplification(scheme, 2 * np.asarray(x))),
+        partial(test_wheel_stability.test_limits_are_those_of_the_eigenvalue, integrators.VELOCITY_VERLET),
     ),
     "coarse springs taken for a continuum": (
-        (rough_springs, "linear_response", of_a_continuum),
-        functools.partial(test_wheel_stability.test_linear_spacing_holds_for_other_tracks, 0),
+        (rough_springs, "linear_response", lambda track, stride: linear_response(track, 1)),
+        partial(test_wheel_stability.test_linear_spacing_holds_for_other_tracks, 0),
     ),
     "a wheel of half of its circumference": (
-        (wheel_scene.WheelScene, "circumference_points", property(half_of_the_circumference)),
+        (wheel_scene.WheelScene, "circumference_points", property(lambda one: round(np.pi * one.radius / one.spacing))),
         test_wheel_ensembles.test_the_roughness_of_a_wheel_repeats_after_its_circumference,
     ),
     "a periodic track taken as open": (
-        (wheel_ensemble.WheelEnsemble, "places", property(always_open)),
-        functools.partial(
-            test_wheel_ensembles.test_periodic_tracks_take_whole_natural_periods,
-            "steady-state",
-            0.5,
-            0.16,
-        ),
+        (wheel_ensemble.WheelEnsemble, "places", property(lambda rides: places_of(replace(rides, track="open")))),
+        partial(test_wheel_ensembles.test_periodic_tracks_take_whole_natural_periods, "steady-state", 0.5, 0.16),
     ),
     "factor 4 lost in the filter of one dimension, read backwards": (
         (roughness_from_force, "force_spectrum_1d", scaled(rolling_theory.force_spectrum_1d, 0.25)),
-        test_from_force_to_roughness_and_stiffness.test_the_filter_in_one_dimension_finds_the_roughness_of_ridges,
+        test_force.test_the_filter_in_one_dimension_finds_the_roughness_of_ridges,
     ),
     "half of the height in the filter of three dimensions, read backwards": (
         (roughness_from_force, "level_3d", scaled(roughness_from_force.level_3d, 0.5)),
-        test_from_force_to_roughness_and_stiffness.test_the_filter_in_three_dimensions_finds_isotropic_roughness,
+        test_force.test_the_filter_in_three_dimensions_finds_isotropic_roughness,
     ),
     "contact kept beside a wheel of another force": (
-        (validity, "contact_kept", area_whatever_the_force),
-        test_from_force_to_roughness_and_stiffness.test_a_smooth_wheel_keeps_its_contact_whatever_its_force,
+        (validity, "contact_kept", lambda strips: mean_estimate(np.array([one["area"].mean() for one in strips]))),
+        test_force.test_a_smooth_wheel_keeps_its_contact_whatever_its_force,
     ),
     "amplitudes of a reduced model twice as large": (
-        (reduced_pair, "waves", lambda force, spacing: waves(2 * force, spacing=spacing)),
-        test_from_force_to_roughness_and_stiffness.test_a_reduced_model_stands_beside_boundary_elements_on_the_surface_itself,
+        (reduced_strip, "waves", lambda force, spacing: waves(2 * force, spacing=spacing)),
+        test_force.test_a_reduced_model_stands_beside_boundary_elements_on_the_surface_itself,
     ),
     "stiffness of the frame for that of the contact": (
-        (track_stiffness, "tangent_stiffness", whole_frame_in_contact),
-        functools.partial(
-            test_from_force_to_roughness_and_stiffness.test_the_stiffness_along_a_track_is_the_change_of_force_with_approach,
-            0.3,
-        ),
+        (rolling_strip, "tangent_stiffness", whole_frame_in_contact),
+        partial(test_force.test_the_stiffness_along_a_track_is_the_change_of_force_with_approach, 0.3),
     ),
     "Geike's spectrum for the rolling-equivalent one": (
-        (wheel_ensemble.WheelEnsemble, "heights", by_geike),
+        (wheel_ensemble.WheelEnsemble, "heights", lambda rides: heights_of(replace(rides, input_spectrum="geike"))),
         test_wheel_ensembles.test_the_rolling_spectrum_has_long_waves_and_geikes_has_none,
     ),
     "no resonator in the linear spectrum": (
-        (wheel_theory, "acceleration_over_force", without_resonance),
+        (wheel_theory, "acceleration_over_force", lambda omega, mass, **_: np.full(np.shape(omega), mass**-2.0)),
         test_wheel_ensembles.test_the_linear_contact_has_its_closed_form_wave_by_wave,
     ),
     "factor 2 pi lost over frequency, seen in an ensemble": (
@@ -302,7 +239,7 @@ FAULTS = {
     ),
     "a contrast read at the maxima": (
         (contrast, "zeros_of", lambda scene: zeros_of(scene) + 0.5),
-        functools.partial(test_wheel_cases.test_the_contrast_is_that_of_filled_zeros, 0.1),
+        partial(test_wheel_cases.test_the_contrast_is_that_of_filled_zeros, 0.1),
     ),
     "the first zero for the worst": (
         (analysis_series, "worst", lambda points, parameter: points[0]),
@@ -314,7 +251,7 @@ FAULTS = {
     ),
     "a limit read on its good side": (
         (limits.Sweep, "past_threshold", limits.Sweep.before_threshold),
-        functools.partial(test_limits.test_crossings_of_a_power_law, "above"),
+        partial(test_limits.test_crossings_of_a_power_law, "above"),
     ),
     "factor 4 lost over a stretched surface": (
         (limits_of_springs, "response", scaled(rolling_theory.response, 0.5)),
@@ -326,11 +263,11 @@ FAULTS = {
     ),
     "failed loads are not listed": (
         (ensembles, "describe_failures", lambda *_: ()),
-        functools.partial(test_flags.test_what_is_lost_is_a_line_of_the_result, "fractal punch, finer grid"),
+        partial(test_flags.test_what_is_lost_is_a_line_of_the_result, "fractal punch, finer grid"),
     ),
     "the reference on the surfaces of the tested models": (
         (calibration, "OTHER_SEED", 0),
-        test_whose_surfaces.test_the_reference_of_the_calibration_test_has_surfaces_of_its_own,
+        test_edge_scenes.test_the_reference_of_the_calibration_test_has_surfaces_of_its_own,
     ),
     "one of two elastic bodies taken for rigid": (
         (PublishedContact, "modulus", property(lambda problem: 2 * 82e9 / (1 - 0.28))),

@@ -1,41 +1,34 @@
 """Faults planted in contact filters of a wheel on a rail, in whichever room: where, what is wrong, and the test."""
 
-import functools
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from tests.analysis import test_graduation
 from tests.scenes import test_isotropic_line
-from tests.selection import test_contact_force, test_filter_table, test_no_band_counts, test_own_scene
+from tests.selection import test_contact_force, test_filter_table, test_own_scene
+from tests.selection import test_no_band_counts as silent
 from tests.simulation import test_calibration, test_rail_error_bars, test_rail_filters, test_scattered_levels
 from validation.analysis import graduation
 from validation.analysis.nominal_bands import NominalBands
 from validation.scenes import isotropic_line
-from validation.selection import calibrate, contact_force, filter_table, rail_model, speed_accuracy
-from validation.selection.hierarchy import Answer
-from validation.simulation import equivalent_displacement, rail_ground, rail_models, rail_quantity
+from validation.selection import calibrate, contact_force, exported, rail_model, side_by_side
+from validation.selection.scene_model import Answer
+from validation.simulation import equivalent_displacement, rail_models, rail_quantity, rail_strip
+from validation.simulation.model_names import ONE_SIDED_BED
 from validation.simulation.rail_models import ContactFilter
 from validation.simulation.rail_quantity import RailQuantity
 
-graduated, model_error, over_twin = (
-    graduation.graduated,
-    ContactFilter.model_error,
-    ContactFilter.over_twin,
-)
+graduated, model_error, over_twin = (graduation.graduated, ContactFilter.model_error, ContactFilter.over_twin)
 
 
-def without_sample_error(model, scene, across, cells, seed):
-    value, error = over_twin(model, scene, across, cells, seed)
+slope_error, borne_by = graduation.Graduation.slope_error, equivalent_displacement.borne_by
+
+
+def without_sample_error(*args):
+    value, error = over_twin(*args)
     return value, 0 * error
-
-
-def at_a_right_angle(answer):
-    return np.sqrt(sum(part**2 for part in answer.band_errors.values()))
-
-
-def without_what_the_ground_leaves(model, quantity, a3):
-    return model_error(model, quantity, a3) - quantity.left_by_ground
 
 
 def as_they_are(series, weights, *, least):
@@ -43,24 +36,8 @@ def as_they_are(series, weights, *, least):
     return graduation.Graduation(np.asarray(series), np.eye(n), least, np.ones(n))
 
 
-def with_equal_weights(series, weights, *, least):
-    return graduated(series, np.ones(len(series)), least=least)
-
-
-def with_forgotten_weights(series, weights, *, least):
-    return replace(graduated(series, weights, least=least), of_values=np.ones(len(series)))
-
-
-def slopes_of_equal_weights(found, reach):
-    return slope_error(replace(found, of_values=np.ones(len(found.values))), reach)
-
-
-def loaded_by_half_more(levels, wanted):
-    return borne_by(levels, 1.5 * wanted)
-
-
-def nothing(quantity):
-    return 0 * quantity.wave
+def of_equal_weights(found):
+    return replace(found, of_values=np.ones(len(found.values)))
 
 
 def smooth_line_alone(**waves):
@@ -68,14 +45,15 @@ def smooth_line_alone(**waves):
 
 
 def by_smooth_levels(scene):
-    slope = rail_ground.strip_bands(scene).slope_of_spectrum(rail_ground.line_of(scene))
+    slope = rail_strip.strip_bands(scene).slope_of_spectrum(rail_strip.line_of(scene))
     return slope * scene.contact.along / scene.contact.approach
 
 
 slope_error, borne_by = graduation.Graduation.slope_error, equivalent_displacement.borne_by
-ground_of_strip = rail_ground.RailGround
+ground_of_strip = rail_strip.RailGround
 smoothing_error, stands_out = RailQuantity.smoothing_error.func, RailQuantity.stands_out.fget
 BARS, SCATTERED, FORCE = test_rail_error_bars, test_scattered_levels, test_contact_force
+UNHEARD = silent.test_no_model_is_enough_where_no_band_counts
 FAULTS = {
     "boundary elements on a rail without their sample error": (
         (ContactFilter, "over_twin", without_sample_error),
@@ -86,7 +64,11 @@ FAULTS = {
         BARS.test_the_grid_leaves_what_second_order_makes_of_two_grids,
     ),
     "a bias on a rail added at a right angle": (
-        (Answer, "error_in_bands", property(at_a_right_angle)),
+        (
+            Answer,
+            "error_in_bands",
+            property(lambda answer: np.sqrt(sum(part**2 for part in answer.band_errors.values()))),
+        ),
         BARS.test_errors_of_bands_add_a_bias_to_what_is_random,
     ),
     "a bias of the worst band on a rail added at a right angle": (
@@ -94,7 +76,11 @@ FAULTS = {
         BARS.test_what_the_ground_leaves_adds_to_grid_and_sample_as_it_is,
     ),
     "boundary elements that know what lies across a rail": (
-        (ContactFilter, "model_error", without_what_the_ground_leaves),
+        (
+            ContactFilter,
+            "model_error",
+            lambda model, quantity, a3: model_error(model, quantity, a3) - quantity.left_by_ground,
+        ),
         BARS.test_what_the_ground_leaves_adds_to_grid_and_sample_as_it_is,
     ),
     "a reference of the calibration with the surfaces of the models": (
@@ -107,18 +93,18 @@ FAULTS = {
     ),
     "lone values that keep their weight": (
         (graduation, "LONE", 1e3),
-        functools.partial(test_graduation.test_lone_values_lose_their_weight, 10, 3),
+        partial(test_graduation.test_lone_values_lose_their_weight, 10, 3),
     ),
     "values that stand out weighed by Huber's rule": (
         (graduation, "REDESCENDING", -1),
         test_graduation.test_a_value_weighs_by_tukeys_biweight_of_its_deviation,
     ),
     "slopes whose errors have equal weights": (
-        (graduation.Graduation, "slope_error", slopes_of_equal_weights),
+        (graduation.Graduation, "slope_error", lambda found, reach: slope_error(of_equal_weights(found), reach)),
         test_graduation.test_errors_of_slopes_are_those_of_series_that_scatter_by_their_weights,
     ),
     "levels of few waves that stand out as those of many": (
-        (isotropic_line, "graduated", with_forgotten_weights),
+        (isotropic_line, "graduated", lambda *args, least: of_equal_weights(graduated(*args, least=least))),
         test_isotropic_line.test_a_level_of_few_waves_may_be_off_by_as_much_as_few_waves_scatter,
     ),
     "half of what smoothing leaves": (
@@ -131,13 +117,11 @@ FAULTS = {
     ),
     "a_x / a_y in place of a_y / a_x": (
         (rail_models, "ASPECTS", (1 / 1.9, 1 / 0.45)),
-        functools.partial(
-            BARS.test_contacts_longer_or_wider_than_those_on_strips_have_no_known_error, over=0.48, known=True
-        ),
+        partial(BARS.test_contacts_longer_or_wider_than_those_on_strips_have_no_known_error, over=0.48, known=True),
     ),
     "a bed of springs under another load": (
-        (equivalent_displacement, "borne_by", loaded_by_half_more),
-        test_rail_filters.test_a_one_sided_bed_follows_its_linear_twin_on_a_smoother_rail,
+        (equivalent_displacement, "borne_by", lambda levels, wanted: borne_by(levels, 1.5 * wanted)),
+        partial(test_rail_filters.test_one_sided_models_follow_their_linear_twin_on_a_smoother_rail, ONE_SIDED_BED),
     ),
     "a force at nominal frequencies": (
         (NominalBands, "wavelengths", property(lambda bands: bands.nominal)),
@@ -152,23 +136,27 @@ FAULTS = {
         FORCE.test_a_filter_without_some_bands_is_beside_the_chosen_one_in_its_own_bands,
     ),
     "decibels of a power as those of an amplitude": (
-        (speed_accuracy, "reference_error", lambda found, one: 10 * np.log10(1 + one.error)),
+        (side_by_side, "decibels", lambda error: 10 * np.log10(1 + error)),
         test_own_scene.test_a_distance_in_decibels_has_the_errors_of_its_band_and_the_reference_that_of_its_worst,
     ),
     "few waves that weigh as much as many": (
-        (isotropic_line, "graduated", with_equal_weights),
+        (
+            isotropic_line,
+            "graduated",
+            lambda series, weights, *, least: graduated(series, np.ones(len(series)), least=least),
+        ),
         test_isotropic_line.test_levels_that_scatter_leave_their_scatter_and_waves_that_are_many_weigh_more,
     ),
     "smooth levels that are smoothed": (
         (isotropic_line, "WHOLE_DECIBELS", -1.0),
-        functools.partial(test_isotropic_line.test_smooth_levels_stay_as_they_are_to_the_bit, "iso3095-2013"),
+        partial(test_isotropic_line.test_smooth_levels_stay_as_they_are_to_the_bit, "iso3095-2013"),
     ),
     "levels that scatter taken as they are": (
         (isotropic_line, "graduated", as_they_are),
         SCATTERED.test_linear_theory_holds_the_smooth_ground,
     ),
     "no error of levels that scatter": (
-        (RailQuantity, "smoothing_error", property(nothing)),
+        (RailQuantity, "smoothing_error", property(lambda quantity: 0 * quantity.wave)),
         SCATTERED.test_what_the_ground_leaves_covers_the_smooth_ground_alone,
     ),
     "no error of a wide corrugation that is in part taken for ground": (
@@ -180,7 +168,7 @@ FAULTS = {
         SCATTERED.test_a_corrugation_costs_its_own_bands_alone_and_they_lie_between_ridges_and_isotropic_ground,
     ),
     "strips without a corrugation": (
-        (rail_ground, "RailGround", smooth_line_alone),
+        (rail_strip, "RailGround", smooth_line_alone),
         SCATTERED.test_strips_have_the_power_of_what_stands_out,
     ),
     "the loss of contact of smooth levels alone": (
@@ -189,28 +177,18 @@ FAULTS = {
     ),
     "enough where no band counts": (
         (rail_model, "worst", lambda quantity, a3, error: 0.0),
-        test_no_band_counts.test_a_solve_leaves_its_bands_and_no_error,
+        silent.test_a_solve_leaves_its_bands_and_no_error,
     ),
     "the bands of a wrong filter that count": (
         (RailQuantity, "no_answer", ""),
-        functools.partial(
-            test_no_band_counts.test_no_model_is_enough_where_no_band_counts,
-            across="isotropic",
-            scene=test_no_band_counts.QUIET,
-            span="12.5 to 10 mm",
-        ),
+        partial(UNHEARD, across="isotropic", scene=silent.QUIET, span="12.5 to 10 mm"),
     ),
     "long waves that pass under every filter": (
-        (filter_table, "of_longer_waves", lambda model, target: np.zeros(35)),
+        (exported, "of_longer_waves", lambda model, target: np.zeros(35)),
         test_filter_table.test_springs_on_geikes_spectrum_are_off_for_long_waves_too,
     ),
     "levels counted that no one hears": (
         (rail_quantity, "COUNTED", -60.0),
-        functools.partial(
-            test_no_band_counts.test_no_model_is_enough_where_no_band_counts,
-            across="ridges",
-            scene=test_no_band_counts.SHORT,
-            span="6.3 to 3.15 mm",
-        ),
+        partial(UNHEARD, across="ridges", scene=silent.SHORT, span="6.3 to 3.15 mm"),
     ),
 }

@@ -67,8 +67,8 @@ def exchanged(one, other):
 CITATION = PageFigure.citation
 
 
-def with_labels_of_the_other_axis(evidence):
-    figure = calibration_figure(evidence)
+def with_labels_of_the_other_axis(*tables):
+    figure = calibration_figure(*tables)
     for axis in figure.axes:
         axis.set(xlabel=axis.get_ylabel(), ylabel=axis.get_xlabel())
     return figure

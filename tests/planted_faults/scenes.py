@@ -18,9 +18,9 @@ from tests.scenes import (
 from validation.scenes import (
     height_edits,
     level_files,
-    line_files,
     material,
     measured,
+    measured_lines,
     measured_surface,
     rail,
     roughness,
@@ -56,6 +56,11 @@ def by_the_wavelengths_as_given(levels, longest, shortest):
 
 def rigid_beside_the_contact(profile, half_width, approach, force):
     return check_alone(profile, half_width, approach, 0.0)
+
+
+def first_square(height, spacing):
+    side = min(height.shape)
+    return height[-side:, -side:]
 
 
 within = roughness_levels.RoughnessLevels.within
@@ -102,7 +107,7 @@ FAULTS = {
         test_profiled_rail.test_a_second_contact_is_refused_and_a_second_top_that_does_not_touch_is_none,
     ),
     "a column of places as a second line of heights": (
-        (line_files, "_kinds", lambda numbers, count: ({}, {})),
+        (measured_lines, "_kinds", lambda numbers, count: ({}, {})),
         test_exported_tables.test_the_place_along_the_track_is_no_line,
     ),
     "wavenumbers in cycles taken for radians": (
@@ -138,7 +143,7 @@ FAULTS = {
         test_measured_heights.test_points_without_data_are_refused,
     ),
     "the mean of all heights for points without data": (
-        (height_edits, "filled_in", lambda height, spacing: np.where(np.isnan(height), np.nanmean(height), height)),
+        (measured_surface, "filled_in", lambda height, spacing: np.where(np.isnan(height), np.nanmean(height), height)),
         functools.partial(test_height_edits.test_few_points_are_filled_in_where_it_is_asked_for_and_told, "nan"),
     ),
     "cells taken for squares where points without data are filled in": (
@@ -146,7 +151,7 @@ FAULTS = {
         test_height_edits.test_holes_at_an_edge_against_repeated_means,
     ),
     "the first square for the central one": (
-        (height_edits, "central_square", lambda height, spacing: height[-min(height.shape) :, -min(height.shape) :]),
+        (measured_surface, "central_square", first_square),
         test_height_edits.test_a_crop_is_told_and_its_points_alone_count,
     ),
     "a surface in micrometres taken for one in metres": (

@@ -10,6 +10,7 @@ import numpy as np
 import bem3d
 import mdr
 from tests import test_face
+from tests.benchmarks import test_chart_points as test_points
 from tests.cases import test_edge_scenes
 from tests.planted_faults.wrong import scaled, with_math
 from tests.selection import (
@@ -17,7 +18,6 @@ from tests.selection import (
     test_claims,
     test_contact_force,
     test_own_scene,
-    test_selection,
     test_what_compare_says,
 )
 from tests.selection import test_model_hierarchy as test_ladder
@@ -28,15 +28,15 @@ from validation.engine.random_numbers import random_generator
 from validation.report import compared
 from validation.scenes import measured, rail
 from validation.selection import (
-    calibration_install,
+    calibration_check,
+    columns,
     compare,
     contact_force,
     hierarchy,
     scene_model,
     side_by_side,
-    speed_accuracy,
-    summary,
     swept,
+    tolerance,
 )
 from validation.simulation import calibration, rolling_claims, sampling
 from validation.simulation import indentation as pressed_heights
@@ -164,8 +164,8 @@ FAULTS = {
         test_own_scene.test_seconds_are_those_of_all_solves_that_a_model_needs,
     ),
     "a distance from the reference where nothing is left to hear": (
-        (speed_accuracy, "counts", lambda comparison, one: np.full(comparison.value_of(one).size, True)),
-        test_own_scene.test_accuracy_of_a_filter_is_the_largest_difference_that_counts,
+        (side_by_side, "counts", lambda comparison, one: np.full(comparison.value_of(one).size, True)),
+        test_own_scene.test_a_distance_in_decibels_has_the_errors_of_its_band_and_the_reference_that_of_its_worst,
     ),
     "curves in the order of their cost": (
         (compared, "shown_models", lambda found: [one.name for one in found.models]),
@@ -232,7 +232,7 @@ FAULTS = {
         functools.partial(test_calibration.test_claims_cover_new_scenes_and_are_tight, "sphere"),
     ),
     "a table of any size in the place of that of the package": (
-        (calibration_install, "_check", lambda mine, there: None),
+        (calibration_check, "_refuse_fewer", lambda mine, there: None),
         test_calibrate_command.test_the_run_that_the_table_is_of_may_be_installed_and_no_smaller_one,
     ),
     "a scene that calibrates itself": (
@@ -256,7 +256,9 @@ FAULTS = {
     "an error that luck has made small, and its interval": (
         (precision_error, "math", types.SimpleNamespace(**{**vars(math), "copysign": lambda *_: 1.0})),
         functools.partial(
-            test_selection.test_an_answer_that_luck_has_put_on_its_reference_scatters_as_much, test_selection.K, True
+            test_points.test_an_answer_that_luck_has_put_on_its_reference_scatters_as_much,
+            test_points.K,
+            True,
         ),
     ),
     "a series of grids without the noise of its last change": (
@@ -318,7 +320,7 @@ FAULTS = {
         ),
     ),
     "decibels of a power for those of a level": (
-        (summary, "math", with_math(log10=lambda value: math.log10(value) / 2)),
+        (tolerance, "math", with_math(log10=lambda value: math.log10(value) / 2)),
         functools.partial(test_ladder.test_bands_are_told_with_wavenumber_frequency_and_level, "force-spectrum", "N"),
     ),
     "radians in a second told as hertz": (
@@ -326,7 +328,11 @@ FAULTS = {
         functools.partial(test_ladder.test_bands_are_told_with_wavenumber_frequency_and_level, "acceleration", "m/s²"),
     ),
     "models side by side in decibels of a power": (
-        (side_by_side, "differences", lambda one, other: 10 * np.log10(one.answer.value / other.answer.value)),
+        (
+            (columns, side_by_side),
+            "differences",
+            lambda one, other: 10 * np.log10(one.answer.value / other.answer.value),
+        ),
         test_what_compare_says.test_spectra_stand_side_by_side_in_decibels,
     ),
     "springs that are enough whatever error they have": (

@@ -1,9 +1,10 @@
 """A root of two, lost and gained in each place where h' or g is computed, and the test that must catch it."""
 
-import functools
 import math
+from functools import partial
 
-from tests.cases import test_fractal_punch, test_rolling_cases, test_slopes
+from tests.cases import test_fractal_punch, test_rolling_cases
+from tests.cases import test_slopes as own
 from tests.planted_faults.wrong import scaled
 from tests.scenes import test_materials
 from tests.theory import test_rolling_theory
@@ -31,114 +32,98 @@ def fault_of(place, name, factor):
     return property(scaled(right.fget, factor)) if isinstance(right, property) else scaled(right, factor)
 
 
-STRIPS_AT_A_SLOPE = functools.partial(test_slopes.test_strips_at_equal_slopes_have_them, 0.3)
+STRIPS_AT_A_SLOPE = partial(own.test_strips_at_equal_slopes_have_them, 0.3)
 AREA, GAP = (
-    functools.partial(test_slopes.test_springs_are_right_where_persson_has_a_share_in_contact, *share)
+    partial(own.test_springs_are_right_where_persson_has_a_share_in_contact, *share)
     for share in (("true contact area", 0.9), ("mean gap", 0.5))
 )
-PIECES = functools.partial(
+PIECES = partial(
     test_rolling_cases.test_power_laws_have_unit_height_and_are_continuous,
     PiecewisePowerLaw(edges=(1.0, 3.0), exponents=(2.0,)),
 )
+ONE_RAIL = own.test_a_rail_has_one_slope_of_its_strips_and_one_of_all_bands
+IN_CASES = own.test_cases_of_rolling_print_the_slope_along_the_track
+OF_HEIGHTS = test_materials.test_slopes_are_those_of_heights
+TABLE_14_1 = own.test_table_14_1_has_one_slope_everywhere
 PLACES = {
     "the gradient of lost contact": (
-        (rolling, "rms_gradient"),
-        functools.partial(test_rolling_theory.test_contact_that_linear_theory_loses_by_drawing_pressures, 1.0),
+        rolling,
+        "rms_gradient",
+        partial(test_rolling_theory.test_contact_that_linear_theory_loses_by_drawing_pressures, 1.0),
     ),
     "the gradient of a drawn surface": (
-        (roughness, "rms_gradient"),
+        roughness,
+        "rms_gradient",
         test_materials.test_slopes_are_those_of_the_spectrum,
     ),
-    "h' of a drawn surface": (
-        (roughness, "slope_in_one_direction"),
-        test_slopes.test_table_14_1_has_one_slope_everywhere,
-    ),
-    "h' of power laws": ((track_spectrum, "slope_in_one_direction"), PIECES),
-    "the gradient of power laws": ((PiecewisePowerLaw, "gradient"), PIECES),
-    "h' of rail and wheel": ((WheelScene, "slope_along"), test_slopes.test_slopes_of_rail_and_wheel_add_by_squares),
-    "h' of measured heights": ((MeasuredHeights, "slope_along"), test_materials.test_slopes_are_those_of_heights),
-    "the gradient of measured heights": (
-        (MeasuredHeights, "gradient"),
-        test_materials.test_slopes_are_those_of_heights,
-    ),
+    "h' of a drawn surface": (roughness, "slope_in_one_direction", TABLE_14_1),
+    "h' a/d of the wheel on the page": (half_space_study, "slope_ratio", TABLE_14_1),
+    "h' a/d of Table 14.1 beside spectra": (validity, "slope_ratio", TABLE_14_1),
+    "h' of power laws": (track_spectrum, "slope_in_one_direction", PIECES),
+    "the gradient of power laws": (PiecewisePowerLaw, "gradient", PIECES),
+    "h' of rail and wheel": (WheelScene, "slope_along", own.test_slopes_of_rail_and_wheel_add_by_squares),
+    "h' of measured heights": (MeasuredHeights, "slope_along", OF_HEIGHTS),
+    "the gradient of measured heights": (MeasuredHeights, "gradient", OF_HEIGHTS),
     "the gradient of a claim on ridges": (
-        (MeasuredHeights, "gradient"),
-        test_slopes.test_anisotropic_heights_leave_their_gradient_open,
+        MeasuredHeights,
+        "gradient",
+        own.test_anisotropic_heights_leave_their_gradient_open,
     ),
     "h' a/d of a description": (
-        (description, "slope_ratio"),
-        functools.partial(test_slopes.test_a_description_has_the_slope_of_the_waves_that_it_names, "sphere"),
+        description,
+        "slope_ratio",
+        partial(own.test_a_description_has_the_slope_of_the_waves_that_it_names, "sphere"),
     ),
-    "h' a/d of the wheel on the page": (
-        (half_space_study, "slope_ratio"),
-        test_slopes.test_table_14_1_has_one_slope_everywhere,
-    ),
-    "h' a/d of Table 14.1 beside spectra": (
-        (validity, "slope_ratio"),
-        test_slopes.test_table_14_1_has_one_slope_everywhere,
-    ),
-    "h' of a line": (
-        (NominalBands, "slope_of_spectrum"),
-        test_slopes.test_a_rail_has_one_slope_of_its_strips_and_one_of_all_bands,
-    ),
-    "h' of levels": (
-        (RoughnessLevels, "slope_along"),
-        test_slopes.test_a_rail_has_one_slope_of_its_strips_and_one_of_all_bands,
-    ),
+    "h' of a line": (NominalBands, "slope_of_spectrum", ONE_RAIL),
+    "h' of levels": (RoughnessLevels, "slope_along", ONE_RAIL),
+    "the loss-of-contact number of a case": (rough_rail, "lost_contact_number", ONE_RAIL),
     "the loss-of-contact number of models": (
-        (rail_quantity, "lost_contact_number"),
-        test_slopes.test_the_error_of_linear_theory_on_a_rail_goes_with_the_slope_along,
+        rail_quantity,
+        "lost_contact_number",
+        own.test_the_error_of_linear_theory_on_a_rail_goes_with_the_slope_along,
     ),
-    "the loss-of-contact number of a case": (
-        (rough_rail, "lost_contact_number"),
-        test_slopes.test_a_rail_has_one_slope_of_its_strips_and_one_of_all_bands,
-    ),
-    "h' a/d of the force": (
-        (settings.SelfAffineSettings, "slopes"),
-        test_slopes.test_cases_of_rolling_print_the_slope_along_the_track,
-    ),
-    "h' a/d in the words of rolling": (
-        (PiecewisePowerLaw, "slope_along"),
-        test_slopes.test_cases_of_rolling_print_the_slope_along_the_track,
-    ),
-    "h' a/d of reduced models": (
-        (reduced_case, "slope_of"),
-        test_slopes.test_cases_of_rolling_print_the_slope_along_the_track,
-    ),
-    "heights at an h' a/d": ((validity, "height_at"), STRIPS_AT_A_SLOPE),
+    "h' a/d of the force": (settings.SelfAffineSettings, "slopes", IN_CASES),
+    "h' a/d in the words of rolling": (PiecewisePowerLaw, "slope_along", IN_CASES),
+    "h' a/d of reduced models": (reduced_case, "slope_of", IN_CASES),
+    "heights at an h' a/d": (validity, "height_at", STRIPS_AT_A_SLOPE),
     "h' a/d up to which a layer follows": (
-        (reduced_case, "LIMIT"),
-        test_slopes.test_limits_of_claims_are_where_the_gradient_is_1_and_0_3,
+        reduced_case,
+        "LIMIT",
+        own.test_limits_of_claims_are_where_the_gradient_is_1_and_0_3,
     ),
     "the gradient of the linear filter's limit": (
-        (PiecewisePowerLaw, "gradient"),
-        test_slopes.test_the_linear_filter_in_3d_ends_where_persson_loses_a_fifth,
+        PiecewisePowerLaw,
+        "gradient",
+        own.test_the_linear_filter_in_3d_ends_where_persson_loses_a_fifth,
     ),
     "the gradient of a drawn punch": (
-        (rough_punch, "_gradient"),
+        rough_punch,
+        "_gradient",
         test_fractal_punch.test_surfaces_are_pressed_as_they_stand,
     ),
-    "p over E* g of nine tenths in contact": ((sweeps, "FULL"), AREA),
-    "p over E* g of one half in contact": ((sweeps, "HALF"), GAP),
+    "p over E* g of nine tenths in contact": (sweeps, "FULL", AREA),
+    "p over E* g of one half in contact": (sweeps, "HALF", GAP),
     "Persson's fraction of a case": (
-        (mdr_limits, "persson_fractions"),
-        test_slopes.test_the_contact_fraction_of_persson_is_that_of_the_gradient,
+        mdr_limits,
+        "persson_fractions",
+        own.test_the_contact_fraction_of_persson_is_that_of_the_gradient,
     ),
     "the gradient of two scales": (
-        (reduced_models, "_gradient"),
-        test_slopes.test_the_gradient_of_an_oblique_wave_under_two_scales,
+        reduced_models,
+        "_gradient",
+        own.test_the_gradient_of_an_oblique_wave_under_two_scales,
     ),
 }
 FAULTS = {
-    f"a root of two {became} in {what}": ((*place, fault_of(*place, factor)), test)
-    for what, (place, test) in PLACES.items()
+    f"a root of two {became} in {what}": ((place, name, fault_of(place, name, factor)), test)
+    for what, (place, name, test) in PLACES.items()
     for became, factor in (("lost", math.sqrt(0.5)), ("gained", math.sqrt(2)))
 }
 # cells are a power of two: their test has a load on each side of one
 FAULTS |= {
     f"a root of two {became} in the gradient of a light punch": (
         (indentation, "rms_gradient", scaled(indentation.rms_gradient, factor)),
-        functools.partial(test_slopes.test_cells_of_a_light_punch_are_those_of_the_gradient, *load),
+        partial(own.test_cells_of_a_light_punch_are_those_of_the_gradient, *load),
     )
     for became, factor, load in (("lost", math.sqrt(0.5), (1.04, 256)), ("gained", math.sqrt(2), (0.96, 128)))
 }

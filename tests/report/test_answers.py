@@ -10,7 +10,7 @@ from validation.cases.punch import fractal_punch_study
 from validation.cases.punch import mdr_limits as rolled_off
 from validation.cases.punch.ensembles import DEVIATION, MEAN
 from validation.cases.punch.work import Worked
-from validation.cases.rail import rough_rail
+from validation.cases.rail import rolled_filters, rough_rail
 from validation.cases.rail.rail_dynamic import BESIDE, RMS
 from validation.cases.rolling import reduced_models
 from validation.cases.rolling.force_spectrum import LEVEL, LINEAR_3D, RMS_FORCE, SPRINGS
@@ -22,7 +22,7 @@ from validation.report.answers.questions import in_decibels, per_cent, times
 from validation.report.answers.strip import Cell, span
 from validation.report.contents import CASES
 from validation.report.section import Section
-from validation.simulation import equivalent_displacement, wheel_on_rail
+from validation.simulation import model_names, wheel_on_rail
 
 TEN = fractal_punch_study.LEVEL.tolerance
 WORKED = Worked(128, 2048, 15.2).table
@@ -254,7 +254,7 @@ def test_differences_below_and_above_are_told_apart():
 def test_a_rail_is_judged_over_its_slope_in_the_bands_that_count():
     def off(offset, waves, value):
         where = {"offset [dB]": offset, "waves": waves, "wavelength [mm]": (8.0, 100.0)}
-        model, quantity = equivalent_displacement.SPRINGS_ON_LINE, rough_rail.OVER_BEM
+        model, quantity = model_names.SPRINGS_ON_LINE, rolled_filters.OVER_BEM
         return at((0.1, 1.0), value, where=where, quantity=quantity, model=model, tolerance=1.0)
 
     numbers = [off(0.0, rough_rail.LONG, 0.5), off(20.0, rough_rail.LONG, -4.0), off(0.0, rough_rail.SHORT, 9.0)]

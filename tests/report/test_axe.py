@@ -30,8 +30,7 @@ def whole():
     """With numbers, tables, figures, a criterion that is missed, and the map of the first screen."""
     models = replace(titled("reduced_models").evidence, captions={MAP: "How far models carry."})
     sections = [titled("geike"), titled("hertz", criterion=9.0), replace(titled("reduced_models"), evidence=models)]
-    about = ABOUT | {"seconds": dict.fromkeys(("geike", "hertz", "reduced_models"), 1.0)}
-    return {name: text.decode() for name, text in page.pages(sections, "full", about, None).items()}
+    return {name: text.decode() for name, text in page.pages(sections, "full", ABOUT, None).items()}
 
 
 @pytest.mark.parametrize("width", [WIDE, NARROW])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from validation.analysis.evidence import Evidence, Table
+from validation.analysis.evidence import Table
 from validation.cases.selection.model_selection import MODELS
 from validation.report.figures import ladder
 
@@ -11,7 +11,7 @@ COUNT = 2 * len(MODELS)
 ESTIMATED, TRUE, SAVED = (np.random.default_rng(seed).uniform(0.01, 0.5, COUNT) for seed in (1, 2, 3))
 
 
-def evidence():
+def tables():
     """Two scenes a model, met, one a tolerance."""
     columns = {
         "met": [1.0] * COUNT,
@@ -21,8 +21,7 @@ def evidence():
         "true error": TRUE.tolist(),
         "saved": SAVED.tolist(),
     }
-    tables = (Table("scenes", columns), Table("claims", columns))
-    return Evidence(title="t", method="m", numbers=(), tables=tables, conclusions=(), captions={})
+    return Table("scenes", columns), Table("claims", columns)
 
 
 def dots(axis):
@@ -40,12 +39,12 @@ def dots(axis):
     ],
 )
 def test_axes_are_labelled_as_their_columns(panel, values, ylabel, title):
-    axis = ladder.draw(evidence()).axes[panel]
+    axis = ladder.draw(*tables()).axes[panel]
     assert (axis.get_xlabel(), axis.get_ylabel(), axis.get_title()) == ("estimated error", ylabel, title)
     assert dots(axis) == sorted(zip(ESTIMATED.tolist(), values.tolist(), strict=True))
 
 
 def test_each_model_has_one_entry_of_the_legend_and_a_marker_of_its_own():
-    (legend,) = ladder.draw(evidence()).legends
+    (legend,) = ladder.draw(*tables()).legends
     assert [text.get_text() for text in legend.get_texts()] == list(MODELS)
     assert len({handle.get_marker() for handle in legend.legend_handles}) == len(MODELS)

@@ -9,8 +9,7 @@ import pytest
 
 from tests.report.test_command_line import SMALL
 from validation import __main__ as command
-from validation.analysis.evidence import Role
-from validation.report import kept, provenance
+from validation.report import provenance
 from validation.report.contents import CASES
 
 
@@ -65,14 +64,6 @@ def test_a_case_that_is_kept_twice_has_the_commit_that_made_it():
     assert found["kept"] == {"hertz": "before0", "geike": "first00"}
     assert found["commit"] == "today00" and found["seconds"] == {"ridges": 1.0, "hertz": 3.0}
     assert provenance.kept_from(found) == {"before0": ["hertz"], "first00": ["geike"]}
-
-
-def test_a_claim_that_is_kept_has_its_own_numbers_and_those_inside_of_its_limits():
-    """Numbers that a claim rests on, and of them those within the limits that it names."""
-    numbers = {name: SimpleNamespace(label=name, role=Role.CRITERION) for name in ("far", "near", "other")}
-    told = {"claim": "holds", "answer": "yes", "confirmed by": "agree", "limits": "near", "numbers": ["far", "near"]}
-    found = kept._claim({**told, "inside": ["near"]}, numbers)
-    assert found.numbers == (numbers["far"], numbers["near"]) and found.inside == (numbers["near"],)
 
 
 def test_what_cannot_be_kept_is_refused(tmp_path, capsys):

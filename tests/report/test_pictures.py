@@ -2,43 +2,34 @@
 
 import math
 import tomllib
+from types import SimpleNamespace
 
 import pytest
 from matplotlib.figure import Figure
 
-from validation.analysis.evidence import Evidence as CaseEvidence
-from validation.analysis.evidence import Table
+from validation.analysis.evidence import Evidence, Table
 from validation.engine.progress import Part
 from validation.engine.workers import Workers
 from validation.report import durations, pictures
 from validation.report.contents import CASES, TIMED
 
 
-class Evidence:
-    captions = dict.fromkeys("abc", "")
-
-
-class Section:
-    def __init__(self, evidence):
-        self.evidence = evidence
-
-
 def test_figures_come_by_their_names_and_are_counted(monkeypatch):
     monkeypatch.setattr(pictures, "draw_figure", lambda name, evidence, profile: f"{name} {profile}".encode())
     progress = Part("figures")
     drawn = pictures.Pictures(Workers(1), progress, "quick")
-    drawn.draw(Section(Evidence()))
+    drawn.draw(SimpleNamespace(evidence=SimpleNamespace(captions=dict.fromkeys("abc", ""))))
     assert drawn.found() == {name: f"{name} quick".encode() for name in "abc"}
     assert progress.line == "figures: drawn 3/3"
     # a case that failed has none
-    drawn.draw(Section(None))
+    drawn.draw(SimpleNamespace(evidence=None))
     assert len(drawn.found()) == 3
 
 
 def test_a_figure_is_drawn_from_what_its_files_hold(monkeypatch):
     """Infinities are empty there and digits end: drawn with them, it would not be what `redraw` draws."""
     table = Table("levels", {"off": [-math.inf, 1 / 3]})
-    evidence = CaseEvidence(title="a", method="", numbers=(), tables=(table,), conclusions=(), captions={"a": ""})
+    evidence = Evidence(title="a", method="", numbers=(), tables=(table,), conclusions=(), captions={"a": ""})
     seen = []
     monkeypatch.setattr(pictures, "drawing", lambda name: lambda evidence: seen.append(evidence) or Figure())
     pictures.draw_figure("a", evidence, "full")

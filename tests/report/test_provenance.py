@@ -2,8 +2,7 @@
 
 import pytest
 
-from tests.report.test_page import ABOUT, section_of
-from validation.report import page, provenance
+from validation.report import provenance
 
 CPUINFO = "processor : 0\nmodel name\t: Made-up 9 @ 3 GHz\n\nprocessor : 1\nmodel name\t: Another\n"
 
@@ -18,8 +17,3 @@ def test_the_processor_is_the_first_that_the_system_lists_or_its_architecture(li
     monkeypatch.setattr(provenance.platform, "processor", lambda: "")
     monkeypatch.setattr(provenance.platform, "machine", lambda: "arch")
     assert provenance.processor() == wanted
-
-
-def test_the_page_names_the_processor_and_its_cores():
-    about = {**ABOUT, "processor": "Made-up 9", "cores": 3}
-    assert "Made-up 9, 3 cores" in page.pages([section_of("geike")], "full", about, None)["index.html"].decode()

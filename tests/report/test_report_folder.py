@@ -184,32 +184,30 @@ def test_a_file_in_the_way_is_never_overwritten(tmp_path, capsys):
     refused(tmp_path, capsys, "figures/hertz.svg", "changed")
 
 
-def test_a_report_that_was_cut_short_while_it_was_replaced_is_still_one(tmp_path, monkeypatch):
-    """Old files, new files and a list of both: the next run ends as if nothing had been."""
-    assert report(tmp_path, "hertz") == command.Exit.MET
-    replaced = Path.replace
-    count = []
+@pytest.mark.parametrize(("step", "at"), [("replace", 4), ("unlink", 3)])
+def test_a_report_that_was_cut_short_while_it_was_replaced_is_still_one(step, at, tmp_path, monkeypatch):
+    """Between two new files, or before the old ones are gone: the next run forgets none and ends as if nothing was."""
+    old = ("figures/old.svg", "figures/both.svg", "results.json")
+    with Folder(tmp_path) as folder:
+        folder.replace(dict.fromkeys(old, b"old"))
+    done, count = getattr(Path, step), []
 
-    def cut(self, target):
-        count.append(target)
-        if len(count) == 4:
+    def cut(self, *rest, **more):
+        count.append(self)
+        if len(count) == at:
             raise KeyboardInterrupt
-        return replaced(self, target)
+        return done(self, *rest, **more)
 
-    monkeypatch.setattr(Path, "replace", cut)
+    monkeypatch.setattr(Path, step, cut)
     with pytest.raises(KeyboardInterrupt), Folder(tmp_path) as folder:
-        folder.replace(dict.fromkeys(("figures/hertz.svg", "figures/a.svg", "results.json", "index.html"), b"new"))
+        folder.replace({"figures/both.svg": b"new", "index.html": b"new"})
     monkeypatch.undo()
-    assert {(tmp_path / name).read_bytes() == b"new" for name in ("figures/hertz.svg", "index.html")} == {True, False}
+    assert (tmp_path / "figures/both.svg").read_bytes() == b"new"
+    assert (tmp_path / "results.json").exists() and {*old, "index.html"} == set(listed_in(tmp_path))
+    assert (tmp_path / "index.html").exists() is (step == "unlink")
     with Folder(tmp_path) as folder:
         folder.replace({"figures/b.svg": b"newer"})
-    assert sorted(set(tree(tmp_path)) - realisations(tmp_path)) == [
-        "data",
-        "figures",
-        "figures/b.svg",
-        MANIFEST,
-        "realisations",
-    ]
+    assert sorted(tree(tmp_path)) == ["figures", "figures/b.svg", MANIFEST]
 
 
 def test_a_run_that_was_killed_before_anything_goes_on(tmp_path):
@@ -313,12 +311,6 @@ def test_a_lock_whose_file_was_removed_is_taken_anew(tmp_path, monkeypatch):
             pass
 
 
-def test_a_lock_is_given_back_whatever_happens(tmp_path):
-    with pytest.raises(KeyboardInterrupt), locked(tmp_path):
-        raise KeyboardInterrupt
-    assert not list(tmp_path.iterdir())
-
-
 def test_a_link_to_a_folder_is_followed_and_one_to_nothing_refused(tmp_path, capsys):
     (tmp_path / "there").mkdir()
     (tmp_path / "link").symlink_to("there")
@@ -414,28 +406,7 @@ def test_the_reference_report_is_a_report():
     assert listed == held
 
 
-def test_a_run_that_is_cut_short_before_the_old_files_are_gone_forgets_none(tmp_path, monkeypatch):
-    """They stay on the list until they are gone, so that the next report removes them."""
-    with Folder(tmp_path) as folder:
-        folder.replace({"index.html": b"old", "results.json": b"old"})
-    unlink = Path.unlink
-
-    def cut(self, missing_ok=False):
-        if self.name == "results.json":
-            raise KeyboardInterrupt
-        unlink(self, missing_ok=missing_ok)
-
-    monkeypatch.setattr(Path, "unlink", cut)
-    with pytest.raises(KeyboardInterrupt), Folder(tmp_path) as folder:
-        folder.replace({"index.html": b"new"})
-    monkeypatch.undo()
-    assert "results.json" in listed_in(tmp_path)
-    with Folder(tmp_path) as folder:
-        folder.replace({"index.html": b"new"})
-    assert sorted(tree(tmp_path)) == ["index.html", MANIFEST]
-
-
-def test_a_lock_is_gone_before_it_is_given_back(tmp_path, monkeypatch):
+def test_a_lock_is_given_back_whatever_happens_and_gone_before(tmp_path, monkeypatch):
     """Who removes it afterwards removes the lock of the next one."""
     close, there = os.close, []
 
@@ -444,8 +415,8 @@ def test_a_lock_is_gone_before_it_is_given_back(tmp_path, monkeypatch):
         close(handle)
 
     monkeypatch.setattr(os, "close", late)
-    with locked(tmp_path):
-        pass
+    with pytest.raises(KeyboardInterrupt), locked(tmp_path):
+        raise KeyboardInterrupt
     monkeypatch.undo()
     assert there == [False]
 

@@ -29,24 +29,10 @@ def level(samples):
 def files(loud, quiet):
     columns = {"loud [N]": loud.tolist(), "quiet [N]": quiet.tolist()}
     tracks = tuple(Sound(name=n, label=n, column=f"{n} [N]", says="") for n in ("loud", "quiet"))
-    heard = Sounds(
-        table="samples",
-        rate=RATE,
-        full_scale=common_full_scale((loud, quiet)),
-        repeats=2,
-        heard="",
-        tracks=tracks,
-    )
-    evidence = Evidence(
-        title="",
-        method="",
-        numbers=(),
-        tables=(Table("samples", columns),),
-        conclusions=(),
-        captions={},
-        sounds=heard,
-    )
-    return sounds.sound_files("case", evidence)
+    scale = common_full_scale((loud, quiet))
+    heard = Sounds(table="samples", rate=RATE, full_scale=scale, repeats=2, heard="", tracks=tracks)
+    none = {"title": "", "method": "", "numbers": (), "conclusions": (), "captions": {}}
+    return sounds.sound_files("case", Evidence(**none, tables=(Table("samples", columns),), sounds=heard))
 
 
 def test_a_tone_comes_out_at_its_frequency_as_often_as_asked():
@@ -116,11 +102,16 @@ def test_a_folder_with_files_of_others_is_refused_and_left_as_it_is(tmp_path, ca
     assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [("levels.csv", "my own")]
 
 
-def test_geikes_rule_is_left_out_where_the_ground_is_not_isotropic(tmp_path, capsys):
-    scene = tmp_path / "ridges.toml"
+def edited(tmp_path, capsys, old, new):
+    """The scene of a rail with other words in it."""
     command.main(["scene", "rail"])
-    scene.write_text(capsys.readouterr().out.replace('across = "isotropic"', 'across = "ridges"'))
-    words = ["sound", str(scene), "--seconds", "0.02", "--workers", "1", "--out", str(tmp_path / "out")]
+    (tmp_path / "my.toml").write_text(capsys.readouterr().out.replace(old, new))
+    return str(tmp_path / "my.toml")
+
+
+def test_geikes_rule_is_left_out_where_the_ground_is_not_isotropic(tmp_path, capsys):
+    scene = edited(tmp_path, capsys, 'across = "isotropic"', 'across = "ridges"')
+    words = ["sound", scene, "--seconds", "0.02", "--workers", "1", "--out", str(tmp_path / "out")]
     assert command.main([*words, "--models", "linear,geike"]) == 0
     assert "Geike's rule is for isotropic ground, here it is ridges" in capsys.readouterr().out
     assert [f.name for f in (tmp_path / "out").glob("*.wav")] == ["linear.wav"]
@@ -129,26 +120,21 @@ def test_geikes_rule_is_left_out_where_the_ground_is_not_isotropic(tmp_path, cap
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("scene", "seconds", "said"),
     [
-        (["sphere"], "got Smooth sphere"),
-        (["rail", "--seconds", "0.001"], "at least 0.015"),
-        (["rail", "--seconds", "60"], "at most"),
+        ("sphere", "1", "got Smooth sphere"),
+        ("rail", "0.001", "at least 0.015"),
+        ("rail", "60", "at most"),
+        ("still", "1", "a sound needs wheel.speed"),
     ],
 )
-def test_scenes_and_lengths_without_a_sound_are_refused(words, said, tmp_path, capsys):
-    assert command.main(["sound", *words, "--out", str(tmp_path / "out")]) == command.Exit.BAD_INPUT
+def test_scenes_and_lengths_without_a_sound_are_refused(scene, seconds, said, tmp_path, capsys):
+    if scene == "still":
+        scene = edited(tmp_path, capsys, "\nspeed", "\n# speed")
+    words = ["sound", scene, "--seconds", seconds, "--out", str(tmp_path / "out")]
+    assert command.main(words) == command.Exit.BAD_INPUT
     assert said in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
-
-
-def test_a_scene_without_a_speed_is_refused(tmp_path, capsys):
-    scene = tmp_path / "still.toml"
-    command.main(["scene", "rail"])
-    lines = capsys.readouterr().out.splitlines()
-    scene.write_text("\n".join(line for line in lines if not line.startswith("speed")))
-    assert command.main(["sound", str(scene), "--out", str(tmp_path / "out")]) == command.Exit.BAD_INPUT
-    assert "a sound needs wheel.speed" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("words", [["--models", "bem,moon"], ["--seconds", "nan"], ["--seconds", "-1"]])

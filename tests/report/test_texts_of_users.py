@@ -8,14 +8,13 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 import validation.scenes.bundled
-from tests.selection.test_model_hierarchy import Finding, punch
+from tests.selection.planted_answers import Finding, punch
 from validation.__main__ import main
 from validation.analysis.evidence import Evidence, Table
 from validation.report import compared, style
 from validation.report.compared import FORMATS, to_figure
 from validation.selection.compare import Comparison
 from validation.selection.hierarchy import select_model
-from validation.selection.several import selected_of_several
 
 NAMES = (r"costs $\frac{$", "$x^2$", "a$b", r"\$ and $", r"$\alpha_{$ and \\", "_hidden", "10 % of #1 & <b>")
 
@@ -64,19 +63,11 @@ def test_names_of_any_length_stay_inside_a_figure():
 
 
 def test_curves_of_several_scenes_are_named_in_the_legend():
-    table = Table(
-        "contact-filter",
-        {
-            "wavelength_mm": [10.0, 5.0] * 2,
-            "frequency_hz": [np.nan] * 4,
-            **{column: [0.0, -1.0] * 2 for column in ("value", "low", "high")},
-            "unit": ["dB"] * 4,
-            "scene": ["_one", "_one", "$two$", "$two$"],
-            "selected": [True] * 4,
-        },
-    )
+    columns = {name: [0.0, -1.0] * 2 for name in ("value", "low", "high")} | {"wavelength_mm": [10.0, 5.0] * 2}
+    columns |= {"frequency_hz": [np.nan] * 4, "unit": ["dB"] * 4, "selected": [True] * 4}
+    table = Table("contact-filter", columns | {"scene": ["_one", "_one", "$two$", "$two$"]})
     figure = Figure()
-    compared._spectra(figure.subplots(), selected_of_several(table))
+    compared._spectra(figure.subplots(), compared._selected(table))
     style.plain_figure(figure)
     assert [text.get_text() for text in figure.axes[0].get_legend().get_texts()] == [" _one", r"\$two\$"]
 

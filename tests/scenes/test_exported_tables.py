@@ -10,18 +10,20 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.scenes.test_rail_files import CURVE, LEVELS, loaded
-from validation.scenes import level_files, line_files
+from validation.scenes import level_files, measured_lines
 from validation.scenes.column_names import Column, column_of, columns_of, unit_of_all
 from validation.scenes.description import description_lines
 from validation.scenes.height_edits import edited_lines
 from validation.scenes.measured_lines import MeasuredLines
-from validation.scenes.number_table import KEYS, TableForm, table_of_text
+from validation.scenes.number_table import TableForm, table_of_text
 from validation.scenes.positions import places_of
-from validation.scenes.table_files import read_table
+from validation.scenes.table_files import FORM, read_table
 from validation.scenes.text_dialect import WRITTEN
 
 BANDS = ((100, 4.9), (80, 2.9), (63, 0.9), (50, -1.2), (40, -3.0), (31.5, -5.1))
 """Nominal wavelengths [mm] and levels [dB]."""
+TAB = "\t"
+CYCLES, LEVEL = (10, 12.5, 16, 20, 25, 31.5), [level for _, level in BANDS]
 Z = np.round(5 * np.random.default_rng(2).standard_normal(800), 3)
 """A line of 5 um."""
 
@@ -53,57 +55,35 @@ def refused(folder, kind, contents, *keys, said, **settings):
 # Levels
 
 
-GERMAN = ("Wellenlänge [cm];Pegel [dB re 1 µm]\n" + rows(((w / 10, level) for w, level in BANDS), form=comma)).replace(
-    "\n", "\r\n"
+CM = [(w / 10, level) for w, level in BANDS]
+GERMAN = f"Wellenlänge [cm];Pegel [dB re 1 µm]\n{rows(CM, form=comma)}".replace("\n", "\r\n")
+SHEET = f"\ufeffwavelength (mm);level (dB)\n{rows(BANDS, form=comma)};\n;\n".replace("\n", "\r\n")
+TABS, WIDE = (
+    f"wavelength [mm]\tLr [dB]\n{rows(BANDS, TAB)}",
+    "EN 15610:2019\nSite: town, km 12.4\nOperator\tN.N.\nPoints\t6\n\n",
 )
+QUOTED = '"wavelength [mm]","level [dB]"\n' + rows(BANDS, ",", lambda value: f'"{comma(value)}"')
+COUNTED = rows((i, level, w) for i, (w, level) in enumerate(BANDS))
+RADIANS = rows(((2000 * np.pi / w, level) for w, level in BANDS), ",")
 EXPORTS = {
     "German, Latin-1, Windows": (GERMAN.encode("latin-1"), "semicolons between its columns, decimal commas, the encod"),
-    "German, UTF-8": (GERMAN.encode(), "it has semicolons between its columns, decimal commas."),
-    "Greek mu": (GERMAN.replace("µ", "\N{GREEK SMALL LETTER MU}").encode(), "decimal commas."),
-    "a spreadsheet": (
-        (
-            "\ufeffwavelength (mm);level (dB)\r\n" + rows(BANDS, form=comma).replace("\n", "\r\n") + ";\r\n;\r\n"
-        ).encode(),
-        "semicolons between its columns, decimal commas.",
-    ),
-    "UTF-16": (("wavelength [mm]\tLr [dB]\r\n" + rows(BANDS, "\t")).encode("utf-16"), "the encoding utf-16."),
-    "UTF-16 without its mark": (
-        ("wavelength [mm]\tLr [dB]\r\n" + rows(BANDS, "\t")).encode("utf-16-le"),
-        "the encoding utf-16-le.",
-    ),
-    "an old Mac": (
-        ("wavelength_mm\tlevel_dB\n" + rows(BANDS, "\t")).replace("\n", "\r").encode(),
-        "it has tabs between",
-    ),
+    "German, UTF-8": (GERMAN, "it has semicolons between its columns, decimal commas."),
+    "Greek mu": (GERMAN.replace("µ", "\N{GREEK SMALL LETTER MU}"), "decimal commas."),
+    "a spreadsheet": (SHEET, "semicolons between its columns, decimal commas."),
     "a standard table": (
-        "EN 15610:2019\nSite: town, km 12.4\nOperator\tN.N.\nPoints\t6\n\nWavelength / cm\tLr / dB re 1 µm\n".encode()
-        + rows(((w / 10, level) for w, level in BANDS), "\t").encode(),
-        "it has tabs between its columns, 5 lines above its numbers.",
+        f"{WIDE}Wavelength / cm\tLr / dB re 1 µm\n{rows(CM, TAB)}",
+        "tabs between its columns, 5 lines above",
     ),
-    "units in a line of their own": (("lambda;L\nmm;dB\n" + rows(BANDS)).encode(), "2 lines above its numbers."),
-    "quotation marks": (
-        ('"wavelength [mm]","level [dB]"\n' + rows(BANDS, ",", lambda value: f'"{comma(value)}"')).encode(),
-        "it has decimal commas.",
-    ),
-    "spaces": (("% wavelength [mm]   L [dB]\n" + rows(BANDS, "   ")).encode(), "it has spaces between its columns."),
-    "cycles": (
-        (
-            "k [1/m],L [dB]\n"
-            + rows(((k, level) for k, (_, level) in zip((10, 12.5, 16, 20, 25, 31.5), BANDS, strict=True)), ",")
-        ).encode(),
-        "its wavenumbers in 1/m are cycles: wavelength = 1 / k",
-    ),
-    "radians": (
-        ("k [rad/m],L [dB]\n" + rows(((2000 * np.pi / w, level) for w, level in BANDS), ",")).encode(),
-        "its wavenumbers in rad/m are k = 2 pi / wavelength",
-    ),
-    "a last line": (
-        ("lambda [mm];L [dB]\n" + rows(BANDS) + "\nEnd of file\n").encode(),
-        "columns; 1 line below its num",
-    ),
+    "units in a line of their own": (f"lambda;L\nmm;dB\n{rows(BANDS)}", "2 lines above its numbers."),
+    "quotation marks": (QUOTED, "it has decimal commas."),
+    "spaces": (f"% wavelength [mm]   L [dB]\n{rows(BANDS, '   ')}", "it has spaces between its columns."),
+    "cycles": (f"k [1/m],L [dB]\n{rows(zip(CYCLES, LEVEL, strict=True), ',')}", "its wavenumbers in 1/m are cycles"),
+    "radians": (f"k [rad/m],L [dB]\n{RADIANS}", "its wavenumbers in rad/m are k = 2 pi / wavelength"),
+    "upwards": (f"\ufeffwavelength_m;level_dB\n{rows((w / 1000, z) for w, z in BANDS[::-1])}", "semicolons"),
+    "a last line": (f"lambda [mm];L [dB]\n{rows(BANDS)}\nEnd of file\n", "columns; 1 line below its num"),
     "a count and bands without levels": (
-        ("no;L [dB];lambda [mm]\n" + rows((i, level, w) for i, (w, level) in enumerate(BANDS)) + "9;-;25\n").encode(),
-        "1 of its rows have no level and are left out; without no.",
+        f"no;L [dB];lambda [mm]\n{COUNTED}9;-;25\n",
+        "1 of its rows have no level and ",
     ),
 }
 
@@ -119,42 +99,27 @@ def test_levels_are_read_as_they_are_exported_and_how_is_told(tmp_path, export):
     assert f"note: {note}" in description_lines(scene)
 
 
-def test_a_plain_table_is_not_talked_about(tmp_path):
-    assert told(rail_with(tmp_path, "levels", "wavelength [mm],level [dB re 1 um]\n" + rows(BANDS, ","))) == []
-
-
+TIMED = "time;lambda [mm];L [dB]\n" + rows((f"12:30:{i}", w, level) for i, (w, level) in enumerate(BANDS))
 TWO = "wavelength [cm],left [dB],right [dB]\n" + rows(((w / 10, level, level + 1) for w, level in BANDS), ",")
 
 
 @pytest.mark.parametrize(
     ("contents", "key", "said"),
     [
-        (
-            rows(BANDS, " "),
-            'unit = "mm"',
-            'got column 1 and column 2: without such names, as: columns = \\[1, 2\\], unit = "mm"',
-        ),
+        (rows(BANDS, " "), 'unit = "mm"', r'got column 1 and column 2: without such names, .* unit = "mm"'),
         (TWO, 'columns = ["wavelength", "left"]', r"left \[dB\] and right \[dB\]: say which, as: columns = \[1, 2\]"),
         (TWO, "columns = [1, 2]", "columns"),
         (rows(((w, 2) for w, _ in BANDS[:3]), ","), 'decimal = ","', 'as: decimal = ","'),
         ("1\n2\n3\nwavelength [mm];L [dB]\n" + rows(BANDS), "skip = 3", "skip"),
         ("wavelength [mm];L [dB]\n125;x\n" + rows(BANDS), 'nodata = "x"', 'as: nodata = "x"'),
         ("wavelength [mm];L [dB]\n" + rows(BANDS) + "25;77.7\n", "nodata = 77.7", "level"),
-        (
-            GERMAN.replace("µ", "u").encode("cp500"),
-            'encoding = "cp500"',
-            "got none in its first 8 lines: .*, encoding says",
-        ),
-        (
-            "time;lambda [mm];L [dB]\n" + rows((f"12:30:{i}", w, level) for i, (w, level) in enumerate(BANDS)),
-            'columns = ["lambda", "L"]',
-            "got '12:30:5' in column 1 of line 7: .* a column by columns",
-        ),
+        (GERMAN.replace("µ", "u").encode("cp500"), 'encoding = "cp500"', "got none in its first 8 lines: .*, encoding"),
+        (TIMED, 'columns = ["lambda", "L"]', "got '12:30:5' in column 1 of line 7: .* a column by columns"),
         ("text\n" * 3000 + "lambda [mm];L [dB]\n" + rows(BANDS), "skip = 3000", "skip leaves out more"),
         (
-            "lambda [mm];left;right\n" + rows((w, level, level + 1) for w, level in BANDS),
+            TWO.replace(" [dB]", ""),
             "columns = [1, 2]",
-            "got lambda .* and left and right: the key columns has the two that are read",
+            "got wavelength .* and left and right: the key columns has the two that are read",
         ),
     ],
 )
@@ -191,18 +156,10 @@ def test_a_curve_has_no_use_for_the_keys_of_a_file(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "cells",
-    [
-        "1.000,5;3\n",
-        '"1,000.5";3\n',
-        "1 000,5;3\n",
-        "1'000.5;3\n",
-        "1.234.567;3\n",
-        "1\N{NARROW NO-BREAK SPACE}000,5;3\n",
-    ],
+    "number", ["1.000,5", '"1,000.5"', "1 000,5", "1'000.5", "1.234.567", "1\N{NARROW NO-BREAK SPACE}000,5"]
 )
-def test_signs_between_thousands_are_refused(tmp_path, cells):
-    contents = "wavelength [mm];L [dB]\n" + cells * 4
+def test_signs_between_thousands_are_refused(tmp_path, number):
+    contents = "wavelength [mm];L [dB]\n" + f"{number};3\n" * 4
     refused(tmp_path, "levels", contents, said=r"numbers must have no sign between thousands, got '1")
 
 
@@ -244,20 +201,23 @@ def line_of(scene):
     return scene.roughness.height[:, 0]
 
 
+def columns(header, *values, delimiter=",", form=str):
+    return f"{header}\n" + rows(zip(*values, strict=True), delimiter, form)
+
+
+AT = np.arange(800)
 PLACED = {
-    "a trolley": (HEADER + "x (mm)\theight (um)\n" + rows(zip(range(800), Z, strict=True), "\t"), 1e-3),
-    "commas": ("x [mm];z [µm]\n" + rows(zip(range(800), Z, strict=True), form=comma), 1e-3),
-    "heights first": ("z [um],x [m]\n" + rows(zip(Z, np.arange(800) / 2000, strict=True), ","), 0.5e-3),
-    "a count, too": ("n,x [mm],z [um]\n" + rows(zip(range(1, 801), np.arange(800) / 2, Z, strict=True), ","), 0.5e-3),
-    "a time, too": ("t [s],x [mm],z [um]\n" + rows(zip(np.arange(800) / 8, range(800), Z, strict=True), ","), 1e-3),
-    "a constant, too": ("x [mm],y [mm],z [um]\n" + rows(((i, 3.5, z) for i, z in enumerate(Z)), ","), 1e-3),
-    "rounded": ("x [mm],z [um]\n" + rows(((f"{i / 3:.2f}", z) for i, z in enumerate(Z)), ","), 1e-3 / 3),
-    "downwards": ("x [mm],z [um]\n" + rows(((f"{(800 - i) / 4:.2f}", z) for i, z in enumerate(Z)), ","), -0.25e-3),
-    "from a kilometre on": (
-        "x [m],z [um]\n" + rows(((f"{12345 + i / 1000:.3f}", z) for i, z in enumerate(Z)), ","),
-        1e-3,
-    ),
+    "a trolley": (HEADER + columns("x (mm)\theight (um)", AT, Z, delimiter="\t"), 1e-3),
+    "commas": (columns("x [mm];z [µm]", AT, Z, delimiter=";", form=comma), 1e-3),
+    "heights first": (columns("z [um],x [m]", Z, AT / 2000), 0.5e-3),
+    "a count, too": (columns("n,x [mm],z [um]", AT + 1, AT / 2, Z), 0.5e-3),
+    "a time, too": (columns("t [s],x [mm],z [um]", AT / 8, AT, Z), 1e-3),
+    "a constant, too": (columns("x [mm],y [mm],z [um]", AT, 3.5 + 0 * AT, Z), 1e-3),
+    "rounded": (columns("x [mm],z [um]", [f"{i / 3:.2f}" for i in AT], Z), 1e-3 / 3),
+    "downwards": (columns("x [mm],z [um]", [f"{(800 - i) / 4:.2f}" for i in AT], Z), -0.25e-3),
+    "from a kilometre on": (columns("x [m],z [um]", [f"{12345 + i / 1000:.3f}" for i in AT], Z), 1e-3),
 }
+XZ = columns("x [mm],z [um]", AT, Z)
 
 
 @pytest.mark.parametrize("export", PLACED)
@@ -297,41 +257,25 @@ def test_a_spacing_that_disagrees_with_the_places_is_refused(tmp_path):
 @pytest.mark.parametrize(
     ("contents", "keys", "said"),
     [
-        (rows((i + (i % 3) / 4, z) for i, z in enumerate(Z)), (), r"got column 1, which runs one way but not evenly"),
+        (columns("", AT + (AT % 3) / 4, Z), (), r"got column 1, which runs one way but not evenly"),
+        (columns("", AT, AT / 2), (), r"file must have heights beside places, got column 1 and column 2 al"),
+        (columns("x [mm],y [mm],z [um]", AT, AT / 2, 1 + 0 * AT), (), "one that runs evenly, .*columns"),
+        (columns("", AT), ('spacing = "1 mm"',), "got one column that runs evenly"),
         (
-            rows((i, i / 2) for i in range(99)),
-            (),
-            r"file must have heights beside places, got column 1 and column 2 al",
-        ),
-        (
-            "x [mm],y [mm],z [um]\n" + rows(((i, i / 2, 1) for i in range(99)), ","),
-            (),
-            "one that runs evenly, .*columns",
-        ),
-        (rows((i,) for i in range(99)), ('spacing = "1 mm"',), "got one column that runs evenly"),
-        (
-            "x [mm],z [um]\n" + rows(enumerate(Z), ","),
+            XZ,
             ('positions = ["-5 mm", "5 mm"]',),
-            r"positions must be one a line, got 2 for 1: x \[mm\] is the place along the track, 1 mm apart, and z",
+            r"positions must be one a line, got 2 for 1: x \[mm\] is the ",
         ),
+        (XZ, ('unit = "mm"',), "unit must be that of the file, um, or be left out, got 1 mm"),
+        (XZ.replace("z [um]", "v [m/s]"), (), r"columns must be lengths, got v \[m/s\]: .*columns = \[1\]"),
         (
-            "x [mm],z [um]\n" + rows(enumerate(Z), ","),
-            ('unit = "mm"',),
-            "unit must be that of the file, um, or be left out, got 1 mm",
-        ),
-        (
-            "x [mm],v [m/s]\n" + rows(enumerate(Z), ","),
+            columns("v [m/s],x [mm],z [um]", Z, AT, Z),
             (),
-            r"columns must be lengths, got v \[m/s\]: .*columns = \[1\]",
+            r"be lengths, got v \[m/s\]: .*columns = \[2, 3\]",
         ),
-        (
-            "v [m/s],x [mm],z [um]\n" + rows(((z, i, z) for i, z in enumerate(Z)), ","),
-            (),
-            r"columns must be lengths, got v \[m/s\]: .*columns = \[2, 3\]",
-        ),
-        ("x [km],z [um]\n" + rows(((f"{12 + i / 1e6:.5f}", z) for i, z in enumerate(Z)), ","), (), "runs one way but"),
-        ("z [um]\n" + rows((z,) for z in Z), (), 'spacing is missing: .*as: spacing = "1 mm"'),
-        (rows((z,) for z in Z), ('spacing = "1 mm"',), 'is the unit another.*unit = "um"'),
+        (columns("x [km],z [um]", [f"{12 + i / 1e6:.5f}" for i in AT], Z), (), "runs one way but"),
+        (columns("z [um]", Z), (), 'spacing is missing: .*as: spacing = "1 mm"'),
+        (columns("", Z), ('spacing = "1 mm"',), 'is the unit another.*unit = "um"'),
     ],
 )
 def test_lines_that_cannot_be_told_are_refused_by_the_key_that_helps(tmp_path, contents, keys, said):
@@ -339,12 +283,11 @@ def test_lines_that_cannot_be_told_are_refused_by_the_key_that_helps(tmp_path, c
 
 
 def test_a_line_may_be_tilted_as_much_as_to_run_one_way(tmp_path):
-    tilted = np.round(Z + 50 * np.arange(800), 3)
-    scene = rail_with(tmp_path, "lines", "x [mm],z [um]\n" + rows(enumerate(tilted), ","))
+    tilted = np.round(Z + 50 * AT, 3)
+    scene = rail_with(tmp_path, "lines", columns("x [mm],z [um]", AT, tilted))
     assert line_of(scene) == pytest.approx(1e-6 * tilted)
-    both = rows(((z, h) for z, h in zip(tilted, Z, strict=True)), ",")
     keys = 'spacing = "1 mm"', 'unit = "um"', 'positions = ["0 mm", "5 mm"]'
-    assert rail_with(tmp_path, "lines", both, *keys).roughness.height.shape == (800, 2)
+    assert rail_with(tmp_path, "lines", columns("", tilted, Z), *keys).roughness.height.shape == (800, 2)
 
 
 GONE = {3: "BAD", 10: "***", 11: "", 12: "-9999", 13: "NaN"}
@@ -390,8 +333,8 @@ def in_memory(text, **form):
 
 def test_the_place_along_the_track_is_no_line():
     table = in_memory("x [mm];z [um]\n" + rows(enumerate(Z)))
-    lines = line_files._along_the_track(table, metre=None, spacing=1e-3)
-    assert lines.height.shape == (800, 1) and lines.height[:, 0] == pytest.approx(1e-6 * Z)
+    height, _, _ = measured_lines._along_the_track(table, metre=None, spacing=1e-3)
+    assert height.shape == (800, 1) and height[:, 0] == pytest.approx(1e-6 * Z)
 
 
 def test_wavenumbers_are_cycles_over_a_metre():
@@ -411,25 +354,28 @@ NUMBERS = st.one_of(st.integers(-900, 900).map(float), st.floats(-1e3, 1e3).map(
 LINES = st.lists(
     st.sampled_from(["Date: 2024-05-01", "Instrument 7", "# a comment", "", "Key;value", "a\tb"]), max_size=4
 )
+CODES = st.sampled_from(["utf-8", "utf-8-sig", "latin-1", "utf-16", "utf-16-le"])
+TABLES = st.integers(1, 5).flatmap(
+    lambda width: st.lists(st.lists(NUMBERS, min_size=width, max_size=width), min_size=3, max_size=9)
+)
 
 
-@given(way=WAYS, width=st.integers(1, 5), count=st.integers(3, 9), above=LINES, named=st.booleans(), data=st.data())
-def test_a_table_is_read_as_it_is_written_or_asked_for_its_decimal_sign(way, width, count, above, named, data):
-    delimiter, decimal = way
-    values = [[data.draw(NUMBERS) for _ in range(width)] for _ in range(count)]
+@given(way=WAYS, values=TABLES, above=LINES, named=st.booleans(), code=CODES, end=st.sampled_from(["\n", "\r\n", "\r"]))
+def test_a_table_is_read_as_it_is_written_or_asked_for_its_decimal_sign(way, values, above, named, code, end):
+    (delimiter, decimal), width = way, len(values[0])
     sign = delimiter or "  "
     names = [sign.join(f"c{i} [mm]" for i in range(width))] if named else []
     written = [sign.join(f"{value:g}".replace(".", decimal) for value in row) for row in values]
-    text = "\n".join([*above, *names, *written])
-    shown = [[float(f"{value:g}") for value in row] for row in values]
+    contents = end.join([*above, *names, *written]).encode(code)
     try:
-        table = in_memory(text)
+        table = table_of_text(io.BytesIO(contents), TableForm())
     except ValueError as problem:
         assert "decimal" in str(problem) and not named and width < 3
-        table = in_memory(text, decimal=decimal)
+        table = table_of_text(io.BytesIO(contents), TableForm(decimal=decimal))
     if named or width > 2:
-        np.testing.assert_array_equal(table.values, shown)
+        np.testing.assert_array_equal(table.values, [[float(f"{value:g}") for value in row] for row in values])
     assert not named or [column.unit for column in table.columns] == ["mm"] * width
+    assert (code[:6] == "utf-16") == any("the encoding utf-16" in note for note in table.notes)
 
 
 @pytest.mark.parametrize("told", [(7.5,), ("7.50",), ("7.5",)])
@@ -449,12 +395,9 @@ def test_other_columns_than_the_chosen_may_be_texts():
         in_memory(texts.replace("12:020;20.5", "broken;broken"), columns=(2,))
 
 
-def test_a_header_with_a_decimal_comma_is_no_pair_of_names():
-    assert in_memory("Weg 1,5 m\n3,25\n4,5\n1,25\n").values[:, 0].tolist() == [3.25, 4.5, 1.25]
-
-
-def test_a_mark_of_utf_8_is_left_out_where_the_encoding_is_told():
+def test_a_header_with_a_decimal_comma_is_no_pair_of_names_nor_a_mark_part_of_one():
     assert in_memory("\ufeffx [mm],z [um]\n1,2.5\n2,3\n3,4\n", encoding="UTF8").columns[0].name == "x"
+    assert in_memory("Weg 1,5 m\n3,25\n4,5\n1,25\n").values[:, 0].tolist() == [3.25, 4.5, 1.25]
 
 
 @pytest.mark.parametrize("cell", ["", "BAD", "***", "NaN", "n/a", "-", "#N/A", "7.5"])
@@ -504,6 +447,8 @@ def test_numbers_are_what_is_written(text, values):
         ("f(x) in nm", Column("f(x) in", "nm")),
         ("rail (left) [nm]", Column("rail (left)", "nm")),
         ("name", Column("name")),
+        *((f"h [{word}]", Column("h", "um")) for word in ("micrometer", "micrometre", "microns")),
+        *((f"height {word}", Column("height", "mm")) for word in ("millimetre", "MM")),
     ],
 )
 def test_names_of_columns(text, column):
@@ -529,27 +474,15 @@ def test_rough_lines_never_run_evenly():
     assert places_of(np.arange(7.0)) is None and places_of(np.full(9, 3.0)) is None
 
 
-def test_each_key_of_a_table_is_read():
-    assert {"skip", "columns", "decimal", "encoding", "nodata"} == set(KEYS)
-    assert {*KEYS, "key"} == {name for name in vars(TableForm()) if not name.startswith("_")}
-
-
 PAGE = (Path(__file__).parents[2] / "reports" / "docs" / "own_data.md").read_text(encoding="utf-8")
 
 
 def test_the_page_names_each_way_of_writing_that_is_recognised(tmp_path):
-    for word in ("semicolons", "decimal comma", "byte-order mark", "Latin-1", "UTF-16", *KEYS):
+    for word in ("semicolons", "decimal comma", "byte-order mark", "Latin-1", "UTF-16", *FORM):
         assert word in PAGE, word
     for unit in re.findall(r"`(1/m|rad/m|dB|cm|mm|um|nm)`", PAGE):
         (tmp_path / "it.csv").write_text(f"a [{unit}],b\n1,2.5\n3,4\n5,6\n")
         assert read_table("it", tmp_path / "it.csv").columns[0].unit == unit
-
-
-@pytest.mark.parametrize(
-    ("word", "unit"), [("micrometer", "um"), ("micrometre", "um"), ("millimetre", "mm"), ("microns", "um")]
-)
-def test_units_may_be_written_out(word, unit):
-    assert column_of(f"height [{word}]") == Column("height", unit) == column_of(f"height {word}")
 
 
 def test_units_of_columns_go_before_one_of_the_whole_header():

@@ -138,14 +138,6 @@ def test_tables_that_are_none_are_refused_in_one_line(tmp_path, monkeypatch, con
         read_table("it", tmp_path / "face.csv")
 
 
-@pytest.mark.parametrize("mark", ["", "\ufeff"])
-@pytest.mark.parametrize("sign", [",", ";", "\t", " "])
-def test_an_editors_mark_and_a_header_behind_a_sign_are_read(tmp_path, mark, sign):
-    rows = "\n".join(sign.join(map(repr, row)) for row in HEIGHT.tolist())
-    (tmp_path / "face.csv").write_text(f"{mark}# x, y\n\n{rows}\n", encoding="utf-8")
-    assert (read_table("it", tmp_path / "face.csv").values == HEIGHT).all()
-
-
 @pytest.mark.parametrize(
     ("text", "said"),
     [

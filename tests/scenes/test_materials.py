@@ -9,8 +9,8 @@ import pytest
 
 import bem3d
 from validation.__main__ import main
-from validation.scenes.bundled import SCENES, bundled
-from validation.scenes.description import describe, description_lines
+from validation.scenes.bundled import SCENES
+from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import load_scene
@@ -61,14 +61,15 @@ def test_the_ends_of_what_poissons_ratio_may_be_belong_to_it(poisson_ratio):
     assert steel(poisson_ratio=poisson_ratio).modulus == pytest.approx(210e9 / (1 - poisson_ratio**2), rel=1e-15)
 
 
-def test_a_contact_modulus_stands_for_itself():
-    assert Material(contact_modulus=2e9).modulus == 2e9
-    assert Material(contact_modulus=2e9).origin == "given directly"
+NONE = {"youngs_modulus": None, "poisson_ratio": None, "counterface": None}
+SOFT = Elastic(youngs_modulus=-1.0, poisson_ratio=0.3)
+SWELLING = Elastic(youngs_modulus=1e9, poisson_ratio=0.7)
 
 
 @pytest.mark.parametrize(
     ("changes", "error", "sentence"),
     [
+        (NONE, ValueError, "material must have contact_modulus, or else youngs_modulus, "),
         ({"youngs_modulus": 0}, ValueError, "material.youngs_modulus must be positive, got 0.0"),
         ({"youngs_modulus": math.inf}, ValueError, "material.youngs_modulus must be finite, got inf"),
         ({"youngs_modulus": "1"}, TypeError, "material.youngs_modulus must be a real number, got '1'"),
@@ -78,38 +79,16 @@ def test_a_contact_modulus_stands_for_itself():
         ({"poisson_ratio": 0.51}, ValueError, "material.poisson_ratio must lie in [0, 0.5], got 0.51"),
         ({"poisson_ratio": math.nan}, ValueError, "material.poisson_ratio must be finite, got nan"),
         ({"counterface": None}, ValueError, "material.counterface is missing: E* depends on the other body, too"),
-        (
-            {"counterface": "Steel"},
-            ValueError,
-            'material.counterface must be "rigid", "same", or a table with youngs_modulus and poisson_ratio of the '
-            'other body, got "Steel"',
-        ),
-        (
-            {"counterface": Elastic(youngs_modulus=-1.0, poisson_ratio=0.3)},
-            ValueError,
-            "material.counterface.youngs_modulus must be positive, got -1.0",
-        ),
-        (
-            {"counterface": Elastic(youngs_modulus=1e9, poisson_ratio=0.7)},
-            ValueError,
-            "material.counterface.poisson_ratio must lie in [0, 0.5], got 0.7",
-        ),
-        (
-            {"contact_modulus": 1e9},
-            ValueError,
-            "material.contact_modulus must stand alone, got youngs_modulus, poisson_ratio, counterface beside it",
-        ),
+        ({"counterface": "Steel"}, ValueError, 'material.counterface must be "rigid", "same", or a table with '),
+        ({"counterface": SOFT}, ValueError, "material.counterface.youngs_modulus must be positive, got -1.0"),
+        ({"counterface": SWELLING}, ValueError, "material.counterface.poisson_ratio must lie in [0, 0.5], got 0.7"),
+        ({"contact_modulus": 1e9}, ValueError, "material.contact_modulus must stand alone, got youngs_modulus, poiss"),
         ({"youngs_modulus": 1.7e308, "poisson_ratio": 0.5}, ValueError, "material: E* of both bodies must be finite"),
     ],
 )
 def test_materials_are_refused_by_the_key(changes, error, sentence):
     with pytest.raises(error, match=f"^{re.escape(sentence)}"):
         steel(**changes)
-
-
-def test_no_material_is_refused():
-    with pytest.raises(ValueError, match=r"^material must have contact_modulus, or else youngs_modulus, .* got none"):
-        Material()
 
 
 def test_a_modulus_is_that_of_its_material():
@@ -123,10 +102,9 @@ def test_a_modulus_is_that_of_its_material():
 # Scene files
 
 
-@pytest.mark.parametrize(("name", "modulus"), [("rough_punch", 210e9 / (1 - 0.3**2))])
-def test_shipped_scenes_are_those_of_the_book(name, modulus):
-    assert load_scene(name).modulus == modulus
-    for other in set(bundled()) - {name, "rough_wheel", "rail"}:
+def test_shipped_scenes_are_those_of_the_book():
+    assert load_scene("rough_punch").modulus == 210e9 / (1 - 0.3**2)
+    for other in ("rolling_wheel", "sphere", "table_14_1"):
         assert load_scene(other).modulus == 210e9 / (1 - (1 / 3) ** 2)
         assert load_scene(other).material.counterface == "rigid"
 
@@ -168,22 +146,17 @@ def test_a_contact_modulus_may_be_given_instead(tmp_path, text):
 @pytest.mark.parametrize(
     ("line", "sentence"),
     [
-        ('counterface = "steel"\n', 'material.counterface must be "rigid", "same", or a table'),
         ("counterface = 3\n", 'material.counterface must be "rigid", "same", or a table'),
         ('counterface = "same"\ncontact_modulus = "1 GPa"\n', "material.contact_modulus must stand alone, got youngs"),
         (ALUMINIUM.replace("poisson_ratio = 0.33\n", ""), "material.counterface.poisson_ratio is missing"),
-        (ALUMINIUM.replace("0.33", "0.66"), "material.counterface.poisson_ratio must lie in [0, 0.5], got 0.66"),
         (ALUMINIUM.replace("70 GPa", "70 N"), "material.counterface.youngs_modulus must be a pressure"),
     ],
 )
-@pytest.mark.parametrize("text", [SPHERE, WHEEL])
-def test_what_contradicts_itself_is_refused_by_name(tmp_path, text, line, sentence):
+@pytest.mark.parametrize(("text", "load"), [(SPHERE, load_scene), (WHEEL, load_scene), (WHEEL, load_wheel_scene)])
+def test_what_contradicts_itself_is_refused_by_name(tmp_path, text, load, line, sentence):
     path = written(tmp_path, text, line)
     with pytest.raises(ValueError, match=f"^scene {re.escape(str(path))}: {re.escape(sentence)}"):
-        load_scene(path)
-    if text == WHEEL:
-        with pytest.raises(ValueError, match=f"^scene {re.escape(str(path))}: {re.escape(sentence)}"):
-            load_wheel_scene(path)
+        load(path)
 
 
 # What was understood
@@ -207,22 +180,11 @@ def test_slopes_are_those_of_heights():
     )
 
 
-@pytest.mark.parametrize(
-    ("value", "dimension", "shown"),
-    [
-        (236.25e9, "pressure", "236.25 GPa"),
-        (1e-3, "length", "1 mm"),
-        (0.5e-6, "length", "500 nm"),
-        (1e-12, "length", "0.001 nm"),
-        (4905.0, "force", "4.905 kN"),
-        (20.0, "speed", "20 m/s"),
-        (500.0, "mass", "500 kg"),
-        (500, "mass", "500 kg"),
-        (np.float32(0.5), "mass", "500 g"),
-    ],
-)
-def test_quantities_are_printed_in_a_unit_that_fits(value, dimension, shown):
-    assert in_unit(value, dimension) == shown
+def test_quantities_are_printed_in_a_unit_that_fits():
+    lengths = {1e-3: "1 mm", 0.5e-6: "500 nm", 1e-12: "0.001 nm"}
+    assert {length: in_unit(length, "length") for length in lengths} == lengths
+    assert in_unit(236.25e9, "pressure") == "236.25 GPa" and in_unit(4905.0, "force") == "4.905 kN"
+    assert in_unit(500, "mass") == "500 kg" and in_unit(np.float32(0.5), "mass") == "500 g"
 
 
 def test_table_14_1_is_understood_as_what_it_is():
@@ -238,56 +200,6 @@ def test_table_14_1_is_understood_as_what_it_is():
         "waves of the rail": "10 mm to 200 µm, Hurst exponent 0.7, 1.257e+04 to 6.283e+05 rad/s",
     }
     assert dict(describe(load_scene("table_14_1"))).items() >= {k: pairs[k] for k in list(pairs)[:-1]}.items()
-
-
-def test_punches_are_understood_by_their_load():
-    pairs = dict(describe(load_scene("rough_punch")))
-    assert pairs["rms height h"] == "1 µm, F / (E* h L) = 0.1"
-    assert pairs["waves"].endswith("longest waves on a side: 1")
-    smooth = IndentationScene(name="flat", shape="punch", size=1.0, load=1.0, modulus=2e9)
-    assert dict(describe(smooth)) == {
-        "contact modulus E*": "2 GPa: given directly",
-        "punch": "side L = 1 m, load 1 N",
-        "roughness": "none",
-    }
-
-
-@pytest.mark.parametrize("name", ["sphere", "rough_punch"])
-def test_every_comparison_begins_with_what_was_understood(name, capsys):
-    scene = load_scene(name)
-    assert main(["compare", name, "--tolerance", "90%"]) in (0, 3)
-    lines = capsys.readouterr().out.splitlines()
-    assert lines[1 : 1 + len(describe(scene))] == description_lines(scene)
-
-
-@pytest.mark.parametrize("name", [name for name in bundled() if name != "rough_wheel"])
-def test_a_description_has_a_line_for_each_of_its_words(name):
-    scene = load_scene(name)
-    assert description_lines(scene) == [f"  {key:18s}  {value}" for key, value in describe(scene)]
-
-
-def test_two_equal_bodies_are_printed(tmp_path, capsys):
-    assert main(["compare", str(written(tmp_path, SPHERE, 'counterface = "same"\n'))]) == 0
-    assert "  contact modulus E*  118.125 GPa: two equal bodies, E = 210 GPa, nu = 0.33333" in capsys.readouterr().out
-
-
-def test_measured_faces_are_understood_by_their_points():
-    height = 1e-3 * np.random.default_rng(1).standard_normal((64, 32))
-    ground = MeasuredHeights(height=height, spacing=(1 / 64, 1 / 32))
-    scene = IndentationScene(name="it", shape="punch", size=1.0, load=1.0, modulus=2e9, ground=ground)
-    pairs = dict(describe(scene))
-    assert pairs["waves"].startswith(
-        "measured, 64 x 32 points on 1 m x 1 m, 15.625 mm x 31.25 mm apart; longest waves on a side: "
-    )
-    along = math.sqrt(np.mean((np.diff(height, axis=0) * 64) ** 2))
-    assert float(pairs["rms slope h'"].partition(",")[0]) == pytest.approx(along, rel=0.01)
-
-
-def test_the_slope_of_a_punch_is_that_in_one_direction():
-    scene = load_scene("rough_punch")
-    q = np.geomspace(scene.ground.q_min, scene.ground.q_max, 20001)
-    slope = math.sqrt(np.pi * np.trapezoid(q**3 * scene.ground.c2d(q), q))
-    assert dict(describe(scene))["rms slope h'"] == f"{slope:.3g}, in one direction, of all waves"
 
 
 def test_rail_and_wheel_are_understood_together():

@@ -2,6 +2,7 @@
 
 import math
 import re
+from contextlib import nullcontext
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ import pytest
 from tests.scenes.test_rail_files import written
 from validation.scenes.description import describe
 from validation.scenes.load import load_scene
-from validation.scenes.profiled_rail import ProfiledRail
+from validation.scenes.rail import ProfiledRail
 from validation.scenes.transverse_profile import TransverseProfile, both_together, fitted_radius
 
 CROWN = 'crown_radius = "300 mm"'
@@ -43,13 +44,8 @@ def test_a_parabola_is_the_rail_of_its_radius(tmp_path):
     assert isinstance(scene, ProfiledRail) and scene.transverse_radius is None
     assert scene.radii == pytest.approx(crowned.radii, rel=1e-6)
     assert scene.contact.across == pytest.approx(crowned.contact.across, rel=1e-6)
-    assert dict(describe(scene))["wheel and rail"] == (
-        "profile of head.csv across, radius 300 mm fitted over the contact"
-    )
-    assert scene.diagnose() == (
-        "the transverse profile of head.csv has a radius of 300 mm, fitted over the contact, 4.28 mm to both sides: "
-        "boundary elements of compare take the profile, all other models that radius.",
-    )
+    assert dict(describe(scene))["wheel and rail"].startswith("profile of head.csv across, radius 300 mm fitted")
+    assert "radius of 300 mm, fitted over the contact, 4.28 mm to both sides: boundary" in scene.diagnose()[0]
 
 
 @pytest.mark.parametrize("unit", [1.0, 1e3])
@@ -70,9 +66,13 @@ def profile_of(height, y=Y):
     return TransverseProfile(y=tuple(y / 1e3), height=tuple(height / 1e3))
 
 
+def radius_of(profile, load=5e4):
+    return fitted_radius(profile, along=0.46, modulus=STEEL, load=load)
+
+
 @pytest.mark.parametrize("load", [5e3, 5e4, 2e5])
 def test_a_parabola_has_its_radius_under_any_load(load):
-    assert fitted_radius(profile_of(parabola(300.0)), along=0.46, modulus=STEEL, load=load) == pytest.approx(0.3)
+    assert radius_of(profile_of(parabola(300.0)), load) == pytest.approx(0.3)
 
 
 def test_a_hollow_wheel_and_a_crown_are_one_profile():
@@ -80,14 +80,14 @@ def test_a_hollow_wheel_and_a_crown_are_one_profile():
     crown, hollow = profile_of(parabola(200.0)), profile_of(-parabola(600.0) - 1e-6 * Y**4)
     bodies = both_together([crown], -1 / 0.6), both_together([profile_of(parabola(200.0) - parabola(600.0))], 0.0)
     for together in bodies:
-        assert fitted_radius(together, along=0.46, modulus=STEEL, load=5e4) == pytest.approx(0.3)
+        assert radius_of(together) == pytest.approx(0.3)
     with pytest.raises(ValueError, match=r"must have places in common.*wheel.offset"):
         both_together([crown, profile_of(parabola(300.0), Y + 1000)], 0.0)
     assert hollow.radius_within(5e-3) == math.inf
 
 
 def test_a_radius_is_fitted_over_the_contact_and_not_over_the_whole_head():
-    light, heavy = (fitted_radius(profile_of(worn(Y)), along=0.46, modulus=STEEL, load=load) for load in (1e3, 5e4))
+    light, heavy = (radius_of(profile_of(worn(Y)), load) for load in (1e3, 5e4))
     assert light == pytest.approx(0.3, rel=0.01)
     assert 0.15 < heavy < 0.2
 
@@ -120,15 +120,9 @@ def test_curvatures_of_wheel_and_rail_add(tmp_path):
         (table(parabola(300.0)) + "\n29,1", "y must ascend, got 0.0295 m behind 0.03 m"),
         (table(-parabola(300.0)), "must be highest between its ends, -30 and 30 mm, got its highest point at -30 mm"),
         (table(parabola(300.0)[40:80:8], Y[40:80:8]), "profile must have 7 to 100000 points"),
-        (
-            table(parabola(300.0)[::5], Y[::5]),
-            "profile must have 5 points in the contact at the least, got so many within 5 mm",
-        ),
+        (table(parabola(300.0)[::5], Y[::5]), "profile must have 5 points in the contact at the least, got so"),
         (table(parabola(1e9)), "profile must reach to twice the contact"),
-        (
-            table(parabola(300.0)[50:71], Y[50:71]),
-            "profile must reach to twice the contact and have 5 points in it at the least, got 5 mm",
-        ),
+        (table(parabola(300.0)[50:71], Y[50:71]), "must reach to twice the contact and have 5 points in it"),
     ],
 )
 def test_files_that_are_no_profile_are_refused(tmp_path, contents, said):
@@ -165,17 +159,11 @@ def arc(y, radius, until):
 
 def head(y):
     """A head like that of 60E1: radii of 300, 80 and 13 mm, which meet in tangents at 10.3 and 26 mm [mm]."""
-    a, ends, radii, start, drop, slope = np.abs(y), (10.3, 26.0, 35.2), (300.0, 80.0, 13.0), 0.0, 0.0, 0.0
-    z = np.zeros_like(a)
-    for end, radius in zip(ends, radii, strict=True):
-        centre = start - radius * slope / np.hypot(1, slope)
-        level = drop + radius / np.hypot(1, slope)
-        inside = (a > start) | (start == 0)
-        at = np.clip(a, start, end)
-        z = np.where(inside, np.sqrt(radius**2 - (at - centre) ** 2) - level, z)
-        z = np.where(inside, z, z)
-        start, drop = end, level - np.sqrt(radius**2 - (end - centre) ** 2)
-        slope = (end - centre) / np.sqrt(radius**2 - (end - centre) ** 2)
+    z, sine = np.zeros_like(y), 0.0
+    for start, end, radius in ((0.0, 10.3, 300.0), (10.3, 26.0, 80.0), (26.0, 35.2, 13.0)):
+        inclined = sine + np.clip(np.abs(y) - start, 0, end - start) / radius
+        z = z - radius * (np.sqrt(1 - sine**2) - np.sqrt(1 - inclined**2))
+        sine += (end - start) / radius
     return z
 
 
@@ -185,9 +173,9 @@ def tread(y, cone):
     return -cone * y + np.where(y < -42, np.minimum(root, 28 - 0.05 * (y + 55) ** 2), root)
 
 
-def rolling(folder, *changes, cone=1 / 40, rail=True, flip=1):
+def rolling(folder, *changes, cone=1 / 40, rail=True, flip=1, shift=0):
     """The scene of a wheel with a flange."""
-    (folder / "tread.csv").write_text(table(flip * tread(WHEEL_Y, cone), WHEEL_Y))
+    (folder / "tread.csv").write_text(table(flip * tread(WHEEL_Y, cone), WHEEL_Y + shift))
     (folder / "head.csv").write_text(table(head(RAIL_Y), RAIL_Y))
     profile = [(CROWN, PROFILE)] if rail else []
     return load_scene(written(folder, *profile, ('load = "', 'profile = "tread.csv"\nload = "'), *changes))
@@ -202,9 +190,7 @@ def test_a_cone_shifts_the_contact_along_a_crown_and_keeps_its_curvature(tmp_pat
     for scene in (flat, cone):
         assert scene.radii[1] == pytest.approx(0.3, rel=2e-3)
         assert (scene.contact.along, scene.contact.across) == pytest.approx((5.684e-3, 4.276e-3), rel=2e-3)
-    assert dict(describe(cone))["contact lies at"] == (
-        "y = -3 mm on the rail, -3 mm on the wheel, inclined by 0.57 degrees"
-    )
+    assert cone.contact_place == "y = -3 mm on the rail, -3 mm on the wheel, inclined by 0.57 degrees"
 
 
 def test_a_cone_of_one_in_twenty_touches_the_smaller_radius(tmp_path):
@@ -240,15 +226,6 @@ def test_an_offset_moves_the_wheel_across_the_rail(tmp_path, offset):
     assert scene.offset == pytest.approx(1e-3 * offset)
 
 
-def test_an_offset_moves_a_wheel_of_one_radius(tmp_path):
-    """-(y^2 / 600 + (y - 6)^2 / 1200) is highest at y = 2 mm."""
-    scene = with_profile(
-        tmp_path, table(parabola(300.0)), ('load = "', 'transverse_radius = "600 mm"\noffset = "6 mm"\nload = "')
-    )
-    assert scene.profile.at == pytest.approx(2e-3, abs=3e-6)
-    assert scene.radii[1] == pytest.approx(0.2, rel=1e-4)
-
-
 @pytest.mark.parametrize(
     ("settings", "changes", "said"),
     [
@@ -263,17 +240,12 @@ def test_a_flange_in_contact_is_refused(tmp_path, settings, changes, said):
         rolling(tmp_path, *changes, **settings)
 
 
-def test_a_wheel_upside_down_is_told_where_its_places_count_from_the_middle_of_the_track(tmp_path):
+@pytest.mark.parametrize("flip", [1, -1])
+def test_a_wheel_upside_down_is_told_where_its_places_count_from_the_middle_of_the_track(tmp_path, flip):
     """y = 750 mm on the wheel stands above the middle of the head: the flange is judged beside the contact there."""
-    for flip in (1, -1):
-        (tmp_path / "tread.csv").write_text(table(flip * tread(WHEEL_Y, 1 / 40), WHEEL_Y + 750))
-        (tmp_path / "head.csv").write_text(table(head(RAIL_Y), RAIL_Y))
-        wheel = ('load = "', 'profile = "tread.csv"\noffset = "-750 mm"\nload = "')
-        if flip == 1:
-            assert load_scene(written(tmp_path, (CROWN, PROFILE), wheel)).profile.at < 0
-        else:
-            with pytest.raises(ValueError, match="flip = true turns it"):
-                load_scene(written(tmp_path, (CROWN, PROFILE), wheel))
+    offset = ('load = "', 'offset = "-750 mm"\nload = "')
+    with nullcontext() if flip == 1 else pytest.raises(ValueError, match="flip = true turns it"):
+        assert rolling(tmp_path, offset, flip=flip, shift=750).profile.at < 0
 
 
 def test_an_offset_without_a_profile_is_refused(tmp_path):
@@ -290,7 +262,7 @@ def two_tops(gap):
 def second_contact(gap, load):
     """What is said of two crowns under a load; nothing where only one touches."""
     try:
-        assert fitted_radius(two_tops(gap), along=0.46, modulus=STEEL, load=load) == pytest.approx(0.3, rel=1e-3)
+        assert radius_of(two_tops(gap), load) == pytest.approx(0.3, rel=1e-3)
     except ValueError as problem:
         return str(problem)
     return ""
@@ -314,9 +286,7 @@ def test_two_bodies_touch_where_both_together_are_highest():
 def test_a_contact_on_a_flank_is_refused():
     """sin(20 degrees) of a radius of 100 mm beside the top of a cone of tan(20 degrees)."""
     ball, cone = profile_of(parabola(100.0) + 0.36 * Y), profile_of(-0.2 * Y)
-    assert math.degrees(both_together([ball, cone], 0.0).inclination) == pytest.approx(
-        math.degrees(math.atan(0.2)), 0.01
-    )
+    assert both_together([ball, cone], 0.0).inclination == pytest.approx(math.atan(0.2), 0.01)
     with pytest.raises(ValueError, match=r"must touch where both are level, .* on a flank of 21\.\d degrees"):
         both_together([ball, profile_of(-0.4 * Y)], 0.0)
 
@@ -334,13 +304,15 @@ def test_flanks_that_turn_back_are_left_out_and_told(tmp_path):
     assert "head.csv: it goes from -35 mm to 35 mm across: 3 points that turn back are left out." in scene.notes
 
 
+NUMBERED = "no,y [mm],z [mm]\n" + "\n".join(f"7,{y},{z:.9g}" for y, z in zip(Y, parabola(300.0), strict=True))
+
+
 @pytest.mark.parametrize(
     ("contents", "keys"),
     [
-        (
-            "n,y [mm],z [mm]\n" + "\n".join(f"7,{y},{z:.9g}" for y, z in zip(Y, parabola(300.0), strict=True)),
-            'columns = ["y", "z"]',
-        ),
+        (NUMBERED, 'columns = ["y", "z"]'),
+        (NUMBERED, ""),
+        (table(Y, parabola(300.0), "height [mm],y [mm]"), ""),
         (table(-parabola(300.0)), "flip = true"),
         (table(parabola(300.0), header="lateral,vertical"), 'unit = "mm"'),
         (table(parabola(300.0) / 10, Y / 10, "y [cm];z [cm]").replace(",", ";").replace(".", ","), 'decimal = ","'),
@@ -354,16 +326,9 @@ def test_a_profile_is_a_table_of_keys(tmp_path, contents, keys):
     assert scene.radii[1] == pytest.approx(0.3, rel=1e-6)
 
 
-def test_columns_beside_two_lengths_are_left_out(tmp_path):
-    text = "\n".join(f"{i},{y},{z:.9g}" for i, (y, z) in enumerate(zip(Y, parabola(300.0), strict=True)))
-    assert with_profile(tmp_path, f"no,y [mm],z [mm]\n{text}").radii[1] == pytest.approx(0.3, rel=1e-6)
+def test_columns_beside_two_lengths_are_asked_for(tmp_path):
     with pytest.raises(ValueError, match=r"two columns, .* got no and y and z: .*columns = \[2, 3\]"):
-        with_profile(tmp_path, f"no,y,z\n{text}")
-
-
-def test_heights_in_the_first_column_are_told_by_their_name(tmp_path):
-    text = "\n".join(f"{z:.10g},{y:.10g}" for y, z in zip(Y, parabola(300.0), strict=True))
-    assert with_profile(tmp_path, f"height [mm],y [mm]\n{text}").radii[1] == pytest.approx(0.3, rel=1e-6)
+        with_profile(tmp_path, NUMBERED.replace(" [mm]", ""))
 
 
 def test_noise_of_a_scan_is_smoothed_and_told(tmp_path):
@@ -383,5 +348,4 @@ def test_a_radius_is_that_of_the_contact_where_noise_has_smaller_ones():
     """Five points of a noisy top have any radius, in which a tiny contact would fit, too."""
     y = np.arange(-30, 30.01, 0.05)
     noisy = -(y**2) / 600 + 0.006 * np.random.default_rng(3).standard_normal(y.size)
-    found = fitted_radius(profile_of(noisy, y - y[noisy.argmax()]), along=0.46, modulus=STEEL, load=5e4)
-    assert found == pytest.approx(0.3, rel=0.05)
+    assert radius_of(profile_of(noisy, y - y[noisy.argmax()])) == pytest.approx(0.3, rel=0.05)

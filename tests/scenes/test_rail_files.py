@@ -111,11 +111,7 @@ def test_other_words_for_a_value(tmp_path, old, new, value):
     changes = [(old, new)] if "crown" not in old else [(old, new), ('load = "', 'transverse_radius = "1 m"\nload = "')]
     scene = loaded(tmp_path, *changes)
     assert {key: getattr(scene, key) for key in value} == pytest.approx(value) or value == {"across": scene.across}
-
-
-def test_an_axle_load_is_told(tmp_path):
-    scene = loaded(tmp_path, ('load = "50 kN"', 'axle_load = "100 kN"\nwheels_per_axle = 2'))
-    assert scene.diagnose() == ("the axle load of 100 kN is shared by 2 wheels: 50 kN each.",)
+    assert ("axle" in new) == ("the axle load of 100 kN is shared by 2 wheels: 50 kN each." in scene.diagnose())
 
 
 @pytest.mark.parametrize("offset", ["10", '"10 dB"'])
@@ -143,30 +139,6 @@ def test_wheel_and_rail_add_their_energies(tmp_path):
     assert "of the wheel is not known at 2000, " in both.diagnose()[0]
 
 
-@pytest.mark.parametrize(
-    ("contents", "unit"),
-    [
-        (f"{HEADER}\n100,1.5\n80,-2\n", "mm"),
-        ("# a comment\nwavelength_mm;level_dB\n80;-2\n100;1.5\n", "mm, ascending"),
-        ("wavelength_m,level [dB re 1 µm]\n0.1,1.5\n0.08,-2\n", "m"),
-        ("\ufeffwavelength [mm]\tdB\n100\t1.5\n80\t-2\n", "tabs, a mark"),
-    ],
-)
-def test_levels_of_a_file(tmp_path, contents, unit):
-    levels = with_levels(tmp_path, contents).levels
-    assert levels.levels == (1.5, -2.0), unit
-    assert levels.bands.nominal.tolist() == [0.1, 0.08]
-    assert levels.source == "levels.csv"
-
-
-def test_exact_centres_name_bands_as_nominal_ones_do(tmp_path):
-    """Of 10^(-1.5) m and the like: the bands at both ends count, too."""
-    exact = "".join(f"{1e3 * 10 ** (-n / 10):.2f},{n}\n" for n in range(4, 26))
-    levels = with_levels(tmp_path, f"{HEADER}\n{exact}").levels
-    assert levels.levels == tuple(range(4, 26))
-    assert levels.within(0.04, None).bands.nominal[[0, -1]].tolist() == [0.04, 0.00315]
-
-
 def test_lines_have_the_levels_of_their_mean_energy(tmp_path):
     """Two lines, one of which carries a wave of 40 mm and 3 um: half of its power."""
     x = np.arange(4000)
@@ -180,25 +152,16 @@ def test_lines_have_the_levels_of_their_mean_energy(tmp_path):
     assert scene.levels.bands.nominal[[0, -1]].tolist() == [1.0, 0.02]
     assert dict(describe(scene))["roughness"].endswith("2 measured lines, at -5, 5 mm across")
     missing, scatter, out = scene.diagnose()
-    assert missing == (
-        "roughness is known in bands of 1000 to 20 mm: the others of 2000 to 0.8 mm are missing, and have no answer."
-    )
+    assert "known in bands of 1000 to 20 mm: the others of 2000 to 0.8 mm" in missing
     assert "scatter by" in scatter and "40 mm" in out
-    assert dict(describe(scene))["bands"] == "18 one-third octaves, 1000 to 20 mm"
 
 
-def test_lines_and_a_rough_wheel_are_levels_together(tmp_path):
+def test_lines_and_a_rough_wheel_are_levels_together_and_one_line_needs_no_position(tmp_path):
     line = np.random.default_rng(1).standard_normal(1000) * 1e-6
     alone = with_lines(tmp_path, line, 'spacing = "1 mm"')
+    assert alone.levels.bands.nominal[[0, -1]].tolist() == [0.25, 0.0025]
     both = with_lines(tmp_path, line, 'spacing = "1 mm"', "[wheel.levels]", CURVE)
     assert both.roughness == alone.levels + curve("iso3095-2013")
-
-
-def test_one_line_needs_no_position(tmp_path):
-    line = np.random.default_rng(1).standard_normal(1000) * 1e-6
-    levels = with_lines(tmp_path, line, 'spacing = "1 mm"').levels
-    assert levels.bands.nominal[[0, -1]].tolist() == [0.25, 0.0025]
-    assert with_lines(tmp_path, line[:, np.newaxis], 'spacing = "1 mm"').levels == levels
 
 
 def test_heights_in_another_unit_are_refused_by_their_key(tmp_path):
@@ -219,9 +182,7 @@ def test_a_band_without_waves_is_named_and_no_unit_is_blamed_for_it(tmp_path):
     """Lines that a filter has cut off at 5 mm have no waves of 2.5 mm."""
     x = 1e-3 * np.arange(2000)
     line = sum(1e-6 * w**0.5 * np.sin(2 * np.pi * x / w + 1e5 * w) for w in 1 / np.arange(2.0, 200.0, 0.5))
-    with pytest.raises(
-        ValueError, match=r"rail.lines.levels must lie above -100 .* bands of .*2.5 mm: longest and sho"
-    ):
+    with pytest.raises(ValueError, match=r"lines.levels must lie above -100 .* bands of .*2.5 mm: longest and sho"):
         with_lines(tmp_path, line, 'spacing = "1 mm"')
     assert with_lines(tmp_path, line, 'spacing = "1 mm"', 'shortest = "8 mm"').levels.rms > 1e-7
     with pytest.raises(ValueError, match=r"lines.file must have heights that differ along a line"):
@@ -259,11 +220,7 @@ def test_heights_have_the_levels_of_their_lines(tmp_path):
         ('across = "isotropic"', 'across = "ridges"\nalpha = 1.0', "got across and alpha"),
         ('crown_radius = "300 mm"', "", "rail.crown_radius or wheel.transverse_radius must be given"),
         ('crown_radius = "300 mm"', 'crown = "300 mm"', "rail.crown is unknown"),
-        (
-            CURVE,
-            'curve = "iso3095"',
-            "rail.levels.curve must be one of cnossos-average, iso3095-2013, got",
-        ),
+        (CURVE, 'curve = "iso3095"', "rail.levels.curve must be one of cnossos-average, iso3095-2013, got"),
         (CURVE, f'{CURVE}\nfile = "a.csv"', "rail.levels must have one of curve, file, got curve and file"),
         (CURVE, f'{CURVE}\noffset = "10 um"', "rail.levels.offset must be a level"),
         (CURVE, f"{CURVE}\noffset = 90", "rail.levels.levels must lie between -100 and 50 dB re 1 um, got 107.1 dB"),
@@ -294,10 +251,7 @@ def test_files_are_refused_by_key(tmp_path, old, new, said):
         (f"{HEADER}\n97,1\n", "must be nominal, .* got 97 mm"),
         (f"{HEADER}\n100,1\n80,nan\n63,2\n", "no 80 mm behind 100 mm"),
         (f"{HEADER}\n100,x\n", "rows must be numbers, got 'x' in column 2 of line 2"),
-        (
-            f"{HEADER}\n100\n",
-            "columns must be named as .*, got column 1",
-        ),
+        (f"{HEADER}\n100\n", "columns must be named as .*, got column 1"),
         (f"{HEADER}\n", "must hold rows of numbers, got none in its first 1 lines"),
         ("", "must hold rows of numbers, got an empty file"),
     ],
@@ -314,11 +268,7 @@ PLACES = 'positions = ["0 mm", "5 mm"]'
 @pytest.mark.parametrize(
     ("height", "keys", "said"),
     [
-        (
-            LINE,
-            (PLACES, 'longest = "500 mm"'),
-            "lines.longest must be a quarter of the lines at the most, 1 m long",
-        ),
+        (LINE, (PLACES, 'longest = "500 mm"'), "lines.longest must be a quarter of the lines at the most, 1 m long"),
         (LINE, (PLACES, 'shortest = "1 mm"'), "lines.shortest must be 2.5 points or more, 1 mm apart, got 1 mm"),
         (LINE, (PLACES, 'shortest = "100 mm"', 'longest = "50 mm"'), "lines.spacing must be .*no band lies between"),
         (LINE[:5], (PLACES,), "lines.spacing must be .*no band lies between .* got 5 points, 1 mm apart"),
@@ -327,11 +277,7 @@ PLACES = 'positions = ["0 mm", "5 mm"]'
         (LINE, ('positions = ["5 mm", "5 mm"]',), "lines.positions must ascend"),
         (LINE, ("positions = [0, 5]",), r"lines.positions\[0\] must be a length"),
         (LINE, ('positions = "0 mm"',), "lines.positions must be a list of lengths"),
-        (
-            np.stack([LINE[:, 0], np.nan * LINE[:, 1]], axis=1),
-            (PLACES,),
-            "lines.heights must be known everywhere, got 1000 of",
-        ),
+        (LINE * [1, np.nan], (PLACES,), "lines.heights must be known everywhere, got 1000 of"),
         (1e6 * LINE, (PLACES,), "lines.levels must lie between .* is the unit another"),
         (0 * LINE, (PLACES,), "lines.file must have heights that differ along a line, got zeros alone"),
     ],
@@ -348,11 +294,7 @@ def test_masked_lines_are_refused():
 
 @pytest.mark.parametrize(
     ("shape", "spacing", "said"),
-    [
-        ((60, 40), "1 mm", "must be 71.4 mm long"),
-        ((200, 16), "0.5 mm", "12.8 mm wide"),
-        ((40, 40), "5 mm", "no more"),
-    ],
+    [((60, 40), "1 mm", "must be 71.4 mm long"), ((200, 16), "0.5 mm", "12.8 mm wide"), ((40, 40), "5 mm", "no more")],
 )
 def test_heights_must_hold_the_contact(tmp_path, shape, spacing, said):
     np.save(tmp_path / "h.npy", 1e-6 * np.random.default_rng(1).standard_normal(shape))

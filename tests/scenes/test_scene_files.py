@@ -4,7 +4,6 @@ import math
 import re
 from dataclasses import replace
 
-import numpy as np
 import pytest
 from scipy.fft import next_fast_len
 
@@ -40,18 +39,8 @@ def written(tmp_path, *changes, text=TABLE):
 
 
 def test_table_14_1_is_what_the_book_prints_and_we_chose():
-    assert load_wheel_scene("table_14_1") == WheelScene(
-        name="Table 14.1",
-        radius=0.5,
-        mass=500.0,
-        load=4905.0,
-        speed=20.0,
-        material=STEEL,
-        rail=Roughness(rms=0.5e-6, hurst=0.7, longest=0.01, shortest=0.2e-3),
-        wheel=None,
-        distance=0.65,
-        springs=100,
-    )
+    wheel = {"radius": 0.5, "mass": 500.0, "load": 4905.0, "speed": 20.0, "material": STEEL}
+    assert scene() == WheelScene(name="Table 14.1", **wheel, rail=ROUGH, wheel=None, distance=0.65, springs=100)
 
 
 @pytest.mark.parametrize(
@@ -93,43 +82,21 @@ def test_the_circumference_is_a_whole_number_of_springs():
     assert abs(wheel.circumference_points * wheel.spacing - 2 * math.pi * 0.5) <= wheel.spacing / 2 * (1 + 1e-9)
 
 
-def test_roughness_is_a_spectrum_of_that_height():
-    assert ROUGH.spectrum == mdr.SelfAffine(hurst=0.7, q_min=2 * math.pi / 0.01, q_max=2 * math.pi / 0.2e-3, rms=0.5e-6)
-
-
 def test_jump_and_cutoff_are_of_all_waves_there_are():
     longer = replace(ROUGH, longest=0.02, shortest=0.3e-3)
-    for both in ({"rail": ROUGH, "wheel": longer}, {"rail": longer, "wheel": ROUGH}):
-        assert scene(**both).jump == pytest.approx(2 * math.pi / 0.02 * 20, rel=1e-15)
-        assert scene(**both).cutoff == pytest.approx(2 * math.pi / 0.2e-3 * 20, rel=1e-15)
-    assert scene(rail=None, wheel=longer).jump == pytest.approx(2 * math.pi / 0.02 * 20, rel=1e-15)
-    assert scene(rail=None, wheel=longer).cutoff == pytest.approx(2 * math.pi / 0.3e-3 * 20, rel=1e-15)
+    for rail, wheel, shortest in ((ROUGH, longer, 0.2e-3), (longer, ROUGH, 0.2e-3), (None, longer, 0.3e-3)):
+        found = scene(rail=rail, wheel=wheel)
+        assert found.jump == pytest.approx(2 * math.pi / 0.02 * 20, rel=1e-15)
+        assert found.cutoff == pytest.approx(2 * math.pi / shortest * 20, rel=1e-15)
 
 
 def test_heights_add_by_their_squares():
-    assert scene().rms == 0.5e-6
-    assert scene(wheel=replace(ROUGH, rms=1.2e-6)).rms == pytest.approx(1.3e-6, rel=1e-15)
-
-
-@pytest.mark.parametrize("name", ["jump", "cutoff"])
-def test_a_smooth_track_is_a_scene_without_waves(name):
     smooth = scene(rail=None)
-    assert smooth.rms == 0
-    assert smooth.diagnose() == ()
-    with pytest.raises(ValueError, match="must have a rough rail or wheel"):
-        getattr(smooth, name)
-
-
-def test_every_valid_scene_can_be_drawn():
-    # two springs to the shortest wave are the least that a scene accepts and a profile can carry
-    spacing = scene().spacing
-    for rail in (replace(ROUGH, shortest=2 * spacing), ROUGH):
-        wheel = scene(rail=rail)
-        c1d = rail.spectrum.c1d
-        profile = mdr.rough_profile(
-            c1d, length=wheel.length, points=wheel.points, rng=np.random.default_rng(0), rms=rail.rms
-        )
-        assert profile.std() == pytest.approx(0.5e-6, rel=1e-9, abs=0)
+    assert (scene().rms, smooth.rms, smooth.diagnose()) == (0.5e-6, 0, ())
+    for waves in ("jump", "cutoff"):
+        with pytest.raises(ValueError, match="must have a rough rail or wheel"):
+            getattr(smooth, waves)
+    assert scene(wheel=replace(ROUGH, rms=1.2e-6)).rms == pytest.approx(1.3e-6, rel=1e-15)
 
 
 # Shipped files
@@ -140,16 +107,12 @@ def test_shipped_scenes_are_listed():
     assert bundled_wheels() == WHEELS
 
 
-@pytest.mark.parametrize("name", WHEELS)
-def test_shipped_scenes_leave_no_doubt(name):
-    assert load_wheel_scene(name).diagnose() == ()
-
-
 def test_the_rough_wheel_is_table_14_1_with_its_roughness_shared():
     shared = load_wheel_scene("rough_wheel")
     assert shared.rail == shared.wheel
     assert shared.rail.rms == pytest.approx(0.5e-6 / math.sqrt(2), rel=1e-15)
     assert shared.rms == pytest.approx(scene().rms, rel=1e-15)
+    assert shared.diagnose() == scene().diagnose() == ()
     assert replace(shared, name="Table 14.1", wheel=None, rail=replace(shared.rail, rms=0.5e-6)) == scene()
 
 
@@ -164,14 +127,10 @@ def test_shipped_scenes_say_what_the_book_does_not_print(name):
 def test_a_name_and_a_path_read_the_same(tmp_path, monkeypatch):
     path = written(tmp_path)
     monkeypatch.chdir(tmp_path)
-    assert (
-        load_wheel_scene(path)
-        == load_wheel_scene(str(path))
-        == load_wheel_scene("scene.toml")
-        == load_wheel_scene("table_14_1")
-    )
+    for same in (path, str(path), "scene.toml"):
+        assert load_wheel_scene(same) == scene()
     path.rename(tmp_path / "bare")
-    assert load_wheel_scene("./bare") == load_wheel_scene("table_14_1")
+    assert load_wheel_scene("./bare") == scene()
 
 
 def test_other_units_and_an_editors_mark_make_the_same_scene(tmp_path):
@@ -190,60 +149,50 @@ def test_without_roughness_the_rail_is_smooth(tmp_path, rail):
 # Refusals
 
 
-MISSING = {
-    "wheel.radius": 'radius = "0.5 m"',
-    "wheel.mass": 'mass = "500 kg"',
-    "material.poisson_ratio": "poisson_ratio = 0.3333333333333333",
-    "simulation.springs": "springs = 100",
-    "rail.roughness.hurst": "hurst = 0.7",
-    "name": 'name = "Table 14.1"',
-}
-UNKNOWN = {
-    "stuff": ("[material]", "[stuff]"),
-    "wheel.diameter": ("radius =", "diameter ="),
-    "rail.waves": ("[rail.roughness]", "[rail.waves]"),
-    "rail.roughness.Hurst": ("hurst =", "Hurst ="),
-    "rail.x": ("[rail.roughness]", "[rail]\nroughness = 1\n[rail.x]"),
-}
-
-
-@pytest.mark.parametrize("key", MISSING)
-def test_a_key_that_is_missing_is_named(tmp_path, key):
-    with pytest.raises(ValueError, match=f"^{IN_FILE}{key} is missing"):
-        load_wheel_scene(written(tmp_path, (MISSING[key], "")))
-
-
-@pytest.mark.parametrize("key", UNKNOWN)
-def test_a_key_that_is_unknown_is_named_with_those_that_are_known(tmp_path, key):
-    with pytest.raises(ValueError, match=f"^{IN_FILE}{key} is unknown, .* must be made of (name, wheel|radius|rms|ro)"):
-        load_wheel_scene(written(tmp_path, UNKNOWN[key]))
+MADE = "must be made of"
 
 
 @pytest.mark.parametrize(
-    ("key", "old", "new", "got"),
+    ("key", "old", "new", "said"),
     [
-        ("name", '"Table 14.1"', "14.1", "14.1"),
-        ("name", '"Table 14.1"', '" "', "' '"),
-        ("wheel.radius", '"0.5 m"', "0.5", "0.5"),
-        ("wheel.mass", '"500 kg"', '"4905 N"', '"4905 N"'),
-        ("wheel.speed", '"20 m/s"', '"20 m"', '"20 m"'),
-        ("material.youngs_modulus", '"210 GPa"', '"210 GN"', '"210 GN"'),
-        ("wheel.load", '"4905 N"', '"-1 N"', '"-1 N"'),
-        ("rail.roughness.rms", '"0.5 um"', '"0 um"', '"0 um"'),
-        ("simulation.distance", '"0.65 m"', '"inf m"', '"inf m"'),
-        ("rail.roughness.hurst", "0.7", '"0.7"', "'0.7'"),
-        ("rail.roughness.hurst", "0.7", "true", "True"),
-        ("rail.roughness.hurst", "0.7", "nan", "nan"),
-        ("rail.roughness.hurst", "0.7", "1" + 400 * "0", "a number of 401 digits"),
-        ("rail.roughness.hurst", "0.7", "7", "7.0"),
-        ("simulation.springs", "springs = 100", "springs = 1.5", "1.5"),
-        ("simulation.springs", "springs = 100", "springs = 0", "0"),
-        ("material.poisson_ratio", "0.3333333333333333", "0.6", "0.6"),
-        ("material.poisson_ratio", "0.3333333333333333", "2026-01-01", "datetime.date(2026, 1, 1)"),
+        ("wheel.radius", 'radius = "0.5 m"', "", "is missing"),
+        ("wheel.mass", 'mass = "500 kg"', "", "is missing"),
+        ("material.poisson_ratio", "poisson_ratio = 0.3333333333333333", "", "is missing"),
+        ("simulation.springs", "springs = 100", "", "is missing"),
+        ("rail.roughness.hurst", "hurst = 0.7", "", "is missing"),
+        ("name", 'name = "Table 14.1"', "", "is missing"),
+        ("stuff", "[material]", "[stuff]", f"is unknown, a scene {MADE} name, wheel"),
+        ("wheel.diameter", "radius =", "diameter =", f"is unknown, wheel {MADE} radius"),
+        ("rail.waves", "[rail.roughness]", "[rail.waves]", f"is unknown, rail {MADE} roughness"),
+        ("rail.roughness.Hurst", "hurst =", "Hurst =", f"is unknown, rail.roughness {MADE} rms"),
+        ("rail.x", "[rail.roughness]", "[rail]\nroughness = 1\n[rail.x]", f"is unknown, rail {MADE} roughness"),
+        ("name", '"Table 14.1"', "14.1", "must be a text that is not blank, got 14.1"),
+        ("name", '"Table 14.1"', '" "', "must be a text that is not blank, got ' '"),
+        (
+            "wheel.radius",
+            '"0.5 m"',
+            "0.5",
+            'must be a length, as "0.5 m", in one of m, cm, mm, um, µm, nm, km, got 0.5',
+        ),
+        ("wheel.mass", '"500 kg"', '"4905 N"', 'must be a mass, as "500 kg", in one of kg, g, t, got "4905 N"'),
+        ("wheel.speed", '"20 m/s"', '"20 m"', 'must be a speed, as "20 m/s", in one of m/s, mm/s, km/h, got "20 m"'),
+        ("material.youngs_modulus", '"210 GPa"', '"210 GN"', "must be a pressure"),
+        ("wheel.load", '"4905 N"', '"-1 N"', 'must be positive, got "-1 N"'),
+        ("rail.roughness.rms", '"0.5 um"', '"0 um"', 'must be positive, got "0 um"'),
+        ("simulation.distance", '"0.65 m"', '"inf m"', 'must be finite, got "inf m"'),
+        ("rail.roughness.hurst", "0.7", '"0.7"', "must be a real number, got '0.7'"),
+        ("rail.roughness.hurst", "0.7", "true", "must be a real number, got True"),
+        ("rail.roughness.hurst", "0.7", "nan", "must be finite, got nan"),
+        ("rail.roughness.hurst", "0.7", "1" + 400 * "0", "must be finite, got a number of 401 digits"),
+        ("rail.roughness.hurst", "0.7", "7", "must "),
+        ("simulation.springs", "springs = 100", "springs = 1.5", "must be a whole number, got 1.5"),
+        ("simulation.springs", "springs = 100", "springs = 0", "must be at least 1, got 0"),
+        ("material.poisson_ratio", "0.3333333333333333", "0.6", "must lie in [0, 0.5], got 0.6"),
+        ("material.poisson_ratio", "0.3333333333333333", "2026-01-01", "must be a real number, got datetime"),
     ],
 )
-def test_files_are_refused_by_key_and_value(tmp_path, key, old, new, got):
-    with pytest.raises(ValueError, match=f"^{IN_FILE}{key} must .*, got {re.escape(got)}$"):
+def test_files_are_refused_by_key_and_value(tmp_path, key, old, new, said):
+    with pytest.raises(ValueError, match=f"^{IN_FILE}{key} {re.escape(said)}"):
         load_wheel_scene(written(tmp_path, (old, new)))
 
 
@@ -272,8 +221,6 @@ def test_files_that_cannot_be_read_are_refused_by_name(tmp_path):
     missing = tmp_path / "missing.toml"
     with pytest.raises(FileNotFoundError, match=rf"^scene {re.escape(str(missing))} cannot be read: No such file"):
         load_wheel_scene(missing)
-    with pytest.raises(ValueError, match=rf"^scene {re.escape(str(tmp_path))} must be a regular file, got a folder$"):
-        load_wheel_scene(tmp_path)
 
 
 @pytest.mark.parametrize("name", ["table", "", "Table 14.1"])
@@ -281,6 +228,9 @@ def test_unknown_names_are_answered_with_the_shipped_ones(name):
     sentence = f'scene must be a file, as "./{name}.toml", or one of {", ".join(bundled())}, got "{name}"'
     with pytest.raises(ValueError, match=f"^{re.escape(sentence)}$"):
         load_wheel_scene(name)
+
+
+NARROW, LONG = {"longest": 0.0099, "shortest": 0.0098}, {"longest": 5.0, "shortest": 4.0}
 
 
 @pytest.mark.parametrize(
@@ -309,16 +259,8 @@ def test_unknown_names_are_answered_with_the_shipped_ones(name):
         ("simulation.distance", {"distance": 0.01}, ["rail.roughness.longest, 0.01 m", "0.01 m"]),
         ("simulation.distance", {"distance": 0.02, "wheel": {"longest": 0.03}}, ["wheel.", "longest, 0.03 m", "0.02"]),
         ("rail.roughness.shortest", {"springs": 10}, ["two springs, 0.000396396 m", "0.0002 m"]),
-        (
-            "rail.roughness.shortest",
-            {"distance": 0.011, "rail": {"longest": 0.0099, "shortest": 0.0098}},
-            ["a period of 0.0110", "0.0098 m"],
-        ),
-        (
-            "wheel.roughness.shortest",
-            {"distance": 10.0, "wheel": {"longest": 5.0, "shortest": 4.0}},
-            ["a period of 3.141", "4 m"],
-        ),
+        ("rail.roughness.shortest", {"distance": 0.011, "rail": NARROW}, ["a period of 0.0110", "0.0098 m"]),
+        ("wheel.roughness.shortest", {"distance": 10.0, "wheel": LONG}, ["a period of 3.141", "4 m"]),
         ("wheel.load", {"load": 1e15}, ["0.5 m", "11.665 m"]),
         ("simulation.springs", {"springs": 10**400}, ["630884", "1000"]),
     ],
@@ -333,6 +275,7 @@ def test_scenes_are_refused_by_key_and_value(key, changes, numbers):
 
 
 HEAVY = {"load": 1e9, "springs": 10000, "distance": 2.0}
+HIGH, LOWER = replace(ROUGH, rms=1.1e-4), replace(ROUGH, rms=0.9e-4)
 LONG_WAVE = {"wheel": replace(ROUGH, longest=1.6), "distance": 20.0}
 SHORTER_WAVE = {"wheel": replace(ROUGH, longest=1.5), "distance": 20.0}
 DOUBTS = [
@@ -340,16 +283,8 @@ DOUBTS = [
     (LONG_WAVE, SHORTER_WAVE, ["wheel.roughness.longest", "1.6 m", "circumference of 3.14 m"]),
     ({"speed": 0.13}, {"speed": 0.14}, ["time step", "0.209", "0.2"]),
     ({"distance": 0.09}, {"distance": 0.11}, ["simulation.distance", "9 waves of rail.roughness.longest", "10"]),
-    (
-        {**HEAVY, "rail": replace(ROUGH, rms=1.1e-4)},
-        {**HEAVY, "rail": replace(ROUGH, rms=0.9e-4)},
-        ["rail.roughness.rms", "0.00011 m", "0.0001 m", "unit"],
-    ),
-    (
-        {"load": 1e9, "springs": 5000},
-        {"load": 5e7, "springs": 5000},
-        ["contact radius", "0.233", "a tenth", "units of wheel.load and material.youngs_modulus"],
-    ),
+    ({**HEAVY, "rail": HIGH}, {**HEAVY, "rail": LOWER}, ["rail.roughness.rms", "0.00011 m", "0.0001 m", "unit"]),
+    ({"load": 1e9, "springs": 5000}, {"load": 5e7, "springs": 5000}, ["contact radius", "0.233", "a tenth", "units"]),
 ]
 
 
@@ -368,12 +303,6 @@ def test_a_scene_is_printed_to_be_copied_with_a_comment_on_every_key(name, capsy
     assert printed == (SCENES / f"{name}.toml").read_text(encoding="utf-8")
     keys = [line for line in printed.splitlines() if re.match(r"\w+ = ", line)]
     assert keys and [line for line in keys if " # " not in line] == []
-
-
-def test_a_scene_that_is_not_there_is_not_printed(capsys):
-    with pytest.raises(SystemExit) as refused:
-        main(["scene", "nowhere"])
-    assert refused.value.code == 2 and "'nowhere'" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -24,28 +24,14 @@ EVERY_UNIT = [(dimension, unit) for dimension, units in UNITS.items() for unit i
         ("0.5 µm", "length", 5e-07),
         ("0.5 \N{GREEK SMALL LETTER MU}m", "length", 5e-07),
         ("  +0.5   um ", "length", 5e-07),
-        ("500 nm", "length", 5e-07),
-        ("5e-4 mm", "length", 5e-07),
-        ("0.2 mm", "length", 0.0002),
         ("0.3 mm", "length", 0.0003),
-        ("0.65 km", "length", 650.0),
-        ("0.1 g", "mass", 0.0001),
-        ("0.5 t", "mass", 500.0),
-        ("4.9 kN", "force", 4900.0),
-        ("3 mN", "force", 0.003),
-        ("3 MN", "force", 3e6),
-        ("210 GPa", "pressure", 210e9),
-        ("0.1 MPa", "pressure", 1e5),
-        ("1.1 kPa", "pressure", 1100.0),
         ("10 tf", "force", 98066.5),
         ("5.5 dB", "level", 5.5),
         ("72 km/h", "speed", 20.0),
         ("1 km/h", "speed", 1 / 3.6),
-        ("7 mm/s", "speed", 0.007),
         ("-2 m/s", "speed", -2.0),
         ("0 m", "length", 0.0),
         ("10N", "force", 10.0),
-        ("50kN", "force", 50e3),
         ("5e-3mm", "length", 5e-6),
         (" 72  km/h ", "speed", 20.0),
     ],
@@ -73,33 +59,12 @@ def test_metric_prefixes_do_not_round(digits):
     assert quantity("it", f"{digits} GPa", "pressure") == float(f"{digits}e9")
 
 
-@pytest.mark.parametrize(
-    "wrong",
-    [
-        0.5,
-        1,
-        True,
-        None,
-        ["0.5 m"],
-        "0.5",
-        "m",
-        "",
-        "0.5 kg",
-        "0.5 inch",
-        "0.5 M",
-        "half m",
-        "0,5 m",
-        "0x1 m",
-        "1 m 2 mm",
-        "0.5 m m",
-        "0.5 dm",
-        "0. 5m",
-    ],
-)
+FORMS = "0.5|m|0.5 kg|0.5 inch|0.5 M|half m|0,5 m|0x1 m|1 m 2 mm|0.5 m m|0.5 dm|0. 5m"
+
+
+@pytest.mark.parametrize("wrong", [0.5, 1, True, None, ["0.5 m"], "", *FORMS.split("|")])
 def test_other_forms_are_refused_with_an_example_and_the_units(wrong):
-    with pytest.raises(
-        ValueError, match=r'^wheel.radius must be a length, as "0.5 m", in one of m, .*, km, got '
-    ) as no:
+    with pytest.raises(ValueError, match=r'^wheel.radius must be a length, as "0.5 m", in one of m, .*, km, ') as no:
         quantity("wheel.radius", wrong, "length")
     assert str(no.value).endswith(f"got {quoted(wrong)}")
 

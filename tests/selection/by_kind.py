@@ -1,7 +1,6 @@
 """Models of a scene by their kind, so that a model added to `simulation/models` changes no test."""
 
 from validation.scenes.load import Scene
-from validation.selection.hierarchy import ContactModel
 from validation.selection.quantities import models_of
 from validation.selection.scene_model import SceneModel
 from validation.simulation.method import Resolution
@@ -38,5 +37,5 @@ def grid_of(scene: Scene, tolerance: float, seed: int, cells: int) -> SceneModel
 
 def estimates_by_kind(scene: Scene, quantity: str, tolerance: float, seed: int = 0) -> dict[str, ErrorEstimate]:
     """Of the kinds of these tests; of boundary elements, that of the finest grid."""
-    models: list[ContactModel] = [*models_of(scene, quantity, tolerance, seed)]
+    models = models_of(scene, quantity, tolerance, seed)
     return {model.kind: model.estimate() for model in models if model.kind in OURS}

@@ -1,20 +1,30 @@
 """Comparisons of the bundled scenes with answers that are made up: all kinds of text and files, without a solve."""
 
+import math
+from dataclasses import dataclass
 from functools import cache
 from itertools import cycle
 
 import numpy as np
 
 import validation
+from validation.scenes.indentation import IndentationScene
 from validation.scenes.rail import RailScene
+from validation.scenes.rolling import RollingScene
+from validation.scenes.roughness import Roughness
 from validation.selection.compare import Comparison
-from validation.selection.hierarchy import Answer, Candidate, Selection
+from validation.selection.hierarchy import Candidate, Selection, select_model
 from validation.selection.quantities import LEVELS, models_of
+from validation.selection.scene_model import Answer
 from validation.selection.tolerance import tolerance_of
+from validation.simulation.model import Cost, ErrorEstimate
 from validation.simulation.rolling_quantity import RollingQuantity
 
+ROUGH = Roughness(rms=1e-3, hurst=0.7, longest=1.0, shortest=1 / 8)
+PARTS = (0.1, 0.02, 0.003)
+"""Errors of a model, a grid and a sample."""
 REASON = "a reason " * 20
-PARTS = ("model", "grid", "sample")
+NAMES = ("model", "grid", "sample")
 
 
 def planted(name, quantity, tolerance="10%", *, statuses=("not needed", "accepted", "out of range"), error=0.0512):
@@ -24,7 +34,7 @@ def planted(name, quantity, tolerance="10%", *, statuses=("not needed", "accepte
     for i, (model, estimate, cost) in enumerate(models_with_estimates(name, quantity)):
         status = next(found for j, found in enumerate(cycle(statuses)) if j == i)
         left = np.inf if status == "out of range" else error
-        bands = {part: np.full(values.size, left) for part in PARTS} if isinstance(scene, RailScene) else {}
+        bands = {part: np.full(values.size, left) for part in NAMES} if isinstance(scene, RailScene) else {}
         answer = Answer(value=values * 1.1**i, cost=cost, model=left, reason=REASON, band_errors=bands)
         candidates.append(Candidate(model, status, REASON, estimate, answer))
     return Comparison(scene, quantity, Selection(wanted.relative, tuple(candidates)), wanted.in_decibels)
@@ -43,3 +53,61 @@ def _values(scene, quantity):
     rail = isinstance(scene, RailScene)
     count = len(scene.levels.bands) if rail else RollingQuantity(scene, quantity).bands.centres.size
     return np.logspace(-3, 3, count)
+
+
+@dataclass(frozen=True)
+class Fake:
+    """A model that claims and finds what it is told."""
+
+    name: str = "fake"
+    kind: str = "fake"
+    claimed: float = 0.0
+    left: float = 0.0
+    seconds: float = 1.0
+    failed: str = ""
+    is_mdr: bool = False
+
+    def cost(self):
+        return Cost(work=1, seconds=self.seconds)
+
+    def estimate(self):
+        return ErrorEstimate(model=self.claimed, reason=f"claims {self.claimed}")
+
+    def solve(self):
+        return Answer(
+            value=np.array([1.0]), cost=self.cost(), model=self.left, reason=f"leaves {self.left}", failed=self.failed
+        )
+
+
+@dataclass(frozen=True)
+class Finding(Fake):
+    """Another, whose answer and its cost are told."""
+
+    kind: str = "springs"
+    value: tuple[float, ...] = (1.0,)
+    parts: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    spent: float = 1.0
+
+    def solve(self):
+        model, grid, sample = self.parts
+        cost = Cost(work=1, seconds=self.spent)
+        return Answer(value=np.array(self.value), cost=cost, model=model, grid=grid, sample=sample)
+
+
+def punch(load=0.1, ground=ROUGH, **changes):
+    height = ground.rms if ground else 1.0
+    settings = {"name": "punch", "shape": "punch", "size": 1.0, "load": load * height, "modulus": 1.0, "ground": ground}
+    return IndentationScene(**{**settings, **changes})
+
+
+def wheel(height=0.03, first=1.0, last=4.0, **changes):
+    ground = Roughness(rms=height, hurst=0.7, longest=2 * math.pi / first, shortest=2 * math.pi / last)
+    settings = {"name": "wheel", "radius": 1.0, "load": 4 / 3, "modulus": 1.0, "ground": ground}
+    return RollingScene(**{**settings, **changes})
+
+
+def compared(*models, tolerance="20%", scene=None, quantity="stiffness", **settings):
+    """Models that find what they are told, on a punch."""
+    wanted = tolerance_of(tolerance)
+    selection = select_model(models, wanted.relative, **settings)
+    return Comparison(scene or punch(load=1.0), quantity, selection, wanted.in_decibels)

@@ -8,9 +8,9 @@ import pytest
 from validation.__main__ import main
 from validation.report.commands import calibrate as calibrate_command
 from validation.report.commands import calibrate as command
-from validation.selection import calibrate, calibration_install
+from validation.selection import calibrate, calibration_check
 from validation.selection.calibrate import CalibrationRun, as_table
-from validation.selection.calibration_install import check_installable, install
+from validation.selection.calibration_check import check_installable, install
 from validation.simulation import calibration
 
 ONE_PUNCH = ("calibrate", "--spheres", "0", "--rolling", "0", "--wheels", "0", "--workers", "1", "--punches", "1")
@@ -57,13 +57,6 @@ def test_a_run_goes_on_in_its_folder(monkeypatch, capsys):
     monkeypatch.setattr(calibrate, "measure_errors", again)
     assert main([*ONE_PUNCH[:-1], "3", "--out", "mine"]) == 0
     assert solved == [1, 2]
-
-
-def test_files_of_others_are_left_as_they_are(tmp_path, capsys):
-    (tmp_path / "calibration.csv").write_text("mine")
-    assert main([*ONE_PUNCH, "--out", "."]) == 2
-    assert "--out must be a new or empty folder" in capsys.readouterr().err
-    assert [path.name for path in tmp_path.iterdir()] == ["calibration.csv"]
 
 
 @pytest.mark.parametrize("few", [("--punches", "8"), ("--wheels", "0"), ("--spheres", "118")])
@@ -125,12 +118,6 @@ def test_the_run_that_the_table_is_of_may_be_installed_and_no_smaller_one():
     assert "of wheel acceleration" in refusal(wheels=0)
 
 
-def test_a_table_that_cannot_be_written_is_refused_before_anything_is_measured(monkeypatch, capsys):
-    monkeypatch.setattr(calibration_install.os, "access", lambda path, mode: False)
-    assert main(["calibrate", "--install"]) == 2
-    assert "--install must be allowed to write" in capsys.readouterr().err
-
-
 @pytest.mark.parametrize("differing", [[], ["punch 0, stiffness, fit: an error of 1 in the table, of 2 today"]])
 def test_a_check_reports_and_writes_nothing(differing, monkeypatch, capsys):
     """Rows take today's code with --install alone."""
@@ -150,12 +137,20 @@ def test_a_check_reports_and_writes_nothing(differing, monkeypatch, capsys):
     assert stamps == {(1, calibration.TABLE, False): 1, (1, calibration.TABLE, True): 1}
 
 
-@pytest.mark.parametrize("words", [("--show", "--install"), ("--check", "1", "--install", "--out", "mine")])
-def test_what_cannot_be_installed_is_refused(words, capsys):
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--show", "--install"), "--install is for"),
+        (("--check", "1", "--install", "--out", "mine"), "--install is for"),
+        (("--check", "1", "--out", "mine"), "no table of the calibration is in mine/calibration.csv"),
+        (("--install",), "--install must be allowed to write"),
+        ((*ONE_PUNCH[1:], "--out", "."), "--out must be a new or empty folder"),
+    ],
+)
+def test_what_cannot_be_done_is_refused_before_anything_is_measured(words, said, tmp_path, capsys, monkeypatch):
+    """No file of others is touched."""
+    monkeypatch.setattr(calibration_check.os, "access", lambda path, mode: False)
+    (tmp_path / "calibration.csv").write_text("mine")
     assert main(["calibrate", *words]) == 2
-    assert "--install is for" in capsys.readouterr().err
-
-
-def test_a_folder_without_a_table_cannot_be_checked(capsys):
-    assert main(["calibrate", "--check", "1", "--out", "mine"]) == 2
-    assert "no table of the calibration is in mine/calibration.csv" in capsys.readouterr().err
+    assert said in capsys.readouterr().err
+    assert [path.name for path in tmp_path.iterdir()] == ["calibration.csv"]

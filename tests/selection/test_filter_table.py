@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 
 import validation
-from tests.selection.test_model_hierarchy import Finding
+from tests.selection.planted_answers import Finding, compared
 from validation.__main__ import main
-from validation.selection.compare import Comparison, compare
-from validation.selection.filter_table import filter_table
-from validation.selection.hierarchy import select_model
-from validation.simulation.spectral_springs import SPRINGS_GEIKE
+from validation.selection.compare import compare
+from validation.selection.exported import filter_table
+from validation.simulation.model_names import SPRINGS_GEIKE
 
 PUBLISHED = Path(validation.__file__).parent / "cases" / "rail" / "cnossos_a3_2021.csv"
 RAIL = validation.load_scene("rail")
@@ -25,7 +24,7 @@ def table_published():
 
 
 def filtered(scene, a3, quantity="contact-filter"):
-    return Comparison(scene, quantity, select_model([Finding(value=tuple(10 ** (np.array(a3) / 20)))], 0.2))
+    return compared(Finding(value=tuple(10 ** (np.array(a3) / 20))), scene=scene, quantity=quantity)
 
 
 def test_a_filter_has_the_columns_and_the_wavelengths_of_the_table():

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from validation import compare, load_scene, summary, to_json
-from validation.__main__ import main
 from validation.cases.selection.model_selection import EdgeTrial, true_error
 from validation.scenes.rail import RailScene
 from validation.selection.rail_model import RailSceneModel
@@ -29,10 +28,6 @@ def of_bands(inside):
 
 SHORT, QUIET = of_bands(slice(25, 29)), of_bands(slice(22, 24))
 """6.3 to 3.15 mm and 12.5 to 10 mm, in a contact 11 mm long."""
-
-
-def test_an_equivalent_roughness_without_a_band_that_counts_is_none():
-    assert not compare(SHORT, "equivalent-roughness", "1 dB").met
 
 
 @pytest.mark.parametrize(("scene", "span"), [(SHORT, "6.3 to 3.15 mm"), (QUIET, "12.5 to 10 mm")])
@@ -58,19 +53,10 @@ def test_a_solve_leaves_its_bands_and_no_error():
             assert (20 * np.log10(answer.value) < COUNTED).all() and "no band" in answer.counted
 
 
-def test_the_command_ends_with_another_status(tmp_path, capsys):
-    rows = [f"{1000 * w:g},{v}" for w, v in zip(SHORT.levels.wavelengths, SHORT.levels.levels, strict=True)]
-    (tmp_path / "short.csv").write_text("\n".join(["wavelength [mm],level [dB re 1 um]", *rows]))
-    assert main(["scene", "rail"]) == 0
-    text = capsys.readouterr().out.replace('curve = "iso3095-2013"', 'file = "short.csv"')
-    (tmp_path / "short.toml").write_text(text)
-    assert main(["compare", str(tmp_path / "short.toml"), "--tolerance", "1 dB"]) == 3
-    assert "what would help" in capsys.readouterr().out
-
-
 def test_the_longest_band_that_counts_is_enough_for_an_answer():
     found = compare(of_bands(slice(21, 29)), "contact-filter", "3 dB")
     assert found.met and (found.value > COUNTED).sum() == 1
+    assert not compare(SHORT, "equivalent-roughness", "1 dB").met
 
 
 def test_a_trial_without_a_band_that_counts_has_no_true_error():

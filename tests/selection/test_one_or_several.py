@@ -3,21 +3,16 @@
 import csv
 import json
 
-import numpy as np
 import pytest
 
 import validation
-from tests.selection.test_model_hierarchy import Fake, Finding, punch
-from validation.report import compared
-from validation.selection.compare import Comparison
-from validation.selection.hierarchy import select_model
-from validation.selection.several import help_with, overview
-from validation.selection.tolerance import tolerance_of
+from tests.selection.planted_answers import Fake, Finding, compared, punch
+from validation.selection.summary import help_with, overview
 
 
-def of(name="it", value=1.0, quantity="stiffness", parts=(0.0, 0.0, 0.0)):
-    models = [Finding(name="springs", value=(value,), parts=parts), Fake(name="boundary elements 64²")]
-    return Comparison(punch(load=1.0, name=name), quantity, select_model(models, 0.2))
+def of(name="it", value=1.0, parts=(0.0, 0.0, 0.0)):
+    models = Finding(name="springs", value=(value,), parts=parts), Fake(name="boundary elements 64²")
+    return compared(*models, scene=punch(load=1.0, name=name))
 
 
 TWO = [of("one", 1.0), of("two", 2.0)]
@@ -39,19 +34,9 @@ def test_a_list_becomes_one_table_with_its_scenes():
 
 def test_a_list_becomes_a_line_a_scene_and_what_would_help():
     alone = [Finding(name="springs", parts=(0.9, 0.0, 0.0))]
-    found = [*TWO, Comparison(punch(load=1.0, name="far"), "stiffness", select_model(alone, 0.2))]
+    found = [*TWO, compared(*alone, scene=punch(load=1.0, name="far"))]
     assert validation.summary(found).splitlines() == [*overview(found), *help_with(found)]
     assert "far: " in validation.summary(found)
-
-
-@pytest.mark.slow
-def test_a_list_becomes_one_figure_with_a_panel_a_quantity(monkeypatch):
-    assert validation.to_figure(TWO[:1], form="png") == validation.to_figure(TWO[0], form="png")
-    drawn = []
-    monkeypatch.setattr(compared, "_png", lambda figure: drawn.append(figure) or b"")
-    validation.to_figure([*TWO, of(quantity="force-rms")], form="png")
-    names = [[label.get_text() for label in axes.get_yticklabels()] for axes in drawn[0].axes]
-    assert names == [["one", "two"], ["springs,\nselected"]]
 
 
 @pytest.mark.parametrize("write", [validation.to_json, validation.to_csv, validation.to_figure, validation.summary])
@@ -70,47 +55,23 @@ def test_a_model_is_found_by_its_name_or_the_beginning_of_it():
     for name in ("nothing", "", " "):
         with pytest.raises(KeyError, match="models must be named by one of "):
             models[name]
-    twins = Comparison(punch(load=1.0), "stiffness", select_model([Fake(name="fit a"), Fake(name="fit b")], 0.2)).models
+    twins = compared(Fake(name="fit a"), Fake(name="fit b")).models
     with pytest.raises(KeyError, match='"fit a"'):
         twins["fit"]
-    longer = [Fake(name="springs"), Fake(name="springs that read the surface")]
-    found = Comparison(punch(load=1.0), "stiffness", select_model(longer, 0.2)).models
+    found = compared(Fake(name="springs"), Fake(name="springs that read the surface")).models
     assert found["springs"] is found[0] and found["springs that"] is found[1]
 
 
-@pytest.mark.parametrize("names", ["mdr", "springs", " MDR ", ["mdr"], ("springs",)])
-def test_one_text_names_models(names):
-    found = validation.compare(validation.load_scene("rough_punch"), tolerance=0.3, models=names)
-    assert [one.name for one in found.models if one.status != "not asked"] == ["springs"]
-
-
-def test_one_text_may_name_several_models():
-    found = validation.compare(validation.load_scene("rough_punch"), tolerance=0.3, models="mdr, fit")
-    assert {one.name for one in found.models if one.status != "not asked"} == {"springs", "fit"}
+@pytest.mark.parametrize(
+    ("names", "found"),
+    [("mdr", ["springs"]), (" MDR ", ["springs"]), (("springs",), ["springs"]), ("mdr, fit", ["fit", "springs"])],
+)
+def test_one_text_names_models(names, found):
+    models = validation.compare(validation.load_scene("rough_punch"), tolerance=0.3, models=names).models
+    assert [one.name for one in models if one.status != "not asked"] == found
 
 
 @pytest.mark.parametrize("names", [["mdr", 3], [None]])
 def test_names_that_are_no_texts_are_refused(names):
     with pytest.raises(TypeError, match="models must be names, got "):
         validation.compare(validation.load_scene("rough_punch"), models=names)
-
-
-@pytest.mark.parametrize(
-    ("given", "said"),
-    [
-        (20, '0.2 or "20%"'),
-        (2.5, '0.025 or "2.5%"'),
-        (np.float64(5), '0.05 or "5%"'),
-        ("20", '0.2 or "20%"'),
-        (" 3 ", '"3%"'),
-    ],
-)
-def test_a_percentage_without_its_sign_is_asked_for(given, said):
-    with pytest.raises(ValueError, match="tolerance must be as ") as refused:
-        validation.compare(validation.load_scene("sphere"), tolerance=given)
-    assert said in str(refused.value)
-
-
-@pytest.mark.parametrize("given", [2, 1.5, 0.2, "20%", "0.5"])
-def test_ratios_up_to_two_are_as_they_are(given):
-    assert tolerance_of(given).relative == (0.2 if given == "20%" else float(given))

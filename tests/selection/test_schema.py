@@ -8,24 +8,20 @@ import pytest
 
 import validation
 from tests.selection.json_schema import faults
-from tests.selection.planted_answers import planted
-from tests.selection.test_model_hierarchy import Fake, Finding, punch
+from tests.selection.planted_answers import Fake, Finding, compared, planted
 from validation.scenes.load import bundled_for_compare
-from validation.selection.compare import Comparison
 from validation.selection.exported import to_json_of
-from validation.selection.hierarchy import Status, select_model
+from validation.selection.hierarchy import Status
 from validation.selection.quantities import QUANTITIES, quantities_of
 
 SCHEMA = json.loads((resources.files("validation.selection") / "comparison.schema.json").read_text(encoding="utf-8"))
 
 
-def of_models(*models, **settings):
-    return Comparison(punch(load=1.0), "stiffness", select_model(models, 0.2, **settings))
-
-
 @pytest.mark.parametrize("name", bundled_for_compare())
 def test_every_quantity_of_every_scene_is_as_the_schema_says(name):
-    for quantity in quantities_of(validation.load_scene(name)):
+    scene = validation.load_scene(name)
+    assert scene.diagnose() == ()
+    for quantity in quantities_of(scene):
         found = planted(name, quantity)
         written = json.loads(validation.to_json(found))
         assert faults(written, SCHEMA, SCHEMA) == []
@@ -37,10 +33,10 @@ def test_every_quantity_of_every_scene_is_as_the_schema_says(name):
 
 
 def test_what_is_not_known_and_lists_are_as_the_schema_says():
-    nothing = of_models(Fake(claimed=float("inf")), Fake(failed="lost"))
-    unmet = of_models(Finding(parts=(0.5, 0.1, 0.1)))
-    beyond = of_models(Finding(claimed=float("inf")), solve_all=True, beyond=lambda _: True)
-    for found in ([nothing], [unmet], [beyond], [nothing, unmet, beyond], [of_models()]):
+    nothing = compared(Fake(claimed=float("inf")), Fake(failed="lost"))
+    unmet = compared(Finding(parts=(0.5, 0.1, 0.1)))
+    beyond = compared(Finding(claimed=float("inf")), solve_all=True, beyond=lambda _: True)
+    for found in ([nothing], [unmet], [beyond], [nothing, unmet, beyond], [compared()]):
         assert faults(json.loads(to_json_of(found)), SCHEMA, SCHEMA) == []
 
 
@@ -59,7 +55,7 @@ def test_what_is_not_known_and_lists_are_as_the_schema_says():
     ],
 )
 def test_what_is_wrong_is_found(key, value, fault):
-    written = json.loads(to_json_of([of_models(Finding())]))
+    written = json.loads(to_json_of([compared(Finding())]))
     assert any(fault in said for said in faults({**written, key: value}, SCHEMA["$defs"]["comparison"], SCHEMA))
     assert faults({**written, key: value}, SCHEMA, SCHEMA) != []
 

@@ -19,7 +19,6 @@ from validation.simulation.calibrated_range import (
     SHORT,
     WAVES,
     conditions_of,
-    counted,
     lost_contact,
     outside,
     rolling_conditions,
@@ -95,7 +94,3 @@ def test_of_measured_heights_waves_of_four_points_are_the_shortest():
 )
 def test_the_first_condition_beyond_its_range_is_named(value, ranges, said):
     assert outside({LOAD: value, WAVES: 3.0}, ranges) == said
-
-
-def test_conditions_are_counted_with_three_digits():
-    assert counted({LOAD: 0.12345, WAVES: 2.0}) == "F / (E* h L) = 0.123, longest waves on a side = 2"

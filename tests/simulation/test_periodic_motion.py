@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from tests.simulation.wheels import ULP, WHEEL, drift, quantum, springs_law, track
-from validation.analysis.spectra import waves
 from validation.simulation.contact_laws import LinearLaw
 from validation.simulation.motion import natural_periods, periodic_motion, simulate
 from validation.theory import wheel as wheel_theory
@@ -69,48 +68,11 @@ def test_shooting_ends_where_its_tolerance_is_met_and_says_so_where_it_is_not():
         assert (left <= 1e-8).all() == met
 
 
-def test_periodic_motion_has_the_same_bits_in_every_ensemble():
-    """A gentle track, done in a round or two, and a rough one that takes more."""
-    height = np.concatenate([track(300, 1, 0.005), track(300, 1, 0.15, seed=1)], axis=1)
-
-    def shot(which):
-        def law(n):
-            return springs_law(np.tile(height[:, which], (1, n)), 12.5)
-
-        start = LinearLaw(WHEEL, 0 * height[:, which]).steady_state(0.035)
-        return periodic_motion(WHEEL, law, time_step=0.035, steps=300, start=start)
-
-    together = shot([0, 1])
-    for i in range(2):
-        for alone, beside in zip(shot([i]), together, strict=True):
-            assert np.array_equal(alone, beside[[i]])
-
-
 def periodogram(record, time_step):
     """(14.17), |FFT|^2 dt / N, and the frequencies df apart."""
     count = len(record)
     spectrum = np.abs(np.fft.fft(record, axis=0)) ** 2 * time_step / count
     return np.fft.fftfreq(count, time_step), spectrum
-
-
-def test_steady_state_does_not_leak():
-    """Between the waves of the track there is nothing but rounding; from static equilibrium, the resonance leaks."""
-    change, dt, count = track(400, 1, 0.4, longest=20, shortest=30), 0.05, 400
-    law = LinearLaw(WHEEL, change)
-    d, v = law.steady_state(dt)
-    steady = simulate(WHEEL, law, time_step=dt, steps=count, approach=d, velocity=v)
-    free = simulate(WHEEL, law, time_step=dt, steps=count)
-    empty = np.r_[40:200]
-    one = periodogram(steady.acceleration[:, 0], dt)[1]
-    assert one[empty].max() <= (400 * 64 * ULP) ** 2 * one.max()
-    other = periodogram(free.acceleration[:, 0], dt)[1]
-    # all but the motion of the track is a vibration that ends elsewhere than it began: the floor of its jump
-    jump = free.jump - steady.jump
-    omega = 2 * np.pi * np.arange(count) / (count * dt)
-    floor = wheel_theory.leakage(omega[empty], jump=jump, time_step=dt, duration=count * dt)
-    # the next term of the floor is the jump of the derivative over omega: of order omega_eigen / omega
-    assert np.abs(np.log(other[empty] / floor)).max() <= 0.5
-    assert np.abs(np.log(other[100:200] / floor[60:])).max() <= 0.15
 
 
 @pytest.mark.parametrize("count", [64, 101])
@@ -131,47 +93,3 @@ def test_the_break_moves_as_the_floor_and_the_spectrum_meet():
         meets = [t ** wheel_theory.break_exponent(hurst) for t in (1.0, 100.0)]
         for t, omega in zip((1.0, 100.0), meets, strict=True):
             assert 1 / (omega**2 * t) == pytest.approx(omega ** (-2 * hurst - 3), rel=1e-12)
-
-
-@pytest.mark.parametrize("speed", [0.5, 20.0])
-def test_spectra_over_frequency_are_those_of_the_record(speed):
-    """<F^2> = int C_F dq = int A df, wave by wave, from a record in space and one in time."""
-    count, dx = 121, 0.02
-    force = np.random.default_rng(0).normal(size=count)
-    force -= force.mean()
-    along = waves(force, spacing=dx)
-    found = wheel_theory.over_frequency(along.spectrum, speed=speed)
-    frequency, expected = periodogram(force, dx / speed)
-    half = slice(1, count // 2 + 1)
-    assert along.q * speed / (2 * np.pi) == pytest.approx(frequency[half], rel=1e-12)
-    assert found == pytest.approx(expected[half], rel=1e-9)
-    df = speed / (count * dx)
-    assert 2 * found.sum() * df == pytest.approx(np.mean(force**2), rel=1e-12)
-
-
-def test_acceleration_over_force_is_that_of_a_steady_motion():
-    """|a / dF|^2, wave by wave. Leapfrog has 2 sin(omega dt / 2) / dt for omega, smaller by (omega dt)^2 / 24.
-
-    Near the resonance that counts 2 omega_0^2 / |omega_0^2 - omega^2| times; the power doubles it.
-    """
-    count, dt = 3001, 0.01
-    change = np.zeros((count, 1))
-    used = np.arange(1, 60)
-    rng = np.random.default_rng(1)
-    for n in used:
-        change[:, 0] += rng.uniform(0.5, 1) * np.cos(2 * np.pi * n * np.arange(count) / count + rng.uniform(0, 6))
-    law = LinearLaw(WHEEL, change)
-    d, v = law.steady_state(dt)
-    motion = simulate(WHEEL, law, time_step=dt, steps=count, approach=d, velocity=v)
-    frequency, force = periodogram(change[:, 0], dt)
-    _, found = periodogram(motion.acceleration[:, 0], dt)
-    omega = 2 * np.pi * frequency[used]
-    ratio = wheel_theory.acceleration_over_force(omega, eigenfrequency=1.0, mass=WHEEL.mass)
-    gain = 4 * np.maximum(1, 1 / np.abs(1 - omega**2))
-    assert (np.abs(found[used] / force[used] / ratio - 1) <= (omega * dt) ** 2 / 24 * gain * 1.1 + 1e-9).all()
-    # Parseval: <a^2> = int A df
-    assert found.sum() / (count * dt) == pytest.approx(np.mean(motion.acceleration**2), rel=1e-12)
-    # the static limit, and the free mass
-    slow, fast = wheel_theory.acceleration_over_force([1e-4, 1e4], eigenfrequency=1.0, mass=2.0)
-    assert slow == pytest.approx(1e-16 / 4, rel=1e-7)
-    assert fast == pytest.approx(1 / 4, rel=1e-7)

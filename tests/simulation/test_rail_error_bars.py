@@ -10,16 +10,16 @@ import pytest
 from scipy import stats
 from scipy.optimize import brentq
 
-from validation import compare, load_scene
-from validation.selection.hierarchy import Answer
+from validation import load_scene
 from validation.selection.rail_model import RailSceneModel
+from validation.selection.scene_model import Answer
 from validation.simulation import rail_models
-from validation.simulation.equivalent_displacement import BEM, LINEAR
 from validation.simulation.method import Resolution
 from validation.simulation.model import Cost, Target, models_serving
+from validation.simulation.model_names import BEM, LINEAR
 from validation.simulation.models.rail import BOUNDARY_ELEMENTS
-from validation.simulation.rail_ground import strip_bands
 from validation.simulation.rail_quantity import RailQuantity
+from validation.simulation.rail_strip import strip_bands
 
 RAIL = load_scene("rail")
 OPEN = replace(RAIL, across=None)
@@ -104,19 +104,6 @@ def test_a_reason_names_the_worst_of_the_bands_that_count():
     assert rail_models.reason_of(quantity, a3, error).startswith("its error is largest at 40 mm: ")
 
 
-@pytest.mark.slow
-def test_samples_cover_the_mean_of_all_strips():
-    """Strips whose powers scatter about that of linear theory: 95 % of the intervals have it."""
-    rng, inside = np.random.default_rng(1), []
-    for _ in range(100):
-        powers = rng.gamma(20, 1 / 20, rail_models.STRIPS)
-        with planted(powers):
-            quantity, filters, strips = found()
-        off = np.abs(filters.a3 - quantity.linear[0])[strips][0]
-        inside.append(off <= filters.sample[strips][0])
-    assert abs(np.mean(inside) - 0.95) <= 3 * math.sqrt(0.95 * 0.05 / 100)
-
-
 def test_the_grid_leaves_what_second_order_makes_of_two_grids():
     """An error of order h^2 on 12 cells is 1 / ((12/8)^2 - 1) = 0.8 of the difference from 8."""
     with planted(np.ones(6), GRID):
@@ -124,15 +111,6 @@ def test_the_grid_leaves_what_second_order_makes_of_two_grids():
     order = 1 / ((rail_models.FINE / rail_models.COARSE) ** 2 - 1)
     np.testing.assert_allclose(filters.grid[inside], order * GRID, rtol=1e-6)
     assert not filters.grid[~inside].any() and filters.sample[inside].max() < 1e-6
-
-
-def test_an_error_of_second_order_is_covered():
-    """A fine grid that is off by what remains of it is inside of its bar, and not far."""
-    rest = GRID / ((rail_models.FINE / rail_models.COARSE) ** 2 - 1)
-    with planted(np.full(6, 10 ** (rest / 10)), GRID):
-        quantity, filters, inside = found()
-    off = np.abs(filters.a3 - quantity.linear[0])[inside]
-    assert (off <= filters.grid[inside] * 1.001).all() and (filters.grid[inside] < 1.5 * off).all()
 
 
 def test_what_the_ground_leaves_adds_to_grid_and_sample_as_it_is():
@@ -156,16 +134,6 @@ def test_what_the_ground_leaves_adds_to_grid_and_sample_as_it_is():
     assert [20 * math.log10(1 + part) for part in (answer.grid, answer.sample)] == pytest.approx(
         [filters.grid[at], filters.sample[at]], rel=1e-6
     )
-
-
-def test_errors_that_are_printed_are_those_of_the_bands():
-    with planted(POWERS, GRID):
-        result = compare(OPEN, "contact-filter", "3 dB", models=[BEM])
-    (solved,) = result.selection.solved
-    parts = result.error_parts_of(solved)
-    expected = parts["model"] + np.hypot(parts["grid"], parts["sample"])
-    np.testing.assert_allclose(result.errors_of(solved), expected, rtol=1e-12)
-    assert (parts["sample"].max(), parts["grid"].max()) > (0.5, 0.2)
 
 
 def test_errors_of_bands_add_a_bias_to_what_is_random():

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import mdr
-from tests.simulation.power_law_ground import PowerLawGround
 from validation import compare, load_scene
 from validation.scenes.level_files import curve
 from validation.scenes.measured_lines import MeasuredLines
@@ -17,28 +16,21 @@ from validation.scenes.roughness_levels import RoughnessLevels
 from validation.selection.quantities import QUANTITIES
 from validation.selection.rail_model import RailSceneModel
 from validation.simulation import equivalent_displacement, rail_models
-from validation.simulation.equivalent_displacement import (
-    AREA,
+from validation.simulation.equivalent_displacement import AREA, ONE_SIDED, RolledRail, linear_displacement, roll_rail
+from validation.simulation.model import Target, models_serving
+from validation.simulation.model_names import (
     BED,
     BEM,
     LINEAR,
-    LINEAR_MODELS,
     LINEAR_ON_LINE,
     ONE_SIDED_BED,
-    RolledRail,
-    roll_rail,
-)
-from validation.simulation.model import Target, models_serving
-from validation.simulation.rail_ground import strip_of
-from validation.simulation.rail_models import COARSE, FINE, RailModel
-from validation.simulation.rail_quantity import RAIL_QUANTITIES, RailQuantity
-from validation.simulation.spectral_springs import (
     SPRINGS_GEIKE,
     SPRINGS_ROLLING,
-    SpectralRail,
-    roll_spectral_springs,
     twin_of,
 )
+from validation.simulation.rail_models import COARSE, FINE, RailModel
+from validation.simulation.rail_quantity import RAIL_QUANTITIES, RailQuantity
+from validation.simulation.rail_strip import strip_of
 from validation.theory.elliptic_contact import elliptic_contact
 from validation.theory.line_spectrum import LineSpectrum
 from validation.theory.transverse_structure import IsotropicGround
@@ -106,19 +98,6 @@ def test_short_waves_under_springs_on_the_rolling_spectrum_have_the_level_of_the
     assert over[LINEAR_ON_LINE] - over[SPRINGS_ROLLING] == pytest.approx(10 * math.log10(1.5), abs=0.05)
 
 
-@pytest.mark.parametrize("model", [SPRINGS_ROLLING, SPRINGS_GEIKE])
-def test_springs_of_input_spectra_follow_their_linear_twin_on_a_smoother_rail(model):
-    smoother = replace(RAIL, roughness=RAIL.levels.raised(-60.0))
-    for cells, error in ((6, 0.1), (12, 0.05)):
-        found = roll_spectral_springs(SpectralRail(strip=strip_of(smoother, "isotropic", cells, 0, 3), models=(model,)))
-        twin = found[twin_of(model)]
-        assert np.abs(found[model] - twin).max() < error * np.abs(twin).max()
-    # the line itself is another track
-    strip = strip_of(smoother, "isotropic", 12, 0, 3)
-    line = strip.along_middle(LINEAR_MODELS[LINEAR_ON_LINE](strip.contact))
-    assert np.abs(line - twin).max() > 0.05 * np.abs(twin).max()
-
-
 @pytest.mark.parametrize("across", ["ridges", "isotropic", 0.7])
 def test_lines_along_a_strip_have_the_spectrum_of_the_levels(across):
     """Two-sided, on any grid: of each wave along the sum over all waves across, over the cell of its wavenumber."""
@@ -128,30 +107,6 @@ def test_lines_along_a_strip_have_the_spectrum_of_the_levels(across):
         near = np.abs(k - q) < 30
         found = strip.variance[near].sum(axis=1) * strip.length / (2 * np.pi) / RAIL.levels.c_line(k[near])
         assert found.mean() == pytest.approx(1.0, rel=0.1), (cells, q)
-
-
-@pytest.mark.parametrize("across", ["ridges", "isotropic"])
-def test_a_power_law_has_the_waves_at_both_of_its_ends_and_none_beyond(across):
-    ground = PowerLawGround(rms=1e-6, exponent=2.0, first=2 * math.pi / 0.06, last=2 * math.pi / 0.004, across=across)
-    beyond = np.array([ground.first * 0.999, ground.first, ground.last, ground.last * 1.001])
-    found = ground.variance(beyond, np.zeros(4), (1.0, 1.0))
-    assert (found > 0).tolist() == [False, True, True, False]
-    law = 2 if across == "ridges" else 3
-    assert found[2] / found[1] == pytest.approx((ground.first / ground.last) ** law)
-
-
-def test_models_on_strips_have_their_track_and_that_of_their_twin():
-    """On a rail so smooth that all touches, both are the same but for few cells to the contact."""
-    smoother = replace(RAIL, roughness=RAIL.levels.raised(-60.0))
-    on_strips = [model.filter for model in models_serving(smoother, "contact-filter") if model.filter.on_strips]
-    assert len(on_strips) == 7
-    for model in on_strips:
-        if model.name == BEM:
-            continue
-        found = model.roll(smoother, strip_of(smoother, "isotropic", 4, 0, 3))
-        mine, twin = found[model.name], found[model.twin]
-        assert np.abs(mine - twin).max() < 0.3 * np.abs(twin).max(), model.name
-        assert found["failed"] == 0
 
 
 @pytest.mark.parametrize("across", ["isotropic", None])
@@ -176,13 +131,24 @@ def test_contact_filters_are_models_of_a_rail_and_of_its_quantities_alone(name):
         assert len(found) == (11 if name == "rail" and quantity in RAIL_QUANTITIES else 0), quantity
 
 
-def test_a_one_sided_bed_follows_its_linear_twin_on_a_smoother_rail():
-    """Where no spring lets go, springs that do not pull are those that do, under the same patch."""
+@pytest.mark.parametrize("model", ONE_SIDED)
+def test_one_sided_models_follow_their_linear_twin_on_a_smoother_rail(model):
+    """Where no spring lets go, springs that do not pull are those that do, of first order in the cells and more."""
     smoother = replace(RAIL, roughness=RAIL.levels.raised(-60.0))
-    # of first order in the cells and more
-    for cells, error in ((6, 0.02), (12, 0.01)):
-        found = roll_rail(RolledRail(strip=strip_of(smoother, "isotropic", cells, 0, 3), models=(ONE_SIDED_BED,)))
-        assert np.abs(found[ONE_SIDED_BED] - found[BED]).max() < error * np.abs(found[BED]).max()
+    of_first = 0.02 if model == ONE_SIDED_BED else 0.1
+    for cells, error in ((6, of_first), (12, of_first / 2)):
+        strip = strip_of(smoother, "isotropic", cells, 0, 3)
+        found = roll_rail(RolledRail(strip=strip, models=(model,)))
+        twin = found[twin_of(model)]
+        assert np.abs(found[model] - twin).max() < error * np.abs(twin).max() and found["failed"] == 0
+    # tracks of input spectra are others than the line itself
+    if model in (SPRINGS_ROLLING, SPRINGS_GEIKE):
+        assert np.abs(linear_displacement(strip, LINEAR_ON_LINE) - twin).max() > 0.05 * np.abs(twin).max()
+
+
+def test_an_unknown_model_on_a_strip_is_refused():
+    with pytest.raises(ValueError, match="models must be of boundary elements, springs that read"):
+        RolledRail(strip=strip_of(RAIL, "isotropic", 6, 0, 3), models=("moon",))
 
 
 def test_the_area_in_contact_is_over_that_of_the_ellipse(monkeypatch):
@@ -190,28 +156,10 @@ def test_the_area_in_contact_is_over_that_of_the_ellipse(monkeypatch):
     contact = elliptic_contact(RAIL.radii, modulus=RAIL.modulus, force=RAIL.load)
     area = np.full(9, math.pi * contact.along * contact.across)
     made_up = SimpleNamespace(approach=np.zeros(9), area=area, converged=np.ones(9, dtype=bool))
-    monkeypatch.setattr(equivalent_displacement, "roll_boundary_elements", lambda strip, tolerance: made_up)
+    monkeypatch.setattr(equivalent_displacement, "roll_boundary_elements", lambda *_: made_up)
     found = roll_rail(RolledRail(strip=strip_of(RAIL, "ridges", 4, 0, 3), models=(BEM,)))
     np.testing.assert_allclose(found[AREA], 1.0, rtol=1e-9)
     assert abs(contact.along / contact.across - 1) > 0.1
-
-
-def test_geikes_rule_is_offered_on_isotropic_ground_alone():
-    for across, offered in (("isotropic", True), (None, True), ("ridges", False), (0.5, False)):
-        names = [model.name for model in models_serving(replace(RAIL, across=across), "contact-filter")]
-        assert (SPRINGS_GEIKE in names) == offered
-    with pytest.raises(ValueError, match="models must be of springs, rolling spectrum"):
-        SpectralRail(strip=strip_of(RAIL, "isotropic", 6, 0, 3), models=("moon",))
-
-
-@pytest.mark.slow
-def test_springs_of_input_spectra_are_named_to_compare():
-    found = compare(RAIL, "contact-filter", "1 dB", models=[SPRINGS_ROLLING, SPRINGS_GEIKE])
-    assert [one.name for one in found.selection.solved] == [SPRINGS_GEIKE, SPRINGS_ROLLING]
-    levels = {one.name: found.value_of(one) for one in found.selection.solved}
-    long = (found.wavelength_mm < 300) & (found.wavelength_mm > 100)
-    assert (np.abs(levels[SPRINGS_GEIKE][long] - 3.0) < 0.3).all()
-    assert (np.abs(levels[SPRINGS_ROLLING][long]) < 0.3).all()
 
 
 def test_over_ridges_models_are_sinc_squared_above_the_first_zero():
@@ -254,15 +202,10 @@ def test_ground_that_is_not_given_is_a_band_between_ridges_and_isotropic_ground(
 def test_the_limit_of_iso_3095_needs_no_boundary_elements():
     found = compare(RAIL, "contact-filter", "1 dB")
     assert found.met and found.model == LINEAR and found.unit == "dB"
-    assert found.value.shape == found.wavelength_mm.shape == found.frequency_hz.shape
-    np.testing.assert_allclose(found.wavelength_mm, 1e3 * np.array(RAIL.levels.wavelengths))
-    np.testing.assert_allclose(found.frequency_hz, [RAIL.frequency(wave) for wave in RAIL.levels.wavelengths])
     rough = compare(RAIL, "equivalent-roughness", "1 dB")
     np.testing.assert_allclose(rough.value, found.value + RAIL.levels.levels, atol=1e-9)
     assert rough.unit == "dB re 1 µm"
     best = found.selection.best
-    assert best is not None and best.answer is not None
-    assert "2000 to 16 mm" in best.answer.counted
     counted = found.value > -15
     assert 20 * math.log10(1 + best.error) == pytest.approx(float(found.errors_of(best)[counted].max()))
 

@@ -8,15 +8,10 @@ import pytest
 import mdr
 from validation.scenes.load import load_scene
 from validation.scenes.rail import RailScene
-from validation.simulation.equivalent_displacement import BEM, LINE, LINEAR, LINEAR_MODELS, SPRINGS_THAT_READ
-from validation.simulation.rail_ground import line_of
-from validation.simulation.rail_sound import (
-    HeldWheel,
-    geike_track,
-    roll_held_wheel,
-    samples_of,
-    sounding_strip,
-)
+from validation.simulation.equivalent_displacement import geike_track, linear_displacement
+from validation.simulation.model_names import BEM, LINE, LINEAR, SPRINGS_THAT_READ
+from validation.simulation.rail_sound import HeldWheel, roll_held_wheel, samples_of, sounding_strip
+from validation.simulation.rail_strip import line_of
 from validation.theory.transverse_structure import IsotropicGround
 
 RAIL = load_scene("rail")
@@ -53,7 +48,7 @@ def _without_shift(signals, *strips):
 def test_geikes_track_has_his_spectrum_and_the_phases_of_the_line():
     """C_1D / C_line = pi k C_2D / C_line of the continuous ground; of a strip, sums over k_y are 5 % off at most."""
     one = strip()
-    line = np.fft.rfft(one.along_middle(LINEAR_MODELS[LINE](one.contact)))
+    line = np.fft.rfft(linear_displacement(one, LINE))
     track = np.fft.rfft(geike_track(one))
     k = 2 * np.pi * np.fft.rfftfreq(one.shape[0], one.spacing)
     inside = (k > 1.02 * one.ground.first) & (k < 0.8 * one.ground.last)

@@ -1,6 +1,5 @@
 """The wheel in motion: every law of contact against exact motions, balances and symmetries; lift-off."""
 
-import dataclasses
 import math
 
 import numpy as np
@@ -13,7 +12,6 @@ from tests.simulation.wheels import GRAVITY, SCHEMES, ULP, WHEEL, drift, laws, q
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import BoundaryElementsLaw, HertzLaw, LinearLaw, SpringsLaw
 from validation.simulation.motion import simulate
-from validation.theory.rolling import linear_force
 
 # --- smooth tracks ----------------------------------------------------------------------------------------------------
 
@@ -97,30 +95,6 @@ def test_time_reversal(rms, thrown):
     assert np.abs(back.path[1:] - there.path[:0:-1]).max() <= allowed
 
 
-@pytest.mark.parametrize("name", ["springs", "linear", "Hertz"])
-def test_a_wheel_has_the_same_bits_in_every_ensemble(name):
-    height = track(300, 4, 0.3)
-    make = {
-        "springs": lambda which: springs_law(height[:, which], 12.5),
-        "linear": lambda which: LinearLaw(WHEEL, height[:, which]),
-        "Hertz": lambda which: HertzLaw(WHEEL, len(which)),
-    }[name]
-    start, speed = np.array([1.0, 1.3, 0.4, 1.1]), np.array([0.0, 0.5, -1.0, 0.1])
-
-    def run(which):
-        return simulate(
-            WHEEL, make(which), time_step=0.1, steps=700, approach=start[which], velocity=speed[which], path=True
-        )
-
-    together = run([0, 1, 2, 3])
-    for which in ([0], [2], [3, 1], [2, 0, 1]):
-        some = run(which)
-        for field in ("lowest", "highest", "airborne", "approach", "velocity", "next_acceleration", "jump"):
-            assert np.array_equal(getattr(some, field), getattr(together, field)[which]), field
-        assert np.array_equal(some.acceleration, together.acceleration[:, which])
-        assert np.array_equal(some.path, together.path[:, which])
-
-
 @pytest.mark.slow
 @given(length=st.floats(-5, 2), modulus=st.floats(-3, 11), mass=st.floats(-3, 4), seed=st.integers(0, 100))
 @settings(max_examples=20)
@@ -138,21 +112,6 @@ def test_units_do_not_matter(length, modulus, mass, seed):
     assert np.abs(other.path / metre - one.path).max() <= allowed
     assert np.abs(other.acceleration * second**2 / metre - one.acceleration).max() <= 2 * allowed
     assert np.abs(other.velocity * second / metre - one.velocity).max() <= allowed
-
-
-@given(turn=st.integers(-20, 20), mass=st.integers(-20, 20))
-@settings(max_examples=20)
-def test_units_of_time_and_mass_that_are_powers_of_two_change_no_bit(turn, mass):
-    """E* l / M is a power of four then, and so its root is exact."""
-    kilogram, second = 2.0**mass, 2.0**turn
-    pascal = kilogram / second**2
-    there = Wheel(radius=1.0, mass=2 * kilogram, modulus=pascal, load=4 / 3 * pascal)
-    height = track(150, 2, 0.2)
-    one = simulate(WHEEL, springs_law(height, 12.5), time_step=0.1, steps=150, path=True)
-    other = simulate(there, SpringsLaw(there, height, 1 / 12.5), time_step=0.1 * second, steps=150, path=True)
-    assert np.array_equal(other.path, one.path)
-    assert np.array_equal(other.velocity * second, one.velocity)
-    assert np.array_equal(other.acceleration * second**2, one.acceleration)
 
 
 # --- the linear contact -----------------------------------------------------------------------------------------------
@@ -277,18 +236,6 @@ def test_a_wheel_thrown_up_flies_a_parabola_and_comes_back(name):
     assert motion.airborne[1] == 0
 
 
-def test_steps_without_contact_are_counted_on_rough_tracks():
-    height = track(400, 3, 0.5, shortest=20)
-    law = springs_law(height, 12.5)
-    motion = simulate(
-        WHEEL, law, time_step=0.05, steps=800, velocity=np.array([0.0, -2.0, 0.1]), approach=np.ones(3), path=True
-    )
-    again = springs_law(height, 12.5)
-    free = sum(again.force(n, motion.path[n]) == 0 for n in range(800))
-    assert np.array_equal(motion.airborne, free)
-    assert free.max() > 50
-
-
 # --- boundary elements in the loop ------------------------------------------------------------------------------------
 
 
@@ -298,31 +245,6 @@ def strips(cells, height, wheels=1):
     x = 2 * np.pi * (np.arange(nx) + 0.5)[:, np.newaxis] / nx
     y = 2 * np.pi * (np.arange(ny) + 0.5) / ny
     return [height * (np.cos(2 * x + y + i) + np.cos(x - 0.4 * i)) for i in range(wheels)]
-
-
-def three_dimensional(cells, height, steps=30, dt=0.1):
-    """Motion on boundary elements and that of the linear law with the 3D filter, both over their motion at rest."""
-    strip = strips(cells, height)[0]
-    change = linear_force(strip, spacing=1 / cells, radius=1.0, modulus=1.0, approach=1.0) - 4 / 3
-    law = LinearLaw(WHEEL, change[:, np.newaxis])
-    d, v = law.steady_state(dt)
-    settings = {"time_step": dt, "steps": steps, "velocity": v, "path": True}
-    rest = BoundaryElementsLaw(WHEEL, [0 * strip], 1 / cells, tolerance=1e-6).at_rest(0)
-    solved = BoundaryElementsLaw(WHEEL, [strip], 1 / cells, tolerance=1e-6)
-    found = simulate(WHEEL, solved, approach=d - 1 + rest, **settings).path - rest
-    expected = simulate(WHEEL, law, approach=d, **settings).path - 1
-    assert solved.operator_applications > steps
-    return found, expected
-
-
-@pytest.mark.parametrize("cells", [4, 6])
-def test_boundary_elements_in_the_loop_follow_linear_theory_in_three_dimensions(cells):
-    """The residual tells 1e-6 of d; nonlinearity h / d; the grid, as for a ragged circle, (dx / a)^(3/2) or less."""
-    height = 0.01
-    found, expected = three_dimensional(cells, height)
-    assert np.abs(expected).max() > 0.1 * height
-    error = np.abs(found - expected).max() / np.abs(expected).max()
-    assert error <= 2 * height + cells**-1.5
 
 
 def test_wheels_on_boundary_elements_do_not_know_of_each_other():
@@ -351,10 +273,3 @@ def test_a_contact_that_does_not_converge_raises():
     assert len(caught.value.history) > 1
     with pytest.raises(bem3d.ConvergenceError, match="at place 3"):
         law.force(3, np.array([1.0]))
-
-
-def test_a_motion_is_frozen():
-    motion = simulate(WHEEL, HertzLaw(WHEEL), time_step=0.1, steps=3)
-    assert motion.path is None
-    with pytest.raises(dataclasses.FrozenInstanceError):
-        motion.time_step = 1.0

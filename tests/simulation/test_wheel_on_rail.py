@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import mdr
-from tests.simulation.power_law_ground import PowerLawGround
+from tests.simulation.power_law_ground import power_law_ground
 from validation.simulation import wheel_on_rail
 from validation.simulation.contact_laws import HertzLaw
 from validation.simulation.motion import simulate
@@ -15,9 +15,9 @@ from validation.simulation.rail_strip import RailStrip
 from validation.simulation.wheel_on_rail import BEM, SPRINGS, SurfaceSpringsLaw, WheelOnRail
 
 CELL = 1e-3
-GROUND = PowerLawGround(rms=1e-7, exponent=2.0, first=2 * np.pi / 0.06, last=2 * np.pi / 0.015)
+WAVES = 2 * np.pi / 0.06, 2 * np.pi / 0.015
 STRIP = RailStrip(
-    ground=GROUND,
+    ground=power_law_ground(1e-7, *WAVES),
     radii=(0.46, 0.3),
     force=5e4,
     modulus=115e9,
@@ -30,7 +30,7 @@ STRIP = RailStrip(
 
 
 def problem(model, rms=1e-7):
-    strip = replace(STRIP, ground=replace(GROUND, rms=rms))
+    strip = replace(STRIP, ground=power_law_ground(rms, *WAVES))
     return WheelOnRail(strip=strip, mass=500.0, speed=22.0, model=model, tolerance=1e-6)
 
 

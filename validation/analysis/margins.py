@@ -38,3 +38,11 @@ MARGINS: Mapping[str, Margin] = {
     "level": Margin(tolerance=1.0, reason="1 dB: a third of the 3 dB accepted for one-third octaves of rolling noise"),
 }
 """Of the wheel and of its contact force; levels are over a reference, in one region of the spectrum."""
+FIELD = Margin(tolerance=1.0, reason="1 dB: a tolerance of the field")
+REPEATABLE = Margin(tolerance=1.0, reason="1 dB: repeatability of measured one-third octave levels")
+THREE_DECIBELS = Margin(
+    tolerance=3.0,
+    reason="3 dB in one-third octaves: Ford and Thompson, J. Sound Vib. 293 (2006)",
+    rms=(REPEATABLE.tolerance, REPEATABLE.reason),
+)
+"""Of the worst one-third octave of a range; the root mean square over the range has its own."""

@@ -48,8 +48,8 @@ class Engine:
     progress: Part | None = field(default=None, repr=False, compare=False)
     executor: str = LOCAL
     shared: Workers | None = field(default=None, repr=False, compare=False)
-    timed_solves: list[Callable[..., Outcome]] | None = field(default=None, repr=False, compare=False)
-    """The solves of a timed run, in the order of the calls of `map`."""
+    timed_results: dict[Path, str] | None = field(default=None, repr=False, compare=False)
+    """The places and keys of a timed run."""
 
     def __post_init__(self) -> None:
         if self.executor != LOCAL and not re.fullmatch(r"dask://[^/\s]+:\d+", self.executor):
@@ -63,13 +63,14 @@ class Engine:
         solve: a module's own function; where part of it has not converged, its outcome says so by a number "failed";
         problems: frozen dataclasses of plain values, which their repr identifies.
         """
-        if self.timed_solves is not None:
-            self.timed_solves.append(solve)
         keys = [
             f"{solve.__module__}.{solve.__qualname__}({problem!r}) {version_behind(solve.__module__, problem)}"
             for problem in problems
         ]
-        places = [self._place(solve, key) for key in keys]
+        name = solve.__module__, solve.__name__
+        places = [stored.place_of(self.store, *name, key) if self.store else None for key in keys]
+        if self.timed_results is not None:
+            self.timed_results.update((place, key) for place, key in zip(places, keys, strict=True) if place)
         found = [stored.load(place, key) if place else None for place, key in zip(places, keys, strict=True)]
         known = {i: outcome for i, outcome in enumerate(found) if outcome is not None}
         failed = sum(map(_failed, known.values()))
@@ -96,10 +97,9 @@ class Engine:
 
         A finished run forgets its results, so that the next run measures anew; an interrupted one keeps them.
         """
-        alone = replace(self, workers=1, executor=LOCAL, shared=None, timed_solves=[])
-        yield alone
-        if self.store is not None:
-            stored.forget(self.store, [_module_and_name(solve) for solve in alone.timed_solves or ()])
+        measured: dict[Path, str] = {}
+        yield replace(self, workers=1, executor=LOCAL, shared=None, timed_results=measured)
+        stored.forget(measured)
 
     def _solved(self, tasks: Sequence["_PendingSolve[P]"]) -> Generator[tuple[int, Outcome, float], None, None]:
         """Index, outcome and seconds of each task, in the order in which they finish."""
@@ -118,11 +118,6 @@ class Engine:
                 i, outcome, seconds = arrived.result()
                 by_index[i].save(outcome)
                 yield i, outcome, seconds
-
-    def _place(self, solve: Callable[[P], Outcome], key: str) -> Path | None:
-        if self.store is None:
-            return None
-        return stored.place_of(self.store, *_module_and_name(solve), key)
 
 
 SERIAL = Engine()
@@ -173,11 +168,6 @@ def _solve(solve: Callable[[P], Outcome], problem: P, i: int, numerics: str) -> 
     except Exception as error:
         error.add_note(f"in {solve.__name__}({problem!r})")
         raise
-
-
-def _module_and_name(solve: Callable[..., Outcome]) -> tuple[str, str]:
-    """Of a solve, for the file names of its results."""
-    return solve.__module__.rpartition(".")[2], solve.__name__
 
 
 def _failed(outcome: Outcome) -> bool:

@@ -32,25 +32,22 @@ def write_given(path: Path, contents: bytes) -> None:
         elif there and not stat.S_ISREG(there.st_mode):
             _write_into(os.open(path, os.O_WRONLY), contents)
         else:
-            _replace(Path(os.path.realpath(path)), contents, there)
+            write_whole(Path(os.path.realpath(path)), contents, like=there)
 
 
-def _replace(place: Path, contents: bytes, there: os.stat_result | None) -> None:
-    """there: what it replaces, whose mode and owner it keeps."""
-    temporary = write_partial_file(place, contents)
-    with _removed_on_errors(temporary):
-        if there:
-            with suppress(PermissionError):
-                os.chown(temporary, there.st_uid, there.st_gid)
-            temporary.chmod(stat.S_IMODE(there.st_mode))
-        temporary.replace(place)
+def write_whole(path: Path, contents: bytes, *, like: os.stat_result | None = None) -> None:
+    """Write beside the place and rename: no reader ever sees half a file. Raises OSError, which names the place.
 
-
-def write_whole(path: Path, contents: bytes) -> None:
-    """Write beside the place and rename: no reader ever sees half a file. Raises OSError, which names the place."""
-    temporary = write_partial_file(path, contents)
-    with with_path_in_errors(path), _removed_on_errors(temporary):
-        temporary.replace(path)
+    like: what it replaces, whose mode and owner it keeps.
+    """
+    with with_path_in_errors(path):
+        temporary = write_partial_file(path, contents)
+        with _removed_on_errors(temporary):
+            if like:
+                with suppress(PermissionError):
+                    os.chown(temporary, like.st_uid, like.st_gid)
+                temporary.chmod(stat.S_IMODE(like.st_mode))
+            temporary.replace(path)
 
 
 def write_partial_file(path: Path, contents: bytes) -> Path:

@@ -8,7 +8,6 @@ import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from types import TracebackType
 
 SECONDS_BETWEEN_LINES = 10.0
 """Seconds between two lines in a log."""
@@ -24,7 +23,10 @@ BACK, ERASED = "\r", "\x1b[K"
 
 
 class Part:
-    """A part of a run: counts of its solves, those of each kind that did not converge, and their seconds of work."""
+    """A part of a run: counts of its solves, those of each kind that did not converge, and their seconds of work.
+
+    all_done, all_total, all_found: of all kinds until now; done, total, found, failed: of the one that is at work.
+    """
 
     def __init__(self, name: str = "", seconds: float = 0.0, refresh: Callable[[], None] = lambda: None):
         self.name, self.seconds = name, seconds
@@ -32,15 +34,16 @@ class Part:
         self.over = self.solving = False
         self.doing = ""
         self.done = self.total = self.found = self.failed = 0
+        self.all_done = self.all_total = self.all_found = 0
         self.lost: Counter[str] = Counter()
-        self._of_others = (0, 0, 0)
         self._refresh = refresh
 
     def begin(self, doing: str, *, total: int, found: int = 0, failed: int = 0) -> None:
         """Solves that follow. found: in the store; failed: of those."""
-        before = self._of_others
-        self._of_others = (before[0] + self.done, before[1] + self.total, before[2] + self.found)
         self.doing, self.done, self.total, self.found, self.failed = doing, found, total, found, failed
+        self.all_done += found
+        self.all_total += total
+        self.all_found += found
         self.lost[doing] += failed
         self.solving |= total > found
         self._refresh()
@@ -49,10 +52,12 @@ class Part:
         """More of the same."""
         self.doing = doing
         self.total += more
+        self.all_total += more
 
     def step(self, failed: bool = False, seconds: float = 0.0) -> None:
         """One solve more. seconds: that it took."""
         self.done += 1
+        self.all_done += 1
         self.failed += failed
         self.lost[self.doing] += failed
         self.worked += seconds
@@ -65,32 +70,26 @@ class Part:
     @property
     def share(self) -> float:
         """Of the part that is done."""
-        done, total = self.done + self._of_others[0], self.total + self._of_others[1]
-        return 1.0 if self.over else BEFORE_EVIDENCE * done / total if total else 0.0
+        return 1.0 if self.over else BEFORE_EVIDENCE * self.all_done / max(self.all_total, 1)
 
     @property
     def share_of_this_run(self) -> float:
         """Of the part that is done and was not found in the store."""
-        total = self.total + self._of_others[1]
-        found = (self.found + self._of_others[2]) / total if total else 0.0
-        return self.share - (found if self.over else BEFORE_EVIDENCE * found)
+        return self.share - (1.0 if self.over else BEFORE_EVIDENCE) * self.all_found / max(self.all_total, 1)
 
     @property
     def line(self) -> str:
         if not self.doing:
             return self.name
-        told = [f"{self.name}: {self.doing} {self.done}/{self.total}"]
-        if self.found:
-            told.append(f"{self.found} from an earlier run")
-        if self.failed:
-            told.append(f"{self.failed} failed")
-        return ", ".join(told)
+        found = f", {self.found} from an earlier run" if self.found else ""
+        failed = f", {self.failed} failed" if self.failed else ""
+        return f"{self.name}: {self.doing} {self.done}/{self.total}{found}{failed}"
 
 
 class Progress:
     """Parts of a run in their order: one line that is rewritten on a terminal, a line every few seconds in a log.
 
-    parts: name of each and the seconds that it is expected to take on one core; whole: what is left; workers: that
+    parts: name of each and the seconds that it is expected to take on one core; workers: that
     share the work; shown: False prints nothing. Lines are also printed while no solve finishes, so that a log shows a
     run that stands still.
     """
@@ -99,13 +98,12 @@ class Progress:
         self,
         parts: Mapping[str, float],
         *,
-        whole: str = "whole report",
         workers: int = 1,
         shown: bool = True,
         clock: Callable[[], float] = time.monotonic,
     ):
         self.parts = {name: Part(name, seconds, self.refresh) for name, seconds in parts.items()}
-        self._whole, self._workers, self._now = whole, workers, clock
+        self._workers, self._now = workers, clock
         self._shown, self._terminal = shown, sys.stderr.isatty()
         self._began, self._printed = math.inf, clock()
         self._lock = threading.RLock()
@@ -117,13 +115,11 @@ class Progress:
             self._ticks.start()
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *raised: object) -> None:
         if self._shown:
             self._over.set()
             self._ticks.join()
-            self._erase()
+            self._write("")
 
     def refresh(self) -> None:
         """Print the line, if the last one is old enough."""
@@ -134,24 +130,23 @@ class Progress:
             if not self._shown or self._over.is_set() or self._now() - self._printed < apart:
                 return
             self._printed = self._now()
-            columns = shutil.get_terminal_size().columns
-            self._write(BACK + self.line[: columns - 1] + ERASED if self._terminal else self.line + "\n")
+            self._write(self.line)
 
     @contextmanager
     def aside(self) -> Iterator[None]:
         """Something else is printed meanwhile."""
         with self._lock:
-            self._erase()
+            if self._shown:
+                self._write("")
             yield
 
     @property
     def line(self) -> str:
         """Of the first part that is not over."""
-        found = ((i, part) for i, part in enumerate(self.parts.values(), 1) if not part.over)
-        i, part = next(found, (len(self.parts), list(self.parts.values())[-1]))
-        place = f"[{i}/{len(self.parts)}] " if len(self.parts) > 1 else ""
-        whole = f"{self._whole} " if self._whole else ""
-        return f"{place}{part.line}, {whole}{format_left(self.seconds_left)} left"
+        parts = list(self.parts.values())
+        i = next((i for i, part in enumerate(parts) if not part.over), len(parts) - 1)
+        place, whole = (f"[{i + 1}/{len(parts)}] ", "whole report ") if len(parts) > 1 else ("", "")
+        return f"{place}{parts[i].line}, {whole}{format_left(self.seconds_left)} left"
 
     @property
     def seconds_left(self) -> float:
@@ -169,19 +164,19 @@ class Progress:
         while not self._over.wait(SECONDS_BETWEEN_REFRESHES):
             self.refresh()
 
-    def _erase(self) -> None:
-        if self._shown and self._terminal:
-            self._write(BACK + ERASED)
-
-    def _write(self, text: str) -> None:
-        sys.stderr.write(text)
+    def _write(self, line: str) -> None:
+        """On a terminal over the last one, in a log below it; an empty one erases the last."""
+        if self._terminal:
+            sys.stderr.write(BACK + line[: shutil.get_terminal_size().columns - 1] + ERASED)
+        elif line:
+            sys.stderr.write(line + "\n")
         sys.stderr.flush()
 
 
 @contextmanager
 def progress_of(name: str, workers: int) -> Iterator[Part]:
     """Of a run that is a single part, of which nobody knows how long it takes."""
-    with Progress({name: UNKNOWN}, whole="", workers=workers) as progress:
+    with Progress({name: UNKNOWN}, workers=workers) as progress:
         yield progress.parts[name]
 
 

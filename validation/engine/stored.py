@@ -3,13 +3,8 @@
 import hashlib
 import io
 import json
-import math
-import re
-import zipfile
-from collections.abc import Sequence
-from functools import lru_cache
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,14 +18,11 @@ FORMAT = 2
 LABEL = "stored"
 """The entry of an archive that holds its key and lists its arrays."""
 SEAL = hashlib.sha256().digest_size
-HEADER = 10
-"""Bytes of the format of arrays before its header: six of a name, two of a version, two of the length."""
-NAME = re.compile(r"(?P<module>\w+)-(?P<solve>\w+)-[0-9a-f]{24}\.npz")
 
 
 def place_of(folder: Path, module: str, solve: str, key: str) -> Path:
-    """Where a result belongs. key: everything that determines it."""
-    return folder / f"{module}-{solve}-{hashlib.sha256(key.encode()).hexdigest()[:24]}.npz"
+    """Where a result belongs. module, solve: names for its file; key: everything that determines it."""
+    return folder / f"{module.rpartition('.')[2]}-{solve}-{hashlib.sha256(key.encode()).hexdigest()[:24]}.npz"
 
 
 def load(path: Path, key: str) -> Outcome | None:
@@ -58,20 +50,11 @@ def save(path: Path, key: str, outcome: Outcome) -> None:
     write_whole(path, contents + hashlib.sha256(contents).digest())
 
 
-def forget(folder: Path, solves: Sequence[tuple[str, str]]) -> None:
-    """Remove the stored results of these solves, each a module and a name, and no file without a valid seal."""
-    for path in sorted(folder.glob("*.npz")):
-        named = NAME.fullmatch(path.name)
-        if named and (named["module"], named["solve"]) in solves and is_plain(path) and _is_sealed(path):
+def forget(stored: Mapping[Path, str]) -> None:
+    """Remove the results at these places, each by its key, and nothing else that is there."""
+    for path, key in stored.items():
+        if is_plain(path) and load(path, key) is not None:
             path.unlink()
-
-
-def _is_sealed(path: Path) -> bool:
-    try:
-        _unsealed(path)
-    except (OSError, ValueError, MemoryError):
-        return False
-    return True
 
 
 def _unsealed(path: Path) -> bytes:
@@ -88,35 +71,9 @@ def _listed(arrays: Outcome) -> dict[str, list[object]]:
 
 def _arrays(archive: bytes, key: str) -> Outcome:
     """The arrays of an archive. Raises an exception of any kind where it is not as `save` writes it."""
-    with zipfile.ZipFile(io.BytesIO(archive)) as entries:
-        # entries are not compressed: none is larger than the file
-        if sum(entry.file_size for entry in entries.infolist()) > len(archive):
-            raise ValueError("the archive holds more than its own length")
-        arrays = {entry.filename.removesuffix(".npy"): _array(entries.read(entry)) for entry in entries.infolist()}
-        count = len(entries.infolist())
+    with np.load(io.BytesIO(archive), allow_pickle=False) as entries:
+        arrays = {name: entries[name] for name in entries.files}
     label = json.loads(str(arrays.pop(LABEL)))
-    if label != {"format": FORMAT, "key": key, "arrays": _listed(arrays)} or count != len(arrays) + 1:
+    if label != {"format": FORMAT, "key": key, "arrays": _listed(arrays)}:
         raise ValueError("the archive is not what its label says")
     return arrays
-
-
-def _array(entry: bytes) -> NDArray[np.float64]:
-    """One array, which must fill its entry: the header of a damaged file may promise any size."""
-    begin = HEADER + int.from_bytes(entry[HEADER - 2 : HEADER], "little")
-    shape, column_major, dtype = _header(entry[:begin])
-    if dtype.hasobject or dtype.itemsize * math.prod(shape) != len(entry) - begin:
-        raise ValueError("the array is not as long as its header says")
-    array: NDArray[np.float64] = np.frombuffer(entry, dtype, offset=begin)
-    return array.reshape(shape, order="F" if column_major else "C").copy(order="K")
-
-
-@lru_cache(maxsize=10_000)
-def _header(begin: bytes) -> tuple[tuple[int, ...], bool, np.dtype[Any]]:
-    """Shape, whether in the order of columns, and type: one parsing for all files that have the same."""
-    stream = io.BytesIO(begin)
-    if np.lib.format.read_magic(stream) != (1, 0):
-        raise ValueError("another version of the format of arrays")
-    shape, column_major, dtype = np.lib.format.read_array_header_1_0(stream)
-    if stream.tell() != len(begin):
-        raise ValueError("the header of the array is not as long as it says")
-    return shape, column_major, dtype

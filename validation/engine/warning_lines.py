@@ -19,8 +19,3 @@ def one_line_warnings() -> Iterator[None]:
         yield
     finally:
         warnings.formatwarning = before
-
-
-def in_a_worker() -> None:
-    """The same in a process that does nothing else."""
-    warnings.formatwarning = as_one_line

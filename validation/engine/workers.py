@@ -1,14 +1,14 @@
 """Worker processes of this machine: one queue for all that is at work, first come first served."""
 
 import threading
+import warnings
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, ThreadPoolExecutor
-from types import TracebackType
 from typing import ParamSpec, TypeVar
 
 from validation.engine.termination import RESUME_NOTE, WorkerLostError
-from validation.engine.warning_lines import in_a_worker
+from validation.engine.warning_lines import as_one_line
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -35,9 +35,7 @@ class Workers:
     def __enter__(self) -> "Workers":
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         if error is not None:
             self.end()
         if isinstance(error, BrokenExecutor):
@@ -47,13 +45,16 @@ class Workers:
             ) from None
 
     def submit(self, function: Callable[P, R], *arguments: P.args, **named: P.kwargs) -> Future[R]:
-        """A call on a worker, or here and now where there is one alone."""
+        """A call on a worker, or here and now where there is one alone; its error is that of the future."""
         if self._over:
             raise CancelledError("the workers have been ended")
         if self.count > 1:
             return self._pool().submit(function, *arguments, **named)
         future = Future[R]()
-        future.set_result(function(*arguments, **named))
+        try:
+            future.set_result(function(*arguments, **named))
+        except Exception as error:
+            future.set_exception(error)
         return future
 
     def ahead(self, jobs: Sequence[Callable[[], R]]) -> Iterator[Future[R]]:
@@ -62,8 +63,7 @@ class Workers:
         Jobs that hand their work to these workers and wait for it; with one worker, one after the other.
         """
         if self.count == 1:
-            for job in jobs:
-                yield _done(job)
+            yield from (self.submit(job) for job in jobs)
             return
         # an exception ends the workers first, so that no thread waits for them
         with ThreadPoolExecutor(AHEAD) as threads, self:
@@ -96,15 +96,10 @@ class Workers:
             from joblib.externals import loky  # where processes are needed: it takes a tenth of a second
 
             pool: Executor = loky.get_reusable_executor(
-                max_workers=self.count, timeout=IDLE, env=ONE_THREAD, initializer=in_a_worker
+                max_workers=self.count,
+                timeout=IDLE,
+                env=ONE_THREAD,
+                initializer=setattr,
+                initargs=(warnings, "formatwarning", as_one_line),
             )
         return pool
-
-
-def _done(job: Callable[[], R]) -> Future[R]:
-    future = Future[R]()
-    try:
-        future.set_result(job())
-    except Exception as error:
-        future.set_exception(error)
-    return future

@@ -10,7 +10,7 @@ from typing import Any
 
 import scipy.stats  # noqa: F401  # with most of scipy, before threads import its parts at once
 
-from validation.analysis.case import Case, Profile
+from validation.analysis.case import Profile
 from validation.analysis.contents import as_csv, as_json, csv_name
 from validation.analysis.evidence import Evidence
 from validation.engine.convergence import NotConvergedError, as_not_converged
@@ -24,11 +24,11 @@ from validation.report.documentation import documentation_beside
 from validation.report.durations import expected_seconds
 from validation.report.figures import drawing
 from validation.report.folder import REALISATIONS, RESULTS, Folder
-from validation.report.kept import PROVENANCE, kept_provenance, kept_sections
+from validation.report.kept import DATA, PROVENANCE, kept_provenance, kept_sections
 from validation.report.page import pages, scene_summary
 from validation.report.pictures import FIGURES, Pictures
 from validation.report.provenance import provenance, with_kept
-from validation.report.section import Section, numbers_table, results_of
+from validation.report.section import Section, numbers_table, results_of, written_tables
 from validation.report.sounds import sound_files
 from validation.scenes.dynamic_wheel import WheelScene
 
@@ -72,10 +72,11 @@ def build(
         pictures = Pictures(processes, shown.parts[FIGURES], profile)
         for section in kept:
             pictures.draw(section)
-        settings = {name: _case(name).settings(profile, seed, scene) for name in names}
+        cases = CASES | TIMED
+        settings = {name: cases[name].settings(profile, seed, scene) for name in names}
 
         def run(name: str) -> Any:
-            return _case(name).run(settings[name], replace(engine, shared=processes, progress=shown.parts[name]))
+            return cases[name].run(settings[name], replace(engine, shared=processes, progress=shown.parts[name]))
 
         sections = []
         for name, result in _results(names, run, processes, pictures):
@@ -83,16 +84,14 @@ def build(
             pictures.draw(sections[-1])
             with shown.aside():
                 callback(sections[-1])
-        about = _provenance(sections, profile, engine, shown)
+        seeds = {section.name: section.settings["seed"] for section in sections if "seed" in section.settings}
+        worked = {section.name: shown.parts[section.name].worked for section in sections}
+        about = provenance(profile, seeds, engine, worked)
         if kept:
             about = with_kept(about, before, kept)
-            sections = sorted([*sections, *kept], key=lambda section: list(CASES | TIMED).index(section.name))
+            sections = sorted([*sections, *kept], key=lambda section: list(cases).index(section.name))
         folder.replace(_files(sections, pictures.found(), profile, about, scene, documentation_beside(out)))
     return sections
-
-
-def _case(name: str) -> Case:
-    return TIMED[name] if name in TIMED else CASES[name]
 
 
 def _results(
@@ -107,7 +106,7 @@ def _results(
 
 
 def _section(name: str, settings: Any, result: Future[Any], progress: Part) -> Section:
-    case, began = _case(name), time.perf_counter()
+    case, began = (CASES | TIMED)[name], time.perf_counter()
     of = partial(Section, name, case, case.model_needed(settings), asdict(settings))
     try:
         with as_not_converged():
@@ -131,13 +130,6 @@ def _lost(progress: Part) -> tuple[str, ...]:
     return tuple(f"{doing}: {count} did not converge" for doing, count in progress.lost.items() if count)
 
 
-def _provenance(sections: Sequence[Section], profile: Profile, engine: Engine, progress: Progress) -> dict[str, object]:
-    seeds = {section.name: section.settings["seed"] for section in sections if "seed" in section.settings}
-    return provenance(
-        profile, seeds, engine, {section.name: progress.parts[section.name].worked for section in sections}
-    )
-
-
 def _files(
     sections: Sequence[Section],
     pictures: Mapping[str, bytes],
@@ -150,13 +142,13 @@ def _files(
 
     pictures: SVG of each figure; about: its provenance; documentation: its address, or empty.
     """
-    files: dict[str, bytes] = {}
-    files |= {f"{FIGURES}/{name}.svg": picture for name, picture in pictures.items()}
+    files = {f"{FIGURES}/{name}.svg": picture for name, picture in pictures.items()}
     for section in sections:
         files |= section.files
     files[PROVENANCE] = as_json(about)
     # times differ from run to run: the results are to be the same to the byte without them
     lasting = [section for section in sections if section.name not in TIMED]
+    timed = [section for section in sections if section.name in TIMED]
     # the statements of the book are about its own scene
     more: dict[str, object] = (
         {"chapter 14": chapter_results(lasting), "when MDR is enough": plain(answered_questions(lasting))}
@@ -164,15 +156,11 @@ def _files(
         else {"scene": scene_summary(scene)}
     )
     files[RESULTS] = as_json(results_of(lasting, profile) | more)
-    timed = [section for section in sections if section.name in TIMED]
-    for section in timed:
-        files[f"{section.name}.json"] = as_json(results_of([section], profile))
+    files |= {f"{section.name}.json": as_json(results_of([section], profile)) for section in timed}
     about = {**about, "timed": [section.name for section in timed], "documentation": documentation}
     return files | pages(sections, profile, about, scene)
 
 
 def _data_files(name: str, evidence: Evidence) -> dict[str, bytes]:
-    """CSV of all tables of a case but the one that is played, which its WAV files hold."""
-    played = evidence.sounds.table if evidence.sounds else None
-    shown = [table for table in evidence.tables if table.name != played]
-    return {f"data/{csv_name(name, table.name)}": as_csv(table) for table in [*shown, numbers_table(evidence.numbers)]}
+    tables = [*written_tables(evidence), numbers_table(evidence.numbers)]
+    return {f"{DATA}/{csv_name(name, table.name)}": as_csv(table) for table in tables}

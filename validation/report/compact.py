@@ -21,8 +21,6 @@ PROPERTY = re.compile(r'(clip-path|style)="([^"]*)"')
 RULES_END = "</style>"
 MARK = re.compile(r'<use href="(#\w+)"(?: x="([^"]*)")?(?: y="([^"]*)")? class="(\w+)"/>\n')
 CLIPPED = re.compile(r"\.(\w+)\{[^}]*clip-path")
-PIECE = re.compile(r"([MLQCZz])([^MLQCZz]*)")
-FINE = re.compile(r"\.\d{3}")
 FEW = 3
 """Marks that are as short one by one."""
 
@@ -32,8 +30,7 @@ def compact(svg: str) -> str:
     svg = UNUSED.sub("<g>", REMARK.sub("", svg)).replace(LINK, "href=").replace(SPACE, "")
     svg = PATH.sub(lambda path: COMMAND.sub(r"\1", path.group()).strip(), svg)
     svg = INDENTATION.sub("\n", DECIMALS.sub(_printed, svg))
-    svg = _marked(_ungrouped(_classed(_renamed(PLACED.sub(_place, svg)))))
-    return PATH.sub(_relative, svg)
+    return _marked(_ungrouped(_classed(_renamed(PLACED.sub(_place, svg)))))
 
 
 def _printed(number: re.Match[str]) -> str:
@@ -105,30 +102,3 @@ def _mark_of(line: str) -> tuple[str, str]:
     """Which mark a line draws, and how it looks; two empty words where it draws none."""
     found = MARK.fullmatch(line)
     return (found[1], found[4]) if found else ("", "")
-
-
-def _relative(path: re.Match[str]) -> str:
-    """Each point from the last one, which takes fewer digits and rounds nothing: all are whole hundredths."""
-    if FINE.search(path.group()):
-        return path.group()
-    pieces: list[str] = []
-    here = start = (0, 0)
-    for command, numbers in PIECE.findall(path.group()):
-        if command in "Zz":
-            pieces.append("z")
-            here = start
-            continue
-        values = [round(100 * float(number)) for number in numbers.split()]
-        points = list(zip(values[::2], values[1::2], strict=True))
-        pieces.append(
-            command.lower() + " ".join(_short(to - at) for point in points for to, at in zip(point, here, strict=True))
-        )
-        here = points[-1]
-        start = here if command == "M" else start
-    return "".join(pieces).replace(" -", "-")
-
-
-def _short(hundredths: int) -> str:
-    """Without zeros that say nothing."""
-    number = f"{hundredths / 100:.2f}".rstrip("0").rstrip(".")
-    return re.sub(r"^(-?)0\.", r"\1.", number)

@@ -1,25 +1,21 @@
 """The figures of `compare`: spectra with their error, or one number of each model, side by side."""
 
-import io
 from collections.abc import Sequence
 from typing import Any
 
 import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from validation.analysis.evidence import Table
 from validation.report.compared_sweep import draw_sweep
-from validation.report.style import MARKERS, SETTINGS, Style, curve, in_two_lines, pdf, plain_figure, svg, tick
+from validation.report.style import FORMATS, MARKERS, SETTINGS, Style, curve, in_two_lines, picture, plain_figure, tick
 from validation.selection.compare import Comparison, OneOrSeveral, listed
 from validation.selection.exported import by_quantity, table_of_several
-from validation.selection.several import selected_of_several
 from validation.selection.side_by_side import shown_models
 
-FORMATS = ("svg", "png", "pdf")
 TICKS = 12
 """Wavelengths on the axis, at the most."""
 NAME = 48
@@ -36,7 +32,7 @@ def to_figure(comparison: OneOrSeveral, *, form: str = "svg") -> bytes:
     Parameters
     ----------
     comparison : Comparison or list of Comparison
-        What `compare` returns; of a list a panel a quantity, with the selected model of each scene.
+        What `compare` returns; of a list a panel a quantity, of a sweep or with the selected model of each scene.
     form : str, optional
         "svg", "png" or "pdf".
 
@@ -56,17 +52,9 @@ def to_figure(comparison: OneOrSeveral, *, form: str = "svg") -> bytes:
     >>> picture[1:4]
     b'PNG'
     """
-    return figure_of(listed(comparison), form)
-
-
-def figure_of(comparisons: Sequence[Comparison], form: str) -> bytes:
-    """A panel a quantity, in one of the `FORMATS`: models of a scene, a sweep, or the selected ones of several scenes.
-
-    The same bytes for the same comparisons. Raises ValueError for another form.
-    """
     if form not in FORMATS:
         raise ValueError(f"form must be one of {', '.join(FORMATS)}, got {form!r}")
-    panels = list(by_quantity(comparisons).values())
+    panels = list(by_quantity(listed(comparison)).values())
     with matplotlib.rc_context(SETTINGS):
         heights = [_height(found) for found in panels]
         figure = Figure(figsize=(7.0, sum(heights)), layout="constrained")
@@ -80,13 +68,8 @@ def figure_of(comparisons: Sequence[Comparison], form: str) -> bytes:
             axes.set_title(in_two_lines(title), loc="left")
             spectra = found[0].is_level and np.isfinite(table["wavelength_mm"]).all()
             (_spectra if spectra and len(table["model"]) else _numbers)(axes, table)
-    return written(figure, form)
-
-
-def written(figure: Figure, form: str) -> bytes:
-    """In one of the `FORMATS`."""
     plain_figure(figure)
-    return {"svg": svg, "pdf": pdf, "png": _png}[form](figure)
+    return picture(figure, form)
 
 
 def _is_sweep(found: Sequence[Comparison]) -> bool:
@@ -104,13 +87,21 @@ def _shown(found: Sequence[Comparison]) -> tuple[str, Table]:
     """Title and rows, of spectra in the order in which curves are drawn."""
     one, table = found[0], table_of_several(found)
     if len(found) > 1:
-        return one.quantity, selected_of_several(table)
+        return one.quantity, _selected(table)
     title = f"{one.scene.name}: {one.quantity}"
     if not one.is_level or not one.selection.solved:
         return title, table
     order = shown_models(one)
     rows = sorted(range(len(table["model"])), key=lambda row: order.index(str(table["model"][row])))
     return title, Table(table.name, {name: [column[row] for row in rows] for name, column in table.columns.items()})
+
+
+def _selected(table: Table) -> Table:
+    """The selected model of each scene alone, named by its scene."""
+    selected = table.where(selected=True)
+    # a label that begins with _ is left out of a legend
+    names = [f" {name}" if name.startswith("_") else name for name in map(str, selected.columns["scene"])]
+    return Table(table.name, {**selected.columns, "model": names, "selected": [False] * len(names)})
 
 
 def _spectra(axes: Axes, table: Table) -> None:
@@ -158,9 +149,3 @@ def _numbers(axes: Axes, table: Table) -> None:
     axes.set_yticks(range(len(names)), names)
     axes.set_ylim(len(names) - 0.4, -0.6)
     axes.set_xlabel(f"{table.name} [{table['unit'][0]}]" if names else "no model has a result with a known error")
-
-
-def _png(figure: Figure) -> bytes:
-    buffer = io.BytesIO()
-    FigureCanvasAgg(figure).print_png(buffer, metadata={"Software": None})  # type: ignore[no-untyped-call]
-    return buffer.getvalue()

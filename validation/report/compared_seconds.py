@@ -6,10 +6,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from validation.analysis.evidence import Table
-from validation.report.compared import written
-from validation.report.style import GUIDE, SETTINGS, Style, in_two_lines
+from validation.report.style import GUIDE, SETTINGS, Style, in_two_lines, picture, plain_figure
 from validation.selection.compare import Comparison
-from validation.selection.speed_accuracy import speed_and_accuracy
+from validation.selection.side_by_side import speed_and_accuracy
 
 KINDS: dict[str, Style] = {
     "reference, its own error": {"color": "#000000", "marker": "*", "markersize": 9},
@@ -19,8 +18,8 @@ KINDS: dict[str, Style] = {
 BARS: Style = {"linestyle": "none", "capsize": 3, "elinewidth": 0.6}
 ROOM = 1.6
 """Factor by which the axis of errors goes on below the smallest."""
-LINE, WIDE = 10.0, 4.0
-"""Height of a line of labels, and about the width of a letter [points]."""
+LINE = 10.0
+"""Height of a label [points]."""
 
 
 def figure_over_seconds(comparison: Comparison, form: str) -> bytes:
@@ -38,14 +37,16 @@ def figure_over_seconds(comparison: Comparison, form: str) -> bytes:
         axes.axhline(limit, label=f"tolerance, {comparison.tolerance}", **GUIDE)
         _draw(axes, table)
         figure.legend(loc="lower center", ncols=4)
-    return written(figure, form)
+    plain_figure(figure)
+    return picture(figure, form)
 
 
 def _draw(axes: Axes, table: Table) -> None:
     shown = np.where(table["is_reference"] | ~(table["error"] > 0), table["high"], table["error"])
     positive = np.concatenate([shown, table["low"]])
     least = float(np.min(positive[positive > 0], initial=np.inf)) / ROOM
-    kinds = _kinds(table)
+    reference_kind, mdr, other = KINDS
+    kinds = np.where(table["is_reference"], reference_kind, np.where(table["is_mdr"], mdr, other))
     for kind, style in KINDS.items():
         mine = kinds == kind
         y, low, high = shown[mine], np.maximum(table["low"][mine], least), table["high"][mine]
@@ -63,35 +64,22 @@ def _draw(axes: Axes, table: Table) -> None:
     _label(axes, table["seconds"][seen], shown[seen], table["model"][seen].tolist())
 
 
-def _kinds(table: Table) -> np.ndarray:
-    """Of each model."""
-    reference, mdr, other = KINDS
-    return np.where(table["is_reference"], reference, np.where(table["is_mdr"], mdr, other))
-
-
 def _label(axes: Axes, x: np.ndarray, y: np.ndarray, names: list[str]) -> None:
-    """Each name beside its point, moved up or down until it lies on no other."""
+    """Each name beside its point, towards the middle, a line above the one below it at the least."""
     points = 72 / axes.figure.dpi * axes.transData.transform(np.column_stack([x, y]))
-    right = 72 / axes.figure.dpi * axes.bbox.x1
-    taken = [(px - 4, px + 4, py) for px, py in points]
-    for (px, py), at, name in zip(points, zip(x, y, strict=True), names, strict=True):
-        wide = WIDE * len(name)
-        begin = px + 8 if px + 8 + wide < right else px - 8 - wide
-        steps = sorted(range(-12, 13), key=abs)
-        free = (n for n in steps if not any(_meet(begin, begin + wide, py + n * LINE, other) for other in taken))
-        shift = LINE * next(free, 0)
-        taken.append((begin, begin + wide, py + shift))
+    middle = 36 / axes.figure.dpi * (axes.bbox.x0 + axes.bbox.x1)
+    heights = {"left": -np.inf, "right": -np.inf}
+    for i in np.argsort(points[:, 1]):
+        side = "left" if points[i, 0] < middle else "right"
+        up = max(0.0, heights[side] + LINE - points[i, 1])
+        heights[side] = points[i, 1] + up
         axes.annotate(
-            name,
-            at,
-            xytext=(begin - px, shift),
+            names[i],
+            (x[i], y[i]),
+            xytext=(8 if side == "left" else -8, up),
             textcoords="offset points",
+            ha=side,
             va="center",
             fontsize=7.5,
-            arrowprops={"arrowstyle": "-", "linewidth": 0.4, "color": "#888888"} if shift else None,
+            arrowprops={"arrowstyle": "-", "linewidth": 0.4, "color": "#888888"} if up else None,
         )
-
-
-def _meet(begin: float, end: float, height: float, other: tuple[float, float, float]) -> bool:
-    """Whether a label lies on what is there."""
-    return begin < other[1] and end > other[0] and abs(height - other[2]) < LINE

@@ -2,8 +2,7 @@
 
 import itertools
 import math
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 
 import numpy as np
@@ -26,21 +25,10 @@ SAME = 10**0.05
 """Ratio of wavelengths within one band, at the most."""
 
 
-@dataclass(frozen=True)
-class SweepPanel:
-    """What it shows of a comparison, by the name of a model."""
-
-    title: str
-    label: str
-    interval: Callable[[Comparison, str], Interval]
-
-
-@dataclass(frozen=True)
-class Line:
-    """name: of a model, or of a scene by its selected model; points: a comparison and the name of its model each."""
-
-    name: str
-    points: list[tuple[Comparison, str]]
+Points = list[tuple[Comparison, str]]
+"""Of a line: comparisons of a sweep, each with the name of its model."""
+SweepPanel = tuple[str, str, Callable[[Comparison, str], Interval]]
+"""Title, label, and what it shows of a comparison by a model."""
 
 
 def draw_sweep(figure: SubFigure, found: Sequence[Comparison], most: int) -> None:
@@ -48,14 +36,14 @@ def draw_sweep(figure: SubFigure, found: Sequence[Comparison], most: int) -> Non
     scenes = list(dict.fromkeys(one.swept.scene for one in found if one.swept))
     title = f"{scenes[0]}: {found[0].quantity}" if len(scenes) == 1 else found[0].quantity
     figure.suptitle(in_two_lines(title), x=0.01, ha="left", fontsize=9)
-    lines, panels = list(_lines(found, scenes)), list(_panels(found))
+    lines, panels = _lines(found, scenes), list(_panels(found))
     columns = 2 if len(panels) > 1 else 1
     axes = figure.subplots(max(1, math.ceil(len(panels) / columns)), columns, sharex=True, squeeze=False).flat
     for axis, panel in itertools.zip_longest(axes, panels):
         if panel is None:
             axis.set_axis_off()
         else:
-            _draw(axis, panel, lines[:most])
+            _draw(axis, panel, dict(list(lines.items())[:most]))
     if not lines:
         axes[0].set_title("no model has a result", loc="left")
         return
@@ -65,51 +53,52 @@ def draw_sweep(figure: SubFigure, found: Sequence[Comparison], most: int) -> Non
     figure.legend(*named, loc="outside lower center", ncols=2, title=others, title_fontsize=8)
 
 
-def _draw(axes: Axes, panel: SweepPanel, lines: Sequence[Line]) -> None:
-    swept = [one.swept for one, _ in lines[0].points if one.swept]
-    numbers = all(isinstance(of.value, float) for of in swept)
-    texts = list(dict.fromkeys(str(of.value) for of in swept))
-    for i, line in enumerate(lines):
-        values = [one.swept.value for one, _ in line.points if one.swept]
-        x = np.array(values if numbers else [texts.index(str(value)) for value in values], dtype=np.float64)
-        order = np.argsort(x, kind="stable")
-        value, low, high = np.array([panel.interval(*point) for point in line.points])[order].T
-        axes.plot(x[order], value, label=in_two_lines(line.name, 48), **{"marker": ".", **curve(i)})
-        axes.fill_between(x[order], low, high, color=curve(i)["color"], alpha=0.12, linewidth=0)
-        edges = {"color": curve(i)["color"], "linestyle": curve(i)["linestyle"], "linewidth": 0.5}
-        axes.plot(x[order], np.column_stack([low, high]), **edges)
+def _draw(axes: Axes, panel: SweepPanel, lines: Mapping[str, Points]) -> None:
+    title, label, interval = panel
+    swept = {name: [one.swept for one, _ in points if one.swept] for name, points in lines.items()}
+    first = next(iter(swept.values()))
+    numbers = all(isinstance(of.value, float) for of in first)
+    texts = list(dict.fromkeys(str(of.value) for of in first))
+    for i, (name, points) in enumerate(lines.items()):
+        values = [of.value if numbers else texts.index(str(of.value)) for of in swept[name]]
+        order = np.argsort(values, kind="stable")
+        x = np.array(values, dtype=np.float64)[order]
+        value, low, high = np.array([interval(*point) for point in points])[order].T
+        style = curve(i)
+        axes.plot(x, value, label=in_two_lines(name, 48), **{"marker": ".", **style})
+        axes.fill_between(x, low, high, color=style["color"], alpha=0.12, linewidth=0)
+        edges = {"color": style["color"], "linestyle": style["linestyle"], "linewidth": 0.5}
+        axes.plot(x, np.column_stack([low, high]), **edges)
     if not numbers:
         axes.set_xticks(range(len(texts)), texts)
         axes.margins(x=0.2)
     elif x.min() > 0 and x.max() >= DECADE * x.min():
         axes.set_xscale("log")
         tick(axes, x)
-    axes.set_title(panel.title, loc="left")
-    axes.set_xlabel(swept[0].label)
-    axes.set_ylabel(panel.label)
+    axes.set_title(title, loc="left")
+    axes.set(xlabel=first[0].label, ylabel=label)
 
 
-def _lines(found: Sequence[Comparison], scenes: Sequence[str]) -> Iterator[Line]:
+def _lines(found: Sequence[Comparison], scenes: Sequence[str]) -> dict[str, Points]:
     """Models of one scene, those first that are shown of its first value; of several scenes their selected models."""
     if len(scenes) > 1:
-        for scene in scenes:
-            yield Line(scene, [(one, one.model) for one in found if one.swept and one.swept.scene == scene])
-        return
-    for name in dict.fromkeys(name for one in found if one.selection.solved for name in shown_models(one)):
-        yield Line(name, [(one, name) for one in found])
+        return {s: [(one, one.model) for one in found if one.swept and one.swept.scene == s] for s in scenes}
+    return {
+        name: [(one, name) for one in found] for each in found if each.selection.solved for name in shown_models(each)
+    }
 
 
 def _panels(found: Sequence[Comparison]) -> Iterator[SweepPanel]:
     """None where a spectrum has no answer."""
     label = f"{found[0].quantity} [{found[0].unit}]"
     if not found[0].is_level:
-        yield SweepPanel("", label, partial(_at, wave=None))
+        yield "", label, partial(_at, wave=None)
         return
     force = all(contact_force(one) for one in found)
     if force:
-        yield SweepPanel("contact force at a constant height", "A-weighted [dB re 1 N]", _force)
+        yield "contact force at a constant height", "A-weighted [dB re 1 N]", _force
     for wave in _changing(found, PANELS - force):
-        yield SweepPanel(f"{wave:.4g} mm", label, partial(_at, wave=wave))
+        yield f"{wave:.4g} mm", label, partial(_at, wave=wave)
 
 
 def _at(comparison: Comparison, name: str, wave: float | None) -> Interval:

@@ -1,11 +1,10 @@
 """The report folder, and how values are written in it."""
 
-import hashlib
 import os
 from collections.abc import Mapping
 from contextlib import ExitStack
 from pathlib import Path
-from types import TracebackType
+from typing import Self
 
 from validation.engine.files import (
     ERRORS_OF_A_PATH,
@@ -25,7 +24,7 @@ SOUNDS = "sounds"
 ROOMS = ("figures", "data", SOUNDS, REALISATIONS)
 
 
-class Folder:
+class Folder(ExitStack):
     """A folder that holds a report, or nothing yet, for one run at a time: a context manager.
 
     Made if need be; a link to a folder is followed. What its list names was written by a report: nothing else in it is
@@ -37,10 +36,10 @@ class Folder:
 
     def __init__(self, path: Path, *, kind: str = KIND, option: str = "--out"):
         """kind: of report, which replaces no other kind; option: that names the path, for messages."""
+        super().__init__()
         self.path, self.kind, self.option = path, kind, option
-        self._open = ExitStack()
 
-    def __enter__(self) -> "Folder":
+    def __enter__(self) -> Self:
         try:
             with ExitStack() as opening:
                 self._listed()
@@ -49,7 +48,7 @@ class Folder:
                 # once more, now that no other run writes here; the list comes before anything else, so that a killed
                 # run can continue
                 self._list(self._listed())
-                self._open = opening.pop_all()
+                self.enter_context(opening.pop_all())
         except OSError as error:
             if error.errno not in ERRORS_OF_A_PATH:
                 raise
@@ -57,11 +56,6 @@ class Folder:
                 f"{self.option} must be a folder that can be written, got {self.path}: {error.strerror}"
             ) from None
         return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self._open.close()
 
     def replace(self, contents: Mapping[str, bytes]) -> None:
         """Put a report in the place of the one before: all of it, or nothing where the disk is full.
@@ -111,8 +105,9 @@ class Folder:
         _check_rooms(folder)
         listed = listed_in(folder, self.kind)
         for name, digests in listed.items():
-            if is_there(folder / name) and not (is_plain(folder / name) and _digest(folder / name) in digests):
-                raise ValueError(f"{folder / name} has been changed since the report was written: move it away")
+            place = folder / name
+            if is_there(place) and not (is_plain(place) and digest_of(place.read_bytes()) in digests):
+                raise ValueError(f"{place} has been changed since the report was written: move it away")
         return listed
 
     def _sweep(self) -> None:
@@ -130,8 +125,3 @@ def _check_rooms(folder: Path) -> None:
             raise ValueError(f"{room} must be a folder of the report's own, got a link or a file: move it away")
         if is_there(room) and not os.access(room, os.W_OK | os.X_OK):
             raise ValueError(f"{room} must be a folder that can be written")
-
-
-def _digest(file: Path) -> str:
-    with file.open("rb") as contents:
-        return hashlib.file_digest(contents, "sha256").hexdigest()

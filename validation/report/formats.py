@@ -1,17 +1,44 @@
-"""How values, verdicts and the status of claims are written on the page: the filters of its templates."""
+"""How values, verdicts and the status of claims are written on a page: the filters of the templates."""
 
 import re
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+from typing import NamedTuple
 
+import jinja2
 from markupsafe import Markup, escape
 
-from validation.analysis.evidence import ClaimStatus, JudgedClaim, Verdict, VerdictCell
+from validation.analysis.evidence import ClaimStatus, JudgedClaim, Table, Verdict, VerdictCell
 
 SYMBOL = {"agree": "✓", "differ": "≠", "undecided": "?"}
+LETTER = {Verdict.AGREE: "A", Verdict.DIFFER: "D", Verdict.UNDECIDED: "?"}
 STATUS_SYMBOL = {"holds": "✓", "holds within limits": "(✓)", "contradicted": "✗", "open": "?"}
 """Each status also has a border of its own, so that it is known without colour."""
 NO_STEADY_ANSWER = Markup('<span class="verdict undecided">? no steady answer</span>')
 PANEL = re.compile(r"^\([a-z]\)(, \([a-z]\))* ")
 SENTENCE_END = re.compile(r"(?<=[.;]) (?=[A-Z(])")
+
+
+def templates(*, unsteady: bool = False) -> jinja2.Environment:
+    """Those beside this file, with the filters below. unsteady: no verdict is printed."""
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(Path(__file__).parent / "templates"),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters |= {
+        "format_cell": partial(format_cell, unsteady=unsteady),
+        "format_status": partial(format_status, unsteady=unsteady),
+        "format_counts": format_counts,
+        "format_field": format_field,
+        "map_of": map_of,
+        "capitalized": capitalized,
+    }
+    environment.globals["zip"] = zip
+    return environment
 
 
 def format_verdict(verdict: str, *, unsteady: bool = False) -> Markup:
@@ -45,6 +72,35 @@ def format_cell(cell: object, *, unsteady: bool = False) -> Markup:
     badge = format_verdict(cell.verdict, unsteady=unsteady)
     after = f"; {cell.after}" if cell.after else ""
     return Markup("{}<br>{}{}").format(cell.text, badge, after)
+
+
+def format_field(cell: object) -> Markup:
+    """A cell of a map: the letter of its verdict, a dash where it has none."""
+    letter, kind = (LETTER[cell.verdict], str(cell.verdict)) if isinstance(cell, VerdictCell) else ("–", "none")
+    return Markup('<td class="{}" title="{}">{}</td>').format(kind, str(cell), letter)
+
+
+class VerdictMap(NamedTuple):
+    """heads: names of the columns that place a row; columns: those of verdicts; rows: places, then cells; summary: how
+    many cells have each verdict."""
+
+    heads: tuple[str, ...]
+    columns: tuple[str, ...]
+    rows: list[tuple[Sequence[object], Sequence[object]]]
+    summary: str
+
+
+def map_of(table: Table) -> VerdictMap | None:
+    """None for a table that has fewer than two columns of verdicts, or a single row: it is read faster as it stands."""
+    cells = {name: [cell for cell in column if isinstance(cell, VerdictCell)] for name, column in table.columns.items()}
+    names, judged = tuple(cells), tuple(name for name, some in cells.items() if some)
+    if len(judged) < 2 or len(table.columns[judged[0]]) < 2 or names[0] in judged:
+        return None
+    heads = names[: names.index(judged[0])]
+    rows = zip(*(zip(*(table.columns[name] for name in some), strict=True) for some in (heads, judged)), strict=True)
+    found = [cell.verdict for some in cells.values() for cell in some]
+    summary = ", ".join(f"{found.count(verdict)} {verdict}" for verdict in Verdict if verdict in found)
+    return VerdictMap(heads, judged, list(rows), summary)
 
 
 def first_sentence(text: str) -> str:

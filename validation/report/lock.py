@@ -6,9 +6,10 @@ import os
 import socket
 import stat
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from datetime import datetime
 from pathlib import Path
+from typing import Any
 
 from validation.engine.files import with_path_in_errors
 
@@ -27,7 +28,8 @@ def locked(folder: Path) -> Iterator[None]:
     file, where it cannot be written.
     """
     path = folder / LOCK
-    handle = _taken(path)
+    while (handle := _taken(path)) is None:
+        pass
     try:
         yield
     finally:
@@ -35,71 +37,53 @@ def locked(folder: Path) -> Iterator[None]:
         os.close(handle)
 
 
-def _taken(path: Path) -> int:
-    while True:
+def _taken(path: Path) -> int | None:
+    """The file, locked and signed; None where its last holder has removed it meanwhile."""
+    folder, host = path.parent, socket.gethostname()
+    with ExitStack() as given_up:
         handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC, 0o644)
+        given_up.callback(os.close, handle)
         try:
-            if _held(handle, path):
-                return handle
-        except BaseException:
-            os.close(handle)
-            raise
-        os.close(handle)
-
-
-def _held(handle: int, path: Path) -> bool:
-    """Lock the file and sign it; False where its last holder has removed it meanwhile."""
-    foreign = ValueError(f"{path} is not the lock of a run: move it away, or name another folder")
-    if not stat.S_ISREG(os.fstat(handle).st_mode):
-        raise foreign
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        raise ValueError(
-            f"{path.parent} is being written by {_holder(_content(handle))}: wait for it, or name another folder"
-        ) from None
-    except OSError as error:
-        raise ValueError(f"{path.parent} must be on a file system that has locks: {error.strerror}") from None
-    try:
-        if not os.path.samestat(os.fstat(handle), path.lstat()):
-            return False
-    except FileNotFoundError:
-        return False
-    content = _content(handle)
-    if content:
-        signed = _signature(content)
-        if signed is None:
-            raise foreign
-        if signed["host"] != socket.gethostname():
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
             raise ValueError(
-                f"{path.parent} is being written by {_holder(content)}, on another host: wait for it, or remove {path} "
-                "if it is over"
+                f"{folder} is being written by {_holder(_signature(handle, path))}: wait for it, or name another folder"
+            ) from None
+        except OSError as error:
+            raise ValueError(f"{folder} must be on a file system that has locks: {error.strerror}") from None
+        try:
+            if not os.path.samestat(os.fstat(handle), path.lstat()):
+                return None
+        except FileNotFoundError:
+            return None
+        signed = _signature(handle, path)
+        if signed.get("host", host) != host:
+            raise ValueError(
+                f"{folder} is being written by {_holder(signed)}, on another host: wait for it, or remove {path} if it "
+                "is over"
             )
-    since = datetime.now().astimezone().isoformat(" ", timespec="seconds")
-    signature = {"kind": KIND, "host": socket.gethostname(), "process": os.getpid(), "since": since}
-    with with_path_in_errors(path):
-        os.ftruncate(handle, 0)
-        os.pwrite(handle, json.dumps(signature).encode(), 0)
-    return True
+        since = datetime.now().astimezone().isoformat(" ", timespec="seconds")
+        signature = {"kind": KIND, "host": host, "process": os.getpid(), "since": since}
+        with with_path_in_errors(path):
+            os.ftruncate(handle, 0)
+            os.pwrite(handle, json.dumps(signature).encode(), 0)
+        given_up.pop_all()
+    return handle
 
 
-def _content(handle: int) -> bytes:
-    return os.pread(handle, 4096, 0)
-
-
-def _signature(content: bytes) -> dict[str, object] | None:
-    """Host, process and time of the run that wrote a lock; None where the content is no lock."""
+def _signature(handle: int, path: Path) -> dict[str, Any]:
+    """Host, process and time of a run, empty before it has signed. Raises ValueError for a file that is no lock."""
     try:
-        signature = json.loads(content)
-    except (ValueError, RecursionError):
-        return None
-    if not isinstance(signature, dict) or signature.get("kind") != KIND:
-        return None
-    return {name: signature.get(name) for name in ("host", "process", "since")}
+        if not stat.S_ISREG(os.fstat(handle).st_mode):
+            raise ValueError("no plain file")
+        signature = json.loads(os.pread(handle, 4096, 0) or "{}")
+        if signature and signature["kind"] != KIND:
+            raise ValueError("of another kind")
+        return {name: signature[name] for name in ("host", "process", "since")} if signature else {}
+    except (ValueError, TypeError, LookupError, RecursionError):
+        raise ValueError(f"{path} is not the lock of a run: move it away, or name another folder") from None
 
 
-def _holder(content: bytes) -> str:
-    signed = _signature(content)
-    if signed is None:
-        return "another run"
-    return f"process {signed['process']} on {signed['host']} since {signed['since']}"
+def _holder(signed: dict[str, Any]) -> str:
+    said = "process {process} on {host} since {since}"
+    return said.format(**signed) if signed else "another run"

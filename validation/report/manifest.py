@@ -3,7 +3,7 @@
 import hashlib
 import json
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 
 from validation.engine.files import read_plain
@@ -22,7 +22,7 @@ Listed = Mapping[str, tuple[str, ...]]
 
 
 def as_manifest(listed: Listed, kind: str = KIND) -> bytes:
-    files = {name: list(digests) for name, digests in listed.items()}
+    files = {name: sorted(digests) for name, digests in listed.items()}
     return (json.dumps({"kind": kind, "format": FORMAT, "files": files}, indent=1, sort_keys=True) + "\n").encode()
 
 
@@ -48,5 +48,4 @@ def digest_of(contents: bytes) -> str:
 
 def both(before: Listed, after: Listed) -> Listed:
     """Files that may be in the folder while one report replaces another."""
-    names: Iterable[str] = {**before, **after}
-    return {name: tuple(dict.fromkeys((*before.get(name, ()), *after.get(name, ())))) for name in names}
+    return {name: tuple({*before.get(name, ()), *after.get(name, ())}) for name in before.keys() | after.keys()}

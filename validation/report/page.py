@@ -1,23 +1,19 @@
 """The pages of a report: the front page and one a chapter, made of sections by the templates beside it."""
 
 from collections.abc import Sequence
-from functools import partial
-from pathlib import Path
-
-import jinja2
 
 from validation.analysis.case import Chapter, Profile
-from validation.report import formats
 from validation.report.answers.first_screen import MAP, answered_questions
 from validation.report.chapter import ERRATA, chapter_of
+from validation.report.formats import templates
 from validation.report.page_figure import figures_of
 from validation.report.provenance import kept_from
 from validation.report.section import Section, answer_of, total_of
 from validation.report.sounds import sound_place
-from validation.report.verdict_map import map_of
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import WheelScene
 
+FRONT = "index.html"
 FEW_FINDINGS = 2
 """Conclusions of a case that are read before unfolding."""
 
@@ -32,9 +28,6 @@ def scene_summary(scene: WheelScene) -> dict[str, object]:
     }
 
 
-FRONT = "index.html"
-
-
 def pages(
     sections: Sequence[Section], profile: Profile, about: dict[str, object], scene: WheelScene | None
 ) -> dict[str, bytes]:
@@ -44,8 +37,8 @@ def pages(
     in_order = [section for _, some in chapters for section in some]
     figures = figures_of(in_order, unsteady=unsteady)
     places = {section.name: section.place for section in sections}
-    environment = _environment(unsteady)
-    environment.filters["place_of"] = places.__getitem__
+    environment = templates(unsteady=unsteady)
+    environment.filters |= {"place_of": places.__getitem__, "answer_of": answer_of, "sound_place": sound_place}
     environment.globals |= {
         "front": FRONT,
         "sections": sections,
@@ -60,7 +53,6 @@ def pages(
         "few_findings": FEW_FINDINGS,
         "about": about,
         "kept": kept_from(about),
-        "zip": zip,
         "scene": scene_summary(scene) if scene else None,
         "unsteady": unsteady,
     }
@@ -71,25 +63,3 @@ def pages(
     # the front page last: it leads to all others
     made[FRONT] = environment.get_template("front.html").render()
     return {name: (text + "\n").encode() for name, text in made.items()}
-
-
-def _environment(unsteady: bool) -> jinja2.Environment:
-    """unsteady: no verdict is printed."""
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(__file__).parent / "templates"),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters |= {
-        "format_cell": partial(formats.format_cell, unsteady=unsteady),
-        "format_verdict": partial(formats.format_verdict, unsteady=unsteady),
-        "format_status": partial(formats.format_status, unsteady=unsteady),
-        "format_counts": formats.format_counts,
-        "answer_of": answer_of,
-        "map_of": map_of,
-        "sound_place": sound_place,
-        "capitalized": formats.capitalized,
-    }
-    return environment

@@ -5,15 +5,15 @@ from dataclasses import dataclass
 from typing import Any
 
 from validation.analysis.contents import csv_name
-from validation.report.figure_tables import tables_of
+from validation.report.figures import tables_of
 from validation.report.formats import first_sentence
 from validation.report.section import Section
 
 
 @dataclass(frozen=True, kw_only=True)
 class PageFigure:
-    """number: in the order of the pages; page: where it is; finding: what it shows; caption: what it draws; tables:
-    names of those that it draws, each a CSV of its case."""
+    """number: in the order of the pages; page: where it is; finding: what it shows; caption: what it draws; data: names
+    of the CSV files that it draws."""
 
     number: int
     name: str
@@ -21,30 +21,12 @@ class PageFigure:
     page: str
     finding: str
     caption: str
-    tables: tuple[str, ...]
-
-    @property
-    def address(self) -> str:
-        return f"figures/{self.name}.svg"
+    data: tuple[str, ...]
 
     @property
     def place(self) -> str:
-        return f"{self.page}#{self.anchor}"
-
-    @property
-    def anchor(self) -> str:
         """Lasts when figures before it come or go."""
-        return f"figure-{self.name}"
-
-    @property
-    def data(self) -> tuple[str, ...]:
-        """Addresses of its CSV files."""
-        return tuple(f"data/{csv_name(self.case, table)}" for table in self.tables)
-
-    @property
-    def drawn_again_by(self) -> str:
-        """One line of Python, run in the folder of the report."""
-        return f'from validation.report.redraw import redraw; redraw(".", "{self.name}").savefig("{self.name}.pdf")'
+        return f"{self.page}#figure-{self.name}"
 
     def citation(self, about: Mapping[str, Any], profile: str) -> str:
         """about: provenance of the report, with the commits of the cases that it has kept."""
@@ -71,6 +53,6 @@ def figures_of(sections: Sequence[Section], *, unsteady: bool = False) -> dict[s
                 page=section.page,
                 finding=headlines.get(name) or first_sentence(caption),
                 caption=caption,
-                tables=tuple(table for table in tables_of(name) if section.evidence.has_table(table)),
+                data=tuple(csv_name(section.name, t) for t in tables_of(name) if section.evidence.has_table(t)),
             )
     return found

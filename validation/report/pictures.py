@@ -10,7 +10,7 @@ from validation.engine.progress import Part
 from validation.engine.workers import Workers
 from validation.report.figures import drawing
 from validation.report.section import Section
-from validation.report.style import drawn, svg
+from validation.report.style import drawn, picture
 
 FIGURES = "figures"
 """The part of a run in which they are drawn, and their folder."""
@@ -41,4 +41,4 @@ class Pictures:
 def draw_figure(name: str, evidence: Evidence, profile: Profile) -> bytes:
     """SVG of a figure, from its tables as their files have them, so that `redraw` gives the same bytes."""
     written = replace(evidence, tables=tuple(as_written(table) for table in evidence.tables))
-    return svg(drawn(drawing(name), written, profile))
+    return picture(drawn(drawing(name), written, profile))

@@ -53,22 +53,17 @@ def processor() -> str:
 def with_kept(about: dict[str, Any], before: Mapping[str, Any], kept: Sequence[Section]) -> dict[str, Any]:
     """The same with seeds, seconds and commits of the cases that are kept from a report with the provenance before."""
     names = [section.name for section in kept]
-    earlier = {
-        part: {name: value for name, value in before[part].items() if name in names} for part in ("seeds", "seconds")
+    of_both = {
+        part: {name: before[part][name] for name in before[part] if name in names} | about[part]
+        for part in ("seeds", "seconds")
     }
-    return {
-        **about,
-        **{part: found | about[part] for part, found in earlier.items()},
-        "kept": {name: before["kept"].get(name, before["commit"]) for name in names},
-    }
+    return {**about, **of_both, "kept": {name: before["kept"].get(name, before["commit"]) for name in names}}
 
 
 def kept_from(about: Mapping[str, Any]) -> dict[str, list[str]]:
     """Which cases were kept as made at each commit."""
-    found: dict[str, list[str]] = {}
-    for name, commit in about["kept"].items():
-        found.setdefault(commit, []).append(name)
-    return found
+    kept = about["kept"]
+    return {commit: [name for name in kept if kept[name] == commit] for commit in dict.fromkeys(kept.values())}
 
 
 def _commit() -> str:
@@ -76,10 +71,8 @@ def _commit() -> str:
     if not (ROOT / ".git").exists():
         return "unknown"
     try:
-        revision = _git("rev-parse", "--short", "HEAD")
-        return revision + (
-            ", changed since" if _git("status", "--porcelain", "--untracked-files=no", "--", ".", ":!reports") else ""
-        )
+        changed = _git("status", "--porcelain", "--untracked-files=no", "--", ".", ":!reports")
+        return _git("rev-parse", "--short", "HEAD") + (", changed since" if changed else "")
     except (OSError, subprocess.CalledProcessError):
         return "unknown"
 

@@ -81,14 +81,11 @@ def results_of(sections: Sequence[Section], profile: Profile) -> dict[str, objec
 def case_results(section: Section) -> dict[str, object]:
     """Everything that the page says of a case, as plain values; its tables are in files of their own."""
     return {
-        **_words(section.evidence),
+        **(_words(section.evidence) if section.evidence else {}),
         "claim": section.entry.claim,
         "claims": [
             {
-                "claim": claim.claim,
-                "status": claim.status,
-                "answer": claim.answer,
-                "limits": claim.limits,
+                **{name: getattr(claim, name) for name in ("claim", "status", "answer", "limits")},
                 "verdicts": {verdict: claim.count(verdict) for verdict in Verdict},
                 "numbers": [number.label for number in claim.numbers],
                 "confirmed by": claim.confirmed_by,
@@ -109,30 +106,31 @@ def case_results(section: Section) -> dict[str, object]:
             }
             for number in section.numbers
         ],
-        "conclusions": list(section.evidence.conclusions) if section.evidence else [],
-        "unconverged": list(section.unconverged),
+        "conclusions": section.evidence.conclusions if section.evidence else (),
+        "unconverged": section.unconverged,
     }
 
 
-def _words(evidence: Evidence | None) -> dict[str, object]:
-    """What it says beside its numbers and claims; nothing where a case failed."""
-    if evidence is None:
-        return {}
+WORDS = ("title", "finding", "method", "captions", "headlines")
+"""Of evidence, that are in its results as they are."""
+
+
+def _words(evidence: Evidence) -> dict[str, object]:
+    """What it says beside its numbers and claims."""
     return {
-        "title": evidence.title,
-        "finding": evidence.finding,
-        "tables": [t.name for t in evidence.tables if not evidence.sounds or t.name != evidence.sounds.table],
-        "method": evidence.method,
-        "figures": [
-            {"name": name, "headline": evidence.headlines.get(name, ""), "caption": caption}
-            for name, caption in evidence.captions.items()
-        ],
+        **{name: getattr(evidence, name) for name in WORDS},
+        "tables": [table.name for table in written_tables(evidence)],
         "page tables": [
             {"name": table.name, "columns": {name: list(map(_plain, cells)) for name, cells in table.columns.items()}}
             for table in evidence.page_tables
         ],
         "sounds": asdict(evidence.sounds) if evidence.sounds else None,
     }
+
+
+def written_tables(evidence: Evidence) -> list[Table]:
+    """Each a CSV file: all but the one that is played, which WAV files hold."""
+    return [table for table in evidence.tables if not evidence.sounds or table.name != evidence.sounds.table]
 
 
 def _plain(cell: object) -> object:

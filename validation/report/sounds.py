@@ -1,13 +1,13 @@
 """Sound files of a report: columns of its tables as 16 bit WAV."""
 
 import io
-from pathlib import PurePath
 
 import numpy as np
 import scipy.io.wavfile
 from numpy.typing import ArrayLike, NDArray
 
-from validation.analysis.evidence import Evidence
+from validation.analysis.evidence import Evidence, Table
+from validation.analysis.sound import Sounds
 from validation.report.folder import SOUNDS
 
 LARGEST = 2**15 - 1
@@ -22,27 +22,23 @@ def quantised(samples: ArrayLike, full_scale: float) -> NDArray[np.int16]:
     return np.rint(LARGEST / full_scale * values).astype(np.int16)
 
 
-def wav(samples: ArrayLike, *, rate: int, full_scale: float, repeats: int = 1) -> bytes:
-    """A mono file of 16 bit; rate: samples a second."""
-    buffer = io.BytesIO()
-    scipy.io.wavfile.write(buffer, rate, np.tile(quantised(samples, full_scale), repeats))
-    return buffer.getvalue()
+def wavs(sounds: Sounds, samples: Table) -> dict[str, bytes]:
+    """A mono file of 16 bit for each track, by their names."""
+    files = {}
+    for track in sounds.tracks:
+        values = quantised(samples[track.column], sounds.full_scale)
+        buffer = io.BytesIO()
+        scipy.io.wavfile.write(buffer, sounds.rate, np.tile(values, sounds.repeats))
+        files[track.name] = buffer.getvalue()
+    return files
 
 
 def sound_files(case: str, evidence: Evidence) -> dict[str, bytes]:
     """Of all sounds of a case, by the places in the report folder."""
-    sounds = evidence.sounds
-    if sounds is None:
-        return {}
-    table = evidence.table(sounds.table)
-    return {
-        sound_place(case, sound.name): wav(
-            table[sound.column], rate=sounds.rate, full_scale=sounds.full_scale, repeats=sounds.repeats
-        )
-        for sound in sounds.tracks
-    }
+    found = wavs(evidence.sounds, evidence.table(evidence.sounds.table)) if evidence.sounds else {}
+    return {sound_place(case, name): contents for name, contents in found.items()}
 
 
 def sound_place(case: str, name: str) -> str:
     """In the report folder."""
-    return PurePath(SOUNDS, f"{case}-{name}.wav").as_posix()
+    return f"{SOUNDS}/{case}-{name}.wav"

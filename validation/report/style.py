@@ -2,7 +2,7 @@
 
 import io
 import textwrap
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from typing import Any, Literal
 
@@ -10,7 +10,6 @@ import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
-from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.text import Text
@@ -38,15 +37,8 @@ def graded(i: int, count: int) -> Style:
 
 
 CURVES: tuple[Style, ...] = (
-    {"color": "#000000", "linestyle": "-", "linewidth": 2.2},
-    {
-        "color": "#0072B2",
-        "linestyle": "-",
-        "marker": "o",
-        "markersize": 5.5,
-        "markerfacecolor": "none",
-        "linewidth": 0.8,
-    },
+    {**EXACT, "linewidth": 2.2},
+    {**BEM, "linestyle": "-", "markersize": 5.5, "markerfacecolor": "none", "linewidth": 0.8},
     {"color": "#D55E00", "linestyle": "--", "marker": "s", "markersize": 3.5, "linewidth": 1.2},
     {"color": "#009E73", "linestyle": "-.", "marker": "^", "markersize": 4, "linewidth": 1.2},
     {"color": "#CC79A7", "linestyle": ":", "marker": "D", "markersize": 3.5, "linewidth": 1.4},
@@ -111,6 +103,10 @@ def visible(values: np.ndarray, *, above: float = 0.0) -> np.ndarray:
     return np.where(np.isfinite(values) & (values > above), values, np.nan)
 
 
+FORMATS = {"svg": "Date", "png": "Software", "pdf": "CreationDate"}
+"""Of pictures, each with what would make their bytes differ from one time or version to the next."""
+
+
 def plain(text: str) -> str:
     """A text of a user's in a figure, in which a $ is no mathematics."""
     return text.replace("$", r"\$")
@@ -126,19 +122,15 @@ def plain_figure(figure: Figure) -> None:
             axis.set_ticklabels([plain(label) for label in labels])
 
 
-def plain_table(table: Table) -> Table:
-    """The same with all of its texts as `plain` ones."""
-    columns = {
-        name: [plain(cell) if isinstance(cell, str) else cell for cell in column]
-        for name, column in table.columns.items()
-    }
-    return Table(table.name, columns)
-
-
 def drawn(draw: Callable[[Evidence], Figure], evidence: Evidence, profile: str) -> Figure:
     """A case's figure in this style, stamped where it is not the real size. The texts of its tables are no markup."""
+
+    def as_text(cells: Sequence[object]) -> list[object]:
+        return [plain(cell) if isinstance(cell, str) else cell for cell in cells]
+
+    tables = tuple(Table(t.name, {name: as_text(cells) for name, cells in t.columns.items()}) for t in evidence.tables)
     with matplotlib.rc_context(SETTINGS):
-        figure = draw(replace(evidence, tables=tuple(map(plain_table, evidence.tables))))
+        figure = draw(replace(evidence, tables=tables))
         engine = figure.get_layout_engine()
         if profile != "full":
             if isinstance(engine, ConstrainedLayoutEngine):
@@ -148,22 +140,9 @@ def drawn(draw: Callable[[Evidence], Figure], evidence: Evidence, profile: str) 
     return figure
 
 
-def svg(figure: Figure) -> bytes:
-    """The same bytes for the same figure."""
+def picture(figure: Figure, form: str = "svg") -> bytes:
+    """In one of the `FORMATS`: the same bytes for the same figure."""
     buffer = io.BytesIO()
     with matplotlib.rc_context(SETTINGS):
-        FigureCanvasSVG(figure).print_svg(buffer, metadata={"Date": None})  # type: ignore[no-untyped-call]
-    return compact(buffer.getvalue().decode()).encode()
-
-
-def pdf(figure: Figure) -> bytes:
-    """The same bytes for the same figure."""
-    # with its fonts, which a report has no need of, half a second
-    from matplotlib.backends.backend_pdf import FigureCanvasPdf
-
-    buffer = io.BytesIO()
-    with matplotlib.rc_context(SETTINGS):
-        FigureCanvasPdf(figure).print_pdf(  # type: ignore[no-untyped-call]
-            buffer, metadata={"CreationDate": None}
-        )
-    return buffer.getvalue()
+        figure.savefig(buffer, format=form, metadata={FORMATS[form]: None})
+    return compact(buffer.getvalue().decode()).encode() if form == "svg" else buffer.getvalue()

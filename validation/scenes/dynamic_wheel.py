@@ -1,7 +1,7 @@
 """The scene of a wheel that rolls along a rough rail: what it is made of, what follows from that, where it is read."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -9,9 +9,9 @@ from typing import Any
 
 from scipy.fft import next_fast_len
 
-from mdr.checks import count, positive
+from mdr.checks import count
 from validation.scenes.bundled import bundled, path_of
-from validation.scenes.material import Material, material_of
+from validation.scenes.material import Material, check_scene, material_of
 from validation.scenes.rail_file import is_rail
 from validation.scenes.reader import (
     FORCE,
@@ -29,14 +29,8 @@ from validation.scenes.roughness import Roughness, check_band, roughness_of
 from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
 from validation.scenes.wheel_body import Wheel, WheelOnTrack, diagnose_contact_radius
 
-KEYS = {
-    "radius": "wheel.radius",
-    "mass": "wheel.mass",
-    "load": "wheel.load",
-    "speed": "wheel.speed",
-    "distance": "simulation.distance",
-}
-"""Where what must be positive stands in a scene file."""
+KEYS = ("wheel.radius", "wheel.mass", "wheel.load", "wheel.speed", "simulation.distance")
+"""Of what must be positive."""
 MAX_POINTS = 10**9
 """Springs of a track of eight gigabytes."""
 
@@ -97,15 +91,12 @@ class WheelScene(WheelOnTrack):
     springs: int
 
     def __post_init__(self) -> None:
-        nonblank_text("name", self.name)
-        for name, key in KEYS.items():
-            positive(key, getattr(self, name))
         if not isinstance(self.material, Material):
             raise TypeError(f"material must be a Material, got {self.material!r}")
+        check_scene(self, KEYS)
         count("simulation.springs", self.springs, least=1)
-        for key, rough in (("rail.roughness", self.rail), ("wheel.roughness", self.wheel)):
-            if rough is not None:
-                check_band(key, rough)
+        for key, rough in self._rough.items():
+            check_band(key, rough)
         _check_lengths(self)
 
     @property
@@ -131,22 +122,22 @@ class WheelScene(WheelOnTrack):
     @property
     def jump(self) -> float:
         """omega = q_min v0 of the longest wave, on the rail or the wheel [rad/s]; ValueError if both are smooth."""
-        return min(rough.q_min for rough in self._rough().values()) * self.speed
+        return min(rough.q_min for rough in self._one_or_both()) * self.speed
 
     @property
     def cutoff(self) -> float:
         """omega = q_max v0 of the shortest wave, on the rail or the wheel [rad/s]; ValueError if both are smooth."""
-        return max(rough.q_max for rough in self._rough().values()) * self.speed
+        return max(rough.q_max for rough in self._one_or_both()) * self.speed
 
     @property
     def rms(self) -> float:
         """sqrt(h_rail^2 + h_wheel^2), the height of both together, zero where smooth [m]."""
-        return math.hypot(*(rough.rms for rough in (self.rail, self.wheel) if rough is not None))
+        return math.hypot(*(rough.rms for rough in self._rough.values()))
 
     @property
     def slope_along(self) -> float:
         """Root mean square slope of both together along the track [-]."""
-        return math.hypot(*(rough.slope_along for rough in (self.rail, self.wheel) if rough is not None))
+        return math.hypot(*(rough.slope_along for rough in self._rough.values()))
 
     @property
     def spacing(self) -> float:
@@ -185,23 +176,23 @@ class WheelScene(WheelOnTrack):
 
     def diagnose(self) -> tuple[str, ...]:
         """What may be wrong about this scene though it is valid, in sentences with numbers."""
-        grounds = [rough for rough in (self.rail, self.wheel) if rough is not None]
-        short = diagnose_short_waves(self.body, grounds) if grounds else ()
+        short = diagnose_short_waves(self.body, list(self._rough.values())) if self._rough else ()
         return (*_diagnose_roughness(self), *_diagnose_motion(self), *short)
 
     def no_steady_answer(self) -> str:
         """Why the motion has no level that the distance leaves alone, in a sentence; empty where it has."""
-        if self.rail is None and self.wheel is None:
-            return ""
-        return no_steady_answer(self.body, self.speed, list(self._rough().values()))
+        return no_steady_answer(self.body, self.speed, list(self._rough.values())) if self._rough else ""
 
+    @property
     def _rough(self) -> dict[str, Roughness]:
         """Each roughness, by its key in a scene file."""
         both = {"rail.roughness": self.rail, "wheel.roughness": self.wheel}
-        rough = {key: each for key, each in both.items() if each is not None}
-        if not rough:
+        return {key: each for key, each in both.items() if each is not None}
+
+    def _one_or_both(self) -> Iterable[Roughness]:
+        if not self._rough:
             raise ValueError(f"scene {self.name!r} must have a rough rail or wheel for this, got both smooth")
-        return rough
+        return self._rough.values()
 
 
 def bundled_wheels() -> tuple[str, ...]:
@@ -279,32 +270,24 @@ def _check_lengths(scene: WheelScene) -> None:
     most = MAX_POINTS * a / max(distance, circumference)
     if scene.springs > most:
         raise ValueError(f"simulation.springs must be at most {most:.0f} on such a track, got {scene.springs}")
-    if scene.rail is not None:
-        _check_waves("rail.roughness", scene.rail, scene, period=scene.length)
-    if scene.wheel is not None:
-        _check_waves("wheel.roughness", scene.wheel, scene, period=scene.circumference_points * scene.spacing)
-
-
-def _check_waves(key: str, rough: Roughness, scene: WheelScene, *, period: float) -> None:
-    """Check that the springs of a track of that period carry the waves."""
-    longest, shortest = rough.longest, rough.shortest
-    if scene.distance <= longest:
-        track = f"longer than {key}.longest, {longest:g} m"
-        raise ValueError(f"simulation.distance must be {track}, got {scene.distance:g} m")
-    if shortest < 2 * scene.spacing:
-        raise ValueError(f"{key}.shortest must hold two springs, {2 * scene.spacing:g} m, got {shortest:g} m")
-    if math.floor(period / shortest) < math.ceil(period / longest):
-        raise ValueError(
-            f"{key}.shortest must leave a wave that fits a period of {period:g} m a whole number of times, "
-            f"got waves from {shortest:g} m to {longest:g} m"
-        )
+    for key, rough in scene._rough.items():
+        longest, shortest = rough.longest, rough.shortest
+        period = scene.length if key.startswith("rail") else scene.circumference_points * scene.spacing
+        if distance <= longest:
+            track = f"longer than {key}.longest, {longest:g} m"
+            raise ValueError(f"simulation.distance must be {track}, got {distance:g} m")
+        if shortest < 2 * scene.spacing:
+            raise ValueError(f"{key}.shortest must hold two springs, {2 * scene.spacing:g} m, got {shortest:g} m")
+        if math.floor(period / shortest) < math.ceil(period / longest):
+            raise ValueError(
+                f"{key}.shortest must leave a wave that fits a period of {period:g} m a whole number of times, "
+                f"got waves from {shortest:g} m to {longest:g} m"
+            )
 
 
 def _diagnose_roughness(scene: WheelScene) -> Iterator[str]:
     circumference = 2 * math.pi * scene.radius
-    for key, rough in (("rail.roughness", scene.rail), ("wheel.roughness", scene.wheel)):
-        if rough is None:
-            continue
+    for key, rough in scene._rough.items():
         springs, waves = rough.shortest / scene.spacing, scene.distance / rough.longest
         if springs < MIN_SPRINGS_PER_WAVE:
             few = f"{springs:.3g} springs, fewer than {MIN_SPRINGS_PER_WAVE}"

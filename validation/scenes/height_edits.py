@@ -1,18 +1,60 @@
-"""What is done to measured heights where it is asked for: the central square cut out, single points filled in."""
+"""Heights that somebody measured: all of them known, or where it is asked for cropped, and single points filled in."""
 
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
-
-from validation.scenes.known_heights import check_known, check_not_infinite
+from numpy.typing import ArrayLike, NDArray
 
 FloatArray = NDArray[np.float64]
 
+BY_HAND = "cut out a part that is known, or fill them in from their neighbours"
+"""What to do about points without data where nothing here does it."""
 MOST_FILLED = 0.01
 """Of the points without data: a larger part is no longer a detail of the surface."""
 SQUARE = 1e-6
 """By how much both sides of a square may differ, over one of them."""
+
+
+def real_numbers(height: ArrayLike) -> FloatArray:
+    """Real numbers, NaN where they are masked."""
+    try:
+        values = np.asarray(height)
+    except ValueError:
+        raise ValueError("heights must be a regular array of numbers, got rows of different length") from None
+    if values.dtype.kind not in "fiu":
+        raise TypeError(f"heights must be real numbers, got dtype {values.dtype}")
+    numbers = values.astype(np.float64)
+    if isinstance(height, np.ma.MaskedArray):
+        numbers[np.ma.getmaskarray(height)] = np.nan
+    return numbers
+
+
+def check_not_infinite(values: FloatArray) -> None:
+    """Raises ValueError for heights that are infinite."""
+    if (infinite := np.isinf(values)).any():
+        raise ValueError(
+            f"heights must be finite, got {_counted(infinite, 'infinite')}: a point without data is nan, not infinite"
+        )
+
+
+def check_known(values: FloatArray, advice: str = BY_HAND) -> None:
+    """Raises ValueError for points without data. advice: the end of the sentence."""
+    if (unknown := np.isnan(values)).any():
+        found = _counted(unknown, "without data (NaN or masked)")
+        raise ValueError(f"heights must be known everywhere, got {found}: {advice}")
+
+
+def _counted(places: NDArray[np.bool_], what: str) -> str:
+    count, first = int(places.sum()), np.argwhere(places)[0].tolist()
+    return f"{count} of {places.size} ({100 * count / places.size:.3g} %) {what}, the first at {first}"
+
+
+def known_heights(height: ArrayLike) -> FloatArray:
+    """Real numbers, all of them there. Raises ValueError for masked ones and ones that are not finite, or TypeError."""
+    values = real_numbers(height)
+    check_not_infinite(values)
+    check_known(values)
+    return values
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,24 +96,9 @@ class HeightEdits:
 UNTOUCHED = HeightEdits()
 
 
-def edited(
-    height: FloatArray, spacing: tuple[float, float], *, crop: bool, fill: bool, asked_by: str
-) -> tuple[FloatArray, HeightEdits]:
-    """The heights as they were asked for, and what was done.
-
-    The square is cut out first, so that points without data count in it alone. asked_by: how fill is asked for.
-    Raises ValueError for infinite heights, for points without data that are not to be filled in, and for `MOST_FILLED`
-    of them and more.
-    """
-    part = central_square(height, spacing) if crop else height
-    count, share = _to_fill(part, fill=fill, asked_by=asked_by)
-    done = HeightEdits(filled=count, share=share, cropped_from=None if part.shape == height.shape else height.shape)
-    return filled_in(part, spacing) if count else part, done
-
-
 def edited_lines(height: FloatArray, *, fill: bool, asked_by: str) -> tuple[FloatArray, HeightEdits]:
-    """The same of lines, shape (points, lines), which are filled in by interpolation along each."""
-    count, share = _to_fill(height, fill=fill, asked_by=asked_by)
+    """Lines, shape (points, lines), filled in by interpolation along each if asked for, and what was done."""
+    count, share = points_to_fill(height, fill=fill, asked_by=asked_by)
     found = np.stack([_filled_line(line) for line in height.T], axis=1) if count else height
     return found, HeightEdits(filled=count, share=share)
 
@@ -83,8 +110,12 @@ def _filled_line(line: FloatArray) -> FloatArray:
     return np.asarray(mean + np.interp(at, at[known], (line - mean)[known]))
 
 
-def _to_fill(height: FloatArray, *, fill: bool, asked_by: str) -> tuple[int, float]:
-    """How many points have no data, and their share. Raises ValueError where they are not to be filled in."""
+def points_to_fill(height: FloatArray, *, fill: bool, asked_by: str) -> tuple[int, float]:
+    """How many points have no data, and their share. asked_by: how fill is asked for.
+
+    Raises ValueError for infinite heights, for points without data that are not to be filled in, and for `MOST_FILLED`
+    of them and more.
+    """
     check_not_infinite(height)
     unknown = np.isnan(height)
     count, share = int(unknown.sum()), float(unknown.mean()) if height.size else 0.0

@@ -6,10 +6,9 @@ from typing import Literal
 
 from mdr.checks import positive
 from validation.scenes.height_edits import SQUARE
-from validation.scenes.material import Material, check_modulus
+from validation.scenes.material import Material, check_scene
 from validation.scenes.measured import MeasuredHeights, check_points
 from validation.scenes.printable import shortened
-from validation.scenes.reader import nonblank_text
 from validation.scenes.roughness import Roughness, RoughSurface, check_band
 from validation.scenes.units import in_unit
 from validation.theory import closed_forms
@@ -62,13 +61,10 @@ class IndentationScene:
     material: Material | None = None
 
     def __post_init__(self) -> None:
-        nonblank_text("name", self.name)
         if self.shape not in ("sphere", "punch"):
             raise ValueError(f'shape must be "sphere" or "punch", got {self.shape!r}')
         positive("sphere.radius" if self.shape == "sphere" else "punch.side", self.size)
-        positive(f"{self.shape}.load", self.load)
-        positive("modulus", self.modulus)
-        check_modulus(self.modulus, self.material)
+        check_scene(self, (f"{self.shape}.load",))
         if isinstance(self.ground, Roughness):
             self._check_waves(self.ground)
         elif self.ground is not None:

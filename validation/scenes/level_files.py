@@ -8,13 +8,12 @@ from numpy.typing import NDArray
 
 from validation.analysis.nominal_bands import nominal_wavelength
 from validation.scenes.column_names import RADIANS, WAVENUMBERS
-from validation.scenes.measured_surface import metres_of
-from validation.scenes.number_table import FORM, NumberTable, TableForm, file_of
+from validation.scenes.number_table import NumberTable
 from validation.scenes.printable import printable, quoted
 from validation.scenes.reader import LENGTH, NUMBER, Reader, key_in_errors, nonblank_text, one_of, table
 from validation.scenes.roughness_levels import RoughnessLevels
-from validation.scenes.table_files import PLAIN, read_table, sentence_about
-from validation.scenes.units import UNITS, quantity
+from validation.scenes.table_files import FORM, read_table, sentence_about, table_beside
+from validation.scenes.units import UNITS, metres_of, quantity
 
 CURVES = Path(__file__).parent / "levels"
 COLUMNS = "wavelength [mm],level [dB re 1 um]"
@@ -33,7 +32,8 @@ def curve(name: str) -> RoughnessLevels:
     """The levels of a bundled curve: "iso3095-2013" or "cnossos-average". Raises ValueError for another name."""
     if name not in curve_names():
         raise ValueError(f"curve must be one of {', '.join(curve_names())}, got {quoted(name)}")
-    return read_levels("curve", CURVES / f"{name}.csv", source=name)[0]
+    path = CURVES / f"{name}.csv"
+    return _levels_of("curve", path, read_table("curve", path), source=name)[0]
 
 
 def levels_in(name: str, given: object, *, folder: Path, told: list[str]) -> RoughnessLevels:
@@ -50,8 +50,8 @@ def levels_in(name: str, given: object, *, folder: Path, told: list[str]) -> Rou
     found = table(readers, tuple(readers), name, given)
     one_of(found, name, ("curve", "file"))
     if "file" in found:
-        path, form = file_of(found, folder)
-        levels, notes = read_levels(f"{name}.file", path, form, unit=found.get("unit"))
+        path, numbers = table_beside(name, found, folder)
+        levels, notes = _levels_of(f"{name}.file", path, numbers, unit=found.get("unit"))
         told += sentence_about(path, notes)
     elif others := [key for key in found if key not in ("curve", "offset", "longest", "shortest")]:
         raise ValueError(f"{name}.{others[0]} must be left out beside a curve, got it with {quoted(found['curve'])}")
@@ -61,15 +61,13 @@ def levels_in(name: str, given: object, *, folder: Path, told: list[str]) -> Rou
         return levels.raised(found["offset"]) if "offset" in found else levels
 
 
-def read_levels(
-    name: str, path: Path, form: TableForm = PLAIN, *, unit: str | None = None, source: str = ""
+def _levels_of(
+    name: str, path: Path, table: NumberTable, *, unit: str | None = None, source: str = ""
 ) -> tuple[RoughnessLevels, tuple[str, ...]]:
     """Levels of a file, in any order of long to short waves, and what was assumed of it, in sentences.
 
-    unit: of the wavelengths, where their column does not name it. Raises OSError for a file that cannot be read,
-    ValueError for one that holds no levels; both name it.
+    unit: of the wavelengths, where their column does not name it. Raises ValueError for a file that holds no levels.
     """
-    table = read_table(name, path, form)
     try:
         of_wave, of_level = _both(table, unit)
         known = np.isfinite(table.values[:, [of_wave, of_level]]).all(axis=1)

@@ -8,11 +8,10 @@ from typing import Any
 
 from validation.scenes.bundled import bundled, path_of
 from validation.scenes.dynamic_wheel import wheel_of
-from validation.scenes.height_files import heights_of
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.material import Material, material_of
 from validation.scenes.measured import MeasuredHeights
-from validation.scenes.measured_surface import measured
+from validation.scenes.measured_surface import heights_of, measured
 from validation.scenes.printable import printable
 from validation.scenes.rail import RailScene
 from validation.scenes.rail_file import is_rail, rail_of

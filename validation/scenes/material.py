@@ -1,11 +1,12 @@
 """Whose modulus it is: the contact modulus E* of two bodies, and how it came about."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 from mdr.checks import finite, positive
 from validation.scenes.printable import quoted
-from validation.scenes.reader import NUMBER, PRESSURE, Reader, table
+from validation.scenes.reader import NUMBER, PRESSURE, Reader, nonblank_text, table
 from validation.scenes.units import in_unit
 
 OTHERS = ("youngs_modulus", "poisson_ratio", "counterface")
@@ -96,8 +97,7 @@ class Material:
             return "given directly"
         if isinstance(self.counterface, Elastic):
             return f"a body of {self._body} on one of {self.counterface}"
-        other = "the other body is rigid" if self.counterface == "rigid" else "two equal bodies"
-        return f"{other}, {self._body}"
+        return f"{'the other body is rigid' if self.counterface == 'rigid' else 'two equal bodies'}, {self._body}"
 
     @property
     def _body(self) -> Elastic:
@@ -131,10 +131,21 @@ def material_of(name: str, given: object) -> Material:
     return Material(**table(readers, tuple(readers), name, given))
 
 
-def check_modulus(modulus: float, material: Material | None) -> None:
-    """Raises ValueError where a contact modulus [Pa] is not that of its material."""
-    if material is not None and material.modulus != modulus:
-        raise ValueError(f"modulus must be that of the material, {material.modulus:g} Pa, got {modulus:g} Pa")
+def check_scene(scene: Any, keys: Sequence[str], optional: Sequence[str] = ()) -> None:
+    """Its name, what must be positive, by the keys of a scene file, and E*, which must be that of its material.
+
+    Raises ValueError or TypeError. optional: keys of values that may be None.
+    """
+    nonblank_text("name", scene.name)
+    for key in (*keys, *optional):
+        value = getattr(scene, key.rpartition(".")[2])
+        if value is not None or key in keys:
+            positive(key, value)
+    positive("modulus", scene.modulus)
+    if scene.material is not None and scene.material.modulus != scene.modulus:
+        raise ValueError(
+            f"modulus must be that of the material, {scene.material.modulus:g} Pa, got {scene.modulus:g} Pa"
+        )
 
 
 BODY: dict[str, Reader] = {"youngs_modulus": PRESSURE, "poisson_ratio": NUMBER}

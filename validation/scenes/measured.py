@@ -10,8 +10,7 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.checks import positive
-from validation.scenes.height_edits import UNTOUCHED, HeightEdits
-from validation.scenes.known_heights import known_heights
+from validation.scenes.height_edits import UNTOUCHED, HeightEdits, known_heights
 from validation.scenes.units import in_unit
 
 FloatArray = NDArray[np.float64]

@@ -1,18 +1,24 @@
-"""Measured lines along a rail, one or several side by side, and their levels."""
+"""Measured lines along a rail, one or several side by side: their levels, and the files that have them."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mdr.checks import finite, positive
 from validation.analysis.nominal_bands import NominalBands
-from validation.scenes.known_heights import known_heights
+from validation.scenes.height_edits import edited_lines, known_heights
 from validation.scenes.measured import MeasuredHeights
+from validation.scenes.number_table import NumberTable
+from validation.scenes.positions import Places, metres_of_step, own_spacing, places_of, runs_one_way
+from validation.scenes.printable import shortened
+from validation.scenes.reader import LENGTH, Reader, key_in_errors, nonblank_text, table, yes_or_no
 from validation.scenes.roughness_levels import LEAST, MICROMETRE, RoughnessLevels
-from validation.scenes.units import in_unit
+from validation.scenes.table_files import FORM, heights_of_columns, sentence_about, table_beside
+from validation.scenes.units import LENGTHS, in_unit, quantity, unit_of
 
 FloatArray = NDArray[np.float64]
 
@@ -113,3 +119,141 @@ class MeasuredLines:
             shown = [in_unit(value, "length") for value in (positive("shortest", self.shortest), self.spacing)]
             raise ValueError(f"shortest must be {POINTS_PER_WAVE} points or more, {shown[1]} apart, got {shown[0]}")
         _ = self.bands
+
+
+# Of a file in a scene
+
+
+MOSTLY = 0.9
+"""Of the rows of a column of places, at the least, that have one."""
+
+
+def lines_in(name: str, given: object, *, folder: Path, told: list[str]) -> MeasuredLines:
+    """Of a table in a scene file: the file beside it, and how to read it. told: takes what was assumed of it."""
+    readers: dict[str, Reader] = {
+        "file": nonblank_text,
+        "spacing": LENGTH,
+        "unit": unit_of,
+        "positions": _positions,
+        "longest": LENGTH,
+        "shortest": LENGTH,
+        "fill": yes_or_no,
+        **FORM,
+    }
+    found = table(readers, tuple(readers)[1:], name, given)
+    path, numbers = table_beside(name, found, folder)
+    with key_in_errors(name):
+        count = len(found["positions"]) if "positions" in found else None
+        height, spacing, notes = _along_the_track(numbers, found.pop("unit", None), found.pop("spacing", None), count)
+        if count is None and height.shape[1] > 1:
+            raise ValueError(
+                f"positions is missing: the file has {height.shape[1]} lines, whose places across the rail are needed, "
+                'as: positions = ["-10 mm", "0 mm"]'
+            )
+        height, edits = edited_lines(height, fill=found.pop("fill", False), asked_by="fill = true")
+        if count == height.shape[1]:
+            order = np.argsort(found["positions"], kind="stable")
+            found["positions"], height = np.array(found["positions"])[order].tolist(), height[:, order]
+        measured = MeasuredLines(height=height, spacing=spacing, **found)
+        if not np.ptp(measured.height, axis=0).any():
+            raise ValueError("file must have heights that differ along a line, got zeros alone, or one other number")
+        try:
+            _ = measured.levels  # heights in a wrong unit are refused here, by their levels
+        except ValueError as problem:
+            raise ValueError(f'{problem} As: unit = "um"') from None
+    told += [*sentence_about(path, (*numbers.notes, *notes)), *edits.notes]
+    return measured
+
+
+def _along_the_track(
+    numbers: NumberTable, metre: float | None, spacing: float | None, count: int | None = None
+) -> tuple[FloatArray, float, tuple[str, ...]]:
+    """Heights of shape (points, lines) [m] in the order of their places, their spacing [m], and what was assumed.
+
+    metre, spacing: as given; count: how many lines there are, if it is known. Raises ValueError that begins with a key.
+    """
+    numbers, spacing = _as_columns(numbers, metre, spacing)
+    places, left_out = _kinds(numbers, count) if len(numbers.columns) > 1 else ({}, {})
+    rest = [i for i in range(len(numbers.columns)) if i not in left_out]
+    if not rest:
+        raise ValueError(f"file must have heights beside places, got {numbers.names(sorted(left_out))} alone")
+    notes = [f"{numbers.names([i])} {why} and is left out" for i, why in sorted(left_out.items()) if i not in places]
+    height = heights_of_columns(numbers, rest, metre)
+    if not places:
+        if spacing is None:
+            raise ValueError(
+                'spacing is missing: no column of the file runs evenly, as places do, as: spacing = "1 mm"'
+            )
+        return height, spacing, tuple(notes)
+    ((at, place),) = places.items()
+    name = numbers.names([at])
+    step = metres_of_step(place.step, numbers.columns[at].unit, spacing, name)
+    lines = f"{numbers.names(rest)} {'is a line' if len(rest) == 1 else 'are lines'}"
+    notes.append(f"{name} is the place along the track, {in_unit(step, 'length')} apart, and {lines}")
+    if count not in (None, len(rest)):
+        raise ValueError(f"positions must be one a line, got {count} for {len(rest)}: {notes[-1]}")
+    whole = np.full((int(place.number[-1]) + 1, len(rest)), np.nan)
+    whole[place.number] = height[np.isfinite(numbers.values[:, at])]
+    if place.gaps:
+        notes.append(f"{place.gaps} of its places have no row")
+    return whole[:: -1 if place.step < 0 else 1], step, tuple(notes)
+
+
+def _as_columns(numbers: NumberTable, metre: float | None, spacing: float | None) -> tuple[NumberTable, float | None]:
+    """A column a line, and the spacing that is given, or that of an instrument. Raises ValueError."""
+    values = numbers.values
+    if values.ndim == 1 or (values.ndim == 2 and len(values) == 1):
+        numbers = replace(numbers, values=values.reshape(-1, 1), columns=(), spacing=None)
+    if numbers.values.ndim != 2:
+        raise ValueError(f"file must have a column a line, got an array of shape {shortened(values.shape)}")
+    alone = numbers.values.shape[1] == 1
+    if numbers.spacing is not None and not alone:
+        raise ValueError("file must have lines, got heights over an area: they belong to [rail.heights]")
+    if alone and places_of(numbers.values[:, 0]):
+        raise ValueError("file must have heights, got one column that runs evenly, as places do")
+    return numbers, spacing if numbers.spacing is None else own_spacing(numbers, metre, [spacing])[0]
+
+
+def _kinds(numbers: NumberTable, count: int | None) -> tuple[dict[int, Places], dict[int, str]]:
+    """The column of places, if any, and why columns are no lines. Raises ValueError."""
+    places: dict[int, Places] = {}
+    constant: dict[int, str] = {}
+    one_way = []
+    for i in range(len(numbers.columns)):
+        values = numbers.values[np.isfinite(numbers.values[:, i]), i]
+        if values.size < MOSTLY * len(numbers.values):
+            continue
+        if found := places_of(values):
+            places[i] = found
+        elif runs_one_way(values):
+            one_way.append(i)
+        elif values.size and np.ptp(values) == 0:
+            constant[i] = f"is {values[0]:g} everywhere"
+    # beside places, or where all columns are told to be lines, a line may be as tilted as that
+    if one_way and not places and count != len(numbers.columns):
+        raise ValueError(
+            f"columns must be lines of heights, got {numbers.names(one_way)}, which runs one way but not evenly, as "
+            "places do that are not equally far apart: resample the lines, or leave it out by columns"
+        )
+    evenly = dict.fromkeys(places, "runs evenly")
+    lines = len(numbers.columns) - len(evenly) - len(constant)
+    return _one_place(numbers, places), {**evenly, **constant} if lines else evenly
+
+
+def _one_place(numbers: NumberTable, places: dict[int, Places]) -> dict[int, Places]:
+    """The one column of places among those that run evenly. Raises ValueError."""
+    lengths = {i: one for i, one in places.items() if numbers.columns[i].unit in LENGTHS}
+    unnamed = {i: one for i, one in places.items() if not numbers.columns[i].unit}
+    found = lengths or {i: one for i, one in unnamed.items() if not one.counts} or unnamed
+    if len(found) > 1:
+        raise ValueError(
+            f"columns must have one that runs evenly, the place along the track, got {numbers.names(sorted(found))}: "
+            "say which to read by columns"
+        )
+    return found
+
+
+def _positions(name: str, given: object) -> list[float]:
+    if not isinstance(given, list):
+        raise ValueError(f'{name} must be a list of lengths, as ["-10 mm", "0 mm"], got {shortened(given)}')
+    return [quantity(f"{name}[{i}]", one, "length") for i, one in enumerate(given)]

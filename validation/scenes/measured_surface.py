@@ -1,25 +1,23 @@
-"""Measured heights of an object that has them, and as they were asked for: cropped, filled in."""
+"""Measured heights over an area, of an object or a file that has them, as they were asked for: cropped, filled in."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
-from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mdr.checks import positive
-from validation.scenes.height_edits import edited
-from validation.scenes.known_heights import real_numbers
-from validation.scenes.measured import MeasuredHeights, check_grid
+from validation.scenes.height_edits import HeightEdits, central_square, filled_in, points_to_fill, real_numbers
+from validation.scenes.measured import FEWEST, MeasuredHeights, check_grid
+from validation.scenes.number_table import NumberTable
+from validation.scenes.positions import grid_of, metres_of_step, own_spacing, places_of
 from validation.scenes.printable import shortened
-from validation.scenes.units import UNITS
+from validation.scenes.reader import LENGTH, Reader, nonblank_text, table, yes_or_no
+from validation.scenes.table_files import FORM, heights_of_columns, sentence_about, table_beside
+from validation.scenes.units import in_unit, metres_of, unit_of
 
 FloatArray = NDArray[np.float64]
-
-SMALL = {"Å": Fraction(1, 10**10), "A": Fraction(1, 10**10), "pm": Fraction(1, 10**12)}
-"""Units of the atomic force microscope, over a metre; A is how SurfaceTopography writes Å in ASCII."""
-LENGTHS = UNITS["length"] | SMALL
 
 
 def measured(surface: Any, *, unit: str | None = None, crop: bool = False, fill: bool = False) -> MeasuredHeights:
@@ -90,20 +88,22 @@ def as_asked(
 ) -> MeasuredHeights:
     """Heights in metres, NaN where there are no data, after the edits that were asked for.
 
-    asked_by: how fill is asked for; told: what was assumed of their file. Raises ValueError as `edited` and
-    `MeasuredHeights`.
+    The square is cut out first, so that points without data count in it alone. asked_by: how fill is asked for; told:
+    what was assumed of their file. Raises ValueError as `central_square`, `points_to_fill` and `MeasuredHeights`.
     """
     check_grid(height)
-    part, done = edited(height, spacing, crop=crop, fill=fill, asked_by=asked_by)
-    return MeasuredHeights(height=part, spacing=spacing, edits=replace(done, told=told))
+    part = central_square(height, spacing) if crop else height
+    count, share = points_to_fill(part, fill=fill, asked_by=asked_by)
+    cropped = None if part.shape == height.shape else height.shape
+    edits = HeightEdits(filled=count, share=share, cropped_from=cropped, told=told)
+    return MeasuredHeights(height=filled_in(part, spacing) if count else part, spacing=spacing, edits=edits)
 
 
 def _metres(surface: Any, given: str | None) -> float:
     """The unit of a surface, as it names it or as it is given. Raises ValueError for none, and for two."""
     info = getattr(surface, "info", None)
-    unit = getattr(surface, "unit", None)
     noted = info.get("unit") if isinstance(info, Mapping) else None
-    named = {"unit": unit, "info": noted, "unit=": given}
+    named = {"unit": getattr(surface, "unit", None), "info": noted, "unit=": given}
     factors = {metres_of("unit of the surface", one) for one in named.values() if one}
     if not factors:
         raise ValueError(
@@ -115,10 +115,91 @@ def _metres(surface: Any, given: str | None) -> float:
     return factors.pop()
 
 
-def metres_of(name: str, unit: object) -> float:
-    """How many metres a unit of heights is. Raises ValueError that begins with the name."""
-    # the micro sign and the Greek letter look the same, as do the letter and the sign of an angstrom
-    found = LENGTHS.get(str(unit).strip().replace("\N{GREEK SMALL LETTER MU}", "µ").replace("\N{ANGSTROM SIGN}", "Å"))
-    if found is None:
-        raise ValueError(f"{name} must be one of {', '.join(LENGTHS)}, got {shortened(unit)}")
-    return float(found)
+# Of a file in a scene
+
+
+Spacing = tuple[float, float]
+Face = tuple[FloatArray, Spacing | None, tuple[str, ...]]
+"""Heights [m], their spacing [m] as far as it is known, and what was assumed."""
+
+
+def heights_of(name: str, given: object, *, folder: Path) -> MeasuredHeights:
+    """Of a table in a scene file: the file beside it, how to read it, spacing and unit, and what to do to the heights.
+
+    Heights that are already there are those.
+    """
+    if isinstance(given, MeasuredHeights):
+        return given
+    readers: dict[str, Reader] = {"file": nonblank_text, "spacing": _spacing, "unit": unit_of, **FORM}
+    readers |= {"crop": yes_or_no, "fill": yes_or_no}
+    found = table(readers, tuple(readers)[1:], name, given)
+    path, numbers = table_beside(name, found, folder)
+    wishes = {key: found.get(key, False) for key in ("crop", "fill")}
+    try:
+        height, known, notes = _face(numbers, found.get("unit"), found.get("spacing"))
+        if known is None:
+            raise ValueError(f'spacing is missing, {name} must have it, as: spacing = "1 um"')
+        told = sentence_about(path, (*numbers.notes, *notes))
+        return as_asked(height, known, **wishes, asked_by="fill = true", told=told)
+    except ValueError as problem:
+        separator = "." if str(problem).partition(" ")[0] in readers else ": "
+        raise ValueError(f"{name}{separator}{problem}") from None
+
+
+def _face(numbers: NumberTable, metre: float | None, spacing: Spacing | None) -> Face:
+    """Heights over an area of any of the forms of a file. Raises ValueError."""
+    values = numbers.values
+    if values.ndim != 2 or not values.size:
+        return values, spacing or (1.0, 1.0), ()
+    if numbers.spacing is not None:
+        if len(numbers.spacing) != 2:
+            raise ValueError("file must have heights over an area, got one line: it belongs to [rail.lines]")
+        dx, dy = own_spacing(numbers, metre, spacing or (None, None))
+        return heights_of_columns(numbers, range(values.shape[1]), metre), (dx, dy), ()
+    if {"x", "y", "z"} <= {column.name.lower() for column in numbers.columns}:
+        numbers = numbers.chosen(["x", "y", "z"])
+    if numbers.values.shape[1] == 3 and len(values) > FEWEST:
+        return _of_three(numbers, metre, spacing)
+    return _of_rows(numbers, metre, spacing)
+
+
+def _of_rows(numbers: NumberTable, metre: float | None, spacing: Spacing | None) -> Face:
+    """A row for each x, without its places: those of x in the first column, and of y in a first row."""
+    values, along, across = numbers.values, None, None
+    if min(values.shape) > FEWEST:
+        across = places_of(values[0, 1:]) if places_of(values[1:, 0]) else None
+        across = None if across is None or across.gaps else across
+        along = places_of(values[1 if across else 0 :, 0])
+    if along is None or along.gaps:
+        return heights_of_columns(numbers, range(values.shape[1]), metre), spacing, ()
+    axes = [(along, numbers.columns[0].unit, "first column"), *([(across, "", "first row")] if across else [])]
+    height, notes = heights_of_columns(numbers, range(1, values.shape[1]), metre)[len(axes) - 1 :], []
+    for (places, unit, what), given in zip(axes, spacing or (None, None), strict=False):
+        step = metres_of_step(places.step, unit, given, f"the {what}")
+        notes.append(f"its {what} runs evenly, {in_unit(step, 'length')} apart, and is left out of the heights")
+    return height[tuple(slice(None, None, -1 if one.step < 0 else 1) for one, _, _ in axes)], spacing, tuple(notes)
+
+
+def _of_three(numbers: NumberTable, metre: float | None, spacing: Spacing | None) -> Face:
+    """x, y and height in columns of these names, or in this order."""
+    named = [column.name.lower() for column in numbers.columns]
+    x, y = (named.index("x"), named.index("y")) if {"x", "y"} <= set(named) else (0, 1)
+    z = 3 - x - y
+    height, steps = grid_of(numbers.values[:, x], numbers.values[:, y], heights_of_columns(numbers, [z], metre)[:, 0])
+    units = [numbers.columns[i].unit for i in (x, y)]
+    dx, dy = (
+        metres_of_step(*one, numbers.names([x, y])) for one in zip(steps, units, spacing or (None, None), strict=True)
+    )
+    size = " x ".join(map(str, height.shape))
+    shown = f"{in_unit(dx, 'length')} and {in_unit(dy, 'length')}"
+    return height, (dx, dy), (f"its columns are x, y and height of {size} points, {shown} apart",)
+
+
+def _spacing(name: str, given: object) -> Spacing:
+    """One distance of points for both axes, or two."""
+    if not isinstance(given, list):
+        both: float = LENGTH(name, given)
+        return both, both
+    if len(given) != 2:
+        raise ValueError(f'{name} must be a length or two, as ["1 um", "2 um"] along x and y, got {shortened(given)}')
+    return LENGTH(f"{name}[0]", given[0]), LENGTH(f"{name}[1]", given[1])

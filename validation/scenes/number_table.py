@@ -4,32 +4,19 @@ import codecs
 import io
 import re
 from array import array
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import partial
 from itertools import chain, islice
-from pathlib import Path
-from typing import IO, Any
+from typing import IO
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mdr.checks import count, finite
+from validation.scenes import text_dialect
 from validation.scenes.column_names import Column, columns_of, unit_of_all
-from validation.scenes.printable import quoted, shortened
-from validation.scenes.reader import Reader, nonblank_text, without_unit
-from validation.scenes.text_dialect import (
-    COMMENTS,
-    STARTS,
-    Dialect,
-    about_row,
-    encoding_of,
-    lines_of,
-    recognised,
-    sample_of,
-    token,
-)
+from validation.scenes.printable import quoted
+from validation.scenes.text_dialect import COMMENTS, Dialect, about_row, token
 
 FloatArray = NDArray[np.float64]
 
@@ -92,8 +79,7 @@ class NumberTable:
         if columns is None:
             return self
         places = [self._place(column) for column in columns]
-        named = tuple(self.columns[i] for i in places)
-        return replace(self, values=self.values[:, places], columns=named)
+        return replace(self, values=self.values[:, places], columns=tuple(self.columns[i] for i in places))
 
     def _place(self, column: str | int) -> int:
         width = len(self.columns)
@@ -114,35 +100,40 @@ def table_of_text(file: IO[bytes], form: TableForm) -> NumberTable:
 
     Where columns are chosen, others may be texts.
     """
-    encoding = encoding_of(file, form.encoding)
-    if form.columns is not None:
-        with suppress(ValueError):
-            return _as_written(file, encoding, form)
-    return _as_written(file, encoding, form, numeric=None if form.columns is None else len(form.columns))
+    encoding = text_dialect.encoding_of(file, form.encoding)
+    if form.columns is None:
+        return _as_written(file, encoding, form, None)
+    with suppress(ValueError):
+        return _as_written(file, encoding, form, None)
+    return _as_written(file, encoding, form, len(form.columns))
 
 
-def _as_written(file: IO[bytes], encoding: str, form: TableForm, *, numeric: int | None = None) -> NumberTable:
+def _as_written(file: IO[bytes], encoding: str, form: TableForm, numeric: int | None) -> NumberTable:
+    """numeric: as of a `Dialect`."""
     file.seek(0)
     text, skip = io.TextIOWrapper(file, encoding=encoding), form.skip or 0
     try:
-        lines = lines_of(text)
-        sample = sample_of(lines, skip)
+        lines = text_dialect.lines_of(text)
+        sample = text_dialect.sample_of(lines, skip)
         nodata = frozenset(str(one).strip().lower() for one in form.nodata)
-        dialect, first, width = recognised(sample, skip, form.decimal, nodata, numeric)
+        dialect, first, width = text_dialect.recognised(sample, skip, form.decimal, nodata, numeric)
         values, below = _values(chain(islice(sample, first, None), lines), first, dialect, width)
     finally:
         text.detach()
     above = sample[skip:first]
     units, columns = unit_of_all(above), columns_of(above, width, dialect.delimiter)
     unit = units.pop() if len(units) == 1 and not any(column.unit for column in columns) else ""
-    notes = _how(dialect, width, _left_out(sample[:first]), encoding)
+    notes = _how(dialect, width, sample[:first], encoding)
     notes += (f"{below} {'line' if below == 1 else 'lines'} below its numbers",) if below else ()
     notes += (f"its header has the unit {unit}",) if unit else ()
+    if width > 1 and np.isnan(values[:, -1]).all() and not columns[-1].name:
+        # a delimiter at the end of each line
+        values, columns = values[:, :-1], columns[:-1]
     table = NumberTable(values=values, columns=columns, unit=unit, notes=notes)
-    return known_alone(_without_last(table), form.nodata).chosen(form.columns)
+    return known_alone(table, form.nodata).chosen(form.columns)
 
 
-def _values(lines: Any, first: int, dialect: Dialect, width: int) -> tuple[FloatArray, int]:
+def _values(lines: Iterable[str], first: int, dialect: Dialect, width: int) -> tuple[FloatArray, int]:
     """Rows, up to the first line without a number; how many lines stand below, none of which has one."""
     found, below, problem = array("d"), 0, ""
     for index, line in enumerate(lines, first):
@@ -155,20 +146,12 @@ def _values(lines: Any, first: int, dialect: Dialect, width: int) -> tuple[Float
             found.extend(dialect.numbers(cells))
         except ValueError:
             problem = problem or about_row(line, index, dialect, width)
-            if any(map(STARTS, cells)):
+            if any(map(text_dialect.STARTS, cells)):
                 raise ValueError(problem) from None
             below += 1
         if len(found) > MOST_VALUES * max(1, 3 * (width == 3)):
             raise ValueError(f"the table must hold at most {MOST_VALUES} heights, got more")
     return np.frombuffer(found, dtype=np.float64).reshape(-1, width), below
-
-
-def _without_last(table: NumberTable) -> NumberTable:
-    """Less a last column that a delimiter at the end of each line makes."""
-    values = table.values
-    if values.shape[1] > 1 and np.isnan(values[:, -1]).all() and not table.columns[-1].name:
-        return replace(table, values=values[:, :-1], columns=table.columns[:-1])
-    return table
 
 
 def known_alone(table: NumberTable, nodata: Sequence[str | float] = ()) -> NumberTable:
@@ -196,14 +179,10 @@ def _is_lonely(values: FloatArray, one: float) -> bool:
     return max(low - one, one - high) > LONELY * (high - low)
 
 
-def _left_out(lines: Sequence[str]) -> int:
-    """How many lines of a header there are that are neither blank nor comments."""
-    return sum(bool(line.strip()) and not line.strip().startswith(COMMENTS) for line in lines)
-
-
-def _how(dialect: Dialect, width: int, above: int, encoding: str) -> tuple[str, ...]:
+def _how(dialect: Dialect, width: int, header: Sequence[str], encoding: str) -> tuple[str, ...]:
     """What is not as in a plain CSV: commas, points, one line of names, UTF-8."""
     delimiter = {";": "semicolons", "\t": "tabs", "": "spaces", ",": ""}[dialect.delimiter] if width > 1 else ""
+    above = sum(bool(line.strip()) and not line.strip().startswith(COMMENTS) for line in header)
     found = [
         f"{delimiter} between its columns" if delimiter else "",
         "decimal commas" if dialect.decimal == "," else "",
@@ -212,49 +191,3 @@ def _how(dialect: Dialect, width: int, above: int, encoding: str) -> tuple[str, 
     ]
     words = ", ".join(filter(None, found))
     return (f"it has {words}",) if words else ()
-
-
-# Keys of a scene
-
-
-def file_of(found: dict[str, Any], folder: Path) -> tuple[Path, TableForm]:
-    """The file in the values of a table of a scene, and its form, which are taken out of it. folder: of the scene."""
-    return folder / found.pop("file"), TableForm(**{key: found.pop(key) for key in FORM if key in found})
-
-
-def _columns(name: str, given: object) -> tuple[str | int, ...]:
-    listed = given if isinstance(given, list) else [given]
-    if not listed or not all(isinstance(one, str | int) and not isinstance(one, bool) for one in listed):
-        raise ValueError(f'{name} must be names or numbers of columns, as ["x", "z"] or [1, 3], got {shortened(given)}')
-    return tuple(listed)
-
-
-def _nodata(name: str, given: object) -> tuple[str | float, ...]:
-    listed = given if isinstance(given, list) else [given]
-    return tuple(one if isinstance(one, str) else without_unit(finite, name, one) for one in listed)
-
-
-def _decimal(name: str, given: object) -> str:
-    if given not in (".", ","):
-        raise ValueError(f'{name} must be "." or ",", got {shortened(given)}')
-    return str(given)
-
-
-def _encoding(name: str, given: object) -> str:
-    try:
-        "".encode(codecs.lookup(nonblank_text(name, given)).name)
-    except LookupError:
-        raise ValueError(f'{name} must be an encoding, as "latin-1" or "utf-16", got {shortened(given)}') from None
-    return str(given)
-
-
-KEYS: dict[str, Reader] = {
-    "skip": partial(without_unit, partial(count, least=0)),
-    "columns": _columns,
-    "decimal": _decimal,
-    "encoding": _encoding,
-    "nodata": _nodata,
-}
-"""How each value about a table is read."""
-FORM = KEYS | {"key": nonblank_text}
-"""The same with the name of an array."""

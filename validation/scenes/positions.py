@@ -6,9 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.scenes.measured_surface import metres_of
 from validation.scenes.number_table import NumberTable
-from validation.scenes.units import UNITS, in_unit
+from validation.scenes.units import UNITS, in_unit, metres_of
 
 FloatArray = NDArray[np.float64]
 

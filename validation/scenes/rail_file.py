@@ -5,16 +5,13 @@ from pathlib import Path
 from typing import Any
 
 from mdr.checks import positive
-from validation.scenes.height_files import heights_of
 from validation.scenes.level_files import levels_in
-from validation.scenes.line_files import lines_in
 from validation.scenes.material import material_of
 from validation.scenes.measured import MeasuredHeights
-from validation.scenes.measured_lines import MeasuredLines
+from validation.scenes.measured_lines import MeasuredLines, lines_in
+from validation.scenes.measured_surface import heights_of
 from validation.scenes.printable import shortened
-from validation.scenes.profile_files import profile_in
-from validation.scenes.profiled_rail import ProfiledRail
-from validation.scenes.rail import Across, RailScene
+from validation.scenes.rail import Across, ProfiledRail, RailScene
 from validation.scenes.reader import (
     FORCE,
     LENGTH,
@@ -28,7 +25,7 @@ from validation.scenes.reader import (
     one_of,
     table,
 )
-from validation.scenes.transverse_profile import TransverseProfile, both_together, fitted_radius
+from validation.scenes.transverse_profile import TransverseProfile, both_together, profile_in
 from validation.scenes.units import in_unit, quantity
 
 OF_WHEEL = ("transverse_radius", "profile", "offset", "axle_load", "levels", "lines")
@@ -89,13 +86,12 @@ def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
         if "offset" in wheel:
             raise ValueError("wheel.offset must be left out where neither wheel nor rail has a profile, got it")
         return RailScene(**given, crown_radius=of_rail, transverse_radius=of_wheel)
-    key = "rail" if isinstance(of_rail, TransverseProfile) else "wheel"
-    with key_in_errors(key):
-        profile = _together(of_rail, of_wheel, wheel.get("offset", 0.0))
-        fitted_radius(profile, along=given["radius"], modulus=given["modulus"], load=load)
+    offset = wheel.get("offset", 0.0)
+    with key_in_errors("rail" if isinstance(of_rail, TransverseProfile) else "wheel", "profile"):
+        scene = ProfiledRail(**given, profile=_together(of_rail, of_wheel, offset), offset=offset)
     if isinstance(of_wheel, TransverseProfile):
-        _check_flange(of_wheel, profile.at - wheel.get("offset", 0.0))
-    return ProfiledRail(**given, profile=profile, offset=wheel.get("offset", 0.0))
+        _check_flange(of_wheel, scene.profile.at - offset)
+    return scene
 
 
 def _radius(wheel: dict[str, Any]) -> float:
@@ -162,10 +158,10 @@ def _both(rail: Any, wheel: Any) -> tuple[Any, tuple[str, ...]]:
 
 
 def _across(name: str, given: object) -> Across:
+    if given in ("ridges", "isotropic"):
+        return given
     if isinstance(given, str):
-        if given not in ("ridges", "isotropic"):
-            raise ValueError(f'{name} must be "ridges", "isotropic" or a number alpha, got {shortened(given)}')
-        return given  # type: ignore[return-value]  # one of the two words
+        raise ValueError(f'{name} must be "ridges", "isotropic" or a number alpha, got {shortened(given)}')
     return _alpha(name, given)
 
 

@@ -49,12 +49,12 @@ def file_named_in_errors(path: Path) -> Iterator[None]:
 
 
 @contextmanager
-def key_in_errors(name: str) -> Iterator[None]:
-    """Put the key of a scene file in front of the sentence of a ValueError."""
+def key_in_errors(name: str, of: str = "") -> Iterator[None]:
+    """Put the key of a scene file in front of the sentence of a ValueError. of: how the sentence begins."""
     try:
         yield
     except ValueError as problem:
-        raise ValueError(f"{name}.{problem}") from None
+        raise ValueError(f"{name}.{problem}" if str(problem).startswith(of) else str(problem)) from None
 
 
 def table(readers: Mapping[str, Reader], optional: tuple[str, ...], name: str, given: object) -> dict[str, Any]:

@@ -3,11 +3,9 @@
 import math
 from dataclasses import dataclass
 
-from mdr.checks import positive
 from validation.scenes.dynamic_wheel import WheelScene
-from validation.scenes.material import Material, check_modulus
+from validation.scenes.material import Material, check_scene
 from validation.scenes.measured import MeasuredHeights, check_points
-from validation.scenes.reader import nonblank_text
 from validation.scenes.roughness import RoughSurface, check_band
 from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
 from validation.scenes.wheel_body import Wheel, WheelOnTrack, diagnose_contact_radius
@@ -56,16 +54,9 @@ class RollingScene(WheelOnTrack):
     material: Material | None = None
 
     def __post_init__(self) -> None:
-        nonblank_text("name", self.name)
-        for key in ("radius", "load"):
-            positive(f"wheel.{key}", getattr(self, key))
-        positive("modulus", self.modulus)
-        check_modulus(self.modulus, self.material)
+        check_scene(self, ("wheel.radius", "wheel.load"), ("wheel.mass", "wheel.speed"))
         if (self.mass is None) != (self.speed is None):
             raise ValueError(f"wheel.mass and wheel.speed must both be given or neither, got {self.mass}, {self.speed}")
-        for key in ("mass", "speed"):
-            if getattr(self, key) is not None:
-                positive(f"wheel.{key}", getattr(self, key))
         if isinstance(self.ground, MeasuredHeights):
             self._check_measured(self.ground)
         else:
@@ -76,16 +67,8 @@ class RollingScene(WheelOnTrack):
         """Of a dynamic wheel whose rail alone is rough. Raises ValueError for another."""
         if scene.rail is None or scene.wheel is not None:
             raise ValueError(f"scene {scene.name!r} must have a rough rail and a smooth wheel to be compared")
-        return cls(
-            name=scene.name,
-            radius=scene.radius,
-            load=scene.load,
-            modulus=scene.modulus,
-            ground=scene.rail,
-            mass=scene.mass,
-            speed=scene.speed,
-            material=scene.material,
-        )
+        same = ("name", "radius", "load", "modulus", "mass", "speed", "material")
+        return cls(ground=scene.rail, **{name: getattr(scene, name) for name in same})
 
     @property
     def body(self) -> Wheel:

@@ -1,52 +1,18 @@
-"""What is rough: one protocol of a rough surface, and isotropic self-affine roughness, as scenes have it."""
+"""What is rough: isotropic self-affine roughness, as scenes have it, or measured heights."""
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar, Protocol
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mdr import SelfAffine
 from mdr.checks import positive
+from validation.scenes.measured import MeasuredHeights
 from validation.scenes.reader import LENGTH, NUMBER, Reader, table
 from validation.scenes.units import in_unit
 from validation.theory.rolling import rms_gradient, slope_in_one_direction
-
-
-class RoughSurface(Protocol):
-    """Roughness that is drawn from its spectrum, or one surface that was measured.
-
-    c2d: isotropic spectrum [m^4], zero outside of q_min to q_max [rad/m], smooth between edges; q_resolved: largest
-    wavenumber that counts; rms: height [m]; longest: wave [m]; slope_along: h', rms slope along x, in one direction;
-    hurst: None where there is none; waves: in words; is_single: whether there is one realisation.
-    """
-
-    is_single: ClassVar[bool]
-
-    @property
-    def rms(self) -> float: ...
-    @property
-    def hurst(self) -> float | None: ...
-    @property
-    def longest(self) -> float: ...
-    @property
-    def q_min(self) -> float: ...
-    @property
-    def q_max(self) -> float: ...
-    @property
-    def q_resolved(self) -> float: ...
-    @property
-    def edges(self) -> tuple[float, ...]: ...
-    @property
-    def slope_along(self) -> float: ...
-    @property
-    def waves(self) -> str: ...
-    def __hash__(self) -> int: ...
-    def c2d(self, q: ArrayLike) -> NDArray[np.float64]: ...
-    def notes(self) -> tuple[str, ...]: ...
-    def beyond_a_spectrum(self) -> tuple[str, ...]: ...
-    def not_gaussian(self) -> str: ...
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -127,6 +93,10 @@ class Roughness:
     def not_gaussian(self) -> str:
         """Its heights are Gaussian."""
         return ""
+
+
+RoughSurface = Roughness | MeasuredHeights
+"""Roughness that is drawn from its spectrum, or one surface that was measured."""
 
 
 def roughness_of(name: str, given: object) -> Roughness:

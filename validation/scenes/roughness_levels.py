@@ -1,7 +1,7 @@
 """Roughness as the field of rolling noise has it: levels in dB re 1 um of one line, over nominal wavelengths."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
 import numpy as np
@@ -9,7 +9,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from mdr.checks import finite
 from validation.analysis.nominal_bands import NominalBands
-from validation.scenes.units import in_unit
 
 FloatArray = NDArray[np.float64]
 
@@ -78,12 +77,12 @@ class RoughnessLevels:
         kept = self.bands.within(first if longest is None else longest, last if shortest is None else shortest)
         start = self.bands.longest - kept.longest
         inside = slice(start, start + len(kept))
-        return RoughnessLevels(wavelengths=self.wavelengths[inside], levels=self.levels[inside], source=self.source)
+        return replace(self, wavelengths=self.wavelengths[inside], levels=self.levels[inside])
 
     def raised(self, offset: float) -> "RoughnessLevels":
         """The same with so many dB more in each band."""
         levels = tuple(level + offset for level in self.levels)
-        return RoughnessLevels(wavelengths=self.wavelengths, levels=levels, source=f"{self.source} {offset:+g} dB")
+        return replace(self, levels=levels, source=f"{self.source} {offset:+g} dB")
 
     def __add__(self, other: "RoughnessLevels") -> "RoughnessLevels":
         """Energies of both, over these bands; where the other has no level it adds nothing."""
@@ -105,12 +104,6 @@ class RoughnessLevels:
         They are the centres of the bands and both outer edges; beyond the last centres the power goes on.
         """
         return nodes_of(self.bands, self.powers)
-
-    @property
-    def waves(self) -> str:
-        """Wavelengths, height and source, in words."""
-        longest, shortest = (in_unit(wave, "length") for wave in (self.wavelengths[0], self.wavelengths[-1]))
-        return f"{longest} to {shortest}, {self.source}"
 
 
 def power_laws(at: ArrayLike, q: FloatArray, density: FloatArray) -> FloatArray:

@@ -1,28 +1,51 @@
-"""Files with tables of numbers: texts, arrays of numpy, and what instruments write."""
+"""Files with tables of numbers, which a scene names: texts, arrays of numpy, and what instruments write."""
 
-from collections.abc import Sequence
+import codecs
+import contextlib
+import difflib
+import io
+import math
+import struct
+import warnings
+import zipfile
+import zlib
+from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
-from typing import IO
+from tokenize import TokenError
+from typing import IO, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.scenes.height_arrays import KeyOfArchiveError, array_of, array_of_archive, is_archive
+from mdr.checks import count, finite
+from validation.scenes.height_edits import real_numbers
 from validation.scenes.input_files import check_regular
-from validation.scenes.measured_surface import LENGTHS, metres_of
 from validation.scenes.number_table import MOST_VALUES, NumberTable, TableForm, known_alone, table_of_text
-from validation.scenes.printable import printable
+from validation.scenes.printable import printable, quoted, shortened
+from validation.scenes.reader import Reader, nonblank_text, without_unit
 from validation.scenes.text_dialect import NoTextError
-from validation.scenes.topographies import TEXTS, topography_of
-from validation.scenes.units import in_unit
+from validation.scenes.units import LENGTHS, in_unit, metres_of
 
 FloatArray = NDArray[np.float64]
 
 MOST_BYTES = 2**28
 """Of a file; 4096 x 4096 heights of sixteen characters."""
-ARRAYS = (".npy", ".npz")
-"""How the names of numpy's files end."""
+ARRAYS, ARCHIVE = (".npy", ".npz"), b"PK"
+"""How the names of numpy's files end, and how an .npz begins."""
+MOST_KEYS = 12
+"""Of an archive that are named in a sentence."""
+TEXTS = (".sdf",)
+"""How the names of files of instruments end that are texts, but no tables; all others are told from texts by bytes."""
+MISSING = (
+    'the format of an instrument must be read by SurfaceTopography, which is not installed: pip install "mdr-validation'
+    '[topography]", or export a table of numbers as text'
+)
 PLAIN = TableForm()
+
+
+class KeyOfArchiveError(ValueError):
+    """No array of an archive is asked for, or one that it does not have: what follows the name of the key."""
 
 
 def read_table(name: str, path: Path, form: TableForm = PLAIN) -> NumberTable:
@@ -59,15 +82,13 @@ def read_table(name: str, path: Path, form: TableForm = PLAIN) -> NumberTable:
     return known_alone(found, form.nodata).chosen(form.columns) if values.ndim == 2 and values.size else found
 
 
-def _of_text(file: IO[bytes], path: Path, form: TableForm) -> NumberTable:
-    """A text, or what an instrument wrote, which most of them write in bytes that no text has."""
-    if path.suffix.lower() not in TEXTS:
-        try:
-            return table_of_text(file, form)
-        except NoTextError:
-            if form.of_text or form.columns:
-                raise
-    return known_alone(topography_of(path), form.nodata)
+def table_beside(name: str, found: dict[str, Any], folder: Path, *, key: str = "") -> tuple[Path, NumberTable]:
+    """Of the file that a table of a scene names, which is taken out of its values with what is said about the file.
+
+    name: of the table; folder: of the scene; key: of the file, where it is no key of that table.
+    """
+    path, form = folder / found.pop("file"), TableForm(**{one: found.pop(one) for one in FORM if one in found})
+    return path, read_table(key or f"{name}.file", path, form)
 
 
 def heights_of_columns(table: NumberTable, places: Sequence[int], metre: float | None) -> FloatArray:
@@ -98,10 +119,158 @@ def sentence_about(path: Path, notes: Sequence[str]) -> tuple[str, ...]:
     return (f"{printable(path.name)}: {'; '.join(notes)}.",) if notes else ()
 
 
+def _of_text(file: IO[bytes], path: Path, form: TableForm) -> NumberTable:
+    """A text, or what an instrument wrote, which most of them write in bytes that no text has."""
+    if path.suffix.lower() not in TEXTS:
+        try:
+            return table_of_text(file, form)
+        except NoTextError:
+            if form.of_text or form.columns:
+                raise
+    return known_alone(_topography(path), form.nodata)
+
+
+# Arrays of numpy: nothing is allocated before it is known to be there
+
+
 def _array(file: IO[bytes], size: int, key: str | None, room: str) -> NDArray[np.generic]:
-    """One of numpy's, whatever the name of the file."""
-    if is_archive(file):
-        return array_of_archive(file, key, most=MOST_BYTES)
-    if key is not None:
-        raise ValueError(f"one array without a name, for which {room}.key has no use")
-    return array_of(file, size)
+    """That of an .npy, or one of an .npz, whatever the name of the file."""
+    is_archive = file.read(len(ARCHIVE)) == ARCHIVE
+    file.seek(0)
+    if not is_archive:
+        if key is not None:
+            raise ValueError(f"one array without a name, for which {room}.key has no use")
+        return _of_npy(file, size)
+    try:
+        with zipfile.ZipFile(file) as archive:
+            members = {one.filename.removesuffix(".npy"): one for one in archive.infolist() if not one.is_dir()}
+            if key not in members:
+                raise KeyOfArchiveError(_about_keys(key, list(members)))
+            size = members[key].file_size
+            if size > MOST_BYTES:
+                raise ValueError(f"an array of {size} bytes, more than {MOST_BYTES}")
+            with archive.open(members[key]) as member:
+                return _of_npy(member, size)
+    except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError, struct.error) as problem:
+        raise ValueError(f"an archive that cannot be read, {printable(problem)}") from None
+
+
+def _about_keys(key: str | None, keys: list[str]) -> str:
+    if not keys:
+        return "is of no use, the archive is empty"
+    shown = ", ".join(quoted(one) for one in keys[:MOST_KEYS])
+    more = f" and {len(keys) - MOST_KEYS} more" if len(keys) > MOST_KEYS else ""
+    meant = difflib.get_close_matches(key or "heights", keys, 1, cutoff=0.3) or keys[:1]
+    wrong = "is missing" if key is None else f"must be in the archive, got {quoted(key)}"
+    return f"{wrong}, the archive has {shown}{more}, as: key = {quoted(meant[0])}"
+
+
+def _of_npy(file: IO[bytes], size: int) -> NDArray[np.generic]:
+    """Its array, once its header is known to promise no more than the file holds."""
+    if not size:
+        raise ValueError("an empty file")
+    try:
+        version = np.lib.format.read_magic(file)
+    except ValueError:
+        raise ValueError("a file that does not begin as arrays of numpy do") from None
+    if version not in ((1, 0), (2, 0), (3, 0)):
+        raise ValueError(f"an .npy of the unknown version {version}")
+    # that of version 3 differs in names alone
+    header = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
+    try:
+        shape, _, dtype = header(file)
+    except (ValueError, TypeError, SyntaxError, TokenError, RecursionError, MemoryError):
+        # whatever a parser of Python meets in a text that is none
+        raise ValueError("a header that cannot be read") from None
+    if dtype.hasobject:
+        raise ValueError("objects in place of numbers")
+    left = size - file.tell()
+    if min(shape, default=0) < 0 or math.prod(shape) * dtype.itemsize > left:
+        raise ValueError(f"a header of {shortened(shape)} values of {dtype.itemsize} bytes, and {left} bytes")
+    file.seek(0)
+    return np.asarray(np.lib.format.read_array(file, allow_pickle=False))
+
+
+# Files of instruments, which SurfaceTopography reads where it is installed: the extra `topography`
+
+
+@contextlib.contextmanager
+def _silent() -> Iterator[None]:
+    """Some of its readers print what stands in a file that they cannot read."""
+    with (
+        contextlib.redirect_stdout(io.StringIO()),
+        contextlib.redirect_stderr(io.StringIO()),
+        warnings.catch_warnings(action="ignore"),
+    ):
+        yield
+
+
+def _topography(path: Path) -> NumberTable:
+    """Heights of the file of an instrument, with its spacing and unit as far as it has them.
+
+    Raises ValueError where SurfaceTopography is missing or cannot read the file; the sentence shows nothing of it.
+    """
+    try:
+        with _silent():
+            from SurfaceTopography.IO import open_topography
+    except ImportError:
+        raise ValueError(MISSING) from None
+    try:
+        with _silent(), open_topography(str(path)) as reader:
+            channel = reader.default_channel
+            sizes = {} if channel.physical_sizes is not None else {"physical_sizes": channel.nb_grid_pts}
+            found = reader.topography(**sizes)
+            heights = real_numbers(found.heights())
+    except Exception as problem:  # whatever a reader of forty formats meets in a file of none
+        raise ValueError(
+            f"the file must have a format that SurfaceTopography reads, got {type(problem).__name__} from it"
+        ) from None
+    if not found.is_uniform:
+        raise ValueError("points must be equally far apart, got a line of points that are not: resample it")
+    known = None if sizes else tuple(float(s) / n for s, n in zip(found.physical_sizes, heights.shape, strict=True))
+    return NumberTable(
+        values=heights if heights.ndim == 2 else heights[:, None],
+        unit=str(found.unit or ""),
+        spacing=known,
+        notes=(f"SurfaceTopography read it as {type(reader).__name__.removesuffix('Reader')}",),
+    )
+
+
+# Keys of a scene
+
+
+def _columns(name: str, given: object) -> tuple[str | int, ...]:
+    listed = given if isinstance(given, list) else [given]
+    if not listed or not all(isinstance(one, str | int) and not isinstance(one, bool) for one in listed):
+        raise ValueError(f'{name} must be names or numbers of columns, as ["x", "z"] or [1, 3], got {shortened(given)}')
+    return tuple(listed)
+
+
+def _nodata(name: str, given: object) -> tuple[str | float, ...]:
+    listed = given if isinstance(given, list) else [given]
+    return tuple(one if isinstance(one, str) else without_unit(finite, name, one) for one in listed)
+
+
+def _decimal(name: str, given: object) -> str:
+    if given not in (".", ","):
+        raise ValueError(f'{name} must be "." or ",", got {shortened(given)}')
+    return str(given)
+
+
+def _encoding(name: str, given: object) -> str:
+    try:
+        "".encode(codecs.lookup(nonblank_text(name, given)).name)
+    except LookupError:
+        raise ValueError(f'{name} must be an encoding, as "latin-1" or "utf-16", got {shortened(given)}') from None
+    return str(given)
+
+
+FORM: dict[str, Reader] = {
+    "skip": partial(without_unit, partial(count, least=0)),
+    "columns": _columns,
+    "decimal": _decimal,
+    "encoding": _encoding,
+    "nodata": _nodata,
+    "key": nonblank_text,
+}
+"""How each value about a file is read, as of a `TableForm`."""

@@ -75,36 +75,31 @@ class Dialect:
 
     def numbers(self, cells: Sequence[str]) -> list[float]:
         """Of a line. Raises ValueError for cells that are none."""
-        with suppress(ValueError):
-            # most cells are plain numbers; Python alone reads 1_000
-            if self.decimal == "." and not any("_" in cell for cell in cells):
-                return list(map(float, cells))
-            if self.decimal == "," and not any("_" in cell or "." in cell for cell in cells):
-                return [float(cell.replace(",", ".")) for cell in cells]
+        # most cells are plain numbers; Python alone reads 1_000
+        if not any("_" in cell or (self.decimal == "," and "." in cell) for cell in cells):
+            with suppress(ValueError):
+                return [float(cell.replace(self.decimal, ".")) for cell in cells]
         if self.numeric is None:
             return list(map(self.number, cells))
         found = [self.number(cell) if self.is_number(cell) else math.nan for cell in cells]
-        if sum(number == number for number in found) < self.numeric:
+        if len(found) - sum(map(math.isnan, found)) < self.numeric:
             raise ValueError
         return found
 
     def is_number(self, cell: str) -> bool:
         """Whether a cell is one, and no point without data."""
-        try:
-            found = self.number(cell)
-        except ValueError:
-            return False
-        return found == found
+        with suppress(ValueError):
+            return not math.isnan(self.number(cell))
+        return False
 
     def row(self, line: str, *, known: bool = True) -> int:
         """How many columns a line of numbers has, 0 if it is none. known: whether one at least must have data."""
         if self.delimiter == self.decimal and '"' not in line:
             return 0
         cells = self.cells(line)
-        try:
-            return len(cells) if any(number == number for number in self.numbers(cells)) or not known else 0
-        except ValueError:
-            return 0
+        with suppress(ValueError):
+            return len(cells) if not all(map(math.isnan, self.numbers(cells))) or not known else 0
+        return 0
 
     def says_nothing(self, line: str) -> bool:
         """Whether a line is blank, has nothing between its delimiters, or is a comment."""
@@ -175,25 +170,20 @@ def recognised(
 
     skip: lines at the top that are none of the table; numeric: as of a `Dialect`. Raises ValueError.
     """
-    found = []
-    for delimiter, sign in WRITTEN:
-        dialect = Dialect(delimiter, sign, MISSING | nodata, numeric)
-        if decimal in (None, sign) and (start := _start(lines, skip, dialect)):
-            found.append((start[0], dialect, start[1]))
-    if not found:
-        raise ValueError(_no_table(lines, skip, decimal))
-    first = min(start for start, _, _ in found)
+    ways = [Dialect(sign, point, MISSING | nodata, numeric) for sign, point in WRITTEN if decimal in (None, point)]
+    starts = {way: start for way in ways if (start := _start(lines, skip, way))}
+    if not starts:
+        raise ValueError(_no_table(lines, skip, ways))
+    first = min(starts.values())[0]
     # whole numbers are the same in any way of writing: later lines decide
-    tied = [(other, width, _read_by(lines[first:], other, width)) for start, other, width in found if start == first]
-    most = max(count for _, _, count in tied)
-    tied = [one for one in tied if one[2] == most]
-    points = next((one for one in tied if (one[0].delimiter, one[0].decimal, one[1]) == (",", ".", 2)), None)
-    commas = next((one for one in tied if one[0].decimal == "," and one[1] == 1), None)
-    dialect, columns, _ = tied[0]
+    read = {way: _read_by(lines[first:], way, width) for way, (start, width) in starts.items() if start == first}
+    tied = {(way.delimiter, way.decimal, starts[way][1]): way for way in read if read[way] == max(read.values())}
+    dialect, points = next(iter(tied.values())), tied.get((",", ".", 2))
+    commas = next((way for (_, sign, width), way in tied.items() if (sign, width) == (",", 1)), None)
     if points and commas:
-        dialect, columns, _ = commas if _has_decimal_commas(lines[skip:first], lines[first:], points[0]) else points
-    _check_above(lines, skip, first, dialect, columns)
-    return dialect, first, columns
+        dialect = commas if _has_decimal_commas(lines[skip:first], lines[first:], points) else points
+    _check_above(lines, skip, first, dialect, starts[dialect][1])
+    return dialect, *starts[dialect]
 
 
 def _start(lines: Sequence[str], skip: int, dialect: Dialect) -> tuple[int, int] | None:
@@ -201,19 +191,15 @@ def _start(lines: Sequence[str], skip: int, dialect: Dialect) -> tuple[int, int]
 
     Where cells may be texts, lines of a header look like rows: then it is the first of those up to the end.
     """
-    run: list[int] = []
-    columns = 0
-    for i in range(skip, len(lines)):
-        if dialect.says_nothing(lines[i]):
+    first, columns, count = 0, 0, 0
+    for i, line in enumerate(lines[skip:], skip):
+        if dialect.says_nothing(line):
             continue
-        width = dialect.row(lines[i])
-        if width != columns or not width:
-            run = []
-        run += [i] * bool(width)
-        columns = width
-        if len(run) == RUN and dialect.numeric is None:
+        width = dialect.row(line)
+        first, columns, count = (first, columns, count + 1) if width == columns else (i, width, 1)
+        if columns and count == RUN and dialect.numeric is None:
             break
-    return (run[0], columns) if run else None
+    return (first, columns) if columns else None
 
 
 def _read_by(lines: Sequence[str], dialect: Dialect, columns: int) -> int:
@@ -239,33 +225,33 @@ def _has_decimal_commas(above: Sequence[str], rows: Sequence[str], points: Diale
 def _check_above(lines: Sequence[str], skip: int, first: int, dialect: Dialect, columns: int) -> None:
     """Raises ValueError where a line of the table seems to stand above its first row."""
     said = [i for i in range(skip, first) if not dialect.says_nothing(lines[i])]
-    alike = [i for i in said if dialect.row(lines[i]) == columns > 1]
-    if alike and (dialect.numeric is None or MANY * len(alike) > len(lines) - first):
-        bad = max(i for i in said if i not in alike)
-        raise ValueError(about_row(lines[bad], bad, dialect, columns))
     if not said:
         return
-    cells, before = dialect.cells(lines[said[-1]]), lines[said[-2]] if len(said) > 1 else ""
-    is_row = all(map(STARTS, cells)) or any(column_of(cell).unit for cell in dialect.cells(before))
+    others, last = [i for i in said if not dialect.row(lines[i]) == columns > 1], said[-1]
+    alike = len(said) - len(others)
+    if alike and (dialect.numeric is None or MANY * alike > len(lines) - first):
+        raise ValueError(about_row(lines[others[-1]], others[-1], dialect, columns))
+    cells, before = dialect.cells(lines[last]), dialect.cells(lines[said[-2]]) if len(said) > 1 else []
+    is_row = all(map(STARTS, cells)) or any(column_of(cell).unit for cell in before)
     if len(cells) == columns > 1 and any(map(dialect.is_number, cells)) and is_row:
-        raise ValueError(about_row(lines[said[-1]], said[-1], dialect, columns))
-    if width := dialect.row(lines[said[-1]]):
+        raise ValueError(about_row(lines[last], last, dialect, columns))
+    if width := dialect.row(lines[last]):
         raise ValueError(
-            f"rows must be of one length, got {width} numbers in line {said[-1] + 1} and {columns} in line {first + 1}:"
+            f"rows must be of one length, got {width} numbers in line {last + 1} and {columns} in line {first + 1}:"
             f" lines above the numbers are left out, as: skip = {first}"
         )
 
 
-def _no_table(lines: Sequence[str], skip: int, decimal: str | None) -> str:
+def _no_table(lines: Sequence[str], skip: int, ways: Sequence[Dialect]) -> str:
     if not any(line.strip() for line in lines):
         return "the file must hold rows of numbers, got an empty file"
     if skip >= len(lines):
         return f"the file must hold rows of numbers, got no line below the {skip} to skip"
     last = max(i for i, line in enumerate(lines) if line.strip())
-    written = [Dialect(delimiter, sign) for delimiter, sign in WRITTEN if decimal in (None, sign)]
-    best = max(written, key=lambda dialect: sum(map(dialect.is_number, dialect.cells(lines[last]))))
-    if 2 * sum(map(best.is_number, best.cells(lines[last]))) >= len(best.cells(lines[last])):
-        return about_row(lines[last], last, best, len(best.cells(lines[last])))
+    numbers = {way: list(map(way.is_number, way.cells(lines[last]))) for way in ways}
+    best = max(ways, key=lambda way: sum(numbers[way]))
+    if 2 * sum(numbers[best]) >= len(numbers[best]):
+        return about_row(lines[last], last, best, len(numbers[best]))
     cells = re.split(r"[;\t\"]", "\t".join(lines[skip:]))
     if thousands := next((cell for cell in cells if THOUSANDS.match(cell.strip())), None):
         return f"numbers must have no sign between thousands, got {token(thousands)}"

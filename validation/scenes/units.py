@@ -5,33 +5,25 @@ from decimal import Context, Decimal, InvalidOperation
 from fractions import Fraction
 from typing import Literal
 
-from validation.scenes.printable import quoted
+from validation.scenes.printable import quoted, shortened
 
 Dimension = Literal["length", "mass", "force", "pressure", "speed", "level"]
 
-ONE = Fraction(1)
-UNITS: dict[Dimension, dict[str, Fraction]] = {
-    "length": {
-        "m": ONE,
-        "cm": ONE / 10**2,
-        "mm": ONE / 10**3,
-        "um": ONE / 10**6,
-        "µm": ONE / 10**6,
-        "nm": ONE / 10**9,
-        "km": ONE * 10**3,
-    },
-    "mass": {"kg": ONE, "g": ONE / 10**3, "t": ONE * 10**3},
-    "force": {
-        "N": ONE,
-        "kN": ONE * 10**3,
-        "MN": ONE * 10**6,
-        "mN": ONE / 10**3,
-        "kgf": ONE * 980665 / 10**5,
-        "tf": ONE * 980665 / 10**2,
-    },
-    "pressure": {"Pa": ONE, "kPa": ONE * 10**3, "MPa": ONE * 10**6, "GPa": ONE * 10**9},
-    "speed": {"m/s": ONE, "mm/s": ONE / 10**3, "km/h": ONE * 10 / 36},
-    "level": {"dB": ONE},
+POWERS: dict[Dimension, dict[str, int]] = {
+    "length": {"m": 0, "cm": -2, "mm": -3, "um": -6, "µm": -6, "nm": -9, "km": 3},
+    "mass": {"kg": 0, "g": -3, "t": 3},
+    "force": {"N": 0, "kN": 3, "MN": 6, "mN": -3},
+    "pressure": {"Pa": 0, "kPa": 3, "MPa": 6, "GPa": 9},
+    "speed": {"m/s": 0, "mm/s": -3},
+    "level": {"dB": 0},
+}
+OTHERS: dict[Dimension, dict[str, Fraction]] = {
+    "force": {"kgf": Fraction(980665, 10**5), "tf": Fraction(980665, 10**2)},
+    "speed": {"km/h": Fraction(10, 36)},
+}
+UNITS = {
+    dimension: {unit: Fraction(10) ** power for unit, power in powers.items()} | OTHERS.get(dimension, {})
+    for dimension, powers in POWERS.items()
 }
 """Each unit over the SI unit of its dimension."""
 EXAMPLES: dict[Dimension, str] = {
@@ -51,6 +43,9 @@ PRINTED_UNITS: dict[Dimension, tuple[str, ...]] = {
     "level": ("dB",),
 }
 """Units in which a quantity is printed, the smallest first."""
+SMALL = {"Å": Fraction(1, 10**10), "A": Fraction(1, 10**10), "pm": Fraction(1, 10**12)}
+"""Units of the atomic force microscope, over a metre; A is how SurfaceTopography writes Å in ASCII."""
+LENGTHS = UNITS["length"] | SMALL
 # decimal, so that "0.5 um" is the float nearest to 5e-7; nothing trapped, since what is not finite is refused anyway
 DECIMAL = Context(prec=60, traps=[InvalidOperation])
 
@@ -77,6 +72,23 @@ def in_unit(value: float, dimension: Dimension, *, digits: int = 5) -> str:
     units = [unit for unit in PRINTED_UNITS[dimension] if abs(value) * (1 + 1e-9) >= UNITS[dimension][unit]]
     unit = units[-1] if units else PRINTED_UNITS[dimension][0]
     return f"{float(f'{float(value) / UNITS[dimension][unit]:.{digits}g}'):.{max(digits, 6)}g} {unit}"
+
+
+def metres_of(name: str, unit: object) -> float:
+    """How many metres a unit of heights is. Raises ValueError that begins with the name."""
+    # the micro sign and the Greek letter look the same, as do the letter and the sign of an angstrom
+    found = LENGTHS.get(str(unit).strip().replace("\N{GREEK SMALL LETTER MU}", "µ").replace("\N{ANGSTROM SIGN}", "Å"))
+    if found is None:
+        raise ValueError(f"{name} must be one of {', '.join(LENGTHS)}, got {shortened(unit)}")
+    return float(found)
+
+
+def unit_of(name: str, given: object) -> float:
+    """How many metres one of a unit of heights is."""
+    try:
+        return metres_of(name, given)
+    except ValueError as problem:
+        raise ValueError(f'{problem}, as: unit = "um"') from None
 
 
 def _read(text: object, dimension: Dimension) -> float | None:

@@ -3,11 +3,13 @@
 import csv
 import io
 import math
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, date, datetime
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +21,7 @@ from validation.scenes.load import Scene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.selection.hierarchy import try_to_solve
+from validation.selection.quantities import MOVING, PRESSED, ROLLING
 from validation.selection.scene_model import SceneModel
 from validation.simulation.calibrated_range import CONDITIONS
 from validation.simulation.calibration import TABLE, Key, code_behind, conditions_by_kind, kind_of, provenance, table
@@ -26,14 +29,9 @@ from validation.simulation.model import GridModel, Model, Target, models_serving
 from validation.simulation.sampling import distance
 from validation.theory.closed_forms import hertz_force
 
-REFERENCE_TOLERANCE = {
-    "stiffness": 0.06,
-    "force-rms": 0.1,
-    "force-spectrum": 0.15,
-    "acceleration-rms": 0.1,
-    "acceleration": 0.15,
-}
-"""Of the references, by their quantity: half of it is left to their samples."""
+REFERENCE_TOLERANCE = {"stiffness": 0.06, "force-rms": 0.1, "acceleration-rms": 0.1}
+SPECTRUM_TOLERANCE = 0.15
+"""Of the references, by their quantity, and of spectra: half of it is left to their samples."""
 MODEL_TOLERANCE = 0.05
 """Of the models that are measured: their samples leave a fifth of it or less."""
 OTHER_SEED = 1_000_003
@@ -42,12 +40,7 @@ RADIUS, APPROACH = 1.0, 1e-4
 """Of spheres and wheels: no error depends on units."""
 HEIGHT = 1e-3
 """Of the roughness of punches, over their side."""
-QUANTITIES = {
-    "punch": ("stiffness",),
-    "sphere": ("stiffness",),
-    "rolling": ("force-rms", "force-spectrum"),
-    "wheel": ("acceleration-rms", "acceleration"),
-}
+QUANTITIES = {"punch": PRESSED, "sphere": PRESSED, "rolling": ROLLING, "wheel": MOVING[::-1]}
 DESIGNS: Mapping[str, tuple[tuple[float, float], ...]] = {
     "punch": ((-2.2, 2.0), (0.0, math.log10(5.4)), (math.log10(3), math.log10(48)), (0.2, 1.2)),
     "sphere": ((-2.5, 0.0), (math.log10(0.3), math.log10(2)), (math.log10(2), math.log10(12)), (0.2, 1.2)),
@@ -79,27 +72,24 @@ class CalibrationScene:
         low, high = np.array(DESIGNS[self.kind]).T
         rng = random_generator(self.seed, list(DESIGNS).index(self.kind), self.number)
         power, first, ratio, hurst = rng.uniform(low, high).tolist()
+        common: dict[str, Any] = {"name": self.name, "modulus": 1.0}
         if self.kind == "punch":
             waves = round(10**first)
             last = max(min(round(waves * 10**ratio), SHORTEST[self.kind]), 3 * waves)
             ground = Roughness(rms=HEIGHT, hurst=hurst, longest=1 / waves, shortest=1 / last)
-            load = 10**power * HEIGHT
-            return IndentationScene(name=self.name, shape="punch", size=1.0, load=load, modulus=1.0, ground=ground)
+            return IndentationScene(shape="punch", size=1.0, load=10**power * HEIGHT, ground=ground, **common)
         d = APPROACH * RADIUS
-        a, load = math.sqrt(RADIUS * d), hertz_force(radius=RADIUS, modulus=1.0, approach=d)
+        a, common["load"] = math.sqrt(RADIUS * d), hertz_force(radius=RADIUS, modulus=1.0, approach=d)
         longest, shortest = 10**first, min(10 ** (first + ratio), SHORTEST[self.kind])
         ground = Roughness(
             rms=10**power * d, hurst=hurst, longest=2 * math.pi * a / longest, shortest=2 * math.pi * a / shortest
         )
         if self.kind == "sphere":
-            return IndentationScene(name=self.name, shape="sphere", size=RADIUS, load=load, modulus=1.0, ground=ground)
-        mass = speed = None
+            return IndentationScene(shape="sphere", size=RADIUS, ground=ground, **common)
         if self.kind == "wheel":
             over = max(10 ** rng.uniform(*RESONANCES), IN_BAND * ground.q_min / ground.q_max)
-            mass, speed = 1.0, over * math.sqrt(2 * a) / ground.q_min
-        return RollingScene(
-            name=self.name, radius=RADIUS, load=load, modulus=1.0, ground=ground, mass=mass, speed=speed
-        )
+            common |= {"mass": 1.0, "speed": over * math.sqrt(2 * a) / ground.q_min}
+        return RollingScene(radius=RADIUS, ground=ground, **common)
 
     @property
     def name(self) -> str:
@@ -120,7 +110,7 @@ def measure_errors(point: CalibrationScene) -> Outcome:
 
     reference: the error that the reference itself leaves; failed: one where it has no answer.
     """
-    target = point.target(REFERENCE_TOLERANCE[point.quantity], OTHER_SEED)
+    target = point.target(REFERENCE_TOLERANCE.get(point.quantity, SPECTRUM_TOLERANCE), OTHER_SEED)
     (judge,) = (model for model in models_serving(point.scene, point.quantity) if isinstance(model, GridModel))
     reference = try_to_solve(SceneModel(judge, target, judge.resolutions(target)[-1]))
     return {
@@ -248,12 +238,12 @@ def _names(some: Sequence[Key], every: Sequence[Key], *, whole: bool) -> str:
     """Of models; whole: with the scene in front, or that alone where it is all of its models."""
     if not whole:
         return "; ".join(model for _, _, model in some)
-    places = dict.fromkeys(key[:2] for key in some)
-    alone = {place for place in places if all(key in some for key in every if key[:2] == place)}
+    models = {place: [model for *of, model in some if (*of,) == place] for place in (key[:2] for key in some)}
+    known = Counter(key[:2] for key in every)
     return "; ".join(
-        " ".join(place) + ("" if place in alone else f", {model}")
-        for place in places
-        for model in ([""] if place in alone else [key[2] for key in some if key[:2] == place])
+        " ".join(place) + ending
+        for place, named in models.items()
+        for ending in ([""] if len(named) == known[place] else [f", {model}" for model in named])
     )
 
 

@@ -1,6 +1,7 @@
-"""Whether today's code measures what the table of the calibration holds: some of its scenes, measured again."""
+"""A table of the calibration: some of its scenes measured again, and one in the place of that of the package."""
 
-from collections import defaultdict
+import os
+from collections import Counter, defaultdict
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ from validation.engine.files import write_given
 from validation.scenes.printable import printable
 from validation.selection.calibrate import (
     MODEL_TOLERANCE,
+    CalibrationRun,
     CalibrationScene,
     as_table,
     measure_errors,
@@ -36,7 +38,10 @@ def check_calibration(
     if not rows:
         raise ValueError(f"no table of the calibration is in {printable(path)}")
     seed = int(about["command"].rsplit(" ", 1)[1])
-    points = [point for group in _points(rows, seed).values() for point in _spread(group, scenes)]
+    groups = defaultdict[tuple[str, str], list[CalibrationScene]](list)
+    for point in dict.fromkeys(_point(row, seed) for row in rows):
+        groups[point.kind, point.quantity].append(point)
+    points = [point for group in groups.values() for point in _spread(group, scenes)]
     outcomes = engine.map(measure_errors, points)
     differing = [
         line
@@ -46,20 +51,12 @@ def check_calibration(
             [{name: str(value) for name, value in row.items()} for row in rows_of_point(point, outcome)],
         )
     ]
-    solves = f"{len(points)} of {len({_point(row, seed) for row in rows})} solves"
+    solves = f"{len(points)} of {sum(map(len, groups.values()))} solves"
     if stamp and not differing:
         checked = {**about, "checked": f"{today().isoformat()}, {solves}"}
         write_given(path, as_table(checked, [_with_code_of_today(row, seed) for row in rows]))
         table.cache_clear()
     return differing, solves
-
-
-def _points(rows: list[Row], seed: int) -> dict[tuple[str, str], list[CalibrationScene]]:
-    """Of each kind and quantity, those that have rows."""
-    found = defaultdict(list)
-    for point in dict.fromkeys(_point(row, seed) for row in rows):
-        found[point.kind, point.quantity].append(point)
-    return found
 
 
 def _point(row: Row, seed: int) -> CalibrationScene:
@@ -86,3 +83,34 @@ def _with_code_of_today(row: Row, seed: int) -> Row:
     point = _point(row, seed)
     (model,) = (one for one in point.cheap if one.name == row["model"])
     return {**row, "code": code_behind(model, point.target(MODEL_TOLERANCE))}
+
+
+def check_installable(run: CalibrationRun, path: Path = TABLE) -> None:
+    """Raises ValueError, before anything is measured, where a run has fewer scenes than the table that is there."""
+    if not (os.access(path, os.W_OK) and os.access(path.parent, os.W_OK)):
+        raise ValueError(f"--install must be allowed to write {printable(path)}, the table of the package")
+    there = {(row["kind"], row["quantity"], row["number"]) for row in rows_of(path)}
+    _refuse_fewer(
+        Counter(f"{point.kind} {point.quantity}" for point in run.points),
+        Counter(f"{kind} {quantity}" for kind, quantity, _ in there),
+    )
+
+
+def install(measured: Path, path: Path = TABLE) -> None:
+    """Raises ValueError where a model has fewer scenes in the table that was measured than in the one that is there."""
+    _refuse_fewer(_scenes_of_models(measured), _scenes_of_models(path))
+    write_given(path, measured.read_bytes())
+    table.cache_clear()
+
+
+def _scenes_of_models(path: Path) -> Counter[str]:
+    return Counter(f"{row['kind']} {row['quantity']}, {row['model']}" for row in rows_of(path))
+
+
+def _refuse_fewer(mine: Counter[str], there: Counter[str]) -> None:
+    for what, count in there.items():
+        if mine[what] < count:
+            raise ValueError(
+                f"--install must leave as many scenes as the table of the package has, {count} of {what}, "
+                f"got {mine[what]}"
+            )

@@ -13,12 +13,12 @@ from validation.scenes.load import Scene
 from validation.scenes.printable import shortened
 from validation.scenes.rail import RailScene
 from validation.scenes.rolling import RollingScene
-from validation.selection.hierarchy import Answer, Candidate, ContactModel, Selection, select_model
+from validation.selection.hierarchy import Candidate, Selection, select_model
 from validation.selection.named_models import ComparedModels, models_named
 from validation.selection.quantities import LEVELS, REFERENCES, UNITS, models_of, quantities_of
 from validation.selection.scene_model import SceneModel, Shared
 from validation.selection.swept import Swept
-from validation.selection.tolerance import Tolerance, tolerance_of
+from validation.selection.tolerance import Tolerance, decibels, tolerance_of
 from validation.simulation.rolling_quantity import RollingQuantity
 
 FloatArray = NDArray[np.float64]
@@ -84,15 +84,12 @@ class Comparison:
 
     @property
     def tolerance(self) -> Tolerance:
-        """Asked for, with its unit."""
         return Tolerance(self.selection.tolerance, self.in_decibels)
 
     @property
     def value(self) -> FloatArray:
-        """One number, or one a band, in ``unit``; NaN where no model has an answer."""
-        if self.selection.best is None:
-            return np.full(max(1, self.wavenumbers.size), math.nan)
-        return self.value_of(self.selection.best)
+        best = self.selection.best
+        return np.full(max(1, self.wavenumbers.size), math.nan) if best is None else self.value_of(best)
 
     def value_of(self, candidate: Candidate) -> FloatArray:
         """Of a model that was solved, as `value`."""
@@ -102,19 +99,16 @@ class Comparison:
 
     def errors_of(self, candidate: Candidate) -> FloatArray:
         """Half-widths of 95 % of a model that was solved, one a number, in dB for levels and else in ``unit``."""
-        if candidate.answer is not None and candidate.answer.band_errors:
-            return candidate.answer.error_in_bands
-        return self._half_widths(candidate, candidate.error)
+        answer = candidate.answer
+        known = answer is not None and answer.band_errors
+        return answer.error_in_bands if answer and known else self._half_widths(candidate, candidate.error)
 
     def error_parts_of(self, candidate: Candidate) -> dict[str, FloatArray]:
         """What model, grid and sample leave of `errors_of`, by their names; none of a model that was not solved."""
         if (answer := candidate.answer) is None:
             return {}
-        known = answer.band_errors
-        return dict(known) or {
-            name: self._half_widths(candidate, part)
-            for name, part in (("model", answer.model), ("grid", answer.grid), ("sample", answer.sample))
-        }
+        parts = {"model": answer.model, "grid": answer.grid, "sample": answer.sample}
+        return dict(answer.band_errors) or {name: self._half_widths(candidate, part) for name, part in parts.items()}
 
     @property
     def roughness(self) -> FloatArray:
@@ -133,13 +127,12 @@ class Comparison:
     def _half_widths(self, candidate: Candidate, error: float) -> FloatArray:
         """Of a relative error of all numbers together."""
         value = self.value_of(candidate)
-        return np.full(value.shape, 20 * math.log10(1 + error)) if self.is_level else error * np.abs(value)
+        return np.full(value.shape, decibels(error)) if self.is_level else error * np.abs(value)
 
     @property
     def error(self) -> float:
-        """Half-width of the 95 % interval: relative, in dB for levels; infinite where no model has an answer."""
-        error = self._answer.error if self._answer is not None else math.inf
-        return 20 * math.log10(1 + error) if self.is_level else error
+        error = math.inf if self.selection.best is None else self.selection.best.error
+        return decibels(error) if self.is_level else error
 
     @property
     def unit(self) -> str:
@@ -154,7 +147,6 @@ class Comparison:
 
     @property
     def wavenumbers(self) -> FloatArray:
-        """Centres of the one-third octaves [rad/m]; empty where the value is one number."""
         if not self.is_level or not self.selection.solved:
             return np.empty(0)
         if isinstance(self.scene, RailScene):
@@ -163,40 +155,30 @@ class Comparison:
 
     @property
     def wavelength_mm(self) -> FloatArray:
-        """The same as wavelengths [mm]."""
         # twelve digits: nominal wavelengths have theirs again, 2000 and not 1999.9999999999998
         return np.array([float(f"{wave:.12g}") for wave in 2e3 * math.pi / self.wavenumbers])
 
     @property
     def frequency_hz(self) -> FloatArray:
-        """The same as frequencies [Hz]; empty without a speed."""
         speed = getattr(self.scene, "speed", None)
         return np.empty(0) if speed is None else speed * self.wavenumbers / (2 * math.pi)
 
     @property
     def nominal_hz(self) -> FloatArray:
-        """Names of the one-third octaves of frequency in which these lie [Hz]."""
         numbers = np.rint(10 * np.log10(self.frequency_hz)).astype(int)
         return np.array([float(f"{MANTISSAS[n % 10] * 10.0 ** (n // 10):.3g}") for n in numbers])
 
     @property
     def model(self) -> str:
-        """Name of the model that gives the value; empty where none has an answer."""
         return self.selection.best.name if self.selection.best is not None else ""
 
     @property
     def met(self) -> bool:
-        """Whether the tolerance is met."""
         return self.selection.met
 
     @property
     def models(self) -> ComparedModels:
-        """All models, the cheapest first, each with name, status, error, cost and reason."""
         return ComparedModels(self.selection.candidates)
-
-    @property
-    def _answer(self) -> Answer | None:
-        return self.selection.best.answer if self.selection.best is not None else None
 
 
 OneOrSeveral = Comparison | Sequence[Comparison]
@@ -222,7 +204,7 @@ def compare(
     *,
     solve_all: bool = False,
     models: Sequence[str] = (),
-    callback: Callable[[ContactModel], None] = lambda _: None,
+    callback: Callable[[SceneModel], None] = lambda _: None,
 ) -> Comparison:
     """Select the cheapest model of a scene whose error is within the tolerance.
 
@@ -270,9 +252,7 @@ def compare(
         raise TypeError(f"scene must be what load_scene returns, got {type(scene).__name__}")
     count("seed", seed, least=0)
     asked = quantity or quantities_of(scene)[0]
-    return compare_quantities(scene, (asked,), tolerance, seed, solve_all=solve_all, models=models, callback=callback)[
-        asked
-    ]
+    return compare_quantities(scene, (asked,), tolerance, seed, solve_all, models, callback)[asked]
 
 
 def compare_quantities(
@@ -280,19 +260,19 @@ def compare_quantities(
     quantities: Sequence[str],
     tolerance: float | str,
     seed: int,
-    *,
     solve_all: bool,
     models: Sequence[str],
-    callback: Callable[[ContactModel], None] = lambda _: None,
+    callback: Callable[[SceneModel], None] = lambda _: None,
 ) -> dict[str, Comparison]:
     """`compare` of several quantities of a scene, by their names; a filter and what it leaves share their solves."""
     found, shared, wanted = dict[str, Comparison](), Shared(), tolerance_of(tolerance)
     for asked in quantities:
         every = models_of(scene, asked, wanted.relative, seed, shared)
+        announced = found and isinstance(scene, RailScene)  # both quantities of a rail have the same solves
         selection = select_model(
             every,
             wanted.relative,
-            callback=_ignore if found and isinstance(scene, RailScene) else callback,
+            callback=(lambda _: None) if announced else callback,
             solve_all=solve_all or bool(models),
             only=models_named(every, models, wanted.relative) if models else every,
             beyond=_beyond,
@@ -301,12 +281,7 @@ def compare_quantities(
     return found
 
 
-def _ignore(model: ContactModel) -> None:
-    """Both quantities of a rail have the same solves."""
-
-
-def _beyond(model: ContactModel) -> bool:
+def _beyond(model: SceneModel) -> bool:
     """Whether the scene has an answer at all, and the model is expected to find one soon."""
-    if not isinstance(model, SceneModel) or model.cost().seconds > LONGEST_BEYOND_RANGE:
-        return False
-    return not (isinstance(model.target.scene, RollingScene) and model.target.rolling.no_answer)
+    rolls = isinstance(model.target.scene, RollingScene)
+    return model.cost().seconds <= LONGEST_BEYOND_RANGE and not (rolls and model.target.rolling.no_answer)

@@ -10,10 +10,9 @@ from numpy.typing import NDArray
 from validation.analysis.sound import a_weighting, energy_sum
 from validation.scenes.rail import RailScene
 from validation.scenes.roughness_levels import MICROMETRE
+from validation.selection.cells import NAMES, NONE, Columns, half_width, signed
 from validation.selection.compare import Comparison
 from validation.selection.hierarchy import Candidate
-from validation.selection.scene_model import SceneModel
-from validation.selection.side_by_side import NAMES, Columns, half_width, signed
 from validation.simulation.rail_models import RailModel, rail_quantity
 
 FloatArray = NDArray[np.float64]
@@ -76,42 +75,33 @@ class ContactForce:
     @property
     def change(self) -> str:
         """What another filter changes, in words."""
-        apart = [self.over_chosen(model) for model in self.levels if model != self.chosen]
-        known = [change for change in apart if math.isfinite(change)]
-        if not known:
+        known = [change for model in self.levels if math.isfinite(change := self.over_chosen(model))]
+        if not known[1:]:
             return "no other filter was solved"
-        ends = [signed(end, 1) for end in (min(known), max(known))]
-        between = ends[0] if ends[0] == ends[1] else f"{ends[0]} to {ends[1]}"
-        return f"another filter changes the sum by {between} dB(A)"
+        ends = dict.fromkeys(signed(end, 1) for end in (min(known[1:]), max(known[1:])))
+        return f"another filter changes the sum by {' to '.join(ends)} dB(A)"
 
     @property
     def sentences(self) -> tuple[str, str]:
         """The sum with its error, and what was weighted."""
         without = f", but for bands of unknown error, {100 * self.unsure:.2g} % of its energy" if self.unsure else ""
+        missing = int((~np.isfinite(self.levels[self.chosen])).sum())
+        left_out = f", but for {missing} without an answer" if missing else ""
         return (
             f"A-weighted contact force at {3.6 * self.speed:.4g} km/h: {self.shown} by {self.chosen}{without}; "
             f"{self.change}",
             "what is weighted: the force at a constant height, k times the equivalent displacement, whose level is "
             f"L_eq, with k = 3 F / (2 d) = {self.stiffness / 1e9:.3g} GN/m of the smooth contact, at f = v / lambda, "
-            f"by the A-weighting of IEC 61672-1, summed over bands of {self.span}{self._left_out}; no mobility of "
+            f"by the A-weighting of IEC 61672-1, summed over bands of {self.span}{left_out}; no mobility of "
             "wheel or track, no radiation",
         )
 
     @property
-    def _left_out(self) -> str:
-        missing = int((~np.isfinite(self.levels[self.chosen])).sum())
-        return f", but for {missing} without an answer" if missing else ""
-
-    @property
     def table(self) -> Columns:
         """A row a filter: its sum, and by how much that is over the chosen."""
-        return {
-            NAMES: list(self.levels),
-            "sum [dB(A) re 1 N]": [f"{self.total(model):.1f}" for model in self.levels],
-            "over the chosen [dB]": [
-                "—" if model == self.chosen else signed(self.over_chosen(model), 1) for model in self.levels
-            ],
-        }
+        others = [signed(self.over_chosen(model), 1) for model in self.levels if model != self.chosen]
+        sums = [f"{self.total(model):.1f}" for model in self.levels]
+        return {NAMES: list(self.levels), "sum [dB(A) re 1 N]": sums, "over the chosen [dB]": [NONE, *others]}
 
 
 def contact_force(comparison: Comparison) -> ContactForce | None:
@@ -122,11 +112,11 @@ def contact_force(comparison: Comparison) -> ContactForce | None:
     bands, stiffness = scene.levels.bands, scene.contact.stiffness
     of_force = comparison.roughness + 20 * math.log10(stiffness * MICROMETRE)
     of_force = of_force + a_weighting(scene.speed / bands.wavelengths)
-    filters = {chosen.name: comparison.a3_of(chosen)} | _filters(comparison)
-    if not np.isfinite(filters[chosen.name]).any():
+    filters = {one.name: _a3(comparison, one) for one in (chosen, *comparison.models)}
+    if not np.isfinite(comparison.a3_of(chosen)).any():
         return None
     return ContactForce(
-        levels={name: of_force + a3 for name, a3 in filters.items()},
+        levels={name: of_force + a3 for name, a3 in filters.items() if a3 is not None},
         half_width=comparison.errors_of(chosen),
         stiffness=stiffness,
         speed=scene.speed,
@@ -134,19 +124,11 @@ def contact_force(comparison: Comparison) -> ContactForce | None:
     )
 
 
-def _filters(comparison: Comparison) -> dict[str, FloatArray]:
-    """A3 of each model that was solved, or has a closed form on this ground."""
-    found = {}
-    for one in comparison.models:
-        if one in comparison.selection.solved:
-            found[one.name] = comparison.a3_of(one)
-        elif (a3 := _closed(one)) is not None:
-            found[one.name] = a3
-    return found
-
-
-def _closed(one: Candidate) -> FloatArray | None:
-    if not isinstance(one.model, SceneModel) or not isinstance(one.model.model, RailModel):
+def _a3(comparison: Comparison, one: Candidate) -> FloatArray | None:
+    """Of a model that was solved, or has a closed form on this ground."""
+    if one in comparison.selection.solved:
+        return comparison.a3_of(one)
+    if not isinstance(one.model.model, RailModel):
         return None
     closed_form = one.model.model.filter
     if closed_form.on_strips or not one.estimate.in_range:

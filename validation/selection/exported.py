@@ -1,22 +1,32 @@
-"""The result of `compare` for other programs: strict JSON, and one table of all models that were solved."""
+"""The result of `compare` for other programs: strict JSON, one table of all models, and a filter for noise maps."""
 
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from validation.analysis.contents import as_csv, as_json
 from validation.analysis.evidence import Table, table_of
+from validation.analysis.nominal_bands import LONGEST, NominalBands
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.rail import RailScene
+from validation.selection.columns import levels_of
 from validation.selection.compare import Comparison, OneOrSeveral, listed
 from validation.selection.contact_force import ContactForce, contact_force
 from validation.selection.hierarchy import Candidate
+from validation.selection.tolerance import decibels
+from validation.simulation.model import Target
+from validation.simulation.rail_models import RailModel, rail_quantity
+
+FloatArray = NDArray[np.float64]
 
 SCHEMA_OF_JSON = Path(__file__).with_name("comparison.schema.json")
+AXES, OF_RAIL = ("wavelength_mm", "frequency_hz"), ("roughness_dB", "a3_dB", "equivalent_dB", "force_dBA")
 
 
 def to_json(comparison: OneOrSeveral) -> str:
@@ -50,26 +60,19 @@ def to_json_of(comparisons: Sequence[Comparison]) -> str:
 
 def _found(comparison: Comparison) -> dict[str, object]:
     best, force = comparison.selection.best, contact_force(comparison)
-    roughness = comparison.roughness if best else np.empty(0)
-    a3 = comparison.a3_of(best) if best and roughness.size else np.empty(0)
+    levels = levels_of(comparison, best, force)
+    parts = comparison.error_parts_of(best) if best else {}
     return {
         "scene": comparison.scene.name,
         "quantity": comparison.quantity,
         "unit": comparison.unit,
         "tolerance": comparison.tolerance.relative,
-        "tolerance_dB": 20 * math.log10(1 + comparison.tolerance.relative),
+        "tolerance_dB": decibels(comparison.tolerance.relative),
         "met": comparison.met,
         "model": comparison.model or None,
-        "value": _numbers(comparison.value),
-        "error": [None] * comparison.value.size if best is None else _numbers(comparison.errors_of(best)),
-        "error_parts": {} if best is None else _parts(comparison, best),
-        "wavelength_mm": _numbers(comparison.wavelength_mm),
-        "frequency_hz": _numbers(comparison.frequency_hz),
-        "nominal_hz": _numbers(comparison.nominal_hz),
-        "roughness_dB": _numbers(roughness),
-        "a3_dB": _numbers(a3),
-        "equivalent_dB": _numbers(roughness + a3),
-        "force_dBA": _numbers(force.levels[force.chosen]) if force else [],
+        **{name: _numbers(levels[name]) for name in ("value", "error")},
+        "error_parts": {name: _numbers(halves) for name, halves in parts.items()},
+        **{name: _numbers(levels.get(name, ())) for name in (*AXES, "nominal_hz", *OF_RAIL)},
         **swept_of(comparison),
         "assumed": assumed(comparison.scene),
         "models": [_became(comparison, one, force) for one in comparison.models],
@@ -127,7 +130,7 @@ def levels_of_models(comparison: Comparison) -> Table:
     force = contact_force(comparison)
     found = [_columns(comparison, one, force) for one in comparison.selection.solved]
     if not found:
-        none = dict.fromkeys(("wavelength_mm", "frequency_hz", "value", "low", "high"), math.nan)
+        none = dict.fromkeys((*AXES, "value", "low", "high"), math.nan)
         swept = swept_of(comparison) if comparison.swept else {}
         row = {**none, "unit": comparison.unit, "model": "", "selected": False, **swept}
         return table_of(comparison.quantity, [row])
@@ -136,19 +139,14 @@ def levels_of_models(comparison: Comparison) -> Table:
 
 def _columns(comparison: Comparison, one: Candidate, force: ContactForce | None) -> dict[str, list[object]]:
     """Of one model; those of a rail, of its force, of a clock and of a sweep where there are such."""
-    value, half = comparison.value_of(one), comparison.errors_of(one)
-    found: dict[str, Any] = {
-        "wavelength_mm": comparison.wavelength_mm if comparison.is_level else math.nan,
-        "frequency_hz": comparison.frequency_hz if comparison.frequency_hz.size else math.nan,
-        **{"value": value, "low": value - half, "high": value + half},
-        **{"unit": comparison.unit, "model": one.name, "selected": one.name == comparison.model},
-    }
-    if comparison.roughness.size:
-        a3 = comparison.a3_of(one)
-        found |= {"roughness_dB": comparison.roughness, "a3_dB": a3, "equivalent_dB": comparison.roughness + a3}
+    levels = levels_of(comparison, one, force)
+    value, half = levels["value"], levels["error"]
+    found: dict[str, Any] = {name: levels[name] if levels[name].size else math.nan for name in AXES}
+    found |= {"value": value, "low": value - half, "high": value + half}
+    found |= {"unit": comparison.unit, "model": one.name, "selected": one.name == comparison.model}
+    found |= {name: levels[name] for name in OF_RAIL if name in levels}
     if force:
-        found |= {"force_dBA": force.levels[one.name], "force_sum_dBA": force.total(one.name)}
-        found |= {"force_over_selected_dB": force.over_chosen(one.name)}
+        found |= {"force_sum_dBA": force.total(one.name), "force_over_selected_dB": force.over_chosen(one.name)}
     if comparison.timed:
         found["seconds"] = comparison.seconds_of(one)
     found |= swept_of(comparison) if comparison.swept else {}
@@ -165,13 +163,11 @@ def assumed(scene: Scene) -> dict[str, float]:
     """The contact of the smooth bodies, in SI units: a scene that was misread shows here."""
     found = {"E_star_Pa": scene.modulus, "load_N": scene.load}
     if isinstance(scene, RailScene):
-        a_x, a_y = scene.contact.along, scene.contact.across
-        approach = scene.contact.approach
+        a_x, a_y, approach = scene.contact.along, scene.contact.across, scene.contact.approach
     elif isinstance(scene, IndentationScene) and scene.shape == "punch":
         return found
     else:
-        a_x = a_y = scene.contact_radius
-        approach = scene.approach
+        a_x, a_y, approach = scene.contact_radius, scene.contact_radius, scene.approach
     pressure = 1.5 * scene.load / (math.pi * a_x * a_y)
     return {**found, "a_x_m": a_x, "a_y_m": a_y, "approach_m": approach, "largest_pressure_Pa": pressure}
 
@@ -180,7 +176,7 @@ def _became(comparison: Comparison, one: Candidate, force: ContactForce | None) 
     solved = one in comparison.selection.solved
     return {
         "model": one.name,
-        "is_mdr": one.model.is_mdr,
+        "is_mdr": one.is_mdr,
         "status": one.status,
         "claimed": _number(one.claimed),
         "error": _number(one.error) if solved else None,
@@ -192,14 +188,44 @@ def _became(comparison: Comparison, one: Candidate, force: ContactForce | None) 
     }
 
 
-def _parts(comparison: Comparison, one: Candidate) -> dict[str, list[float | None]]:
-    """Half-widths of model, grid and sample, in the unit of the error."""
-    return {name: _numbers(halves) for name, halves in comparison.error_parts_of(one).items()}
-
-
 def _numbers(values: Iterable[float]) -> list[float | None]:
     return [_number(value) for value in values]
 
 
 def _number(value: float) -> float | None:
     return float(value) if math.isfinite(value) else None
+
+
+def filter_table(comparison: Comparison) -> Table:
+    """A contact filter in the columns of CNOSSOS-EU: wheel load and diameter, A3 to a tenth of a decibel.
+
+    A row a nominal wavelength from 2000 to 0.8 mm. Waves longer than those of the scene have the closed filter of the
+    model, of a one-sided one that of its linear twin; shorter ones are NaN. Raises ValueError for any other quantity,
+    and where no model has an answer.
+    """
+    scene, best = comparison.scene, comparison.selection.best
+    if not isinstance(scene, RailScene) or comparison.quantity != "contact-filter":
+        raise ValueError(f"--cnossos is for the quantity contact-filter of a rail, got {comparison.quantity}")
+    if best is None:
+        raise ValueError("--cnossos needs a contact filter, got none: no model has a result")
+    bands, own = NominalBands(), scene.levels.bands
+    a3 = np.full(len(bands), np.nan)
+    first = bands.longest - own.longest
+    if first and isinstance(best.model.model, RailModel):
+        a3[:first] = of_longer_waves(best.model.model, best.model.target)[:first]
+    a3[first : first + len(own)] = comparison.value
+    return Table(
+        "contact-filter",
+        {
+            "wheel_load_kN": [scene.load / 1e3] * len(bands),
+            "wheel_diameter_mm": [2e3 * scene.radius] * len(bands),
+            "wavelength_mm": (1e3 * bands.nominal).tolist(),
+            "a3_dB": (a3.round(1) + 0.0).tolist(),  # no minus in front of a zero
+        },
+    )
+
+
+def of_longer_waves(model: RailModel, target: Target) -> FloatArray:
+    """A3 of the linear filter in all bands from 2000 mm to the last of the roughness [dB]."""
+    asked = replace(rail_quantity(target), longest=LONGEST)
+    return np.asarray(model.filter.closed(asked).mean(axis=0))

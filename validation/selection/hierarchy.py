@@ -1,75 +1,15 @@
 """The cheapest model that a scene needs, from closed forms to fine boundary elements."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Literal, Protocol
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from validation.engine.convergence import NotConvergedError, as_not_converged
-from validation.simulation.model import Cost, ErrorEstimate
-
-FloatArray = NDArray[np.float64]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Answer:
-    """What a model has found.
-
-    value: positive, one number, or one a band; model, grid, sample: relative half-widths of 95 % that are left open,
-    of all numbers together, see `distance`; cost: of what was done, not of what was expected; reason: what the error
-    rests on; failed: why it is none, empty where it is one; band_errors: half-widths of model, grid and sample in each
-    band [dB], empty where they are known of all bands together alone; counted: the bands in which the tolerance counts;
-    seconds: that its solves took by the clock, also those that another model shares; NaN where no clock ran.
-    """
-
-    value: FloatArray
-    cost: Cost
-    model: float = 0.0
-    grid: float = 0.0
-    sample: float = 0.0
-    reason: str = ""
-    failed: str = ""
-    band_errors: Mapping[str, FloatArray] = field(default_factory=dict)
-    counted: str = ""
-    seconds: float = math.nan
-
-    @property
-    def error(self) -> float:
-        """Of the model, and of a grid and a sample, which are independent; infinite for what has failed."""
-        return math.inf if self.failed else self.model + math.hypot(self.grid, self.sample)
-
-    @property
-    def error_in_bands(self) -> FloatArray:
-        """The same in each band [dB]."""
-        return np.asarray(self.band_errors["model"] + np.hypot(self.band_errors["grid"], self.band_errors["sample"]))
-
-
-class ContactModel(Protocol):
-    """A model of a scene, with what it costs, when it claims to hold, and how to ask it."""
-
-    @property
-    def kind(self) -> str:
-        """What kind of model it is, its resolution apart."""
-
-    @property
-    def is_mdr(self) -> bool:
-        """Whether its springs are the method of dimensionality reduction."""
-
-    @property
-    def name(self) -> str: ...
-
-    def cost(self) -> Cost:
-        """Expected, before anything is computed."""
-
-    def estimate(self) -> ErrorEstimate:
-        """Expected, before anything is computed."""
-
-    def solve(self) -> Answer:
-        """Compute, and estimate the error from what was computed."""
-
+from validation.selection.scene_model import Answer, SceneModel
+from validation.simulation.model import ErrorEstimate
 
 Status = Literal["accepted", "not accurate enough", "skipped", "not needed", "failed", "out of range", "not asked"]
 REFUSALS = (ValueError, ArithmeticError, MemoryError, NotConvergedError)
@@ -80,7 +20,7 @@ REFUSALS = (ValueError, ArithmeticError, MemoryError, NotConvergedError)
 class Candidate:
     """A model of the hierarchy, its status, and the reason for it."""
 
-    model: ContactModel
+    model: SceneModel
     status: Status
     reason: str
     estimate: ErrorEstimate
@@ -89,6 +29,15 @@ class Candidate:
     @property
     def name(self) -> str:
         return self.model.name
+
+    @property
+    def kind(self) -> str:
+        """The name of the model, its resolution apart."""
+        return self.model.kind
+
+    @property
+    def is_mdr(self) -> bool:
+        return self.model.is_mdr
 
     @property
     def claimed(self) -> float:
@@ -122,7 +71,7 @@ class Selection:
         """The accepted model, or else the one with the smallest error; None where no answer has a known error."""
         accepted = [candidate for candidate in self.solved if candidate.status == "accepted"]
         known = [candidate for candidate in self.solved if math.isfinite(candidate.error)]
-        return accepted[0] if accepted else min(known, key=_error, default=None)
+        return accepted[0] if accepted else min(known, key=lambda one: one.error, default=None)
 
     @property
     def solved(self) -> tuple[Candidate, ...]:
@@ -136,13 +85,13 @@ class Selection:
 
 
 def select_model(
-    models: Sequence[ContactModel],
+    models: Sequence[SceneModel],
     tolerance: float,
     *,
-    callback: Callable[[ContactModel], None] = lambda _: None,
+    callback: Callable[[SceneModel], None] = lambda _: None,
     solve_all: bool = False,
-    only: Sequence[ContactModel] | None = None,
-    beyond: Callable[[ContactModel], bool] = lambda _: False,
+    only: Sequence[SceneModel] | None = None,
+    beyond: Callable[[SceneModel], bool] = lambda _: False,
 ) -> Selection:
     """Solve with models from the cheapest on, until the error of one is within the tolerance.
 
@@ -157,31 +106,27 @@ def select_model(
     """
     if not (math.isfinite(tolerance) and tolerance > 0):
         raise ValueError(f"tolerance must be finite and positive, got {tolerance}")
-    candidates: list[Candidate] = []
+    found = Selection(tolerance, ())
     for model in models:
-        expected = model.estimate()
-        if only is not None and not any(model is one for one in only):
-            candidates.append(Candidate(model, "not asked", expected.reason, expected))
-        elif not expected.in_range:
-            candidates.append(Candidate(model, "out of range", expected.reason, expected))
-        elif any(candidate.status == "accepted" for candidate in candidates):
-            candidates.append(Candidate(model, "not needed", expected.reason, expected))
-        elif expected.error > tolerance:
-            candidates.append(Candidate(model, "skipped", expected.reason, expected))
-        else:
-            callback(model)
-            candidates.append(_solved(model, expected, tolerance))
-    selection = Selection(tolerance, tuple(candidates))
-    selection = selection if selection.met else _with_least_estimate(selection, callback)
-    return _with_all_solved(selection, callback, beyond) if solve_all else selection
+        one = _expected(model, found.met, only is None or any(model is asked for asked in only))
+        if one.status == "skipped" and one.claimed <= tolerance:
+            one = _solved(one, tolerance, callback)
+        found = Selection(tolerance, (*found.candidates, one))
+    # what one finds may be more than another claims
+    while not found.met and (least := _least_estimate(found)) is not None:
+        candidates = [_solved(one, tolerance, callback) if one is least else one for one in found.candidates]
+        found = Selection(tolerance, tuple(candidates))
+    if not solve_all:
+        return found
+    return Selection(tolerance, tuple(_with_answer(one, callback, beyond) for one in found.candidates))
 
 
-def needed(models: Sequence[ContactModel], tolerance: float) -> ContactModel | None:
+def needed(models: Sequence[SceneModel], tolerance: float) -> SceneModel | None:
     """The first model that expects to be enough, without asking it; None where none does."""
     return next((model for model in models if model.estimate().error <= tolerance), None)
 
 
-def try_to_solve(model: ContactModel) -> Answer:
+def try_to_solve(model: SceneModel) -> Answer:
     try:
         with as_not_converged():
             return model.solve()
@@ -189,43 +134,39 @@ def try_to_solve(model: ContactModel) -> Answer:
         return Answer(value=np.array([np.nan]), cost=model.cost(), failed=str(problem) or type(problem).__name__)
 
 
-def _solved(model: ContactModel, expected: ErrorEstimate, tolerance: float) -> Candidate:
-    answer = try_to_solve(model)
+def _expected(model: SceneModel, met: bool, asked: bool) -> Candidate:
+    """Before a solve; met: whether a cheaper model is enough."""
+    expected = model.estimate()
+    passed: dict[Status, bool] = {"not asked": not asked, "out of range": not expected.in_range, "not needed": met}
+    status: Status = next((name for name, holds in passed.items() if holds), "skipped")
+    return Candidate(model, status, expected.reason, expected)
+
+
+def _solved(one: Candidate, tolerance: float, callback: Callable[[SceneModel], None]) -> Candidate:
+    callback(one.model)
+    answer = try_to_solve(one.model)
     if answer.failed:
-        return Candidate(model, "failed", answer.failed, expected, answer)
+        return replace(one, status="failed", reason=answer.failed, answer=answer)
     status: Status = "accepted" if answer.error <= tolerance else "not accurate enough"
-    return Candidate(model, status, answer.reason, expected, answer)
+    return replace(one, status=status, reason=answer.reason, answer=answer)
 
 
-def _with_least_estimate(selection: Selection, callback: Callable[[ContactModel], None]) -> Selection:
-    candidates = selection.candidates
-    # of equal estimates the dearest, which has the finest grid
-    skipped = [i for i in reversed(range(len(candidates))) if candidates[i].status == "skipped"]
-    if all(candidates[i].estimate.of_scene > selection.tolerance for i in skipped):
-        skipped = skipped[-1:] if selection.best is None else []
-    least = min(skipped, key=lambda i: candidates[i].estimate.error, default=None)
-    if least is None or not candidates[least].estimate.error < (_error(selection.best) if selection.best else math.inf):
-        return selection
-    callback(candidates[least].model)
-    solved = _solved(candidates[least].model, candidates[least].estimate, selection.tolerance)
-    # what it found may be more than another claims
-    more = Selection(selection.tolerance, (*candidates[:least], solved, *candidates[least + 1 :]))
-    return _with_least_estimate(more, callback)
+def _least_estimate(found: Selection) -> Candidate | None:
+    """The one that may leave less than all that were solved; of equal estimates the dearest, with the finest grid."""
+    skipped = [one for one in reversed(found.candidates) if one.status == "skipped"]
+    if all(one.estimate.of_scene > found.tolerance for one in skipped):
+        skipped = skipped[-1:] if found.best is None else []
+    least = min(skipped, key=lambda one: one.claimed, default=None)
+    return least if least and (found.best is None or least.claimed < found.best.error) else None
 
 
-def _with_all_solved(
-    selection: Selection, callback: Callable[[ContactModel], None], beyond: Callable[[ContactModel], bool]
-) -> Selection:
-    candidates = []
-    for one in selection.candidates:
-        if one.status in ("skipped", "not needed") or (one.status == "out of range" and beyond(one.model)):
-            callback(one.model)
-            answer = try_to_solve(one.model)
-            status: Status = "failed" if answer.failed else one.status
-            one = replace(one, answer=answer, status=status, reason=answer.failed or answer.reason or one.reason)
-        candidates.append(one)
-    return Selection(selection.tolerance, tuple(candidates))
-
-
-def _error(candidate: Candidate) -> float:
-    return candidate.answer.error if candidate.answer else math.inf
+def _with_answer(
+    one: Candidate, callback: Callable[[SceneModel], None], beyond: Callable[[SceneModel], bool]
+) -> Candidate:
+    """Solved to be seen beside the others: no other is selected."""
+    if one.status not in ("skipped", "not needed") and not (one.status == "out of range" and beyond(one.model)):
+        return one
+    callback(one.model)
+    answer = try_to_solve(one.model)
+    status: Status = "failed" if answer.failed else one.status
+    return replace(one, answer=answer, status=status, reason=answer.failed or answer.reason or one.reason)

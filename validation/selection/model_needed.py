@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Sequence
 from functools import partial
 from itertools import groupby
-from typing import Any, Protocol
+from typing import Any
 
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
@@ -16,7 +16,6 @@ from validation.simulation.model_names import BEM
 from validation.simulation.rough_punch import PunchRoughness
 
 TOLERANCE = 0.1
-TURN = 2 * math.pi
 
 
 def model_for(scene: Scene, quantity: str) -> str:
@@ -41,18 +40,8 @@ def along(name: str, scenes: Sequence[tuple[float, Scene]], quantity: str) -> st
     return "; ".join(pieces)
 
 
-class SphereSettings(Protocol):
-    """What `sphere` reads from the settings of a case: radius [m], force [N] and modulus E* [Pa]."""
-
-    @property
-    def radius(self) -> float: ...
-    @property
-    def force(self) -> float: ...
-    @property
-    def modulus(self) -> float: ...
-
-
-def sphere(case: SphereSettings) -> str:
+def sphere(case: Any) -> str:
+    """Of a radius [m], a force [N] and a modulus E* [Pa]."""
     scene = IndentationScene(name="sphere", shape="sphere", size=case.radius, load=case.force, modulus=case.modulus)
     return of_each(PRESSED, partial(model_for, scene))
 
@@ -62,37 +51,25 @@ def square_punch(case: Any) -> str:
     return of_each(PRESSED, partial(model_for, scene))
 
 
-def punches(case: Any) -> str:
+def punches(case: Any, hurst: float = 0.7, first: int = 1) -> str:
     """Those of Fig. 14.1, for H = 0.7."""
-    return _punches(PunchRoughness(hurst=0.7, waves=(1, case.cells // 4), seed=0), case.forces)
+    roughness = PunchRoughness(hurst=hurst, waves=(first, case.cells // 4), seed=0)
+    scenes = [(force, roughness.scene(force)) for force in case.forces]
+    return f"mean {of_each(PRESSED, partial(along, 'Fbar', scenes))} (H = {hurst:g})"
 
 
 def rolled_off(case: Any) -> str:
     """With the longest of all roll-offs."""
-    return _punches(PunchRoughness(hurst=case.hurst, waves=(max(case.roll_offs), case.cells // 4), seed=0), case.forces)
-
-
-def _punches(roughness: PunchRoughness, forces: Sequence[float]) -> str:
-    scenes = [(force, roughness.scene(force)) for force in forces]
-    return f"mean {of_each(PRESSED, partial(along, 'Fbar', scenes))} (H = {roughness.hurst:g})"
+    return punches(case, case.hurst, max(case.roll_offs))
 
 
 def rolling(case: Any) -> str:
     """The spectrum of the force, height by height: a = d = E* = 1."""
-    edges = case.spectrum.edges
-    scenes = [
-        (
-            height,
-            RollingScene(
-                name="wheel",
-                radius=1.0,
-                load=4 / 3,
-                modulus=1.0,
-                ground=Roughness(rms=height, hurst=case.hurst, longest=TURN / edges[0], shortest=TURN / edges[-1]),
-            ),
-        )
-        for height in case.heights
-    ]
+    longest, shortest = (2 * math.pi / case.spectrum.edges[end] for end in (0, -1))
+    scenes = []
+    for height in case.heights:
+        ground = Roughness(rms=height, hurst=case.hurst, longest=longest, shortest=shortest)
+        scenes.append((height, RollingScene(name="wheel", radius=1.0, load=4 / 3, modulus=1.0, ground=ground)))
     return of_each(ROLLING, partial(along, "h/d", scenes))
 
 
@@ -101,8 +78,3 @@ def wheel(case: Any) -> str:
     if scene.rail is None or scene.wheel is not None:
         return BEM
     return of_each(MOVING, partial(model_for, RollingScene.of_wheel(scene)))
-
-
-def always(model: str) -> Callable[[Any], str]:
-    """Of a case that has no scene of its own."""
-    return lambda case: model

@@ -4,25 +4,26 @@ from collections.abc import Callable, Sequence
 from typing import SupportsIndex, TypeVar, overload
 
 from validation.scenes.printable import quoted
-from validation.selection.hierarchy import Candidate, ContactModel
+from validation.selection.hierarchy import Candidate
+from validation.selection.scene_model import SceneModel
 from validation.simulation.model_names import SHORT
 
-T = TypeVar("T")
+T = TypeVar("T", SceneModel, Candidate)
 
 
-def named(items: Sequence[T], name: str, model_of: Callable[[T], ContactModel]) -> list[T]:
+def named(items: Sequence[T], name: str) -> list[T]:
     """Those that a name stands for: springs by MDR, all grids of a kind, or the ones whose name is or begins so."""
     asked = _asked(name)
-    rules: list[Callable[[ContactModel], bool]] = [
-        lambda model: model.name.lower() == asked,
-        lambda model: asked == "mdr" and model.is_mdr,
-        lambda model: model.kind.lower() == asked,
-        lambda model: asked != "" and model.name.lower().startswith(asked),
+    rules: list[Callable[[T], bool]] = [
+        lambda one: one.name.lower() == asked,
+        lambda one: asked == "mdr" and one.is_mdr,
+        lambda one: one.kind.lower() == asked,
+        lambda one: asked != "" and one.name.lower().startswith(asked),
     ]
-    return next((found for rule in rules if (found := [one for one in items if rule(model_of(one))])), [])
+    return next((found for rule in rules if (found := [one for one in items if rule(one)])), [])
 
 
-def models_named(models: Sequence[ContactModel], names: Sequence[str], tolerance: float) -> list[ContactModel]:
+def models_named(models: Sequence[SceneModel], names: Sequence[str], tolerance: float) -> list[SceneModel]:
     """The models of these names, in their order; a text may have several, with commas.
 
     Of boundary elements without a grid, the cheapest grid that claims the tolerance, or else the last. Raises
@@ -46,10 +47,10 @@ def names_in(text: str, known: Sequence[str]) -> list[str]:
     return names
 
 
-def _of_name(models: Sequence[ContactModel], name: str, tolerance: float) -> list[ContactModel]:
+def _of_name(models: Sequence[SceneModel], name: str, tolerance: float) -> list[SceneModel]:
     if not isinstance(name, str):
         raise TypeError(f"models must be names, got {quoted(name)}")
-    found, asked = named(models, name, lambda model: model), _asked(name)
+    found, asked = named(models, name), _asked(name)
     if not found:
         known = ", ".join(quoted(model.name) for model in models)
         raise ValueError(f"models must be mdr, bem or names of models of this scene, {known}, got {quoted(name)}")
@@ -80,7 +81,7 @@ class ComparedModels(tuple[Candidate, ...]):
         """Raises KeyError for a name that none has, or several."""
         if not isinstance(which, str):
             return super().__getitem__(which)
-        found = named(self, which, lambda one: one.model)
+        found = named(self, which)
         if len(found) != 1:
             known = ", ".join(quoted(one.name) for one in found or self)
             raise KeyError(f"models must be named by one of {known}, got {quoted(which)}")

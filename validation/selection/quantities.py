@@ -37,14 +37,6 @@ def quantities_of(scene: Scene) -> tuple[str, ...]:
     return ROLLING if scene.mass is None else (*MOVING, *ROLLING)
 
 
-def check_quantity(scene: Scene, quantity: str) -> None:
-    """Raises ValueError for a quantity that the scene has not."""
-    if quantity not in quantities_of(scene):
-        raise ValueError(
-            f"quantity must be one of {', '.join(quantities_of(scene))} for scene {scene.name!r}, got {quantity!r}"
-        )
-
-
 def models_of(
     scene: Scene, quantity: str, tolerance: float, seed: int, shared: Shared | None = None
 ) -> list[SceneModel]:
@@ -52,7 +44,9 @@ def models_of(
 
     shared: what is solved for several quantities of one scene.
     """
-    check_quantity(scene, quantity)
+    if quantity not in quantities_of(scene):
+        known = ", ".join(quantities_of(scene))
+        raise ValueError(f"quantity must be one of {known} for scene {scene.name!r}, got {quantity!r}")
     target, solved = Target(scene, quantity, tolerance, seed), Shared() if shared is None else shared
     kind = RailSceneModel if isinstance(scene, RailScene) else SceneModel
     found = [

@@ -7,8 +7,7 @@ import numpy as np
 
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_lines import MeasuredLines
-from validation.selection.hierarchy import Answer
-from validation.selection.scene_model import SceneModel
+from validation.selection.scene_model import Answer, SceneModel
 from validation.simulation.rail_models import rail_quantity, reason_of, relative, worst
 from validation.simulation.rail_quantity import COUNTED, RailQuantity
 

@@ -1,6 +1,7 @@
 """A model on a scene: realisations are solved until the error is small enough, and other grids tell the grid error."""
 
 import itertools
+import math
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -9,7 +10,6 @@ from functools import cached_property, partial
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.selection.hierarchy import Answer
 from validation.simulation.method import Prepared, Resolution, Result
 from validation.simulation.model import Cost, ErrorEstimate, GridModel, Model, Sampling, Target
 from validation.simulation.sampling import mean_error, realisations, too_few
@@ -18,6 +18,39 @@ FloatArray = NDArray[np.float64]
 
 SAMPLE_SHARE = 0.9
 """Of the tolerance, that a sample may leave where a grid of 0.44 of it is added at a right angle."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Answer:
+    """What a model has found.
+
+    value: positive, one number, or one a band; model, grid, sample: relative half-widths of 95 % that are left open,
+    of all numbers together, see `distance`; cost: of what was done, not of what was expected; reason: what the error
+    rests on; failed: why it is none, empty where it is one; band_errors: half-widths of model, grid and sample in each
+    band [dB], empty where they are known of all bands together alone; counted: the bands in which the tolerance counts;
+    seconds: that its solves took by the clock, also those that another model shares; NaN where no clock ran.
+    """
+
+    value: FloatArray
+    cost: Cost
+    model: float = 0.0
+    grid: float = 0.0
+    sample: float = 0.0
+    reason: str = ""
+    failed: str = ""
+    band_errors: Mapping[str, FloatArray] = field(default_factory=dict)
+    counted: str = ""
+    seconds: float = math.nan
+
+    @property
+    def error(self) -> float:
+        """Of the model, and of a grid and a sample, which are independent; infinite for what has failed."""
+        return math.inf if self.failed else self.model + math.hypot(self.grid, self.sample)
+
+    @property
+    def error_in_bands(self) -> FloatArray:
+        """The same in each band [dB]."""
+        return np.asarray(self.band_errors["model"] + np.hypot(self.band_errors["grid"], self.band_errors["sample"]))
 
 
 @dataclass(eq=False)

@@ -3,18 +3,22 @@
 import hashlib
 import json
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, fields, is_dataclass
+from dataclasses import dataclass, field, fields, is_dataclass
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from validation.engine.engine import Engine, Outcome
 from validation.scenes.load import Scene
 from validation.selection.compare import Comparison, compare_quantities
-from validation.selection.hierarchy import Answer, Candidate, ContactModel, Selection
+from validation.selection.hierarchy import Candidate, Selection
 from validation.selection.quantities import models_of
+from validation.selection.scene_model import Answer, SceneModel
 from validation.selection.tolerance import Tolerance, tolerance_of
 from validation.simulation.model import Cost, ErrorEstimate
+
+KINDS = {kind.__name__: kind for kind in (Answer, Cost, ErrorEstimate)}
+"""Of what a store has of a model, by their names."""
 
 
 @dataclass(frozen=True)
@@ -39,17 +43,10 @@ class SceneProblem:
     def wanted(self) -> Tolerance:
         return tolerance_of(self.tolerance)
 
-    def compared(self, callback: Callable[[ContactModel], None] = lambda _: None) -> dict[str, Comparison]:
+    def compared(self, callback: Callable[[SceneModel], None] = lambda _: None) -> dict[str, Comparison]:
         """Each quantity by its name."""
-        return compare_quantities(
-            self.scene,
-            self.quantities,
-            self.tolerance,
-            self.seed,
-            solve_all=self.solve_all,
-            models=self.models,
-            callback=callback,
-        )
+        asked = (self.quantities, self.tolerance, self.seed, self.solve_all, self.models)
+        return compare_quantities(self.scene, *asked, callback)
 
 
 def compare_scenes(problems: Sequence[SceneProblem], engine: Engine) -> list[Comparison]:
@@ -64,9 +61,12 @@ def compare_scenes(problems: Sequence[SceneProblem], engine: Engine) -> list[Com
 
 def compare_scene(problem: SceneProblem) -> Outcome:
     """What became of each model, as JSON in one array a quantity."""
-    found = problem.compared().items()
-    texts = {name: json.dumps([_plain(candidate) for candidate in one.models]) for name, one in found}
-    return {name: np.frombuffer(text.encode(), dtype=np.uint8).astype(np.float64) for name, text in texts.items()}
+    rows = {
+        name: [(one.status, one.reason, one.estimate, one.answer) for one in found.models]
+        for name, found in problem.compared().items()
+    }
+    texts = {name: json.dumps(of, default=_plain).encode() for name, of in rows.items()}
+    return {name: np.frombuffer(text, dtype=np.uint8).astype(np.float64) for name, text in texts.items()}
 
 
 def content_of(scene: Scene) -> str:
@@ -84,47 +84,24 @@ def _content(value: object) -> object:
     return [_content(part) for part in value] if isinstance(value, tuple | list) else value
 
 
-def _plain(candidate: Candidate) -> dict[str, object]:
-    answer = candidate.answer
-    return {
-        "status": candidate.status,
-        "reason": candidate.reason,
-        "estimate": asdict(candidate.estimate),
-        "answer": answer
-        and {
-            **{one.name: getattr(answer, one.name) for one in fields(answer)},
-            "value": answer.value.tolist(),
-            "cost": asdict(answer.cost),
-            "band_errors": {name: halves.tolist() for name, halves in answer.band_errors.items()},
-        },
-    }
-
-
 def _comparison(problem: SceneProblem, quantity: str, outcome: Outcome) -> Comparison:
-    rows = json.loads(outcome[quantity].astype(np.uint8).tobytes())
+    rows = json.loads(outcome[quantity].astype(np.uint8).tobytes(), object_hook=_read)
     models = models_of(problem.scene, quantity, problem.wanted.relative, problem.seed)
-    candidates = tuple(
-        Candidate(
-            model=model,
-            status=row["status"],
-            reason=row["reason"],
-            estimate=ErrorEstimate(**row["estimate"]),
-            answer=row["answer"] and _answer(row["answer"]),
-        )
-        for model, row in zip(models, rows, strict=True)
-    )
+    candidates = tuple(Candidate(model, *row) for model, row in zip(models, rows, strict=True))
     selection = Selection(problem.wanted.relative, candidates)
     return Comparison(problem.scene, quantity, selection, problem.wanted.in_decibels, timed=problem.solve_all)
 
 
-def _answer(row: dict[str, object]) -> Answer:
-    read = {
-        "value": _array(row["value"]),
-        "cost": Cost(**row["cost"]),  # type: ignore[arg-type]  # as it was written
-        "band_errors": {name: _array(halves) for name, halves in row["band_errors"].items()},  # type: ignore[attr-defined]
-    }
-    return Answer(**{**row, **read})  # type: ignore[arg-type]
+def _plain(value: Any) -> object:
+    """An array, or one of the `KINDS`."""
+    if isinstance(value, np.ndarray):
+        return {"array": value.tolist()}
+    return {type(value).__name__: {one.name: getattr(value, one.name) for one in fields(value)}}
 
 
-def _array(values: object) -> NDArray[np.float64]:
-    return np.array(values, dtype=np.float64)
+def _read(found: dict[str, Any]) -> object:
+    """What `_plain` has made."""
+    if len(found) == 1:
+        ((name, part),) = found.items()
+        return np.array(part, dtype=np.float64) if name == "array" else KINDS[name](**part)
+    return found

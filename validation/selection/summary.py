@@ -4,43 +4,28 @@ import math
 import textwrap
 from collections.abc import Iterator, Sequence
 
-import numpy as np
-from numpy.typing import NDArray
-
-from validation.analysis.evidence import plus_minus
 from validation.scenes.description import description_lines
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rail import RailScene
-from validation.scenes.rolling import RollingScene
 from validation.selection.calibrate import calibration_age
+from validation.selection.cells import format_seconds, scaled, short
+from validation.selection.columns import bands_of, columns_as_lines, models_of_page, overview_of, side_by_side
 from validation.selection.compare import Comparison, OneOrSeveral, listed
 from validation.selection.contact_force import LEVELS, contact_force
-from validation.selection.hierarchy import Answer, Candidate, Status
-from validation.selection.quantities import MOVING, UNITS
+from validation.selection.hierarchy import Candidate
+from validation.selection.quantities import MOVING
 from validation.selection.rail_model import what_would_state_the_ground
 from validation.selection.reasons import grouped
-from validation.selection.side_by_side import axis_of, columns_as_lines, side_by_side
-from validation.selection.tolerance import Tolerance, short
+from validation.selection.scene_model import Answer
+from validation.selection.tolerance import Tolerance, decibels
 from validation.simulation.model import Target
 from validation.simulation.rail_models import MEASURED_ON_STRIPS, rail_quantity
-
-FloatArray = NDArray[np.float64]
 
 WIDTH = 100
 """Columns of a terminal."""
 ASSUMED = "elastic half-spaces, isotropic, without friction and adhesion"
-BECAME: dict[Status, str] = {
-    "accepted": "enough, and the cheapest that is",
-    "not accurate enough": "solved: not enough",
-    "skipped": "not solved: its claim is too high",
-    "not needed": "not solved: a cheaper is enough",
-    "failed": "solved: no result",
-    "out of range": "not solved: its error is unknown",
-    "not asked": "not solved: not asked for",
-}
-"""What became of a model, in words."""
 
 
 def summary(comparison: OneOrSeveral) -> str:
@@ -63,8 +48,6 @@ def summary(comparison: OneOrSeveral) -> str:
     Smooth sphere: stiffness within 10 %
     """
     if not isinstance(comparison, Comparison):
-        from validation.selection.several import help_with, overview  # which are made of this module's words
-
         found = listed(comparison)
         return "\n".join([*overview(found), *help_with(found)])
     understood = heading(comparison.scene, [comparison.quantity], comparison.tolerance)
@@ -92,7 +75,9 @@ def _lines(quantities: Sequence[Comparison]) -> Iterator[str]:
     comparison = quantities[0]
     best, spent = comparison.selection.best, "took" if comparison.timed else "cost"
     yield from ("", f"{'model':36s}{'claims':>12s}{'found':>9s}{spent:>8s}  what became of it")
-    yield from (*_rows(comparison), "", *_reasons(comparison), "")
+    for row in models_of_page(comparison):
+        yield f"{row['model']:36s}{row['claims']:>12s}{row['found']:>9s}{row[spent]:>8s}  {row['became']}"
+    yield from ("", *_reasons(comparison), "")
     if best is None or best.answer is None:
         yield f"no model has {'a known error' if comparison.selection.solved else 'a result'}"
         yield from side_by_side(comparison)
@@ -107,18 +92,42 @@ def _lines(quantities: Sequence[Comparison]) -> Iterator[str]:
     yield from (*what_would_help(comparison), *sentences_on_mdr(comparison))
 
 
-def label(candidate: Candidate) -> str:
-    """The name of a model, and whether it is MDR."""
-    return f"{candidate.name} (MDR)" if candidate.model.is_mdr else candidate.name
+def _reasons(comparison: Comparison) -> Iterator[str]:
+    """What errors rest on, each clause once."""
+    yield "why"
+    every = tuple(one.name for one in comparison.models)
+    for names, reason in grouped({one.name: one.reason for one in comparison.models}):
+        yield f"  {'all' if names == every and len(every) > 1 else '; '.join(names)}: {reason}"
+
+
+def overview(comparisons: Sequence[Comparison]) -> list[str]:
+    """A line a scene, of the columns of `overview_of`; two lines a scene where names are long."""
+    scenes, *others = ([name, *column] for name, column in overview_of(comparisons).items())
+    model, error, mdr = (max(map(len, column)) for column in others[:3])
+    rests = [
+        f"{row[0]:{model}s}  {row[1]:>{error}s}  {row[2]:>{mdr}s}   {row[3]}".rstrip()
+        for row in zip(*others, strict=True)
+    ]
+    width = max(map(len, scenes))
+    if width + 2 + max(map(len, rests)) <= WIDTH:
+        return [f"{scene:{width}s}  {rest}" for scene, rest in zip(scenes, rests, strict=True)]
+    head, *pairs = zip(scenes, rests, strict=True)
+    return [head[0], f"  {head[1]}", *(line for scene, rest in pairs for line in (scene, f"  {rest}"))]
+
+
+def help_with(comparisons: Sequence[Comparison]) -> list[str]:
+    """What would help each scene whose tolerance is not met."""
+    lines = [f"{one.scene.name}: {line}" for one in comparisons for line in what_would_help(one)]
+    return list(wrapped(lines, indent=4))
 
 
 def sentences_on_mdr(comparison: Comparison) -> list[str]:
     """Whether springs by the method of dimensionality reduction are enough: one a model of them."""
-    springs = [one for one in comparison.models if one.model.is_mdr]
+    springs = [one for one in comparison.models if one.is_mdr]
     if not springs:
         return ["MDR: no springs are among the models of this scene."]
-    names = ["MDR"] if len(springs) == 1 else [f"MDR, {one.name}" for one in springs]
-    return [f"{name}: {_on_mdr(comparison, one)}." for name, one in zip(names, springs, strict=True)]
+    several = len(springs) > 1
+    return [f"MDR{f', {one.name}' if several else ''}: {_on_mdr(comparison, one)}." for one in springs]
 
 
 def _on_mdr(comparison: Comparison, springs: Candidate) -> str:
@@ -143,43 +152,6 @@ def _asked_of(scene: Scene) -> str:
     return "this surface" if isinstance(heights, MeasuredHeights) else "this scene"
 
 
-def claim_of(comparison: Comparison, one: Candidate) -> str:
-    """The error that a model claims, in the unit of the tolerance."""
-    return comparison.tolerance.shown(one.claimed) if one.estimate.in_range else "out of range"
-
-
-def found_of(comparison: Comparison, one: Candidate) -> str:
-    """The error that a solve left, in the unit of the tolerance."""
-    return "—" if one.answer is None else comparison.tolerance.shown_beside(one.error)
-
-
-def became_of(one: Candidate) -> str:
-    """What became of a model, in words."""
-    return BECAME[one.status] if one.answer is None else BECAME[one.status].replace("not solved", "solved")
-
-
-def _rows(comparison: Comparison) -> Iterator[str]:
-    """A line a model; what a solve took where all were timed, else what it costs."""
-    for one in comparison.models:
-        claimed, found = claim_of(comparison, one), found_of(comparison, one)
-        spent = took_by(comparison, one) if comparison.timed else format_seconds(one.cost)
-        yield f"{label(one):36s}{claimed:>12s}{found:>9s}{spent:>8s}  {became_of(one)}"
-
-
-def took_by(comparison: Comparison, one: Candidate) -> str:
-    """Seconds of a solve by the clock."""
-    seconds = comparison.seconds_of(one)
-    return ("< 1 ms" if seconds < 1e-3 else format_seconds(seconds)) if math.isfinite(seconds) else "—"
-
-
-def _reasons(comparison: Comparison) -> Iterator[str]:
-    """What errors rest on, each clause once."""
-    yield "why"
-    every = tuple(one.name for one in comparison.models)
-    for names, reason in grouped({one.name: one.reason for one in comparison.models}):
-        yield f"  {'all' if names == every and len(every) > 1 else '; '.join(names)}: {reason}"
-
-
 def result_of(comparison: Comparison, answer: Answer) -> str:
     """The number with its error, or the model of a spectrum with its error, and the parts of that."""
     shown = comparison.tolerance.shown
@@ -188,41 +160,10 @@ def result_of(comparison: Comparison, answer: Answer) -> str:
         value = float(answer.value[0])
         number = f"{scaled(value, value * answer.error)} {comparison.unit}"
         return f"{comparison.quantity} = {number} ({shown(answer.error)}: {parts}), by {comparison.model}"
-    decibels = f"{short(20 * math.log10(1 + answer.error))} dB"
-    both = decibels if comparison.in_decibels else f"{shown(answer.error)}, {decibels},"
+    level = f"{short(decibels(answer.error))} dB"
+    both = level if comparison.in_decibels else f"{shown(answer.error)}, {level},"
     where = "in the bands that count" if answer.band_errors else "over all bands"
     return f"{comparison.quantity} by {comparison.model}, one-third octaves, ± {both} {where} ({parts})"
-
-
-def bands_of(comparison: Comparison, one: Candidate) -> dict[str, list[str]]:
-    """A row a band: wavelength, frequency, q a, root mean square, levels and their error, as the scene has them."""
-    scene, unit, answer = comparison.scene, UNITS[comparison.quantity], one.answer
-    assert answer is not None  # of a model that was solved
-    columns = axis_of(comparison)
-    if isinstance(scene, RailScene):
-        return columns | _levels_of_rail(comparison, one)
-    if isinstance(scene, RollingScene):
-        columns["q a"] = [f"{q * scene.contact_radius:.2f}" for q in comparison.wavenumbers]
-        columns[f"rms [{unit}]"] = [f"{value:.4g}" for value in answer.value]
-    columns[f"level [{comparison.unit}]"] = _decibels(comparison.value_of(one))
-    return columns | {"± [dB]": _half_widths(comparison, one)}
-
-
-def _levels_of_rail(comparison: Comparison, one: Candidate) -> dict[str, list[str]]:
-    """`LEVELS`, and the error of the filter; the force where the wheel has a speed."""
-    a3, roughness, force = comparison.a3_of(one), comparison.roughness, contact_force(comparison)
-    levels = {"L_r": roughness, "A3": a3, "L_eq": roughness + a3}
-    columns = {name: _decibels(of) for name, of in levels.items()} | {"± [dB]": _half_widths(comparison, one)}
-    return columns | ({"L_FA": _decibels(force.levels[one.name])} if force else {})
-
-
-def _decibels(levels: FloatArray) -> list[str]:
-    """To a tenth, without the sign of a zero."""
-    return [f"{round(float(level), 1) + 0.0:.1f}" if math.isfinite(level) else "—" for level in levels]
-
-
-def _half_widths(comparison: Comparison, one: Candidate) -> list[str]:
-    return [f"{half:.2g}" if math.isfinite(half) else "unknown" for half in comparison.errors_of(one)]
 
 
 def age_of_errors(comparison: Comparison) -> str:
@@ -282,20 +223,3 @@ def wrapped(lines: list[str], indent: int) -> Iterator[str]:
         more = " " * max(indent, len(own))
         whole = len(line) <= WIDTH
         yield from [line] if whole else textwrap.wrap(line.strip(), WIDTH, initial_indent=own, subsequent_indent=more)
-
-
-def scaled(value: float, error: float) -> str:
-    """With its error, over a power of ten where that is far from one: (5.49 ± 0.50)e7."""
-    power = math.floor(math.log10(value))
-    if -3 < power < 4:
-        return plus_minus(value, error)
-    shown = plus_minus(value / 10**power, error / 10**power)
-    return f"({shown})e{power}" if "±" in shown else f"{shown}e{power}"
-
-
-def format_seconds(seconds: float) -> str:
-    """In a unit that fits."""
-    for unit, size in (("h", 3600.0), ("min", 60.0), ("s", 1.0), ("ms", 1e-3)):
-        if seconds >= size:
-            return f"{short(seconds / size)} {unit}"
-    return "1 ms"

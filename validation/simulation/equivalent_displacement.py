@@ -1,14 +1,19 @@
-"""What each model makes of a rough strip: the equivalent displacement of the wheel, and the contact filter.
+"""What each model makes of a rough strip of rail: the equivalent displacement of the wheel, and the contact filter.
 
 The equivalent displacement at constant load is -(approach - mean): by how much the roughness lifts the wheel. Its band
 power over that of the line roughness is the contact filter A3. A model of one-sided contact has a linear twin, whose
 filter is known without a sample: only what the model is over its twin is found on strips.
+
+An input spectrum of springs is one of levels and has no places: a measured line, or lines, give its density and not
+where the wheel is lifted. On a drawn strip the heights across are known, so each track here keeps the phases of its
+surface: models on the same strip may be compared wave by wave.
 """
 
 import math
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,25 +24,31 @@ from mdr.approach_by_sorting import borne_by
 from validation.analysis.spectra import Bands, levels, waves
 from validation.analysis.statistics import Estimate, jackknifed
 from validation.engine.engine import Outcome
+from validation.scenes.transverse_profile import TransverseProfile
 from validation.simulation.model_names import (
     BED,
     BEM,
     LINE,
     LINEAR,
+    LINEAR_GEIKE,
     LINEAR_ON_LINE,
     LINEAR_ON_MEAN,
+    LINEAR_ROLLING,
     ONE_SIDED_BED,
+    SPRINGS_GEIKE,
     SPRINGS_ON_LINE,
     SPRINGS_ON_MEAN,
+    SPRINGS_ROLLING,
     SPRINGS_THAT_READ,
+    twin_of,
 )
 from validation.simulation.rail_strip import RailStrip, Transfer
 from validation.theory.contact_filters import half_space_filter, row_of_means_filter, spring_bed_filter
 from validation.theory.elliptic_contact import EllipticContact
+from validation.theory.line_spectrum import LineSpectrum
+from validation.theory.spring_input import geike_over_line, rolling_input_filter
+from validation.theory.transverse_structure import IsotropicGround, Ridges
 
-__all__ = ["BED", "BEM", "LINE", "LINEAR", "LINEAR_ON_LINE", "LINEAR_ON_MEAN", "ONE_SIDED_BED"]
-__all__ += ["SPRINGS_ON_LINE", "SPRINGS_ON_MEAN", "SPRINGS_THAT_READ"]
-"""Names of models, for cases that compare the filters of this module."""
 FloatArray = NDArray[np.float64]
 
 AREA = "area in contact"
@@ -48,59 +59,120 @@ MOST_NUMBERS = 2**21
 """Springs of a bed times positions that are sorted at once."""
 
 
-def _axes(contact: EllipticContact) -> tuple[float, float]:
-    return contact.along, contact.across
+def rolling_input(contact: EllipticContact) -> Transfer:
+    """From the surface to a line that has its rolling spectrum."""
+    return lambda along, across: rolling_input_filter(along, across, semi_axes=contact.semi_axes)
+
+
+def springs_along(contact: EllipticContact) -> Transfer:
+    """(14.11), whatever lies across."""
+    return lambda along, across: np.sinc((along + 0 * across) * contact.along / np.pi)
 
 
 LINEAR_MODELS: Mapping[str, Callable[[EllipticContact], Transfer]] = {
     LINE: lambda contact: lambda along, across: np.ones_like(along + across),
-    LINEAR: lambda contact: lambda along, across: half_space_filter(along, across, semi_axes=_axes(contact)),
-    BED: lambda contact: lambda along, across: spring_bed_filter(along, across, semi_axes=_axes(contact)),
-    LINEAR_ON_LINE: lambda contact: lambda along, across: np.sinc((along + 0 * across) * contact.along / np.pi),
-    LINEAR_ON_MEAN: lambda contact: lambda along, across: row_of_means_filter(along, across, semi_axes=_axes(contact)),
+    LINEAR: lambda contact: lambda along, across: half_space_filter(along, across, semi_axes=contact.semi_axes),
+    BED: lambda contact: lambda along, across: spring_bed_filter(along, across, semi_axes=contact.semi_axes),
+    LINEAR_ON_LINE: springs_along,
+    LINEAR_ON_MEAN: lambda contact: (
+        lambda along, across: row_of_means_filter(along, across, semi_axes=contact.semi_axes)
+    ),
+    LINEAR_ROLLING: lambda contact: (
+        lambda along, across: rolling_input(contact)(along, across) * springs_along(contact)(along, across)
+    ),
 }
 """From the smooth contact to H(k_x, k_y)."""
 
 
-def roll_boundary_elements(strip: RailStrip, tolerance: float) -> bem3d.Rolling:
-    """Force, approach and area along the strip, NaN where it has not converged."""
-    return bem3d.roll(
-        strip.surface,
-        spacing=strip.spacing,
-        radius=strip.radii,
-        modulus=strip.modulus,
-        force=strip.force,
-        tolerance=tolerance,
-        raise_on_failure=False,
+def geike_power(line: LineSpectrum, contact: EllipticContact, edges: FloatArray) -> FloatArray:
+    """Band powers of linear springs on Geike's spectrum of the isotropic ground of a line, over those of the line [-].
+
+    int sin^2(q a_x) / (q a_x)^2 pi q C_2D dq over int C_line dq, between ascending wavenumbers [rad/m]. Raises
+    ValueError where no isotropic surface has such a line.
+    """
+    springs, ground = springs_along(contact), IsotropicGround(line)
+    return Ridges().band_power(
+        line,
+        lambda along, across: np.sqrt(geike_over_line(along, ground)) * springs(along, across),
+        edges=edges,
+        semi_axes=contact.semi_axes,
     )
 
 
-def springs_that_read(strip: RailStrip) -> FloatArray:
-    """Springs that read the surface across the contact."""
-    return _on_springs(strip, mdr.roll_surface, lambda fine: fine.surface)
+def geike_track(strip: RailStrip, line: str = LINE) -> FloatArray:
+    """The middle line of an isotropic surface with each of its waves scaled to C_1D = pi |k| C_2D(|k|) of Geike's rule.
+
+    The waves keep their phases, and the scatter of their amplitudes. line: by which of `LINEAR_MODELS`.
+    """
+    track = strip.along_middle(LINEAR_MODELS[line](strip.contact))
+    k = np.abs(2 * np.pi * np.fft.fftfreq(track.size, strip.spacing))
+    of_line = strip.variance.sum(axis=1) * strip.width / (2 * math.pi)
+    mapped = math.pi * k * strip.variance[:, 0] * (strip.width / (2 * math.pi)) ** 2
+    ratio = np.divide(mapped, of_line, out=np.zeros_like(k), where=of_line > 0)
+    return np.asarray(np.fft.ifft(np.sqrt(ratio) * np.fft.fft(track)).real)
 
 
-def springs_on_line(strip: RailStrip) -> FloatArray:
-    """Springs under the middle line."""
-    return _on_springs(strip, mdr.roll, lambda fine: fine.along_middle(LINEAR_MODELS[LINE](fine.contact)))
+def linear_displacement(strip: RailStrip, model: str) -> FloatArray:
+    """Of a model that is linear: the surface by its filter, along the middle, less its mean."""
+    if model == LINEAR_GEIKE:
+        return geike_track(strip, LINEAR_ON_LINE)
+    return strip.along_middle(LINEAR_MODELS[model](strip.contact))
 
 
-def springs_on_mean(strip: RailStrip) -> FloatArray:
-    """Springs under the mean of the heights across the contact, |y| < a_y."""
-    b = strip.contact.across
-    return _on_springs(strip, mdr.roll, lambda fine: fine.along_middle(lambda x, y: np.sinc((0 * x + y) * b / np.pi)))
+def roll_boundary_elements(
+    strip: RailStrip, tolerance: float, profile: TransverseProfile | None = None, first: int = 0, **settings: Any
+) -> bem3d.Rolling:
+    """Force, approach and area along the strip from its row `first` on, NaN where it has not converged.
+
+    Under the load of the strip, unless settings, others of `bem3d.roll`, say another. profile: of the rail across, in
+    place of its radius. Raises ValueError where the contact reaches the end of the profile.
+    """
+    shape: dict[str, Any] = {"radius": strip.radii}
+    columns, surface = slice(None), np.roll(strip.surface, -first, axis=0)
+    if profile is not None:
+        columns, across = heights_across(strip, profile)
+        shape = {"radius": strip.radii[0], "transverse_profile": across}
+    load = {} if "approach" in settings else {"force": strip.force}
+    given = {"raise_on_failure": False, **shape, **load, **settings}
+    return bem3d.roll(surface[:, columns], spacing=strip.spacing, modulus=strip.modulus, tolerance=tolerance, **given)
 
 
-def _on_springs(
-    strip: RailStrip, roll: Callable[..., mdr.RollingTrack], height: Callable[[RailStrip], FloatArray]
-) -> FloatArray:
-    """At the centres of the cells, with more springs than cells under the same waves."""
-    fine = replace(strip, spacing=strip.spacing / FINER)
+def heights_across(strip: RailStrip, profile: TransverseProfile) -> tuple[slice, FloatArray]:
+    """The columns of a strip that have the profile, and the heights there, zero at the highest [m].
+
+    There are as many to both sides of the middle. The highest point of the profile, y = 0, is the middle of axis 1,
+    over which the wheel rolls.
+    """
+    ny = strip.shape[1]
+    y = (np.arange(ny) - (ny - 1) / 2) * strip.spacing
+    inside = np.flatnonzero(np.abs(y) <= profile.reach)
+    columns = slice(int(inside[0]), int(inside[-1]) + 1)
+    z = profile(y[columns])
+    # columns miss a top; what they miss is a constant approach
+    return columns, z - z.max()
+
+
+def roll_springs(
+    strip: RailStrip, height: FloatArray, roll: Callable[..., mdr.RollingTrack] = mdr.roll
+) -> mdr.RollingTrack:
+    """One-sided springs under the load of the strip, on a line or a surface, as `roll` reads it."""
     with warnings.catch_warnings():
         # what few springs leave is measured on two grids
         warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
-        found = roll(height(fine), spacing=fine.spacing, radius=fine.radii, modulus=fine.modulus, force=fine.force)
-    return lifted(found.approach[FINER // 2 :: FINER])
+        return roll(height, spacing=strip.spacing, radius=strip.radii, modulus=strip.modulus, force=strip.force)
+
+
+def on_finer_springs(
+    strip: RailStrip, height: Callable[[RailStrip], FloatArray], roll: Callable[..., mdr.RollingTrack]
+) -> FloatArray:
+    """At the centres of the cells, with more springs than cells under the same waves."""
+    fine = replace(strip, spacing=strip.spacing / FINER)
+    return lifted(roll_springs(fine, height(fine), roll).approach[FINER // 2 :: FINER])
+
+
+def mean_across(strip: RailStrip) -> FloatArray:
+    """Of the heights across the contact, |y| < a_y."""
+    return strip.along_middle(lambda x, y: np.sinc((0 * x + y) * strip.contact.across / np.pi))
 
 
 def one_sided_bed(strip: RailStrip) -> FloatArray:
@@ -132,21 +204,29 @@ def lifted(approach: FloatArray) -> FloatArray:
 
 
 ONE_SIDED: Mapping[str, Callable[[RailStrip], FloatArray]] = {
-    SPRINGS_THAT_READ: springs_that_read,
-    SPRINGS_ON_LINE: springs_on_line,
-    SPRINGS_ON_MEAN: springs_on_mean,
+    SPRINGS_THAT_READ: lambda strip: on_finer_springs(strip, lambda fine: fine.surface, mdr.roll_surface),
+    SPRINGS_ON_LINE: lambda strip: on_finer_springs(strip, lambda fine: linear_displacement(fine, LINE), mdr.roll),
+    SPRINGS_ON_MEAN: lambda strip: on_finer_springs(strip, mean_across, mdr.roll),
     ONE_SIDED_BED: one_sided_bed,
+    SPRINGS_ROLLING: lambda strip: lifted(
+        roll_springs(strip, strip.along_middle(rolling_input(strip.contact))).approach
+    ),
+    SPRINGS_GEIKE: lambda strip: lifted(roll_springs(strip, geike_track(strip)).approach),
 }
-"""Displacements along a strip, beside those of boundary elements."""
+"""Displacements along a strip, beside those of boundary elements; Geike's rule is for isotropic ground alone."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class RolledRail:
-    """A strip, models of `ONE_SIDED` or boundary elements that roll over it, and the residual of these."""
+    """A strip, models of `ONE_SIDED` or boundary elements that roll over it, and the residual of these.
+
+    profile: of the rail across, which boundary elements alone know; None for the radius of the strip.
+    """
 
     strip: RailStrip
     models: tuple[str, ...]
     tolerance: float = 3e-6
+    profile: TransverseProfile | None = None
 
     def __post_init__(self) -> None:
         known = (BEM, *ONE_SIDED)
@@ -155,33 +235,28 @@ class RolledRail:
 
 
 def roll_rail(problem: RolledRail) -> Outcome:
-    """Equivalent displacement along the strip of each model and of all linear ones, by their names [m].
+    """Equivalent displacement along the strip of each model and of its linear twin, by their names [m].
 
     area in contact: of boundary elements, over that of the smooth wheel; failed: positions at which they did not
     converge: the displacement counts from its mean, which then is not known.
     """
     strip, contact = problem.strip, problem.strip.contact
-    linear = {name: strip.along_middle(transfer(contact)) for name, transfer in LINEAR_MODELS.items()}
-    found = {name: ONE_SIDED[name](strip) for name in problem.models if name != BEM}
+    found = {twin: linear_displacement(strip, twin) for twin in map(twin_of, problem.models)}
+    found |= {name: ONE_SIDED[name](strip) for name in problem.models if name != BEM}
     failed = 0
     if BEM in problem.models:
-        rolled = roll_boundary_elements(strip, problem.tolerance)
+        rolled = roll_boundary_elements(strip, problem.tolerance, problem.profile)
         found |= {BEM: lifted(rolled.approach), AREA: rolled.area / (math.pi * contact.along * contact.across)}
         failed = int(np.count_nonzero(~rolled.converged))
-    return {**linear, **found, "failed": np.array(float(failed))}
-
-
-def band_powers(outcomes: Sequence[Outcome], name: str, spacing: float, bands: Bands) -> FloatArray:
-    """Of the tracks with a name, (strips, bands); NaN in strips that failed [m^2]."""
-    return levels(waves(np.array([outcome[name] for outcome in outcomes]), spacing=spacing), bands)
+    return {**found, "failed": np.array(float(failed))}
 
 
 def log_over(model: str, other: str, outcomes: Sequence[Outcome], spacing: float, bands: Bands) -> list[Estimate]:
     """ln of the band power of a model over that of another on the same strips, by the jackknife over strips."""
-    both = np.stack([band_powers(outcomes, name, spacing, bands) for name in (model, other)], axis=1)
+    both = [[levels(waves(one[name], spacing=spacing), bands) for name in (model, other)] for one in outcomes]
 
     def ratio(rows: FloatArray) -> FloatArray:
         mine, reference = rows.sum(axis=0)
         return np.asarray(np.log(mine / reference))
 
-    return jackknifed(ratio, both)
+    return jackknifed(ratio, np.array(both))

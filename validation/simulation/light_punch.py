@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 import bem3d
 from validation.engine.engine import Outcome
-from validation.simulation.band_limited import refined
 from validation.simulation.rough_punch import Surface, press_surface
+from validation.simulation.surface import refined
 
 FloatArray = NDArray[np.float64]
 

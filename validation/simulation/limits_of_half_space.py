@@ -12,6 +12,7 @@ import bem3d
 import mdr
 from validation.engine.engine import Outcome
 from validation.engine.random_numbers import random_generator
+from validation.simulation.exact_contacts import off
 from validation.simulation.probing import FloatArray, Point, answered, message_of, recorded, swept
 from validation.simulation.rough_punch import PunchRoughness
 
@@ -171,11 +172,6 @@ def huge_forces(loads: Values, *, cells: int = 128) -> Outcome:
     return swept(loads, *zip(*map(point, loads), strict=True))
 
 
-def distance(found: FloatArray, true: FloatArray) -> float:
-    """Relative difference in L2."""
-    return float(np.sqrt(np.sum((found - true) ** 2) / np.sum(true**2)))
-
-
 SCENES = ("sphere", "rough punch", "rough, periodic")
 SOLVERS: dict[str, Callable[..., bem3d.Contact]] = {
     "solve": bem3d.solve,
@@ -231,7 +227,7 @@ def _errors(contact: bem3d.Contact, true: bem3d.Contact) -> tuple[float, float, 
     overlap = true.approach - true.problem.first_touch
     load = (contact.approach - true.approach) / overlap + (contact.force / true.force - 1)
     stiffness = contact.stiffness(tolerance=1e-7) / true.stiffness(tolerance=1e-7) - 1
-    return abs(load), abs(stiffness), distance(contact.pressure, true.pressure)
+    return abs(load), abs(stiffness), off(contact.pressure, true.pressure)
 
 
 def without_an_answer() -> dict[str, str]:

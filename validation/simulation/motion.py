@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.scenes.wheel_body import Wheel
-from validation.simulation.contact_laws import ContactLaw
+from validation.simulation.contact_laws import ContactLaw, LinearLaw
 from validation.simulation.integrators import VELOCITY_VERLET, Integrator
 
 FloatArray = NDArray[np.float64]
@@ -102,6 +102,15 @@ def simulate(
         next_acceleration=-a,
         path=kept,
     )
+
+
+def simulate_from_linear_motion(
+    law: ContactLaw, linear: LinearLaw, time_step: float, steps: int, *, path: bool = False
+) -> Motion:
+    """A wheel that begins in the steady state of the linear law, at its velocity and its force."""
+    approach, velocity = linear.steady_state(time_step)
+    start = law.at_rest(0) + approach - linear.at_rest(0)
+    return simulate(linear.wheel, law, time_step=time_step, steps=steps, approach=start, velocity=velocity, path=path)
 
 
 def periodic_motion(

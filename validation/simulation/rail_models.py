@@ -16,17 +16,13 @@ from numpy.typing import NDArray
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL
 from validation.engine.engine import Outcome
-from validation.scenes.profiled_rail import ProfiledRail
-from validation.scenes.rail import RailScene
+from validation.scenes.rail import ProfiledRail, RailScene
 from validation.simulation.equivalent_displacement import LINEAR_MODELS, RolledRail, log_over, roll_rail
 from validation.simulation.method import Resolution, Result, Values
 from validation.simulation.model import Cost, ErrorEstimate, Model, Target, model
 from validation.simulation.model_names import LINEAR, twin_of
-from validation.simulation.profiled_strip import roll_on_profile
-from validation.simulation.rail_ground import StatedAcross, positions_along, strip_bands, strip_of
 from validation.simulation.rail_quantity import RAIL_QUANTITIES, RailQuantity
-from validation.simulation.rail_strip import RailStrip
-from validation.simulation.spectral_springs import SPECTRAL_SPRINGS, SpectralRail, roll_spectral_springs
+from validation.simulation.rail_strip import RailStrip, StatedAcross, positions_along, strip_bands, strip_of
 
 FloatArray = NDArray[np.float64]
 
@@ -113,11 +109,8 @@ class ContactFilter:
 
         With the profile across where the scene has one, which boundary elements alone know.
         """
-        if self.name in SPECTRAL_SPRINGS:
-            return roll_spectral_springs(SpectralRail(strip=strip, models=(self.name,)))
-        if self.is_reference and isinstance(scene, ProfiledRail):
-            return roll_on_profile(strip, scene.profile)
-        return roll_rail(RolledRail(strip=strip, models=(self.name,)))
+        profile = scene.profile if self.is_reference and isinstance(scene, ProfiledRail) else None
+        return roll_rail(RolledRail(strip=strip, models=(self.name,), profile=profile))
 
     def model_error(self, quantity: RailQuantity, a3: FloatArray) -> FloatArray:
         """Half-width that model and ground leave in each band, infinite for a radius in place of a profile [dB].

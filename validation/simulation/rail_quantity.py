@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 from validation.analysis.nominal_bands import NominalBands
 from validation.scenes.rail import RailScene
 from validation.scenes.roughness_levels import MICROMETRE
-from validation.simulation.equivalent_displacement import LINEAR, LINEAR_MODELS
-from validation.simulation.rail_ground import StatedAcross, line_of, lost_contact_number, structure_of
+from validation.simulation.equivalent_displacement import LINEAR_MODELS
+from validation.simulation.model_names import LINEAR
+from validation.simulation.rail_strip import StatedAcross, line_of, lost_contact_number, structure_of
 from validation.theory.line_spectrum import LineSpectrum
 from validation.theory.transverse_structure import Filter, IsotropicGround, TransverseStructure
 
@@ -81,7 +82,7 @@ class RailQuantity:
     @cached_property
     def evaluations(self) -> int:
         """Waves of a closed filter, over all bands and grounds."""
-        axes = self.scene.contact.along, self.scene.contact.across
+        axes = self.scene.contact.semi_axes
         return sum(ground.evaluations(edges=self.bands.edges, semi_axes=axes) for ground in self.structures)
 
     @cached_property
@@ -117,7 +118,7 @@ class RailQuantity:
         return ends if both else np.where(self.stands_out, ends, ends[-1])
 
     def _of_ground(self, ground: TransverseStructure, line: LineSpectrum, transfer: Filter) -> FloatArray:
-        axes = self.scene.contact.along, self.scene.contact.across
+        axes = self.scene.contact.semi_axes
         return np.asarray(10 * np.log10(ground.band_power(line, transfer, edges=self.bands.edges, semi_axes=axes)))
 
     @cached_property

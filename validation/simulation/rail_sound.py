@@ -12,14 +12,12 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-import bem3d
 import mdr
 from validation.engine.engine import Outcome
 from validation.scenes.rail import RailScene
-from validation.simulation.equivalent_displacement import BEM, LINEAR, LINEAR_MODELS, SPRINGS_THAT_READ
-from validation.simulation.rail_ground import LENGTH, StatedAcross, strip_of
-from validation.simulation.rail_strip import RailStrip
-from validation.simulation.spectral_springs import geike_track
+from validation.simulation.equivalent_displacement import geike_track, linear_displacement, roll_boundary_elements
+from validation.simulation.model_names import BEM, LINEAR, SPRINGS_THAT_READ
+from validation.simulation.rail_strip import LENGTH, RailStrip, StatedAcross, strip_of
 
 FloatArray = NDArray[np.float64]
 
@@ -83,24 +81,16 @@ def roll_held_wheel(problem: HeldWheel) -> Outcome:
 
 def _linear(problem: HeldWheel) -> FloatArray:
     """F_N + k (H * h): linear theory of the half-space."""
-    contact = problem.strip.contact
-    lifted = problem.strip.along_middle(LINEAR_MODELS[LINEAR](contact))
+    contact, lifted = problem.strip.contact, linear_displacement(problem.strip, LINEAR)
     return (contact.force + contact.stiffness * lifted)[problem.first : problem.last]
 
 
 def _boundary_elements(problem: HeldWheel) -> FloatArray:
-    strip = problem.strip
-    rolled = bem3d.roll(
-        np.roll(strip.surface, -problem.first, axis=0),
-        spacing=strip.spacing,
-        radius=strip.radii,
-        modulus=strip.modulus,
-        approach=strip.contact.approach,
-        positions=problem.last - problem.first,
-        tolerance=problem.tolerance,
-        raise_on_failure=False,
-    )
-    return rolled.force.copy()
+    strip, held = problem.strip, problem.strip.contact.approach
+    positions = problem.last - problem.first
+    return roll_boundary_elements(
+        strip, problem.tolerance, first=problem.first, positions=positions, approach=held
+    ).force.copy()
 
 
 def _springs_that_read(problem: HeldWheel) -> FloatArray:

@@ -17,6 +17,7 @@ from validation.simulation.rolling_strip import Strip
 from validation.simulation.track_spectrum import PiecewisePowerLaw
 
 FloatArray = NDArray[np.float64]
+Solve = Callable[[FloatArray, float], reduced.Reduced]
 
 READ, LAYER, LINE = "springs that read the surface", "pressed layer", "springs on a line"
 LINEAR, BED, COARSE_LAYER = "linear theory, 3D", "one-sided bed (DPRS)", "pressed layer, 1/2 of the cells"
@@ -25,7 +26,7 @@ JUDGE, COARSE, COARSEST = (
     "boundary elements, 1/2 of the cells",
     "boundary elements, 1/3 of the cells",
 )
-MODELS: Mapping[str, tuple[Callable[[FloatArray, float], reduced.Reduced], int]] = {
+MODELS: Mapping[str, tuple[Solve, int]] = {
     JUDGE: (reduced.boundary_elements, 1),
     LINE: (reduced.springs_on_a_line, 1),
     LINEAR: (reduced.linear_theory, 1),
@@ -42,6 +43,8 @@ MODELS: Mapping[str, tuple[Callable[[FloatArray, float], reduced.Reduced], int]]
     COARSEST: (reduced.boundary_elements, 3),
 }
 """With the cells to a contact radius, of which it has one in so many."""
+FOLLOWING = {READ: READ, LAYER: COARSE_LAYER}
+"""Two that follow boundary elements where linear theory ends, as they are called there: the layer needs few cells."""
 
 
 def bands_of(spectrum: PiecewisePowerLaw) -> Bands:
@@ -72,17 +75,37 @@ def roll_by_all(strip: Strip) -> Outcome:
     }
 
 
-def _roll(strip: Strip, solve: Callable[[FloatArray, float], reduced.Reduced], coarser: int) -> reduced.Reduced:
-    cells = strip.cells // coarser
+def roll_reduced(strip: Strip) -> Outcome:
+    """Force over that of Hertz along the strip, of those that follow boundary elements."""
+    return {model: _solve(strip, *MODELS[of]).force for model, of in FOLLOWING.items()}
+
+
+def over_boundary_elements(model: str, found: list[Outcome], strip: Strip, beside: Outcome, bands: Bands) -> Outcome:
+    """Levels of such a model, and those of boundary elements in the place of linear theory's; strip: any of them."""
+    spacing = 1 / _cells(strip, MODELS[FOLLOWING[model]][1])
+    mine = waves(np.array([one[model] for one in found]), spacing=spacing)
+    return {"level": levels(mine, bands), "linear level": beside["level"]}
+
+
+def _cells(strip: Strip, coarser: int) -> int:
+    """To a contact radius."""
+    return math.ceil(strip.cells / coarser)
+
+
+def _solve(strip: Strip, solve: Solve, coarser: int) -> reduced.Reduced:
+    cells = _cells(strip, coarser)
     with warnings.catch_warnings():
-        # what fewer cells change is compared
+        # what fewer cells change is compared, or small beside what the models leave
         warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
         warnings.simplefilter("ignore", bem3d.ResolutionWarning)
-        surface = replace(strip, cells=cells).surface()
-        try:
-            return solve(surface, 1 / cells)
-        except bem3d.ConvergenceError:
-            return reduced.Reduced(np.full(len(surface), math.nan), math.nan)
+        return solve(replace(strip, cells=cells).surface(), 1 / cells)
+
+
+def _roll(strip: Strip, solve: Solve, coarser: int) -> reduced.Reduced:
+    try:
+        return _solve(strip, solve, coarser)
+    except bem3d.ConvergenceError:
+        return reduced.Reduced(np.full(round(strip.scene.length * _cells(strip, coarser)), math.nan), math.nan)
 
 
 def _waves(force: FloatArray, spacing: float, bands: Bands) -> Waves:

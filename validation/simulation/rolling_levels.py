@@ -15,10 +15,11 @@ from validation.analysis.spectra import levels, waves
 from validation.engine.random_numbers import random_generator
 from validation.scenes.measured import MeasuredHeights
 from validation.simulation.contact_laws import BoundaryElementsLaw, LinearLaw, SpringsLaw
+from validation.simulation.motion import simulate_from_linear_motion
 from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.sampling import too_few
 from validation.simulation.surface import surface_on_grid
-from validation.simulation.wheel_on_half_space import crop_to_reach, simulate_from_linear_motion
+from validation.simulation.wheel_on_half_space import crop_to_reach, linear_law_3d
 from validation.simulation.wheel_on_springs import linear_law_1d, rolling_input
 from validation.theory.rolling import linear_force
 
@@ -107,7 +108,9 @@ def strip_of(quantity: RollingQuantity, cells: float, realisation: int, seed: in
 
 def by_linear_theory(quantity: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
     """Root mean square in each band along a strip, for a contact that keeps its radius."""
-    return levels_of(quantity, _linear(quantity, surface, spacing), spacing, quantity.transfer)
+    scene = quantity.scene
+    force = linear_force(surface, spacing=spacing, radius=scene.radius, modulus=scene.modulus, approach=scene.approach)
+    return levels_of(quantity, force, spacing, quantity.transfer)
 
 
 def by_boundary_elements(quantity: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
@@ -201,18 +204,12 @@ def _accelerated(quantity: RollingQuantity, surface: FloatArray, spacing: float)
     """Of a wheel with boundary elements in the time loop."""
     body = quantity.scene.body
     law = BoundaryElementsLaw(body, [crop_to_reach(surface, spacing, body)], spacing, tolerance=_tolerance(quantity))
-    linear = LinearLaw(body, (_linear(quantity, surface, spacing) - body.load)[:, np.newaxis])
+    linear = linear_law_3d(body, surface, spacing)
     try:
         found = _rolled_on(quantity, law, linear, spacing)
     except bem3d.ConvergenceError:
         return np.full(len(quantity.bands.edges) - 1, np.nan)
     return levels_of(quantity, found[:, 0], spacing)
-
-
-def _linear(quantity: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
-    """The force along the middle of a strip [N]."""
-    scene = quantity.scene
-    return linear_force(surface, spacing=spacing, radius=scene.radius, modulus=scene.modulus, approach=scene.approach)
 
 
 def _rolled_on(

@@ -1,13 +1,14 @@
-"""A wheel rolled over isotropic roughness, by boundary elements and by springs.
+"""A wheel rolled over isotropic roughness, by boundary elements and by springs, and levels of linear theory beside it.
 
-Units: contact radius a = 1 of the smooth wheel, approach d = 1, E* = 1; so R = 1, and the force of Hertz is 4/3.
+Units: contact radius a = 1 of the smooth wheel, approach d = 1, E* = 1; so R = 1, and the force of Hertz is 4/3. Levels
+of linear theory are over the square of that, for h_rms = 1.
 """
 
 import math
 import warnings
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from typing import Any, TypeVar
 
 import numpy as np
@@ -19,17 +20,23 @@ from validation.analysis.spectra import Bands, cross_levels, levels, waves
 from validation.engine.convergence import FEWEST, NotConvergedError
 from validation.engine.engine import Engine, Outcome
 from validation.engine.random_numbers import random_generator
-from validation.simulation.surface import draw_surface
+from validation.simulation.surface import draw_surface, middle_of
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, TrackSpectrum
-from validation.theory.rolling import linear_force
+from validation.theory.rolling import Spectrum, force_spectrum_1d, force_spectrum_3d, linear_force
 
 FloatArray = NDArray[np.float64]
+
 K = TypeVar("K", bound=Hashable)
 
-HERTZ = 4 / 3
+HERTZ, STIFFNESS = 4 / 3, 2.0
+"""Force and stiffness 2 E* a of the smooth wheel."""
 SMOOTH: dict[str, Any] = {"radius": 1.0, "modulus": 1.0, "approach": 1.0}
 TRACKS, STRIPS = 1, 2
 """Keys of random numbers: the roughness of both methods."""
+POINTS = 48
+"""Of the midpoint rule in each band."""
+ROUNDING = 1e-300
+"""Where (14.12) is zero, its level is rounding's, which is no reference."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -146,10 +153,7 @@ def roll_strips(groups: Mapping[K, Sequence[Strip]], engine: Engine) -> tuple[di
 
 def crop_to_reach(surface: FloatArray, spacing: float) -> FloatArray:
     """The middle of a surface: no wider than the cells that can overlap with the wheel, wherever it stands."""
-    reach = math.sqrt(2 * (1 + max(float(surface.max()), 0.0)))
-    side = min(math.ceil(reach / spacing) + 1, surface.shape[1] // 2)
-    middle = surface.shape[1] // 2
-    return surface[:, middle - side : surface.shape[1] - middle + side]
+    return middle_of(surface, math.sqrt(2 * (1 + max(float(surface.max()), 0.0))), spacing)
 
 
 def roll_tracks(tracks: Tracks) -> Outcome:
@@ -200,3 +204,95 @@ def levels_beside_linear(force: FloatArray, linear: FloatArray, spacing: float, 
         "variance": force.var(axis=1),
         "linear variance": linear.var(axis=1),
     }
+
+
+@dataclass(frozen=True, kw_only=True)
+class LoadedStrip:
+    """One rough strip under a wheel of constant load."""
+
+    strip: Strip
+    bands: Bands
+
+
+def roll_loaded_strip(problem: LoadedStrip) -> Outcome:
+    """Boundary elements: `moments` of k = dF/dd at a constant contact area, over 2 E* a; failed: positions."""
+    strip, spacing = problem.strip, 1 / problem.strip.cells
+    height = np.ascontiguousarray(crop_to_reach(strip.surface(), spacing))
+    wheel = bem3d.RollingContact(
+        bem3d.Track(height=height, spacing=spacing, radius=1.0, modulus=1.0), tolerance=strip.tolerance
+    )
+    stiffness = np.array([tangent_stiffness(wheel, position) for position in range(len(height))]) / STIFFNESS
+    return {**moments(stiffness, spacing, problem.bands), "failed": np.array(float(np.isnan(stiffness).sum()))}
+
+
+def tangent_stiffness(wheel: bem3d.RollingContact, position: int) -> float:
+    """Of the contact under the load of Hertz over one cell of the track; NaN where it does not converge."""
+    if not wheel.carry(position, HERTZ).converged:
+        return math.nan
+    _, _, pressure = wheel.pressure()
+    body = half_space(pressure.shape, wheel.track.spacing)
+    return bem3d.solve_fixed_area(body, pressure > 0, tolerance=1e-3).stiffness
+
+
+@cache
+def half_space(shape: tuple[int, int], spacing: float) -> bem3d.HalfSpace:
+    """Frames along a track have few shapes."""
+    return bem3d.HalfSpace(shape=shape, spacing=spacing, modulus=1.0)
+
+
+def roll_loaded_tracks(tracks: Tracks) -> Outcome:
+    """One-sided springs: `moments` of the stiffness along each track."""
+    spacing = 1 / tracks.springs
+    with warnings.catch_warnings():
+        # the smooth contact has springs enough, which is what the warning is about
+        warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
+        rolled = [mdr.roll(h, spacing=spacing, radius=1.0, modulus=1.0, force=HERTZ) for h in tracks.heights()]
+    return moments(np.array([one.stiffness for one in rolled]) / STIFFNESS, spacing, tracks.bands)
+
+
+def moments(stiffness: FloatArray, spacing: float, bands: Bands) -> Outcome:
+    """Mean and variance along a track, and the level int C_k dq in each band; along the last axis."""
+    return {
+        "mean": np.asarray(stiffness.mean(axis=-1)),
+        "variance": np.asarray(stiffness.var(axis=-1)),
+        "level": levels(waves(stiffness, spacing=spacing), bands),
+    }
+
+
+@cache
+def level_1d(spectrum: PiecewisePowerLaw, rule: InputSpectrum, bands: Bands) -> FloatArray:
+    """int C_F dq over each band of springs with that input spectrum, (14.12)."""
+    c1d = TrackSpectrum(spectrum, rule)
+    return over_bands(lambda q: force_spectrum_1d(q, c1d, contact_radius=1.0, modulus=1.0), bands) / HERTZ**2
+
+
+@cache
+def level_3d(spectrum: PiecewisePowerLaw, bands: Bands) -> FloatArray:
+    """The same of the half-space."""
+    return over_bands(lambda q: force_3d(q, spectrum), bands) / HERTZ**2
+
+
+def force_3d(q: FloatArray, spectrum: PiecewisePowerLaw) -> FloatArray:
+    """C_F itself of the half-space."""
+    return force_spectrum_3d(q, spectrum.c2d, edges=spectrum.edges, contact_radius=1.0, modulus=1.0)
+
+
+def over_bands(spectrum: Spectrum, bands: Bands) -> FloatArray:
+    """int C dq over each band, by the midpoint rule."""
+    edges = np.array(bands.edges)
+    q = edges[:-1, np.newaxis] + np.diff(edges)[:, np.newaxis] * ((np.arange(POINTS) + 0.5) / POINTS)
+    return np.asarray(spectrum(q).mean(axis=1) * np.diff(edges))
+
+
+def coherence(outcome: Outcome) -> FloatArray:
+    """|<F F_lin*>|^2 / (<|F|^2> <|F_lin|^2>) in each band, over all waves and realisations."""
+    cross = np.nansum(outcome["cross"][0] + 1j * outcome["cross"][1], axis=0)
+    linear = np.where(np.isfinite(outcome["level"]), outcome["linear level"], 0.0).sum(axis=0)
+    return np.asarray(np.abs(cross) ** 2 / np.nansum(outcome["level"], axis=0) / np.maximum(linear, ROUNDING))
+
+
+def correlation(outcome: Outcome) -> tuple[float, float]:
+    """Correlation and slope of the force over linear theory, position by position, in all bands together."""
+    cross, known = float(np.nansum(outcome["cross"][0])), np.isfinite(outcome["level"])
+    linear, level = (float(outcome[name][known].sum()) for name in ("linear level", "level"))
+    return cross / math.sqrt(linear * level), cross / linear

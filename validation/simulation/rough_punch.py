@@ -1,12 +1,14 @@
 """A rigid square punch with a rough face, drawn and pressed by either method: one solve of every case about it."""
 
+import math
 import warnings
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from functools import partial
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 import bem3d
 import mdr
@@ -16,6 +18,7 @@ from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.roughness import Roughness
 from validation.simulation.surface import draw_surface
+from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, TrackSpectrum
 
 FloatArray = NDArray[np.float64]
 
@@ -226,3 +229,56 @@ def _gradient(height: FloatArray) -> float:
     q = 2 * np.pi * np.fft.fftfreq(height.shape[0], 1 / height.shape[0])
     power = np.abs(np.fft.fft2(height, norm="forward")) ** 2
     return float(np.sqrt((power * (q[:, np.newaxis] ** 2 + q**2)).sum()))
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlateauSpectrum(mdr.SelfAffine):
+    """Self-affine beyond a roll-off, constant from q_min to there; its level is that of the draw, which has an rms."""
+
+    q_roll_off: float
+
+    def c2d(self, q: ArrayLike) -> FloatArray:
+        """C_2D(max(q, q_r)) in the band [m^4]."""
+        q = np.abs(np.asarray(q, dtype=np.float64))
+        return np.asarray(np.where(super().c2d(q) > 0, super().c2d(np.maximum(q, self.q_roll_off)), 0.0))
+
+
+@dataclass(frozen=True, kw_only=True)
+class RolledOffRoughness(PunchRoughness):
+    """With a plateau from the first wave of the band to the roll-off, as many waves on a side."""
+
+    roll_off: int
+
+    @property
+    def spectrum(self) -> PlateauSpectrum:
+        return PlateauSpectrum(**asdict(super().spectrum), q_roll_off=2 * np.pi * self.roll_off)
+
+
+@dataclass(frozen=True, kw_only=True)
+class InputProfiles:
+    """The first so many profiles of a punch, pressed at all forces. cells: of the surface; forces: F / (E* h L)."""
+
+    punch: PunchRoughness
+    cells: int
+    input_spectrum: InputSpectrum
+    realisations: int
+    forces: tuple[float, ...]
+
+
+def press_input_profiles(profiles: InputProfiles) -> Outcome:
+    """k / (E* L) of each profile at each force; height: rms of the profiles over that of the surface."""
+    punch, cells = profiles.punch, profiles.cells
+    spectrum = PiecewisePowerLaw(edges=(2 * math.pi, math.pi / 2 * cells), exponents=(2 * punch.hurst + 2,))
+    q = 2 * np.pi * np.arange(1.0, cells // 4 + 1)
+    # the side of the punch for the diameter of the contact
+    c1d = TrackSpectrum(spectrum, profiles.input_spectrum, contact_radius=0.5)
+    height = math.sqrt(float(c1d(q).sum() / TrackSpectrum(spectrum, "geike")(q).sum()))
+    draw = partial(mdr.rough_profile, c1d, length=1.0, points=16 * cells, rms=punch.height * height)
+    heights = [draw(rng=random_generator(punch.seed, PROFILES, i)) for i in range(profiles.realisations)]
+    curves = [mdr.load_curve(one, length=1.0, modulus=1.0) for one in heights]
+    forces = punch.height * np.array(profiles.forces)
+    with warnings.catch_warnings():
+        # the lightest loads stand on few springs
+        warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
+        stiffness = [curve.at_force(forces).stiffness for curve in curves]
+    return {"stiffness": np.array(stiffness), "height": np.array(height)}

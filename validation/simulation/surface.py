@@ -1,18 +1,26 @@
-"""Rough surfaces on a grid: drawn from a spectrum, or the one that was measured."""
+"""Rough surfaces on a grid: drawn from a spectrum and measured back, measured elsewhere, and on a finer grid."""
 
+import math
 import warnings
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
 import bem3d
+import mdr
 from bem3d.checks import Spectrum
+from validation.engine.engine import Outcome
+from validation.engine.random_numbers import random_generator
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.roughness import RoughSurface
 
+FloatArray = NDArray[np.float64]
 
-def draw_surface(c2d: Spectrum, **settings: Any) -> NDArray[np.float64]:
+
+def draw_surface(c2d: Spectrum, **settings: Any) -> FloatArray:
     """`bem3d.rough_surface`, silent about few cells to a wave: grids are compared, and what they leave is measured."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", bem3d.ResolutionWarning)
@@ -21,8 +29,83 @@ def draw_surface(c2d: Spectrum, **settings: Any) -> NDArray[np.float64]:
 
 def surface_on_grid(
     ground: RoughSurface, *, shape: tuple[int, int], spacing: float, rng: np.random.Generator
-) -> NDArray[np.float64]:
+) -> FloatArray:
     """Heights at the centres of cells: a realisation with the rms height, or the mean of what was measured."""
     if isinstance(ground, MeasuredHeights):
         return ground.mean_over_cells(shape, spacing)
     return draw_surface(ground.c2d, shape=shape, spacing=spacing, rng=rng, rms=ground.rms)
+
+
+def middle_of(surface: FloatArray, half_width: float, spacing: float) -> FloatArray:
+    """The columns that reach so far to both sides, and one more, or all that there are."""
+    middle = surface.shape[1] // 2
+    side = min(math.ceil(half_width / spacing) + 1, middle)
+    return surface[:, middle - side : surface.shape[1] - middle + side]
+
+
+def refined(height: FloatArray, cells: int) -> FloatArray:
+    """Heights at the centres of cells x cells of a periodic surface that is known at those of fewer.
+
+    h(x) = sum_q c_q exp(i q x) over the waves longer than two cells of the coarse grid, whose c_q follow from its
+    heights; waves of just two cells are lost.
+
+    height: shape (n, n), of the period of the fine grid; cells: n or more. Returns shape (cells, cells).
+    Raises ValueError where the height is not square, or has more cells.
+    """
+    coarse = len(height)
+    if height.shape != (coarse, coarse) or coarse > cells:
+        raise ValueError(f"height must have shape (n, n) with n up to cells = {cells}, got {height.shape}")
+    if coarse == cells:
+        return height
+    most = (coarse - 1) // 2
+    along, across = np.arange(-most, most + 1), np.arange(most + 1)
+    # from the centre of a coarse cell to that of a fine one, both half a cell off their corner
+    shift = np.pi / cells - np.pi / coarse
+    waves = scipy.fft.rfft2(height, norm="forward")[along[:, np.newaxis], across]
+    waves *= np.exp(1j * shift * along)[:, np.newaxis] * np.exp(1j * shift * across)
+    fine = np.zeros((cells, cells // 2 + 1), dtype=np.complex128)
+    fine[along[:, np.newaxis], across] = waves
+    return np.asarray(scipy.fft.irfft2(fine, (cells, cells), norm="forward"))
+
+
+@dataclass(frozen=True, kw_only=True)
+class RoughnessDraw:
+    """One realisation. spectrum: C_2D of the surface; length: period [m]; cells: a side and along the profile; seed:
+    zero or positive."""
+
+    spectrum: mdr.SelfAffine
+    length: float
+    cells: int
+    seed: int
+    realisation: int
+
+
+def measure_profile(draw: RoughnessDraw) -> Outcome:
+    """Mean squares of height, gradient and curvature of a profile drawn by Geike's rule, and its spectrum."""
+    rng = random_generator(draw.seed, 1, draw.realisation)
+    height = mdr.rough_profile(draw.spectrum.c1d, length=draw.length, points=draw.cells, rng=rng)
+    power = np.abs(np.fft.fft(height, norm="forward")) ** 2
+    q = 2 * np.pi * np.abs(np.fft.fftfreq(draw.cells, draw.length / draw.cells))
+    return {
+        "height": np.mean(height**2),
+        "gradient": np.sum(q**2 * power),
+        "curvature": np.sum(q**4 * power),
+        "spectrum": power[: draw.cells // 2] * draw.length / (2 * np.pi),
+    }
+
+
+def measure_surface(draw: RoughnessDraw) -> Outcome:
+    """Mean squares of height, gradient and curvature of a surface, and the spectrum of its lines."""
+    spacing = draw.length / draw.cells
+    rng = random_generator(draw.seed, 2, draw.realisation)
+    height = bem3d.rough_surface(draw.spectrum.c2d, shape=(draw.cells, draw.cells), spacing=spacing, rng=rng)
+    power = np.abs(np.fft.fft2(height, norm="forward")) ** 2
+    q = 2 * np.pi * np.fft.fftfreq(draw.cells, spacing)
+    square = q[:, np.newaxis] ** 2 + q**2
+    lines = np.mean(np.abs(np.fft.fft(height, axis=0, norm="forward")) ** 2, axis=1)
+    return {
+        "height": np.mean(height**2),
+        "gradient": np.sum(square * power),
+        "curvature": np.sum(square**2 * power),
+        "spectrum": lines[: draw.cells // 2] * draw.length / (2 * np.pi),
+    }

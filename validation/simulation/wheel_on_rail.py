@@ -1,7 +1,6 @@
 """A wheel with a mass on a rough rail: its contact in each time step, and what the roughness lifts it by."""
 
 import math
-import warnings
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -15,10 +14,10 @@ from mdr.rolling_surface import weights_across
 from validation.engine.engine import Outcome
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import BoundaryElementsLaw, ContactLaw, LinearLaw
-from validation.simulation.model_names import SPRINGS_THAT_READ
-from validation.simulation.motion import simulate
+from validation.simulation.equivalent_displacement import linear_displacement, roll_boundary_elements, roll_springs
+from validation.simulation.model_names import LINE, LINEAR, SPRINGS_THAT_READ
+from validation.simulation.motion import simulate_from_linear_motion
 from validation.simulation.rail_strip import RailStrip
-from validation.theory.contact_filters import half_space_filter
 
 FloatArray = NDArray[np.float64]
 
@@ -54,9 +53,7 @@ class WheelOnRail:
     @cached_property
     def linear(self) -> LinearLaw:
         """The ellipse that keeps its size, by the half-space filter on the same surface."""
-        contact = self.strip.contact
-        axes = contact.along, contact.across
-        lifted = self.strip.along_middle(lambda x, y: half_space_filter(x, y, semi_axes=axes))
+        lifted = linear_displacement(self.strip, LINEAR)
         return LinearLaw(self.wheel, self.wheel.stiffness * lifted[:, np.newaxis])
 
     def law(self) -> ContactLaw:
@@ -94,21 +91,7 @@ class SurfaceSpringsLaw:
         return np.asarray(self.spring * np.maximum(approach[:, np.newaxis] + level, 0.0).sum(axis=1))
 
     def at_rest(self, place: int) -> FloatArray:
-        return self.rolled.approach[place : place + 1].copy()
-
-    @cached_property
-    def rolled(self) -> mdr.RollingTrack:
-        """Under a constant force."""
-        with warnings.catch_warnings():
-            # two grids are compared
-            warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
-            return mdr.roll_surface(
-                self.strip.surface,
-                spacing=self.strip.spacing,
-                radius=self.strip.radii,
-                modulus=self.strip.modulus,
-                force=self.wheel.load,
-            )
+        return roll_springs(self.strip, self.strip.surface, mdr.roll_surface).approach[place : place + 1].copy()
 
 
 def roll_and_move(case: WheelOnRail) -> Outcome:
@@ -129,7 +112,7 @@ def roll_and_move(case: WheelOnRail) -> Outcome:
         "moving": lift(case.wheel, force, approach),
         "force": force,
         "linear": case.linear.change[:, 0] / case.wheel.stiffness,
-        "line": case.strip.along_middle(lambda x, y: np.ones_like(x + y)),
+        "line": linear_displacement(case.strip, LINE),
         "failed": np.array(failed),
     }
 
@@ -144,28 +127,15 @@ def lift(wheel: Wheel, force: FloatArray, approach: FloatArray) -> FloatArray:
 
 def at_constant_load(case: WheelOnRail) -> FloatArray:
     """d_N - d."""
-    strip, law = case.strip, case.law()
-    if isinstance(law, SurfaceSpringsLaw):
-        return np.asarray(case.wheel.approach - law.rolled.approach)
-    found = bem3d.roll(
-        strip.surface,
-        spacing=strip.spacing,
-        radius=strip.radii,
-        modulus=strip.modulus,
-        force=strip.force,
-        tolerance=case.tolerance,
-    )
-    return np.asarray(case.wheel.approach - found.approach)
+    if case.model == BEM:
+        approach = roll_boundary_elements(case.strip, case.tolerance, raise_on_failure=True).approach
+    else:
+        approach = roll_springs(case.strip, case.strip.surface, mdr.roll_surface).approach
+    return np.asarray(case.wheel.approach - approach)
 
 
 def in_motion(case: WheelOnRail) -> tuple[FloatArray, FloatArray]:
     """Approach and force at the beginning of each step of one round."""
-    law, linear = case.law(), case.linear
-    approach, velocity = linear.steady_state(case.time_step)
-    start = law.at_rest(0) + approach - linear.at_rest(0)
-    steps = case.strip.shape[0]
-    motion = simulate(
-        case.wheel, law, time_step=case.time_step, steps=steps, approach=start, velocity=velocity, path=True
-    )
+    motion = simulate_from_linear_motion(case.law(), case.linear, case.time_step, case.strip.shape[0], path=True)
     assert motion.path is not None
     return motion.path[:, 0], np.asarray(case.mass * motion.acceleration[:, 0] + case.wheel.load)

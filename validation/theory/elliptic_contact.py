@@ -24,6 +24,10 @@ class EllipticContact:
     pressure: float
     stiffness: float
 
+    @property
+    def semi_axes(self) -> tuple[float, float]:
+        return self.along, self.across
+
 
 def elliptic_contact(
     radii: tuple[float, float], *, modulus: float, force: float | None = None, approach: float | None = None

@@ -24,12 +24,11 @@ from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import BoundaryElementsLaw, LinearLaw, SpringsLaw
 from validation.simulation.method import FloatArray, Method, Prepared, Resolution, Result, Solve
-from validation.simulation.motion import Motion, periodic_motion, simulate
+from validation.simulation.motion import Motion, periodic_motion, simulate, simulate_from_linear_motion
 from validation.simulation.wheel_on_half_space import (
     WheelStrip,
     crop_to_reach,
     linear_law_3d,
-    simulate_from_linear_motion,
 )
 from validation.simulation.wheel_on_springs import STEADY_TOLERANCE, InputSpectrum, WheelEnsemble, linear_law_1d
 from validation.theory import rolling as rolling_theory
@@ -117,7 +116,7 @@ StripRunner = Callable[[WheelStrip, LinearStrip], Callable[[], tuple[FloatArray,
 
 def linear_strip(scene: WheelProblem, strip: WheelStrip) -> LinearStrip:
     surface, time_step = strip.surface(), strip.spacing / scene.wheel_scene.speed
-    linear = linear_law_3d(strip, surface)
+    linear = linear_law_3d(strip.scene.body, surface, strip.spacing)
     found = scene.levels(steady_acceleration(linear, time_step), time_step)[0]
     return LinearStrip(surface, linear, time_step, found, mean_levels(scene, surface, strip.spacing, time_step))
 
@@ -254,7 +253,7 @@ def wheel_on_strips(scene: WheelProblem, resolution: Resolution, simulated: Stri
 def _filter_strip(strip: WheelStrip, known: LinearStrip) -> Callable[[], tuple[FloatArray, float]]:
     """Force and wheel by their responses."""
     return lambda: (
-        steady_acceleration(linear_law_3d(strip, known.surface), known.time_step)[:, 0],
+        steady_acceleration(linear_law_3d(strip.scene.body, known.surface, strip.spacing), known.time_step)[:, 0],
         float(known.surface.size),
     )
 

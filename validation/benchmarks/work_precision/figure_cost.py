@@ -10,12 +10,11 @@ from validation.benchmarks.timing import interval_of_median
 from validation.engine.engine import Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.simulation.contact_laws import BoundaryElementsLaw, SpringsLaw
-from validation.simulation.motion import simulate
+from validation.simulation.motion import simulate, simulate_from_linear_motion
 from validation.simulation.wheel_on_half_space import (
     WheelStrip,
     crop_to_reach,
     linear_law_3d,
-    simulate_from_linear_motion,
 )
 from validation.simulation.wheel_on_springs import WheelEnsemble
 
@@ -71,7 +70,10 @@ class StepsOnHalfSpace:
         own = {"realisation": 0, "natural_periods": 0, "width": 2, "seed": cost.seed}
         strip = WheelStrip(scene=scene, cells=cost.cells, shared=cost.cells, tolerance=cost.tolerance, **own)
         surface, time_step = strip.surface(), strip.spacing / scene.speed
-        linear, height = linear_law_3d(strip, surface), crop_to_reach(surface, strip.spacing, scene.body)
+        linear, height = (
+            linear_law_3d(scene.body, surface, strip.spacing),
+            crop_to_reach(surface, strip.spacing, scene.body),
+        )
         law = BoundaryElementsLaw(scene.body, [height], strip.spacing, tolerance=cost.tolerance)
         found = [
             timed(lambda: simulate_from_linear_motion(law, linear, time_step, cost.steps))[1] for _ in range(1 + RUNS)

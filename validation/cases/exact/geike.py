@@ -1,11 +1,13 @@
 """Geike's rule: which moments it keeps between one and two dimensions, and how it differs from a line trace."""
 
-from collections.abc import Iterator, Mapping, Sequence
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
+from scipy import integrate
 
 import mdr
 from validation.analysis.case import Case, Chapter
@@ -14,9 +16,8 @@ from validation.analysis.claims import Claim, off_by
 from validation.analysis.evidence import Role
 from validation.analysis.series import Margin, Series, single
 from validation.analysis.study import Outcomes, Study
-from validation.cases.exact.spectral_moments import line_moment, mean_power_of_cosine, surface_moment
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation.drawn_roughness import RoughnessDraw, measure_profile, measure_surface
+from validation.simulation.surface import RoughnessDraw, measure_profile, measure_surface
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,6 +88,28 @@ def series(result: Outcomes) -> list[Series]:
         *(_of_line(name, shares[LINE][n], shares[DIRECTIONS][n]) for n, name in NAMED.items()),
         *_of_lines(case, spectra),
     ]
+
+
+def surface_moment(spectrum: mdr.SelfAffine, n: int) -> float:
+    """int |q|^n C_2D d^2q."""
+    return _integral(lambda q: 2 * np.pi * q ** (n + 1) * spectrum.c2d(q), spectrum.q_min, spectrum.q_max)
+
+
+def line_moment(c1d: Callable[[ArrayLike], NDArray[np.float64]], spectrum: mdr.SelfAffine, n: int) -> float:
+    """int |q|^n C_1D dq, both sides; a line has waves below q_min too."""
+    below = _integral(lambda q: 2 * q**n * c1d(q), 0.0, spectrum.q_min * (1 - 1e-9))
+    return below + _integral(lambda q: 2 * q**n * c1d(q), spectrum.q_min * (1 + 1e-12), spectrum.q_max)
+
+
+def mean_power_of_cosine(n: int) -> float:
+    """Mean of |cos|^n over all directions: Gamma((n+1)/2) / (sqrt(pi) Gamma(n/2+1))."""
+    return math.gamma((n + 1) / 2) / (math.sqrt(math.pi) * math.gamma(n / 2 + 1))
+
+
+def _integral(f: Callable[[float], ArrayLike], low: float, high: float) -> float:
+    """Adaptive quadrature, relative error 1e-10."""
+    value, _ = integrate.quad(f, low, high, epsabs=0.0, epsrel=1e-11, limit=400)
+    return float(value)
 
 
 def _moments(outcomes: Sequence[Outcome]) -> dict[int, float]:

@@ -14,7 +14,7 @@ from validation.analysis.study import Outcomes, Study
 from validation.cases.exact.refinement import order
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.selection import model_needed
-from validation.simulation.smooth_sphere import SmoothSphere, press_sphere_by_bem, press_sphere_by_springs
+from validation.simulation.exact_contacts import SmoothSphere, press_sphere_by_bem, press_sphere_by_springs
 from validation.theory import closed_forms
 
 BEM, MDR, OVER, HERTZ, SECOND = "bem3d", "mdr", "mdr over bem3d", "Hertz", "second order"
@@ -190,6 +190,7 @@ STUDY = Study(
         ),
     ),
 )
+evidence = STUDY.evidence
 CASE = Case(
     name="hertz",
     chapter=Chapter.EXACT,

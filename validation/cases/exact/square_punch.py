@@ -15,7 +15,7 @@ from validation.analysis.study import Outcomes, Study
 from validation.cases.exact.refinement import first_order_limit
 from validation.engine.engine import SERIAL, Engine
 from validation.selection import model_needed
-from validation.simulation.flat_punches import FlatPunches, press_flat_punches
+from validation.simulation.exact_contacts import FlatPunches, press_flat_punches
 from validation.theory import closed_forms
 
 

@@ -14,7 +14,7 @@ from validation.analysis.series import Series, single
 from validation.analysis.study import Outcomes, Study
 from validation.cases.exact.refinement import order
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation.periodic_wave import CosineWave, press_wave
+from validation.simulation.exact_contacts import CosineWave, press_wave
 from validation.theory import closed_forms
 
 

@@ -21,8 +21,7 @@ from validation.analysis.study import Outcomes, Study
 from validation.cases.punch.ensembles import DEVIATION, MEAN, PunchEnsembles, press
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.selection import model_needed
-from validation.simulation.rolled_off import RolledOffRoughness
-from validation.simulation.rough_punch import PunchRoughness, Surface, require_converged
+from validation.simulation.rough_punch import PunchRoughness, RolledOffRoughness, Surface, require_converged
 from validation.theory import closed_forms
 
 BANDWIDTH, ROLL_OFF, FORCE = "q_max / q_min", "q_r L / 2π", "Fbar"
@@ -167,8 +166,7 @@ def _of(result: Outcomes, quantity: str) -> Iterator[Series]:
         if quantity == MEAN:
             fit = Estimates.exact(np.log(fitted(case)), 10**9)
             yield over(quantity + OF_BEM, FIT, fit - bem[kind], where=where, **judged)
-    decades = spans(case.forces, *((first, 10 * first) for first in case.first_forces))
-    changed = partial(over, grid=left, margin=MARGINS[quantity], ranges=decades)
+    changed = partial(over, grid=left, margin=MARGINS[quantity], ranges=case.by_decade)
     for (a, b), step in zip(pairwise(springs), steps, strict=False):
         apart = change(statistic, result[a], result[b]) - step
         yield changed(CHANGE + quantity, "mdr over bem3d", apart, where={BANDWIDTH: (a[1], b[1])})

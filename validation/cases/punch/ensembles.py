@@ -4,6 +4,7 @@ from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
+from validation.analysis.series import Ranges, spans
 from validation.engine.engine import Engine, Outcome
 from validation.simulation.rough_punch import (
     Profiles,
@@ -50,6 +51,11 @@ class PunchEnsembles:
     def first_forces(self) -> tuple[float, ...]:
         """The first Fbar of each decade."""
         return tuple(10.0**power for power in range(*self.decades))
+
+    @property
+    def by_decade(self) -> Ranges:
+        """Levels of force of each decade, both ends with it."""
+        return spans(self.forces, *((first, 10 * first) for first in self.first_forces))
 
     def band(self, hurst: float, first: int = 1) -> PunchRoughness:
         """Self-affine from `first` waves on a side to four cells a wave, the same on every grid and by both methods."""

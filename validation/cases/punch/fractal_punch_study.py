@@ -9,28 +9,11 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, Matrix, per_cent
 from validation.analysis.evidence import Number, Place, Role, numbers_with
-from validation.analysis.series import Margin, Series, spans
+from validation.analysis.series import Margin, Series
 from validation.analysis.statistics import DECIBEL
 from validation.analysis.study import Outcomes, Study
+from validation.cases.punch import fractal_punch as shown
 from validation.cases.punch.ensembles import DEVIATION, MEAN
-from validation.cases.punch.fractal_punch import (
-    FEW,
-    FORCE,
-    LAW,
-    LONG,
-    SCATTER,
-    SLOPE,
-    STIFFNESS,
-    TREND,
-    FractalPunch,
-    H,
-    PunchStatistics,
-    criteria,
-    curves,
-    run,
-    tables,
-    trends,
-)
 from validation.selection import model_needed
 from validation.simulation.rough_punch import BEM, FEW_CELLS, MDR
 
@@ -52,8 +35,7 @@ FACTOR = Margin(
     role=Role.CRITERION,
 )
 ROLLING = Margin(
-    tolerance=3.0,
-    reason="accuracy claimed for 1D models of rolling noise against 3D models: Ford and Thompson (2006)",
+    tolerance=3.0, reason="accuracy claimed for 1D models of rolling noise against 3D models: Ford and Thompson (2006)"
 )
 PUBLISHED = (0.51, 0.77)
 """Exponents of fractal dimensions 2 to 3; Pohrt and Popov, Phys. Rev. Lett. 108, 104301 (2012), abstract."""
@@ -61,45 +43,45 @@ PUBLISHED = (0.51, 0.77)
 
 def series(result: Outcomes) -> list[Series]:
     """Raises NotConvergedError where too few surfaces have converged at one of the forces."""
-    case, found = result.case, PunchStatistics(result)
+    case, found = result.case, shown.PunchStatistics(result)
     found.require_converged()
     hursts: list[float | None] = [*case.hursts, *([None] if len(case.hursts) > 1 else [])]
     return [
-        *criteria(found),
-        *(one for hurst in case.hursts for one in curves(found, hurst)),
+        *shown.criteria(found),
+        *(one for hurst in case.hursts for one in shown.curves(found, hurst)),
         *(one for hurst in hursts for one in compared(found, hurst)),
         *laws(found),
-        *trends(found),
+        *shown.trends(found),
     ]
 
 
-def compared(found: PunchStatistics, hurst: float | None) -> Iterator[Series]:
+def compared(found: shown.PunchStatistics, hurst: float | None) -> Iterator[Series]:
     """Each 1D model over boundary elements; every decade is judged by its worst force, whose intervals hold at once."""
     case = found.case
-    where: dict[str, Place] = {H: "mean over H" if hurst is None else hurst}
+    where: dict[str, Place] = {shown.H: "mean over H" if hurst is None else hurst}
     judged = partial(
         Series,
         where=where,
-        along=FORCE,
+        along=shown.FORCE,
         at=case.forces,
         scale=DECIBEL,
         unit="dB",
         shown=lambda decibels: math.exp(decibels / DECIBEL),
-        ranges=spans(case.forces, *((first, 10 * first) for first in case.first_forces)),
+        ranges=case.by_decade,
         fewest=case.per_decade + 1,
     )
     for statistic, margin in ((DEVIATION, FIGURE), (MEAN, LEVEL)):
-        for method, name in ((MDR, statistic), (LONG, statistic + OF_LONG)):
+        for method, name in ((MDR, statistic), (shown.LONG, statistic + OF_LONG)):
             ratios = [found.ratio(hurst, method, statistic, level) for level in range(len(case.forces))]
             values, grid = [ratio.value for ratio in ratios], [ratio.grid for ratio in ratios]
             yield judged(name, "mdr over bem3d", values, grid=grid, margin=margin)
     for first in case.first_forces:
         springs, bem = (found.exponent(hurst, method, *case.decade(first)) for method in (MDR, BEM))
-        apart, place = springs.beside(bem), {**where, FORCE: (first, 10 * first)}
+        apart, place = springs.beside(bem), {**where, shown.FORCE: (first, 10 * first)}
         yield Series(EXPONENT, LESS, (apart.value,), where=place, grid=[apart.grid], margin=DIGITS)
 
 
-def laws(found: PunchStatistics) -> Iterator[Series]:
+def laws(found: shown.PunchStatistics) -> Iterator[Series]:
     """Exponents beside 1 / (1 + H), their intervals at once for all H, off the last asperity and off saturation."""
     case = found.case
     first = min(case.first_forces, key=lambda force: abs(math.log(force / 0.01)))
@@ -110,11 +92,11 @@ def laws(found: PunchStatistics) -> Iterator[Series]:
                 EXPONENT,
                 method,
                 (mine.value,),
-                where={H: hurst, FORCE: (first, 10 * first)},
+                where={shown.H: hurst, shown.FORCE: (first, 10 * first)},
                 reference=1 / (1 + hurst),
                 grid=[mine.grid],
                 family=len(case.hursts),
-                margin=replace(DIGITS, source=LAW),
+                margin=replace(DIGITS, source=shown.LAW),
             )
 
 
@@ -123,13 +105,13 @@ def once_more(result: Outcomes, numbers: Sequence[Number]) -> list[Number]:
 
     Of the mean in decades whose lightest contacts have cells enough at every H, and in the last.
     """
-    case, found = result.case, PunchStatistics(result)
+    case, found = result.case, shown.PunchStatistics(result)
     light = {
         (case.forces[first], case.forces[last])
         for first, last in map(case.decade, case.first_forces[:-1])
         if min(found.contact(hurst, first, case.cells) for hurst in case.hursts) < FEW_CELLS
     }
-    mean = [n for n in numbers_with(numbers, MEAN) if n.where[FORCE] not in light]
+    mean = [n for n in numbers_with(numbers, MEAN) if n.where[shown.FORCE] not in light]
     judged = (
         (mean, f"{MEAN} where the models", FACTOR),
         (numbers_with(numbers, DEVIATION), f"{DEVIATION} where it", ROLLING),
@@ -148,11 +130,11 @@ def once_more(result: Outcomes, numbers: Sequence[Number]) -> list[Number]:
 
 
 COMPARED = (
-    Curve(STIFFNESS, BEM, "bem", "boundary elements", bars=True),
-    Curve(STIFFNESS, FEW, "bem, few cells", "boundary elements, few cells", bars=True),
-    Curve(STIFFNESS, MDR, "mdr line", "MDR, L_1D = L", band=True),
-    Curve(STIFFNESS, LONG, "other", "MDR, L_1D = 1.1523 L"),
-    Curve(STIFFNESS, LAW, "guide", "1 / (1 + H)"),
+    Curve(shown.STIFFNESS, BEM, "bem", "boundary elements", bars=True),
+    Curve(shown.STIFFNESS, shown.FEW, "bem, few cells", "boundary elements, few cells", bars=True),
+    Curve(shown.STIFFNESS, MDR, "mdr line", "MDR, L_1D = L", band=True),
+    Curve(shown.STIFFNESS, shown.LONG, "other", "MDR, L_1D = 1.1523 L"),
+    Curve(shown.STIFFNESS, shown.LAW, "guide", "1 / (1 + H)"),
 )
 LINES = (
     "Circles: boundary elements, open where the mean contact has few cells. Line: MDR, L_1D = L; dashed: L_1D = 1.1523 "
@@ -165,13 +147,13 @@ def _by_hurst(
     caption: str,
     quantity: str,
     label: str,
-    curves: Sequence[Curve] = COMPARED,
+    drawn: Sequence[Curve] = COMPARED,
     claim: int = 0,
     **panel: object,
 ) -> Chart:
     """A panel for each Hurst exponent."""
-    mine = tuple(replace(curve, quantity=quantity) for curve in curves)
-    panels = (Panel(FORCE, label, mine, facet=H, **panel),)  # type: ignore[arg-type]
+    mine = tuple(replace(curve, quantity=quantity) for curve in drawn)
+    panels = (Panel(shown.FORCE, label, mine, facet=shown.H, **panel),)  # type: ignore[arg-type]
     name = f"fractal_punch-{part}"
     return Chart(name, caption, panels, claims=(claim,), columns=4, height=6.4, sharey=True)
 
@@ -197,22 +179,22 @@ STUDY = Study(
     ),
     series=series,
     once_more=once_more,
-    tables=tables,
+    tables=shown.tables,
     claims=(
         Claim(
             says=FIGURE_14_1,
             short="MDR's fluctuation over boundary elements",
             quantity=DEVIATION,
-            where={H: float},
-            along=FORCE,
+            where={shown.H: float},
+            along=shown.FORCE,
             printed=per_cent,
         ),
         Claim(
             says="MDR has the mean stiffness of rough punches.",
             short="MDR's mean stiffness over boundary elements",
             quantity=MEAN,
-            where={H: float},
-            along=FORCE,
+            where={shown.H: float},
+            along=shown.FORCE,
             printed=per_cent,
         ),
         Claim(
@@ -230,23 +212,23 @@ STUDY = Study(
             "= L; lines end where all springs touch.",
             (
                 Panel(
-                    FORCE,
+                    shown.FORCE,
                     "relative standard deviation of the stiffness",
                     (
-                        Curve(SCATTER, BEM, by=(H,), band=True),
-                        Curve(SCATTER, FEW, "open marks", "_", by=(H,), band=True),
+                        Curve(shown.SCATTER, BEM, by=(shown.H,), band=True),
+                        Curve(shown.SCATTER, shown.FEW, "open marks", "_", by=(shown.H,), band=True),
                     ),
                     "boundary elements",
                     ylim=(0, 0.6),
                 ),
-                Panel(FORCE, "", (Curve(SCATTER, MDR, by=(H,), band=True),), "MDR", ylim=(0, 0.6)),
+                Panel(shown.FORCE, "", (Curve(shown.SCATTER, MDR, by=(shown.H,), band=True),), "MDR", ylim=(0, 0.6)),
             ),
             width=9.0,
         ),
         _by_hurst(
             "overlay",
             f"Relative standard deviation of the stiffness over the force. {LINES}",
-            SCATTER,
+            shown.SCATTER,
             "relative standard deviation",
             COMPARED[:-1],
             log="xy",
@@ -269,7 +251,7 @@ STUDY = Study(
         _by_hurst(
             "mean",
             f"Mean stiffness kbar = k / (E* L) over the force. {LINES} Dotted: slope 1 / (1 + H).",
-            STIFFNESS,
+            shown.STIFFNESS,
             "mean stiffness kbar = k / (E* L)",
             claim=1,
             log="xy",
@@ -278,7 +260,7 @@ STUDY = Study(
             "exponent",
             f"Local exponent d ln k / d ln F of the mean stiffness. {LINES} Dotted: 1 / (1 + H). Grey: published, "
             f"{PUBLISHED[0]} to {PUBLISHED[1]}.",
-            SLOPE,
+            shown.SLOPE,
             "exponent d ln k / d ln F",
             claim=2,
             ylim=(0, 1),
@@ -290,30 +272,36 @@ STUDY = Study(
             Matrix(
                 name=f"{name}: MDR over boundary elements",
                 quantity=name,
-                rows=(H,),
-                columns=FORCE,
-                where={H: ...},
+                rows=(shown.H,),
+                columns=shown.FORCE,
+                where={shown.H: ...},
                 printed=per_cent,
             )
             for name in (DEVIATION, DEVIATION + OF_LONG, MEAN, MEAN + OF_LONG)
         ),
-        Matrix(name="exponent: MDR less boundary elements", quantity=EXPONENT, model=LESS, rows=(H,), columns=FORCE),
+        Matrix(
+            name="exponent: MDR less boundary elements",
+            quantity=EXPONENT,
+            model=LESS,
+            rows=(shown.H,),
+            columns=shown.FORCE,
+        ),
         Matrix(
             name=f"exponent of the mean stiffness beside 1 / (1 + H); published: {PUBLISHED[0]} to {PUBLISHED[1]}",
             quantity=EXPONENT,
             model=(BEM, MDR),
-            rows=(H,),
+            rows=(shown.H,),
             columns="model",
         ),
     ),
-    printed=("estimator", TREND),
+    printed=("estimator", shown.TREND),
 )
 CASE = Case(
     name="fractal_punch",
     chapter=Chapter.PRESSED,
     place=1,
     answers="Fig. 14.1: mean and fluctuation of the contact stiffness of rough punches",
-    quick=FractalPunch(
+    quick=shown.FractalPunch(
         hursts=(0.4, 0.7, 1.0),
         cells=48,
         surfaces=(
@@ -323,7 +311,7 @@ CASE = Case(
             *((30, 10, 6, 4, 0, 0),) * 2,
         ),
     ),
-    full=FractalPunch(
+    full=shown.FractalPunch(
         cells=256,
         surfaces=(
             (0, 0, 7000, 2500, 600, 130),
@@ -335,7 +323,7 @@ CASE = Case(
         profiles=30000,
         fine_profiles=1000,
     ),
-    run=run,
+    run=shown.run,
     study=STUDY,
     needs=model_needed.punches,
 )

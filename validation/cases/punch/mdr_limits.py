@@ -11,7 +11,7 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, times
 from validation.analysis.evidence import Table
-from validation.analysis.series import Estimates, Margin, Series, masked, spans
+from validation.analysis.series import Estimates, Margin, Series, masked
 from validation.analysis.statistics import (
     DECIBEL,
     FIVE_PER_CENT,
@@ -33,15 +33,7 @@ from validation.cases.punch.work import Worked
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.engine.random_numbers import random_generator
 from validation.selection import model_needed
-from validation.simulation.rough_punch import (
-    BEM,
-    BOOTSTRAP,
-    FEW_CELLS,
-    MDR,
-    METHODS,
-    PunchRoughness,
-    require_converged,
-)
+from validation.simulation.rough_punch import BEM, BOOTSTRAP, FEW_CELLS, MDR, METHODS, PunchRoughness, require_converged
 from validation.theory import closed_forms
 
 
@@ -186,7 +178,7 @@ def over_bem(case: MdrLimits, mine: RollOffSamples, quantity: str) -> Series:
         scale=DECIBEL,
         unit="dB",
         margin=NEAR,
-        ranges=spans(case.forces, *((first, 10 * first) for first in case.first_forces)),
+        ranges=case.by_decade,
         fewest=2,
         family=_family(case),
     )

@@ -11,7 +11,7 @@ import numpy as np
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, per_cent
-from validation.analysis.series import Estimates, Margin, Series, Where, spans
+from validation.analysis.series import Estimates, Margin, Series, Where
 from validation.analysis.statistics import (
     DECIBEL,
     THREE_PER_CENT,
@@ -120,7 +120,7 @@ def _changes(result: Outcomes, samples: Mapping[tuple[float, str, str], Sample])
         scale=DECIBEL,
         unit="dB",
         margin=NO_CHANGE,
-        ranges=spans(case.forces, *((first, 10 * first) for first in case.first_forces)),
+        ranges=case.by_decade,
         # the intervals of a change hold at once everywhere
         family=len(case.first_forces) * len(case.hursts) * len(METHODS),
     )

@@ -10,8 +10,10 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Role
+from validation.analysis.margins import FIELD
 from validation.analysis.series import Estimates, Series, masked, only
 from validation.analysis.study import Study
+from validation.cases.rail import rolled_filters as rolled
 from validation.cases.rail.filters import (
     ACROSS,
     COUNTED,
@@ -19,94 +21,82 @@ from validation.cases.rail.filters import (
     SPEEDS,
     counted,
     linear_filter,
+    over_in_decibel_a,
     scene_of,
-    weighted_difference,
 )
 from validation.cases.rail.published import FOLLOWED, LEAST, SOURCE, RailWheel, a3_of_table, columns_of_table, compared
-from validation.cases.rail.rolled_filters import (
-    FIELD,
-    FILTERS,
-    NEAR,
-    OVER_BEM,
-    WAVE,
-    Key,
-    RolledFilters,
-    RolledFiltersResult,
-    in_bands,
-    millimetres,
-    models_of,
-    run_filters,
-)
-from validation.simulation.equivalent_displacement import (
+from validation.simulation.model_names import (
     BED,
     BEM,
     LINEAR,
     LINEAR_ON_LINE,
     LINEAR_ON_MEAN,
+    SPRINGS_GEIKE,
+    SPRINGS_ROLLING,
     SPRINGS_THAT_READ,
+    twin_of,
 )
-from validation.simulation.rail_ground import SHORTEST, strip_bands
-from validation.simulation.spectral_springs import SPRINGS_GEIKE, SPRINGS_ROLLING, twin_of
+from validation.simulation.rail_strip import SHORTEST, strip_bands
 
 OVER_LINEAR, OF_WHEELS = "A3 over linear theory of the ellipse", "A3 of five wheels"
 OVER_TABLE, SPEED = "A3 over the published table", "speed [km/h]"
 WEIGHTED = "A-weighted level over that with linear theory of the ellipse"
 TABLE, NOT_COMPARED = "published table", "published table, not compared"
-OF_TABLE = replace(NEAR, source=SOURCE, worst=False, rms=(1.0, FIELD))
-OF_SPEED = replace(NEAR, source="linear theory of the ellipse, levels of ISO 3095:2013, IEC 61672 A")
+OF_TABLE = replace(FIELD, source=SOURCE, worst=False, rms=(FIELD.tolerance, FIELD.reason))
+OF_SPEED = FIELD.beside("linear theory of the ellipse, levels of ISO 3095:2013, IEC 61672 A")
 
 
-def series(result: RolledFiltersResult) -> list[Series]:
+def series(result: rolled.RolledFiltersResult) -> list[Series]:
     """Filters on strips, beside the published table, and in dB(A)."""
     case = result.case
     return [
         *(one for key in case.keys for one in (*result.filters(key), *_of_strips(result, key))),
         *(one for wheel in columns_of_table() for one in _of_table(wheel, case.across)),
-        *(_in_decibel_a(result, model, name) for model in FILTERS[1:] for name in case.across),
+        *(_in_decibel_a(result, model, name) for model in rolled.FILTERS[1:] for name in case.across),
     ]
 
 
-def _of_strips(result: RolledFiltersResult, key: Key) -> Iterator[Series]:
+def _of_strips(result: rolled.RolledFiltersResult, key: rolled.Key) -> Iterator[Series]:
     """In the bands that count: what is exact of each model, and what it is over its linear twin on the same strips."""
     case, bem, keep = result.case, result.over_twin(key, BEM), counted(result.linear(key))
-    shown, at = in_bands(case, key), millimetres(strip_bands(case.scene(key)))
-    margin = replace(NEAR, source=f"boundary elements, {case.strips} strips of {case.scene(key).name}")
+    shown, at = rolled.in_bands(case, key), rolled.millimetres(strip_bands(case.scene(key)))
+    margin = FIELD.beside(f"boundary elements, {case.strips} strips of {case.scene(key).name}")
     by_cells = result.left_by_grid(key, BEM, LINEAR)
-    for model in models_of(key):
+    for model in rolled.models_of(key):
         over, grid = result.over_linear(key, model), result.left_by_grid(key, model, twin_of(model))
         yield shown(OVER_LINEAR, model, masked(over, keep), grid=grid)
         if model != BEM:
-            yield shown(OVER_BEM, model, over - bem, grid=by_cells + grid, margin=margin, ranges=only(at, keep))
+            yield shown(rolled.OVER_BEM, model, over - bem, grid=by_cells + grid, margin=margin, ranges=only(at, keep))
 
 
 def _of_table(wheel: RailWheel, across: tuple[str, ...]) -> Iterator[Series]:
     """The published table, linear theory over both grounds, and each filter over the table where it is compared."""
     scene, table, keep = scene_of(wheel), a3_of_table(wheel), compared(wheel)
-    in_table = partial(Series, along=WAVE, at=millimetres(scene.levels.bands), unit="dB")
+    in_table = partial(Series, along=rolled.WAVE, at=rolled.millimetres(scene.levels.bands), unit="dB")
     for name, ground in ACROSS.items():
         yield in_table(OF_WHEELS, name, linear_filter(scene, LINEAR, ground), where={"wheel": wheel.label})
     for name, shown in ((TABLE, keep), (NOT_COMPARED, ~keep)):
         yield in_table(OF_WHEELS, name, np.where(shown, table, np.nan), where={"wheel": wheel.label})
     judged = partial(in_table, reference=Estimates.exact(table), grid=0.05, margin=OF_TABLE)
-    for model in FILTERS:
+    for model in rolled.FILTERS:
         for name in across if model != REMINGTON else ("alpha = 1",):
             found = np.where(keep, linear_filter(scene, model, ACROSS.get(name, 1.0)), np.nan)
             yield judged(OVER_TABLE, model, found, where={"wheel": wheel.label, "across": name})
 
 
-def _in_decibel_a(result: RolledFiltersResult, model: str, name: str) -> Series:
+def _in_decibel_a(result: rolled.RolledFiltersResult, model: str, name: str) -> Series:
     """By speed, over linear theory of the ellipse with the same ground; ridges are the same across the contact."""
     scene = result.case.scene(result.case.keys[0])
     filters = linear_filter(scene, model, ACROSS[name]), linear_filter(scene, LINEAR, ACROSS[name])
     sees_no_width = ACROSS[name] == "ridges" and model in (LINEAR_ON_LINE, LINEAR_ON_MEAN)
     margin = replace(OF_SPEED, role=Role.IDENTITY) if sees_no_width else OF_SPEED
-    found = [*map(weighted_difference(scene, *filters), SPEEDS)]
+    found = over_in_decibel_a(scene, *filters)
     return Series(WEIGHTED, model, found, where={"across": name}, along=SPEED, at=SPEEDS, unit="dB(A)", margin=margin)
 
 
 def _of(model: str, says: str, short: str = "") -> Claim:
     """Limits reach from ridges, which one line knows whole."""
-    return Claim(says=says, short=short, quantity=OVER_BEM, model=model, along="across")
+    return Claim(says=says, short=short, quantity=rolled.OVER_BEM, model=model, along="across")
 
 
 SHOWN = (SPRINGS_THAT_READ, LINEAR_ON_LINE, LINEAR_ON_MEAN, BED, REMINGTON, SPRINGS_ROLLING, SPRINGS_GEIKE)
@@ -160,7 +150,7 @@ STUDY = Study(
             "ellipse over ridges, dotted over isotropic ground, a wheel each, shifted by 10 dB.",
             (
                 Panel(
-                    WAVE,
+                    rolled.WAVE,
                     "A3 over linear theory of the ellipse [dB]",
                     (
                         Curve(OVER_LINEAR, SHOWN, by=("model",), of={"wheel": "first"}),
@@ -172,7 +162,7 @@ STUDY = Study(
                     downward=True,
                 ),
                 Panel(
-                    WAVE,
+                    rolled.WAVE,
                     "A3, shifted [dB]",
                     (
                         Curve(OF_WHEELS, "ridges", "lines", "_", by=("wheel",), down=10.0),
@@ -191,7 +181,7 @@ STUDY = Study(
         ),
     ),
     matrices=(
-        Matrix(name="over boundary elements", quantity=OVER_BEM, rows=("wheel", "across"), columns="model"),
+        Matrix(name="over boundary elements", quantity=rolled.OVER_BEM, rows=("wheel", "across"), columns="model"),
         Matrix(
             name="rms difference from the published table",
             quantity="rms of " + OVER_TABLE,
@@ -206,11 +196,11 @@ CASE = Case(
     chapter=Chapter.RAIL,
     place=2,
     answers="Which contact filter is right for my wheel, and by how many dB is the one I use wrong",
-    quick=RolledFilters(strips=3, cells=(5, 7)),
-    full=RolledFilters(
+    quick=rolled.RolledFilters(strips=3, cells=(5, 7)),
+    full=rolled.RolledFilters(
         wheels=((50.0, 920.0), (25.0, 920.0), (50.0, 680.0), (50.0, 360.0), (100.0, 920.0)), strips=6, cells=(8, 16)
     ),
-    run=run_filters,
+    run=rolled.run_filters,
     study=STUDY,
     needs="linear theory of the ellipse at the levels of ISO 3095:2013",
 )

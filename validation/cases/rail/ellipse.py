@@ -11,15 +11,16 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, Matrix, decibels
 from validation.analysis.evidence import Role
+from validation.analysis.margins import FIELD
 from validation.analysis.series import Margin, Series, Where, only
 from validation.analysis.study import Outcomes, Study
-from validation.cases.rail.filters import ACROSS, COUNTED, SPEEDS, counted, linear_filter, scene_of, weighted_difference
+from validation.cases.rail.filters import ACROSS, COUNTED, SPEEDS, counted, linear_filter, over_in_decibel_a, scene_of
 from validation.cases.rail.published import RailWheel
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine
-from validation.simulation.equivalent_displacement import LINEAR
-from validation.simulation.published_contact import APPROACH, PRESSURE, PublishedContact, press_ellipse
-from validation.simulation.rail_ground import StatedAcross
+from validation.simulation.exact_contacts import APPROACH, PRESSURE, PublishedContact, press_ellipse
+from validation.simulation.model_names import LINEAR
+from validation.simulation.rail_strip import StatedAcross
 
 FloatArray = NDArray[np.float64]
 
@@ -62,7 +63,7 @@ DIGITS = Margin(
     source="CONTACT, published example output, four digits",
     role=Role.CRITERION,
 )
-FIELD = Margin(1.0, "1 dB: a tolerance of the field", source="filter of the ellipse")
+OF_ELLIPSE = FIELD.beside("filter of the ellipse")
 
 
 def series(result: Outcomes) -> list[Series]:
@@ -90,7 +91,7 @@ def _crown(case: Ellipse, crown: float) -> Iterator[Series]:
     for axis, value in {"a_x, along": along, "a_y, across": across, "sqrt(a_x a_y)": math.sqrt(along * across)}.items():
         yield Series(SEMI_AXIS, axis, (value,), where={CROWN: 1000 * crown}, unit="mm")
     itself = math.isclose(1000 * crown, case.wheel.diameter / 2)
-    margin = replace(FIELD, role=Role.IDENTITY) if itself else FIELD
+    margin = replace(OF_ELLIPSE, role=Role.IDENTITY) if itself else OF_ELLIPSE
     at = np.round(1000 * scene.levels.bands.nominal, 2)
     for name, ground in ACROSS.items():
         where: Where = {CROWN: 1000 * crown, GROUND: name}
@@ -101,7 +102,7 @@ def _crown(case: Ellipse, crown: float) -> Iterator[Series]:
         shown = np.where(keep, excess, np.nan)
         yield Series(EXCESS, "", shown, where=where, along=WAVE, at=at, unit="dB", margin=margin, ranges=only(at, keep))
         yield Series(SHORT, "", excess[at == 16], where=where, unit="dB")
-        by_speed = [*map(weighted_difference(scene, circle, ellipse), SPEEDS)]
+        by_speed = over_in_decibel_a(scene, circle, ellipse)
         yield Series(WEIGHTED, "", by_speed, where=where, along=SPEED, at=SPEEDS, unit="dB(A)", margin=margin)
 
 

@@ -1,6 +1,5 @@
 """Contact filters of the field for a wheel on a rail, in dB over nominal wavelengths, and in dB(A) over a speed."""
 
-from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
@@ -10,9 +9,9 @@ from validation.analysis.sound import a_weighting, energy_sum
 from validation.cases.rail.published import RailWheel
 from validation.scenes.level_files import curve
 from validation.scenes.rail import RailScene
-from validation.simulation.equivalent_displacement import LINEAR_MODELS
-from validation.simulation.rail_ground import StatedAcross, line_of, structure_of
-from validation.simulation.spectral_springs import LINEAR_GEIKE, LINEAR_ROLLING, geike_power, rolling_transfer
+from validation.simulation.equivalent_displacement import LINEAR_MODELS, geike_power
+from validation.simulation.model_names import LINEAR_GEIKE
+from validation.simulation.rail_strip import StatedAcross, line_of, structure_of
 from validation.theory.contact_filters import remington_filter
 from validation.theory.elliptic_contact import EllipticContact
 
@@ -51,7 +50,7 @@ def linear_filter(
     across.
     """
     bands, line, contact = scene.levels.bands, line_of(scene), contact or scene.contact
-    axes = contact.along, contact.across
+    axes = contact.semi_axes
     if model == REMINGTON:
         q, dq = bands.quadrature()
         power = line(q) * dq
@@ -59,7 +58,7 @@ def linear_filter(
         return decibel(passed.sum(axis=1) / power.sum(axis=1))
     if model == LINEAR_GEIKE:
         return decibel(geike_power(line, contact, bands.edges))
-    transfer = rolling_transfer(contact) if model == LINEAR_ROLLING else LINEAR_MODELS[model](contact)
+    transfer = LINEAR_MODELS[model](contact)
     return decibel(structure_of(across, line).band_power(line, transfer, edges=bands.edges, semi_axes=axes))
 
 
@@ -82,9 +81,6 @@ def weighted_level(scene: RailScene, a3: FloatArray, speed: float) -> float:
     return energy_sum(np.array(scene.levels.levels) + a3 + a_weighting(frequency))
 
 
-def weighted_difference(
-    scene: RailScene, mine: FloatArray, reference: FloatArray, speeds: tuple[float, ...] = SPEEDS
-) -> Callable[[float], float]:
-    """Of two filters, by the speed [dB(A)]."""
-    found = {v: weighted_level(scene, mine, v) - weighted_level(scene, reference, v) for v in speeds}
-    return found.__getitem__
+def over_in_decibel_a(scene: RailScene, mine: FloatArray, reference: FloatArray) -> list[float]:
+    """Of one filter over another, at each of SPEEDS [dB(A)]."""
+    return [weighted_level(scene, mine, v) - weighted_level(scene, reference, v) for v in SPEEDS]

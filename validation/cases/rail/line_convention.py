@@ -11,6 +11,7 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, decibels
 from validation.analysis.evidence import Role
+from validation.analysis.margins import FIELD
 from validation.analysis.series import Margin, Series, Where
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknifed
@@ -19,10 +20,20 @@ from validation.cases.rail.filters import counted, decibel, linear_filter, scene
 from validation.cases.rail.published import RailWheel
 from validation.engine.engine import SERIAL, Engine
 from validation.scenes.rail import RailScene
-from validation.simulation.equivalent_displacement import LINE, LINEAR, LINEAR_MODELS, LINEAR_ON_LINE
-from validation.simulation.parallel_lines import ParallelLines, lines_across, mean_of_lines, measure_lines
-from validation.simulation.rail_ground import StatedAcross, line_of, strip_bands, strip_of, structure_of
-from validation.simulation.rail_strip import RailStrip
+from validation.simulation.equivalent_displacement import LINEAR_MODELS
+from validation.simulation.model_names import LINE, LINEAR, LINEAR_ON_LINE
+from validation.simulation.rail_strip import (
+    ParallelLines,
+    RailStrip,
+    StatedAcross,
+    line_of,
+    lines_across,
+    mean_of_lines,
+    measure_lines,
+    strip_bands,
+    strip_of,
+    structure_of,
+)
 
 FloatArray = NDArray[np.float64]
 
@@ -78,7 +89,7 @@ def run(case: LineConvention, engine: Engine = SERIAL) -> Outcomes:
 ENERGY, HEIGHTS, SCATTER = "energy mean of lines over one line", "mean of heights over one line", "scatter of a level"
 SPREAD, ELLIPSE = "deviation of a level from strip to strip", "A3 of the ellipse over that of a line"
 GROUND, SPACING, WAVE = "across", "spacing [mm]", "wavelength [mm]"
-NEAR = Margin(1.0, "1 dB: a tolerance of the field", source="one line, mean of all realisations")
+NEAR = FIELD.beside("one line, mean of all realisations")
 AS_ONE = Margin(
     0.15,
     "15 %: a third less would be that of three independent lines, 1 / sqrt(3) = 0.58",

@@ -10,16 +10,16 @@ import numpy as np
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, Matrix
+from validation.analysis.margins import REPEATABLE
 from validation.analysis.nominal_bands import NominalBands
-from validation.analysis.series import Estimates, Margin, Series, Where, masked, only
+from validation.analysis.series import Estimates, Series, Where, masked, only
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray
 from validation.analysis.study import Outcomes, Study
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.level_files import curve
-from validation.simulation.rail_ground import RailGround
-from validation.simulation.rail_strip import RailStrip
+from validation.simulation.rail_strip import RailGround, RailStrip
 from validation.simulation.wheel_on_rail import BEM, SPRINGS, WheelOnRail, roll_and_move
 from validation.theory.elliptic_contact import EllipticContact, elliptic_contact
 from validation.theory.line_spectrum import LineSpectrum
@@ -38,9 +38,8 @@ RMS = "rms of "
 NEAR, ABOVE = "near the resonance", "above the resonance"
 LOUD, WIDEST = -15.0, 1.5
 """Level of the filter [dB] down to which its bands are judged; bands near the resonance are within this factor."""
-DECIBEL = "1 dB: repeatability of measured one-third octave levels"
-REPEATABLE = Margin(
-    tolerance=1.0, reason=DECIBEL, source="at constant load, same strips", worst=False, rms=(1.0, DECIBEL)
+RMS_REPEATABLE = replace(
+    REPEATABLE, source="at constant load, same strips", worst=False, rms=(REPEATABLE.tolerance, REPEATABLE.reason)
 )
 
 
@@ -239,7 +238,7 @@ def _ratios(result: RailDynamicResult, offset: float) -> Iterator[Series]:
         (INFERRED, BEM, NEAR, near, (BEM, "inferred"), (BEM, "constant")),
     ]
     for quantity, model, bands, inside, mine, other in compared:
-        margin = replace(REPEATABLE, source="boundary elements, same strips") if quantity == BESIDE else REPEATABLE
+        margin = RMS_REPEATABLE.beside("boundary elements, same strips") if quantity == BESIDE else RMS_REPEATABLE
         found, grid = result.over(offset, mine, other)
         where: Where = {OFFSET: offset, "bands": bands}
         ranges = only(f, result.judged & inside)

@@ -20,8 +20,7 @@ from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.load import load_scene
 from validation.scenes.rail import RailScene
-from validation.simulation.equivalent_displacement import BEM, LINEAR, SPRINGS_THAT_READ
-from validation.simulation.rail_ground import StatedAcross, strip_bands, strip_of
+from validation.simulation.model_names import BEM, LINEAR, SPRINGS_THAT_READ
 from validation.simulation.rail_sound import (
     GEIKE,
     ISOTROPIC,
@@ -30,7 +29,7 @@ from validation.simulation.rail_sound import (
     samples_of,
     sounding_strip,
 )
-from validation.simulation.rail_strip import RailStrip
+from validation.simulation.rail_strip import RailStrip, StatedAcross, strip_bands, strip_of
 
 SOUNDING = {"bem": BEM, "linear": LINEAR, "springs": SPRINGS_THAT_READ, "geike": GEIKE}
 """Models by the names of their files."""

@@ -8,7 +8,8 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, Matrix, beside
 from validation.analysis.evidence import Number
-from validation.analysis.series import Margin, Series, Where
+from validation.analysis.margins import FIELD
+from validation.analysis.series import Series, Where
 from validation.analysis.sound import Sound, Sounds
 from validation.analysis.study import Study
 from validation.cases.rail.rail_sound import (
@@ -23,7 +24,7 @@ from validation.cases.rail.rail_sound import (
     run,
     shipped_rail,
 )
-from validation.simulation.equivalent_displacement import BEM, LINEAR, SPRINGS_THAT_READ
+from validation.simulation.model_names import BEM, LINEAR, SPRINGS_THAT_READ
 from validation.simulation.rail_sound import GEIKE, ISOTROPIC
 
 LEVEL, IN_BANDS, FORCE = "level of the contact force", "level in one-third octaves", "contact force less its mean"
@@ -39,8 +40,7 @@ SHOWN = 0.02
 def series(result: RailSoundResult) -> list[Series]:
     """Levels over boundary elements on the same strip, -30 dB where a model is silent, and what is drawn."""
     case, found = result.case, list[Series]()
-    source = f"boundary elements on the same {case.metres:.3g} m of rail"
-    margin = Margin(tolerance=1.0, reason="a tolerance of the field", source=source)
+    margin = FIELD.beside(f"boundary elements on the same {case.metres:.3g} m of rail")
     f, time = result.bands.centres / (2 * math.pi), 1000 * np.arange(round(SHOWN * case.rate)) / case.rate
     for model in case.sounding:
         name, force = LABELS[model], np.round(result.signal(model), 1)[: time.size]
@@ -136,8 +136,8 @@ STUDY = Study(
         "surface. Springs of Geike's spectrum have no surface: their profile is the middle line of this one with each "
         "wave scaled to that spectrum, so that it keeps its phase. Sample: jackknife over {c.blocks} pieces of the "
         "strip. Grid: {c.cells} cells to the smaller semi-axis, to first order. A model that is "
-        f"{-SILENT:g} dB quieter than boundary elements or more counts as {SILENT:g} dB. The A-weighting of IEC "
-        "61672-1 is meant for sound pressure; here it weights a force, for comparison alone."
+        f"{-SILENT:g} dB quieter than boundary elements or more counts as {SILENT:g} dB. The A-weighting "
+        "of IEC 61672-1 is meant for sound pressure; here it weights a force, for comparison alone."
     ),
     series=series,
     claims=[

@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 
 from validation.analysis.nominal_bands import NominalBands
-from validation.analysis.series import Estimates, Margin, Series, Where
+from validation.analysis.series import Estimates, Series, Where
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray
 from validation.analysis.study import Outcomes
@@ -16,37 +16,17 @@ from validation.cases.rail.published import RailWheel
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import SERIAL, Engine
 from validation.scenes.rail import RailScene
-from validation.simulation.equivalent_displacement import (
-    BED,
-    BEM,
-    LINEAR,
-    LINEAR_ON_LINE,
-    LINEAR_ON_MEAN,
-    ONE_SIDED_BED,
-    SPRINGS_ON_LINE,
-    SPRINGS_ON_MEAN,
-    SPRINGS_THAT_READ,
-    RolledRail,
-    log_over,
-    roll_rail,
-)
-from validation.simulation.rail_ground import strip_bands, strip_of
-from validation.simulation.spectral_springs import (
-    SPRINGS_GEIKE,
-    SPRINGS_ROLLING,
-    SpectralRail,
-    roll_spectral_springs,
-    twin_of,
-)
+from validation.simulation import equivalent_displacement as tracks
+from validation.simulation import model_names as named
+from validation.simulation.model_names import BEM, SPRINGS_GEIKE, SPRINGS_ROLLING, twin_of
+from validation.simulation.rail_strip import strip_bands, strip_of
 
 Key = tuple[RailWheel, float, str]
 """Wheel, dB over the levels, and what lies across, by its name."""
 
-FILTERS = (LINEAR, LINEAR_ON_LINE, LINEAR_ON_MEAN, BED, REMINGTON)
-RIVALS = (SPRINGS_THAT_READ, SPRINGS_ON_LINE, SPRINGS_ON_MEAN, ONE_SIDED_BED)
+FILTERS = (named.LINEAR, named.LINEAR_ON_LINE, named.LINEAR_ON_MEAN, named.BED, REMINGTON)
+RIVALS = (named.SPRINGS_THAT_READ, named.SPRINGS_ON_LINE, named.SPRINGS_ON_MEAN, named.ONE_SIDED_BED)
 A3, OVER_BEM, WAVE = "A3", "A3 over that of boundary elements", "wavelength [mm]"
-FIELD = "1 dB: a tolerance of the field"
-NEAR = Margin(tolerance=1.0, reason=FIELD)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,17 +61,13 @@ class RolledFilters:
         wheel, offset, _ = key
         return scene_of(wheel, crown=self.crown, offset=offset)
 
-    def problems(self, key: Key, cells: int) -> list[RolledRail]:
+    def problems(self, key: Key, cells: int) -> list[tracks.RolledRail]:
         """Strips of one kind on one grid."""
-        scene, across = self.scene(key), ACROSS[key[2]]
+        scene, across, models = self.scene(key), ACROSS[key[2]], (BEM, *RIVALS, *spectral_models(key))
         return [
-            RolledRail(strip=strip_of(scene, across, cells, i, self.seed), models=(BEM, *RIVALS))
+            tracks.RolledRail(strip=strip_of(scene, across, cells, i, self.seed), models=models)
             for i in range(self.strips)
         ]
-
-    def spectral_problems(self, key: Key, cells: int) -> list[SpectralRail]:
-        """The same strips under springs of input spectra."""
-        return [SpectralRail(strip=one.strip, models=spectral_models(key)) for one in self.problems(key, cells)]
 
 
 def spectral_models(key: Key) -> tuple[str, ...]:
@@ -101,7 +77,7 @@ def spectral_models(key: Key) -> tuple[str, ...]:
 
 def models_of(key: Key) -> tuple[str, ...]:
     """All that a kind of strip has a filter of."""
-    return (BEM, *FILTERS, *RIVALS, *spectral_models(key))
+    return (named.BEM, *FILTERS, *RIVALS, *spectral_models(key))
 
 
 @dataclass(frozen=True)
@@ -117,7 +93,7 @@ class RolledFiltersResult(Outcomes):
             return Estimates.exact(np.zeros(len(bands)))
         spacing = self.case.problems(key, cells)[0].strip.spacing
         found = [outcome for outcome in self[key, cells] if not outcome["failed"]]
-        return Estimates(log_over(model, other, found, spacing, Bands(tuple(bands.edges.tolist()))))
+        return Estimates(tracks.log_over(model, other, found, spacing, Bands(tuple(bands.edges.tolist()))))
 
     def over_twin(self, key: Key, model: str) -> Estimates:
         """The same over the linear twin of a one-sided model."""
@@ -129,7 +105,7 @@ class RolledFiltersResult(Outcomes):
         change = self.over(key, model, other, fine).values - self.over(key, model, other, coarse).values
         return np.abs(change) * coarse / (fine - coarse)
 
-    def linear(self, key: Key, model: str = LINEAR) -> FloatArray:
+    def linear(self, key: Key, model: str = named.LINEAR) -> FloatArray:
         """A3 of the linear twin of a model in the bands of the strips [dB]."""
         scene = self.case.scene(key)
         bands = strip_bands(scene)
@@ -165,18 +141,10 @@ def millimetres(bands: NominalBands) -> FloatArray:
 
 def run_filters(case: RolledFilters, engine: Engine = SERIAL) -> RolledFiltersResult:
     """Roll on both grids. Raises NotConvergedError where fewer than three strips of a kind converge."""
-    groups: dict[tuple[Key, int], Sequence[RolledRail]] = {
+    groups: dict[tuple[Key, int], Sequence[tracks.RolledRail]] = {
         (key, cells): case.problems(key, cells) for key in case.keys for cells in case.cells
     }
-    rolled = engine.map_groups(roll_rail, groups)
-    spectral = engine.map_groups(roll_spectral_springs, {(key, n): case.spectral_problems(key, n) for key, n in groups})
-    outcomes = {
-        kind: [
-            {**springs, **one, "failed": springs["failed"] + one["failed"]}
-            for springs, one in zip(spectral[kind], found, strict=True)
-        ]
-        for kind, found in rolled.items()
-    }
+    outcomes = engine.map_groups(tracks.roll_rail, groups)
     lost = tuple(
         f"strip {i}, {wheel.label}, {offset:+g} dB, {name}, {cells} cells to an axis: {int(one['failed'])} positions"
         for ((wheel, offset, name), cells), found in outcomes.items()

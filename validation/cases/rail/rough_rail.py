@@ -10,31 +10,24 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Table
+from validation.analysis.margins import FIELD
 from validation.analysis.series import Estimates, Margin, Series, masked, only
 from validation.analysis.statistics import mean_estimate
 from validation.analysis.study import Study
+from validation.cases.rail import rolled_filters as rolled
 from validation.cases.rail.filters import COUNTED, counted
-from validation.cases.rail.rolled_filters import (
-    NEAR,
-    OVER_BEM,
-    WAVE,
-    Key,
-    RolledFilters,
-    RolledFiltersResult,
-    in_bands,
-    millimetres,
-    run_filters,
-)
-from validation.simulation.equivalent_displacement import (
-    AREA,
+from validation.simulation.equivalent_displacement import AREA
+from validation.simulation.model_names import (
     BEM,
     LINEAR,
     ONE_SIDED_BED,
+    SPRINGS_GEIKE,
     SPRINGS_ON_LINE,
+    SPRINGS_ROLLING,
     SPRINGS_THAT_READ,
+    twin_of,
 )
-from validation.simulation.rail_ground import SHORTEST, lost_contact_number, strip_bands
-from validation.simulation.spectral_springs import SPRINGS_GEIKE, SPRINGS_ROLLING, twin_of
+from validation.simulation.rail_strip import SHORTEST, lost_contact_number, strip_bands
 
 MODELS = (LINEAR, SPRINGS_THAT_READ, ONE_SIDED_BED, SPRINGS_ON_LINE, SPRINGS_ROLLING, SPRINGS_GEIKE)
 OFFSET, WAVES, GROUND = "offset [dB]", "waves of h'", "isotropic ground"
@@ -47,33 +40,34 @@ FULL_CONTACT = Margin(
 )
 
 
-def series(result: RolledFiltersResult) -> list[Series]:
+def series(result: rolled.RolledFiltersResult) -> list[Series]:
     """Filters, models over boundary elements, and the area in contact, roughness by roughness."""
-    of_keys = [(*result.filters(key), *_over_bem(result, key), _area(result, key)) for key in result.case.keys]
-    return [one for some in of_keys for one in some]
+    return [
+        one for key in result.case.keys for one in (*result.filters(key), *_over_bem(result, key), _area(result, key))
+    ]
 
 
-def _over_bem(result: RolledFiltersResult, key: Key) -> Iterator[Series]:
+def _over_bem(result: rolled.RolledFiltersResult, key: rolled.Key) -> Iterator[Series]:
     """On the same strips where both have one linear twin, else each over its own.
 
     The two bands of the shortest waves are left out, where oblique waves are missing.
     """
     case, bem, keep = result.case, result.over_twin(key, BEM), counted(result.linear(key))
-    shown, at = in_bands(case, key), millimetres(strip_bands(case.scene(key)))
+    shown, at = rolled.in_bands(case, key), rolled.millimetres(strip_bands(case.scene(key)))
     whole = np.arange(at.size) < at.size - 2
-    margin = replace(NEAR, source=f"boundary elements on the same {case.strips} strips")
+    margin = FIELD.beside(f"boundary elements on the same {case.strips} strips")
     scatter = Estimates(replace(one, value=0.0) for one in bem)
     yield shown(OF_BEM, BEM, masked(scatter, whole), grid=result.left_by_grid(key, BEM, LINEAR))
     for model in MODELS:
         twin = twin_of(model)
         over = result.over(key, model, BEM) if twin == LINEAR else result.over_linear(key, model) - bem
-        judged = partial(shown, OVER_BEM, model, grid=result.left_by_grid(key, BEM, twin), margin=margin)
+        judged = partial(shown, rolled.OVER_BEM, model, grid=result.left_by_grid(key, BEM, twin), margin=margin)
         for waves, inside in ((LONG, keep & whole), (SHORT, ~keep & whole)):
             where = {OFFSET: key[1], "waves": waves}
             yield judged(masked(over, inside), where=where, ranges=only(at, inside))
 
 
-def _area(result: RolledFiltersResult, key: Key) -> Series:
+def _area(result: rolled.RolledFiltersResult, key: rolled.Key) -> Series:
     """Mean along all strips, on the finer grid, beside that of the coarser one."""
     cells = result.case.cells
     coarse, fine = (mean_estimate(np.array([float(one[AREA].mean()) for one in result[key, n]])) for n in cells)
@@ -81,7 +75,7 @@ def _area(result: RolledFiltersResult, key: Key) -> Series:
     return Series(LOST, BEM, (fine,), where={OFFSET: key[1]}, reference=1.0, grid=(left,), margin=FULL_CONTACT)
 
 
-def roughness(case: RolledFilters) -> Table:
+def roughness(case: rolled.RolledFilters) -> Table:
     """How rough the rail is, by h' of the waves of the strips."""
     scenes = {key[1]: case.scene(key) for key in case.keys}
     return Table(
@@ -111,7 +105,7 @@ STUDY = Study(
             says="Linear theory of the ellipse follows boundary elements within 1 dB up to 20 dB over the limit of "
             "ISO 3095.",
             short="Linear theory of the ellipse",
-            quantity=OVER_BEM,
+            quantity=rolled.OVER_BEM,
             model=LINEAR,
             where={"waves": LONG},
             along=OFFSET,
@@ -119,7 +113,7 @@ STUDY = Study(
         Claim(
             says="It follows them within 1 dB at the waves beyond its first zero too.",
             short="linear theory beyond its first zero",
-            quantity=OVER_BEM,
+            quantity=rolled.OVER_BEM,
             model=LINEAR,
             where={"waves": SHORT},
             along=OFFSET,
@@ -127,7 +121,7 @@ STUDY = Study(
         Claim(
             says="Springs that read the surface follow boundary elements within 1 dB at all of these waves.",
             short="springs that read the surface",
-            quantity=OVER_BEM,
+            quantity=rolled.OVER_BEM,
             model=SPRINGS_THAT_READ,
             along=OFFSET,
         ),
@@ -145,12 +139,12 @@ STUDY = Study(
             "sample and grid.",
             (
                 Panel(
-                    WAVE,
+                    rolled.WAVE,
                     "A3 over that of boundary elements [dB]",
                     (
                         Curve(OF_BEM, style="interval", label="95 %, boundary elements", band=True),
-                        Curve(OVER_BEM, SHOWN, by=("model",), of={"waves": LONG}),
-                        Curve(OVER_BEM, SHOWN, "open", "_", by=("model",), of={"waves": SHORT}),
+                        Curve(rolled.OVER_BEM, SHOWN, by=("model",), of={"waves": LONG}),
+                        Curve(rolled.OVER_BEM, SHOWN, "open", "_", by=("model",), of={"waves": SHORT}),
                     ),
                     facet=OFFSET,
                     shade=(-1, 1),
@@ -161,7 +155,7 @@ STUDY = Study(
         ),
     ),
     matrices=(
-        Matrix(name="over boundary elements", quantity=OVER_BEM, rows=("model", "waves"), columns=OFFSET),
+        Matrix(name="over boundary elements", quantity=rolled.OVER_BEM, rows=("model", "waves"), columns=OFFSET),
         Matrix(name=LOST, quantity=LOST, rows=("model",), columns=OFFSET),
     ),
     printed=("roughness and contact",),
@@ -172,9 +166,11 @@ CASE = Case(
     chapter=Chapter.RAIL,
     place=3,
     answers="How rough a rail may be before its contact filter depends on the roughness",
-    quick=RolledFilters(offsets=(0.0, 20.0), across=(GROUND,), strips=3, cells=(5, 7), seed=21),
-    full=RolledFilters(offsets=(0.0, 5.0, 10.0, 15.0, 20.0), across=(GROUND,), strips=10, cells=(8, 16), seed=21),
-    run=run_filters,
+    quick=rolled.RolledFilters(offsets=(0.0, 20.0), across=(GROUND,), strips=3, cells=(5, 7), seed=21),
+    full=rolled.RolledFilters(
+        offsets=(0.0, 5.0, 10.0, 15.0, 20.0), across=(GROUND,), strips=10, cells=(8, 16), seed=21
+    ),
+    run=rolled.run_filters,
     study=STUDY,
     needs="linear theory of the ellipse; boundary elements for short waves on rougher rails",
 )

@@ -12,14 +12,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.evidence import Role
+from validation.analysis.margins import THREE_DECIBELS
 from validation.analysis.series import Estimates, Margin, Ranges, Series, masked
 from validation.analysis.statistics import DECIBEL, POWER_DECIBEL, Estimate, mean_estimate, ratio_of_means
 from validation.analysis.study import Outcomes
-from validation.cases.rolling.settings import HEIGHT, THREE_DECIBELS, Q, SelfAffineSettings, slopes_of
+from validation.cases.rolling.settings import HEIGHT, Q, SelfAffineSettings, slopes_of
 from validation.engine.convergence import require_realisations
 from validation.engine.engine import SERIAL, Engine
-from validation.simulation.linear_levels import ROUNDING, coherence, correlation, force_3d, level_1d, level_3d
-from validation.simulation.rolling_strip import HERTZ, Strip, roll_strips, roll_tracks, strip_levels
+from validation.simulation.rolling_strip import (
+    HERTZ,
+    ROUNDING,
+    Strip,
+    coherence,
+    correlation,
+    force_3d,
+    level_1d,
+    level_3d,
+    roll_strips,
+    roll_tracks,
+    strip_levels,
+)
 from validation.simulation.track_spectrum import InputSpectrum, TrackSpectrum
 from validation.theory.rolling import force_spectrum_1d, level_ratio, mean_force_spectrum_1d
 
@@ -82,7 +94,7 @@ RMS_FORCE, EXCESS = "rms force over that of boundary elements", "mean level over
 SHOWN, SPECTRUM, COHERENCE, FORCE = "level of the force", "spectrum of the force", "coherence", "force along the track"
 CORRELATION, REGRESSION = "correlation with linear theory", "slope of the force over that of linear theory"
 APPLICATIONS, EXAMINED = "operator applications a position", "springs examined a position"
-NEAR = replace(THREE_DECIBELS, source="bem3d, extrapolated, on the same surfaces as linear theory in 3D")
+NEAR = THREE_DECIBELS.beside("bem3d, extrapolated, on the same surfaces as linear theory in 3D")
 MUST = replace(NEAR, role=Role.CRITERION)
 OF_VARIANCE = Margin(
     tolerance=0.1,
@@ -147,7 +159,7 @@ def levels_at(result: Outcomes, height: float) -> Iterator[Series]:
         must = {"margin": MUST, "family": 1} if model == LINEAR_3D and height <= LINEAR_UP_TO else {"margin": NEAR}
         yield judged(LEVEL, model + OVER, level - over_linear, ranges=case.ranges, **must)
     nonlinear = masked(Estimates.ratios(mine["level"], np.maximum(mine["linear level"], ROUNDING)), np.isfinite(in_1d))
-    inside, margin = dict([*case.ranges.items()][-1:]), replace(NEAR, source="bem3d over linear theory in 3D")
+    inside, margin = dict([*case.ranges.items()][-1:]), NEAR.beside("bem3d over linear theory in 3D")
     yield judged(NONLINEAR, BOTH, nonlinear, reference=over_linear, ranges=inside, margin=margin)
     yield decibels(NONLINEAR, "bem3d", over_linear)
     yield in_bands(COHERENCE, "bem3d", coherence(bem))

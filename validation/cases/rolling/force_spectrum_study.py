@@ -4,31 +4,11 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Map, Panel
 from validation.analysis.claims import Claim, Matrix
 from validation.analysis.study import Study
-from validation.cases.rolling.force_spectrum import (
-    APPLICATIONS,
-    BOTH,
-    COHERENCE,
-    CORRELATION,
-    FORCE,
-    LEVEL,
-    LINEAR_1D,
-    LINEAR_3D,
-    MEAN,
-    NONLINEAR,
-    OVER,
-    ROLLING_SPRINGS,
-    SHOWN,
-    SPECTRUM,
-    SPRINGS,
-    VARIANCE,
-    ForceSpectrum,
-    run,
-    series,
-)
+from validation.cases.rolling import force_spectrum as shown
 from validation.cases.rolling.settings import HEIGHT, SLOPE, SLOPE_COUNTS, Q
 from validation.selection import model_needed
 
-LEVELS, CHANGES = (LEVEL, "rms of " + LEVEL), (NONLINEAR, "rms of " + NONLINEAR)
+LEVELS, CHANGES = (shown.LEVEL, "rms of " + shown.LEVEL), (shown.NONLINEAR, "rms of " + shown.NONLINEAR)
 STUDY = Study(
     title="Rolling over isotropic roughness: levels of 1D models against boundary elements",
     method=(
@@ -45,7 +25,7 @@ STUDY = Study(
         + SLOPE_COUNTS
         + "; √2 times that is the rms gradient g of the surface, and the rms slope of Geike's profile."
     ),
-    series=series,
+    series=shown.series,
     claims=(
         Claim(
             says=(
@@ -54,7 +34,7 @@ STUDY = Study(
             ),
             short="Springs with Geike's spectrum, level over boundary elements",
             quantity=LEVELS,
-            model=(LINEAR_1D + OVER, SPRINGS + OVER),
+            model=(shown.LINEAR_1D + shown.OVER, shown.SPRINGS + shown.OVER),
             along=HEIGHT,
         ),
         Claim(
@@ -63,14 +43,14 @@ STUDY = Study(
                 "octave."
             ),
             quantity=LEVELS,
-            model=ROLLING_SPRINGS + OVER,
+            model=shown.ROLLING_SPRINGS + shown.OVER,
             along=HEIGHT,
         ),
         Claim(
             says="Linear theory in 3D has the level of boundary elements in each one-third octave.",
             short="Linear theory in 3D, level over boundary elements",
             quantity=LEVELS,
-            model=LINEAR_3D + OVER,
+            model=shown.LINEAR_3D + shown.OVER,
             along=HEIGHT,
         ),
         Claim(
@@ -81,10 +61,10 @@ STUDY = Study(
         ),
         Claim(
             says="The force at one position has the variance of linear theory, which Geike's rule keeps.",
-            quantity=VARIANCE,
+            quantity=shown.VARIANCE,
             along=HEIGHT,
         ),
-        Claim(says="Springs have the mean force of boundary elements.", quantity=MEAN, along=HEIGHT),
+        Claim(says="Springs have the mean force of boundary elements.", quantity=shown.MEAN, along=HEIGHT),
     ),
     charts=(
         Chart(
@@ -96,10 +76,10 @@ STUDY = Study(
                     Q,
                     "C_F / (F_Hertz² a (h/d)²)",
                     (
-                        Curve(SPECTRUM, LINEAR_3D, "thick", "linear theory, 3D"),
-                        Curve(SPECTRUM, SPRINGS, "dots", "springs"),
-                        Curve(SPECTRUM, "(14.12)", "exact", "(14.12)"),
-                        Curve(SPECTRUM, "(14.14)", "other", "(14.14)"),
+                        Curve(shown.SPECTRUM, shown.LINEAR_3D, "thick", "linear theory, 3D"),
+                        Curve(shown.SPECTRUM, shown.SPRINGS, "dots", "springs"),
+                        Curve(shown.SPECTRUM, "(14.12)", "exact", "(14.12)"),
+                        Curve(shown.SPECTRUM, "(14.14)", "other", "(14.14)"),
                     ),
                     log="xy",
                     decades=7.8,
@@ -119,10 +99,10 @@ STUDY = Study(
                     Q,
                     "one-third octave level [dB]",
                     (
-                        Curve(SHOWN, LINEAR_3D, "exact", "linear theory, 3D"),
-                        Curve(SHOWN, LINEAR_1D, "other", "linear theory, 1D (14.12)"),
-                        Curve(SHOWN, SPRINGS, "mdr", "springs"),
-                        Curve(SHOWN, "bem3d", "bem", "boundary elements", bars=True),
+                        Curve(shown.SHOWN, shown.LINEAR_3D, "exact", "linear theory, 3D"),
+                        Curve(shown.SHOWN, shown.LINEAR_1D, "other", "linear theory, 1D (14.12)"),
+                        Curve(shown.SHOWN, shown.SPRINGS, "mdr", "springs"),
+                        Curve(shown.SHOWN, "bem3d", "bem", "boundary elements", bars=True),
                     ),
                     facet=HEIGHT,
                     ylim=(-66.0, -2.0),
@@ -143,7 +123,10 @@ STUDY = Study(
                 Panel(
                     Q,
                     "coherence",
-                    (Curve(COHERENCE, "bem3d", by=(HEIGHT,)), Curve(COHERENCE, SPRINGS, "open", "_", by=(HEIGHT,))),
+                    (
+                        Curve(shown.COHERENCE, "bem3d", by=(HEIGHT,)),
+                        Curve(shown.COHERENCE, shown.SPRINGS, "open", "_", by=(HEIGHT,)),
+                    ),
                     "with linear theory",
                     ylim=(-0.03, 1.05),
                 ),
@@ -151,8 +134,8 @@ STUDY = Study(
                     Q,
                     "nonlinear over linear [dB]",
                     (
-                        Curve(NONLINEAR, "bem3d", label="_", by=(HEIGHT,)),
-                        Curve(NONLINEAR, BOTH, "open", "_", by=(HEIGHT,)),
+                        Curve(shown.NONLINEAR, "bem3d", label="_", by=(HEIGHT,)),
+                        Curve(shown.NONLINEAR, shown.BOTH, "open", "_", by=(HEIGHT,)),
                     ),
                     "level",
                 ),
@@ -160,8 +143,8 @@ STUDY = Study(
                     "x / a",
                     "(F - mean) / (F_Hertz h/d), shifted",
                     (
-                        Curve(FORCE, "bem3d", "lines", "_", by=(HEIGHT,), down=3.2),
-                        Curve(FORCE, LINEAR_3D, "dotted", "_", by=(HEIGHT,), down=3.2),
+                        Curve(shown.FORCE, "bem3d", "lines", "_", by=(HEIGHT,), down=3.2),
+                        Curve(shown.FORCE, shown.LINEAR_3D, "dotted", "_", by=(HEIGHT,), down=3.2),
                     ),
                     "force along the track",
                     log="",
@@ -173,22 +156,29 @@ STUDY = Study(
             "rolling-map",
             "Level of each model over that of boundary elements, over q a and h/d. Solid lines: ± 1 dB; dashed: ± 3 "
             "dB; hatched: more than 3 dB too low. Left of the vertical line: below the band.",
-            Map(LEVEL, Q, HEIGHT, "model", "level over boundary elements [dB]", at=(1.0,)),
+            Map(shown.LEVEL, Q, HEIGHT, "model", "level over boundary elements [dB]", at=(1.0,)),
             claims=(2,),
         ),
     ),
     matrices=(
-        Matrix(name="worst one-third octave over boundary elements", quantity=LEVEL, rows=(HEIGHT, Q), columns="model"),
-        Matrix(name="root mean square over the bands", quantity="rms of " + LEVEL, rows=(HEIGHT, Q), columns="model"),
+        Matrix(
+            name="worst one-third octave over boundary elements",
+            quantity=shown.LEVEL,
+            rows=(HEIGHT, Q),
+            columns="model",
+        ),
+        Matrix(
+            name="root mean square over the bands", quantity="rms of " + shown.LEVEL, rows=(HEIGHT, Q), columns="model"
+        ),
     ),
-    printed=(SLOPE, CORRELATION, VARIANCE, MEAN, APPLICATIONS),
+    printed=(SLOPE, shown.CORRELATION, shown.VARIANCE, shown.MEAN, shown.APPLICATIONS),
 )
 CASE = Case(
     name="rolling",
     chapter=Chapter.ROLLING,
     place=2,
     answers="Fig. 14.3: rolling force over isotropic roughness, where each model holds",
-    quick=ForceSpectrum(
+    quick=shown.ForceSpectrum(
         heights=(0.01, 0.3, 1.0),
         last=5.7,
         lowest=0.55,
@@ -199,7 +189,7 @@ CASE = Case(
         refined=8,
         tracks=40,
     ),
-    full=ForceSpectrum(
+    full=shown.ForceSpectrum(
         heights=(0.003, 0.01, 0.03, 0.1, 0.3, 1.0),
         last=20.0,
         lowest=0.22,
@@ -211,7 +201,7 @@ CASE = Case(
         refined=4,
         tracks=400,
     ),
-    run=run,
+    run=shown.run,
     study=STUDY,
     needs=model_needed.rolling,
 )

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -12,18 +12,19 @@ from numpy.typing import NDArray
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, Matrix
+from validation.analysis.margins import THREE_DECIBELS
 from validation.analysis.series import Estimates, Margin, Series, only
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, nearest
 from validation.analysis.study import Outcomes, Study
-from validation.cases.rolling.settings import HEIGHT, THREE_DECIBELS, Q, RollingSettings
+from validation.cases.rolling.settings import HEIGHT, Q, RollingSettings
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation.input_profiles import InputProfiles, press_input_profiles
-from validation.simulation.linear_levels import ROUNDING, level_1d, level_3d
-from validation.simulation.rolling_strip import roll_strips, roll_tracks, strip_levels
+from validation.simulation.rolling_strip import ROUNDING, level_1d, level_3d, roll_strips, roll_tracks, strip_levels
 from validation.simulation.rough_punch import (
+    InputProfiles,
     PunchRoughness,
     Surface,
     describe_failures,
+    press_input_profiles,
     press_surface,
     require_converged,
     stacked,
@@ -125,8 +126,8 @@ LEVEL, LINEAR, ONE_SIDED = "level of a one-third octave", "linear springs over l
 STIFFNESS, OVER_BEM = "mean stiffness of punches", "mean stiffness of punches over that of boundary elements"
 PROFILE_HEIGHT = "rms height of the profiles of punches over that of the surfaces"
 SPECTRUM, INPUT, FORCE = "spectrum", "input", "Fbar"
-BESIDE_LINEAR = replace(THREE_DECIBELS, source="linear theory in 3D, by quadrature")
-BESIDE_BEM = replace(THREE_DECIBELS, source="bem3d, relative to linear theory on the same surfaces")
+BESIDE_LINEAR = THREE_DECIBELS.beside("linear theory in 3D, by quadrature")
+BESIDE_BEM = THREE_DECIBELS.beside("bem3d, relative to linear theory on the same surfaces")
 
 
 def series(result: Outcomes) -> list[Series]:

@@ -12,7 +12,8 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Number, Place
-from validation.analysis.series import Margin, Series
+from validation.analysis.margins import REPEATABLE
+from validation.analysis.series import Series
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknifed
 from validation.analysis.study import Outcomes, Study
 from validation.engine.engine import SERIAL, Engine
@@ -109,9 +110,6 @@ SLACK = 1.15
 """By which h' a/d may lie above a limit."""
 GRID = 1 / 3
 """Error of a grid over its change to half of the cells, of second order."""
-ONE_DECIBEL = Margin(
-    1.0, "1 dB: repeatability of measured one-third octave levels", source="boundary elements on the same strips"
-)
 
 
 def series(result: Outcomes) -> list[Series]:
@@ -138,7 +136,7 @@ def _of_strips(result: Outcomes, key: Key, model: str) -> Iterator[Series]:
         found=(off(result, key, model),),
         grid=GRID * off(result, key, COARSE).value,
         unit="dB",
-        margin=ONE_DECIBEL if model != JUDGE else None,
+        margin=REPEATABLE.beside("boundary elements on the same strips") if model != JUDGE else None,
     )
     yield single(OCTAVES, found=in_octaves, along=Q, at=[ends[0] * 2 ** (k + 0.5) for k in range(in_octaves.size)])
     yield single(SHARED, found=(coherence(result, key, model).mean(),))

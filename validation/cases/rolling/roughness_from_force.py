@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache, partial
 
 import numpy as np
@@ -12,22 +12,14 @@ from scipy.optimize import nnls
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim
+from validation.analysis.margins import THREE_DECIBELS
 from validation.analysis.series import Estimates, Margin, Series
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknife_error
 from validation.analysis.study import Outcomes, Study
-from validation.cases.rolling.settings import (
-    HEIGHT,
-    SLOPE,
-    SLOPE_COUNTS,
-    THREE_DECIBELS,
-    Q,
-    SelfAffineSettings,
-    slopes_of,
-)
+from validation.cases.rolling.settings import HEIGHT, SLOPE, SLOPE_COUNTS, Q, SelfAffineSettings, slopes_of
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation.linear_levels import level_3d, over_bands
-from validation.simulation.rolling_strip import HERTZ, roll_strips, strip_levels
+from validation.simulation.rolling_strip import HERTZ, level_3d, over_bands, roll_strips, strip_levels
 from validation.simulation.track_spectrum import PiecewisePowerLaw, TrackSpectrum
 from validation.theory.rolling import force_spectrum_1d, mean_force_spectrum_1d
 
@@ -137,7 +129,7 @@ def with_error(values: list[FloatArray]) -> Estimates:
 LEVEL, BELOW = "roughness found in a one-third octave", "roughness found below the band"
 FOUND, OVER_TRUE = "mean square height in a one-third octave, over that of all", "roughness found over the true one"
 BETWEEN, ZEROS = "between zeros of sin(q a)", "at zeros of sin(q a)"
-NEAR = replace(THREE_DECIBELS, source="the surface itself")
+NEAR = THREE_DECIBELS.beside("the surface itself")
 LITTLE = Margin(
     tolerance=0.05,
     reason="5 %: 0.2 dB of the mean square height",

@@ -1,4 +1,4 @@
-"""What cases of a wheel over isotropic roughness share: their settings, names and margins.
+"""What cases of a wheel over isotropic roughness share: their settings and names.
 
 Units: contact radius a = 1 of the smooth wheel, approach d = 1, E* = 1.
 """
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.analysis.series import Margin, Series
+from validation.analysis.series import Series
 from validation.analysis.spectra import Bands
 from validation.engine.convergence import require_realisations
 from validation.simulation.rolling_strip import RoughStrip, Tracks
@@ -17,11 +17,6 @@ from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLa
 
 HEIGHT, SLOPE, Q = "h/d", "h' a/d", "q a"
 SLOPE_COUNTS = "h' is the rms slope along the track, in one direction, of all waves"
-ONE_DECIBEL = 1.0, "1 dB: repeatability of measured one-third octave levels"
-THREE_DECIBELS = Margin(
-    tolerance=3.0, reason="3 dB in one-third octaves: Ford and Thompson, J. Sound Vib. 293 (2006)", rms=ONE_DECIBEL
-)
-"""Of the worst one-third octave of a range; the root mean square over the range has its own."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -12,25 +12,23 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Number
+from validation.analysis.margins import THREE_DECIBELS
 from validation.analysis.series import Estimates, Margin, Series
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, extrapolated, jackknife_error, log_ratio_of_means
 from validation.analysis.study import Outcomes, Study
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation.rolling_strip import HERTZ, RoughStrip, Tracks
-from validation.simulation.rough_punch import (
-    Profiles,
-    PunchRoughness,
-    Surface,
-    describe_failures,
-    press_profiles,
-    press_surface,
-    require_converged,
-    stacked,
+from validation.simulation import rough_punch
+from validation.simulation.rolling_strip import (
+    HERTZ,
+    LoadedStrip,
+    RoughStrip,
+    Tracks,
+    roll_loaded_strip,
+    roll_loaded_tracks,
 )
 from validation.simulation.track_spectrum import INPUT_SPECTRA, InputSpectrum, PiecewisePowerLaw, self_affine
-from validation.simulation.track_stiffness import LoadedStrip, roll_loaded_strip, roll_loaded_tracks
 
 FloatArray = NDArray[np.float64]
 ROUNDING = 1e-9
@@ -74,14 +72,14 @@ class TrackStiffness:
         return Bands.around(math.pi, 0.5 * math.pi, self.waves * math.pi).on(self.length)
 
     @property
-    def punch(self) -> PunchRoughness:
-        return PunchRoughness(hurst=self.hurst, waves=(1, self.waves), seed=self.seed)
+    def punch(self) -> rough_punch.PunchRoughness:
+        return rough_punch.PunchRoughness(hurst=self.hurst, waves=(1, self.waves), seed=self.seed)
 
     @property
-    def faces(self) -> list[Surface]:
+    def faces(self) -> list[rough_punch.Surface]:
         """Of punches, pressed at Fbar / 3 first: each contact starts from the last."""
         return [
-            Surface(
+            rough_punch.Surface(
                 roughness=self.punch, realisation=i, cells=8 * self.waves, forces=(force / 3, force), tolerance=1e-4
             )
             for force in self.forces
@@ -89,9 +87,11 @@ class TrackStiffness:
         ]
 
     @property
-    def faces_of_springs(self) -> Profiles:
+    def faces_of_springs(self) -> rough_punch.Profiles:
         points = 8 * self.springs
-        return Profiles(roughness=self.punch, realisations=self.profiles, points=points, length=1.0, forces=self.forces)
+        return rough_punch.Profiles(
+            roughness=self.punch, realisations=self.profiles, points=points, length=1.0, forces=self.forces
+        )
 
     def height(self, force: float) -> float:
         """h/d."""
@@ -133,13 +133,13 @@ def run(case: TrackStiffness, engine: Engine = SERIAL) -> Outcomes:
     along = {key: {name: np.array([one[name] for one in found]) for name in found[0]} for key, found in strips.items()}
     tracks = {(rule, force): case.tracks_of(force, rule) for force in case.forces for rule in INPUT_SPECTRA}
     rolled = engine.map(roll_loaded_tracks, list(tracks.values()))
-    pressed = engine.map(press_surface, case.faces)
-    failures = describe_failures(case.faces, pressed)
-    require_converged([stacked(pressed)], failures)
+    pressed = engine.map(rough_punch.press_surface, case.faces)
+    failures = rough_punch.describe_failures(case.faces, pressed)
+    rough_punch.require_converged([rough_punch.stacked(pressed)], failures)
     punches = np.array([one["stiffness"][-1] for one in pressed]).reshape(len(case.forces), -1)
     results: dict[tuple[str, float], Outcome | FloatArray] = {**along, **dict(zip(tracks, rolled, strict=True))}
     for force, bem, springs in zip(
-        case.forces, punches, press_profiles(case.faces_of_springs)["stiffness"].T, strict=True
+        case.forces, punches, rough_punch.press_profiles(case.faces_of_springs)["stiffness"].T, strict=True
     ):
         results |= {(PUNCH, force): bem, (PROFILE, force): springs}
     return Outcomes(case, results, (*lost, *failures))
@@ -161,12 +161,7 @@ ROWS = {MEAN: np.array([0.0, 1.0]), DEVIATION: np.array([0.5, -1.0])}
 """Weights of ln of the mean variance and of ln of the mean."""
 SOURCE = "bem3d along the track, extrapolated"
 TEN_PER_CENT = Margin(0.1, "10 %: the margin of Fig. 14.1", source=SOURCE)
-IN_BANDS = Margin(
-    3.0,
-    "3 dB in one-third octaves: Ford and Thompson, J. Sound Vib. 293 (2006)",
-    source=SOURCE,
-    rms=(1.0, "1 dB: repeatability of measured one-third octave levels"),
-)
+IN_BANDS = THREE_DECIBELS.beside(SOURCE)
 
 
 def series(result: Outcomes) -> list[Series]:

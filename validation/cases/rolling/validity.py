@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -11,18 +11,18 @@ import numpy as np
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, Matrix
+from validation.analysis.margins import REPEATABLE
 from validation.analysis.series import Margin, Series
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknife_error, ratio_of_means
 from validation.analysis.study import Outcomes, Study
-from validation.cases.rolling.settings import HEIGHT, ONE_DECIBEL, SLOPE, SLOPE_COUNTS
+from validation.cases.rolling.settings import HEIGHT, SLOPE, SLOPE_COUNTS
 from validation.engine.convergence import require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.description import slope_ratio
 from validation.scenes.dynamic_wheel import load_wheel_scene
-from validation.simulation.linear_levels import correlation
-from validation.simulation.reduced_pair import LAYER, MODELS, READ, over_boundary_elements, roll_reduced
-from validation.simulation.rolling_strip import RoughStrip, Strip, roll_strips, strip_levels
+from validation.simulation.reduced_strip import FOLLOWING, LAYER, READ, over_boundary_elements, roll_reduced
+from validation.simulation.rolling_strip import RoughStrip, Strip, correlation, roll_strips, strip_levels
 from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
 from validation.theory.rolling import slope_in_one_direction
 
@@ -99,7 +99,7 @@ def run(case: Validity, engine: Engine = SERIAL) -> Outcomes:
         spectrum = SPECTRA[key[0]]
         bands = case.bands_for(spectrum)
         levels = strip_levels(strips[key], 1 / case.cells_for(spectrum), bands)
-        over = {m: off_linear(over_boundary_elements(m, reduced[key], mine[0], levels, bands)) for m in MODELS}
+        over = {m: off_linear(over_boundary_elements(m, reduced[key], mine[0], levels, bands)) for m in FOLLOWING}
         found[key] = over | {
             KEPT: contact_kept(strips[key]),
             OFF: off_linear(levels),
@@ -131,8 +131,7 @@ KEPT, OFF, OFF_REDUCED = "share of contact kept", "rms level over linear theory"
 CORRELATION, TABLE_14_1 = "correlation with linear theory", "wheel of Table 14.1"
 SPECTRUM, ALL = "spectrum", ", all spectra"
 TENTH = Margin(tolerance=0.1, reason="0.1: a tenth of the contact", source=REFERENCE)
-DECIBEL_APART = Margin(tolerance=ONE_DECIBEL[0], reason=ONE_DECIBEL[1], source=REFERENCE)
-FOLLOWS = replace(DECIBEL_APART, source="boundary elements on the same surfaces")
+DECIBEL_APART, FOLLOWS = REPEATABLE.beside(REFERENCE), REPEATABLE.beside("boundary elements on the same surfaces")
 
 
 def series(result: Outcomes) -> list[Series]:
@@ -150,7 +149,7 @@ def _judged(result: Outcomes) -> Iterator[Series]:
             beside = partial(single, family=values * (len(SPECTRA) - 1))
             yield beside(KEPT, "bem3d", (mine[KEPT],), reference=(other[KEPT],), margin=TENTH)
             yield beside(OFF, "bem3d", (mine[OFF],), reference=(other[OFF],), unit="dB", margin=DECIBEL_APART)
-        for model in MODELS:
+        for model in FOLLOWING:
             yield single(OFF_REDUCED, model, (mine[model],), unit="dB", margin=FOLLOWS, family=values * len(SPECTRA))
 
 
@@ -163,7 +162,7 @@ def _shown(result: Outcomes) -> Iterator[Series]:
             at = {SPECTRUM: name, "at equal": key[1], HEIGHT: height, SLOPE: height * spectrum.slope_along}
             for quantity in (KEPT, OFF, CORRELATION):
                 yield Series(quantity + ALL, "bem3d", (mine[quantity],), where=at)
-            for model in MODELS:
+            for model in FOLLOWING:
                 yield Series(OFF_REDUCED + ALL, model, (mine[model],), where=at)
 
 
@@ -232,12 +231,7 @@ STUDY = Study(
             "read the surface. Bars: 95 %. Curves that lie on each other show the parameter that counts.",
             (
                 *_panels(KEPT, BARS(KEPT + ALL)),
-                *_panels(
-                    "rms over linear theory [dB]",
-                    BARS(OFF + ALL),
-                    lines=(1.0,),
-                    ylim=(0.0, None),
-                ),
+                *_panels("rms over linear theory [dB]", BARS(OFF + ALL), lines=(1.0,), ylim=(0.0, None)),
                 *_panels(
                     "rms over bem3d [dB]",
                     BARS(OFF_REDUCED + ALL, LAYER),

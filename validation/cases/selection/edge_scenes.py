@@ -77,12 +77,7 @@ def _punch(rng: Generator, body: str, name: str, draw_face: "Face | None") -> In
     points = int(rng.choice(POINTS))
     ground = _measured(rng, draw_face, band, (points, points), side / points) if draw_face else band
     return IndentationScene(
-        name=name,
-        shape="punch",
-        size=side,
-        load=load * modulus * ground.rms * side,
-        modulus=modulus,
-        ground=ground,
+        name=name, shape="punch", size=side, load=load * modulus * ground.rms * side, modulus=modulus, ground=ground
     )
 
 

@@ -19,7 +19,7 @@ from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.measured import MeasuredHeights
-from validation.selection.hierarchy import ContactModel, select_model, try_to_solve
+from validation.selection.hierarchy import select_model, try_to_solve
 from validation.selection.quantities import models_of
 from validation.selection.scene_model import SceneModel, Shared
 from validation.simulation.model import GridModel, all_models
@@ -107,7 +107,7 @@ class CalibrationTrial:
         """The quantities of the kind, one scene after the other."""
         return QUANTITIES_BY_KIND[self.kind][self.number % len(QUANTITIES_BY_KIND[self.kind])]
 
-    def models(self, tolerance: float, seed: int = 0) -> Sequence[ContactModel]:
+    def models(self, tolerance: float, seed: int = 0) -> Sequence[SceneModel]:
         """All models of the scene; seed: added to that of the trial."""
         scene = random_scene(self.kind, self.number, self.seed)
         return models_of(scene, self.quantity, tolerance, self.seed + seed)
@@ -165,7 +165,7 @@ def _selected(trial: CalibrationTrial, tolerance: float, truth: np.ndarray, slow
     return float(index), best.answer.error, true, selection.spent, fine, float(selection.met)
 
 
-def name_in_models(model: ContactModel, models: Sequence[ContactModel]) -> str:
+def name_in_models(model: SceneModel, models: Sequence[SceneModel]) -> str:
     """Which of MODELS it is. Raises ValueError for a model that is none of them: its estimates would not be tested."""
     name = (FINE if model is models[-1] else COARSE) if model.kind == GridModel.name else model.kind
     if name not in MODELS:
@@ -173,7 +173,7 @@ def name_in_models(model: ContactModel, models: Sequence[ContactModel]) -> str:
     return name
 
 
-def _solved(models: Sequence[ContactModel], kind: str, truth: np.ndarray) -> tuple[float, float]:
+def _solved(models: Sequence[SceneModel], kind: str, truth: np.ndarray) -> tuple[float, float]:
     """Estimated and true error of a model below boundary elements; NaN where the scene has none, or out of range."""
     model = {name_in_models(model, models): model for model in reversed(models)}.get(kind)
     if model is None or not model.estimate().in_range:

@@ -14,30 +14,7 @@ from validation.analysis.series import Estimates, Margin, Series, Where
 from validation.analysis.spectra import band_means
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, ratio_of_means
 from validation.analysis.study import Outcomes
-from validation.cases.wheel.features import (
-    BREAK,
-    FIRST,
-    FLOOR,
-    FOURTH,
-    LEVEL,
-    OMEGA,
-    PEAK,
-    PLATEAU,
-    PREDICTED,
-    QUANTITIES,
-    THIRD,
-    FloatArray,
-    Spectrum,
-    expected,
-    hurst,
-    in_sixths,
-    level,
-    linear_spectrum,
-    measured,
-    ratio,
-    regions_of,
-    sixths_of_an_octave,
-)
+from validation.cases.wheel import features
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
@@ -223,19 +200,19 @@ def _breaks(result: Outcomes) -> Iterator[Series]:
     case, rows = result.case, []
     for key, ensemble in reversed(case.distances().items()):
         scene, outcome, distance = ensemble.scene, result[key], ensemble.steps * ensemble.scene.spacing
-        spectrum = Spectrum.of(scene, [outcome])
-        found = measured(spectrum)
+        spectrum = features.Spectrum.of(scene, [outcome])
+        found = features.measured(spectrum)
         low, high = 1.5 * float(outcome["omega"][0]), 1.6 * scene.cutoff
-        omega, density = in_sixths(outcome["omega"], outcome["plain"].mean(axis=0), low, high)
-        spectra = partial(Series, SPECTRA, where={DISTANCE: round(distance, 3)}, along=OMEGA)
+        omega, density = features.in_sixths(outcome["omega"], outcome["plain"].mean(axis=0), low, high)
+        spectra = partial(Series, SPECTRA, where={DISTANCE: round(distance, 3)}, along=features.OMEGA)
         yield spectra("spectrum", density, at=omega)
-        at_break = math.exp(np.interp(np.log(found[BREAK].value), np.log(omega), np.log(density)))
-        yield spectra("break", (at_break,), at=(found[BREAK].value,))
+        at_break = math.exp(np.interp(np.log(found[features.BREAK].value), np.log(omega), np.log(density)))
+        yield spectra("break", (at_break,), at=(found[features.BREAK].value,))
         jump = rms_over(spectrum.jumps, _linear_jump(spectrum))
-        by_jumps, floor = expected(spectrum)[BREAK], found[FLOOR + PREDICTED]
-        rows.append((spectrum.duration, distance, by_jumps, found[BREAK], floor, jump))
+        by_jumps, floor = features.expected(spectrum)[features.BREAK], found[features.FLOOR + features.PREDICTED]
+        rows.append((spectrum.duration, distance, by_jumps, found[features.BREAK], floor, jump))
     t, distances, predicted, breaks, floors, jumps = zip(*rows, strict=True)
-    law = wheel_theory.break_exponent(hurst(case.scene))
+    law = wheel_theory.break_exponent(features.hurst(case.scene))
     middle = math.exp(np.mean(np.log(Estimates(breaks).values) - law * np.log(t)))
     by_duration = partial(Series, along=DURATION, at=t)
     yield by_duration(BREAK_AT, "found", breaks)
@@ -248,51 +225,51 @@ def _breaks(result: Outcomes) -> Iterator[Series]:
     yield Series(JUMP, OPEN, jumps, along=DISTANCE, at=distances, reference=1.0, margin=OF_JUMP)
 
 
-def law_of_break(t: FloatArray, breaks: Estimates) -> Estimate:
+def law_of_break(t: features.FloatArray, breaks: Estimates) -> Estimate:
     """d ln omega_break / d ln T by weighted least squares."""
     weights = breaks.values / np.array([one.error for one in breaks])
     (slope, _), covariance = np.polyfit(np.log(t), np.log(breaks.values), 1, w=weights, cov="unscaled")
     return Estimate(float(slope), math.sqrt(covariance[0, 0]), breaks[0].samples)
 
 
-def rms_over(jumps: FloatArray, linear: float) -> Estimate:
+def rms_over(jumps: features.FloatArray, linear: float) -> Estimate:
     """The rms jump over that of linear theory, with the error of a mean square of so many Gaussian values."""
     value = float(np.sqrt(np.mean(jumps**2))) / linear
     return Estimate(value, value / math.sqrt(2 * jumps.size), jumps.size)
 
 
-def _linear_jump(spectrum: Spectrum) -> float:
+def _linear_jump(spectrum: features.Spectrum) -> float:
     """The rms jump of linear theory after a start in static equilibrium."""
     scene = spectrum.scene
     # lines of a short record are too far apart to resolve the oscillation
     fine = np.linspace(0.9 * scene.jump, 1.01 * scene.cutoff, 200001)
-    forced = 2 * float(np.trapezoid(linear_spectrum(scene, fine), fine)) / (2 * math.pi)
+    forced = 2 * float(np.trapezoid(features.linear_spectrum(scene, fine), fine)) / (2 * math.pi)
     square = wheel_theory.mean_square_jump(forced, eigenfrequency=scene.eigenfrequency, duration=spectrum.duration)
     return math.sqrt(square)
 
 
 def _regions(result: Outcomes) -> Iterator[Series]:
     """Spectra of every contact and track; regions over springs on open tracks, of leakage or nonlinearity alone."""
-    scene, bands = result.case.scene, regions_of(result.case.scene)
-    edges = sixths_of_an_octave(1.5 * float(result[OPEN]["omega"][0]), 4 * scene.cutoff)
+    scene, bands = result.case.scene, features.regions_of(result.case.scene)
+    edges = features.sixths_of_an_octave(1.5 * float(result[OPEN]["omega"][0]), 4 * scene.cutoff)
     for model, kind, window in (*((kind, kind, "plain") for kind in KINDS), (HANN, OPEN, "hann")):
         means = band_means(result[kind]["omega"], result[kind][window].mean(axis=0), edges)
-        yield Series(CAUSE, model, means, along=OMEGA, at=np.sqrt(edges[1:] * edges[:-1]))
+        yield Series(CAUSE, model, means, along=features.OMEGA, at=np.sqrt(edges[1:] * edges[:-1]))
         for region, band in bands.items():
-            yield decibels(OF_REGION, model, (level(result[kind], band, window),), where={"region": region})
+            yield decibels(OF_REGION, model, (features.level(result[kind], band, window),), where={"region": region})
     for model, kind, region, source, cause in (
-        (LINEAR_OPEN, LINEAR_OPEN, FIRST, "all of the peak", {}),
-        (HANN, OPEN, FOURTH, NO_CHANGE, {}),
-        *((kind, kind, FOURTH, NO_CHANGE, {}) for kind in (PERIODIC, STEADY, LINEAR_OPEN)),
-        (LINEAR_OPEN, LINEAR_OPEN, PLATEAU, "all of the plateau", {"cause": "leakage alone"}),
-        (STEADY, STEADY, PLATEAU, "all of the plateau", {"cause": "nonlinearity alone"}),
+        (LINEAR_OPEN, LINEAR_OPEN, features.FIRST, "all of the peak", {}),
+        (HANN, OPEN, features.FOURTH, NO_CHANGE, {}),
+        *((kind, kind, features.FOURTH, NO_CHANGE, {}) for kind in (PERIODIC, STEADY, LINEAR_OPEN)),
+        (LINEAR_OPEN, LINEAR_OPEN, features.PLATEAU, "all of the plateau", {"cause": "leakage alone"}),
+        (STEADY, STEADY, features.PLATEAU, "all of the plateau", {"cause": "nonlinearity alone"}),
     ):
-        over = (ratio(result[kind], result[OPEN], bands[region], "hann" if model == HANN else "plain"),)
+        over = (features.ratio(result[kind], result[OPEN], bands[region], "hann" if model == HANN else "plain"),)
         where, margin = {"region": region, **cause}, replace(MARGINS["level"], source=source)
-        yield decibels(LEVEL, f"{model}, over {OPEN}", over, where=where, family=3, margin=margin)
-    steady = {region: level(result[LINEAR_STEADY], band).value for region, band in bands.items()}
-    for region in (PLATEAU, FOURTH):
-        above = (math.exp(steady[region] - steady[THIRD]),)
+        yield decibels(features.LEVEL, f"{model}, over {OPEN}", over, where=where, family=3, margin=margin)
+    steady = {region: features.level(result[LINEAR_STEADY], band).value for region, band in bands.items()}
+    for region in (features.PLATEAU, features.FOURTH):
+        above = (math.exp(steady[region] - steady[features.THIRD]),)
         yield Series(
             "level over that in region 3", LINEAR_STEADY, above, where={"region": region}, margin=NOTHING_THERE
         )
@@ -300,23 +277,23 @@ def _regions(result: Outcomes) -> Iterator[Series]:
 
 def _plateau(result: Outcomes) -> Iterator[Series]:
     """Levels in region 2 by height and by the phase in which a record ends; the power of h_0 of the nonlinear part."""
-    case, scene, band = result.case, result.case.scene, regions_of(result.case.scene)[PLATEAU]
+    case, scene, band = result.case, result.case.scene, features.regions_of(result.case.scene)[features.PLATEAU]
     by_height = partial(decibels, BY_HEIGHT, along=H_OVER_D, at=np.array(case.heights) * scene.rms / scene.approach)
     growth = np.log(np.array(case.heights) / case.heights[0])
     for kind, order in ((OPEN, 0), (LINEAR_OPEN, 2), (STEADY, 4)):
-        found = Estimates(level(result["height", kind, h], band) for h in case.heights)
+        found = Estimates(features.level(result["height", kind, h], band) for h in case.heights)
         yield by_height(kind, found)
         if order:
             yield by_height(f"h^{order}", found.values[0] + order * growth)
     for kind in (OPEN, LINEAR_OPEN):
-        found = Estimates(level(result["phase", kind, phase], band) for phase in case.phases)
+        found = Estimates(features.level(result["phase", kind, phase], band) for phase in case.phases)
         yield decibels(BY_PHASE, kind, found, along="phase", at=case.phases)
     over, step = (
-        ratio(result["height", STEADY, WHOLE], result["height", STEADY, QUARTER], band),
+        features.ratio(result["height", STEADY, WHOLE], result["height", STEADY, QUARTER], band),
         math.log(WHOLE / QUARTER),
     )
     power = (Estimate(over.value / step, over.error / step, over.samples),)
-    where: Where = {"region": PLATEAU, "h / h₀": (QUARTER, WHOLE)}
+    where: Where = {"region": features.PLATEAU, "h / h₀": (QUARTER, WHOLE)}
     yield Series(ORDER, STEADY, power, where=where, reference=4.0, margin=OF_ORDER)
 
 
@@ -326,11 +303,13 @@ def _motion(result: Outcomes) -> Iterator[Series]:
     squares = (ratio_of_means(result[OPEN]["square"], result[STEADY]["square"]),)
     yield Series(SQUARE, f"{OPEN}, over {STEADY}", squares, reference=1.5, margin=OF_SQUARE)
     for release in case.releases:
-        value = measured(Spectrum.of(case.vibration(release).scene, [result["release", release]]))[PEAK]
+        value = features.measured(features.Spectrum.of(case.vibration(release).scene, [result["release", release]]))[
+            features.PEAK
+        ]
         found.append(Estimate(value.value / frequency, value.error / frequency, value.samples))
         source = "period of free vibration on a Hertz contact, quadrature" if release else "sqrt(2 a E* / M)"
         yield Series(
-            QUANTITIES[PEAK],
+            features.QUANTITIES[features.PEAK],
             OPEN,
             found[-1:],
             where={RELEASE: release},

@@ -80,11 +80,7 @@ def linear_force_3d(scene: WheelScene, q: FloatArray) -> FloatArray:
     """C_F of linear theory in three dimensions, over a rough rail."""
     assert scene.rail is not None  # strips refuse a smooth rail
     return rolling_theory.force_spectrum_3d(
-        q,
-        scene.rail.spectrum.c2d,
-        edges=scene.rail.edges,
-        contact_radius=scene.contact_radius,
-        modulus=scene.modulus,
+        q, scene.rail.spectrum.c2d, edges=scene.rail.edges, contact_radius=scene.contact_radius, modulus=scene.modulus
     )
 
 

@@ -12,12 +12,7 @@ from validation.analysis.series import Estimates
 from validation.analysis.spectra import RecordSpectra, band_levels, one_third_octaves, record_spectra
 from validation.analysis.statistics import Estimate
 from validation.analysis.study import Outcomes
-from validation.cases.wheel.features import (
-    FloatArray,
-    linear_force_3d,
-    linear_spectrum,
-    resonator,
-)
+from validation.cases.wheel.features import FloatArray, linear_force_3d, linear_spectrum, resonator
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene

@@ -169,19 +169,9 @@ def over_bem(says: str, short: str, model: str) -> Claim:
     return Claim(says=says, short=short, quantity=LEVEL, model=wheel.OVER_BEM[model], along="range")
 
 
-MODEL_STYLES = {
-    wheel.LINEAR_3D: "thick",
-    wheel.LINEAR_1D: "exact",
-    wheel.GEIKE: "mdr",
-    wheel.ROLLING: "triangles",
-}
+MODEL_STYLES = {wheel.LINEAR_3D: "thick", wheel.LINEAR_1D: "exact", wheel.GEIKE: "mdr", wheel.ROLLING: "triangles"}
 MARKED = Curve(MARKS, style="guide", upright=True)
-BANDS = Panel(
-    OMEGA,
-    LEVELS,
-    (*by_model(LEVELS, {**MODEL_STYLES, wheel.BEM: "bem"}, bars=True), MARKED),
-    decades=75.0,
-)
+BANDS = Panel(OMEGA, LEVELS, (*by_model(LEVELS, {**MODEL_STYLES, wheel.BEM: "bem"}, bars=True), MARKED), decades=75.0)
 DIFFERENCES = Panel(
     OMEGA,
     "over boundary elements [dB]",

@@ -14,27 +14,12 @@ from validation.analysis.series import Estimates, Margin, Series, Where
 from validation.analysis.spectra import band_levels, band_means, one_third_octaves
 from validation.analysis.statistics import POWER_DECIBEL, Estimate
 from validation.analysis.study import Outcomes
+from validation.cases.wheel import features
 from validation.cases.wheel.contrast import contrast_series, contrasts_of, linear_contrasts
-from validation.cases.wheel.features import (
-    BREAK,
-    FREE_MASS,
-    JUMP,
-    LEVEL,
-    OMEGA,
-    PEAK,
-    PERIOD,
-    PREDICTED,
-    QUANTITIES,
-    SLOPE,
-    Spectrum,
-    expected,
-    in_sixths,
-    measured,
-)
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
-from validation.simulation.contact_snapshot import Snapshot, contact_snapshot
+from validation.simulation.wheel_on_half_space import Snapshot, contact_snapshot
 from validation.simulation.wheel_on_springs import WheelEnsemble, simulate_ensemble
 from validation.theory import wheel as wheel_theory
 
@@ -117,11 +102,11 @@ OSCILLATION, MARKS, PARAMETER = "A over its mean law ω^(-2H-3)", "marks [rad/s]
 NO_WINDOW, HANN, LINEAR = "no window, (14.17)", "Hann's window", "linear theory"
 LOWEST, HIGHEST, PREDICTED_FLOOR = "lowest tenth of wheels", "highest tenth of wheels", "floor predicted"
 SOURCES = {
-    PEAK: "sqrt(2 a E* / M)",
-    JUMP: "q_min v₀, (14.20)",
-    SLOPE: "-2 H - 3, (14.13)",
-    PERIOD: "π v₀ / a, (14.12)",
-    BREAK + PREDICTED: "where (14.14) through the resonator meets that floor",
+    features.PEAK: "sqrt(2 a E* / M)",
+    features.JUMP: "q_min v₀, (14.20)",
+    features.SLOPE: "-2 H - 3, (14.13)",
+    features.PERIOD: "π v₀ / a, (14.12)",
+    features.BREAK + features.PREDICTED: "where (14.14) through the resonator meets that floor",
 }
 """Of the features that are judged."""
 OF_FIGURE = 5
@@ -153,9 +138,9 @@ def series(result: Outcomes) -> list[Series]:
     ]
 
 
-def spectra_of(result: Outcomes) -> dict[str, Spectrum]:
+def spectra_of(result: Outcomes) -> dict[str, features.Spectrum]:
     """Of the scene itself first."""
-    return {name: Spectrum.of(scene, result[name]) for name, scene in result.case.variations().items()}
+    return {name: features.Spectrum.of(scene, result[name]) for name, scene in result.case.variations().items()}
 
 
 def features_by_scene(result: Outcomes) -> list[dict[str, Series]]:
@@ -164,12 +149,12 @@ def features_by_scene(result: Outcomes) -> list[dict[str, Series]]:
     return [features_of(base, spectrum, OF_FIGURE), *(features_of(*one, len(varied)) for one in varied)]
 
 
-def features_of(name: str, spectrum: Spectrum, family: int) -> dict[str, Series]:
+def features_of(name: str, spectrum: features.Spectrum, family: int) -> dict[str, Series]:
     """Those that the spectrum of a scene has, beside theory; family: whose intervals hold at once.
 
     The floor is that of the jumps by construction, if the roughness ends at q_max: shown, and evidence of nothing.
     """
-    values, theory = measured(spectrum), expected(spectrum)
+    values, theory = features.measured(spectrum), features.expected(spectrum)
     return {
         key: Series(
             quantity,
@@ -177,12 +162,12 @@ def features_of(name: str, spectrum: Spectrum, family: int) -> dict[str, Series]
             (values[key],),
             where={"scene": name},
             reference=theory.get(key, 1.0),
-            grid=float(spectrum.omega[0]) / 2 if key == JUMP else 0.0,
-            unit="rad/s" if key in (PEAK, JUMP, PERIOD) else "-",
-            margin=MARGINS[key.removesuffix(PREDICTED)].beside(SOURCES[key]) if key in SOURCES else None,
+            grid=float(spectrum.omega[0]) / 2 if key == features.JUMP else 0.0,
+            unit="rad/s" if key in (features.PEAK, features.JUMP, features.PERIOD) else "-",
+            margin=MARGINS[key.removesuffix(features.PREDICTED)].beside(SOURCES[key]) if key in SOURCES else None,
             family=family,
         )
-        for key, quantity in QUANTITIES.items()
+        for key, quantity in features.QUANTITIES.items()
         if key in values
     }
 
@@ -197,11 +182,11 @@ def _worst_scenes(varied: list[dict[str, Series]]) -> Iterator[Series]:
             yield replace(far, where={"scenes": name})
 
 
-def levels_over_linear(spectrum: Spectrum) -> list[Series]:
+def levels_over_linear(spectrum: features.Spectrum) -> list[Series]:
     """One-third octaves of region 3 over (14.12) through the resonator, up to where the floor is far below."""
     scene, omega = spectrum.scene, spectrum.omega
-    first = max(1.2 * scene.jump, FREE_MASS * scene.eigenfrequency)
-    last = min(0.7 * expected(spectrum)[BREAK], 0.9 * scene.cutoff)
+    first = max(1.2 * scene.jump, features.FREE_MASS * scene.eigenfrequency)
+    last = min(0.7 * features.expected(spectrum)[features.BREAK], 0.9 * scene.cutoff)
     edges = one_third_octaves(first, last) if first < last else np.empty(0)
     if edges.size < 2:
         return []
@@ -210,15 +195,15 @@ def levels_over_linear(spectrum: Spectrum) -> list[Series]:
     over = partial(Series, model="springs over linear theory", scale=POWER_DECIBEL, unit="dB", margin=OVER_LINEAR)
     value, error = (math.sqrt(np.mean(np.square([getattr(one, name) for one in found]))) for name in ("value", "error"))
     where: Where = {"region": "region 3"}
-    ends: Where = {OMEGA: (float(centres[0]), float(centres[-1]))}
+    ends: Where = {features.OMEGA: (float(centres[0]), float(centres[-1]))}
     rms = (Estimate(value, error, found[0].samples),)
     return [
-        over(LEVEL, found=found, where=where, along=OMEGA, at=centres, family=OF_FIGURE),
-        over(f"rms of {LEVEL}", found=rms, where={**where, **ends}, family=OF_FIGURE * centres.size),
+        over(features.LEVEL, found=found, where=where, along=features.OMEGA, at=centres, family=OF_FIGURE),
+        over(f"rms of {features.LEVEL}", found=rms, where={**where, **ends}, family=OF_FIGURE * centres.size),
     ]
 
 
-def _contrasts(spectrum: Spectrum) -> list[Series]:
+def _contrasts(spectrum: features.Spectrum) -> list[Series]:
     """Of the oscillation of region 3, with Hann's window."""
     scene, omega = spectrum.scene, spectrum.omega
     linear = linear_contrasts(omega, scene)
@@ -256,9 +241,9 @@ def _parseval(batch: Outcome) -> float:
     return (float(weights @ density) / float(batch["duration"]) + float(np.mean(batch["mean"] ** 2))) / square - 1
 
 
-def _drawn(spectrum: Spectrum, batches: list[Outcome]) -> Iterator[Series]:
+def _drawn(spectrum: features.Spectrum, batches: list[Outcome]) -> Iterator[Series]:
     """Fig. 14.4 in twelfths of an octave, with the spread over wheels; region 3 over the power law of its level."""
-    scene, omega, theory, edges = spectrum.scene, spectrum.omega, expected(spectrum), batches[0]["bands"]
+    scene, omega, theory, edges = spectrum.scene, spectrum.omega, features.expected(spectrum), batches[0]["bands"]
     of_wheels, centres = np.concatenate([batch["levels"] for batch in batches], axis=1), np.sqrt(edges[1:] * edges[:-1])
     # linear theory has nothing below the jump, and is infinite at the resonance
     linear = {part: np.where(omega < part * scene.jump, 0.0, spectrum.linear) for part in (0.9, 0.5)}
@@ -274,19 +259,24 @@ def _drawn(spectrum: Spectrum, batches: list[Outcome]) -> Iterator[Series]:
         LINEAR: band_means(omega, linear[0.9], edges),
         PREDICTED_FLOOR: leakage(centres, time_step=spectrum.time_step, duration=spectrum.duration),
     }.items():
-        yield Series(SPECTRUM, model, values, along=OMEGA, at=centres)
-    width = max(theory[PERIOD] / BANDS_PER_PERIOD, omega[0])
-    bands, law = np.arange(0.9 * scene.jump, 1.1 * scene.cutoff, width), omega ** theory[SLOPE]
+        yield Series(SPECTRUM, model, values, along=features.OMEGA, at=centres)
+    width = max(theory[features.PERIOD] / BANDS_PER_PERIOD, omega[0])
+    bands, law = np.arange(0.9 * scene.jump, 1.1 * scene.cutoff, width), omega ** theory[features.SLOPE]
     mean = float(np.mean((linear[0.5] / law)[(omega > scene.jump) & (omega < scene.cutoff)]))
     for model, density in {NO_WINDOW: spectrum.plain.mean(axis=0), HANN: hann, LINEAR: linear[0.5]}.items():
         over = band_means(omega, density / law, bands) / mean
-        yield Series(OSCILLATION, model, over, along=OMEGA, at=(bands[1:] + bands[:-1]) / 2)
-    marks = {"ω_eigen": scene.eigenfrequency, "q_min v₀": scene.jump, "break": theory[BREAK], "q_max v₀": scene.cutoff}
+        yield Series(OSCILLATION, model, over, along=features.OMEGA, at=(bands[1:] + bands[:-1]) / 2)
+    marks = {
+        "ω_eigen": scene.eigenfrequency,
+        "q_min v₀": scene.jump,
+        "break": theory[features.BREAK],
+        "q_max v₀": scene.cutoff,
+    }
     yield from (Series(MARKS, name, (at,)) for name, at in marks.items())
 
 
-def _in_sixths(name: str, spectrum: Spectrum) -> Series:
+def _in_sixths(name: str, spectrum: features.Spectrum) -> Series:
     low, high = float(spectrum.omega[2]), 1.5 * spectrum.scene.cutoff
-    omega, density = in_sixths(spectrum.omega, spectrum.plain.mean(axis=0), low, high)
+    omega, density = features.in_sixths(spectrum.omega, spectrum.plain.mean(axis=0), low, high)
     where = {PARAMETER: name.split(" ")[0], "scene": name}
-    return Series(VARIED, "springs", density, where=where, along=OMEGA, at=omega)
+    return Series(VARIED, "springs", density, where=where, along=features.OMEGA, at=omega)

@@ -102,12 +102,7 @@ WHOLE = Panel(
 )
 STYLES = {spectrum.LINEAR: "thick", spectrum.NO_WINDOW: "mdr line", spectrum.HANN: "exact"}
 THIRD = Panel(
-    OMEGA,
-    spectrum.OSCILLATION,
-    by_model(spectrum.OSCILLATION, STYLES),
-    log="y",
-    ylim=(0.01, 30.0),
-    legend="upper left",
+    OMEGA, spectrum.OSCILLATION, by_model(spectrum.OSCILLATION, STYLES), log="y", ylim=(0.01, 30.0), legend="upper left"
 )
 ZEROS = Panel(
     ZERO,

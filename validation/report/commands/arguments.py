@@ -1,13 +1,24 @@
 """Arguments that several commands have."""
 
 import argparse
-from collections.abc import Callable
+import os
+from collections.abc import Callable, Collection
 
 
 def add_profile(command: argparse.ArgumentParser) -> None:
-    command.add_argument(
-        "--profile", choices=("quick", "full"), default="quick", help="size of the problems (default: quick)"
-    )
+    sizes = ("quick", "full")
+    command.add_argument("--profile", choices=sizes, default="quick", help="size of the problems (default: quick)")
+
+
+def add_workers(command: argparse.ArgumentParser, what: str = "number of processes") -> None:
+    help_text = f"{what} (default: one per core)"
+    command.add_argument("--workers", type=at_least(1), default=os.cpu_count() or 1, metavar="N", help=help_text)
+
+
+def add_options(command: argparse.ArgumentParser, *options: tuple[str, str, Callable[[str], object], str]) -> None:
+    """Each with the name of its value, what reads that, and what it is for; without a default."""
+    for name, value, reads, what in options:
+        command.add_argument(name, metavar=value, type=reads, help=what)
 
 
 def at_least(least: int) -> Callable[[str], int]:
@@ -23,3 +34,15 @@ def at_least(least: int) -> Callable[[str], int]:
         return value
 
     return number
+
+
+def some_of(known: Collection[str]) -> Callable[[str], tuple[str, ...]]:
+    """Names with commas between them, each once."""
+
+    def names(word: str) -> tuple[str, ...]:
+        found = tuple(dict.fromkeys(name.strip() for name in word.split(",")))
+        if unknown := [name for name in found if name not in known]:
+            raise argparse.ArgumentTypeError(f"must be of {', '.join(known)}, got {', '.join(map(repr, unknown))}")
+        return found
+
+    return names

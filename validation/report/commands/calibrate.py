@@ -1,22 +1,21 @@
 """Measure the errors that cheap models claim, beside boundary elements."""
 
 import argparse
-import os
 from pathlib import Path
 
 from validation.engine.engine import Engine
 from validation.engine.progress import progress_of
-from validation.report.commands.arguments import at_least
+from validation.report.commands.arguments import add_options, add_workers, at_least
 from validation.report.commands.exit_status import Exit
 from validation.report.folder import REALISATIONS, Folder
 from validation.report.manifest import CALIBRATION
 from validation.scenes.printable import printable
 from validation.selection.calibrate import CalibrationRun, calibration_lines, measured_table, table_in
-from validation.selection.calibration_check import check_calibration
-from validation.selection.calibration_install import check_installable, install
+from validation.selection.calibration_check import check_calibration, check_installable, install
 
 OUT = Path("calibration")
 """Where a table is measured, below the working folder."""
+PLACES = f"default: {OUT}; of --show and --check: the table of the package"
 COUNTED = {
     "punches": "rough punches",
     "spheres": "rough spheres",
@@ -32,15 +31,9 @@ def describe(calibrating: argparse.ArgumentParser) -> None:
         calibrating.add_argument(
             f"--{name}", type=at_least(0), default=default, metavar="N", help=f"{what} (default: {default})"
         )
-    calibrating.add_argument("--seed", type=at_least(0), default=run.seed, metavar="S", help="seed of the scenes")
-    calibrating.add_argument("--workers", type=at_least(1), default=os.cpu_count() or 1, metavar="N", help="processes")
-    calibrating.add_argument(
-        "--out",
-        type=Path,
-        metavar="DIR",
-        help=f"folder of the table and of finished solves, from which a run goes on (default: {OUT}; of --show and "
-        "--check: the table of the package)",
-    )
+    add_workers(calibrating)
+    out = f"folder of the table and of finished solves, from which a run goes on ({PLACES})"
+    add_options(calibrating, ("--seed", "S", at_least(0), "seed of the scenes"), ("--out", "DIR", Path, out))
     calibrating.add_argument(
         "--install",
         action="store_true",
@@ -52,7 +45,7 @@ def describe(calibrating: argparse.ArgumentParser) -> None:
     alone.add_argument(
         "--check", type=at_least(1), metavar="N", help="measure N scenes of each kind again, and report which differ"
     )
-    calibrating.set_defaults(command=calibrate)
+    calibrating.set_defaults(command=calibrate, seed=run.seed)
 
 
 def calibrate(arguments: argparse.Namespace) -> Exit:

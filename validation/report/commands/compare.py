@@ -12,25 +12,26 @@ from validation.analysis.evidence import Table
 from validation.engine.engine import Engine
 from validation.engine.files import write_given
 from validation.engine.progress import progress_of
-from validation.report.commands.arguments import at_least
+from validation.report.commands.arguments import add_options, add_workers, at_least, some_of
 from validation.report.commands.exit_status import Exit
 from validation.report.manifest import COMPARISON
 from validation.scenes.load import Scene, bundled_for_compare, files_of, load_scene, load_varied
 from validation.scenes.printable import printable
+from validation.selection.cells import format_seconds
 from validation.selection.compare import Comparison
-from validation.selection.exported import table_of_several, to_json_of
-from validation.selection.filter_table import filter_table
-from validation.selection.hierarchy import ContactModel
+from validation.selection.exported import filter_table, table_of_several, to_json_of
 from validation.selection.named_models import models_named
 from validation.selection.quantities import QUANTITIES, models_of, quantities_of
+from validation.selection.scene_model import SceneModel
 from validation.selection.several_scenes import SceneProblem, compare_scenes
-from validation.selection.summary import findings, format_seconds, heading, summary
+from validation.selection.summary import findings, heading, summary
 from validation.selection.swept import Swept, swept_values
 from validation.selection.tolerance import tolerance_of
 
 FIGURES = (".svg", ".png", ".pdf")
 STORE = Path("reports", "compared")
 """Where finished scenes of several are kept, below the working folder."""
+KEPT = f"default: {STORE}, or in the folder of --report"
 
 
 def describe(comparing: argparse.ArgumentParser) -> None:
@@ -41,59 +42,46 @@ def describe(comparing: argparse.ArgumentParser) -> None:
         help=f"a TOML file, or the name of an example scene ({', '.join(bundled_for_compare())}); several: one table",
     )
     comparing.add_argument(
-        "--sweep", type=_sweep, metavar="KEY=A,B,C", help='the scene with each value, as wheel.load="5 kN,10 kN"'
-    )
-    comparing.add_argument(
         "--tolerance", type=_tolerance, default="10%", metavar="T", help='"5%%", "0.05" or "0.4 dB" (default: 10%%)'
     )
     comparing.add_argument(
         "--quantity",
         "--want",
-        type=_quantities,
+        type=some_of(QUANTITIES),
         metavar="A,B",
-        help=(
-            f"of {', '.join(QUANTITIES)}, one or several (default: the first that the scene has); --want is an old "
-            "name, until 0.3"
-        ),
+        help=f"of {', '.join(QUANTITIES)}, one or several (default: the first of the scene); --want: until 0.3",
     )
-    comparing.add_argument("--seed", type=at_least(0), metavar="S", help="seed of the random roughness (default: 0)")
     solved = comparing.add_mutually_exclusive_group()
     solved.add_argument("--all", action="store_true", help="solve and time all models, and print them side by side")
     solved.add_argument(
         "--models", metavar="NAMES", help='solve these alone: mdr, bem, or names, as "mdr,bem" or "fit,springs"'
     )
-    for name, what in (
-        ("--json", "write the result for other programs; `--report` writes it with a schema that describes its keys"),
-        ("--csv", "write a row a number or a band, of each model that was solved"),
-        ("--cnossos", "write a contact filter in the columns of the table of CNOSSOS-EU, as CSV"),
-        ("--figure", "draw the models that were solved, of spectra five at the most, in a .svg, .png or .pdf"),
-    ):
-        comparing.add_argument(name, type=Path, metavar="FILE", help=what)
+    add_options(
+        comparing,
+        ("--sweep", "KEY=A,B,C", _sweep, 'the scene with each value, as wheel.load="5 kN,10 kN"'),
+        ("--seed", "S", at_least(0), "seed of the random roughness (default: 0)"),
+        (
+            "--json",
+            "FILE",
+            Path,
+            "write the result for other programs; `--report` adds a schema that describes its keys",
+        ),
+        ("--csv", "FILE", Path, "write a row a number or a band, of each model that was solved"),
+        ("--cnossos", "FILE", Path, "write a contact filter in the columns of the table of CNOSSOS-EU, as CSV"),
+        (
+            "--figure",
+            "FILE",
+            Path,
+            "draw the models that were solved, of spectra five at the most, in a .svg, .png or .pdf",
+        ),
+        ("--report", "DIR", Path, "write a page with figure and data into a folder of its own"),
+        ("--store", "DIR", Path, f"where finished ones of several scenes are kept, for a run that goes on ({KEPT})"),
+    )
     comparing.add_argument(
         "--over", choices=("seconds",), help="draw in --figure how far off each model is over the time that it took"
     )
-    comparing.add_argument(
-        "--report", type=Path, metavar="DIR", help="write a page with figure and data into a folder of its own"
-    )
-    _describe_runs_of_several(comparing)
+    add_workers(comparing, "number of processes for several scenes")
     comparing.set_defaults(command=compare)
-
-
-def _describe_runs_of_several(comparing: argparse.ArgumentParser) -> None:
-    comparing.add_argument(
-        "--workers",
-        type=at_least(1),
-        default=os.cpu_count() or 1,
-        metavar="N",
-        help="number of processes for several scenes (default: one per core)",
-    )
-    comparing.add_argument(
-        "--store",
-        type=Path,
-        metavar="DIR",
-        help=f"where finished ones of several scenes are kept, for a run that goes on (default: {STORE}, or in "
-        "the folder of --report)",
-    )
 
 
 def compare(arguments: argparse.Namespace) -> Exit:
@@ -194,7 +182,7 @@ def _reported(
     return found
 
 
-def _announce(model: ContactModel) -> None:
+def _announce(model: SceneModel) -> None:
     """Name a model whose solve takes a second or more, before it begins."""
     if model.cost().seconds >= 1:
         print(f"solving {model.name}, about {format_seconds(model.cost().seconds)}", file=sys.stderr, flush=True)
@@ -202,27 +190,21 @@ def _announce(model: ContactModel) -> None:
 
 def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
     """The files that are asked for, each of them whole; of several scenes a list, and a column for the scene."""
-    if arguments.json is not None:
+    if arguments.json:
         write_given(arguments.json, to_json_of(found).encode())
-    if arguments.csv is not None:
+    if arguments.csv:
         write_given(arguments.csv, as_csv(table_of_several(found)))
-    if arguments.cnossos is not None:
+    if arguments.cnossos:
         filters = [filter_table(one) for one in found if one.quantity == "contact-filter"]
         rows = {name: [value for one in filters for value in one.columns[name]] for name in filters[0].columns}
         write_given(arguments.cnossos, as_csv(Table("contact-filter", rows)))
     if arguments.figure is not None:
-        from validation.report.compared import figure_of  # which takes half a second to import
+        from validation.report.compared import to_figure  # which takes half a second to import
         from validation.report.compared_seconds import figure_over_seconds
 
         form = arguments.figure.suffix[1:]
-        write_given(arguments.figure, figure_over_seconds(found[0], form) if arguments.over else figure_of(found, form))
-
-
-def _quantities(word: str) -> tuple[str, ...]:
-    names = tuple(dict.fromkeys(name.strip() for name in word.split(",")))
-    if unknown := [name for name in names if name not in QUANTITIES]:
-        raise argparse.ArgumentTypeError(f"must be of {', '.join(QUANTITIES)}, got {', '.join(map(repr, unknown))}")
-    return names
+        picture = figure_over_seconds(found[0], form) if arguments.over else to_figure(found, form=form)
+        write_given(arguments.figure, picture)
 
 
 def _sweep(word: str) -> tuple[str, list[str]]:

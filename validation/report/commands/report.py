@@ -1,14 +1,13 @@
 """Run cases and write their report."""
 
 import argparse
-import os
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
 from validation.engine.engine import LOCAL
 from validation.report.build import build
-from validation.report.commands.arguments import add_profile, at_least
+from validation.report.commands.arguments import add_options, add_profile, add_workers, at_least
 from validation.report.commands.exit_status import Exit
 from validation.report.contents import CASES, TIMED, timed_here
 from validation.report.section import Section, total_of
@@ -33,33 +32,19 @@ def describe(making: argparse.ArgumentParser) -> None:
         action="store_true",
         help="with --only: keep the other cases of the earlier report in --out (default: reports/PROFILE) as they are",
     )
-    making.add_argument(
-        "--out",
-        type=Path,
-        metavar="DIR",
-        help="folder of the report (default: reports/PROFILE, with the names of the cases if --only)",
+    add_workers(making)
+    scene = (
+        "a dynamic wheel of your own, a TOML file like validation/scenes/table_14_1.toml, or the name of an example "
+        f"scene ({', '.join(bundled_wheels())}); alone, it means --only wheel"
     )
-    making.add_argument(
-        "--workers",
-        type=at_least(1),
-        default=os.cpu_count() or 1,
-        metavar="N",
-        help="number of processes (default: one per core)",
+    add_options(
+        making,
+        ("--out", "DIR", Path, "folder (default: reports/PROFILE, with the names of the cases if --only)"),
+        ("--seed", "S", at_least(0), "seed of the random numbers of every case"),
+        ("--executor", "WHERE", str, '"local" (default), or dask://HOST:PORT, whose workers replace local processes'),
+        ("--scene", "FILE", str, scene),
     )
-    making.add_argument("--seed", type=at_least(0), metavar="S", help="seed of the random numbers of every case")
-    making.add_argument(
-        "--executor",
-        default=LOCAL,
-        metavar="WHERE",
-        help='"local", or dask://HOST:PORT, the scheduler whose workers replace local processes (default: local)',
-    )
-    making.add_argument(
-        "--scene",
-        metavar="FILE",
-        help="a dynamic wheel of your own, a TOML file like validation/scenes/table_14_1.toml, or the name of an "
-        f"example scene ({', '.join(bundled_wheels())}); alone, it means --only wheel",
-    )
-    making.set_defaults(command=report)
+    making.set_defaults(command=report, executor=LOCAL)
 
 
 def report(arguments: argparse.Namespace) -> Exit:

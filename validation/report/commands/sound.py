@@ -2,7 +2,6 @@
 
 import argparse
 import math
-import os
 import textwrap
 from pathlib import Path
 
@@ -11,11 +10,11 @@ from validation.cases.rail.rail_sound import LABELS, SOUNDING, RailSound, RailSo
 from validation.cases.rail.rail_sound_study import signed, sounds_of, what_is_heard
 from validation.engine.engine import Engine
 from validation.engine.progress import progress_of
-from validation.report.commands.arguments import at_least
+from validation.report.commands.arguments import add_workers, at_least, some_of
 from validation.report.commands.exit_status import Exit
 from validation.report.folder import Folder
 from validation.report.manifest import SOUND
-from validation.report.sounds import wav
+from validation.report.sounds import wavs
 from validation.scenes.description import description_lines
 from validation.scenes.load import load_scene
 from validation.scenes.printable import printable
@@ -32,13 +31,8 @@ def describe(sounding: argparse.ArgumentParser) -> None:
     sounding.add_argument(
         "--out", type=Path, default=Path("sounds"), metavar="DIR", help="folder of the files (default: sounds)"
     )
-    sounding.add_argument(
-        "--models",
-        type=_models,
-        default=tuple(SOUNDING),
-        metavar="A,B",
-        help=f"some of {', '.join(SOUNDING)} (default: all)",
-    )
+    known = f"some of {', '.join(SOUNDING)} (default: all)"
+    sounding.add_argument("--models", type=some_of(SOUNDING), default=tuple(SOUNDING), metavar="A,B", help=known)
     sounding.add_argument(
         "--seconds",
         type=_seconds,
@@ -48,13 +42,7 @@ def describe(sounding: argparse.ArgumentParser) -> None:
         "100 s a second at 80 km/h)",
     )
     sounding.add_argument("--seed", type=at_least(0), default=0, metavar="S", help="of the rough strip (default: 0)")
-    sounding.add_argument(
-        "--workers",
-        type=at_least(1),
-        default=os.cpu_count() or 1,
-        metavar="N",
-        help="number of processes (default: one per core)",
-    )
+    add_workers(sounding)
     sounding.set_defaults(command=sound)
 
 
@@ -84,14 +72,9 @@ def sound(arguments: argparse.Namespace) -> Exit:
 
 def files_of(result: RailSoundResult) -> dict[str, bytes]:
     """By their names: sounds, levels in one-third octaves, and all that is to be known about them."""
-    sounds, samples, table = sounds_of(result), result.samples_table(), result.sounds_table()
+    sounds, table = sounds_of(result), result.sounds_table()
     rows = [dict(zip(table.columns, row, strict=True)) for row in zip(*table.columns.values(), strict=True)]
-    files = {
-        f"{track.name}.wav": wav(
-            samples[track.column], rate=sounds.rate, full_scale=sounds.full_scale, repeats=sounds.repeats
-        )
-        for track in sounds.tracks
-    }
+    files = {f"{name}.wav": contents for name, contents in wavs(sounds, result.samples_table()).items()}
     about = {
         "scene": result.case.rail.name,
         "heard": sounds.heard,
@@ -129,13 +112,6 @@ def _lines(result: RailSoundResult) -> list[str]:
             line += f"   {signed(over)} ± {half:.1f} dB(A)"
         lines.append(line)
     return lines
-
-
-def _models(word: str) -> tuple[str, ...]:
-    names = tuple(name.strip() for name in word.split(","))
-    if unknown := [name for name in names if name not in SOUNDING]:
-        raise argparse.ArgumentTypeError(f"must be of {', '.join(SOUNDING)}, got {', '.join(map(repr, unknown))}")
-    return names
 
 
 def _seconds(word: str) -> float:

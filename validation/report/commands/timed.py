@@ -1,20 +1,22 @@
-"""What is timed alone: `precision` and `race`."""
+"""What is timed alone: `precision`, the error against the cost of every method, and `race`, the solver comparison."""
 
 import argparse
 from pathlib import Path
 
 from validation.engine.engine import LOCAL
-from validation.report.commands.arguments import add_profile, at_least
+from validation.report.commands.arguments import add_options, add_profile, at_least
 from validation.report.commands.exit_status import Exit
 from validation.report.commands.report import built
 
 
-def describe(timing: argparse.ArgumentParser, name: str) -> None:
+def describe(timing: argparse.ArgumentParser) -> None:
+    name = timing.prog.split()[-1]
     add_profile(timing)
-    timing.add_argument(
-        "--out", type=Path, metavar="DIR", help=f"folder (default: reports/{name}-quick or reports/{name})"
+    add_options(
+        timing,
+        ("--out", "DIR", Path, f"folder (default: reports/{name}-quick or reports/{name})"),
+        ("--seed", "S", at_least(0), "seed of the rough surfaces"),
     )
-    timing.add_argument("--seed", type=at_least(0), metavar="S", help="seed of the rough surfaces")
     timing.set_defaults(command=clock, timed=name, workers=1, executor=LOCAL, scene=None, keep=False)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from validation.analysis.evidence import Evidence, Table
+from validation.analysis.evidence import Table
 from validation.cases.selection.model_selection import MODELS
 from validation.report.style import GUIDE, MARKERS, Style, graded, panels
 
@@ -12,9 +12,8 @@ SMALLEST = 1e-4
 """Errors below are drawn there."""
 
 
-def draw(evidence: Evidence) -> Figure:
+def draw(scenes: Table, claims: Table) -> Figure:
     """True over estimated error of selected models, what selection saved, and the estimates of all cheap models."""
-    scenes, estimates = evidence.table("scenes"), evidence.table("claims")
     figure, (truth, saving, every) = panels(1, 3, height=3.9)
     met = scenes["met"] == 1
     first = scenes["tolerance"] == scenes["tolerance"].min()
@@ -24,7 +23,7 @@ def draw(evidence: Evidence) -> Figure:
         for some, face, label in ((mine & first, style["color"], model), (mine & ~first, "white", "_")):
             _dots(truth, scenes, some, "true error", {**style, "markerfacecolor": face, "label": label})
             _dots(saving, scenes, some, "saved", {**style, "markerfacecolor": face})
-        _dots(every, estimates, estimates["model"] == model, "true error", style)
+        _dots(every, claims, claims["model"] == model, "true error", style)
     for axis, title in ((truth, "selected models"), (every, "all cheap models")):
         ends = np.array([SMALLEST, 1.0])
         axis.plot(ends, ends, **GUIDE)

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator
 
-from validation.analysis.evidence import Evidence, Table
+from validation.analysis.evidence import Table
 from validation.report.style import Style, panels
 
 STYLES: dict[str, Style] = {
@@ -37,14 +37,14 @@ ROOM = 3.0
 """How far a chart goes on, as a factor, below what is drawn and above."""
 
 
-def draw(evidence: Evidence) -> Figure:
+def draw(points: Table) -> Figure:
     """Error against seconds."""
-    return _charts(evidence.table("points"), "median [s]", "front", "seconds of one realisation")
+    return _charts(points, "median [s]", "front", "seconds of one realisation")
 
 
-def draw_work(evidence: Evidence) -> Figure:
+def draw_work(points: Table) -> Figure:
     """Error against work, which is the same on every machine."""
-    return _charts(evidence.table("points"), "work", "front by work", "cell applications, springs or points")
+    return _charts(points, "work", "front by work", "cell applications, springs or points")
 
 
 def _style(method: str) -> Style:
@@ -121,9 +121,8 @@ def _curve(
         axis.plot(x[within], y[within], **pointing)
 
 
-def draw_summary(evidence: Evidence) -> Figure:
+def draw_summary(summary: Table, points: Table) -> Figure:
     """For each quantity the cost of the cheapest method within each tolerance."""
-    summary = evidence.table("summary")
     rows = list(dict.fromkeys(zip(summary["scene"].tolist(), summary["quantity"].tolist(), strict=True)))
     within = {"left": 0.22, "right": 0.75, "bottom": 0.1, "top": 0.88}
     figure, (axis,) = panels(1, 1, width=12.5, height=1.6 + 0.5 * len(rows), within=within)
@@ -135,7 +134,7 @@ def draw_summary(evidence: Evidence) -> Figure:
     axis.set(xscale="log", xlabel="seconds of one realisation", ylim=(len(rows) - 0.4, -0.7))
     axis.set_xlim(known.min() / ROOM, known.max() * ROOM)
     axis.set_yticks(range(len(rows)), [f"{scene}: {quantity}" for scene, quantity in rows])
-    used = [method for method in _methods(evidence.table("points")) if method in summary["method"]]
+    used = [method for method in _methods(points) if method in summary["method"]]
     handles = [axis.plot([], [], label=method, **{**_style(method), "linestyle": "none"})[0] for method in used]
     figure.legend(handles=handles, loc="upper center", ncols=5, fontsize=8)
     return figure

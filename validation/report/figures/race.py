@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from validation.analysis.evidence import Evidence
+from validation.analysis.evidence import Table
 from validation.report.style import Style, panels
 
 MARKS: dict[str, Style] = {
@@ -16,9 +16,8 @@ OTHER: Style = {"color": "#777777", "marker": "v", "markerfacecolor": "none"}
 """Of contact models that are found."""
 
 
-def draw(evidence: Evidence) -> Figure:
+def draw(heats: Table) -> Figure:
     """Times, and their ratios to ours."""
-    heats = evidence.table("heats")
     problems, names = (list(dict.fromkeys(heats[name].tolist())) for name in ("problem", "solver"))
     figure, (time, ratio) = panels(1, 2, width=11.0, height=1.4 + 0.3 * len(problems), sharey="all")
     ours = heats.where(solver="bem3d")

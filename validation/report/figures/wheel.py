@@ -4,29 +4,27 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from validation.analysis.evidence import Evidence
+from validation.analysis.evidence import Table
 from validation.report.style import GUIDE, Style, panels, visible
 
 
-def draw_contact(evidence: Evidence) -> Figure:
+def draw_contact(springs: Table, pressure: Table) -> Figure:
     place = {"left": 0.07, "right": 0.9, "bottom": 0.14, "top": 0.92, "wspace": 0.22}
-    figure, (springs, pressure) = panels(1, 2, width=10.0, height=3.9, within=place)
-    _springs(springs, evidence)
-    table = evidence.table("pressure")
-    x, y = np.unique(table["x / a"]), np.unique(table["y / a"])
-    p = table["p / p0"].reshape(x.size, y.size)
-    image = pressure.pcolormesh(x, y, visible(p).T, cmap="cividis", shading="nearest", rasterized=True)
+    figure, (left, right) = panels(1, 2, width=10.0, height=3.9, within=place)
+    _springs(left, springs)
+    x, y = np.unique(pressure["x / a"]), np.unique(pressure["y / a"])
+    p = pressure["p / p0"].reshape(x.size, y.size)
+    image = right.pcolormesh(x, y, visible(p).T, cmap="cividis", shading="nearest", rasterized=True)
     turn = np.linspace(0, 2 * np.pi, 200)
-    pressure.plot(np.cos(turn), np.sin(turn), **{**GUIDE, "color": "#000000"})
-    pressure.set(xlabel="x / a from below the wheel, along the track", ylabel="y / a", aspect="equal")
-    pressure.set(xlim=(-1.35, 1.35), ylim=(-1.35, 1.35))
+    right.plot(np.cos(turn), np.sin(turn), **{**GUIDE, "color": "#000000"})
+    right.set(xlabel="x / a from below the wheel, along the track", ylabel="y / a", aspect="equal")
+    right.set(xlim=(-1.35, 1.35), ylim=(-1.35, 1.35))
     beside = figure.add_axes((0.92, 0.2, 0.015, 0.64))
     figure.colorbar(image, cax=beside, label="p / p₀")
     return figure
 
 
-def _springs(axis: Axes, evidence: Evidence) -> None:
-    table = evidence.table("springs")
+def _springs(axis: Axes, table: Table) -> None:
     x, wheel, track, compression = (table[name] for name in ("x / a", "wheel / d", "track / d", "compression / d"))
     step = max(1, round(x.size / 130))
     for i in range(0, x.size, step):

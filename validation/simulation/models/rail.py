@@ -5,6 +5,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from validation.simulation.equivalent_displacement import geike_power
 from validation.simulation.model_names import (
     BED,
     BEM,
@@ -20,7 +21,6 @@ from validation.simulation.model_names import (
 )
 from validation.simulation.rail_models import STRIPS, rail_model
 from validation.simulation.rail_quantity import RailQuantity
-from validation.simulation.spectral_springs import geike_power, rolling_transfer
 from validation.theory.contact_filters import remington_filter
 from validation.theory.transverse_structure import Ridges
 
@@ -73,13 +73,7 @@ ON_MEAN = rail_model(SPRINGS_ON_MEAN, ON_STRIPS, seconds=3e-5, is_mdr=True)
 """MDR on the mean over |y| < a_y, which is already a filter."""
 READING = rail_model(SPRINGS_THAT_READ, ON_STRIPS, is_mdr=True)
 """MDR with the linear answer of three dimensions: springs that read the surface by the weight of the flat punch."""
-ON_ROLLING_SPECTRUM = rail_model(
-    SPRINGS_ROLLING,
-    ON_STRIPS,
-    closed=lambda quantity: quantity.filtered(rolling_transfer(quantity.scene.contact)),
-    seconds=3e-5,
-    is_mdr=True,
-)
+ON_ROLLING_SPECTRUM = rail_model(SPRINGS_ROLLING, ON_STRIPS, seconds=3e-5, is_mdr=True)
 """MDR with the level of the half-space for long and for short waves, of levels: a spectrum has no places."""
 ON_GEIKES_SPECTRUM = rail_model(
     SPRINGS_GEIKE, ON_STRIPS, closed=by_geike, seconds=3e-5, across="isotropic", is_mdr=True

@@ -1,0 +1,208 @@
+"""Contacts that have a closed form, by boundary elements and on springs: a sphere, a wave, flat punches, an ellipse."""
+
+import math
+import warnings
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+import bem3d
+import mdr
+from validation.engine.engine import Outcome
+from validation.theory import closed_forms
+from validation.theory.elliptic_contact import EllipticContact, elliptic_contact
+
+FloatArray = NDArray[np.float64]
+
+
+def off(found: FloatArray, true: FloatArray) -> float:
+    """Relative difference in L2."""
+    return float(np.sqrt(np.sum((found - true) ** 2) / np.sum(true**2)))
+
+
+@dataclass(frozen=True, kw_only=True)
+class SmoothSphere:
+    """radius, approach [m]; modulus: E* [Pa]; cells: on a side, or springs; spacing: from one to the next [m];
+    tolerance: residual of the solver."""
+
+    radius: float
+    modulus: float
+    approach: float
+    cells: int
+    spacing: float
+    tolerance: float
+
+    @property
+    def x(self) -> FloatArray:
+        """Centres of cells [m]."""
+        return np.asarray((np.arange(self.cells) - (self.cells - 1) / 2) * self.spacing)
+
+    @property
+    def force(self) -> float:
+        """Of Hertz [N]."""
+        return closed_forms.hertz_force(approach=self.approach, radius=self.radius, modulus=self.modulus)
+
+
+def press_sphere_by_bem(sphere: SmoothSphere) -> Outcome:
+    """Boundary elements: by approach, and by the force of Hertz."""
+    x, middle = sphere.x, sphere.cells // 2
+    r = np.hypot(x[:, np.newaxis], x)
+    half_space = bem3d.HalfSpace(shape=r.shape, spacing=sphere.spacing, modulus=sphere.modulus)
+    gap = r**2 / (2 * sphere.radius)
+    contact = bem3d.solve(half_space, gap, approach=sphere.approach, tolerance=sphere.tolerance)
+    by_force = bem3d.solve(half_space, gap, force=sphere.force, start=contact, tolerance=sphere.tolerance)
+    exact = closed_forms.hertz_pressure(r, approach=sphere.approach, radius=sphere.radius, modulus=sphere.modulus)
+    return {
+        "force": np.array(contact.force),
+        "radius": np.sqrt(contact.area / np.pi),
+        "stiffness": np.array(contact.stiffness()),
+        "approach_at_force": np.array(by_force.approach),
+        "pressure_error": np.array(off(contact.pressure, exact)),
+        "x": x[middle:],
+        "pressure": contact.pressure[middle, middle:],
+    }
+
+
+def press_sphere_by_springs(sphere: SmoothSphere) -> Outcome:
+    """MDR: the parabola on springs as wide as the cells."""
+    height = -mdr.sphere_profile(sphere.x, radius=sphere.radius)
+    curve = mdr.load_curve(height, length=sphere.cells * sphere.spacing, modulus=sphere.modulus)
+    with warnings.catch_warnings():
+        # the error that few springs make is measured here
+        warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
+        point, by_force = curve.at_approach(sphere.approach), curve.at_force(sphere.force)
+    return {
+        "force": np.array(point.force),
+        "stiffness": np.array(point.stiffness),
+        "approach_at_force": np.array(by_force.approach),
+    }
+
+
+@dataclass(frozen=True, kw_only=True)
+class CosineWave:
+    """wavelength, amplitude [m]; modulus: E* [Pa]; load: mean pressure over that of full contact; cells: in a
+    wavelength; tolerance: residual of the solver."""
+
+    wavelength: float
+    amplitude: float
+    modulus: float
+    load: float
+    cells: int
+    tolerance: float
+
+    @property
+    def full_pressure(self) -> float:
+        """p* = pi E* h / lambda [Pa]."""
+        return closed_forms.westergaard_full_pressure(
+            amplitude=self.amplitude, wavelength=self.wavelength, modulus=self.modulus
+        )
+
+    @property
+    def scene(self) -> dict[str, float]:
+        """Arguments of the closed forms."""
+        return {
+            "mean_pressure": self.load * self.full_pressure,
+            "amplitude": self.amplitude,
+            "wavelength": self.wavelength,
+            "modulus": self.modulus,
+        }
+
+    @property
+    def spacing(self) -> float:
+        """Side of a cell [m]."""
+        return self.wavelength / self.cells
+
+
+def press_wave(wave: CosineWave) -> Outcome:
+    """One row of cells along one wavelength: a third dimension would add nothing."""
+    x = (np.arange(wave.cells) + 0.5) * wave.spacing - wave.wavelength / 2
+    half_space = bem3d.HalfSpace(shape=(wave.cells, 1), spacing=wave.spacing, modulus=wave.modulus, periodic=True)
+    gap = 2 * wave.amplitude * np.sin(np.pi * x / wave.wavelength) ** 2
+    force = wave.scene["mean_pressure"] * wave.wavelength * wave.spacing
+    with warnings.catch_warnings():
+        # the contact is a line: one row of cells resolves it
+        warnings.simplefilter("ignore", bem3d.ResolutionWarning)
+        contact = bem3d.solve(half_space, gap[:, np.newaxis], force=force, tolerance=wave.tolerance)
+    exact = closed_forms.westergaard_pressure(x, **wave.scene)
+    return {
+        "x": x,
+        "pressure": contact.pressure[:, 0],
+        "exact_pressure": exact,
+        "error": np.array(off(contact.pressure[:, 0], exact)),
+        "half_width": np.array(contact.area / (2 * wave.spacing)),
+    }
+
+
+@dataclass(frozen=True, kw_only=True)
+class FlatPunches:
+    """side: L of the square and diameter of the circle [m]; modulus: E* [Pa]; cells: on a side; tolerance: of the
+    linear solve."""
+
+    side: float
+    modulus: float
+    cells: int
+    tolerance: float
+
+
+def press_flat_punches(punches: FlatPunches) -> Outcome:
+    """Both pressed by a unit approach: k / (E* L), k / (2 E* a), and the pressure over its mean."""
+    side, modulus, cells = punches.side, punches.modulus, punches.cells
+    half_space = bem3d.HalfSpace(shape=(cells, cells), spacing=side / cells, modulus=modulus)
+    x = (np.arange(cells) + 0.5) / cells - 0.5
+    disc = np.hypot(x[:, np.newaxis], x) < 0.5
+    square = bem3d.solve_fixed_area(half_space, np.ones((cells, cells), dtype=bool), tolerance=punches.tolerance)
+    circle = bem3d.solve_fixed_area(half_space, disc, tolerance=punches.tolerance)
+    radius = np.sqrt(np.count_nonzero(disc) / np.pi) / cells * side
+    return {
+        "square": np.array(square.stiffness / (modulus * side)),
+        "circle": np.array(circle.stiffness / radius / (2 * modulus)),
+        "x": x,
+        "pressure": square.pressure[cells // 2] / (square.stiffness / side**2),
+    }
+
+
+APPROACH, PRESSURE = "approach", "largest pressure"
+CURVATURES = (0.001015, 0.0004215)
+"""Of its gap, A x^2 + B y^2 [1/mm]."""
+STRIP = 2.6
+"""Length and width of the flat strip over those of the contact."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PublishedContact:
+    """cells: of the grid, to the semi-axis along; tolerance: residual of boundary elements; force [N]."""
+
+    cells: int
+    tolerance: float
+    force: float = 100e3
+
+    @property
+    def modulus(self) -> float:
+        """E* = G / (1 - nu) of two equal bodies [Pa]."""
+        return 82e9 / (1 - 0.28)
+
+    @property
+    def radii(self) -> tuple[float, float]:
+        """1 / (2 A) along, 1 / (2 B) across [m]."""
+        along, across = (1e-3 / (2 * curvature) for curvature in CURVATURES)
+        return along, across
+
+    @property
+    def closed(self) -> EllipticContact:
+        return elliptic_contact(self.radii, modulus=self.modulus, force=self.force)
+
+
+def press_ellipse(problem: PublishedContact) -> Outcome:
+    """On a flat strip; an odd number of columns puts a cell under the deepest point. Approach [mm], pressure [MPa]."""
+    smooth = problem.closed
+    spacing = smooth.along / problem.cells
+    shape = tuple(2 * round(STRIP / 2 * axis / spacing) + 1 for axis in (2 * smooth.along, 2 * smooth.across))
+    track = bem3d.Track(height=np.zeros(shape), spacing=spacing, radius=problem.radii, modulus=problem.modulus)
+    wheel = bem3d.RollingContact(track, tolerance=problem.tolerance)
+    found = wheel.carry(0, problem.force)
+    return {
+        APPROACH: np.array(1e3 * found.approach),
+        PRESSURE: np.array(1e-6 * wheel.pressure()[2].max() if found.converged else math.nan),
+        "failed": np.array(float(not found.converged)),
+    }
