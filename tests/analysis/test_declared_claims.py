@@ -64,9 +64,14 @@ def test_limits_are_the_first_piece_of_a_range(found):
 
 
 def test_only_what_differs_is_off():
-    low, agreeing, undecided = point(-4.0, at=1.0), point(0.5, at=2.0), point(9.0, 9.0, at=3.0)
-    assert farthest_off([agreeing, undecided, low]) is low
+    low, high, agreeing, undecided = (point(v, s, at=v) for v, s in ((-4.0, 0), (3.0, 0), (0.5, 0), (9.0, 9.0)))
+    assert farthest_off([agreeing, undecided, high, low]) is farthest_off([low, high]) is low
     assert farthest_off([agreeing, undecided]) is undecided
+
+
+def by_band(*verdicts):
+    ends = ((1.0, 2.0), (2.0, 4.0), (4.0, 9.0))
+    return [number(verdict, **{"q a": band}) for verdict, band in zip(verdicts, ends, strict=True)]
 
 
 OF_QUANTITIES = [number(v, quantity=q) for q, v in (("height", DIFFER), ("gradient", AGREE), ("curvature", AGREE))]
@@ -76,6 +81,8 @@ OF_QUANTITIES = [number(v, quantity=q) for q, v in (("height", DIFFER), ("gradie
     ("along", "numbers", "limits"),
     [
         ("-h/d", by_height(DIFFER, AGREE, AGREE), "h/d from 1 on"),
+        ("q a", by_band(AGREE, AGREE, DIFFER), "q a up to 4"),
+        ("-q a", by_band(DIFFER, AGREE, AGREE), "q a from 2 on"),
         ("-quantity", OF_QUANTITIES, "in curvature, gradient"),
     ],
 )
@@ -163,6 +170,7 @@ def test_a_worst_point_is_at_its_place_and_names_follow_after_a_comma(where, sai
         (times, 51.0, 0.0, "350 times (350 to 350)"),
         (times, -6.0, 1.0, "0.5 times (0.45 to 0.56)"),
         (per_cent, 20 * math.log10(2), 0.0, "+100.0 % (+100.0 to +100.0)"),
+        (per_cent, 1.0, 0.0, "+12.2 % (+12.2 to +12.2)"),
         (per_cent, -40.0, 0.0, "none left"),
         (off_by, 1.0, 0.0, "off by +1.0e+00 dB"),
         (times_source, 0.5, 0.0, "0.5 times that of s"),
