@@ -11,7 +11,7 @@ from tests.analysis.test_judged_claims import point
 from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import ClaimStatus, Role, Verdict
 from validation.analysis.over_range import worst
-from validation.analysis.series import Estimates, Margin, Series, masked, single, tables_of
+from validation.analysis.series import Estimates, Margin, Series, masked, single, spans, tables_of
 from validation.analysis.statistics import Estimate
 
 

@@ -7,7 +7,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from validation.simulation.rail_ground import strip_bands
 
 from tests.analysis.test_judged_claims import point
 from validation.analysis.evidence import Role, Verdict, number_with, numbers_with
@@ -22,6 +21,7 @@ from validation.cases.rolling import force_spectrum
 from validation.cases.rolling.force_spectrum import SPRINGS
 from validation.cases.wheel import half_space, half_space_study
 from validation.simulation.equivalent_displacement import BEM, LINEAR, LINEAR_ON_LINE, SPRINGS_ON_LINE
+from validation.simulation.rail_strip import strip_bands
 from validation.theory.rolling import level_ratio
 
 # --- bandwidth of a punch ---------------------------------------------------------------------------------------------
