@@ -13,8 +13,8 @@ from validation.analysis.evidence import Role, Verdict, number_with, numbers_wit
 from validation.analysis.series import Estimates, numbers_of
 from validation.analysis.statistics import DECIBEL, POWER_DECIBEL, Estimate, mean_estimate, ratio_of_means, student
 from validation.analysis.study import Outcomes
-from validation.cases.punch import bandwidth, fractal_punch_study
-from validation.cases.rail import contact_filter
+from validation.cases.punch import bandwidth, fractal_punch, fractal_punch_study
+from validation.cases.rail import contact_filter, rolled_filters
 from validation.cases.rail.filters import linear_filter, scene_of
 from validation.cases.rail.rolled_filters import OVER_BEM, RolledFilters, RolledFiltersResult
 from validation.cases.rolling import force_spectrum
@@ -101,7 +101,7 @@ def test_the_interval_of_a_change_to_finer_cells_is_left_open_too():
 
 # --- Fig. 14.1 --------------------------------------------------------------------------------------------------------
 
-PUNCH = fractal_punch_study.FractalPunch(hursts=(0.4, 0.7))
+PUNCH = fractal_punch.FractalPunch(hursts=(0.4, 0.7))
 
 
 class Resolved(SimpleNamespace):
@@ -111,7 +111,7 @@ class Resolved(SimpleNamespace):
 
 def found_in_fig_14_1(contact=lambda *_: 1e9):
     """Springs 0.3 over boundary elements at each force, 0.5 where they are longer; exponents 0.6 beside 0.5."""
-    ratio = {fractal_punch_study.MDR: 0.3, fractal_punch_study.LONG: 0.5}
+    ratio = {fractal_punch_study.MDR: 0.3, fractal_punch.LONG: 0.5}
     exponent, grid = ({fractal_punch_study.MDR: a, fractal_punch_study.BEM: b} for a, b in ((0.6, 0.5), (0.01, 0.02)))
     return SimpleNamespace(
         case=PUNCH,
@@ -133,9 +133,11 @@ def test_each_length_of_springs_has_its_own_level_and_exponents_their_grid():
     exponents = numbers_with(numbers, study.EXPONENT)
     assert exponents and {(round(n.value, 9), round(n.grid, 9)) for n in exponents} == {(0.1, 0.03)}
     laws = numbers_of(study.laws(found))
-    assert [(n.where[study.H], n.model) for n in laws] == [(h, m) for h in PUNCH.hursts for m in (study.BEM, study.MDR)]
+    assert [(n.where[fractal_punch.H], n.model) for n in laws] == [
+        (h, m) for h in PUNCH.hursts for m in (study.BEM, study.MDR)
+    ]
     for n in laws:
-        assert n.reference == pytest.approx(1 / (1 + n.where[study.H]))
+        assert n.reference == pytest.approx(1 / (1 + n.where[fractal_punch.H]))
         assert n.sample == pytest.approx(0.01 * student(8, 1 - 0.05 / 2))
         assert n.grid == {study.BEM: 0.02, study.MDR: 0.01}[n.model]
 
@@ -146,17 +148,19 @@ def test_a_decade_that_is_not_whole_is_not_judged():
     lost = Resolved(value=Estimate(-math.inf, 0.0, 9), grid=0.0)
     found.ratio = lambda hurst, method, statistic, level: lost if level == last else whole(hurst, method)
     judged = numbers_with(numbers_of(study.compared(found, 0.7)), study.MEAN)
-    assert [n.where[study.FORCE][0] for n in judged] == pytest.approx(list(PUNCH.first_forces[:-1]))
+    assert [n.where[fractal_punch.FORCE][0] for n in judged] == pytest.approx(list(PUNCH.first_forces[:-1]))
 
 
 def test_the_farthest_interval_is_judged_once_more_where_contacts_have_cells_enough_at_every_hurst(monkeypatch):
     study = fractal_punch_study
     decades = [(PUNCH.forces[a], PUNCH.forces[b]) for a, b in map(PUNCH.decade, PUNCH.first_forces)]
     # few cells at one H alone, in the first decade
-    found = found_in_fig_14_1(lambda hurst, level, cells: study.FEW_CELLS * (0.5 if level == 0 and hurst > 0.5 else 2))
-    monkeypatch.setattr(study, "PunchStatistics", lambda result: found)
+    found = found_in_fig_14_1(
+        lambda hurst, level, cells: fractal_punch.FEW_CELLS * (0.5 if level == 0 and hurst > 0.5 else 2)
+    )
+    monkeypatch.setattr(fractal_punch, "PunchStatistics", lambda result: found)
     numbers = [
-        point(value, sample, quantity=quantity, where={study.FORCE: place})
+        point(value, sample, quantity=quantity, where={fractal_punch.FORCE: place})
         for quantity in (study.MEAN, study.DEVIATION)
         for place, value, sample in ((decades[0], 9.0, 0.1), (decades[1], 2.0, 0.1), (decades[1], -1.5, 0.9))
     ]
@@ -185,7 +189,7 @@ def rail():
 
 
 def test_a_filter_over_boundary_elements_has_the_errors_of_both_in_the_bands_that_count(rail, monkeypatch):
-    monkeypatch.setattr(contact_filter, "models_of", lambda key: (BEM, LINEAR, LINEAR_ON_LINE, SPRINGS_ON_LINE))
+    monkeypatch.setattr(rolled_filters, "models_of", lambda key: (BEM, LINEAR, LINEAR_ON_LINE, SPRINGS_ON_LINE))
     (key,) = rail.case.keys
     coarse, fine = rail.case.cells
     numbers, bem = numbers_of(contact_filter._of_strips(rail, key)), rail.over_twin(key, BEM)
