@@ -41,7 +41,7 @@ GRADED: dict[str, Style] = {
 }
 FIRST = "first"
 POINTS, FEW, LARGE = 12, 15, 1e5
-FEW_DECADES = 300
+FEW_DECADES, ASIDE = 300, 1.2
 HIGHEST = 4.8
 """Of a row of panels."""
 SIGN = {"agree": "=", "differ": "≠", "undecided": "?"}
@@ -125,7 +125,7 @@ def _limits(axis: Axes, panel: Panel) -> None:
     if panel.ylim:
         axis.set_ylim(*panel.ylim)
     if panel.ticked:
-        tick(axis, np.unique(np.concatenate([line.get_xdata() for line in lines])))
+        tick(axis, _apart(np.unique(np.concatenate([line.get_xdata() for line in lines]))))
     elif "x" in panel.log and axis.get_xlim()[1] < LARGE:
         tick(axis, _round(*axis.get_xlim()))
     if "y" in panel.log and axis.get_ylim()[1] < FEW_DECADES * axis.get_ylim()[0]:
@@ -138,10 +138,20 @@ def _limits(axis: Axes, panel: Panel) -> None:
 
 
 def _round(low: float, high: float) -> list[float]:
-    """Powers of ten, of few decades two and five times them too."""
+    """Powers of ten, of few decades two and five times them too, of many some."""
     steps = (1, 2, 5) if high < FEW_DECADES * low else (1,)
-    powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)))
+    first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
+    powers = range(first, last, max(1, (last - first) // 5))
     return [x for power in powers for step in steps if low <= (x := step * 10.0**power) <= high]
+
+
+def _apart(values: np.ndarray) -> list[float]:
+    """Without those of curves that are moved aside."""
+    kept: list[float] = []
+    for value in values.tolist():
+        if not kept or value > ASIDE * kept[-1]:
+            kept.append(value)
+    return kept
 
 
 def _said(name: str, value: object) -> str:
