@@ -11,7 +11,7 @@ import validation.__main__ as command
 from tests.benchmarks.made_up import named, timed_problem, use_a_clock_of_its_own
 from validation.analysis.evidence import Table, Verdict
 from validation.benchmarks import peers
-from validation.benchmarks.found_models import TimedProblem, configurations_of
+from validation.benchmarks.found_models import TimedProblem, all_methods, configurations_of
 from validation.benchmarks.peers import SOLVERS
 from validation.benchmarks.timing import FINISHED, RunLimits
 from validation.benchmarks.work_precision import pareto as precision_front
@@ -256,7 +256,8 @@ def test_finished_scenes_are_kept_until_all_are(tmp_path, by_hand, monkeypatch):
     timed = timed_problem(named("right"))
     monkeypatch.setattr(Precision, "problems", lambda self: (timed.problem,))
     engine = Engine(store=tmp_path)
-    engine.map(precision.measure, [timed])
+    limits = RunLimits(slow=SMALL.slow, enough=SMALL.enough)
+    engine.map(precision.measure, [TimedProblem(timed.problem, limits, all_methods())])
     assert [file.match("*-measure-*.npz") for file in tmp_path.iterdir()] == [True]
     run(SMALL, engine)
     assert not list(tmp_path.iterdir())
