@@ -10,7 +10,7 @@ import validation.__main__ as command
 from tests.benchmarks.made_up import named, run_command, timed_problem, use_a_clock_of_its_own
 from validation.analysis.evidence import Table, Verdict
 from validation.benchmarks import peers
-from validation.benchmarks.found_models import TimedProblem
+from validation.benchmarks.found_models import TimedProblem, all_methods
 from validation.benchmarks.peers import SOLVERS
 from validation.benchmarks.timing import FINISHED, RunLimits
 from validation.benchmarks.work_precision import dynamic_wheel, exact_problems, figure_cost
@@ -205,7 +205,8 @@ def test_finished_scenes_are_kept_until_all_are(tmp_path, by_hand, monkeypatch):
     timed = timed_problem(named("right"))
     monkeypatch.setattr(Precision, "problems", lambda self: (timed.problem,))
     engine = Engine(store=tmp_path)
-    engine.map(precision.measure, [timed])
+    limits = RunLimits(slow=SMALL.slow, enough=SMALL.enough)
+    engine.map(precision.measure, [TimedProblem(timed.problem, limits, all_methods())])
     assert [file.match("*-measure-*.npz") for file in tmp_path.iterdir()] == [True]
     lost = timed_problem(named("right"), named("raises")).problem
     monkeypatch.setattr(Precision, "problems", lambda self: (timed.problem, lost))
