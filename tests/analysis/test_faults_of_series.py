@@ -1,6 +1,7 @@
 """Faults that once lived in declared series and claims, and in what cases declare: each test kills some of them."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from tests.analysis.test_declared_claims import number as planted
 from tests.analysis.test_judged_claims import point
 from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import ClaimStatus, Role, Verdict
+from validation.analysis.margins import MARGINS
 from validation.analysis.over_range import worst
 from validation.analysis.series import Estimates, Margin, Series, masked, single, spans, tables_of
 from validation.analysis.statistics import Estimate
@@ -87,3 +89,10 @@ def test_sums_and_ratios_of_estimates_are_taken_element_by_element():
 def test_ends_of_ranges_of_small_values_are_sharp():
     assert list(spans((1e-6, 2e-6, 4e-6), (2e-6, 3e-6))) == [(2e-6, 2e-6)]
     assert list(spans((2e-6, 4e-6), (1e-6, 3e-6), (5e-6, 6e-6))) == [(2e-6, 2e-6)]
+
+
+@pytest.mark.parametrize("name", MARGINS)
+def test_a_shared_margin_is_as_wide_as_its_reason_says(name):
+    number, unit = re.match(r"([\d.]+) ?(%|dB)?", MARGINS[name].reason).groups()
+    assert MARGINS[name].tolerance == pytest.approx(float(number) / (100 if unit == "%" else 1))
+    assert MARGINS[name].relative is (name in ("peak", "jump", "period", "lift-off"))
