@@ -15,6 +15,7 @@ from validation.analysis.margins import MARGINS
 from validation.analysis.over_range import worst
 from validation.analysis.series import Estimates, Margin, Series, masked, single, spans, tables_of
 from validation.analysis.statistics import Estimate
+from validation.analysis.study import Outcomes, Settings, Study
 
 
 def test_limits_end_where_one_of_several_quantities_does_not_agree():
@@ -96,3 +97,12 @@ def test_a_shared_margin_is_as_wide_as_its_reason_says(name):
     number, unit = re.match(r"([\d.]+) ?(%|dB)?", MARGINS[name].reason).groups()
     assert MARGINS[name].tolerance == pytest.approx(float(number) / (100 if unit == "%" else 1))
     assert MARGINS[name].relative is (name in ("peak", "jump", "period", "lift-off"))
+
+
+def test_a_matrix_of_models_has_no_column_of_a_quantity_and_a_study_prints_what_it_names():
+    matrix = Matrix(name="t", quantity=("level", "slope"), rows=("h/d",), columns="model")
+    assert list(matrix.table(by_height(AGREE)).columns) == ["h/d", "m"]
+    assert Settings().format("{c:g}; {d:g}; {e:g}", c=(1, 2, 3), d=(1, 2), e=(1,)) == "1, 2 and 3; 1 and 2; 1"
+    one, other = (Series(name, "m", (2.0,)) for name in ("level", "slope"))
+    study = Study(title="t", method="m", series=lambda _: [one, other], claims=(), printed=("slope",))
+    assert [table.name for table in study.evidence(Outcomes(None, {})).page_tables] == ["slope"]
