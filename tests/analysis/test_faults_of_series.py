@@ -1,6 +1,7 @@
 """Faults that once lived in declared series and claims, and in what cases declare: each test kills some of them."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -10,9 +11,11 @@ from tests.analysis.test_declared_claims import number as planted
 from tests.analysis.test_judged_claims import point
 from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import ClaimStatus, Role, Verdict
+from validation.analysis.margins import MARGINS
 from validation.analysis.over_range import worst
 from validation.analysis.series import Estimates, Margin, Series, masked, single, spans, tables_of
 from validation.analysis.statistics import Estimate
+from validation.analysis.study import Outcomes, Settings, Study
 
 
 def test_limits_end_where_one_of_several_quantities_does_not_agree():
@@ -87,3 +90,19 @@ def test_sums_and_ratios_of_estimates_are_taken_element_by_element():
 def test_ends_of_ranges_of_small_values_are_sharp():
     assert list(spans((1e-6, 2e-6, 4e-6), (2e-6, 3e-6))) == [(2e-6, 2e-6)]
     assert list(spans((2e-6, 4e-6), (1e-6, 3e-6), (5e-6, 6e-6))) == [(2e-6, 2e-6)]
+
+
+@pytest.mark.parametrize("name", MARGINS)
+def test_a_shared_margin_is_as_wide_as_its_reason_says(name):
+    number, unit = re.match(r"([\d.]+) ?(%|dB)?", MARGINS[name].reason).groups()
+    assert MARGINS[name].tolerance == pytest.approx(float(number) / (100 if unit == "%" else 1))
+    assert MARGINS[name].relative is (name in ("peak", "jump", "period", "lift-off"))
+
+
+def test_a_matrix_of_models_has_no_column_of_a_quantity_and_a_study_prints_what_it_names():
+    matrix = Matrix(name="t", quantity=("level", "slope"), rows=("h/d",), columns="model")
+    assert list(matrix.table(by_height(AGREE)).columns) == ["h/d", "m"]
+    assert Settings().format("{c:g}; {d:g}; {e:g}", c=(1, 2, 3), d=(1, 2), e=(1,)) == "1, 2 and 3; 1 and 2; 1"
+    one, other = (Series(name, "m", (2.0,)) for name in ("level", "slope"))
+    study = Study(title="t", method="m", series=lambda _: [one, other], claims=(), printed=("slope",))
+    assert [table.name for table in study.evidence(Outcomes(None, {})).page_tables] == ["slope"]

@@ -1,0 +1,77 @@
+"""Faults planted in series, in claims and in what cases declare of both: where, what is wrong, who must catch it."""
+
+import functools
+
+from tests.analysis import test_declared_claims, test_series
+from tests.analysis.test_declared_claims import AGREE, DIFFER
+from tests.cases import test_faults_of_series_of_cases as test_cases
+from tests.cases import test_faults_of_series_of_wheels as test_wheels
+from validation.analysis import claims, series
+from validation.analysis.evidence import ClaimStatus
+from validation.analysis.statistics import DECIBEL, Estimate
+from validation.cases.punch import bandwidth, fractal_punch_study
+from validation.cases.rail import contact_filter, rolled_filters
+from validation.cases.rolling import force_spectrum
+from validation.cases.wheel import half_space_study
+
+left_by_grid = rolled_filters.RolledFiltersResult.left_by_grid
+
+
+def of_the_fine_cells(result, key, model, other):
+    """The change from coarse cells to fine ones for what is left behind them."""
+    coarse, fine = result.case.cells
+    return left_by_grid(result, key, model, other) * (fine - coarse) / coarse
+
+
+FAULTS = {
+    "limits of a declared claim of whatever agrees": (
+        (claims, "takewhile", filter),
+        functools.partial(
+            test_declared_claims.test_status_limits_and_headline_follow_from_verdicts,
+            (DIFFER, AGREE, AGREE),
+            ClaimStatus.CONTRADICTED,
+            "",
+            "It: +3.00 ± 0.10 dB at h/d = 0.1",
+        ),
+    ),
+    "a series without the error of its reference": (
+        (Estimate, "minus", lambda mine, other: Estimate(mine.value - other.value, mine.error, mine.samples)),
+        test_series.test_a_reference_with_an_error_widens_the_interval_and_one_without_does_not,
+    ),
+    "levels of the finest cells for those of no size": (
+        (series.Estimates, "on_no_size", lambda mine, finer: mine),
+        test_cases.test_the_rms_force_is_that_on_cells_of_no_size_and_both_models_hold_at_once,
+    ),
+    "decibels of a power for those of an amplitude, in stiffness": (
+        (bandwidth, "DECIBEL", DECIBEL / 2),
+        test_cases.test_a_change_of_the_band_is_of_springs_less_of_boundary_elements_and_all_decades_hold_at_once,
+    ),
+    "one decade of a claim on bandwidth for all of them": (
+        (bandwidth, "_ranges", lambda case: 1),
+        test_cases.test_of_a_roll_off_boundary_elements_are_taken_as_well_and_all_claims_hold_at_once,
+    ),
+    "decibels of a power for those of an amplitude, in Fig. 14.1": (
+        (fractal_punch_study, "DECIBEL", DECIBEL / 2),
+        test_cases.test_each_length_of_springs_has_its_own_level_and_exponents_their_grid,
+    ),
+    "a change of the cells for what they leave, in contact filters": (
+        (rolled_filters.RolledFiltersResult, "left_by_grid", of_the_fine_cells),
+        test_cases.test_a_filter_over_boundary_elements_has_the_errors_of_both_in_the_bands_that_count,
+    ),
+    "bands that do not count, in contact filters": (
+        (contact_filter, "counted", lambda a3: a3 < 1.0),
+        test_cases.test_a_filter_over_boundary_elements_has_the_errors_of_both_in_the_bands_that_count,
+    ),
+    "decibels of an amplitude for those of a power, in the limit of Geike's spectrum": (
+        (force_spectrum, "POWER_DECIBEL", DECIBEL),
+        test_cases.test_geikes_spectrum_is_too_loud_by_its_limit_where_boundary_elements_are_linear_theory,
+    ),
+    "linear theory must hold over any roughness": (
+        (force_spectrum, "LINEAR_UP_TO", 1.0),
+        test_cases.test_levels_are_judged_in_both_ranges_and_linear_theory_must_hold_over_low_roughness,
+    ),
+    "one number of the claim on the wheel for all of them": (
+        (half_space_study, "OF_FIGURE", 1),
+        test_wheels.test_a_wheel_in_three_dimensions_is_judged_by_the_worst_band_of_each_range,
+    ),
+}
