@@ -71,10 +71,7 @@ def roll_surface(
     499.3 to 567.0 N
     """
     heights = finite_array("height", height, ndim=2, copy=False)
-    if isinstance(spacing, tuple) and len(spacing) != 2:
-        raise ValueError(f"spacing must be one number or two (along, across), got {spacing!r}")
-    dx, dy = spacing if isinstance(spacing, tuple) else (spacing, spacing)
-    steps, wheel = (positive("spacing", dx), positive("spacing", dy)), spring_wheel(radius, modulus)
+    steps, wheel = _steps(spacing), spring_wheel(radius, modulus)
     if (approach is None) == (force is None):
         raise ValueError(f"give either approach or force, got approach={approach!r} and force={force!r}")
     load = {"force": force} if approach is None else {"approach": approach}
@@ -82,6 +79,14 @@ def roll_surface(
         rolled, diagnostics = _rolled(heights, steps, wheel, approach, force)
     warn(diagnostics)
     return rolled
+
+
+def _steps(spacing: OneOrTwo) -> tuple[float, float]:
+    """Along and across."""
+    if isinstance(spacing, tuple) and len(spacing) != 2:
+        raise ValueError(f"spacing must be one number or two (along, across), got {spacing!r}")
+    dx, dy = spacing if isinstance(spacing, tuple) else (spacing, spacing)
+    return positive("spacing", dx), positive("spacing", dy)
 
 
 def _rolled(

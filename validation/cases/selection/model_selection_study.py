@@ -50,11 +50,8 @@ MARGINS = {
         FAR_OFF: (0.02, "0.02 decades: 5 % of the factor", "no error above 2 times the estimated one"),
     }.items()
 }
-SAVED, MOST = 2.0, 2.0
-"""What selection should save at least; true over estimated error of an answer that is called enough."""
-RESAMPLED = 400
-"""Bootstrap samples of scenes, for the interval of a saving."""
-NONE = "none"
+SAVED, MOST, RESAMPLED, NONE = 2.0, 2.0, 400, "none"
+"""What selection should save; true over estimated error of an answer; bootstrap samples of scenes; no model."""
 Some = slice | np.ndarray
 ESTIMATED, TRUE, OF_REFERENCE = "estimated error", "true error", "error of the reference"
 OF_FINE = "error of fine boundary elements"
