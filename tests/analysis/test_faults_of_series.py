@@ -2,6 +2,7 @@
 
 import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ import pytest
 from tests.analysis.test_declared_claims import AGREE, DIFFER, by_height
 from tests.analysis.test_declared_claims import number as planted
 from tests.analysis.test_judged_claims import point
-from validation.analysis.claims import Claim, Matrix
+from validation.analysis.claims import Claim, Matrix, beside
 from validation.analysis.evidence import ClaimStatus, Role, Verdict
 from validation.analysis.margins import MARGINS
 from validation.analysis.over_range import worst
@@ -24,10 +25,10 @@ def test_limits_end_where_one_of_several_quantities_does_not_agree():
     assert (judged.status, judged.limits) == (ClaimStatus.LIMITED, "h/d up to 0.1")
 
 
-@pytest.mark.parametrize(("along", "limits"), [("q", "q up to 4"), ("-q", "q from 4 on")])
+@pytest.mark.parametrize(("along", "limits"), [("q", "q up to 8"), ("-q", "q from 2 on")])
 def test_limits_along_ranges_end_at_the_far_end_of_the_last_that_agrees(along, limits):
     ranges = ((1.0, 2.0), (2.0, 4.0), (4.0, 8.0), (8.0, 16.0))
-    verdicts = (AGREE, AGREE, DIFFER, DIFFER)
+    verdicts = (AGREE, AGREE, AGREE, DIFFER)
     pairs = zip(verdicts if along == "q" else verdicts[::-1], ranges, strict=True)
     judged = Claim(says="It is so.", along=along).judged([planted(verdict, q=ends) for verdict, ends in pairs])
     assert (judged.status, judged.limits) == (ClaimStatus.LIMITED, limits)
@@ -106,3 +107,12 @@ def test_a_matrix_of_models_has_no_column_of_a_quantity_and_a_study_prints_what_
     one, other = (Series(name, "m", (2.0,)) for name in ("level", "slope"))
     study = Study(title="t", method="m", series=lambda _: [one, other], claims=(), printed=("slope",))
     assert [table.name for table in study.evidence(Outcomes(None, {})).page_tables] == ["slope"]
+
+
+def test_a_number_is_printed_beside_its_reference_with_the_digits_of_its_tolerance():
+    near = point(1234.5, reference=1234.5678, tolerance=1.0)
+    assert [beside(replace(near, tolerance=t)) for t in (1.0, 2.0)] == [
+        "1234.5 beside 1234.57 dB",
+        "1234.5 beside 1235 dB",
+    ]
+    assert [beside(point(x)) for x in (0.5, 0.0, -0.5)] == ["+0.5 dB", "0 dB", "-0.5 dB"]

@@ -32,6 +32,9 @@ def swept(error, side="above", messages=("", "", "no", "no"), derived=False):
         ([9.0, 9.0, 9.0, 9.0], "above", -1.0, 0.0),
         ([1.0, 1.0, 1.0, 1.0], "below", 1.0, 0.0),
         ([9.0, 9.0, 9.0, 9.0], "below", -2.0, 0.0),
+        # it fails where it should not, and not where it should
+        ([9.0, 1.0, 1.0, 1.0], "above", -1.0, 0.0),
+        ([1.0, 1.0, 1.0, 9.0], "below", -2.0, 0.0),
     ],
 )
 def test_a_threshold_is_positive_where_it_fails_later(error, side, octaves, half):
