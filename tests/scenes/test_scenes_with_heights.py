@@ -138,9 +138,9 @@ def test_what_a_scene_cannot_answer_is_refused(capsys):
 def test_the_seed_of_a_comparison_is_that_of_the_command(capsys, monkeypatch):
     seeds, real = [], several_scenes.compare_quantities
 
-    def seen(scene, quantities, tolerance, seed, **settings):
+    def seen(scene, quantities, tolerance, seed, *settings):
         seeds.append(seed)
-        return real(scene, quantities, tolerance, seed, **settings)
+        return real(scene, quantities, tolerance, seed, *settings)
 
     monkeypatch.setattr(several_scenes, "compare_quantities", seen)
     for words in ([], ["--seed", "0"], ["--seed", "7"]):

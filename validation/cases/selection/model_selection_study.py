@@ -210,7 +210,7 @@ def at_edges(edges: Table) -> Iterator[Series]:
         known, asked = tested(mine), answerable(mine)
         worst = max(over_estimate(known)[known["met"] == 1], default=1.0)
         yield judged(HELD, share(over_estimate(known) <= 1), reference=1.0, tolerance=tolerance)
-        yield judged(FAR_OFF, max(math.log10(worst / MOST), 0.0), tolerance=tolerance)
+        yield judged(FAR_OFF, math.log10(max(worst / MOST, 1.0)), tolerance=tolerance)
         if asked.any():
             yield judged(REFUSED, share(mine["met"][asked] == 0), tolerance=tolerance)
     for kind in dict.fromkeys(edges["kind"].tolist()):
