@@ -1,1 +1,1 @@
-"""Contact models, a file each: a module that holds a `MODEL` is found by being here."""
+"""Contact models, a file each: a module that has models is found by being here."""
