@@ -113,6 +113,6 @@ def test_a_number_is_printed_beside_its_reference_with_the_digits_of_its_toleran
     near = point(1234.5, reference=1234.5678, tolerance=1.0)
     assert [beside(replace(near, tolerance=t)) for t in (1.0, 2.0)] == [
         "1234.5 beside 1234.57 dB",
-        "1234.5 beside 1235 dB",
+        "1234.5 beside 1234.6 dB",
     ]
     assert [beside(point(x)) for x in (0.5, 0.0, -0.5)] == ["+0.5 dB", "0 dB", "-0.5 dB"]

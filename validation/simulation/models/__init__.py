@@ -1,1 +1,1 @@
-"""Contact models, a file each: a module that has models is found by being here."""
+"""Contact models, a file a family; a model is found by being here."""
