@@ -92,7 +92,7 @@ class Comparison:
         return np.full(max(1, self.wavenumbers.size), math.nan) if best is None else self.value_of(best)
 
     def value_of(self, candidate: Candidate) -> FloatArray:
-        """Of a model that was solved, as `value`."""
+        """Of a model that was solved, as value."""
         assert candidate.answer is not None  # as said
         reference = REFERENCES.get(self.quantity, 1.0)
         return 20 * np.log10(candidate.answer.value / reference) if self.is_level else candidate.answer.value
