@@ -19,6 +19,8 @@ from validation.analysis.claims import (
     times_source,
 )
 from validation.analysis.evidence import ClaimStatus, Role, Verdict
+from validation.analysis.series import Margin, Series
+from validation.analysis.study import Outcomes, Study
 
 AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
 VALUE = {AGREE: (0.2, 0.1), DIFFER: (3.0, 0.1), UNDECIDED: (1.0, 0.3)}
@@ -192,3 +194,12 @@ def test_a_matrix_has_a_cell_for_each_number_with_its_verdict():
     assert table.columns["across"] == ("ridges", "ground")
     assert [str(cell) for cell in table.columns["a"]] == ["+0.20 ± 0.10 dB: agree"] * 2
     assert [str(cell) for cell in table.columns["b"]] == ["+3.00 ± 0.10 dB: differ", "–"]
+
+
+def test_a_claim_that_no_number_tests_is_told():
+    """A name that is misspelt takes no claim away without a word."""
+    series = Series("level", "springs", (0.1,), margin=Margin(1.0, "r"))
+    claims = Claim(says="It is so.", quantity="level"), Claim(says="It is not.", model="spring")
+    found = Study(title="t", method="", series=lambda result: [series], claims=claims).evidence(Outcomes(None, {}))
+    assert [claim.claim for claim in found.claims] == ["It is so."]
+    assert found.conclusions == ("No number tests the claim: It is not.",)

@@ -64,6 +64,7 @@ class Study:
         numbers = (*self.once_more(result, numbers), *numbers)
         filled = [replace(claim, says=self._filled(claim.says, case)) for claim in self.claims]
         pairs = [(claim, claim.judged(numbers)) for claim in filled if claim.numbers(numbers)]
+        untested = [f"No number tests the claim: {claim.says}" for claim in filled if not claim.numbers(numbers)]
         said = {claim.says: claim.headline(judged) for claim, judged in pairs if claim.short}
         return Evidence(
             title=self.title,
@@ -75,7 +76,7 @@ class Study:
                 *(table for table in tables if table.name in self.printed),
             ),
             claims=tuple(judged for _, judged in pairs),
-            conclusions=tuple(self.notes(result)),
+            conclusions=(*self.notes(result), *untested),
             captions={chart.name: self._filled(chart.caption, case) for chart in self.charts},
             headlines={
                 chart.name: _title(said[filled[i].says] for i in chart.claims if filled[i].says in said)

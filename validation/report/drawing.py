@@ -49,7 +49,7 @@ SIGN = {"agree": "=", "differ": "≠", "undecided": "?"}
 
 def draw(chart: Chart, evidence: Evidence) -> Figure:
     if isinstance(chart.panels, Map):
-        return _map(chart, chart.panels, evidence.table(chart.panels.quantity))
+        return _map(chart.panels, evidence.table(chart.panels.quantity))
     facets = [(panel, facet) for panel in chart.panels for facet in _facets(panel, evidence)]
     columns = min(chart.columns or len(facets), len(facets))
     rows = -(-len(facets) // columns)
@@ -214,7 +214,7 @@ def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str
         axis.fill_between(x, low, high, color=style["color"], alpha=0.15, linewidth=0)
 
 
-def _map(chart: Chart, what: Map, table: Table) -> Figure:
+def _map(what: Map, table: Table) -> Figure:
     """Too low is hatched: too low and too high are alike without colour."""
     facets = list(dict.fromkeys(table.columns[what.facet]))
     rows = -(-len(facets) // 2)

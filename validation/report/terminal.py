@@ -7,7 +7,7 @@ from validation.report.section import Section, answer_of
 
 
 def lines_of(section: Section, *, unsteady: bool = False) -> list[str]:
-    """A line for the case, and one for each claim, missed criterion and failed solve; unsteady: it has no level."""
+    """A line for the case, each claim, conclusion, missed criterion and failed solve; unsteady: it has no level."""
     met = f"criteria met {section.criteria - len(section.missed)} of {section.criteria}"
     if unsteady:
         met = "no steady answer, the results hold for this distance alone"
@@ -16,6 +16,7 @@ def lines_of(section: Section, *, unsteady: bool = False) -> list[str]:
         for claim in section.claims
         if not unsteady
     ]
+    details += section.evidence.conclusions if section.evidence and not unsteady else ()
     details += [f"missed: {number.sentence}" for number in section.missed]
     details += [f"not converged: {solve}" for solve in section.unconverged]
     if section.name in TIMED and section.evidence:
