@@ -47,8 +47,8 @@ def test_files_without_heights_are_refused(tmp_path):
 @pytest.mark.parametrize(
     ("text", "old", "new", "words"),
     [
-        (PUNCH, "[punch]", "[block]", ["a scene must have one table of sphere, punch and wheel", "none"]),
-        (PUNCH, "[material]", '[sphere]\nradius = "1 m"\n[material]', ["a scene must have one", "sphere and punch"]),
+        (PUNCH, "[punch]", "[block]", ["a scene must have one of sphere, punch, wheel, got none"]),
+        (PUNCH, "[material]", '[sphere]\nradius = "1 m"\n[material]', ["a scene must have one of", "sphere and punch"]),
         (PUNCH, 'side = "1 mm"', "", ["punch.side is missing"]),
         (PUNCH, "side =", "radius =", ["punch.radius is unknown", "side, load"]),
         (PUNCH, "poisson_ratio = 0.3", "poisson_ratio = 0.6", ["material.poisson_ratio must", "0.6"]),
@@ -65,7 +65,7 @@ def test_scenes_are_refused_by_key_and_value(tmp_path, text, old, new, words):
 
 def test_a_smooth_rail_is_no_scene_to_roll_over(tmp_path):
     start, _, _ = ROLLING.partition("[rail.roughness]")
-    with pytest.raises(ValueError, match=rf"^{IN_FILE}rail must have roughness or heights, got a smooth one$"):
+    with pytest.raises(ValueError, match=rf"^{IN_FILE}rail must have one of roughness, heights, got none$"):
         load_scene(written(tmp_path, text=start + "[rail]\n"))
     with pytest.raises(ValueError, match=r"must have a rough rail and a smooth wheel to be compared$"):
         load_scene("rough_wheel")
@@ -74,7 +74,9 @@ def test_a_smooth_rail_is_no_scene_to_roll_over(tmp_path):
 def test_ground_is_a_spectrum_or_heights_not_both(tmp_path):
     np.save(tmp_path / "face.npy", drawn())
     text = PUNCH + '\n[heights]\nfile = "face.npy"\nspacing = "1 um"\n'
-    with pytest.raises(ValueError, match=rf"^{IN_FILE}a scene must have roughness or heights, got both$"):
+    with pytest.raises(
+        ValueError, match=rf"^{IN_FILE}a scene must have one of roughness, heights, got roughness and heights$"
+    ):
         load_scene(written(tmp_path, text=text))
 
 
@@ -99,7 +101,7 @@ def test_heights_must_cover_the_body():
     settings = {"name": "it", "load": 1.0, "modulus": 1e9, "ground": ground}
     with pytest.raises(ValueError, match=r"^heights must be as large as the punch, punch.side = 0.001 m"):
         IndentationScene(shape="punch", size=1e-3, **settings)
-    with pytest.raises(ValueError, match=r"^heights must be three contact radii wide"):
+    with pytest.raises(ValueError, match=r"^heights must be .* long and .* wide"):
         IndentationScene(shape="sphere", size=1.0, **settings)
     with pytest.raises(ValueError, match=r"^rail.heights must be .* long and .* wide"):
         RollingScene(radius=1.0, **settings)

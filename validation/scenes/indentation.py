@@ -7,7 +7,7 @@ from typing import Literal
 from mdr.checks import positive
 from validation.scenes.height_edits import SQUARE
 from validation.scenes.material import Material, check_scene
-from validation.scenes.measured import MeasuredHeights, check_points
+from validation.scenes.measured import MeasuredHeights, check_covers
 from validation.scenes.printable import shortened
 from validation.scenes.roughness import Roughness, RoughSurface, check_band
 from validation.scenes.units import in_unit
@@ -144,9 +144,5 @@ class IndentationScene:
                 f"heights must be as large as the punch, punch.side = {self.size:g} m, got {heights.sides} m: "
                 f'see heights.spacing, or as: side = "{side}"'
             )
-        if self.shape == "sphere" and shortest < 3 * self.contact_radius:
-            raise ValueError(
-                f"heights must be three contact radii wide, {3 * self.contact_radius:.3g} m, got {heights.sides}"
-            )
         if self.shape == "sphere":
-            check_points(heights, self.contact_radius)
+            check_covers("heights", heights, (3 * self.contact_radius,) * 2, self.contact_radius)

@@ -226,8 +226,11 @@ class MeasuredHeights:
         return _spectrum(self.height, self.spacing)
 
 
-def check_points(heights: MeasuredHeights, contact_radius: float) -> None:
-    """Raises ValueError where a contact is smaller than the spacing of the points."""
+def check_covers(name: str, heights: MeasuredHeights, sides: tuple[float, float], contact_radius: float) -> None:
+    """Raises ValueError for a surface that is smaller than these sides, or whose points miss the contact."""
+    if any(side < needed for side, needed in zip(heights.sides, sides, strict=True)):
+        long, wide, *got = (in_unit(side, "length", digits=3) for side in (*sides, *heights.sides))
+        raise ValueError(f"{name} must be {long} long and {wide} wide for this contact, got {' and '.join(got)}")
     if max(heights.spacing) > contact_radius:
         raise ValueError(
             f"heights.spacing must be no more than the contact radius, {contact_radius:.3g} m, got "

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.material import Material, check_scene
-from validation.scenes.measured import MeasuredHeights, check_points
+from validation.scenes.measured import MeasuredHeights, check_covers
 from validation.scenes.roughness import RoughSurface, check_band
 from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
 from validation.scenes.wheel_body import Wheel, WheelOnTrack, diagnose_contact_radius
@@ -58,7 +58,8 @@ class RollingScene(WheelOnTrack):
         if (self.mass is None) != (self.speed is None):
             raise ValueError(f"wheel.mass and wheel.speed must both be given or neither, got {self.mass}, {self.speed}")
         if isinstance(self.ground, MeasuredHeights):
-            self._check_measured(self.ground)
+            a = self.contact_radius
+            check_covers("rail.heights", self.ground, (4 * math.pi * a, 3 * a), a)
         else:
             check_band("rail.roughness", self.ground)
 
@@ -92,13 +93,3 @@ class RollingScene(WheelOnTrack):
     def no_steady_answer(self) -> str:
         """Why the motion of a wheel with a mass has no level that the distance leaves alone; empty where it has."""
         return "" if self.speed is None else no_steady_answer(self.body, self.speed, [self.ground])
-
-    def _check_measured(self, heights: MeasuredHeights) -> None:
-        along, across = heights.sides
-        a = self.contact_radius
-        if along < 4 * math.pi * a or across < 3 * a:
-            raise ValueError(
-                f"rail.heights must be {4 * math.pi * a:.3g} m long and {3 * a:.3g} m wide for this contact, got "
-                f"{along:.3g} m and {across:.3g} m"
-            )
-        check_points(heights, a)
