@@ -27,7 +27,7 @@ from validation.scenes.reader import (
 )
 from validation.scenes.roughness import Roughness, check_band, roughness_of
 from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
-from validation.scenes.wheel_body import Wheel, WheelOnTrack, diagnose_contact_radius
+from validation.scenes.wheel_body import SmoothContact, Wheel
 
 KEYS = ("wheel.radius", "wheel.mass", "wheel.load", "wheel.speed", "simulation.distance")
 """Of what must be positive."""
@@ -43,7 +43,7 @@ MAX_PLAUSIBLE_RMS = 1e-4
 
 
 @dataclass(frozen=True, kw_only=True)
-class WheelScene(WheelOnTrack):
+class WheelScene(SmoothContact):
     """Wheel with a mass that rolls along a rail; either of them rough or smooth.
 
     Parameters
@@ -313,4 +313,4 @@ def _diagnose_motion(scene: WheelScene) -> Iterator[str]:
             f"a time step is {omega_dt:.3g} over the eigenfrequency, more than 0.2, and 2 is unstable: "
             "roll slower or take more springs."
         )
-    yield from diagnose_contact_radius(scene.body)
+    yield from scene.diagnose_contact_radius()

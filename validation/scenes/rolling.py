@@ -8,11 +8,11 @@ from validation.scenes.material import Material, check_scene
 from validation.scenes.measured import MeasuredHeights, check_covers
 from validation.scenes.roughness import RoughSurface, check_band
 from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
-from validation.scenes.wheel_body import Wheel, WheelOnTrack, diagnose_contact_radius
+from validation.scenes.wheel_body import SmoothContact, Wheel
 
 
 @dataclass(frozen=True, kw_only=True)
-class RollingScene(WheelOnTrack):
+class RollingScene(SmoothContact):
     """Smooth wheel that rolls over rough ground, with a mass or at a constant approach.
 
     Parameters
@@ -88,7 +88,7 @@ class RollingScene(WheelOnTrack):
             found.append(f"the roughness is {self.roughness_ratio:.3g} of the approach: the wheel may lose contact.")
         if self.mass is not None:
             found += diagnose_short_waves(self.body, [self.ground])
-        return (*found, *diagnose_contact_radius(self.body))
+        return (*found, *self.diagnose_contact_radius())
 
     def no_steady_answer(self) -> str:
         """Why the motion of a wheel with a mass has no level that the distance leaves alone; empty where it has."""
