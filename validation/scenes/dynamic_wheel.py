@@ -27,7 +27,7 @@ from validation.scenes.reader import (
 )
 from validation.scenes.roughness import Roughness, check_band, roughness_of
 from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
-from validation.scenes.wheel_body import SmoothContact, Wheel
+from validation.scenes.wheel_body import OnHalfSpace, Wheel
 
 KEYS = ("wheel.radius", "wheel.mass", "wheel.load", "wheel.speed", "simulation.distance")
 """Of what must be positive."""
@@ -43,7 +43,7 @@ MAX_PLAUSIBLE_RMS = 1e-4
 
 
 @dataclass(frozen=True, kw_only=True)
-class WheelScene(SmoothContact):
+class WheelScene(OnHalfSpace):
     """Wheel with a mass that rolls along a rail; either of them rough or smooth.
 
     Parameters

@@ -11,7 +11,7 @@ from validation.scenes.measured import MeasuredHeights, check_covers
 from validation.scenes.printable import shortened
 from validation.scenes.roughness import Roughness, RoughSurface, check_band
 from validation.scenes.units import in_unit
-from validation.scenes.wheel_body import SmoothContact, Wheel
+from validation.scenes.wheel_body import OnHalfSpace, Wheel
 from validation.theory.closed_forms import square_punch_stiffness
 
 Shape = Literal["sphere", "punch"]
@@ -21,7 +21,7 @@ MOST_PRESSURE, SOFTEST = 0.1, 1e3
 
 
 @dataclass(frozen=True, kw_only=True)
-class IndentationScene(SmoothContact):
+class IndentationScene(OnHalfSpace):
     """Rigid sphere or square punch, smooth or rough, pressed onto an elastic half-space.
 
     Parameters

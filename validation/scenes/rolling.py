@@ -8,11 +8,11 @@ from validation.scenes.material import Material, check_scene
 from validation.scenes.measured import MeasuredHeights, check_covers
 from validation.scenes.roughness import RoughSurface, check_band
 from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
-from validation.scenes.wheel_body import SmoothContact, Wheel
+from validation.scenes.wheel_body import OnHalfSpace, Wheel
 
 
 @dataclass(frozen=True, kw_only=True)
-class RollingScene(SmoothContact):
+class RollingScene(OnHalfSpace):
     """Smooth wheel that rolls over rough ground, with a mass or at a constant approach.
 
     Parameters

@@ -48,7 +48,7 @@ class Wheel:
         return eigenfrequency(contact_radius=self.contact_radius, modulus=self.modulus, mass=self.mass)
 
 
-class SmoothContact:
+class OnHalfSpace:
     """Hertz's contact of a scene's `body`, a sphere or a wheel, where all is smooth."""
 
     @property
