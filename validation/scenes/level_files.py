@@ -23,17 +23,12 @@ NEAR = 0.05
 """By how much the wavelength of a wavenumber may differ from that of its band: 1/16 m beside 63 mm."""
 
 
-def curve_names() -> tuple[str, ...]:
-    """Of the bundled curves."""
-    return tuple(sorted(path.stem for path in CURVES.glob("*.csv")))
-
-
 def curve(name: str) -> RoughnessLevels:
     """The levels of a bundled curve: "iso3095-2013" or "cnossos-average". Raises ValueError for another name."""
-    if name not in curve_names():
-        raise ValueError(f"curve must be one of {', '.join(curve_names())}, got {quoted(name)}")
-    path = CURVES / f"{name}.csv"
-    return _levels_of("curve", path, read_table("curve", path), source=name)[0]
+    paths = {path.stem: path for path in sorted(CURVES.glob("*.csv"))}
+    if name not in paths:
+        raise ValueError(f"curve must be one of {', '.join(paths)}, got {quoted(name)}")
+    return _levels_of("curve", paths[name], read_table("curve", paths[name]), source=name)[0]
 
 
 def levels_in(name: str, given: object, *, folder: Path, told: list[str]) -> RoughnessLevels:

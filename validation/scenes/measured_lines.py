@@ -30,25 +30,12 @@ POINTS_PER_WAVE = 2.5
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class MeasuredLines:
-    """Heights of parallel lines on a rail.
+    """Heights of parallel lines on a rail, shape (points, lines) or (points,), positive towards the wheel [m].
 
-    Parameters
-    ----------
-    height : array_like, shape (points, lines) or (points,)
-        Heights, positive towards the wheel, the first axis along the track [m].
-    spacing : float
-        Distance of the points [m].
-    positions : sequence of float, optional
-        Places of the lines across the track, ascending [m]; of one line they may be left out.
-    longest, shortest : float or None, optional
-        Nominal wavelengths of the first and the last band [m]. None: all that lines of four waves and points of 2.5
-        to a wave have.
-
-    Raises
-    ------
-    ValueError, TypeError
-        If heights are no real numbers, masked or not finite, positions are not one a line and ascending, lines are
-        shorter than four of the longest waves, or points are too far apart for the shortest.
+    spacing: of the points along the track [m]; positions: of the lines across it, ascending [m]; longest, shortest:
+    nominal wavelengths of the first and the last band [m], None for all that lines of four waves and points of 2.5 to a
+    wave have. Raises ValueError or TypeError for heights that are no real numbers, masked or not finite, positions that
+    are not one a line and ascending, and waves that are too long for the lines or too short for the points.
     """
 
     height: FloatArray

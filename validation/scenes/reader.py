@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from mdr.checks import count, finite
+from mdr.checks import count, finite, positive
 from validation.scenes.bundled import line_for
 from validation.scenes.input_files import SceneError, contents_of
 from validation.scenes.printable import is_printable, printable, shortened
@@ -119,4 +119,4 @@ LENGTH, MASS, FORCE, PRESSURE, SPEED = (
     partial(quantity, dimension=dimension, positive=True)
     for dimension in ("length", "mass", "force", "pressure", "speed")
 )
-NUMBER, WHOLE = partial(without_unit, finite), partial(without_unit, partial(count, least=1))
+NUMBER, POSITIVE, WHOLE = (partial(without_unit, read) for read in (finite, positive, partial(count, least=1)))
