@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 import pytest
 
+from tests.scenes.test_height_forms import PUNCH, scene_of
 from tests.scenes.test_measured_heights import drawn, heights
 from tests.scenes.test_scene_files import IN_FILE, written
 from validation.__main__ import main
@@ -18,13 +19,7 @@ from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
 from validation.selection import several_scenes
 
-PUNCH = (SCENES / "rough_punch.toml").read_text(encoding="utf-8")
 ROLLING = (SCENES / "rolling_wheel.toml").read_text(encoding="utf-8")
-
-
-def with_heights(folder, file):
-    start, _, _ = PUNCH.partition("[roughness]")
-    return written(folder, text=f'{start}\n[heights]\nfile = "{file}"\nspacing = "1 um"\n')
 
 
 def test_shipped_scenes_are_what_they_say():
@@ -39,9 +34,9 @@ def test_shipped_scenes_are_what_they_say():
 def test_files_without_heights_are_refused(tmp_path):
     np.save(tmp_path / "face.npy", np.ones((32, 32), dtype=complex))
     with pytest.raises(ValueError, match=r"must hold real numbers, got complex128$"):
-        load_scene(with_heights(tmp_path, "face.npy"))
+        load_scene(scene_of(tmp_path, "face.npy"))
     with pytest.raises(OSError, match=r"^heights.file .* cannot be read: No such file"):
-        load_scene(with_heights(tmp_path, "none.npy"))
+        load_scene(scene_of(tmp_path, "none.npy"))
 
 
 @pytest.mark.parametrize(
