@@ -20,7 +20,7 @@ from validation.scenes.reader import (
     SPEED,
     WHOLE,
     Reader,
-    file_named_in_errors,
+    errors_of_file,
     nonblank_text,
     table,
     tables_of,
@@ -229,7 +229,7 @@ def load_wheel_scene(scene: str | Path) -> WheelScene:
     """
     path = path_of(scene)
     tables = tables_of(path)
-    with file_named_in_errors(path):
+    with errors_of_file(path):
         if is_rail(tables):
             raise ValueError("wheel and rail must be those of a dynamic wheel, got a wheel on a rail with two radii")
         return wheel_of(tables)

@@ -22,7 +22,7 @@ from validation.scenes.reader import (
     MASS,
     SPEED,
     Reader,
-    file_named_in_errors,
+    errors_of_file,
     nonblank_text,
     one_of,
     table,
@@ -74,7 +74,7 @@ def load_scene(scene: str | Path, *, heights: object = None) -> Scene:
     path = path_of(scene)
     tables = tables_of(path)
     ground = heights if isinstance(heights, MeasuredHeights | None) else measured(heights)
-    with file_named_in_errors(path):
+    with errors_of_file(path):
         return _scene_of(tables if ground is None else _with_heights(tables, ground), path.parent)
 
 
@@ -103,7 +103,7 @@ def load_varied(scene: str | Path, key: str, value: str) -> Scene:
     """
     path = path_of(scene)
     tables = tables_of(path)
-    with file_named_in_errors(path):
+    with errors_of_file(path):
         *rooms, last = key.split(".")
         inner: Any = tables
         for room in rooms:

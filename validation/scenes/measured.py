@@ -265,11 +265,8 @@ def _spectrum(height: FloatArray, spacing: tuple[float, float]) -> tuple[tuple[f
     counts = np.histogram(q, edges)[0]
     edges = np.concatenate([[edges[0]], edges[1:][np.cumsum(counts > 0) > 0]])
     counts, sums = np.histogram(q, edges)[0], np.histogram(q, edges, weights=power)[0]
-    keep = counts > 0
-    level = np.where(keep, sums / np.maximum(counts, 1), 0.0)
     # an empty ring between others has the level of the one before
-    for i in np.flatnonzero(~keep):
-        level[i] = level[i - 1] if i else 0.0
+    level = (sums / np.maximum(counts, 1))[np.maximum.accumulate(np.where(counts > 0, np.arange(counts.size), 0))]
     whole = np.pi * float(np.sum(level * np.diff(edges**2)))
     level *= height.var() / whole
     return tuple(edges.tolist()), tuple(level.tolist())

@@ -15,7 +15,7 @@ from validation.scenes.measured import MeasuredHeights
 from validation.scenes.number_table import NumberTable
 from validation.scenes.positions import Places, metres_of_step, own_spacing, places_of, runs_one_way
 from validation.scenes.printable import shortened
-from validation.scenes.reader import LENGTH, Reader, key_in_errors, nonblank_text, table, yes_or_no
+from validation.scenes.reader import LENGTH, Reader, errors_of, nonblank_text, table, yes_or_no
 from validation.scenes.roughness_levels import LEAST, MICROMETRE, RoughnessLevels
 from validation.scenes.table_files import FORM, heights_of_columns, sentence_about, table_beside
 from validation.scenes.units import LENGTHS, in_unit, quantity, unit_of
@@ -129,7 +129,7 @@ def lines_in(name: str, given: object, *, folder: Path, told: list[str]) -> Meas
     }
     found = table(readers, tuple(readers)[1:], name, given)
     path, numbers = table_beside(name, found, folder)
-    with key_in_errors(name):
+    with errors_of(f"{name}."):
         count = len(found["positions"]) if "positions" in found else None
         height, spacing, notes = _along_the_track(numbers, found.pop("unit", None), found.pop("spacing", None), count)
         if count is None and height.shape[1] > 1:

@@ -14,6 +14,7 @@ from validation.scenes.isotropic_line import IsotropicLine, isotropic_line
 from validation.scenes.material import Material, check_scene
 from validation.scenes.measured import MeasuredHeights, check_covers
 from validation.scenes.measured_lines import MeasuredLines
+from validation.scenes.reader import errors_of
 from validation.scenes.roughness_levels import RoughnessLevels
 from validation.scenes.transverse_profile import TransverseProfile, fitted_radius
 from validation.scenes.units import in_unit
@@ -121,10 +122,8 @@ class RailScene:
             return self.roughness
         if isinstance(self.roughness, MeasuredLines):
             return self.roughness.levels
-        try:
+        with errors_of("rail.heights."):
             return MeasuredLines.of_heights(self.roughness).levels
-        except ValueError as problem:
-            raise ValueError(f"rail.heights.{problem}") from None
 
     @cached_property
     def isotropic(self) -> IsotropicLine | None:

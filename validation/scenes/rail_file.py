@@ -19,7 +19,7 @@ from validation.scenes.reader import (
     SPEED,
     WHOLE,
     Reader,
-    key_in_errors,
+    errors_of,
     nonblank_text,
     one_of,
     table,
@@ -83,7 +83,7 @@ def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
             raise ValueError("wheel.offset must be left out where neither wheel nor rail has a profile, got it")
         return RailScene(**given, crown_radius=of_rail, transverse_radius=of_wheel)
     offset = wheel.get("offset", 0.0)
-    with key_in_errors("rail" if isinstance(of_rail, TransverseProfile) else "wheel", "profile"):
+    with errors_of("rail." if isinstance(of_rail, TransverseProfile) else "wheel.", of="profile"):
         scene = ProfiledRail(**given, profile=_together(of_rail, of_wheel, offset), offset=offset)
     if isinstance(of_wheel, TransverseProfile):
         _check_flange(of_wheel, scene.profile.at - offset)

@@ -3,7 +3,7 @@
 import difflib
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -40,21 +40,17 @@ def tables_of(path: Path) -> dict[str, Any]:
 
 
 @contextmanager
-def file_named_in_errors(path: Path) -> Iterator[None]:
-    """Put the name of the scene file in front of the sentence of a ValueError."""
+def errors_of(beginning: str, *, of: str = "", kind: type[ValueError] = ValueError) -> Iterator[None]:
+    """Put a beginning, as a key, in front of the sentence of a ValueError. of: how such a sentence begins."""
     try:
         yield
     except ValueError as problem:
-        raise SceneError(f"scene {printable(path)}: {problem}") from None
+        raise kind(f"{beginning if str(problem).startswith(of) else ''}{problem}") from None
 
 
-@contextmanager
-def key_in_errors(name: str, of: str = "") -> Iterator[None]:
-    """Put the key of a scene file in front of the sentence of a ValueError. of: how the sentence begins."""
-    try:
-        yield
-    except ValueError as problem:
-        raise ValueError(f"{name}.{problem}" if str(problem).startswith(of) else str(problem)) from None
+def errors_of_file(path: Path) -> AbstractContextManager[None]:
+    """Put the name of a scene file in front of the sentence of a ValueError."""
+    return errors_of(f"scene {printable(path)}: ", kind=SceneError)
 
 
 def table(readers: Mapping[str, Reader], optional: tuple[str, ...], name: str, given: object) -> dict[str, Any]:
