@@ -10,6 +10,7 @@ from tests.scenes.test_height_forms import PUNCH, scene_of
 from validation.__main__ import main
 from validation.scenes import table_files, text_dialect
 from validation.scenes.input_files import check_regular, contents_of
+from validation.scenes.load import load_scene
 from validation.scenes.printable import is_printable, printable, quoted, shortened
 from validation.scenes.reader import LONGEST_LINE, MOST_BYTES
 from validation.scenes.table_files import read_table
@@ -147,6 +148,30 @@ def test_scenes_that_are_bombs_are_refused_in_one_sentence(tmp_path, capsys, tex
     assert line.startswith(f"error: scene {path}")
     assert said in line
     assert len(line) < 400
+
+
+SECRET = "root:x:0:0:secret:/root:/bin/bash"
+
+
+@pytest.mark.parametrize(
+    "contents",
+    [
+        f"{SECRET}\n".encode(),
+        f'"{SECRET}" = [\n'.encode(),
+        f"\x7fELF\x02{SECRET}".encode() + bytes(range(128, 256)),
+        SECRET.encode("utf-16"),
+        f"secret{SECRET}".encode() + b"\0" * 40,
+        b"name = " + SECRET.encode(),
+    ],
+)
+def test_a_foreign_file_is_named_and_not_quoted(contents, tmp_path):
+    path = tmp_path / "foreign"
+    path.write_bytes(contents)
+    with pytest.raises(ValueError, match="must be valid TOML, got: ") as refused:
+        load_scene(path)
+    said = str(refused.value)
+    assert said.startswith(f"scene {path} ") and len(said.splitlines()) == 1
+    assert "secret" not in said.replace(str(path), "") and "root" not in said.replace(str(path), "")
 
 
 def test_control_characters_do_not_reach_the_terminal(tmp_path, capsys):

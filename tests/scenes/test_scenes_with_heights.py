@@ -1,4 +1,4 @@
-"""Scenes with measured heights beside those without, and `compare` of them: what is read, what is refused by name."""
+"""Scenes that `compare` takes, with measured heights and without: what is read, what is refused by name."""
 
 import math
 import re
@@ -9,7 +9,7 @@ import pytest
 
 from tests.scenes.test_height_forms import PUNCH, scene_of
 from tests.scenes.test_measured_heights import drawn, heights
-from tests.scenes.test_scene_files import IN_FILE, written
+from tests.scenes.test_scene_files import IN_FILE, TABLE, written
 from validation.__main__ import main
 from validation.scenes.bundled import SCENES
 from validation.scenes.dynamic_wheel import load_wheel_scene
@@ -104,6 +104,37 @@ def test_heights_must_cover_the_body():
     for scene in (partial(RollingScene, radius=1e-3), partial(IndentationScene, shape="sphere", size=1e-3)):
         with pytest.raises(ValueError, match=r"^heights.spacing must be no more than the contact radius, .* 0.2 m"):
             scene(**far)
+
+
+def test_a_dynamic_wheel_is_compared_without_a_simulation_which_is_checked_where_it_is_there(tmp_path):
+    path = written(tmp_path, text=TABLE.partition("[simulation]")[0])
+    assert load_scene(path) == load_scene("table_14_1")
+    # which rolls along it in time
+    with pytest.raises(ValueError, match="simulation is missing"):
+        load_wheel_scene(path)
+    with pytest.raises(ValueError, match=r"simulation\.distance must be a length"):
+        load_scene(written(tmp_path, ('distance = "0.65 m"', 'distance = "0.65 kg"')))
+
+
+PRESSED = "the mean pressure on the punch is 2.38e+04 of E*, more than a tenth: no half-space; are the units of"
+
+
+@pytest.mark.parametrize(
+    ("size", "load", "modulus", "doubt"),
+    [
+        (1e-3, 5.0, 210.0, PRESSED),
+        (1e-3, 5.0, 210e9, ""),
+        # a tenth
+        (1e-3, 5.0, 5.01e7, ""),
+        (1e-3, 5.0, 4.99e7, "the mean pressure"),
+        (1e-3, 1e-6, 210.0, "E* is 210 Pa, softer than a gel: is its unit Pa?"),
+        # the unit of pressure of who has none
+        (1.0, 5.0, 1.0, ""),
+    ],
+)
+def test_a_smooth_punch_is_asked_for_its_units(size, load, modulus, doubt):
+    found = IndentationScene(name="it", shape="punch", size=size, load=load, modulus=modulus).diagnose()
+    assert len(found) == bool(doubt) and "".join(found).startswith(doubt)
 
 
 # The command
