@@ -1,6 +1,7 @@
 """Heights that are cropped and filled in where it is asked for: against loops of their own, told, or refused."""
 
 import re
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -80,28 +81,21 @@ def test_few_points_are_filled_in_where_it_is_asked_for_and_told(hidden):
 @pytest.mark.parametrize(
     ("count", "fill", "got", "advice"),
     [
-        (1, False, "1 of 1280 (0.0781 %)", "fewer than 1 % can be filled"),
-        (12, False, "12 of 1280 (0.938 %)", "fewer than 1 % can be filled"),
-        (13, False, "13 of 1280 (1.02 %)", "cut out a part that is"),
-        (13, True, "13 of 1280 (1.02 %)", "cut out a part that is"),
-        (1280, True, "1280 of 1280 (100 %)", "cut out a part that is"),
+        (1, False, "1 of 1200 (0.0833 %)", "fewer than 1 % can be filled"),
+        (11, False, "11 of 1200 (0.917 %)", "fewer than 1 % can be filled"),
+        (12, False, "12 of 1200 (1 %)", "cut out a part that is"),
+        (12, True, "12 of 1200 (1 %)", "cut out a part that is"),
+        (1200, True, "1200 of 1200 (100 %)", "cut out a part that is"),
     ],
 )
 def test_points_that_are_not_filled_in_are_refused(count, fill, got, advice):
-    height = ROUGH.copy()
+    height = ROUGH[:, :30].copy()
     height.flat[:count] = np.nan
     said = f"{re.escape(got)} without data .*, the first at .0, 0.: {advice}.*, as: fill=True$"
     with pytest.raises(ValueError, match=f"^heights must be known everywhere, got {said}"):
         measured(surface(height), fill=fill)
-
-
-def test_one_percent_is_the_first_that_is_refused():
-    height = np.random.default_rng(1).standard_normal((20, 20))
-    height[3, :4] = np.nan
-    with pytest.raises(ValueError, match=r"got 4 of 400 \(1 %\) without data"):
-        measured(surface(height), fill=True)
-    height[3, 3] = 0.1
-    assert measured(surface(height), fill=True).edits.filled == 3
+    if count == 11:
+        assert measured(surface(height), fill=True).edits.filled == 11
 
 
 @pytest.mark.parametrize("fill", [True, False])
@@ -158,16 +152,12 @@ def test_there_is_not_always_a_square():
     said = r"^crop must find a square of whole points, got 40 x 32 points, 1 x 1\.2347 m apart: resample the heights"
     with pytest.raises(ValueError, match=said):
         measured(surface(ROUGH, (40.0, 32 * 1.2346789)), crop=True)
-    with pytest.raises(ValueError, match=r"^heights must be 16 points or more along two sides, got shape \(40, 12\)$"):
-        measured(surface(ROUGH[:, :12]), crop=True)
 
 
 def test_a_rectangular_face_is_refused_by_what_would_help():
     punch = {"name": "it", "shape": "punch", "size": 32e-6, "load": 1e-3, "modulus": 1e9}
     face = surface(0.01 * ROUGH, unit="um")
-    with pytest.raises(
-        ValueError, match=r"^heights must be as large as the punch, a square, got .* as: crop = true \("
-    ):
+    with pytest.raises(ValueError, match=r"^heights must be as large as the punch, a square, .* as: crop = true \("):
         IndentationScene(**punch, ground=measured(face))
     scene = IndentationScene(**punch, ground=measured(face, crop=True))
     assert scene.ground.sides == pytest.approx((32e-6, 32e-6))
@@ -211,15 +201,7 @@ def test_a_scene_file_with_heights_of_python():
     assert load_scene("sphere", heights=strip).ground is strip
     with pytest.raises(TypeError, match=r"^surface must have heights and physical_sizes, got ndarray$"):
         load_scene("rough_punch", heights=height)
-    with pytest.raises(
-        ValueError, match=r"rough_punch\.toml: heights must be as large as the punch, punch\.side = 0\.001"
-    ):
+    with pytest.raises(ValueError, match=r"rough_punch\.toml: heights must be as large as .*, punch\.side = 0\.001"):
         load_scene("rough_punch", heights=strip)
-
-
-def test_a_surface_as_ground_is_told_how():
-    punch = {"name": "it", "shape": "punch", "size": 1.0, "load": 1.0, "modulus": 1.0}
-    with pytest.raises(
-        TypeError, match=r"^ground must be Roughness, .* got .*: validation\.measured\(it\) makes them$"
-    ):
-        IndentationScene(**punch, ground=surface(ROUGH))
+    with pytest.raises(TypeError, match=r"^ground must be Roughness, .*: validation\.measured\(it\) makes them$"):
+        replace(load_scene("rough_punch"), ground=face)

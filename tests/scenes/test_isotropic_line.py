@@ -19,6 +19,9 @@ def levels(values):
     return RoughnessLevels(wavelengths=ISO.wavelengths, levels=tuple(np.asarray(values, dtype=float).tolist()))
 
 
+STRAIGHT = levels(7 * np.log10(1000 * ISO.bands.wavelengths) - 10)
+
+
 def raised(by, *waves):
     """The limit of ISO 3095 with so many decibels more at these wavelengths."""
     return levels(np.array(ISO.levels) + by * np.isin(NOMINAL, waves))
@@ -38,17 +41,13 @@ def test_smooth_levels_stay_as_they_are_to_the_bit(name):
 
 @pytest.mark.parametrize("waves", [(31.5,), (63,), (25, 20, 16), (50, 40, 31.5, 25)])
 def test_a_corrugation_stands_out_alone(waves):
-    straight = levels(7 * np.log10(1000 * ISO.bands.wavelengths) - 10)
-    one = levels(np.array(straight.levels) + 6.0 * np.isin(NOMINAL, waves))
+    one = levels(np.array(STRAIGHT.levels) + 6.0 * np.isin(NOMINAL, waves))
     assert not has_isotropic_surface(isotropic_line(one, EVEN).whole)
     found = isotropic_line(one, EVEN)
     assert NOMINAL[found.stands_out].tolist() == list(waves)
-    np.testing.assert_allclose(level_of(found.line), straight.levels, atol=0.02)
+    np.testing.assert_allclose(level_of(found.line), STRAIGHT.levels, atol=0.02)
     np.testing.assert_allclose(level_of(found.whole), one.levels, atol=0.02)
     np.testing.assert_allclose(found.apart, 6.0 * found.stands_out, atol=0.02)
-
-
-STRAIGHT = levels(7 * np.log10(1000 * ISO.bands.wavelengths) - 10)
 
 
 def test_a_level_of_few_waves_may_be_off_by_as_much_as_few_waves_scatter():

@@ -123,12 +123,6 @@ def test_a_scene_that_does_not_say_is_shown_both_lines(tmp_path, capsys, text):
         assert line.endswith(f" = {in_unit(scene.modulus, 'pressure', digits=6)}")
 
 
-def test_two_equal_bodies_are_softer_than_one_on_a_rigid_body(tmp_path):
-    rigid, same = (load_scene(written(tmp_path, SPHERE, f'counterface = "{word}"\n')) for word in ("rigid", "same"))
-    # k = 2 E* a and a^3 = 3 F R / (4 E*)
-    assert rigid.stiffness / same.stiffness == pytest.approx(2 ** (2 / 3), rel=1e-12)
-
-
 @pytest.mark.parametrize("text", [SPHERE, PUNCH, WHEEL])
 def test_another_body_is_a_table_of_its_own(tmp_path, text):
     scene = load_scene(written(tmp_path, text, ALUMINIUM))

@@ -1,4 +1,4 @@
-"""Scenes with measured heights beside those without, and `compare` of them: what is read, what is refused by name."""
+"""Scenes that `compare` takes, with measured heights and without: what is read, what is refused by name."""
 
 import math
 import re
@@ -7,8 +7,9 @@ from functools import partial
 import numpy as np
 import pytest
 
+from tests.scenes.test_height_forms import PUNCH, scene_of
 from tests.scenes.test_measured_heights import drawn, heights
-from tests.scenes.test_scene_files import IN_FILE, written
+from tests.scenes.test_scene_files import IN_FILE, TABLE, written
 from validation.__main__ import main
 from validation.scenes.bundled import SCENES
 from validation.scenes.dynamic_wheel import load_wheel_scene
@@ -18,13 +19,7 @@ from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
 from validation.selection import several_scenes
 
-PUNCH = (SCENES / "rough_punch.toml").read_text(encoding="utf-8")
 ROLLING = (SCENES / "rolling_wheel.toml").read_text(encoding="utf-8")
-
-
-def with_heights(folder, file):
-    start, _, _ = PUNCH.partition("[roughness]")
-    return written(folder, text=f'{start}\n[heights]\nfile = "{file}"\nspacing = "1 um"\n')
 
 
 def test_shipped_scenes_are_what_they_say():
@@ -39,16 +34,16 @@ def test_shipped_scenes_are_what_they_say():
 def test_files_without_heights_are_refused(tmp_path):
     np.save(tmp_path / "face.npy", np.ones((32, 32), dtype=complex))
     with pytest.raises(ValueError, match=r"must hold real numbers, got complex128$"):
-        load_scene(with_heights(tmp_path, "face.npy"))
+        load_scene(scene_of(tmp_path, "face.npy"))
     with pytest.raises(OSError, match=r"^heights.file .* cannot be read: No such file"):
-        load_scene(with_heights(tmp_path, "none.npy"))
+        load_scene(scene_of(tmp_path, "none.npy"))
 
 
 @pytest.mark.parametrize(
     ("text", "old", "new", "words"),
     [
-        (PUNCH, "[punch]", "[block]", ["a scene must have one table of sphere, punch and wheel", "none"]),
-        (PUNCH, "[material]", '[sphere]\nradius = "1 m"\n[material]', ["a scene must have one", "sphere and punch"]),
+        (PUNCH, "[punch]", "[block]", ["a scene must have one of sphere, punch, wheel, got none"]),
+        (PUNCH, "[material]", '[sphere]\nradius = "1 m"\n[material]', ["a scene must have one of", "sphere and punch"]),
         (PUNCH, 'side = "1 mm"', "", ["punch.side is missing"]),
         (PUNCH, "side =", "radius =", ["punch.radius is unknown", "side, load"]),
         (PUNCH, "poisson_ratio = 0.3", "poisson_ratio = 0.6", ["material.poisson_ratio must", "0.6"]),
@@ -65,7 +60,7 @@ def test_scenes_are_refused_by_key_and_value(tmp_path, text, old, new, words):
 
 def test_a_smooth_rail_is_no_scene_to_roll_over(tmp_path):
     start, _, _ = ROLLING.partition("[rail.roughness]")
-    with pytest.raises(ValueError, match=rf"^{IN_FILE}rail must have roughness or heights, got a smooth one$"):
+    with pytest.raises(ValueError, match=rf"^{IN_FILE}rail must have one of roughness, heights, got none$"):
         load_scene(written(tmp_path, text=start + "[rail]\n"))
     with pytest.raises(ValueError, match=r"must have a rough rail and a smooth wheel to be compared$"):
         load_scene("rough_wheel")
@@ -74,7 +69,9 @@ def test_a_smooth_rail_is_no_scene_to_roll_over(tmp_path):
 def test_ground_is_a_spectrum_or_heights_not_both(tmp_path):
     np.save(tmp_path / "face.npy", drawn())
     text = PUNCH + '\n[heights]\nfile = "face.npy"\nspacing = "1 um"\n'
-    with pytest.raises(ValueError, match=rf"^{IN_FILE}a scene must have roughness or heights, got both$"):
+    with pytest.raises(
+        ValueError, match=rf"^{IN_FILE}a scene must have one of roughness, heights, got roughness and heights$"
+    ):
         load_scene(written(tmp_path, text=text))
 
 
@@ -99,7 +96,7 @@ def test_heights_must_cover_the_body():
     settings = {"name": "it", "load": 1.0, "modulus": 1e9, "ground": ground}
     with pytest.raises(ValueError, match=r"^heights must be as large as the punch, punch.side = 0.001 m"):
         IndentationScene(shape="punch", size=1e-3, **settings)
-    with pytest.raises(ValueError, match=r"^heights must be three contact radii wide"):
+    with pytest.raises(ValueError, match=r"^heights must be .* long and .* wide"):
         IndentationScene(shape="sphere", size=1.0, **settings)
     with pytest.raises(ValueError, match=r"^rail.heights must be .* long and .* wide"):
         RollingScene(radius=1.0, **settings)
@@ -107,6 +104,37 @@ def test_heights_must_cover_the_body():
     for scene in (partial(RollingScene, radius=1e-3), partial(IndentationScene, shape="sphere", size=1e-3)):
         with pytest.raises(ValueError, match=r"^heights.spacing must be no more than the contact radius, .* 0.2 m"):
             scene(**far)
+
+
+def test_a_dynamic_wheel_is_compared_without_a_simulation_which_is_checked_where_it_is_there(tmp_path):
+    path = written(tmp_path, text=TABLE.partition("[simulation]")[0])
+    assert load_scene(path) == load_scene("table_14_1")
+    # which rolls along it in time
+    with pytest.raises(ValueError, match="simulation is missing"):
+        load_wheel_scene(path)
+    with pytest.raises(ValueError, match=r"simulation\.distance must be a length"):
+        load_scene(written(tmp_path, ('distance = "0.65 m"', 'distance = "0.65 kg"')))
+
+
+PRESSED = "the mean pressure on the punch is 2.38e+04 of E*, more than a tenth: no half-space; are the units of"
+
+
+@pytest.mark.parametrize(
+    ("size", "load", "modulus", "doubt"),
+    [
+        (1e-3, 5.0, 210.0, PRESSED),
+        (1e-3, 5.0, 210e9, ""),
+        # a tenth
+        (1e-3, 5.0, 5.01e7, ""),
+        (1e-3, 5.0, 4.99e7, "the mean pressure"),
+        (1e-3, 1e-6, 210.0, "E* is 210 Pa, softer than a gel: is its unit Pa?"),
+        # the unit of pressure of who has none
+        (1.0, 5.0, 1.0, ""),
+    ],
+)
+def test_a_smooth_punch_is_asked_for_its_units(size, load, modulus, doubt):
+    found = IndentationScene(name="it", shape="punch", size=size, load=load, modulus=modulus).diagnose()
+    assert len(found) == bool(doubt) and "".join(found).startswith(doubt)
 
 
 # The command

@@ -29,12 +29,10 @@ def describe(scene: AnyScene) -> Pairs:
     modulus = ("contact modulus E*", f"{in_unit(scene.modulus, 'pressure', digits=6)}: {material.origin}")
     if isinstance(scene, RailScene):
         return modulus, *_of_rail(scene)
-    if isinstance(scene, WheelScene):
-        return modulus, *_of_body("wheel", scene.radius, scene), _of_motion(scene), *_of_roughness_of_wheel(scene)
-    if isinstance(scene, RollingScene):
-        return modulus, *_of_body("wheel", scene.radius, scene), _of_motion(scene), *_of_ground(scene)
+    if isinstance(scene, WheelScene | RollingScene):
+        return modulus, *_of_body("wheel", scene.radius, scene), _of_motion(scene), *_of_roughness(scene)
     if scene.shape == "sphere":
-        return modulus, *_of_body("sphere", scene.size, scene), *_of_ground(scene)
+        return modulus, *_of_body("sphere", scene.size, scene), *_of_roughness(scene)
     return modulus, *_of_punch(scene)
 
 
@@ -71,25 +69,20 @@ def _of_motion(scene: RollingScene | WheelScene) -> tuple[str, str]:
     return "motion", f"{body}, resonance at {scene.body.eigenfrequency:.4g} rad/s, undamped"
 
 
-def _of_ground(scene: IndentationScene | RollingScene) -> Pairs:
-    ground = scene.ground
-    if ground is None:
-        return (("roughness", "none"),)
-    return *_of_height(ground.rms, ground.slope_along, scene), ("waves", _waves(ground, scene))
-
-
-def _of_roughness_of_wheel(scene: WheelScene) -> Pairs:
-    rough = [(name, r) for name, r in (("rail", scene.rail), ("wheel", scene.wheel)) if r]
+def _of_roughness(scene: WithSphere) -> Pairs:
+    """Height and slope of all that is rough, and the waves of each."""
+    rough: dict[str, RoughSurface]
+    if isinstance(scene, WheelScene):
+        rough = {f"waves of the {name}": each for name, each in (("rail", scene.rail), ("wheel", scene.wheel)) if each}
+    else:
+        rough = {"waves": scene.ground} if scene.ground else {}
     if not rough:
         return (("roughness", "none"),)
-    waves = ((f"waves of the {name}", _waves(ground, scene)) for name, ground in rough)
-    return *_of_height(scene.rms, scene.slope_along, scene), *waves
-
-
-def _of_height(rms: float, slope: float, scene: WithSphere) -> Pairs:
+    rms, slope = (math.hypot(*(getattr(each, of) for each in rough.values())) for of in ("rms", "slope_along"))
     return (
         ("rms height h", f"{LENGTH(rms)}, h/d = {rms / scene.approach:.3g}"),
         ("rms slope h'", f"{slope:.3g}, {COUNTED}, h' a/d = {slope_ratio(slope, scene):.3g}"),
+        *((name, _waves(each, scene)) for name, each in rough.items()),
     )
 
 

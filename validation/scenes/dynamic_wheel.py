@@ -20,14 +20,14 @@ from validation.scenes.reader import (
     SPEED,
     WHOLE,
     Reader,
-    file_named_in_errors,
+    errors_of_file,
     nonblank_text,
     table,
     tables_of,
 )
 from validation.scenes.roughness import Roughness, check_band, roughness_of
 from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
-from validation.scenes.wheel_body import Wheel, WheelOnTrack, diagnose_contact_radius
+from validation.scenes.wheel_body import OnHalfSpace, Wheel
 
 KEYS = ("wheel.radius", "wheel.mass", "wheel.load", "wheel.speed", "simulation.distance")
 """Of what must be positive."""
@@ -43,7 +43,7 @@ MAX_PLAUSIBLE_RMS = 1e-4
 
 
 @dataclass(frozen=True, kw_only=True)
-class WheelScene(WheelOnTrack):
+class WheelScene(OnHalfSpace):
     """Wheel with a mass that rolls along a rail; either of them rough or smooth.
 
     Parameters
@@ -229,7 +229,7 @@ def load_wheel_scene(scene: str | Path) -> WheelScene:
     """
     path = path_of(scene)
     tables = tables_of(path)
-    with file_named_in_errors(path):
+    with errors_of_file(path):
         if is_rail(tables):
             raise ValueError("wheel and rail must be those of a dynamic wheel, got a wheel on a rail with two radii")
         return wheel_of(tables)
@@ -313,4 +313,4 @@ def _diagnose_motion(scene: WheelScene) -> Iterator[str]:
             f"a time step is {omega_dt:.3g} over the eigenfrequency, more than 0.2, and 2 is unstable: "
             "roll slower or take more springs."
         )
-    yield from diagnose_contact_radius(scene.body)
+    yield from scene.diagnose_contact_radius()

@@ -8,7 +8,6 @@ from numpy.typing import ArrayLike, NDArray
 FloatArray = NDArray[np.float64]
 
 BY_HAND = "cut out a part that is known, or fill them in from their neighbours"
-"""What to do about points without data where nothing here does it."""
 MOST_FILLED = 0.01
 """Of the points without data: a larger part is no longer a detail of the surface."""
 SQUARE = 1e-6
@@ -29,31 +28,10 @@ def real_numbers(height: ArrayLike) -> FloatArray:
     return numbers
 
 
-def check_not_infinite(values: FloatArray) -> None:
-    """Raises ValueError for heights that are infinite."""
-    if (infinite := np.isinf(values)).any():
-        raise ValueError(
-            f"heights must be finite, got {_counted(infinite, 'infinite')}: a point without data is nan, not infinite"
-        )
-
-
-def check_known(values: FloatArray, advice: str = BY_HAND) -> None:
-    """Raises ValueError for points without data. advice: the end of the sentence."""
-    if (unknown := np.isnan(values)).any():
-        found = _counted(unknown, "without data (NaN or masked)")
-        raise ValueError(f"heights must be known everywhere, got {found}: {advice}")
-
-
-def _counted(places: NDArray[np.bool_], what: str) -> str:
-    count, first = int(places.sum()), np.argwhere(places)[0].tolist()
-    return f"{count} of {places.size} ({100 * count / places.size:.3g} %) {what}, the first at {first}"
-
-
 def known_heights(height: ArrayLike) -> FloatArray:
     """Real numbers, all of them there. Raises ValueError for masked ones and ones that are not finite, or TypeError."""
     values = real_numbers(height)
-    check_not_infinite(values)
-    check_known(values)
+    points_to_fill(values)
     return values
 
 
@@ -110,19 +88,30 @@ def _filled_line(line: FloatArray) -> FloatArray:
     return np.asarray(mean + np.interp(at, at[known], (line - mean)[known]))
 
 
-def points_to_fill(height: FloatArray, *, fill: bool, asked_by: str) -> tuple[int, float]:
-    """How many points have no data, and their share. asked_by: how fill is asked for.
+def points_to_fill(height: FloatArray, *, fill: bool = False, asked_by: str = "") -> tuple[int, float]:
+    """How many points have no data, and their share. asked_by: how fill is asked for, empty where nothing here does it.
 
     Raises ValueError for infinite heights, for points without data that are not to be filled in, and for `MOST_FILLED`
     of them and more.
     """
-    check_not_infinite(height)
-    unknown = np.isnan(height)
+    infinite, unknown = np.isinf(height), np.isnan(height)
+    if infinite.any():
+        raise ValueError(
+            f"heights must be finite, got {_counted(infinite, 'infinite')}: a point without data is nan, not infinite"
+        )
     count, share = int(unknown.sum()), float(unknown.mean()) if height.size else 0.0
-    if not (fill and share < MOST_FILLED):
-        advice = f"fewer than 1 % can be filled in from their neighbours, as: {asked_by}"
-        check_known(height, advice if share < MOST_FILLED else f"cut out a part that is known; {advice}")
+    if count and not (fill and share < MOST_FILLED):
+        advice = f"fewer than 1 % can be filled in from their neighbours, as: {asked_by}" if asked_by else BY_HAND
+        if asked_by and share >= MOST_FILLED:
+            advice = f"cut out a part that is known; {advice}"
+        found = _counted(unknown, "without data (NaN or masked)")
+        raise ValueError(f"heights must be known everywhere, got {found}: {advice}")
     return count, share
+
+
+def _counted(places: NDArray[np.bool_], what: str) -> str:
+    count, first = int(places.sum()), np.argwhere(places)[0].tolist()
+    return f"{count} of {places.size} ({100 * count / places.size:.3g} %) {what}, the first at {first}"
 
 
 def central_square(height: FloatArray, spacing: tuple[float, float]) -> FloatArray:

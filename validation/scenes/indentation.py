@@ -7,11 +7,12 @@ from typing import Literal
 from mdr.checks import positive
 from validation.scenes.height_edits import SQUARE
 from validation.scenes.material import Material, check_scene
-from validation.scenes.measured import MeasuredHeights, check_points
+from validation.scenes.measured import MeasuredHeights, check_covers
 from validation.scenes.printable import shortened
 from validation.scenes.roughness import Roughness, RoughSurface, check_band
 from validation.scenes.units import in_unit
-from validation.theory import closed_forms
+from validation.scenes.wheel_body import OnHalfSpace, Wheel
+from validation.theory.closed_forms import square_punch_stiffness
 
 Shape = Literal["sphere", "punch"]
 
@@ -20,7 +21,7 @@ MOST_PRESSURE, SOFTEST = 0.1, 1e3
 
 
 @dataclass(frozen=True, kw_only=True)
-class IndentationScene:
+class IndentationScene(OnHalfSpace):
     """Rigid sphere or square punch, smooth or rough, pressed onto an elastic half-space.
 
     Parameters
@@ -76,21 +77,15 @@ class IndentationScene:
         return self.load / self.size**2
 
     @property
-    def approach(self) -> float:
-        """By Hertz, of a smooth sphere [m]."""
-        return closed_forms.hertz_approach(radius=self.size, modulus=self.modulus, force=self.load)
-
-    @property
-    def contact_radius(self) -> float:
-        """By Hertz, of a smooth sphere [m]."""
-        return closed_forms.hertz_contact_radius(radius=self.size, approach=self.approach)
+    def body(self) -> Wheel:
+        """A wheel of unit mass in place of the sphere."""
+        return Wheel(radius=self.size, mass=1.0, modulus=self.modulus, load=self.load)
 
     @property
     def stiffness(self) -> float:
         """Of the smooth body, 2 E* a or 1.1523 E* L [N/m]."""
-        if self.shape == "sphere":
-            return closed_forms.circular_punch_stiffness(radius=self.contact_radius, modulus=self.modulus)
-        return closed_forms.square_punch_stiffness(side=self.size, modulus=self.modulus)
+        sphere = self.shape == "sphere"
+        return self.body.stiffness if sphere else square_punch_stiffness(side=self.size, modulus=self.modulus)
 
     @property
     def reduced_load(self) -> float:
@@ -113,13 +108,7 @@ class IndentationScene:
             )
         if 1 != self.modulus < SOFTEST:
             found = *found, f"E* is {self.modulus:.3g} Pa, softer than a gel: is its unit Pa?"
-        if self.shape == "sphere" and self.contact_radius > self.size / 10:
-            return (
-                *found,
-                f"the contact radius is {self.contact_radius / self.size:.3g} of sphere.radius, more than a tenth: no "
-                "half-space; are the units of sphere.load and material.youngs_modulus right?",
-            )
-        return found
+        return (*found, *self.diagnose_contact_radius("sphere")) if self.shape == "sphere" else found
 
     def _check_waves(self, rough: Roughness) -> None:
         check_band("roughness", rough)
@@ -144,9 +133,5 @@ class IndentationScene:
                 f"heights must be as large as the punch, punch.side = {self.size:g} m, got {heights.sides} m: "
                 f'see heights.spacing, or as: side = "{side}"'
             )
-        if self.shape == "sphere" and shortest < 3 * self.contact_radius:
-            raise ValueError(
-                f"heights must be three contact radii wide, {3 * self.contact_radius:.3g} m, got {heights.sides}"
-            )
         if self.shape == "sphere":
-            check_points(heights, self.contact_radius)
+            check_covers("heights", heights, (3 * self.contact_radius,) * 2, self.contact_radius)

@@ -10,7 +10,7 @@ from validation.analysis.nominal_bands import nominal_wavelength
 from validation.scenes.column_names import RADIANS, WAVENUMBERS
 from validation.scenes.number_table import NumberTable
 from validation.scenes.printable import printable, quoted
-from validation.scenes.reader import LENGTH, NUMBER, Reader, key_in_errors, nonblank_text, one_of, table
+from validation.scenes.reader import LENGTH, NUMBER, Reader, errors_of, nonblank_text, one_of, table
 from validation.scenes.roughness_levels import RoughnessLevels
 from validation.scenes.table_files import FORM, read_table, sentence_about, table_beside
 from validation.scenes.units import UNITS, metres_of, quantity
@@ -23,17 +23,12 @@ NEAR = 0.05
 """By how much the wavelength of a wavenumber may differ from that of its band: 1/16 m beside 63 mm."""
 
 
-def curve_names() -> tuple[str, ...]:
-    """Of the bundled curves."""
-    return tuple(sorted(path.stem for path in CURVES.glob("*.csv")))
-
-
 def curve(name: str) -> RoughnessLevels:
     """The levels of a bundled curve: "iso3095-2013" or "cnossos-average". Raises ValueError for another name."""
-    if name not in curve_names():
-        raise ValueError(f"curve must be one of {', '.join(curve_names())}, got {quoted(name)}")
-    path = CURVES / f"{name}.csv"
-    return _levels_of("curve", path, read_table("curve", path), source=name)[0]
+    paths = {path.stem: path for path in sorted(CURVES.glob("*.csv"))}
+    if name not in paths:
+        raise ValueError(f"curve must be one of {', '.join(paths)}, got {quoted(name)}")
+    return _levels_of("curve", paths[name], read_table("curve", paths[name]), source=name)[0]
 
 
 def levels_in(name: str, given: object, *, folder: Path, told: list[str]) -> RoughnessLevels:
@@ -55,7 +50,7 @@ def levels_in(name: str, given: object, *, folder: Path, told: list[str]) -> Rou
         told += sentence_about(path, notes)
     elif others := [key for key in found if key not in ("curve", "offset", "longest", "shortest")]:
         raise ValueError(f"{name}.{others[0]} must be left out beside a curve, got it with {quoted(found['curve'])}")
-    with key_in_errors(name):
+    with errors_of(f"{name}."):
         levels = curve(found["curve"]) if "curve" in found else levels
         levels = levels.within(found.get("longest"), found.get("shortest"))
         return levels.raised(found["offset"]) if "offset" in found else levels
@@ -68,7 +63,7 @@ def _levels_of(
 
     unit: of the wavelengths, where their column does not name it. Raises ValueError for a file that holds no levels.
     """
-    try:
+    with errors_of(f"{name} {printable(path)}: "):
         of_wave, of_level = _both(table, unit)
         known = np.isfinite(table.values[:, [of_wave, of_level]]).all(axis=1)
         waves, levels = (table.values[known, i] for i in (of_wave, of_level))
@@ -79,8 +74,6 @@ def _levels_of(
         found = RoughnessLevels(
             wavelengths=tuple(wavelengths[order]), levels=tuple(levels[order].tolist()), source=source or path.name
         )
-    except ValueError as problem:
-        raise ValueError(f"{name} {printable(path)}: {printable(problem)}") from None
     others = [i for i in range(len(table.columns)) if i not in (of_wave, of_level)]
     notes += (f"without {table.names(others)}",) if others else ()
     return found, (*table.notes, *notes)
@@ -119,7 +112,7 @@ def _both(table: NumberTable, unit: str | None) -> tuple[int, int]:
         )
     reference = table.columns[of_level].reference.replace(" ", "").lower()
     if reference not in REFERENCES:
-        raise ValueError(f"levels must be in dB re 1 um, got dB re {table.columns[of_level].reference}")
+        raise ValueError(f"levels must be in dB re 1 um, got dB re {printable(table.columns[of_level].reference)}")
     return of_wave, of_level
 
 

@@ -1,5 +1,6 @@
 """The scene of a file: a sphere, a punch, a wheel on rough ground with or without a mass, or one on a rail."""
 
+import os
 from collections.abc import Iterator
 from contextlib import suppress
 from functools import partial
@@ -9,7 +10,7 @@ from typing import Any
 from validation.scenes.bundled import bundled, path_of
 from validation.scenes.dynamic_wheel import wheel_of
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.material import Material, material_of
+from validation.scenes.material import material_of
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_surface import heights_of, measured
 from validation.scenes.printable import printable
@@ -21,8 +22,9 @@ from validation.scenes.reader import (
     MASS,
     SPEED,
     Reader,
-    file_named_in_errors,
+    errors_of_file,
     nonblank_text,
+    one_of,
     table,
     tables_of,
 )
@@ -31,6 +33,8 @@ from validation.scenes.roughness import roughness_of
 
 Scene = IndentationScene | RollingScene | RailScene
 
+BODIES, GROUNDS = ("sphere", "punch", "wheel"), ("roughness", "heights")
+"""Of which a scene has one, and one at the most."""
 OTHER_GROUNDS = ("roughness", "levels", "lines", "across", "alpha")
 """Keys of a body or a rail that heights stand in place of."""
 
@@ -70,7 +74,7 @@ def load_scene(scene: str | Path, *, heights: object = None) -> Scene:
     path = path_of(scene)
     tables = tables_of(path)
     ground = heights if isinstance(heights, MeasuredHeights | None) else measured(heights)
-    with file_named_in_errors(path):
+    with errors_of_file(path):
         return _scene_of(tables if ground is None else _with_heights(tables, ground), path.parent)
 
 
@@ -78,13 +82,8 @@ def files_of(scene: str | Path) -> tuple[Path, ...]:
     """The file of a scene, and the files beside it that its values name."""
     path = path_of(scene)
     named = (path.parent / text for text in _texts(tables_of(path)))
-    return path, *(one for one in named if _is_there(one))
-
-
-def _is_there(path: Path) -> bool:
-    with suppress(OSError, ValueError):
-        return path.is_file()
-    return False
+    # unlike that of a Path, which raises for a text that is too long for a name
+    return path, *(one for one in named if os.path.isfile(one))  # noqa: PTH113
 
 
 def _texts(value: object) -> Iterator[str]:
@@ -104,7 +103,7 @@ def load_varied(scene: str | Path, key: str, value: str) -> Scene:
     """
     path = path_of(scene)
     tables = tables_of(path)
-    with file_named_in_errors(path):
+    with errors_of_file(path):
         *rooms, last = key.split(".")
         inner: Any = tables
         for room in rooms:
@@ -136,11 +135,8 @@ def _with_heights(tables: dict[str, Any], heights: MeasuredHeights) -> dict[str,
 
 
 def _scene_of(tables: dict[str, Any], folder: Path) -> Scene:
-    bodies = [body for body in ("sphere", "punch", "wheel") if body in tables]
-    if len(bodies) != 1:
-        found = " and ".join(bodies) or "none"
-        raise ValueError(f"a scene must have one table of sphere, punch and wheel, got {found}")
-    body = bodies[0]
+    one_of(tables, "a scene", BODIES)
+    body = next(one for one in BODIES if one in tables)
     if body != "wheel":
         return _pressed(body, tables, folder)
     if is_rail(tables):
@@ -164,10 +160,9 @@ def _pressed(body: str, tables: dict[str, Any], folder: Path) -> IndentationScen
         "name": nonblank_text,
         body: partial(table, {size: LENGTH, "load": FORCE}, ()),
         "material": material_of,
-        "roughness": roughness_of,
-        "heights": partial(heights_of, folder=folder),
+        **_grounds(folder),
     }
-    found = table(readers, ("roughness", "heights"), "", tables)
+    found = table(readers, GROUNDS, "", tables)
     return IndentationScene(
         name=found["name"],
         shape="sphere" if body == "sphere" else "punch",
@@ -175,28 +170,22 @@ def _pressed(body: str, tables: dict[str, Any], folder: Path) -> IndentationScen
         load=found[body]["load"],
         modulus=found["material"].modulus,
         material=found["material"],
-        ground=_one_ground("a scene", found),
+        ground=one_of(found, "a scene", GROUNDS, least=0),
     )
 
 
 def _rolling(tables: dict[str, Any], moving: bool, folder: Path) -> RollingScene:
     motion: dict[str, Reader] = {"mass": MASS, "speed": SPEED} if moving else {}
-    ground: dict[str, Reader] = {"roughness": roughness_of, "heights": partial(heights_of, folder=folder)}
     readers: dict[str, Reader] = {
         "name": nonblank_text,
         "wheel": partial(table, {"radius": LENGTH, "load": FORCE, **motion}, ()),
         "material": material_of,
-        "rail": partial(table, ground, tuple(ground)),
+        "rail": partial(table, _grounds(folder), GROUNDS),
     }
     found = table(readers, (), "", tables)
-    rough = _one_ground("rail", found["rail"])
-    if rough is None:
-        raise ValueError("rail must have roughness or heights, got a smooth one")
-    material: Material = found["material"]
-    return RollingScene(name=found["name"], ground=rough, modulus=material.modulus, material=material, **found["wheel"])
+    ground, material = one_of(found.pop("rail"), "rail", GROUNDS), found["material"]
+    return RollingScene(ground=ground, modulus=material.modulus, **found.pop("wheel"), **found)
 
 
-def _one_ground(name: str, found: dict[str, Any]) -> Any:
-    if "roughness" in found and "heights" in found:
-        raise ValueError(f"{name} must have roughness or heights, got both")
-    return found.get("roughness", found.get("heights"))
+def _grounds(folder: Path) -> dict[str, Reader]:
+    return {"roughness": roughness_of, "heights": partial(heights_of, folder=folder)}

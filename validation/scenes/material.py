@@ -11,7 +11,6 @@ from validation.scenes.units import in_unit
 
 OTHERS = ("youngs_modulus", "poisson_ratio", "counterface")
 """What stands in the place of a contact modulus."""
-WORDS = ("rigid", "same")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -118,7 +117,7 @@ class Material:
             )
         if isinstance(other, Elastic):
             _check("material.counterface", other)
-        elif other not in WORDS:
+        elif other not in ("rigid", "same"):
             raise ValueError(
                 'material.counterface must be "rigid", "same", or a table with youngs_modulus and poisson_ratio of the '
                 f"other body, got {quoted(other)}"

@@ -226,8 +226,11 @@ class MeasuredHeights:
         return _spectrum(self.height, self.spacing)
 
 
-def check_points(heights: MeasuredHeights, contact_radius: float) -> None:
-    """Raises ValueError where a contact is smaller than the spacing of the points."""
+def check_covers(name: str, heights: MeasuredHeights, sides: tuple[float, float], contact_radius: float) -> None:
+    """Raises ValueError for a surface that is smaller than these sides, or whose points miss the contact."""
+    if any(side < needed for side, needed in zip(heights.sides, sides, strict=True)):
+        long, wide, *got = (in_unit(side, "length", digits=3) for side in (*sides, *heights.sides))
+        raise ValueError(f"{name} must be {long} long and {wide} wide for this contact, got {' and '.join(got)}")
     if max(heights.spacing) > contact_radius:
         raise ValueError(
             f"heights.spacing must be no more than the contact radius, {contact_radius:.3g} m, got "
@@ -262,11 +265,8 @@ def _spectrum(height: FloatArray, spacing: tuple[float, float]) -> tuple[tuple[f
     counts = np.histogram(q, edges)[0]
     edges = np.concatenate([[edges[0]], edges[1:][np.cumsum(counts > 0) > 0]])
     counts, sums = np.histogram(q, edges)[0], np.histogram(q, edges, weights=power)[0]
-    keep = counts > 0
-    level = np.where(keep, sums / np.maximum(counts, 1), 0.0)
     # an empty ring between others has the level of the one before
-    for i in np.flatnonzero(~keep):
-        level[i] = level[i - 1] if i else 0.0
+    level = (sums / np.maximum(counts, 1))[np.maximum.accumulate(np.where(counts > 0, np.arange(counts.size), 0))]
     whole = np.pi * float(np.sum(level * np.diff(edges**2)))
     level *= height.var() / whole
     return tuple(edges.tolist()), tuple(level.tolist())

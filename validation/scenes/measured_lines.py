@@ -15,7 +15,7 @@ from validation.scenes.measured import MeasuredHeights
 from validation.scenes.number_table import NumberTable
 from validation.scenes.positions import Places, metres_of_step, own_spacing, places_of, runs_one_way
 from validation.scenes.printable import shortened
-from validation.scenes.reader import LENGTH, Reader, key_in_errors, nonblank_text, table, yes_or_no
+from validation.scenes.reader import LENGTH, Reader, errors_of, nonblank_text, table, yes_or_no
 from validation.scenes.roughness_levels import LEAST, MICROMETRE, RoughnessLevels
 from validation.scenes.table_files import FORM, heights_of_columns, sentence_about, table_beside
 from validation.scenes.units import LENGTHS, in_unit, quantity, unit_of
@@ -30,25 +30,12 @@ POINTS_PER_WAVE = 2.5
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class MeasuredLines:
-    """Heights of parallel lines on a rail.
+    """Heights of parallel lines on a rail, shape (points, lines) or (points,), positive towards the wheel [m].
 
-    Parameters
-    ----------
-    height : array_like, shape (points, lines) or (points,)
-        Heights, positive towards the wheel, the first axis along the track [m].
-    spacing : float
-        Distance of the points [m].
-    positions : sequence of float, optional
-        Places of the lines across the track, ascending [m]; of one line they may be left out.
-    longest, shortest : float or None, optional
-        Nominal wavelengths of the first and the last band [m]. None: all that lines of four waves and points of 2.5
-        to a wave have.
-
-    Raises
-    ------
-    ValueError, TypeError
-        If heights are no real numbers, masked or not finite, positions are not one a line and ascending, lines are
-        shorter than four of the longest waves, or points are too far apart for the shortest.
+    spacing: of the points along the track [m]; positions: of the lines across it, ascending [m]; longest, shortest:
+    nominal wavelengths of the first and the last band [m], None for all that lines of four waves and points of 2.5 to a
+    wave have. Raises ValueError or TypeError for heights that are no real numbers, masked or not finite, positions that
+    are not one a line and ascending, and waves that are too long for the lines or too short for the points.
     """
 
     height: FloatArray
@@ -142,7 +129,7 @@ def lines_in(name: str, given: object, *, folder: Path, told: list[str]) -> Meas
     }
     found = table(readers, tuple(readers)[1:], name, given)
     path, numbers = table_beside(name, found, folder)
-    with key_in_errors(name):
+    with errors_of(f"{name}."):
         count = len(found["positions"]) if "positions" in found else None
         height, spacing, notes = _along_the_track(numbers, found.pop("unit", None), found.pop("spacing", None), count)
         if count is None and height.shape[1] > 1:

@@ -101,11 +101,10 @@ def table_of_text(file: IO[bytes], form: TableForm) -> NumberTable:
     Where columns are chosen, others may be texts.
     """
     encoding = text_dialect.encoding_of(file, form.encoding)
-    if form.columns is None:
-        return _as_written(file, encoding, form, None)
-    with suppress(ValueError):
-        return _as_written(file, encoding, form, None)
-    return _as_written(file, encoding, form, len(form.columns))
+    if form.columns is not None:
+        with suppress(ValueError):
+            return _as_written(file, encoding, form, None)
+    return _as_written(file, encoding, form, None if form.columns is None else len(form.columns))
 
 
 def _as_written(file: IO[bytes], encoding: str, form: TableForm, numeric: int | None) -> NumberTable:

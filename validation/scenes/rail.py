@@ -12,8 +12,9 @@ from mdr.checks import positive
 from validation.analysis.nominal_bands import NominalBands
 from validation.scenes.isotropic_line import IsotropicLine, isotropic_line
 from validation.scenes.material import Material, check_scene
-from validation.scenes.measured import MeasuredHeights, check_points
+from validation.scenes.measured import MeasuredHeights, check_covers
 from validation.scenes.measured_lines import MeasuredLines
+from validation.scenes.reader import errors_of
 from validation.scenes.roughness_levels import RoughnessLevels
 from validation.scenes.transverse_profile import TransverseProfile, fitted_radius
 from validation.scenes.units import in_unit
@@ -96,7 +97,12 @@ class RailScene:
         if self.across not in ("ridges", "isotropic", None):
             positive("rail.across", self.across)
         if isinstance(self.roughness, MeasuredHeights):
-            self._check_heights(self.roughness)
+            if self.across is not None:
+                raise ValueError(
+                    f"rail.across must be left out beside rail.heights, which have it, got {self.across!r}"
+                )
+            along, across = self.contact.along, self.contact.across
+            check_covers("rail.heights", self.roughness, (4 * math.pi * along, 3 * across), min(along, across))
 
     @property
     def radii(self) -> tuple[float, float]:
@@ -116,10 +122,8 @@ class RailScene:
             return self.roughness
         if isinstance(self.roughness, MeasuredLines):
             return self.roughness.levels
-        try:
+        with errors_of("rail.heights."):
             return MeasuredLines.of_heights(self.roughness).levels
-        except ValueError as problem:
-            raise ValueError(f"rail.heights.{problem}") from None
 
     @cached_property
     def isotropic(self) -> IsotropicLine | None:
@@ -184,18 +188,6 @@ class RailScene:
                 f"no isotropic ground has the levels at {self.levels.bands.names(ground.stands_out)}, which rise too "
                 f"steeply or stand out of their neighbours: there it has {taken}."
             )
-
-    def _check_heights(self, heights: MeasuredHeights) -> None:
-        """Long and wide enough for the contact; what lies across was measured."""
-        if self.across is not None:
-            raise ValueError(f"rail.across must be left out beside rail.heights, which have it, got {self.across!r}")
-        (length, width), contact = heights.sides, self.contact
-        if length < 4 * math.pi * contact.along or width < 3 * contact.across:
-            needed = 4 * math.pi * contact.along, 3 * contact.across
-            shown = [in_unit(side, "length", digits=3) for side in (*needed, length, width)]
-            size = " and ".join(shown[2:])
-            raise ValueError(f"rail.heights must be {shown[0]} long and {shown[1]} wide for this contact, got {size}")
-        check_points(heights, min(contact.along, contact.across))
 
 
 @dataclass(frozen=True, kw_only=True)

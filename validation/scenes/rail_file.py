@@ -4,23 +4,22 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from mdr.checks import positive
 from validation.scenes.level_files import levels_in
 from validation.scenes.material import material_of
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_lines import MeasuredLines, lines_in
 from validation.scenes.measured_surface import heights_of
 from validation.scenes.printable import shortened
-from validation.scenes.rail import Across, ProfiledRail, RailScene
+from validation.scenes.rail import ProfiledRail, RailScene
 from validation.scenes.reader import (
     FORCE,
     LENGTH,
     MASS,
-    NUMBER,
+    POSITIVE,
     SPEED,
     WHOLE,
     Reader,
-    key_in_errors,
+    errors_of,
     nonblank_text,
     one_of,
     table,
@@ -28,12 +27,12 @@ from validation.scenes.reader import (
 from validation.scenes.transverse_profile import TransverseProfile, both_together, profile_in
 from validation.scenes.units import in_unit, quantity
 
-OF_WHEEL = ("transverse_radius", "profile", "offset", "axle_load", "levels", "lines")
-OF_RAIL = ("crown_radius", "profile", "across", "alpha", "levels", "lines")
-"""What stands in the scene of a rail alone, of its wheel and of its rail."""
+OWN = {
+    "wheel": ("transverse_radius", "profile", "offset", "axle_load", "levels", "lines"),
+    "rail": ("crown_radius", "profile", "across", "alpha", "levels", "lines"),
+}
+"""What stands in the scene of a rail alone."""
 GROUNDS = ("levels", "lines", "heights")
-SHAPES_OF_RAIL, SHAPES_OF_WHEEL = ("crown_radius", "profile"), ("transverse_radius", "profile")
-"""Across the track."""
 Shape = TransverseProfile | float | None
 CROWN, FLANGE = 0.026, 0.015
 """Half of the width of a head without its corners [m], 52 mm of 60E1; height that a flange has and a tread has not [m].
@@ -42,10 +41,7 @@ CROWN, FLANGE = 0.026, 0.015
 
 def is_rail(tables: dict[str, Any]) -> bool:
     """Whether the tables of a file are those of a wheel on a rail of two radii."""
-    wheel, rail = tables.get("wheel"), tables.get("rail")
-    return (isinstance(wheel, dict) and any(key in wheel for key in OF_WHEEL)) or (
-        isinstance(rail, dict) and any(key in rail for key in OF_RAIL)
-    )
+    return any(isinstance(tables.get(body), dict) and any(key in tables[body] for key in OWN[body]) for body in OWN)
 
 
 def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
@@ -71,7 +67,7 @@ def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
     load, of_load = _load(wheel)
     given: dict[str, Any] = {
         "name": found["name"],
-        "radius": _radius(wheel),
+        "radius": one_of(wheel, "wheel", ("radius", "diameter")) / (2 if "diameter" in wheel else 1),
         "load": load,
         "modulus": material.modulus,
         "material": material,
@@ -80,23 +76,18 @@ def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
         "notes": (*of_load, *of_roughness, *told),
         **{key: wheel[key] for key in ("speed", "mass") if key in wheel},
     }
-    of_rail = one_of(rail, "rail", SHAPES_OF_RAIL, least=0)
-    of_wheel = one_of(wheel, "wheel", SHAPES_OF_WHEEL, least=0)
+    of_rail = one_of(rail, "rail", ("crown_radius", "profile"), least=0)
+    of_wheel = one_of(wheel, "wheel", ("transverse_radius", "profile"), least=0)
     if not any(isinstance(body, TransverseProfile) for body in (of_rail, of_wheel)):
         if "offset" in wheel:
             raise ValueError("wheel.offset must be left out where neither wheel nor rail has a profile, got it")
         return RailScene(**given, crown_radius=of_rail, transverse_radius=of_wheel)
     offset = wheel.get("offset", 0.0)
-    with key_in_errors("rail" if isinstance(of_rail, TransverseProfile) else "wheel", "profile"):
+    with errors_of("rail." if isinstance(of_rail, TransverseProfile) else "wheel.", of="profile"):
         scene = ProfiledRail(**given, profile=_together(of_rail, of_wheel, offset), offset=offset)
     if isinstance(of_wheel, TransverseProfile):
         _check_flange(of_wheel, scene.profile.at - offset)
     return scene
-
-
-def _radius(wheel: dict[str, Any]) -> float:
-    one: float = one_of(wheel, "wheel", ("radius", "diameter"))
-    return one / 2 if "diameter" in wheel else one
 
 
 def _together(of_rail: Shape, of_wheel: Shape, offset: float) -> TransverseProfile:
@@ -157,16 +148,13 @@ def _both(rail: Any, wheel: Any) -> tuple[Any, tuple[str, ...]]:
     return levels + more, (note,) if missing else ()
 
 
-def _across(name: str, given: object) -> Across:
+def _across(name: str, given: object) -> Any:
+    """What an `Across` of `RailScene` may be."""
     if given in ("ridges", "isotropic"):
         return given
     if isinstance(given, str):
         raise ValueError(f'{name} must be "ridges", "isotropic" or a number alpha, got {shortened(given)}')
-    return _alpha(name, given)
-
-
-def _alpha(name: str, given: object) -> float:
-    return positive(name, NUMBER(name, given))
+    return POSITIVE(name, given)
 
 
 WHEEL: dict[str, Reader] = {
@@ -180,5 +168,5 @@ WHEEL: dict[str, Reader] = {
     "mass": MASS,
     "offset": partial(quantity, dimension="length"),
 }
-RAIL: dict[str, Reader] = {"crown_radius": LENGTH, "across": _across, "alpha": _alpha}
+RAIL: dict[str, Reader] = {"crown_radius": LENGTH, "across": _across, "alpha": POSITIVE}
 """How each value of a scene file is read."""

@@ -3,12 +3,12 @@
 import difflib
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any
 
-from mdr.checks import count, finite
+from mdr.checks import count, finite, positive
 from validation.scenes.bundled import line_for
 from validation.scenes.input_files import SceneError, contents_of
 from validation.scenes.printable import is_printable, printable, shortened
@@ -40,21 +40,17 @@ def tables_of(path: Path) -> dict[str, Any]:
 
 
 @contextmanager
-def file_named_in_errors(path: Path) -> Iterator[None]:
-    """Put the name of the scene file in front of the sentence of a ValueError."""
+def errors_of(beginning: str, *, of: str = "", kind: type[ValueError] = ValueError) -> Iterator[None]:
+    """Put a beginning, as a key, in front of the sentence of a ValueError. of: how such a sentence begins."""
     try:
         yield
     except ValueError as problem:
-        raise SceneError(f"scene {printable(path)}: {problem}") from None
+        raise kind(f"{beginning if str(problem).startswith(of) else ''}{problem}") from None
 
 
-@contextmanager
-def key_in_errors(name: str, of: str = "") -> Iterator[None]:
-    """Put the key of a scene file in front of the sentence of a ValueError. of: how the sentence begins."""
-    try:
-        yield
-    except ValueError as problem:
-        raise ValueError(f"{name}.{problem}" if str(problem).startswith(of) else str(problem)) from None
+def errors_of_file(path: Path) -> AbstractContextManager[None]:
+    """Put the name of a scene file in front of the sentence of a ValueError."""
+    return errors_of(f"scene {printable(path)}: ", kind=SceneError)
 
 
 def table(readers: Mapping[str, Reader], optional: tuple[str, ...], name: str, given: object) -> dict[str, Any]:
@@ -119,4 +115,4 @@ LENGTH, MASS, FORCE, PRESSURE, SPEED = (
     partial(quantity, dimension=dimension, positive=True)
     for dimension in ("length", "mass", "force", "pressure", "speed")
 )
-NUMBER, WHOLE = partial(without_unit, finite), partial(without_unit, partial(count, least=1))
+NUMBER, POSITIVE, WHOLE = (partial(without_unit, read) for read in (finite, positive, partial(count, least=1)))

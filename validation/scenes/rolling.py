@@ -5,14 +5,14 @@ from dataclasses import dataclass
 
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.material import Material, check_scene
-from validation.scenes.measured import MeasuredHeights, check_points
+from validation.scenes.measured import MeasuredHeights, check_covers
 from validation.scenes.roughness import RoughSurface, check_band
 from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
-from validation.scenes.wheel_body import Wheel, WheelOnTrack, diagnose_contact_radius
+from validation.scenes.wheel_body import OnHalfSpace, Wheel
 
 
 @dataclass(frozen=True, kw_only=True)
-class RollingScene(WheelOnTrack):
+class RollingScene(OnHalfSpace):
     """Smooth wheel that rolls over rough ground, with a mass or at a constant approach.
 
     Parameters
@@ -58,7 +58,8 @@ class RollingScene(WheelOnTrack):
         if (self.mass is None) != (self.speed is None):
             raise ValueError(f"wheel.mass and wheel.speed must both be given or neither, got {self.mass}, {self.speed}")
         if isinstance(self.ground, MeasuredHeights):
-            self._check_measured(self.ground)
+            a = self.contact_radius
+            check_covers("rail.heights", self.ground, (4 * math.pi * a, 3 * a), a)
         else:
             check_band("rail.roughness", self.ground)
 
@@ -87,18 +88,8 @@ class RollingScene(WheelOnTrack):
             found.append(f"the roughness is {self.roughness_ratio:.3g} of the approach: the wheel may lose contact.")
         if self.mass is not None:
             found += diagnose_short_waves(self.body, [self.ground])
-        return (*found, *diagnose_contact_radius(self.body))
+        return (*found, *self.diagnose_contact_radius())
 
     def no_steady_answer(self) -> str:
         """Why the motion of a wheel with a mass has no level that the distance leaves alone; empty where it has."""
         return "" if self.speed is None else no_steady_answer(self.body, self.speed, [self.ground])
-
-    def _check_measured(self, heights: MeasuredHeights) -> None:
-        along, across = heights.sides
-        a = self.contact_radius
-        if along < 4 * math.pi * a or across < 3 * a:
-            raise ValueError(
-                f"rail.heights must be {4 * math.pi * a:.3g} m long and {3 * a:.3g} m wide for this contact, got "
-                f"{along:.3g} m and {across:.3g} m"
-            )
-        check_points(heights, a)

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from mdr.checks import finite
 from validation.scenes.number_table import NumberTable
 from validation.scenes.printable import printable
-from validation.scenes.reader import Reader, nonblank_text, table, yes_or_no
+from validation.scenes.reader import Reader, errors_of, nonblank_text, table, yes_or_no
 from validation.scenes.table_files import FORM, heights_of_columns, sentence_about, table_beside
 from validation.scenes.units import LENGTHS, in_unit, unit_of
 from validation.theory.elliptic_contact import elliptic_contact
@@ -227,14 +227,12 @@ def profile_in(name: str, given: object, *, folder: Path, told: list[str]) -> Tr
     found = table(readers, tuple(readers)[1:], name, {"file": given} if isinstance(given, str) else given)
     key = name if isinstance(given, str) else f"{name}.file"
     path, numbers = table_beside(name, found, folder, key=key)
-    try:
+    with errors_of(f"{key} {printable(path)}: "):
         y, height = _in_metres(numbers, found.get("unit"))
         known = np.isfinite(y) & np.isfinite(height)
         y, height, of_ends = _ascending(y[known], height[known] * (-1 if found.get("flip") else 1))
         smooth, of_noise = _smoothed(y, height)
         profile = TransverseProfile(y=tuple(y.tolist()), height=tuple(smooth.tolist()), source=path.name)
-    except ValueError as problem:
-        raise ValueError(f"{key} {printable(path)}: {printable(problem)}") from None
     missing = int((~known).sum())
     notes = (f"{missing} of its points have no data and are left out",) if missing else ()
     told += sentence_about(path, (*numbers.notes, *notes, *of_ends, *of_noise))

@@ -48,12 +48,12 @@ class Wheel:
         return eigenfrequency(contact_radius=self.contact_radius, modulus=self.modulus, mass=self.mass)
 
 
-class WheelOnTrack:
-    """Contact of a scene's wheel, its `body`, where the track is smooth."""
+class OnHalfSpace:
+    """Hertz's contact of a scene's `body`, a sphere or a wheel, where all is smooth."""
 
     @property
     def body(self) -> Wheel:
-        """The wheel without its roughness."""
+        """The body without its roughness; of unit mass where it has none."""
         raise NotImplementedError
 
     @property
@@ -66,11 +66,10 @@ class WheelOnTrack:
         """a = sqrt(R d_N) [m]."""
         return self.body.contact_radius
 
-
-def diagnose_contact_radius(wheel: Wheel) -> Iterator[str]:
-    """A contact as large as a part of the wheel is not on a half-space."""
-    if wheel.contact_radius > wheel.radius / 10:
-        yield (
-            f"the contact radius is {wheel.contact_radius / wheel.radius:.3g} of wheel.radius, more than a tenth: no "
-            "half-space; are the units of wheel.load and material.youngs_modulus right?"
-        )
+    def diagnose_contact_radius(self, name: str = "wheel") -> Iterator[str]:
+        """A contact as large as a part of the body is not on a half-space. name: of the body's table in a scene."""
+        if self.contact_radius > self.body.radius / 10:
+            yield (
+                f"the contact radius is {self.contact_radius / self.body.radius:.3g} of {name}.radius, more than a "
+                f"tenth: no half-space; are the units of {name}.load and material.youngs_modulus right?"
+            )
