@@ -10,11 +10,10 @@ import numpy as np
 
 import validation.__main__ as command
 from validation.benchmarks import timing
-from validation.benchmarks.found_models import TimedProblem
-from validation.benchmarks.timing import Configuration, RunLimits
+from validation.benchmarks.timing import Configuration, TimedProblem
 from validation.benchmarks.work_precision.problem import Quantity, logarithm
 from validation.report.contents import TIMED
-from validation.simulation.method import Result, Solve
+from validation.simulation.method import Resolution, Result, Solve
 
 MEAN = Quantity(name="mean", log=logarithm("k"), needs=("k",))
 
@@ -66,13 +65,12 @@ class Made:
 
 def named(act, worker=timing.OURS, **settings):
     name = "right" if act == "again" else act
-    return Configuration(
-        method=Acting(name), scene=None, label=act, parameter="#", value=1.0, worker=worker, **settings
-    )
+    known = {"method": Acting(name), "scene": None, "resolution": Resolution(), "parameter": "#", "value": 1.0}
+    return Configuration(label=act, worker=worker, **known, **settings)
 
 
 def timed_problem(*tried, slow=1.0, enough=0.0):
-    return TimedProblem(Made(tried), RunLimits(slow=slow, enough=enough))
+    return TimedProblem(problem=Made(tried), slow=slow, enough=enough)
 
 
 class Inline:

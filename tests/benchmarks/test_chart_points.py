@@ -26,7 +26,8 @@ OTHER = Quantity(name="other", log=logarithm("m"), needs=("m",))
 
 
 def attempt(label, value, **settings):
-    return Configuration(method=None, scene=None, label=label, parameter="# cells", value=value, **settings)
+    known = {"method": None, "scene": None, "resolution": None, "parameter": "# cells"}
+    return Configuration(label=label, value=value, **known, **settings)
 
 
 COARSE, FINE, SPRINGS = attempt("BEM", 8.0), attempt("BEM", 12.0), attempt("MDR", 64.0, paired=False)

@@ -14,17 +14,16 @@ from tests.benchmarks.made_up import run_command
 from validation.analysis.series import numbers_of
 from validation.benchmarks import isolation as alone
 from validation.benchmarks import peers, timing
-from validation.benchmarks.found_models import TimedProblem
-from validation.benchmarks.peers import OURS, SOLVERS, PeerSolver, PressureField
+from validation.benchmarks.peers import OURS, SOLVERS, PeerSolver
 from validation.benchmarks.solvers import case as comparison
 from validation.benchmarks.solvers import problems
 from validation.benchmarks.solvers.problems import FORCE, PRESSURE, SurfaceProblem
 from validation.benchmarks.solvers.study import CASE
 from validation.benchmarks.solvers.throughput import STEPS, RollingThroughput, SteppingThroughput
-from validation.benchmarks.timing import RunLimits
+from validation.benchmarks.timing import TimedProblem
 from validation.simulation.method import Result
 
-RUN = TimedProblem(SurfaceProblem("rough", 0.004, 32, True, 1, 1e-6), RunLimits(slow=5.0, enough=0.0))
+RUN = TimedProblem(problem=SurfaceProblem("rough", 0.004, 32, True, 1, 1e-6), slow=5.0, enough=0.0)
 
 
 def dies(problem, tolerance):
@@ -37,7 +36,7 @@ def raises(problem, tolerance):
 
 def forgets_a_factor(problem, tolerance):
     solve = peers.bem3d_fast(problem, tolerance)
-    return lambda: PressureField(1.01 * solve().pressure, 1)
+    return lambda: (1.01 * solve()[0], 1)
 
 
 def dies_the_second_time(problem, tolerance):
@@ -51,7 +50,7 @@ solved_before = []
 
 
 def returns_nan(problem, tolerance):
-    return lambda: PressureField(np.full(problem.height.shape, np.nan), 1)
+    return lambda: (np.full(problem.height.shape, np.nan), 1)
 
 
 def warms_up(problem, tolerance):
@@ -193,14 +192,14 @@ FIRST = (other("theirs", dies), *SOLVERS[:2])
 """Somebody's solver, placed before ours."""
 
 
-def timed_rows(problem, limits):
+def timed_rows(configurations, given):
     """Ours takes 2 s and presses with 1, the published iteration 3 s and 1, the other one 4 s and 3."""
     found = {"theirs": (4.0, 3.0), "bem3d": (2.0, 1.0), "bem3d, Polonsky-Keer": (3.0, 1.0)}
     return [
         timing.Timing(
             timing.FINISHED,
             0.0,
-            seconds=[seconds] * 5,
+            runs=[seconds] * 5,
             results=[Result({"pressure": np.full((4, 4), pressure), "residual": np.array(0.0)}, 1.0)],
         )
         for seconds, pressure in found.values()
@@ -216,7 +215,7 @@ def test_a_solver_that_is_placed_first_does_not_become_ours():
         monkeypatch.setattr(problems, "configurations_of", lambda problem: named)
         problem = dataclasses.replace(RUN.problem, cells=4)
         outcome = problems.time_problem(dataclasses.replace(RUN, problem=problem))
-        finished = [comparison._finished(comparison.rows_of(problem, outcome))]
+        finished = [comparison._finished(comparison.rows_of(outcome))]
         # (3 - 1) / 1 of the pressure field
         assert outcome[PRESSURE].tolist() == [2.0, 0.0, 0.0]
         (number,) = numbers_of(comparison._speed(finished))
