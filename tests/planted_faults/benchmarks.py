@@ -5,7 +5,8 @@ import functools
 
 import numpy as np
 
-from tests.benchmarks import test_chart_errors, test_fronts, test_peers
+from tests.benchmarks import test_chart_points as test_points
+from tests.benchmarks import test_fronts, test_peers
 from tests.benchmarks import test_work_precision as test_precision
 from tests.planted_faults.wrong import scaled
 from validation.benchmarks import timing
@@ -70,16 +71,16 @@ FAULTS = {
         test_fronts.test_errors_are_ranked_by_their_upper_ends,
     ),
     "the same surfaces taken for others": (
-        (test_chart_errors, "error", as_if_alone),
-        test_chart_errors.test_what_realisations_have_of_their_own_drops_out_of_paired_errors,
+        (test_points, "error", as_if_alone),
+        test_points.test_what_realisations_have_of_their_own_drops_out_of_paired_errors,
     ),
     "first order for second in an extrapolation": (
         (precision_error.MethodValues, "log", at_first_order),
-        functools.partial(test_chart_errors.test_two_grids_of_a_power_law_are_extrapolated_to_the_truth, 2.0),
+        functools.partial(test_points.test_two_grids_of_a_power_law_are_extrapolated_to_the_truth, 2.0),
     ),
     "decibels of an amplitude for those of a power": (
         (precision.Quantity, "distance", scaled(precision.Quantity.distance, 2.0)),
-        test_chart_errors.test_levels_differ_by_the_root_mean_square_of_decibels,
+        test_points.test_levels_differ_by_the_root_mean_square_of_decibels,
     ),
     "an approach under a wave without its logarithm": (
         (test_precision, "westergaard_approach", without_its_logarithm),
