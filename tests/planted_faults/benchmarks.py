@@ -16,11 +16,7 @@ from validation.benchmarks.work_precision import case as precision_case
 from validation.benchmarks.work_precision import dynamic_wheel as precision_wheel
 from validation.benchmarks.work_precision import errors as precision_error
 from validation.benchmarks.work_precision import problem as precision
-
-
-def as_if_alone(quantity, mine, reference):
-    """Paired realisations taken for independent ones."""
-    return precision_error.error(quantity, dataclasses.replace(mine, paired=False), reference)
+from validation.benchmarks.work_precision.pareto import Point
 
 
 def at_first_order(answer, quantity, rows):
@@ -32,21 +28,16 @@ def without_its_logarithm(*, mean_pressure, amplitude, wavelength, modulus):
     return amplitude * mean_pressure * wavelength / (np.pi * modulus * amplitude)
 
 
-def in_continuous_time(wheel, omega, time_step):
-    """omega for the 2 sin(omega dt / 2) / dt of leapfrog."""
-    return -(omega**2) / (wheel.stiffness - wheel.mass * omega**2)
-
-
-def fastest_of_all(point, others):
-    return min(others, key=lambda other: other.seconds[1], default=None)
-
-
 log_of_answer = precision_error.MethodValues.log
 
 
 FAULTS = {
     "a time beside that of a method that is not as close": (
-        (precision_case, "_cheapest_as_close", fastest_of_all),
+        (
+            precision_case,
+            "_cheapest_as_close",
+            lambda _, others: min(others, key=lambda one: one.seconds[1], default=None),
+        ),
         functools.partial(
             test_fronts.test_the_cheapest_is_claimed_of_times,
             test_fronts.timed_point(test_fronts.FILTER_1D, 0.3, 1e-6),
@@ -63,15 +54,21 @@ FAULTS = {
         test_peers.test_a_solver_that_is_placed_first_does_not_become_ours,
     ),
     "nothing left open by a reference": (
-        (test_fronts.Point, "rank", property(lambda point: point.error + point.half_width)),
+        (Point, "rank", property(lambda point: point.error + point.half_width)),
         test_fronts.test_the_front_is_what_nothing_beats_and_ends_in_the_band,
     ),
     "errors ranked without their intervals": (
-        (test_fronts.Point, "rank", property(lambda point: max(point.error, point.band))),
+        (Point, "rank", property(lambda point: max(point.error, point.band))),
         test_fronts.test_errors_are_ranked_by_their_upper_ends,
     ),
     "the same surfaces taken for others": (
-        (test_points, "error", as_if_alone),
+        (
+            test_points,
+            "error",
+            lambda quantity, mine, reference: precision_error.error(
+                quantity, dataclasses.replace(mine, paired=False), reference
+            ),
+        ),
         test_points.test_what_realisations_have_of_their_own_drops_out_of_paired_errors,
     ),
     "first order for second in an extrapolation": (
@@ -87,7 +84,8 @@ FAULTS = {
         test_precision.test_the_approach_under_a_wave_is_the_sum_of_its_compliances,
     ),
     "a filtered acceleration in continuous time": (
-        (precision_wheel, "transfer", in_continuous_time),
+        (precision_wheel, "transfer", lambda wheel, omega, _: -(omega**2) / (wheel.stiffness - wheel.mass * omega**2)),
+        # omega for the 2 sin(omega dt / 2) / dt of leapfrog
         test_precision.test_the_filtered_acceleration_is_the_motion_that_repeats_itself,
     ),
 }

@@ -218,11 +218,8 @@ def _steps(wheel: SteppingThroughput, outcomes: Sequence[Outcome]) -> list[Serie
     ]
 
 
-SECONDS, LOADS, PEERS = (
-    "seconds: median (from the fastest to the slowest run)",
-    "seconds at some of the loads of Fig. 14.1",
-    "solvers",
-)
+SECONDS = "seconds: median (from the fastest to the slowest run)"
+LOADS, PEERS = "seconds at some of the loads of Fig. 14.1", "solvers"
 
 
 def tables(result: Outcomes) -> tuple[Table, ...]:
@@ -241,11 +238,9 @@ def tables(result: Outcomes) -> tuple[Table, ...]:
 
 def _seconds(name: str, solved: Rows) -> Table:
     solvers = dict.fromkeys((row["solver"] for rows in solved for row in rows), "")
-    found = []
-    for rows in solved:
-        known = {"problem": rows[0]["problem"], "area": f"{rows[0]['area']:.1%}"}
-        found.append(known | solvers | {row["solver"]: _said(row) for row in rows})
-    return table_of(name, found)
+    known = [{"problem": rows[0]["problem"], "area": f"{rows[0]['area']:.1%}"} for rows in solved]
+    said = [{row["solver"]: _said(row) for row in rows} for rows in solved]
+    return table_of(name, [mine | solvers | theirs for mine, theirs in zip(known, said, strict=True)])
 
 
 def _said(row: Row) -> str:
