@@ -99,7 +99,7 @@ class ExactProblem(ChartProblem):
             height=-self.gap(cells),
             spacing=1 / cells,
             modulus=1.0,
-            periodic=self.half_space(cells).periodic,
+            periodic=self.periodic,
             force=self.peer_force(cells),
             approach=float(self.exact().get("approach", 1.0)),
         )

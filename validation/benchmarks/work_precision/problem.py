@@ -61,12 +61,11 @@ class Quantity:
 def mean_of(name: str, value: str = "", **settings: Any) -> Quantity:
     """The mean of a value, by default that of its name."""
     value = value or name
-    return Quantity(name=name, log=logarithm(value), needs=(value,), **settings)
 
+    def log(values: Values) -> FloatArray:
+        return np.asarray(np.log(np.mean(values[value], axis=0, keepdims=True)))
 
-def logarithm(name: str) -> Callable[[Values], FloatArray]:
-    """ln of the mean of a value."""
-    return lambda values: np.log(np.mean(values[name], axis=0, keepdims=True))
+    return Quantity(name=name, log=log, needs=(value,), **settings)
 
 
 def log_power(values: Values, name: str) -> FloatArray:
