@@ -17,7 +17,6 @@ from validation.engine.engine import Outcome
 from validation.simulation.method import FloatArray, Values
 
 IntArray = NDArray[np.int64]
-Found = Mapping[Configuration, Values]
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,7 +97,9 @@ def _half_width(without: list[float]) -> float:
     return float(student(len(without) - 1) * jackknife_error(without)) if np.isfinite(without).all() else math.inf
 
 
-def reference_of(problem: ChartProblem, found: Found) -> tuple[MethodValues, Callable[[Quantity], float]]:
+def reference_of(
+    problem: ChartProblem, found: Mapping[Configuration, Values]
+) -> tuple[MethodValues, Callable[[Quantity], float]]:
     """The reference, and its uncertainty for each quantity.
 
     Exact ones have what the quantity says. Others are extrapolated from the two finest grids, and the whole step from
