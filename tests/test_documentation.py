@@ -58,11 +58,6 @@ def test_a_name_is_there(name):
     assert found(name).__doc__
 
 
-def test_a_name_that_is_not_there_is_found_out():
-    with pytest.raises(ModuleNotFoundError, match=r"bem3d\.solved"):
-        found("bem3d.solved")
-
-
 def test_theory_has_every_formula():
     formulas = set().union(*(public(path) for path in THEORY.glob("*.py"))) - HELPERS
     said = set(re.findall(r"\{py:obj\}`~?([\w.]+)`", PAGES["theory"]))

@@ -23,7 +23,7 @@ from validation.analysis.statistics import (
 )
 from validation.analysis.study import Outcomes
 from validation.benchmarks.work_precision.errors import MethodValues, error
-from validation.benchmarks.work_precision.problem import Quantity, logarithm
+from validation.benchmarks.work_precision.problem import Quantity, mean_of
 from validation.cases.punch import fractal_punch_study as study
 from validation.cases.punch.ensembles import MEAN as MEAN_STIFFNESS
 from validation.cases.punch.fractal_punch import FractalPunch, PunchStatistics
@@ -173,8 +173,8 @@ def test_intervals_of_where_mdr_must_fail():
     assert number.value == pytest.approx(DECIBEL * (springs.value - bem.value - 2 * finer.value))
 
 
-MEAN = Quantity(name="mean", log=logarithm("k"), needs=("k",))
-LEVEL = Quantity(name="level", log=logarithm("k"), needs=("k",), decibel=True)
+MEAN = mean_of("mean", "k")
+LEVEL = mean_of("level", "k", decibel=True)
 
 
 @pytest.mark.slow

@@ -75,13 +75,6 @@ def test_each_position_is_that_of_a_cold_solve(name, by):
         assert found.area[position] == pytest.approx(contact.area, abs=2 * spacing**2)
 
 
-def test_cells_that_are_longer_than_wide():
-    height, spacing = strip(8, 0.1)[::2], (0.25, 0.125)
-    found = bem3d.roll(height, spacing=spacing, **SPHERE, approach=1.0, tolerance=TOLERANCE)
-    for position in (0, 5, 13):
-        assert found.force[position] == pytest.approx(cold(height, spacing, position, approach=1.0).force, rel=ERROR)
-
-
 @pytest.mark.parametrize("name", STRIPS)
 def test_a_prescribed_force_is_borne_at_every_position(name):
     found = bem3d.roll(STRIPS[name], spacing=1 / CELLS[name], **SPHERE, force=0.7, positions=12)
@@ -196,16 +189,6 @@ def test_a_bump_far_ahead_is_touched_before_the_frame_has_reached_it(by, column)
         assert found.approach[position] == pytest.approx(contact.approach, abs=ERROR * overlap)
 
 
-def test_no_contact_but_of_a_bump_outside_of_the_frame():
-    """The wheel is lifted above the plane; only the bump, beyond the frame of before, reaches it."""
-    height = bumpy(row=3)
-    wheel = bem3d.RollingContact(bem3d.Track(height=height, spacing=1 / 6, **SPHERE), tolerance=TOLERANCE)
-    assert wheel.press(0, 0.1).area < 1
-    contact = wheel.press(4, -0.2)
-    assert contact.area == pytest.approx(1 / 36)
-    assert contact.force == pytest.approx(cold(height, 1 / 6, 4, approach=-0.2).force, rel=10 * ERROR)
-
-
 @pytest.mark.parametrize("row", [3, 9, 10, 11])
 def test_a_contact_longer_than_the_track_meets_the_same_roughness_again(row):
     """A bump half a track away touches ahead of the wheel, and its image behind: as on the track laid down thrice."""
@@ -221,13 +204,12 @@ def test_a_contact_that_the_wheel_leaves_behind(prescribed):
     """A lone spike carries all; one position on it is gone, and there is nothing to begin with."""
     height = np.zeros((40, 20))
     height[20, 10] = 0.5
-    found = bem3d.roll(height, spacing=0.25, **SPHERE, **prescribed, tolerance=1e-8)
+    settings = {"spacing": 0.25, **SPHERE, **prescribed, "tolerance": 1e-8}
+    found = bem3d.roll(height, **settings)
     for position in range(14, 27):
-        cold = bem3d.roll(
-            np.roll(height, -position, axis=0), spacing=0.25, **SPHERE, **prescribed, tolerance=1e-8, positions=1
-        )
-        assert found.force[position] == pytest.approx(cold.force[0], rel=1e-5, abs=1e-9)
-        assert found.approach[position] == pytest.approx(cold.approach[0], rel=1e-5)
+        alone = bem3d.roll(np.roll(height, -position, axis=0), **settings, positions=1)
+        assert found.force[position] == pytest.approx(alone.force[0], rel=1e-5, abs=1e-9)
+        assert found.approach[position] == pytest.approx(alone.approach[0], rel=1e-5)
 
 
 def test_a_position_that_does_not_converge_is_marked_and_the_wheel_goes_on():
@@ -245,28 +227,34 @@ def test_a_position_that_does_not_converge_is_marked_and_the_wheel_goes_on():
     assert found.force[found.converged] == pytest.approx(good.force[found.converged], rel=10 * 1e-4)
 
 
-def test_the_wheel_may_lift_off_and_come_back():
-    height = noisy(6, 0.1)
-    wheel = bem3d.RollingContact(bem3d.Track(height=height, spacing=1 / 6, **SPHERE), tolerance=TOLERANCE)
-    approaches = (1.0, 0.5, -5.0, -9.0, 0.7, 1.0, -5.0, 0.1, 1.2)
-    for position, approach in enumerate(approaches):
-        contact = wheel.press(position, approach)
+LIFTED = (1.0, 0.5, -5.0, -9.0, 0.7, 1.0, -5.0, 0.1, 1.2)
+WALKS = {
+    "more than once, backwards, and around": (
+        noisy(6, 0.1),
+        1 / 6,
+        dict.fromkeys((0, 1, 2, 17, 16, 3, 4, 23, 24, 25, 2), 1.0),
+    ),
+    "lifted off and back": (noisy(6, 0.1), 1 / 6, dict(enumerate(LIFTED))),
+    # lifted above the plane; only the bump, beyond the frame of before, reaches it
+    "a bump outside of the frame": (bumpy(row=3), 1 / 6, {0: 0.1, 4: -0.2}),
+    "cells longer than wide": (strip(8, 0.1)[::2], (0.25, 0.125), {0: 1.0, 1: 1.0, 2: 1.0, 6: 1.0, 14: 1.0}),
+}
+
+
+@pytest.mark.parametrize("walk", WALKS)
+def test_wherever_the_wheel_goes_each_position_is_that_of_a_cold_solve(walk):
+    """And that of its own force, borne."""
+    height, spacing, steps = WALKS[walk]
+    wheel = bem3d.RollingContact(bem3d.Track(height=height, spacing=spacing, **SPHERE), tolerance=TOLERANCE)
+    for position, approach in steps.items():
+        contact, expected = wheel.press(position, approach), cold(height, spacing, position, approach=approach)
         assert contact.approach == pytest.approx(approach, rel=1e-14)
-        expected = cold(height, 1 / 6, position, approach=approach)
         assert contact.force == pytest.approx(expected.force, rel=2 * ERROR)
-        if approach < -1:
+        assert contact.area == pytest.approx(expected.area, abs=2 * np.prod(np.broadcast_to(spacing, 2)))
+        if approach > -1:
+            assert wheel.carry(position, contact.force).approach == pytest.approx(approach, abs=4 * ERROR)
+        else:
             assert (contact.force, contact.area, contact.residual) == (0.0, 0.0, 0.0)
-
-
-def test_positions_in_any_order_and_loads_of_either_kind():
-    """More than once, backwards, and around the track."""
-    height = noisy(6, 0.1)
-    wheel = bem3d.RollingContact(bem3d.Track(height=height, spacing=1 / 6, **SPHERE), tolerance=TOLERANCE)
-    for position in (0, 1, 2, 2, 17, 16, 3, 4, 23, 24, 25):
-        by_approach = wheel.press(position, 1.0)
-        assert by_approach.force == pytest.approx(cold(height, 1 / 6, position, approach=1.0).force, rel=ERROR)
-        by_force = wheel.carry(position, by_approach.force)
-        assert by_force.approach == pytest.approx(1.0, abs=2 * ERROR)
 
 
 @pytest.mark.parametrize("by", ["approach", "force"])

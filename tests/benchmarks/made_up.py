@@ -10,17 +10,23 @@ import numpy as np
 
 import validation.__main__ as command
 from validation.benchmarks import timing
-from validation.benchmarks.found_models import TimedProblem
-from validation.benchmarks.timing import Configuration, RunLimits
-from validation.benchmarks.work_precision.problem import Quantity, logarithm
+from validation.benchmarks.timing import FINISHED, Configuration, TimedProblem
+from validation.benchmarks.work_precision.pareto import Point
+from validation.benchmarks.work_precision.problem import mean_of
 from validation.report.contents import TIMED
-from validation.simulation.method import Result, Solve
+from validation.simulation.method import Resolution, Result, Solve
 
-MEAN = Quantity(name="mean", log=logarithm("k"), needs=("k",))
+MEAN = mean_of("mean", "k")
 
 
 def k(values):
     return {"k": np.array(values, dtype=float)}
+
+
+def point(line, off, seconds, **settings):
+    settings = {"status": FINISHED, "band": 0.001, "unit": "%", "parameter": "# cells", "value": 8.0, **settings}
+    quartiles = 0.9 * seconds, seconds, 1.2 * seconds
+    return Point(scene="scene", quantity="force", method=line, error=off, seconds=quartiles, **settings)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -66,13 +72,12 @@ class Made:
 
 def named(act, worker=timing.OURS, **settings):
     name = "right" if act == "again" else act
-    return Configuration(
-        method=Acting(name), scene=None, label=act, parameter="#", value=1.0, worker=worker, **settings
-    )
+    known = {"method": Acting(name), "scene": None, "resolution": Resolution(), "parameter": "#", "value": 1.0}
+    return Configuration(label=act, worker=worker, **known, **settings)
 
 
 def timed_problem(*tried, slow=1.0, enough=0.0):
-    return TimedProblem(Made(tried), RunLimits(slow=slow, enough=enough))
+    return TimedProblem(problem=Made(tried), slow=slow, enough=enough)
 
 
 class Inline:

@@ -5,19 +5,19 @@ import math
 
 import pytest
 
+from tests.benchmarks.made_up import point
 from validation.analysis.series import numbers_of
-from validation.benchmarks.timing import FINISHED
 from validation.benchmarks.work_precision.case import times
-from validation.benchmarks.work_precision.pareto import Point, cheapest, front, work
+from validation.benchmarks.work_precision.pareto import (
+    cheapest,
+    front,
+    in_unit_of_error,
+    monotone_envelope,
+    reason_if_none,
+    work,
+)
 from validation.benchmarks.work_precision.problem import BEM, CLOSED, FILTER_1D, FILTER_3D, MDR, MDR_ROLLING
 from validation.benchmarks.work_precision.study import STUDY
-
-
-def point(line, off, seconds, **settings):
-    settings = {"status": FINISHED, "band": 0.001, "unit": "%", "parameter": "# cells", "value": 8.0, **settings}
-    quartiles = 0.9 * seconds, seconds, 1.2 * seconds
-    return Point(scene="scene", quantity="force", method=line, error=off, seconds=quartiles, **settings)
-
 
 CHART = [
     point("MDR", 0.13, 1e-5, value=16, work=16.0),
@@ -68,11 +68,33 @@ def test_errors_are_ranked_by_their_upper_ends():
     assert cheapest([sure, dataclasses.replace(unsure, half_width=0.05)], 0.1).method == "unsure"
 
 
+def test_luck_is_what_more_of_the_same_does_not_keep():
+    """The largest upper end at more work of the same method; no others, and nobody who is lost."""
+    chart = [
+        point("a", 0.01, 1.0, work=10.0),
+        point("a", 0.2, 2.0, work=20.0),
+        point("a", 0.05, 3.0, work=30.0, half_width=0.01),
+        point("a", 0.9, 9.0, work=30.0, status="failed: lost"),
+        point("b", 0.8, 1.0, work=99.0),
+    ]
+    found = monotone_envelope(chart)
+    assert [p.finer for p in found] == pytest.approx([0.2, 0.06, 0.0, 0.0, 0.0])
+    assert [p.rank for p in found[:3]] == pytest.approx([0.2, 0.2, 0.06])
+
+
 def test_the_cheapest_within_a_tolerance():
-    assert [cheapest(CHART, t).value for t in (0.3, 0.125, 0.1, 0.01)] == [16, 32, 8, 16]
-    assert cheapest(CHART, 1e-3).value == 16
+    """Which is met where it is just met; cost is the median or the count."""
+    assert [cheapest(CHART, t).value for t in (0.3, 0.125, 0.12, 0.1, 0.01, 1e-3)] == [16, 32, 32, 8, 16, 16]
+    assert cheapest(CHART, 0.1199999, work).method == "plain"
     assert cheapest(CHART, 1e-4) is None
     assert cheapest(CHART[:3], 0.01) is None
+    assert in_unit_of_error(0.3, "%") == 0.3
+    assert in_unit_of_error(0.3, "dB") == pytest.approx(20 * math.log10(1.3))
+
+
+@pytest.mark.parametrize(("band", "why"), [(0.01, "none"), (0.0100001, "the reference cannot tell")])
+def test_why_there_is_no_cheapest(band, why):
+    assert reason_if_none([point("a", 0.5, 1.0, band=band)], 0.01) == why
 
 
 def timed_point(line, off, seconds):

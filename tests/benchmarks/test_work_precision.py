@@ -10,13 +10,12 @@ import validation.__main__ as command
 from tests.benchmarks.made_up import named, run_command, timed_problem, use_a_clock_of_its_own
 from validation.analysis.evidence import Table, Verdict
 from validation.benchmarks import peers
-from validation.benchmarks.found_models import TimedProblem, all_methods
-from validation.benchmarks.peers import SOLVERS
-from validation.benchmarks.timing import FINISHED, RunLimits
-from validation.benchmarks.work_precision import dynamic_wheel, exact_problems, figure_cost
+from validation.benchmarks.peers import SOLVERS, all_methods
+from validation.benchmarks.timing import FINISHED, TimedProblem
+from validation.benchmarks.work_precision import exact_problems, figure_cost
 from validation.benchmarks.work_precision import problem as precision
 from validation.benchmarks.work_precision.case import WITHIN, WITHOUT, Precision, run
-from validation.benchmarks.work_precision.dynamic_wheel import WheelProblem, linear_strip, steady_acceleration
+from validation.benchmarks.work_precision.dynamic_wheel import WheelProblem, steady_acceleration
 from validation.benchmarks.work_precision.errors import points
 from validation.benchmarks.work_precision.pareto import TOLERANCES
 from validation.benchmarks.work_precision.problem import BEM, CLOSED, EXTRAPOLATED, LOOSE, MDR, POLONSKY_KEER, Grids
@@ -128,9 +127,6 @@ def line(charts, scene, quantity, method):
 def test_extrapolated_grids_are_closer_than_the_finer_of_them(charts):
     fine, both = (line(charts, "square punch", "stiffness", method) for method in (BEM, EXTRAPOLATED))
     assert (both["error"] < fine["error"][1:] / 3).all()
-    # both grids are paid for
-    np.testing.assert_allclose(both["median [s]"], 0.02)
-    np.testing.assert_allclose(both["work"], fine["work"][1:] + fine["work"][:-1])
 
 
 @pytest.mark.slow
@@ -141,15 +137,10 @@ def test_looser_residuals_cost_less_and_are_farther_off(charts):
 
 
 @pytest.mark.slow
-def test_nobody_is_ranked_below_the_reference(charts):
-    """Of the finest grid the reference leaves open as much as it lies from it; the last step."""
-    for scene, quantity in (("fractal punch", "mean stiffness"), ("rolling force", "rms")):
-        mine = line(charts, scene, quantity, BEM)
-        assert mine["band"][0] > 0
-        assert mine["error"][-1] == pytest.approx(mine["band"][-1])
-        ahead = charts.where(scene=scene, quantity=quantity, front=True)
-        rank = np.maximum(ahead["error"] + ahead["± sample"], ahead["band"])
-        assert (np.diff(rank[np.argsort(ahead["median [s]"], kind="stable")]) <= 0).all()
+@pytest.mark.parametrize(("scene", "quantity"), [("fractal punch", "mean stiffness"), ("rolling force", "rms")])
+def test_of_the_finest_grid_the_reference_leaves_open_as_much_as_it_lies_from_it(scene, quantity, charts):
+    mine = line(charts, scene, quantity, BEM)
+    assert mine["error"][-1] == pytest.approx(mine["band"][-1]) and mine["band"][0] > 0
 
 
 @pytest.mark.slow
@@ -188,9 +179,9 @@ def test_three_dimensions_cost_hours_and_not_days(result, found):
 
 @pytest.mark.slow
 def test_the_same_seed_draws_the_same_errors(by_hand):
-    limits = RunLimits(slow=1.0, enough=0.0)
     first, again, different = (
-        precision.measure(TimedProblem(dataclasses.replace(SMALL.fractal, seed=seed), limits)) for seed in (3, 3, 5)
+        precision.measure(TimedProblem(problem=dataclasses.replace(SMALL.fractal, seed=seed), slow=1.0, enough=0.0))
+        for seed in (3, 3, 5)
     )
     assert again.keys() == first.keys()
     for name in again:
@@ -205,8 +196,8 @@ def test_finished_scenes_are_kept_until_all_are(tmp_path, by_hand, monkeypatch):
     timed = timed_problem(named("right"))
     monkeypatch.setattr(Precision, "problems", lambda self: (timed.problem,))
     engine = Engine(store=tmp_path)
-    limits = RunLimits(slow=SMALL.slow, enough=SMALL.enough)
-    engine.map(precision.measure, [TimedProblem(timed.problem, limits, all_methods())])
+    limits = {"slow": SMALL.slow, "enough": SMALL.enough}
+    engine.map(precision.measure, [TimedProblem(problem=timed.problem, methods=all_methods(), **limits)])
     assert [file.match("*-measure-*.npz") for file in tmp_path.iterdir()] == [True]
     lost = timed_problem(named("right"), named("raises")).problem
     monkeypatch.setattr(Precision, "problems", lambda self: (timed.problem, lost))
@@ -221,7 +212,7 @@ def test_peers_are_as_close_as_we_are(solver, monkeypatch):
         pytest.skip(f"{solver.name} is not installed")
     monkeypatch.setattr(peers, "SOLVERS", (*SOLVERS[:2], solver))
     for scene in (SMALL.sphere, SMALL.wave):
-        found = points(scene, precision.measure(TimedProblem(scene, RunLimits(slow=0.0, enough=0.0))))
+        found = points(scene, precision.measure(TimedProblem(problem=scene, slow=0.0, enough=0.0)))
         mine = {(p.quantity, p.value): p for p in found if p.method == BEM}
         theirs = [p for p in found if p.method == solver.name and (scene.name != "sphere" or p.quantity != "stiffness")]
         assert theirs
@@ -268,28 +259,19 @@ def test_the_filtered_acceleration_is_the_motion_that_repeats_itself():
 
 
 @pytest.mark.slow
-def test_mean_levels_are_those_of_many_linear_wheels():
-    known = [linear_strip(STRIP, STRIP.strip(i, 6, 1e-5)) for i in range(60)]
-    levels = np.array([one.level for one in known])
-    off = levels.mean(axis=0) / known[0].mean - 1
-    error_of_the_mean = levels.std(axis=0, ddof=1) / math.sqrt(60) / known[0].mean
-    assert (np.abs(off) < 4 * error_of_the_mean).all()
-    strip = STRIP.strip(0, 6, 1e-5)
-    other = dynamic_wheel.mean_levels(STRIP, known[1].surface, strip.spacing, known[0].time_step)
-    np.testing.assert_allclose(other, known[0].mean, rtol=1e-9)
-
-
-def test_mean_rolling_levels_are_those_of_many_linear_forces():
-    scene = SMALL.rolling
+@pytest.mark.parametrize("scene", [SMALL.rolling, STRIP], ids=lambda scene: scene.name)
+def test_means_over_phases_are_those_of_many_linear_realisations(scene):
     draw = next(each for each in scene.configurations() if each.label == precision.FILTER_3D).prepare()
-    turns = [draw(i) for i in range(60)]
-    forces = [turn.run()[0] for turn in turns]
-    found = [turn().values for turn in turns]
-    # at a place, so that the mean of a strip counts too
-    variance = np.array([np.mean((force / HERTZ - 1) ** 2) for force in forces])
-    for values, name in ((variance, "mean variance"), (np.array([one["level"] for one in found]), "mean level")):
-        mean = found[0][name]
-        assert (np.abs(values.mean(axis=0) - mean) < 4 * values.std(axis=0, ddof=1) / math.sqrt(60)).all()
+    solves = [draw(i) for i in range(60)]
+    values = [solve().values for solve in solves]
+    found = {"level": np.array([one["level"] for one in values])}
+    if scene is SMALL.rolling:
+        # at a place, so that the mean of a strip counts too
+        found["variance"] = np.array([np.mean((solve.run()[0] / HERTZ - 1) ** 2) for solve in solves])
+    for name, drawn in found.items():
+        mean = values[0][f"mean {name}"]
+        assert (np.abs(drawn.mean(axis=0) - mean) < 4 * drawn.std(axis=0, ddof=1) / math.sqrt(60)).all()
+        np.testing.assert_allclose(values[1][f"mean {name}"], mean, rtol=1e-9)
 
 
 # --- the command ---

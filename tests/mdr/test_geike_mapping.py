@@ -62,6 +62,8 @@ def test_two_sided_and_zero_outside_the_band(spectrum):
     outside = np.array([0.0, 0.99 * spectrum.q_min, 1.01 * spectrum.q_max])
     assert (spectrum.c1d(outside) == 0).all()
     assert (spectrum.c2d(outside) == 0).all()
+    edges = spectrum.q_min, spectrum.q_max
+    assert mdr.rolling_spectrum(1.01 * spectrum.q_max, spectrum.c2d, edges=edges, contact_radius=1.0) == 0
 
 
 @given(spectrum=self_affine(), fraction=st.floats(1e-6, 1.0))

@@ -210,23 +210,6 @@ def test_units_of_force_that_are_powers_of_two_change_no_bit(track, unit):
     assert np.array_equal(there.approach(7, newton), track.wheels().approach(7, 1.0))
 
 
-@pytest.mark.parametrize("springs", [4.0, 10.0, 50.0])
-@pytest.mark.parametrize("rms", [0.1, 0.3, 1.0, 2.0, 3.0])
-def test_a_wheel_that_bears_its_load_is_not_refused(rms, springs):
-    """Its compressions add up to those under the smooth wheel, however rough the track; a 32nd of what may round."""
-    points = 2000
-    place, number = np.arange(points)[:, np.newaxis, np.newaxis], np.arange(1, 60)
-    phase = np.random.default_rng(0).uniform(0, 2 * np.pi, (4, number.size))
-    height = (number**-0.8 * np.cos(2 * np.pi * number * place / points + phase)).sum(axis=2)
-    track = Tracks(rms * height / height.std(axis=0), springs)
-    wheels = track.wheels()
-    for place in range(0, points, 250):
-        approach = wheels.approach(place, HERTZ)
-        found = wheels.force(place, approach)
-        for i, d in enumerate(approach):
-            assert abs(found[i] - HERTZ) <= 2 * track.sum_of(i, place, d)[1]
-
-
 @given(track=tracks())
 def test_the_quantum_is_that_of_its_formula(track):
     assert track.wheels().quantum == pytest.approx(track.quantum, rel=1e-12, abs=0)

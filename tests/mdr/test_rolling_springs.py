@@ -138,11 +138,6 @@ def test_a_light_wheel_over_a_spike_of_a_thousand_times_the_roughness():
     assert with_spike.max() <= without.max() + 1
 
 
-def test_a_force_whose_approach_no_double_holds_is_refused():
-    with pytest.raises(ValueError, match="force"):
-        mdr.roll(np.zeros(400), **{**LIGHT, "modulus": 1e200, "force": 5e-324})
-
-
 @pytest.mark.parametrize(
     ("limit", "value", "sorts"), [("FARTHEST", 1, True), ("MOST_STEPS", 1, True), ("FARTHEST", 10**9, False)]
 )

@@ -9,7 +9,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import mdr
-from mdr.rolling_surface import weights_across
 from validation.theory.contact_filters import half_space_filter
 from validation.theory.elliptic_contact import elliptic_contact
 
@@ -105,17 +104,6 @@ def test_the_strip_is_not_copied():
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert peak < height.nbytes / 2
-
-
-@given(st.lists(st.floats(0, 3), min_size=1, max_size=5), st.integers(8, 40))
-def test_weights_across_are_a_mean_and_that_of_the_flat_punch(half_widths, points):
-    found = weights_across(np.array(half_widths), points, 8.0 / points)
-    np.testing.assert_allclose(found.sum(axis=0), 1.0, rtol=1e-12)
-    np.testing.assert_allclose(found, found[::-1], atol=1e-12)
-    y = (np.arange(points) + 0.5 - points / 2) * 8.0 / points
-    # <y^2> = b^2 / 2, but for the width of a cell
-    for b, square in zip(half_widths, (y[:, np.newaxis] ** 2 * found).sum(axis=0), strict=True):
-        assert square == pytest.approx(b**2 / 2, abs=(8.0 / points) * max(b, 8.0 / points))
 
 
 def test_few_springs_are_warned_of():

@@ -22,12 +22,11 @@ class Outcome(StrEnum):
 
 @dataclass(frozen=True)
 class Trial:
-    """A mutant, what has become of it, how many tests it was to meet, and which has ended it."""
+    """A mutant, what has become of it, and the test that has ended it."""
 
     mutant: Mutant
     outcome: Outcome
-    tests: int
-    killer: str
+    killer: str = ""
 
 
 @dataclass(frozen=True)

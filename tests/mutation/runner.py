@@ -205,14 +205,14 @@ class Bench:
     def trial(self, mutant: Mutant, source: str, tests: list[str]) -> Trial:
         """What becomes of a mutant."""
         if not tests:
-            return Trial(mutant, Outcome.SURVIVED, 0, "")
+            return Trial(mutant, Outcome.SURVIVED)
         (self.folder / mutant.path).write_text(mutated(mutant, source))
         try:
             outcome, last = self.run(tests)
         finally:
             # with its time of change, by which Python knows what it has compiled before
             shutil.copy2(ROOT / mutant.path, self.folder / mutant.path)
-        return Trial(mutant, outcome, len(tests), "" if outcome is Outcome.SURVIVED else last)
+        return Trial(mutant, outcome, "" if outcome is Outcome.SURVIVED else last)
 
     def run(self, tests: list[str], *, unchanged: bool = False) -> tuple[Outcome, str]:
         """Tests in this order, until one fails; and which was the last to run. Unchanged, all of them must be there."""

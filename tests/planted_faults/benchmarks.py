@@ -5,7 +5,8 @@ import functools
 
 import numpy as np
 
-from tests.benchmarks import test_chart_errors, test_fronts, test_peers
+from tests.benchmarks import test_chart_points as test_points
+from tests.benchmarks import test_fronts, test_peers
 from tests.benchmarks import test_work_precision as test_precision
 from tests.planted_faults.wrong import scaled
 from validation.benchmarks import timing
@@ -15,11 +16,7 @@ from validation.benchmarks.work_precision import case as precision_case
 from validation.benchmarks.work_precision import dynamic_wheel as precision_wheel
 from validation.benchmarks.work_precision import errors as precision_error
 from validation.benchmarks.work_precision import problem as precision
-
-
-def as_if_alone(quantity, mine, reference):
-    """Paired realisations taken for independent ones."""
-    return precision_error.error(quantity, dataclasses.replace(mine, paired=False), reference)
+from validation.benchmarks.work_precision.pareto import Point
 
 
 def at_first_order(answer, quantity, rows):
@@ -31,21 +28,16 @@ def without_its_logarithm(*, mean_pressure, amplitude, wavelength, modulus):
     return amplitude * mean_pressure * wavelength / (np.pi * modulus * amplitude)
 
 
-def in_continuous_time(wheel, omega, time_step):
-    """omega for the 2 sin(omega dt / 2) / dt of leapfrog."""
-    return -(omega**2) / (wheel.stiffness - wheel.mass * omega**2)
-
-
-def fastest_of_all(point, others):
-    return min(others, key=lambda other: other.seconds[1], default=None)
-
-
 log_of_answer = precision_error.MethodValues.log
 
 
 FAULTS = {
     "a time beside that of a method that is not as close": (
-        (precision_case, "_cheapest_as_close", fastest_of_all),
+        (
+            precision_case,
+            "_cheapest_as_close",
+            lambda _, others: min(others, key=lambda one: one.seconds[1], default=None),
+        ),
         functools.partial(
             test_fronts.test_the_cheapest_is_claimed_of_times,
             test_fronts.timed_point(test_fronts.FILTER_1D, 0.3, 1e-6),
@@ -62,31 +54,38 @@ FAULTS = {
         test_peers.test_a_solver_that_is_placed_first_does_not_become_ours,
     ),
     "nothing left open by a reference": (
-        (test_fronts.Point, "rank", property(lambda point: point.error + point.half_width)),
+        (Point, "rank", property(lambda point: point.error + point.half_width)),
         test_fronts.test_the_front_is_what_nothing_beats_and_ends_in_the_band,
     ),
     "errors ranked without their intervals": (
-        (test_fronts.Point, "rank", property(lambda point: max(point.error, point.band))),
+        (Point, "rank", property(lambda point: max(point.error, point.band))),
         test_fronts.test_errors_are_ranked_by_their_upper_ends,
     ),
     "the same surfaces taken for others": (
-        (test_chart_errors, "error", as_if_alone),
-        test_chart_errors.test_what_realisations_have_of_their_own_drops_out_of_paired_errors,
+        (
+            test_points,
+            "error",
+            lambda quantity, mine, reference: precision_error.error(
+                quantity, dataclasses.replace(mine, paired=False), reference
+            ),
+        ),
+        test_points.test_what_realisations_have_of_their_own_drops_out_of_paired_errors,
     ),
     "first order for second in an extrapolation": (
         (precision_error.MethodValues, "log", at_first_order),
-        functools.partial(test_chart_errors.test_two_grids_of_a_power_law_are_extrapolated_to_the_truth, 2.0),
+        functools.partial(test_points.test_two_grids_of_a_power_law_are_extrapolated_to_the_truth, 2.0),
     ),
     "decibels of an amplitude for those of a power": (
         (precision.Quantity, "distance", scaled(precision.Quantity.distance, 2.0)),
-        test_chart_errors.test_levels_differ_by_the_root_mean_square_of_decibels,
+        test_points.test_levels_differ_by_the_root_mean_square_of_decibels,
     ),
     "an approach under a wave without its logarithm": (
         (test_precision, "westergaard_approach", without_its_logarithm),
         test_precision.test_the_approach_under_a_wave_is_the_sum_of_its_compliances,
     ),
     "a filtered acceleration in continuous time": (
-        (precision_wheel, "transfer", in_continuous_time),
+        (precision_wheel, "transfer", lambda wheel, omega, _: -(omega**2) / (wheel.stiffness - wheel.mass * omega**2)),
+        # omega for the 2 sin(omega dt / 2) / dt of leapfrog
         test_precision.test_the_filtered_acceleration_is_the_motion_that_repeats_itself,
     ),
 }

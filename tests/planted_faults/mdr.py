@@ -25,7 +25,7 @@ from tests.mdr import test_rolling_springs as of_springs
 from tests.mdr import test_rolling_surface as of_surfaces
 from tests.mdr import test_spring_warnings as doubts
 from tests.mdr import test_springs_against_brute_force as brute_force
-from tests.planted_faults.wrong import E_FOR_E_STAR, POISSON, force_in_step, scaled
+from tests.planted_faults.wrong import E_FOR_E_STAR, force_in_step, scaled
 from validation.theory import closed_forms
 from validation.theory import rolling as rolling_theory
 
@@ -47,28 +47,6 @@ def on_the_highest_spring_alone(track, block, wanted, d):
     return Borne(borne.approach + wanted * (1 - 1 / borne.pressed), borne.pressed, borne.looked)
 
 
-def softer_curve(height, *, length, modulus):
-    return load_curve(height, length=length, modulus=modulus * (1 - POISSON**2))
-
-
-def stretched_curve(height, *, length, modulus):
-    return load_curve(height, length=1.1523 * length, modulus=modulus)
-
-
-def half_of_the_parabola(x, *, radius):
-    return np.asarray(x) ** 2 / (2 * radius)
-
-
-def level_of_the_rolling_force(hurst):
-    """Gamma(H + 3/2) / (sqrt(pi) Gamma(H + 2)), the ratio of force spectra, for that of heights."""
-    return math.gamma(hurst + 1.5) / (math.sqrt(math.pi) * math.gamma(hurst + 2))
-
-
-def printed_formula(c1d, q, nyquist):
-    """(14.9) as printed: sqrt(2 pi / L) C_1D, which has the wrong unit."""
-    return resolved(c1d, q, nyquist) ** 2
-
-
 load_curve = foundation.load_curve
 resolved = profile_module._resolved
 
@@ -78,40 +56,9 @@ def in_numpy(wrong):
     return types.SimpleNamespace(**{**vars(np), **wrong})
 
 
-def half_the_contact(track, level):
-    """Springs within a / 2: a for 2a."""
-    return reach(track, level) // 2
-
-
-def springs_that_pull(track, approach):
-    """All springs under the smooth wheel, in tension too."""
-    return wheel_on_springs._full(track, float(approach[0]), None)
-
-
-def springs_that_pull_at_the_edge(values, least):
-    return values
-
-
 def profile_half_a_cell_ahead(wheels, springs):
     x = (np.arange(springs.start, springs.stop) + 0.5) * wheels.spacing
     return np.rint((x**2 / wheels.radius)[:, np.newaxis] / wheels.quantum)
-
-
-def springs_that_pull_in_step(values, least, out=None):
-    return values
-
-
-def a_place_late(wheels, place, approach):
-    return force_in_step(wheels, place + 1, approach)
-
-
-def not_rounded(values):
-    """numpy's rint, as if there were no quantum."""
-    return np.asarray(values, dtype=np.float64)
-
-
-def ends_that_move_twice_as_far(height, change, **contact):
-    return diagnose_linearity(height, change / 2, **contact)
 
 
 reach = wheel_on_springs.SpringTrack.reach
@@ -122,9 +69,20 @@ SURFACE_BY_WAVES = partial(drawn.test_a_surface_is_the_sum_of_its_waves_ring_by_
 IN_STEP = partial(in_step.test_force_to_1e_12_of_the_smooth_wheel, 7.3, 0.1)
 
 FAULTS = {
-    "E for E* in springs": ((mdr, "load_curve", softer_curve), brute_force.test_force_and_stiffness_at_an_approach),
+    "E for E* in springs": (
+        (
+            mdr,
+            "load_curve",
+            lambda height, *, length, modulus: load_curve(height, length=length, modulus=E_FOR_E_STAR * modulus),
+        ),
+        brute_force.test_force_and_stiffness_at_an_approach,
+    ),
     "level of the rolling force for that of the line trace": (
-        (closed_forms, "line_trace_ratio", level_of_the_rolling_force),
+        (
+            closed_forms,
+            "line_trace_ratio",
+            lambda hurst: math.gamma(hurst + 1.5) / (math.sqrt(math.pi) * math.gamma(hurst + 2)),
+        ),
         of_geike.test_line_trace_of_a_wide_power_law,
     ),
     "surface shifted by half a cell": (
@@ -139,7 +97,8 @@ FAULTS = {
         (bem3d, "rough_surface", scaled(bem3d.rough_surface, np.sqrt(2))),
         SURFACE_BY_WAVES,
     ),
-    "(14.9) as printed": ((profile_module, "_resolved", printed_formula), PROFILE_BY_WAVES),
+    # sqrt(2 pi / L) C_1D, which has the wrong unit
+    "(14.9) as printed": ((profile_module, "_resolved", lambda *given: resolved(*given) ** 2), PROFILE_BY_WAVES),
     "line trace for Geike": (
         (mdr.SelfAffine, "c1d", mdr.SelfAffine.line),
         partial(of_geike.test_moments_of_power_laws_are_kept, n=2),
@@ -153,17 +112,24 @@ FAULTS = {
         partial(of_geike.test_moments_of_arbitrary_spectra_are_kept, n=0),
     ),
     "x^2 / 2R in one dimension": (
-        (mdr, "sphere_profile", half_of_the_parabola),
+        (mdr, "sphere_profile", lambda x, *, radius: np.asarray(x) ** 2 / (2 * radius)),
         partial(brute_force.test_springs_under_a_parabola_tend_to_the_sphere_at_second_order, 0.1),
     ),
-    "1.1523 L for L": ((mdr, "load_curve", stretched_curve), brute_force.test_force_and_stiffness_at_an_approach),
+    "1.1523 L for L": (
+        (
+            mdr,
+            "load_curve",
+            lambda height, *, length, modulus: load_curve(height, length=1.1523 * length, modulus=modulus),
+        ),
+        brute_force.test_force_and_stiffness_at_an_approach,
+    ),
     "phases on half of the circle": ((profile_module, "_random_waves", half_a_circle), PROFILE_BY_WAVES),
     "factor 4 lost in (14.12)": (
         (rolling_theory, "response", scaled(rolling_theory.response, 0.5)),
         of_springs.test_spectrum_of_the_linear_force_is_14_12,
     ),
     "a for 2a under the wheel": (
-        (wheel_on_springs.SpringTrack, "reach", half_the_contact),
+        (wheel_on_springs.SpringTrack, "reach", lambda track, level: reach(track, level) // 2),
         of_springs.test_full_contact_tends_to_the_filter_at_second_order,
     ),
     "x^2 / 2R under the wheel": (
@@ -171,11 +137,11 @@ FAULTS = {
         of_springs.test_force_is_the_sum_over_all_springs,
     ),
     "springs that pull under the smooth wheel": (
-        (wheel_on_springs, "_one_sided", springs_that_pull),
+        (wheel_on_springs, "_one_sided", lambda track, d: wheel_on_springs._full(track, float(d[0]), None)),
         of_springs.test_one_sided_force_leaves_the_linear_one_at_second_order,
     ),
     "springs that pull wherever they are in doubt": (
-        (wheel_on_springs, "np", in_numpy({"maximum": springs_that_pull_at_the_edge})),
+        (wheel_on_springs, "np", in_numpy({"maximum": lambda values, least: values})),
         of_springs.test_force_is_the_sum_over_all_springs,
     ),
     "x^2 / 2R under many wheels": (
@@ -183,14 +149,17 @@ FAULTS = {
         IN_STEP,
     ),
     "many wheels half a cell ahead": ((mdr.RollingEnsemble, "_profile", profile_half_a_cell_ahead), IN_STEP),
-    "many wheels a cell ahead": ((mdr.RollingEnsemble, "force", a_place_late), IN_STEP),
+    "many wheels a cell ahead": (
+        (mdr.RollingEnsemble, "force", lambda wheels, place, d: force_in_step(wheels, place + 1, d)),
+        IN_STEP,
+    ),
     "springs that pull under many wheels": (
-        (wheels_in_step, "np", in_numpy({"maximum": springs_that_pull_in_step})),
+        (wheels_in_step, "np", in_numpy({"maximum": lambda values, least, out=None: values})),
         partial(in_step.test_force_to_1e_12_of_the_smooth_wheel, 30.0, 0.1),
     ),
     "E for E* under many wheels": ((mdr.RollingEnsemble, "force", scaled(force_in_step, E_FOR_E_STAR)), IN_STEP),
     "sums that round": (
-        (wheels_in_step, "np", in_numpy({"rint": not_rounded})),
+        (wheels_in_step, "np", in_numpy({"rint": lambda values: np.asarray(values, dtype=np.float64)})),
         in_step.test_forces_are_independent_of_the_batch_to_the_last_bit,
     ),
     "springs that say nothing of short waves": (
@@ -202,7 +171,11 @@ FAULTS = {
         partial(doubts.test_what_is_warned_of, "4 springs"),
     ),
     "ends of a linear contact that move twice as far": (
-        (wheel_on_springs, "diagnose_linearity", ends_that_move_twice_as_far),
+        (
+            wheel_on_springs,
+            "diagnose_linearity",
+            lambda height, change, **contact: diagnose_linearity(height, change / 2, **contact),
+        ),
         partial(doubts.test_the_ends_of_a_linear_contact_move_as_warned, "linear", None),
     ),
     "a spike that nobody rolls over": (

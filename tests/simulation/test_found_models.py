@@ -9,9 +9,8 @@ import pytest
 
 from tests.benchmarks.made_up import use_a_clock_of_its_own
 from validation.benchmarks import timing
-from validation.benchmarks.found_models import TimedProblem, all_methods
+from validation.benchmarks.peers import all_methods
 from validation.benchmarks.solvers import problems
-from validation.benchmarks.timing import RunLimits
 from validation.benchmarks.work_precision.errors import points
 from validation.benchmarks.work_precision.problem import Grids, measure
 from validation.benchmarks.work_precision.rolling import RollingProblem
@@ -74,7 +73,7 @@ def test_a_model_that_is_found_is_on_the_charts(toy, monkeypatch):
     use_a_clock_of_its_own(monkeypatch)
     grids = Grids(cells=(16, 32), fixed=16, tolerances=())
     problem = RoughPunchProblem(waves=7, realisations=3, profiles=3, grids=grids, springs=(16,))
-    chart = points(problem, measure(TimedProblem(problem, RunLimits(slow=1.0, enough=0.0))))
+    chart = points(problem, measure(timing.TimedProblem(problem=problem, slow=1.0, enough=0.0)))
     mine = {point.quantity: point for point in chart if point.method == "toy"}
     assert {"mean stiffness", "relative deviation"} == set(mine)
     assert all(point.finished and point.work == 1.0 for point in mine.values())
@@ -88,7 +87,7 @@ def test_a_rolling_model_that_is_found_is_on_the_chart_of_its_quantity(monkeypat
     monkeypatch.setattr(linear_filters, "linear_filter_1d", replace(linear_filters.linear_filter_1d, name="found"))
     grids = Grids(cells=(2, 4), fixed=2, tolerances=(), per="to a radius")
     problem = RollingProblem(last=4.0, length=24, width=12, tracks=2, grids=grids, filtered=(), springs=(8,))
-    chart = points(problem, measure(TimedProblem(problem, RunLimits(slow=1.0, enough=0.0))))
+    chart = points(problem, measure(timing.TimedProblem(problem=problem, slow=1.0, enough=0.0)))
     rms = {point.method: point for point in chart if point.quantity == "rms"}
     assert rms["found"].finished and rms["found"].is_model
     assert rms["found"].over == pytest.approx(rms["closed form"].over, rel=1e-6)
@@ -101,7 +100,7 @@ def test_a_model_that_is_found_is_in_the_solver_comparison(toy, monkeypatch):
     use_a_clock_of_its_own(monkeypatch)
     monkeypatch.setattr(problems, "SOLVERS", problems.SOLVERS[:2])
     problem = problems.SurfaceProblem(problems.ROUGH, 0.001, 32, False, 1, 1e-6)
-    outcome = problems.time_problem(TimedProblem(problem, RunLimits(slow=1.0, enough=1.0)))
+    outcome = problems.time_problem(timing.TimedProblem(problem=problem, slow=1.0, enough=1.0))
     methods = outcome["solver"].tolist()
     assert {"bem3d", "bem3d, Polonsky-Keer", "fit", "toy"} <= set(methods)
     assert set(outcome["status"].tolist()) == {timing.FINISHED}

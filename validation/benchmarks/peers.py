@@ -5,14 +5,15 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 import bem3d
-from validation.benchmarks.timing import Configuration, along
-from validation.simulation.method import Prepared, Resolution, Result, Solve, Values
+from validation.benchmarks.timing import Configuration, NamedMethod, along
+from validation.simulation.method import Prepared, Resolution, Result, Solve
+from validation.simulation.model import all_models
 
 Field = NDArray[np.float64]
 
@@ -44,10 +45,8 @@ class DiscreteProblem:
         return self.height.shape[0] * self.spacing, self.height.shape[1] * self.spacing
 
     def half_space(self) -> bem3d.HalfSpace:
-        shape = self.height.shape
-        return bem3d.HalfSpace(
-            shape=(shape[0], shape[1]), spacing=self.spacing, modulus=self.modulus, periodic=self.periodic
-        )
+        nx, ny = self.height.shape
+        return bem3d.HalfSpace(shape=(nx, ny), spacing=self.spacing, modulus=self.modulus, periodic=self.periodic)
 
     def residual(self, pressure: Field) -> float:
         """The residual of this project, by approach or by force whichever is kinder, from a fresh application."""
@@ -58,15 +57,8 @@ class DiscreteProblem:
         return min(by_force, bem3d.residual(pressure, separation - self.approach, self.overlap))
 
 
-@dataclass(frozen=True)
-class PressureField:
-    """Pressure [Pa], and operator applications (NaN where the solver does not count them)."""
-
-    pressure: Field
-    applications: float
-
-
-ColdSolve = Callable[[], PressureField]
+ColdSolve = Callable[[], tuple[Field, float]]
+"""Pressure [Pa], and operator applications (NaN where the solver does not count them)."""
 
 
 @dataclass(frozen=True)
@@ -109,9 +101,9 @@ def _by_force(solver: Callable[..., bem3d.Contact], problem: DiscreteProblem, to
     half_space = problem.half_space()
     half_space.displacement(problem.gap)
 
-    def solve() -> PressureField:
+    def solve() -> tuple[Field, float]:
         contact = solver(half_space, problem.gap, force=problem.force, tolerance=tolerance)
-        return PressureField(contact.pressure, contact.operator_applications)
+        return contact.pressure, contact.operator_applications
 
     return solve
 
@@ -131,11 +123,11 @@ def tamaas(problem: DiscreteProblem, tolerance: float) -> ColdSolve:
         solver.setIntegralOperator("dcfft")
     solver.max_iter = 10_000
 
-    def solve() -> PressureField:
+    def solve() -> tuple[Field, float]:
         error = solver.solve(problem.force / math.prod(problem.sides))
         if not error <= tolerance:
             raise RuntimeError(f"stopped at its own error {error:.3g}, asked for {tolerance:.3g}")
-        return PressureField(np.array(model.traction), math.nan)
+        return np.array(model.traction), math.nan
 
     return solve
 
@@ -153,13 +145,20 @@ def contact_mechanics(problem: DiscreteProblem, tolerance: float) -> ColdSolve:
     else:
         substrate = FreeFFTElasticHalfSpace(problem.height.shape, problem.modulus, problem.sides)
     system = NonSmoothContactSystem(substrate, topography)
-    calls = _count_calls(substrate, "evaluate_disp")
+    calls: list[None] = []
+    evaluate = substrate.evaluate_disp
+
+    def counted(*args: Any, **settings: Any) -> Any:
+        calls.append(None)
+        return evaluate(*args, **settings)
+
+    substrate.evaluate_disp = counted
     cell = problem.spacing**2
     # a first guess of the size of the answer: the pressure under which each cell alone would yield by its overlap
     start = np.maximum(problem.approach - problem.gap, 0.0) * (0.1 * problem.modulus / problem.spacing * cell)
     settings = {"gtol": tolerance * problem.overlap, "maxiter": 10_000}
 
-    def solve() -> PressureField:
+    def solve() -> tuple[Field, float]:
         calls.clear()
         if problem.periodic:
             result = system.dual_minimize_proxy(
@@ -172,22 +171,9 @@ def contact_mechanics(problem: DiscreteProblem, tolerance: float) -> ColdSolve:
             )
         if not result.success:
             raise RuntimeError(f"no success: {result.message}")
-        return PressureField(np.array(result.x).reshape(problem.height.shape) / cell, len(calls))
+        return np.array(result.x).reshape(problem.height.shape) / cell, len(calls)
 
     return solve
-
-
-def _count_calls(thing: Any, name: str) -> list[None]:
-    """A list that grows by one with each call of a method."""
-    calls: list[None] = []
-    method = getattr(thing, name)
-
-    def counted(*args: Any, **settings: Any) -> Any:
-        calls.append(None)
-        return method(*args, **settings)
-
-    setattr(thing, name, counted)
-    return calls
 
 
 OURS = "mdr-validation"
@@ -217,54 +203,40 @@ def peers_installed() -> bool:
     return any(solver.version for solver in of_others())
 
 
-class DiscreteScene(Protocol):
-    """A scene that other solvers take in plain values."""
-
-    def discrete(self, cells: int) -> DiscreteProblem: ...
-
-    def read_pressure(self, discrete: DiscreteProblem, pressure: Field) -> Values:
-        """Values of the scene from a pressure."""
-
-
-@dataclass(frozen=True)
-class PressureMethod:
-    """A solver of pressures at the loosest of its own tolerances that reaches the residual."""
-
-    solver: PeerSolver
-
-    @property
-    def name(self) -> str:
-        return self.solver.name
-
-    def prepare(self, scene: DiscreteScene, resolution: Resolution) -> Prepared:
-        """Find the tolerance; the solver itself is set up anew before each run, which may start from the last."""
-        discrete = scene.discrete(round(resolution.size))
-        tolerance = find_tolerance(self.solver, discrete, resolution.residual)
-
-        def read(found: PressureField) -> Result:
-            values = scene.read_pressure(discrete, found.pressure)
-            return Result(values, found.applications * found.pressure.size)
-
-        return lambda _: Solve(self.solver.prepare(discrete, tolerance), read, repeatable=False)
+def all_methods() -> tuple[str, ...]:
+    """Solvers with their versions, and models."""
+    return (*(f"{solver.name} {solver.version}" for solver in SOLVERS), *(model.name for model in all_models()))
 
 
 def solvers_on_grids(
-    solvers: Sequence[PeerSolver], scene: DiscreteScene, cells: Sequence[int], per: str, residual: float
+    solvers: Sequence[PeerSolver], scene: Any, cells: Sequence[int], per: str, residual: float
 ) -> tuple[Configuration, ...]:
-    """Each that is installed, in a process of its own."""
+    """Each that is installed, in a process of its own. scene: has `discrete`, and `read_pressure` for its values."""
+    methods = [NamedMethod(solver.name, by_pressure, (solver,)) for solver in solvers if solver.version]
     return tuple(
         each
-        for solver in solvers
-        if solver.version
-        for each in along(PressureMethod(solver), scene, cells, f"# cells {per}", residual=residual, worker=solver.name)
+        for method in methods
+        for each in along(method, scene, cells, f"# cells {per}", residual=residual, worker=method.name)
     )
+
+
+def by_pressure(scene: Any, resolution: Resolution, solver: PeerSolver) -> Prepared:
+    """At the loosest of its tolerances; the solver is set up anew before each run, which may start from the last."""
+    discrete = scene.discrete(round(resolution.size))
+    tolerance = find_tolerance(solver, discrete, resolution.residual)
+
+    def read(found: tuple[Field, float]) -> Result:
+        pressure, applications = found
+        return Result(scene.read_pressure(discrete, pressure), applications * pressure.size)
+
+    return lambda _: Solve(solver.prepare(discrete, tolerance), read, repeatable=False)
 
 
 def find_tolerance(solver: PeerSolver, discrete: DiscreteProblem, residual: float) -> float:
     """The loosest of its own tolerances with which a solver reaches a residual. Raises RuntimeError where none does."""
     reached = math.nan
     for part in solver.tolerances:
-        pressure = solver.prepare(discrete, part * residual)().pressure
+        pressure, _ = solver.prepare(discrete, part * residual)()
         if not np.isfinite(pressure).all():
             raise RuntimeError("pressure is not finite")
         reached = discrete.residual(pressure)

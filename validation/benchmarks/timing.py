@@ -1,5 +1,6 @@
 """The clock: methods at their settings take turns, one thread each, in processes of their own."""
 
+import itertools
 import math
 import warnings
 from collections.abc import Callable, Iterable, Sequence
@@ -13,15 +14,27 @@ from scipy import special
 
 from validation.benchmarks.isolation import isolated_process, one_thread, timed
 from validation.simulation.method import Method, Prepared, Resolution, Result
+from validation.simulation.model import Target, all_models
 
 FINISHED, OUT_OF_RANGE, FAILED = "finished", "out of range", "failed"
 OURS = "ours"
 FEWEST_RUNS, MOST_RUNS = 5, 15
-NO_GRID = Resolution()
 ALONE = 0.25
 """By which a single run may be off."""
 SHORTEST = 1e-3
 """Seconds that a run lasts at least: a shorter solve is repeated in it, or a waking processor is timed."""
+
+
+@dataclass(frozen=True)
+class NamedMethod:
+    """A function of a scene, a resolution and these options that prepares a method."""
+
+    name: str
+    by: Callable[..., Prepared]
+    options: tuple[Any, ...] = ()
+
+    def prepare(self, scene: Any, resolution: Resolution) -> Prepared:
+        return self.by(scene, resolution, *self.options)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,7 +48,7 @@ class Configuration:
 
     method: Method
     scene: Any
-    resolution: Resolution = NO_GRID
+    resolution: Resolution
     label: str
     parameter: str
     value: float
@@ -49,17 +62,6 @@ class Configuration:
         return self.method.prepare(self.scene, self.resolution)
 
 
-def interval_of_median(times: Sequence[float]) -> tuple[float, float]:
-    """Between order statistics, 93 % and more whatever the distribution; a single run is trusted to a quarter."""
-    ordered = sorted(times)
-    if len(ordered) == 1:
-        return (1 - ALONE) * ordered[0], (1 + ALONE) * ordered[0]
-    # the quantile of the binomial distribution; scipy.stats takes a second to import in each process that is timed
-    below = special.bdtr(np.arange(len(ordered)), len(ordered), 0.5)
-    beyond = max(int(np.searchsorted(below, 0.025)), 1)
-    return ordered[beyond - 1], ordered[-beyond]
-
-
 def along(
     method: Method,
     scene: Any,
@@ -71,54 +73,81 @@ def along(
     **settings: Any,
 ) -> tuple[Configuration, ...]:
     """A method along the sizes of its resolution; a formula has one, and no size."""
+    known = {"method": method, "scene": scene, "label": label or method.name, "parameter": parameter, **settings}
     return tuple(
-        Configuration(
-            method=method,
-            scene=scene,
-            resolution=Resolution(size=size, residual=residual),
-            label=label or method.name,
-            parameter=parameter,
-            value=size,
-            **settings,
-        )
-        for size in sizes
+        Configuration(resolution=Resolution(size=size, residual=residual), value=size, **known) for size in sizes
     )
 
 
 @dataclass(frozen=True, kw_only=True)
-class RunLimits:
-    """slow: a solve that takes longer is timed once [s]; enough: after so many seconds the fewest runs are enough."""
+class TimedProblem:
+    """A problem on the clock.
 
+    problem: a frozen dataclass with `configurations`, models that are found not among them, a `scene`, None where no
+    models are found, and `served`, the quantities that a model may have of it; slow: a solve that takes longer is timed
+    once [s]; enough: after so many seconds the fewest runs are enough; methods: names and versions: a run that goes on
+    after a change of these begins anew.
+    """
+
+    problem: Any
     slow: float
     enough: float
+    methods: tuple[str, ...] = ()
+
+
+def configurations_of(problem: Any) -> tuple[Configuration, ...]:
+    """Models that are found, those whose resolution charts vary themselves left out, and what the problem has."""
+    own = problem.configurations()
+    known, targets = {each.label for each in own}, [Target(problem.scene, quantity) for quantity in problem.served]
+    found = (
+        along(model, target, (1.0,), model.setting, paired=False)
+        for model in all_models()
+        if model.charted and model.name not in known
+        for target in [one for one in targets if model.serves(one.scene, one.quantity)][:1]
+    )
+    return (*itertools.chain(*found), *own)
+
+
+def interval_of_median(times: Sequence[float]) -> tuple[float, float]:
+    """Between order statistics, 93 % and more whatever the distribution; a single run is trusted to a quarter."""
+    ordered = sorted(times)
+    if len(ordered) == 1:
+        return (1 - ALONE) * ordered[0], (1 + ALONE) * ordered[0]
+    # the quantile of the binomial distribution; scipy.stats takes a second to import in each process that is timed
+    below = special.bdtr(np.arange(len(ordered)), len(ordered), 0.5)
+    beyond = max(int(np.searchsorted(below, 0.025)), 1)
+    return ordered[beyond - 1], ordered[-beyond]
 
 
 @dataclass
 class Timing:
     """How one configuration fares.
 
-    status: "finished", or why not; setup: seconds of its preparation; draws: seconds before each run; seconds: of each
-    run, a realisation, or until it failed; results: of each realisation; runs: seconds of whole runs.
+    status: "finished", or why not; setup: seconds of its preparation; runs: seconds of each, or until it failed; draws:
+    seconds before each run; results: of each realisation, or of the first run.
     """
 
     status: str
     setup: float
-    seconds: list[float] = field(default_factory=list)
+    runs: list[float] = field(default_factory=list)
     draws: list[float] = field(default_factory=list)
     results: list[Result] = field(default_factory=list)
-    runs: list[float] = field(default_factory=list)
 
-    def needs_more_runs(self, configuration: Configuration, limits: RunLimits) -> bool:
+    @property
+    def seconds(self) -> list[float]:
+        """Of each run, a realisation."""
+        return [run / self.results[0].count if self.results else run for run in self.runs]
+
+    def needs_more_runs(self, realisations: int, given: TimedProblem) -> bool:
         """Each realisation has one run; the same problem has runs until their median is settled."""
-        if self.status != FINISHED:
-            return False
-        if configuration.realisations:
-            return len(self.seconds) < configuration.realisations
-        enough = len(self.runs) >= FEWEST_RUNS and sum(self.runs) >= limits.enough
-        return not enough and len(self.runs) < MOST_RUNS and not (self.runs and self.runs[0] > limits.slow)
+        done = len(self.runs)
+        if self.status != FINISHED or realisations:
+            return self.status == FINISHED and done < realisations
+        enough = done >= FEWEST_RUNS and sum(self.runs) >= given.enough
+        return not enough and done < MOST_RUNS and not (self.runs and self.runs[0] > given.slow)
 
 
-def time_in_turns(configurations: Sequence[Configuration], limits: RunLimits) -> list[Timing]:
+def time_in_turns(configurations: Sequence[Configuration], given: TimedProblem) -> list[Timing]:
     """Timings of all configurations. A failure, or the death of a process, is the status of its configuration."""
     with ExitStack() as stack:
         stack.enter_context(one_thread())
@@ -127,20 +156,21 @@ def time_in_turns(configurations: Sequence[Configuration], limits: RunLimits) ->
         timings = [_prepared(workers[each.worker], i, each) for i, each in enumerate(configurations)]
         for _ in range(max(MOST_RUNS, *(each.realisations for each in configurations))):
             for i, (configuration, timing) in enumerate(zip(configurations, timings, strict=True)):
-                if timing.needs_more_runs(configuration, limits):
+                if timing.needs_more_runs(configuration.realisations, given):
                     _add_run(workers[configuration.worker], i, configuration, timing)
     return timings
 
 
 def _prepared(worker: ProcessPoolExecutor, i: int, configuration: Configuration) -> Timing:
     try:
-        return Timing(*worker.submit(_prepare, i, configuration).result())
+        status, setup = worker.submit(_prepare, i, configuration).result()
+        return Timing(status, setup, [] if status == FINISHED else [setup])
     except Exception as error:  # a process that has died
         return Timing(_reason(error), math.nan, [0.0])
 
 
 def _add_run(worker: ProcessPoolExecutor, i: int, configuration: Configuration, timing: Timing) -> None:
-    realisation = len(timing.seconds) if configuration.realisations else 0
+    realisation = len(timing.runs) if configuration.realisations else 0
     read = bool(configuration.realisations) or not timing.results
     try:
         status, draw, seconds, result = worker.submit(_run, i, realisation, read).result()
@@ -148,28 +178,24 @@ def _add_run(worker: ProcessPoolExecutor, i: int, configuration: Configuration, 
         status, draw, seconds, result = _reason(error), 0.0, 0.0, None
     if status != FINISHED:
         # the time that it took to fail is its place on the chart
-        timing.status, timing.seconds, timing.results = status, [seconds], []
+        timing.status, timing.runs, timing.results = status, [seconds], []
         return
     if result is not None:
         timing.results.append(result)
     timing.draws.append(draw)
     timing.runs.append(seconds)
-    timing.seconds.append(seconds / timing.results[-1].count)
 
 
 _ready: dict[int, Prepared] = {}
 """In the process of a worker, by the place of the configuration."""
 
 
-def _prepare(i: int, configuration: Configuration) -> tuple[str, float, list[float]]:
-    """In the worker: status, seconds of the set-up; the same in a list where it failed."""
+def _prepare(i: int, configuration: Configuration) -> tuple[str, float]:
+    """In the worker: status, seconds of the set-up."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        (prepared, status), seconds = timed(lambda: _caught(configuration.prepare))
-    if prepared is not None:
-        _ready[i] = prepared
-        return status, seconds, []
-    return status, seconds, [seconds]
+        (_ready[i], status), seconds = timed(lambda: _caught(configuration.prepare))
+    return status, seconds
 
 
 def _run(i: int, realisation: int, read: bool) -> tuple[str, float, float, Result | None]:

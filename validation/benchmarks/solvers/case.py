@@ -11,9 +11,8 @@ from validation.analysis.evidence import Table, table_of
 from validation.analysis.series import Margin, Series, single
 from validation.analysis.statistics import Interval
 from validation.analysis.study import Outcomes
-from validation.benchmarks.found_models import TimedProblem, all_methods
 from validation.benchmarks.isolation import measure_alone
-from validation.benchmarks.peers import OUR_SOLVER, OURS, SOLVERS
+from validation.benchmarks.peers import OUR_SOLVER, OURS, SOLVERS, all_methods
 from validation.benchmarks.solvers import problems
 from validation.benchmarks.solvers.problems import (
     MEMORY,
@@ -22,13 +21,12 @@ from validation.benchmarks.solvers.problems import (
     SOLVE,
     SPHERE,
     SPHERE_LOAD,
-    GridScaling,
     LoadPath,
     SurfaceProblem,
     punch,
 )
 from validation.benchmarks.solvers.throughput import RollingThroughput, SteppingThroughput
-from validation.benchmarks.timing import FINISHED, RunLimits
+from validation.benchmarks.timing import FINISHED, TimedProblem
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.simulation.rough_punch import Surface
 
@@ -83,19 +81,16 @@ class SolverComparison:
     def problems(self) -> list[SurfaceProblem]:
         """Every surface in both half-spaces on every grid."""
         surfaces = [(SPHERE, SPHERE_LOAD), *((ROUGH, load) for load in self.loads)]
-        return [
-            SurfaceProblem(surface, load, n, periodic, self.seed, self.residual)
-            for periodic, (surface, load), n in itertools.product((True, False), surfaces, self.cells)
-        ]
+        kinds = itertools.product((True, False), surfaces, self.cells)
+        return [self._problem(*surface, n, periodic) for periodic, surface, n in kinds]
 
-    def scalings(self) -> list[GridScaling]:
-        """Our solver alone, along the cells of three problems."""
+    def scalings(self) -> list[SurfaceProblem]:
+        """For our solver alone, along the cells of three problems."""
         chosen = ((SPHERE, SPHERE_LOAD, False), (ROUGH, self.loads[-1], False), (ROUGH, self.loads[-1], True))
-        return [
-            GridScaling(SurfaceProblem(surface, load, n, periodic, self.seed, self.residual))
-            for surface, load, periodic in chosen
-            for n in self.scaling
-        ]
+        return [self._problem(kind, load, n, periodic) for kind, load, periodic in chosen for n in self.scaling]
+
+    def _problem(self, surface: str, load: float, cells: int, periodic: bool) -> SurfaceProblem:
+        return SurfaceProblem(surface, load, cells, periodic, self.seed, self.residual)
 
 
 Row = Mapping[str, Any]
@@ -105,18 +100,17 @@ Rows = Sequence[Sequence[Row]]
 
 def run(case: SolverComparison, engine: Engine = SERIAL) -> Outcomes:
     """Time all problems, one at a time whatever the engine's workers, so that nothing else disturbs them."""
-    limits = RunLimits(slow=case.slow, enough=SETTLED)
 
     def solved(some: Sequence[SurfaceProblem]) -> Rows:
-        outcomes = alone.map(problems.time_problem, [TimedProblem(each, limits, all_methods()) for each in some])
-        return [rows_of(*pair) for pair in zip(some, outcomes, strict=True)]
+        given = [TimedProblem(problem=p, slow=case.slow, enough=SETTLED, methods=all_methods()) for p in some]
+        return [rows_of(outcome) for outcome in alone.map(problems.time_problem, given)]
 
     # a run that was interrupted goes on; one that is over is timed anew the next time
     with engine.timed() as alone:
         rows, scalings = solved(case.problems()), case.scalings()
         found = {
             "problems": rows,
-            "scalings": [(s.problem, o) for s, o in zip(scalings, alone.map(measure_alone, scalings), strict=True)],
+            "scalings": list(zip(scalings, alone.map(measure_alone, scalings), strict=True)),
             "loads": solved(case.load_path.problems(case.seed)),
             "load paths": alone.map(measure_alone, case.load_path.load_paths(case.seed)),
             "rolling": alone.map(measure_alone, case.rolling.rolls()),
@@ -127,18 +121,10 @@ def run(case: SolverComparison, engine: Engine = SERIAL) -> Outcomes:
     return Outcomes(case, found, tuple(f"{row['problem']}: {row['solver']} {row['status']}" for row in lost))
 
 
-def rows_of(problem: SurfaceProblem, outcome: Outcome) -> list[Row]:
+def rows_of(outcome: Outcome) -> list[Row]:
     """A row a solver."""
-    known = {"problem": problem.label, "surface": problem.surface, "half-space": problem.half_space}
-    return [
-        {
-            **known,
-            "name": problem.name,
-            "cells": problem.cells,
-            **{key: cells[i].item() for key, cells in outcome.items()},
-        }
-        for i in range(len(outcome["solver"]))
-    ]
+    columns = (column.tolist() for column in outcome.values())
+    return [dict(zip(outcome, row, strict=True)) for row in zip(*columns, strict=True)]
 
 
 SPEED, MEDIAN, APPLICATIONS = "time over that of the fastest other solver", "median [s]", "operator applications"
@@ -232,11 +218,8 @@ def _steps(wheel: SteppingThroughput, outcomes: Sequence[Outcome]) -> list[Serie
     ]
 
 
-SECONDS, LOADS, PEERS = (
-    "seconds: median (from the fastest to the slowest run)",
-    "seconds at some of the loads of Fig. 14.1",
-    "solvers",
-)
+SECONDS = "seconds: median (from the fastest to the slowest run)"
+LOADS, PEERS = "seconds at some of the loads of Fig. 14.1", "solvers"
 
 
 def tables(result: Outcomes) -> tuple[Table, ...]:
@@ -255,11 +238,9 @@ def tables(result: Outcomes) -> tuple[Table, ...]:
 
 def _seconds(name: str, solved: Rows) -> Table:
     solvers = dict.fromkeys((row["solver"] for rows in solved for row in rows), "")
-    found = []
-    for rows in solved:
-        known = {"problem": rows[0]["problem"], "area": f"{rows[0]['area']:.1%}"}
-        found.append(known | solvers | {row["solver"]: _said(row) for row in rows})
-    return table_of(name, found)
+    known = [{"problem": rows[0]["problem"], "area": f"{rows[0]['area']:.1%}"} for rows in solved]
+    said = [{row["solver"]: _said(row) for row in rows} for rows in solved]
+    return table_of(name, [mine | solvers | theirs for mine, theirs in zip(known, said, strict=True)])
 
 
 def _said(row: Row) -> str:

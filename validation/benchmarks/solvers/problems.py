@@ -9,10 +9,17 @@ import numpy as np
 
 import bem3d
 import mdr
-from validation.benchmarks.found_models import TimedProblem, configurations_of
 from validation.benchmarks.isolation import peak_memory, timed
 from validation.benchmarks.peers import OUR_SOLVER, SOLVERS, DiscreteProblem, solvers_on_grids
-from validation.benchmarks.timing import FINISHED, Configuration, Timing, interval_of_median, time_in_turns
+from validation.benchmarks.timing import (
+    FINISHED,
+    Configuration,
+    TimedProblem,
+    Timing,
+    configurations_of,
+    interval_of_median,
+    time_in_turns,
+)
 from validation.engine.engine import Outcome
 from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
@@ -98,13 +105,40 @@ class SurfaceProblem:
         """Each solver that is installed, in a process of its own."""
         return solvers_on_grids(SOLVERS, self, (self.cells,), "a side", self.residual)
 
+    def measure(self) -> Outcome:
+        """Our solver alone: seconds and peak memory of a solve, and the seconds of one application."""
+        idle, height = peak_memory(), self.height()
+        half_space = bem3d.HalfSpace(shape=height.shape, spacing=1 / self.cells, modulus=1.0, periodic=self.periodic)
+
+        def solve() -> bem3d.Contact:
+            return bem3d.solve(half_space, -height, force=self.load, tolerance=self.residual)
+
+        warnings.simplefilter("ignore", bem3d.EdgeWarning)  # this process has nothing else to say
+        contact, first = timed(solve)
+        peak = peak_memory()
+        # what the plans cost is nothing beside a solve that takes so long
+        seconds = float(np.median([timed(solve)[1] for _ in range(3)])) if first < 5 else first
+        half_space.displacement(contact.pressure)
+        application = float(np.median([timed(lambda: half_space.displacement(contact.pressure))[1] for _ in range(5)]))
+        found = {
+            SOLVE: seconds,
+            "first solve, with plans [s]": first,
+            "one application on the whole grid [s]": application,
+            "operator applications": contact.operator_applications,
+            "operator applications on coarser grids": sum(n for _, n in contact.coarse_applications),
+            "solve over as many applications on the whole grid": seconds / contact.operator_applications / application,
+            MEMORY: (peak - idle) / 2**20,
+            "peak memory [MiB]": peak / 2**20,
+        }
+        return {name: np.array(value, dtype=float) for name, value in found.items()}
+
 
 def punch(cells: int, seed: int) -> PunchRoughness:
     """One of those of Fig. 14.1, with four cells to its shortest wave."""
     return PunchRoughness(hurst=0.7, waves=(1, cells // 4), seed=seed)
 
 
-NOT_INSTALLED = "not installed"
+SOLVE, MEMORY, NOT_INSTALLED = "time of a solve [s]", "memory [MiB]", "not installed"
 PRESSURE, FORCE, AREA, STIFFNESS = (f"{what} difference to ours" for what in ("pressure", "force", "area", "stiffness"))
 """Relative, of the pressure field in L2."""
 
@@ -112,18 +146,19 @@ PRESSURE, FORCE, AREA, STIFFNESS = (f"{what} difference to ours" for what in ("p
 def time_problem(given: TimedProblem) -> Outcome:
     """All methods in processes of their own, with one thread, in turns: a row each, solvers first, then models."""
     problem, configurations = given.problem, configurations_of(given.problem)
-    timings = time_in_turns(configurations, given.limits)
+    timings = time_in_turns(configurations, given)
     rows = {solver.name: Timing(NOT_INSTALLED, math.nan) for solver in SOLVERS}
     rows |= dict(zip((each.label for each in configurations), timings, strict=True))
     ours = rows[OUR_SOLVER].results[0].values["pressure"] if rows[OUR_SOLVER].results else None
     whole = _of_the_contact(problem, ours) if problem.scene and ours is not None else {}
-    found = [_row(row, problem.cells, ours, whole) for row in rows.values()]
-    return {
-        "area": np.full(len(rows), math.nan if ours is None else np.count_nonzero(ours) / ours.size),
-        "solver": np.array(list(rows)),
-        "status": np.array([row.status for row in rows.values()]),
-        **{name: np.array([row[name] for row in found]) for name in found[0]},
-    }
+    known = {"problem": problem.label, "surface": problem.surface, "half-space": problem.half_space}
+    known |= {"name": problem.name, "cells": problem.cells}
+    known |= {"area": math.nan if ours is None else np.count_nonzero(ours) / ours.size}
+    found = [
+        {**known, "solver": name, "status": row.status, **_row(row, problem.cells, ours, whole)}
+        for name, row in rows.items()
+    ]
+    return {name: np.array([row[name] for row in found]) for name in found[0]}
 
 
 def _row(row: Timing, cells: int, ours: FloatArray | None, whole: Values) -> dict[str, float]:
@@ -167,44 +202,6 @@ def _differences(row: Timing, ours: FloatArray, whole: Values) -> dict[str, floa
         FORCE: abs(float(pressure.sum() / ours.sum()) - 1),
         AREA: abs(cells - 1),
     }
-
-
-SOLVE, MEMORY = "time of a solve [s]", "memory [MiB]"
-
-
-@dataclass(frozen=True)
-class GridScaling:
-    """Our solver alone on one grid."""
-
-    problem: SurfaceProblem
-
-    def measure(self) -> Outcome:
-        """Seconds and peak memory of a solve, and the seconds of one application."""
-        idle, problem = peak_memory(), self.problem
-        height, spacing = problem.height(), 1 / problem.cells
-        half_space = bem3d.HalfSpace(shape=height.shape, spacing=spacing, modulus=1.0, periodic=problem.periodic)
-
-        def solve() -> bem3d.Contact:
-            return bem3d.solve(half_space, -height, force=problem.load, tolerance=problem.residual)
-
-        warnings.simplefilter("ignore", bem3d.EdgeWarning)  # this process has nothing else to say
-        contact, first = timed(solve)
-        peak = peak_memory()
-        # what the plans cost is nothing beside a solve that takes so long
-        seconds = float(np.median([timed(solve)[1] for _ in range(3)])) if first < 5 else first
-        half_space.displacement(contact.pressure)
-        application = float(np.median([timed(lambda: half_space.displacement(contact.pressure))[1] for _ in range(5)]))
-        found = {
-            SOLVE: seconds,
-            "first solve, with plans [s]": first,
-            "one application on the whole grid [s]": application,
-            "operator applications": contact.operator_applications,
-            "operator applications on coarser grids": sum(n for _, n in contact.coarse_applications),
-            "solve over as many applications on the whole grid": seconds / contact.operator_applications / application,
-            MEMORY: (peak - idle) / 2**20,
-            "peak memory [MiB]": peak / 2**20,
-        }
-        return {name: np.array(value, dtype=float) for name, value in found.items()}
 
 
 @dataclass(frozen=True)

@@ -12,11 +12,12 @@ from validation.benchmarks.solvers.throughput import PLAIN, STEPS, RollingThroug
 GUIDE = Curve(problems.SOLVE, case.GUIDE, "guide", case.GUIDE, of={"problem": "rough, free"})
 
 
-def growth(quantity: str, *more: Curve) -> Panel:
-    curves = Curve(quantity, OUR_SOLVER, by=("problem",)), *more
-    return Panel(case.CELLS, quantity, curves, log="xy", ticked=True, legend="upper left")
+def panel(along: str, quantity: str, legend: str, *curves: Curve) -> Panel:
+    return Panel(along, quantity, curves, log="xy", ticked=True, legend=legend)
 
 
+SOLVE, MEMORY = (Curve(quantity, OUR_SOLVER, by=("problem",)) for quantity in (problems.SOLVE, problems.MEMORY))
+STEPPED = Curve(STEPS, by=("h0/d",)), Curve(PLAIN, style="open", label="_", by=("h0/d",))
 STUDY = Study(
     title="Solver comparison: time to the same residual, one thread each",
     method=(
@@ -61,7 +62,10 @@ STUDY = Study(
             "race-growth",
             "Our solver alone against the cells along a side. (a) Time of a solve, and n² log n through the largest "
             "rough one in free space. (b) Peak memory of its process, less that of an idle one.",
-            (growth(problems.SOLVE, GUIDE), growth(problems.MEMORY)),
+            (
+                panel(case.CELLS, problems.SOLVE, "upper left", SOLVE, GUIDE),
+                panel(case.CELLS, problems.MEMORY, "upper left", MEMORY),
+            ),
             claims=(),
             width=11.0,
         ),
@@ -70,16 +74,7 @@ STUDY = Study(
             "A dynamic wheel on springs, {c.wheel.wheels} in a batch on one core: steps of one wheel a second against "
             "the springs to a contact radius, by roughness h0/d. Filled: as simulated; open: plain sums over all "
             "springs.",
-            (
-                Panel(
-                    case.SPRINGS,
-                    STEPS,
-                    (Curve(STEPS, by=("h0/d",)), Curve(PLAIN, style="open", label="_", by=("h0/d",))),
-                    log="xy",
-                    ticked=True,
-                    legend="best",
-                ),
-            ),
+            (panel(case.SPRINGS, STEPS, "best", *STEPPED),),
             claims=(),
             width=5.4,
         ),

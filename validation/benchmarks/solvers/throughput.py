@@ -3,6 +3,7 @@
 import itertools
 import math
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -42,11 +43,8 @@ class RollingThroughput:
 
     def rolls(self) -> list["RolledStrip"]:
         spectrum = PiecewisePowerLaw(edges=(1.0, np.pi / 2 * self.cells), exponents=(3.4,))
-        rough = [
-            RoughStrip(spectrum=spectrum, height=height, length=32.0, width=16.0, seed=self.seed)
-            for height in self.heights
-        ]
-        strips = [strip for each in rough for strip in each.strips(self.cells, self.tolerance, 1)]
+        rough = partial(RoughStrip, spectrum=spectrum, length=32.0, width=16.0, seed=self.seed)
+        strips = (rough(height=height).strips(self.cells, self.tolerance, 1)[0] for height in self.heights)
         return [RolledStrip(strip=strip, positions=self.positions) for strip in strips]
 
 
@@ -157,27 +155,22 @@ class SpringWheels:
         simulate(wheel, counted, **settings)
         times = [timed(lambda: simulate(wheel, law, **settings)) for _ in range(3)]
         motion, seconds = min(times, key=lambda time: time[1])
-        plain = PlainSum(scene, heights, float(motion.highest.max()))
+        reach = math.ceil(math.sqrt(scene.radius * (motion.highest.max() + heights.max())) / scene.spacing)
+        springs = np.arange(-reach, reach + 1)
+        profile = ((springs * scene.spacing) ** 2 / scene.radius)[:, np.newaxis]
+
+        def plain(place: int) -> FloatArray:
+            """F = E* dx sum_j max(d - x_j^2 / R + h_j, 0) over all springs that some wheel may reach, every time."""
+            near = heights.take(springs + place, axis=0, mode="wrap")
+            summed = np.maximum(motion.approach - profile + near, 0.0).sum(axis=0)
+            return np.asarray(scene.modulus * scene.spacing * summed)
+
         few = range(max(self.steps // 20, 1))
-        _, slow = timed(lambda: [plain.force(n, motion.approach) for n in few])
-        off = max(float(np.abs(plain.force(n, motion.approach) - law.force(n, motion.approach)).max()) for n in few)
+        _, slow = timed(lambda: [plain(n) for n in few])
+        off = max(float(np.abs(plain(n) - law.force(n, motion.approach)).max()) for n in few)
         return {
             STEPS: np.array(self.steps * self.wheels / seconds),
             PLAIN: np.array(len(few) * self.wheels / slow),
             "springs examined": np.array(float(np.mean(counted.examined))),
             "difference to the plain sum, over the load": np.array(off / scene.load),
         }
-
-
-class PlainSum:
-    """F = E* dx sum_j max(d - x_j^2 / R + h_j, 0) over all springs that some wheel may reach, every time."""
-
-    def __init__(self, scene: WheelScene, heights: FloatArray, deepest: float):
-        self.heights, self.spring = heights, scene.modulus * scene.spacing
-        reach = math.ceil(math.sqrt(scene.radius * (deepest + heights.max())) / scene.spacing)
-        self.springs = np.arange(-reach, reach + 1)
-        self.profile = ((self.springs * scene.spacing) ** 2 / scene.radius)[:, np.newaxis]
-
-    def force(self, place: int, approach: FloatArray) -> FloatArray:
-        near = self.heights.take(self.springs + place, axis=0, mode="wrap")
-        return np.asarray(self.spring * np.maximum(approach - self.profile + near, 0.0).sum(axis=0))

@@ -12,9 +12,8 @@ from validation.analysis.evidence import Place, Role, Table, table_of
 from validation.analysis.series import Margin, Series, single
 from validation.analysis.statistics import Interval
 from validation.analysis.study import Outcomes, Settings
-from validation.benchmarks.found_models import TimedProblem, all_methods
-from validation.benchmarks.peers import SOLVERS
-from validation.benchmarks.timing import ALONE, FAILED, FINISHED, RunLimits
+from validation.benchmarks.peers import SOLVERS, all_methods
+from validation.benchmarks.timing import ALONE, FAILED, FINISHED, TimedProblem
 from validation.benchmarks.work_precision import exact_problems as exact
 from validation.benchmarks.work_precision import pareto
 from validation.benchmarks.work_precision.dynamic_wheel import WheelProblem
@@ -121,9 +120,10 @@ MAY_FAIL = (POLONSKY_KEER, *PEERS)
 
 def run(case: Precision, engine: Engine = SERIAL) -> Outcomes:
     """Time all problems, one at a time whatever the engine's workers, so that nothing else disturbs them."""
-    limits, problems = RunLimits(slow=case.slow, enough=case.enough), case.problems()
+    problems, settings = case.problems(), {"slow": case.slow, "enough": case.enough}
     with engine.timed() as alone:
-        outcomes = alone.map(measure, [TimedProblem(problem, limits, all_methods()) for problem in problems])
+        timed = [TimedProblem(problem=each, methods=all_methods(), **settings) for each in problems]
+        outcomes = alone.map(measure, timed)
         cost = figure_cost(case.cost, alone)
     found = [point for pair in zip(problems, outcomes, strict=True) for point in points(*pair)]
     return Outcomes(case, {"charts": charts_of(found), "cost": cost}, unconverged=lost(found))
@@ -203,25 +203,17 @@ def _models(chart: Sequence[Point]) -> Iterator[Series]:
     """What is left of the error of each model at its finest setting, where there is no closed form."""
     if any(point.is_reference for point in chart):
         return
+    margin = Margin(0.0, AGREEMENT, source="boundary elements, extrapolated")
     for method, last in {point.method: point for point in chart if point.is_model and point.finished}.items():
         kind, scale, within = ("rms", 1.0, 1.0) if last.unit == "dB" else ("relative", 100.0, 10.0)
-        found, at = (
-            Interval(scale * last.error, scale * last.half_width),
-            {"scene": last.scene, "setting": last.setting},
-        )
-        name, source = f"{kind} error of the {last.quantity}", "boundary elements, extrapolated"
-        yield single(
-            name,
+        yield Series(
+            f"{kind} error of the {last.quantity}",
             method,
-            found,
-            within,
-            source,
-            AGREEMENT,
-            0.0,
-            at,
-            role=Role.FINDING,
+            (Interval(scale * last.error, scale * last.half_width),),
+            where={"scene": last.scene, "setting": last.setting},
             unit=last.unit,
             grid=scale * last.band,
+            margin=replace(margin, tolerance=within),
         )
 
 
@@ -309,10 +301,11 @@ def _within(summary: Sequence[dict[str, Any]]) -> Table:
     """A column a tolerance."""
     rows: dict[tuple[str, str], dict[str, object]] = {}
     for best in summary:
-        row = rows.setdefault((best["scene"], best["quantity"]), {name: best[name] for name in ("scene", "quantity")})
-        time = Settings().format("{:SI}s", float(f"{best['median [s]']:.2g}")) if best["setting"] else ""
-        said = f"{best['method']}, {best['setting']}: {time}" if time else best["method"]
-        row[f"within {100 * best['tolerance']:g} %"] = said
+        known = {name: best[name] for name in ("scene", "quantity")}
+        said = best["method"]
+        if best["setting"]:
+            said += Settings().format(", {}: {:SI}s", best["setting"], float(f"{best['median [s]']:.2g}"))
+        rows.setdefault(tuple(known.values()), known)[f"within {100 * best['tolerance']:g} %"] = said
     return table_of(WITHIN, list(rows.values()))
 
 
@@ -320,5 +313,6 @@ def _without(charts: Sequence[Sequence[Point]]) -> Table:
     rows: dict[tuple[str, ...], list[str]] = {}
     for point in (point for chart in charts for point in chart if point.status != FINISHED):
         rows.setdefault((point.scene, point.method, point.setting, point.status), []).append(point.quantity)
-    named = {name: [row[i] for row in rows] for i, name in enumerate(("scene", "method", "setting", "reason"))}
-    return Table(WITHOUT, {**named, "quantities": [", ".join(names) for names in rows.values()]})
+    names = ("scene", "method", "setting", "reason", "quantities")
+    said = [[row[i] for row in rows] for i in range(4)] + [[", ".join(mine) for mine in rows.values()]]
+    return Table(WITHOUT, dict(zip(names, said, strict=True)))

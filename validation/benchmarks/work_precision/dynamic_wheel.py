@@ -10,26 +10,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.spectra import band_levels, one_third_octaves, record_spectra
-from validation.benchmarks.timing import Configuration
+from validation.benchmarks.timing import Configuration, NamedMethod
 from validation.benchmarks.work_precision.problem import (
     ChartProblem,
     CountedSpectrum,
+    Found,
     Grids,
-    NamedMethod,
     Quantity,
     along_a_track,
+    linear_power,
     log_power,
 )
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import BoundaryElementsLaw, LinearLaw, SpringsLaw
-from validation.simulation.method import FloatArray, Method, Prepared, Resolution, Result, Solve
-from validation.simulation.motion import Motion, periodic_motion, simulate, simulate_from_linear_motion
-from validation.simulation.wheel_on_half_space import (
-    WheelStrip,
-    crop_to_reach,
-    linear_law_3d,
-)
+from validation.simulation.method import FloatArray, Prepared, Resolution, Result, Solve
+from validation.simulation.motion import periodic_motion, simulate, simulate_from_linear_motion
+from validation.simulation.wheel_on_half_space import WheelStrip, crop_to_reach, linear_law_3d
 from validation.simulation.wheel_on_springs import STEADY_TOLERANCE, InputSpectrum, WheelEnsemble, linear_law_1d
 from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
@@ -52,6 +49,10 @@ class WheelProblem(ChartProblem):
     """
 
     name: ClassVar = "dynamic wheel"
+    # between twice the resonance and the shortest wave
+    quantities: ClassVar = (
+        Quantity(name="acceleration spectrum", log=partial(log_power, name="level"), needs=("level",), decibel=True),
+    )
     wheel_scene: WheelScene = field(default=SCENE)
     turns: int = 0
     width: int = 2
@@ -62,12 +63,6 @@ class WheelProblem(ChartProblem):
     shared: int = 3
     springs: tuple[int, ...] = (12, 25)
     seed: int = 152
-
-    @property
-    def quantities(self) -> tuple[Quantity, ...]:
-        """Between twice the resonance and the shortest wave."""
-        log = partial(log_power, name="level")
-        return (Quantity(name="acceleration spectrum", log=log, needs=("level",), decibel=True),)
 
     def strip(self, realisation: int, cells: int, tolerance: float) -> WheelStrip:
         """The same surface on every grid."""
@@ -96,29 +91,12 @@ class WheelProblem(ChartProblem):
         return along_a_track(self, linear_spectrum, springs, strips)
 
     @property
-    def method(self) -> Method:
+    def method(self) -> NamedMethod:
         return NamedMethod("BEM", wheel_on_strips, (_in_time_loop,))
 
 
-@dataclass(frozen=True, eq=False)
-class LinearStrip:
-    """A surface, and what linear theory has on it: its contact, levels, and their mean over all phases of its waves."""
-
-    surface: FloatArray
-    linear: LinearLaw
-    time_step: float
-    level: FloatArray
-    mean: FloatArray
-
-
-StripRunner = Callable[[WheelStrip, LinearStrip], Callable[[], tuple[FloatArray, float]]]
-
-
-def linear_strip(scene: WheelProblem, strip: WheelStrip) -> LinearStrip:
-    surface, time_step = strip.surface(), strip.spacing / scene.wheel_scene.speed
-    linear = linear_law_3d(strip.scene.body, surface, strip.spacing)
-    found = scene.levels(steady_acceleration(linear, time_step), time_step)[0]
-    return LinearStrip(surface, linear, time_step, found, mean_levels(scene, surface, strip.spacing, time_step))
+StripRunner = Callable[[WheelStrip, FloatArray, LinearLaw, float], Callable[[], Found]]
+"""Of a strip, its surface, the linear contact on it and a time step."""
 
 
 def transfer(wheel: Wheel, omega: NDArray[np.floating], time_step: float) -> FloatArray:
@@ -139,16 +117,12 @@ def mean_levels(scene: WheelProblem, surface: FloatArray, spacing: float, time_s
 
     Hann's window mixes a line with its neighbours: 2/3 of itself, 1/6 of each.
     """
-    wheel, (nx, ny) = scene.wheel_scene.body, surface.shape
-    qx, qy = (2 * np.pi * np.fft.fftfreq(n, spacing) for n in (nx, ny))
-    response = rolling_theory.response(
-        np.hypot(qx[:, np.newaxis], qy), contact_radius=wheel.contact_radius, modulus=wheel.modulus
-    )
-    force = (np.abs(response * np.fft.fft2(surface, norm="forward")) ** 2).sum(axis=1)
-    omega = np.asarray(qx * scene.wheel_scene.speed, dtype=np.float64)
-    density = transfer(wheel, omega, time_step) ** 2 * force * nx * time_step
+    wheel = scene.wheel_scene.body
+    q, force = linear_power(surface, spacing, contact_radius=wheel.contact_radius, modulus=wheel.modulus)
+    omega = q * scene.wheel_scene.speed
+    density = transfer(wheel, omega, time_step) ** 2 * force * q.size * time_step
     mixed = 2 / 3 * density + (np.roll(density, 1) + np.roll(density, -1)) / 6
-    along = slice(1, nx // 2)
+    along = slice(1, q.size // 2)
     return band_levels(omega[along], mixed[along], scene.edges)
 
 
@@ -189,8 +163,8 @@ class CountedSprings(SpringsLaw):
         return found
 
 
-Runner = Callable[[WheelEnsemble, FloatArray], tuple[FloatArray, float]]
-"""Of wheels and the heights under them: accelerations, and work."""
+Runner = Callable[[WheelEnsemble, FloatArray], Found]
+"""Of wheels and the heights under them."""
 
 
 def wheels_on_springs(
@@ -202,19 +176,19 @@ def wheels_on_springs(
     count = scene.wheels
     rides = WheelEnsemble(scene=on, count=count, track="steady-state", input_spectrum=spectrum, seed=scene.seed)
 
-    def read(found: tuple[FloatArray, float]) -> Result:
+    def read(found: Found) -> Result:
         return Result({"level": scene.levels(found[0], on.time_step)}, found[1], count)
 
     run = partial(simulated, rides, rides.heights())
     return lambda _: Solve(run, read)
 
 
-def _filtered(rides: WheelEnsemble, heights: FloatArray) -> tuple[FloatArray, float]:
+def _filtered(rides: WheelEnsemble, heights: FloatArray) -> Found:
     linear = linear_law_1d(rides.scene.body, heights, rides.scene.spacing)
     return steady_acceleration(linear, rides.scene.time_step), float(heights.size)
 
 
-def _on_springs(rides: WheelEnsemble, heights: FloatArray) -> tuple[FloatArray, float]:
+def _on_springs(rides: WheelEnsemble, heights: FloatArray) -> Found:
     scene, wheel, laws = rides.scene, rides.scene.body, []
     settings: dict[str, Any] = {"time_step": scene.time_step, "steps": rides.steps}
 
@@ -227,49 +201,52 @@ def _on_springs(rides: WheelEnsemble, heights: FloatArray) -> tuple[FloatArray, 
     approach, velocity, left = periodic_motion(wheel, law, **settings, start=start)
     if (left > STEADY_TOLERANCE).any():
         raise RuntimeError(f"{np.count_nonzero(left > STEADY_TOLERANCE)} wheels do not repeat their motion")
-    motion: Motion = simulate(wheel, first, **settings, approach=approach, velocity=velocity)
+    motion = simulate(wheel, first, **settings, approach=approach, velocity=velocity)
     return motion.acceleration, float(sum(each.work for each in laws))
 
 
 def wheel_on_strips(scene: WheelProblem, resolution: Resolution, simulated: StripRunner) -> Prepared:
-    """Beside that of linear theory on each surface. Raises ValueError for waves that cells do not resolve."""
+    """Beside that of linear theory on each surface, and its mean over all phases of these waves.
+
+    Raises ValueError for waves that cells do not resolve.
+    """
     cells = round(resolution.size)
 
     def draw(realisation: int) -> Solve:
         strip = scene.strip(realisation, cells, resolution.residual)
-        linear = linear_strip(scene, strip)
-        known = {"linear level": linear.level, "mean level": linear.mean}
+        surface, time_step = strip.surface(), strip.spacing / scene.wheel_scene.speed
+        linear = linear_law_3d(strip.scene.body, surface, strip.spacing)
 
-        def read(found: tuple[FloatArray, float]) -> Result:
-            level = scene.levels(found[0][:, np.newaxis], linear.time_step)[0]
-            return Result({"level": level, **known}, found[1])
+        def level(acceleration: FloatArray) -> FloatArray:
+            return np.asarray(scene.levels(acceleration, time_step)[0])
 
-        return Solve(simulated(strip, linear), read)
+        known = {"linear level": level(steady_acceleration(linear, time_step))}
+        known |= {"mean level": mean_levels(scene, surface, strip.spacing, time_step)}
+        run = simulated(strip, surface, linear, time_step)
+        return Solve(run, lambda found: Result({"level": level(found[0]), **known}, found[1]))
 
     draw(0)
     return draw
 
 
-def _filter_strip(strip: WheelStrip, known: LinearStrip) -> Callable[[], tuple[FloatArray, float]]:
+def _filter_strip(strip: WheelStrip, surface: FloatArray, _: LinearLaw, time_step: float) -> Callable[[], Found]:
     """Force and wheel by their responses."""
-    return lambda: (
-        steady_acceleration(linear_law_3d(strip.scene.body, known.surface, strip.spacing), known.time_step)[:, 0],
-        float(known.surface.size),
-    )
+    wheel, work = strip.scene.body, float(surface.size)
+    return lambda: (steady_acceleration(linear_law_3d(wheel, surface, strip.spacing), time_step), work)
 
 
-def _in_time_loop(strip: WheelStrip, known: LinearStrip) -> Callable[[], tuple[FloatArray, float]]:
+def _in_time_loop(strip: WheelStrip, surface: FloatArray, linear: LinearLaw, time_step: float) -> Callable[[], Found]:
     """Boundary elements at each time step, each contact from the two before."""
     wheel = strip.scene.body
-    height = crop_to_reach(known.surface, strip.spacing, wheel)
+    height = crop_to_reach(surface, strip.spacing, wheel)
     contact = BoundaryElementsLaw(wheel, [height], strip.spacing, tolerance=strip.tolerance)
     # frames and their plans belong to a strip: they are made over its beginning
     for place in range(min(WARM, len(height))):
         contact.force(place, np.array([wheel.approach]))
 
-    def run() -> tuple[FloatArray, float]:
+    def run() -> Found:
         contact.operator_applications = 0
-        motion = simulate_from_linear_motion(contact, known.linear, known.time_step, len(height))
-        return motion.acceleration[:, 0], contact.operator_applications * (2.0 * strip.cells) ** 2
+        motion = simulate_from_linear_motion(contact, linear, time_step, len(height))
+        return motion.acceleration, contact.operator_applications * (2.0 * strip.cells) ** 2
 
     return run

@@ -9,16 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.statistics import jackknife_error, student
-from validation.benchmarks.found_models import configurations_of
-from validation.benchmarks.timing import OUT_OF_RANGE, Configuration
+from validation.benchmarks.timing import FINISHED, OUT_OF_RANGE, Configuration, configurations_of
 from validation.benchmarks.work_precision.pareto import Point
-from validation.benchmarks.work_precision.problem import EXTRAPOLATED, ChartProblem, Quantity, values_by_configuration
+from validation.benchmarks.work_precision.problem import EXTRAPOLATED, ChartProblem, Quantity, values_of
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Outcome
 from validation.simulation.method import FloatArray, Values
 
 IntArray = NDArray[np.int64]
-Found = Mapping[Configuration, Values]
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,13 +75,14 @@ def error(quantity: Quantity, mine: MethodValues, reference: MethodValues) -> Er
         log_ratio = ratio(rows, theirs)
         return quantity.distance(log_ratio) * (math.copysign(1.0, log_ratio[0]) if log_ratio.size == 1 else 1.0)
 
+    without_mine = [np.delete(rows, i) for i in rows] if mine.size > 1 else []
     if mine.paired:
-        both = [off(np.delete(rows, i), np.delete(theirs, i)) for i in rows] if mine.size > 1 else []
-        half_width = _half_width(both)
+        half_width = _half_width([off(left, np.delete(theirs, i)) for i, left in enumerate(without_mine)])
     else:
+        without_theirs = [np.delete(theirs, i) for i in theirs] if reference.size > 1 else []
         half_width = math.hypot(
-            _half_width([off(np.delete(rows, i), theirs) for i in rows] if mine.size > 1 else []),
-            _half_width([off(rows, np.delete(theirs, i)) for i in theirs] if reference.size > 1 else []),
+            _half_width([off(left, theirs) for left in without_mine]),
+            _half_width([off(rows, left) for left in without_theirs]),
         )
     log_ratio = ratio(rows, theirs)
     over = float(np.exp(log_ratio[0])) if log_ratio.size == 1 else math.nan
@@ -95,12 +94,12 @@ def _half_width(without: list[float]) -> float:
     are too few for what is asked, as one is for a deviation."""
     if not without:
         return 0.0
-    if not np.isfinite(without).all():
-        return math.inf
-    return float(student(len(without) - 1) * jackknife_error(without))
+    return float(student(len(without) - 1) * jackknife_error(without)) if np.isfinite(without).all() else math.inf
 
 
-def reference_of(problem: ChartProblem, found: Found) -> tuple[MethodValues, Callable[[Quantity], float]]:
+def reference_of(
+    problem: ChartProblem, found: Mapping[Configuration, Values]
+) -> tuple[MethodValues, Callable[[Quantity], float]]:
     """The reference, and its uncertainty for each quantity.
 
     Exact ones have what the quantity says. Others are extrapolated from the two finest grids, and the whole step from
@@ -124,13 +123,23 @@ def reference_of(problem: ChartProblem, found: Found) -> tuple[MethodValues, Cal
 
 def points(problem: ChartProblem, outcome: Outcome) -> list[Point]:
     """Every configuration and every quantity, and every pair of grids extrapolated, its costs added."""
-    found = values_by_configuration(problem, outcome)
+    configurations = configurations_of(problem)
+    timed = {each: _timed(each, outcome, i) for i, each in enumerate(configurations)}
+    found = {
+        each: values_of(problem, each, outcome, i)
+        for i, each in enumerate(configurations)
+        if timed[each]["status"] == FINISHED
+    }
     reference, band = reference_of(problem, found)
-    timed = {each: _timed(each, outcome, i) for i, each in enumerate(configurations_of(problem))}
     rows: list[Point] = []
     for quantity in problem.quantities:
         unit = "dB" if quantity.decibel else "%"
         chart: dict[str, Any] = {"scene": problem.name, "quantity": quantity.name, "unit": unit, "band": band(quantity)}
+
+        def beside(point: Point, mine: MethodValues, quantity: Quantity = quantity) -> Point:
+            off = error(quantity, mine, reference)
+            return replace(point, error=off.value, half_width=off.half_width, over=off.over)
+
         blank = {each: Point(**chart, **facts) for each, facts in timed.items()}
         for each, point in blank.items():
             if each not in found:
@@ -138,42 +147,28 @@ def points(problem: ChartProblem, outcome: Outcome) -> list[Point]:
             elif not set(quantity.needs) <= found[each].keys():
                 rows.append(replace(point, status=f"{OUT_OF_RANGE}: it does not have this quantity"))
             else:
-                answer = MethodValues(found[each], paired=each.paired)
-                rows.append(_with_error(point, error(quantity, answer, reference)))
+                rows.append(beside(point, MethodValues(found[each], paired=each.paired)))
         for coarse, fine in problem.pairs():
             if coarse in found and fine in found:
                 both = MethodValues(found[fine], found[coarse], fine.value / coarse.value)
-                rows.append(_with_error(_extrapolated(blank[coarse], blank[fine]), error(quantity, both, reference)))
+                rows.append(beside(_extrapolated(blank[coarse], blank[fine]), both))
     return rows
 
 
 def _timed(configuration: Configuration, outcome: Outcome, i: int) -> dict[str, Any]:
-    seconds = outcome[f"seconds {i}"]
+    seconds, same = outcome[f"seconds {i}"], ("parameter", "value", "is_reference")
     return {
         "method": configuration.label,
-        "parameter": configuration.parameter,
-        "value": configuration.value,
-        "is_reference": configuration.is_reference,
+        **{name: getattr(configuration, name) for name in same},
         "is_model": not configuration.paired,
         "status": str(outcome["status"][i]),
         "seconds": tuple(np.quantile(seconds, (0.25, 0.5, 0.75)).tolist()),
         "runs": seconds.size,
-        "setup": float(outcome["setup"][i]),
-        "work": float(outcome["work"][i]),
+        **{name: float(outcome[name][i]) for name in ("setup", "work")},
     }
-
-
-def _with_error(point: Point, found: Error) -> Point:
-    return replace(point, error=found.value, half_width=found.half_width, over=found.over)
 
 
 def _extrapolated(coarse: Point, fine: Point) -> Point:
     low, median, high = (x + y for x, y in zip(coarse.seconds, fine.seconds, strict=True))
-    return replace(
-        fine,
-        method=EXTRAPOLATED,
-        seconds=(low, median, high),
-        runs=min(coarse.runs, fine.runs),
-        setup=coarse.setup + fine.setup,
-        work=coarse.work + fine.work,
-    )
+    runs, setup, work = min(coarse.runs, fine.runs), coarse.setup + fine.setup, coarse.work + fine.work
+    return replace(fine, method=EXTRAPOLATED, seconds=(low, median, high), runs=runs, setup=setup, work=work)

@@ -15,11 +15,11 @@ import bem3d
 import mdr
 from validation.benchmarks import peers
 from validation.benchmarks.peers import DiscreteProblem, solvers_on_grids
-from validation.benchmarks.timing import Configuration, along
-from validation.benchmarks.work_precision.problem import CLOSED, ChartProblem, Grids, NamedMethod, Quantity, logarithm
+from validation.benchmarks.timing import Configuration, NamedMethod, along
+from validation.benchmarks.work_precision.problem import CLOSED, ChartProblem, Grids, mean_of
 from validation.scenes.indentation import IndentationScene
 from validation.simulation.method import FloatArray, Prepared, Resolution, Result, Solve, Values
-from validation.simulation.pressed import FIXED_AREA_RESIDUAL, PressedSprings
+from validation.simulation.pressed import PressedSprings
 from validation.theory import closed_forms
 
 RESIDUALS = (0.1, 1e-2, 1e-3, 1e-4)
@@ -63,8 +63,8 @@ class ExactProblem(ChartProblem):
         """What other solvers are pressed with."""
 
     @abstractmethod
-    def read_peer(self, cells: int, force: float, approach: float, area: float) -> Values:
-        """Values of another solver; where it prescribes the other load, carried over along the closed form."""
+    def carried_over(self, cells: int, force: float, approach: float, area: float) -> Values:
+        """Values of a contact under another load than that of the problem, along the closed form."""
 
     @property
     def scene(self) -> IndentationScene | None:
@@ -76,9 +76,9 @@ class ExactProblem(ChartProblem):
     def load(self, cells: int) -> dict[str, float]:
         return {"approach": 1.0}
 
-    def finish(self, contact: bem3d.Contact) -> bem3d.FixedContactArea | None:
-        """Nothing beside the contact."""
-        return None
+    def read(self, contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> Values:
+        cells = round(1 / contact.problem.half_space.steps[0])
+        return self.carried_over(cells, contact.force, contact.approach, contact.area)
 
     def reference(self) -> Values:
         return {name: value[np.newaxis] for name, value in self.exact().items()}
@@ -99,7 +99,7 @@ class ExactProblem(ChartProblem):
             height=-self.gap(cells),
             spacing=1 / cells,
             modulus=1.0,
-            periodic=self.half_space(cells).periodic,
+            periodic=self.periodic,
             force=self.peer_force(cells),
             approach=float(self.exact().get("approach", 1.0)),
         )
@@ -110,7 +110,7 @@ class ExactProblem(ChartProblem):
         separation = discrete.gap + discrete.half_space().displacement(pressure)
         area = np.count_nonzero(pressure > 1e-9 * pressure.max()) / cells**2
         approach = float((pressure * separation).sum() / pressure.sum())
-        return self.read_peer(cells, float(pressure.sum()) / cells**2, approach, area)
+        return self.carried_over(cells, float(pressure.sum()) / cells**2, approach, area)
 
 
 ExactGrids = partial(Grids, tight=1e-8, tolerances=RESIDUALS)
@@ -123,17 +123,11 @@ class SphereProblem(ExactProblem):
 
     name: ClassVar = "sphere"
     shape: ClassVar = "sphere"
+    quantities: ClassVar = (mean_of("force", order=2.0), mean_of("contact radius", "radius"), mean_of("stiffness"))
+    fixed_area: ClassVar = True
     grids: Grids = SPHERE_GRIDS
     peers: tuple[int, ...] = (8, 16)
     springs: tuple[float, ...] = (2.4, 4.4, 8.4, 16.4, 32.4, 64.4)
-
-    @property
-    def quantities(self) -> tuple[Quantity, ...]:
-        return (
-            Quantity(name="force", log=logarithm("force"), needs=("force",), order=2.0),
-            Quantity(name="contact radius", log=logarithm("radius"), needs=("radius",)),
-            Quantity(name="stiffness", log=logarithm("stiffness"), needs=("stiffness",)),
-        )
 
     def exact(self) -> Values:
         """Hertz and Boussinesq."""
@@ -151,16 +145,12 @@ class SphereProblem(ExactProblem):
     def peer_force(self, cells: int) -> float:
         return float(self.exact()["force"])
 
-    def finish(self, contact: bem3d.Contact) -> bem3d.FixedContactArea:
-        return bem3d.solve_fixed_area(contact.problem.half_space, contact.pressure > 0, tolerance=FIXED_AREA_RESIDUAL)
-
     def read(self, contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> Values:
-        """The radius is that of a circle of the contact area."""
         assert fixed is not None
-        return scalars(force=contact.force, radius=math.sqrt(contact.area / math.pi), stiffness=fixed.stiffness)
+        return {**super().read(contact, fixed), **scalars(stiffness=fixed.stiffness)}
 
-    def read_peer(self, cells: int, force: float, approach: float, area: float) -> Values:
-        """F ~ d^(3/2) and a ~ d^(1/2)."""
+    def carried_over(self, cells: int, force: float, approach: float, area: float) -> Values:
+        """F ~ d^(3/2) and a ~ d^(1/2), the radius of a circle of the contact area."""
         return scalars(force=force * approach**-1.5, radius=math.sqrt(area / math.pi / approach))
 
     def profile(self, springs: float, realisation: int = 0) -> tuple[FloatArray, float]:
@@ -183,15 +173,11 @@ class PunchProblem(ExactProblem):
 
     name: ClassVar = "square punch"
     shape: ClassVar = "punch"
+    # the reference is known to five digits: half a unit of the last is open
+    quantities: ClassVar = (mean_of("stiffness", band=5e-5 / closed_forms.SQUARE_PUNCH),)
     grids: Grids = PUNCH_GRIDS
     peers: tuple[int, ...] = ()
     springs: tuple[float, ...] = (4, 16, 64)
-
-    @property
-    def quantities(self) -> tuple[Quantity, ...]:
-        """The reference is known to five digits: half a unit of the last is open."""
-        band = 5e-5 / closed_forms.SQUARE_PUNCH
-        return (Quantity(name="stiffness", log=logarithm("stiffness"), needs=("stiffness",), band=band),)
 
     def exact(self) -> Values:
         """1.1523 E* L."""
@@ -204,10 +190,7 @@ class PunchProblem(ExactProblem):
         """At about a unit approach."""
         return closed_forms.SQUARE_PUNCH
 
-    def read(self, contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> Values:
-        return scalars(stiffness=contact.force / contact.approach)
-
-    def read_peer(self, cells: int, force: float, approach: float, area: float) -> Values:
+    def carried_over(self, cells: int, force: float, approach: float, area: float) -> Values:
         return scalars(stiffness=force / approach)
 
     def profile(self, springs: float, realisation: int = 0) -> tuple[FloatArray, float]:
@@ -228,18 +211,12 @@ class WaveProblem(ExactProblem):
     """
 
     name: ClassVar = "Westergaard's wave"
+    quantities: ClassVar = (mean_of("contact width", "width"), mean_of("approach", order=2.0))
     periodic: ClassVar = True
     grids: Grids = WAVE_GRIDS
     peers: tuple[int, ...] = ()
     springs: tuple[float, ...] = (64,)
     pressure: float = 0.3
-
-    @property
-    def quantities(self) -> tuple[Quantity, ...]:
-        return (
-            Quantity(name="contact width", log=logarithm("width"), needs=("width",)),
-            Quantity(name="approach", log=logarithm("approach"), needs=("approach",), order=2.0),
-        )
 
     def exact(self) -> Values:
         """Westergaard; the approach from the first touch."""
@@ -264,7 +241,7 @@ class WaveProblem(ExactProblem):
         """Area over the length of the row's side; the approach of the mean plane."""
         return scalars(width=contact.area / contact.problem.half_space.steps[1], approach=contact.approach)
 
-    def read_peer(self, cells: int, force: float, approach: float, area: float) -> Values:
+    def carried_over(self, cells: int, force: float, approach: float, area: float) -> Values:
         """Of a row as wide as a cell; dd = -ln(s) ds, s the mean pressure over that of full contact."""
         missing = self.pressure - force * cells / math.pi
         return scalars(width=area * cells, approach=approach - math.log(self.pressure) * missing)

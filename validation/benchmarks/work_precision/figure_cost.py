@@ -1,6 +1,7 @@
 """What Fig. 14.4 costs by springs and with boundary elements in the time loop: a step, a metre, the whole figure."""
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -11,11 +12,7 @@ from validation.engine.engine import Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.simulation.contact_laws import BoundaryElementsLaw, SpringsLaw
 from validation.simulation.motion import simulate, simulate_from_linear_motion
-from validation.simulation.wheel_on_half_space import (
-    WheelStrip,
-    crop_to_reach,
-    linear_law_3d,
-)
+from validation.simulation.wheel_on_half_space import WheelStrip, crop_to_reach, linear_law_3d
 from validation.simulation.wheel_on_springs import WheelEnsemble
 
 RUNS = 5
@@ -51,11 +48,8 @@ class StepsOnSprings:
         cost, scene = self.cost, self.cost.scene
         heights = WheelEnsemble(scene=scene, count=cost.wheels, seed=cost.seed).heights()
         law = SpringsLaw(scene.body, heights, scene.spacing)
-        found = [
-            timed(lambda: simulate(scene.body, law, time_step=scene.time_step, steps=cost.steps))[1]
-            for _ in range(RUNS)
-        ]
-        return {"seconds": np.array(found) / (cost.steps * cost.wheels)}
+        ride = partial(simulate, scene.body, law, time_step=scene.time_step, steps=cost.steps)
+        return {"seconds": np.array([timed(ride)[1] for _ in range(RUNS)]) / (cost.steps * cost.wheels)}
 
 
 @dataclass(frozen=True)
@@ -69,16 +63,12 @@ class StepsOnHalfSpace:
         cost, scene = self.cost, self.cost.scene
         own = {"realisation": 0, "natural_periods": 0, "width": 2, "seed": cost.seed}
         strip = WheelStrip(scene=scene, cells=cost.cells, shared=cost.cells, tolerance=cost.tolerance, **own)
-        surface, time_step = strip.surface(), strip.spacing / scene.speed
-        linear, height = (
-            linear_law_3d(scene.body, surface, strip.spacing),
-            crop_to_reach(surface, strip.spacing, scene.body),
-        )
-        law = BoundaryElementsLaw(scene.body, [height], strip.spacing, tolerance=cost.tolerance)
-        found = [
-            timed(lambda: simulate_from_linear_motion(law, linear, time_step, cost.steps))[1] for _ in range(1 + RUNS)
-        ]
-        return {"seconds": np.array(found[1:]) / cost.steps}
+        surface, spacing = strip.surface(), strip.spacing
+        height = crop_to_reach(surface, spacing, scene.body)
+        law = BoundaryElementsLaw(scene.body, [height], spacing, tolerance=cost.tolerance)
+        linear = linear_law_3d(scene.body, surface, spacing)
+        ride = partial(simulate_from_linear_motion, law, linear, spacing / scene.speed, cost.steps)
+        return {"seconds": np.array([timed(ride)[1] for _ in range(1 + RUNS)][1:]) / cost.steps}
 
 
 def figure_cost(cost: FigureCost, engine: Engine) -> Table:

@@ -58,11 +58,9 @@ class Point:
 
 def monotone_envelope(points: Sequence[Point]) -> list[Point]:
     """Each point with the largest upper bound of the error that its method has at more work, where that is larger."""
-    return [replace(point, finer=max((p.rank for p in points if _finer(p, point)), default=0.0)) for point in points]
-
-
-def _finer(other: Point, point: Point) -> bool:
-    return other.method == point.method and other.finished and other.work > point.work
+    ranked = [(p.method, p.work, p.rank) for p in points if p.finished]
+    beyond = ([rank for name, work, rank in ranked if name == p.method and work > p.work] for p in points)
+    return [replace(point, finer=max(ranks, default=0.0)) for point, ranks in zip(points, beyond, strict=True)]
 
 
 Cost = Callable[[Point], float]

@@ -7,14 +7,22 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+import bem3d
 from validation.analysis.statistics import POWER_DECIBEL
-from validation.benchmarks.found_models import TimedProblem, configurations_of
-from validation.benchmarks.timing import FINISHED, Configuration, Timing, along, time_in_turns
+from validation.benchmarks.timing import (
+    Configuration,
+    NamedMethod,
+    TimedProblem,
+    along,
+    configurations_of,
+    time_in_turns,
+)
 from validation.engine.engine import Outcome
 from validation.simulation import model_names
 from validation.simulation.method import FloatArray, Method, Prepared, Resolution, Values
 from validation.simulation.model import Model
-from validation.simulation.pressed import PressedGrid
+from validation.simulation.pressed import FIXED_AREA_RESIDUAL, PressedGrid
+from validation.theory.rolling import response
 
 CLOSED, FILTER_1D, FILTER_3D = model_names.CLOSED_FORM, model_names.FILTER_1D, model_names.FILTER_3D
 MDR, MDR_ROLLING = model_names.MDR, model_names.MDR_ROLLING
@@ -23,6 +31,8 @@ EXTRAPOLATED = "BEM, extrapolated"
 SPRINGS, ELEMENTS = (MDR, MDR_ROLLING), (BEM, LOOSE, EXTRAPOLATED, POLONSKY_KEER)
 ROUNDING = 1e-12
 """What a closed form leaves open."""
+Found = tuple[FloatArray, float]
+"""Forces or accelerations, and work."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -48,9 +58,14 @@ class Quantity:
         return float(np.abs(np.expm1(log_ratio)).max())
 
 
-def logarithm(name: str) -> Callable[[Values], FloatArray]:
-    """ln of the mean of a value."""
-    return lambda values: np.log(np.mean(values[name], axis=0, keepdims=True))
+def mean_of(name: str, value: str = "", **settings: Any) -> Quantity:
+    """The mean of a value, by default that of its name."""
+    value = value or name
+
+    def log(values: Values) -> FloatArray:
+        return np.asarray(np.log(np.mean(values[value], axis=0, keepdims=True)))
+
+    return Quantity(name=name, log=log, needs=(value,), **settings)
 
 
 def log_power(values: Values, name: str) -> FloatArray:
@@ -73,16 +88,16 @@ class CountedSpectrum:
         return self.c2d(q)
 
 
-@dataclass(frozen=True)
-class NamedMethod:
-    """A function of a scene, a resolution and these options that prepares a method."""
+def linear_power(
+    surface: FloatArray, spacing: float, *, load: float = 1.0, **contact: float
+) -> tuple[FloatArray, FloatArray]:
+    """Wavenumbers along the track, and the power of the linear force over a load at each, all waves across added.
 
-    name: str
-    by: Callable[..., Prepared]
-    options: tuple[Any, ...] = ()
-
-    def prepare(self, scene: Any, resolution: Resolution) -> Prepared:
-        return self.by(scene, resolution, *self.options)
+    contact: radius and modulus, see `response`.
+    """
+    qx, qy = (2 * np.pi * np.fft.fftfreq(n, spacing) for n in surface.shape)
+    force = response(np.hypot(qx[:, np.newaxis], qy), **contact) * np.fft.fft2(surface, norm="forward")
+    return qx.astype(np.float64), np.asarray((np.abs(force / load) ** 2).sum(axis=1))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -104,11 +119,14 @@ class Grids:
 class ChartProblem(ABC):
     """A frozen dataclass. Its reference is extrapolated from its two finest grids, unless it has a closed form.
 
-    method, published: boundary elements, ours and the published iteration; realisations: of theirs, none where the
-    same problem is solved again and again; scene: of which models are found, None where there is none.
+    fixed_area: whether the contact area is solved for its stiffness, on the clock; method, published: boundary
+    elements, ours and the published iteration; realisations: of theirs, none where the same problem is solved again and
+    again; scene: of which models are found, None where there is none.
     """
 
     name: ClassVar[str]
+    quantities: ClassVar[tuple[Quantity, ...]]
+    fixed_area: ClassVar[bool] = False
     realisations: int = 0
     grids: Grids
 
@@ -119,10 +137,6 @@ class ChartProblem(ABC):
     @property
     def published(self) -> Method:
         return PressedGrid(POLONSKY_KEER, polonsky_keer=True)
-
-    @property
-    @abstractmethod
-    def quantities(self) -> tuple[Quantity, ...]: ...
 
     @abstractmethod
     def configurations(self) -> tuple[Configuration, ...]:
@@ -141,6 +155,11 @@ class ChartProblem(ABC):
         """What a model that is found has, in the values of this problem."""
         return values
 
+    def finish(self, contact: bem3d.Contact) -> bem3d.FixedContactArea | None:
+        if not self.fixed_area:
+            return None
+        return bem3d.solve_fixed_area(contact.problem.half_space, contact.pressure > 0, tolerance=FIXED_AREA_RESIDUAL)
+
     def reference(self) -> Values | tuple[Configuration, Configuration]:
         """What is exact, or the coarse and the fine grid from which it is extrapolated."""
         coarse, fine = (self.on(n) for n in self.grids.cells[-2:])
@@ -152,21 +171,20 @@ class ChartProblem(ABC):
         doubled = tuple((self.on(n), self.on(2 * n)) for n in cells if 2 * n in cells)
         return tuple(pair for pair in doubled if pair != self.reference())
 
-    def on(self, cells: int) -> Configuration:
-        """Our solver on one grid."""
-        return self.on_grids(self.method, BEM, (cells,))[0]
+    def on(self, cells: int, residual: float | None = None) -> Configuration:
+        """Our solver on one grid, to the tight residual or another one."""
+        if residual is None:
+            return self.on_grids(self.method, BEM, (cells,))[0]
+        parameter = f"residual #, {cells} cells {self.grids.per}"
+        loose: dict[str, Any] = {"label": LOOSE, "parameter": parameter, "value": residual}
+        return replace(self.on(cells), resolution=Resolution(size=cells, residual=residual), **loose)
 
     def boundary_elements(self) -> tuple[Configuration, ...]:
         """The published iteration and ours along cells, and ours along the residual on one grid."""
-        grids = self.grids
-        one = replace(self.on(grids.fixed), label=LOOSE, parameter=f"residual #, {grids.fixed} cells {grids.per}")
         return (
-            *self.on_grids(self.published, POLONSKY_KEER, grids.polonsky_keer),
-            *(self.on(n) for n in grids.cells),
-            *(
-                replace(one, resolution=Resolution(size=grids.fixed, residual=residual), value=residual)
-                for residual in grids.tolerances
-            ),
+            *self.on_grids(self.published, POLONSKY_KEER, self.grids.polonsky_keer),
+            *(self.on(n) for n in self.grids.cells),
+            *(self.on(self.grids.fixed, residual) for residual in self.grids.tolerances),
         )
 
     def on_grids(self, method: Method, label: str, cells: Iterable[int]) -> tuple[Configuration, ...]:
@@ -205,11 +223,12 @@ def measure(timed: TimedProblem) -> Outcome:
     status: "finished", or why not; setup: seconds before the clock runs; seconds i: of each run of the i-th, a
     realisation; work: median of a realisation; NAME i: its values, realisations along the first axis.
     """
-    timings = time_in_turns(configurations_of(timed.problem), timed.limits)
+    timings = time_in_turns(configurations_of(timed.problem), timed)
+    work = [[result.work / result.count for result in timing.results] or [np.nan] for timing in timings]
     outcome: dict[str, Any] = {
         "status": np.array([timing.status for timing in timings]),
         "setup": np.array([timing.setup for timing in timings]),
-        "work": np.array([_work(timing) for timing in timings]),
+        "work": np.array([float(np.median(each)) for each in work]),
     }
     for i, timing in enumerate(timings):
         outcome[f"seconds {i}"] = np.array(timing.seconds)
@@ -219,21 +238,9 @@ def measure(timed: TimedProblem) -> Outcome:
     return outcome
 
 
-def _work(timing: Timing) -> float:
-    return float(np.median([result.work / result.count for result in timing.results])) if timing.results else np.nan
-
-
-def values_by_configuration(problem: ChartProblem, outcome: Mapping[str, Any]) -> dict[Configuration, Values]:
-    """Of all that have finished."""
-    return {
-        each: problem.of_model(values) if isinstance(each.method, Model) else values
-        for i, each in enumerate(configurations_of(problem))
-        if str(outcome["status"][i]) == FINISHED
-        for values in [_values(outcome, i)]
-    }
-
-
-def _values(outcome: Mapping[str, Any], i: int) -> Values:
+def values_of(problem: ChartProblem, configuration: Configuration, outcome: Mapping[str, Any], i: int) -> Values:
+    """Of the i-th configuration."""
     end = f" {i}"
     names = (name.removesuffix(end) for name in outcome if name.endswith(end) and name != f"seconds{end}")
-    return {name: outcome[name + end] for name in names}
+    values = {name: outcome[name + end] for name in names}
+    return problem.of_model(values) if isinstance(configuration.method, Model) else values

@@ -14,21 +14,22 @@ import numpy as np
 import bem3d
 import mdr
 from validation.analysis.spectra import Bands, levels, waves
-from validation.benchmarks.timing import Configuration
+from validation.benchmarks.timing import Configuration, NamedMethod
 from validation.benchmarks.work_precision.problem import (
     POLONSKY_KEER,
     ChartProblem,
     CountedSpectrum,
+    Found,
     Grids,
-    NamedMethod,
     Quantity,
     along_a_track,
+    linear_power,
     log_power,
 )
 from validation.engine.convergence import NotConvergedError
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
-from validation.simulation.method import FloatArray, Method, Prepared, Resolution, Result, Solve, Values
+from validation.simulation.method import FloatArray, Prepared, Resolution, Result, Solve, Values
 from validation.simulation.pressed import MOST_ITERATIONS
 from validation.simulation.rolling_strip import HERTZ, RoughStrip, crop_to_reach
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, self_affine
@@ -40,7 +41,7 @@ WARM = 40
 WINDOW = 3
 """Contact radii of the window on which Polonsky and Keer's iteration solves each position."""
 GRIDS = Grids(cells=(3, 4, 6, 12), polonsky_keer=(4,), fixed=6, per="to a radius")
-Roller = Callable[[FloatArray, int, float], Callable[[], tuple[FloatArray, float]]]
+Roller = Callable[[FloatArray, int, float], Callable[[], Found]]
 """Of a surface, cells to a contact radius and a residual: a function that returns force and work."""
 
 
@@ -54,6 +55,11 @@ class RollingProblem(ChartProblem):
     """
 
     name: ClassVar = "rolling force"
+    # of the force at a place of an endless track
+    quantities: ClassVar = (
+        Quantity(name="rms", log=lambda values: log_power(values, "variance") / 2, needs=("variance",)),
+        Quantity(name="spectrum", log=partial(log_power, name="level"), needs=("level",), decibel=True),
+    )
     hurst: float = 0.7
     height: float = 0.1
     last: float = 10.0
@@ -65,14 +71,6 @@ class RollingProblem(ChartProblem):
     filtered: tuple[int, ...] = (4, 6)
     springs: tuple[int, ...] = (3, 4, 8, 16, 32)
     seed: int = 151
-
-    @property
-    def quantities(self) -> tuple[Quantity, ...]:
-        """Of the force at a place of an endless track."""
-        return (
-            Quantity(name="rms", log=lambda values: log_power(values, "variance") / 2, needs=("variance",)),
-            Quantity(name="spectrum", log=partial(log_power, name="level"), needs=("level",), decibel=True),
-        )
 
     @property
     def scene(self) -> RollingScene:
@@ -108,21 +106,12 @@ class RollingProblem(ChartProblem):
         return along_a_track(self, linear_spectrum, springs, strips, self.tracks)
 
     @property
-    def method(self) -> Method:
+    def method(self) -> NamedMethod:
         return NamedMethod("BEM", force_along_strips, (_roll,))
 
     @property
-    def published(self) -> Method:
+    def published(self) -> NamedMethod:
         return NamedMethod(POLONSKY_KEER, force_along_strips, (_roll_published,))
-
-    def mean(self, surface: FloatArray, spacing: float) -> Values:
-        """Variance at a place and levels of the linear force, in the mean over all phases of these waves."""
-        nx, ny = surface.shape
-        qx, qy = (2 * np.pi * np.fft.fftfreq(n, spacing) for n in (nx, ny))
-        response = rolling_theory.response(np.hypot(qx[:, np.newaxis], qy), contact_radius=1.0, modulus=1.0)
-        power = (np.abs(response * np.fft.fft2(surface, norm="forward") / HERTZ) ** 2).sum(axis=1)
-        along = slice(1, (nx - 1) // 2 + 1)
-        return {"mean variance": np.array(power.sum()), "mean level": self.bands.sums(qx[along], power[along]).real}
 
 
 def linear_spectrum(scene: RollingProblem, resolution: Resolution) -> Prepared:
@@ -168,34 +157,36 @@ def springs_along_tracks(
 
 
 def force_along_strips(scene: RollingProblem, resolution: Resolution, rolled: Roller) -> Prepared:
-    """Beside that of linear theory on each strip. Raises ValueError for waves that cells do not resolve."""
+    """Beside that of linear theory on each strip, and its mean over all phases of these waves.
+
+    Raises ValueError for waves that cells do not resolve.
+    """
     cells = round(resolution.size)
 
-    def variance_and_level(force: FloatArray) -> tuple[FloatArray, FloatArray]:
-        return np.array(force.var()), levels(waves(force, spacing=1 / cells), scene.bands)
+    def variance_and_level(force: FloatArray, kind: str = "") -> Values:
+        level = levels(waves(force, spacing=1 / cells), scene.bands)
+        return {f"{kind}variance": np.array(force.var()), f"{kind}level": level}
 
     def draw(realisation: int) -> Solve:
         surface = scene.rough_strip.surface(cells, realisation)
         linear = rolling_theory.linear_force(surface, spacing=1 / cells, **SMOOTH) / HERTZ
-        known = dict(zip(("linear variance", "linear level"), variance_and_level(linear), strict=True))
-        known |= scene.mean(surface, 1 / cells)
-
-        def read(found: tuple[FloatArray, float]) -> Result:
-            variance, level = variance_and_level(found[0] / HERTZ)
-            return Result({"variance": variance, "level": level, **known}, found[1])
-
-        return Solve(rolled(surface, cells, resolution.residual), read)
+        q, power = linear_power(surface, 1 / cells, contact_radius=1.0, modulus=1.0, load=HERTZ)
+        along = slice(1, (q.size - 1) // 2 + 1)
+        mean = {"mean variance": np.array(power.sum()), "mean level": scene.bands.sums(q[along], power[along]).real}
+        known = {**variance_and_level(linear, "linear "), **mean}
+        solve = rolled(surface, cells, resolution.residual)
+        return Solve(solve, lambda found: Result({**variance_and_level(found[0] / HERTZ), **known}, found[1]))
 
     draw(0)
     return draw
 
 
-def _filtered(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], tuple[FloatArray, float]]:
+def _filtered(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], Found]:
     """Each wave by its response."""
     return lambda: (rolling_theory.linear_force(surface, spacing=1 / cells, **SMOOTH), surface.size)
 
 
-def _roll(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], tuple[FloatArray, float]]:
+def _roll(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], Found]:
     """Each position from the two before; applications times the cells of a square around the smooth contact.
 
     Frames and their plans belong to the strip: they are made by rolling over its beginning.
@@ -203,7 +194,7 @@ def _roll(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], tup
     height = crop_to_reach(surface, 1 / cells)
     track = bem3d.Track(height=height, spacing=1 / cells, radius=1.0, modulus=1.0)
 
-    def roll(positions: int) -> tuple[FloatArray, float]:
+    def roll(positions: int) -> Found:
         wheel = bem3d.RollingContact(track, tolerance=tolerance)
         along = [wheel.press(position, SMOOTH["approach"]) for position in range(positions)]
         failed = sum(not contact.converged for contact in along)
@@ -216,12 +207,12 @@ def _roll(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], tup
     return lambda: roll(len(height))
 
 
-def _roll_published(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], tuple[FloatArray, float]]:
+def _roll_published(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], Found]:
     """One cold solve of Polonsky and Keer's a position, on a window that moves with the wheel."""
     half_space, gap = moving_window(surface, cells)
     solve = partial(bem3d.solve_polonsky_keer, half_space, tolerance=tolerance, max_iterations=MOST_ITERATIONS)
 
-    def roll() -> tuple[FloatArray, float]:
+    def roll() -> Found:
         contacts = [solve(gap(position), approach=1.0) for position in range(len(surface))]
         work = sum(contact.operator_applications * contact.pressure.size for contact in contacts)
         return np.array([contact.force for contact in contacts]), float(work)

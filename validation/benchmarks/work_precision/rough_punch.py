@@ -8,10 +8,10 @@ import numpy as np
 import bem3d
 import mdr
 from validation.benchmarks.timing import Configuration, along
-from validation.benchmarks.work_precision.problem import ChartProblem, Grids, Quantity, logarithm
+from validation.benchmarks.work_precision.problem import ChartProblem, Grids, Quantity, mean_of
 from validation.scenes.indentation import IndentationScene
 from validation.simulation.method import FloatArray, Values
-from validation.simulation.pressed import FIXED_AREA_RESIDUAL, PressedSprings
+from validation.simulation.pressed import PressedSprings
 from validation.simulation.rough_punch import PunchRoughness
 
 
@@ -35,6 +35,11 @@ class RoughPunchProblem(ChartProblem):
     """
 
     name: ClassVar = "fractal punch"
+    quantities: ClassVar = (
+        mean_of("mean stiffness", "stiffness"),
+        Quantity(name="relative deviation", log=log_deviation, needs=("stiffness",)),
+    )
+    fixed_area: ClassVar = True
     hurst: float = 0.7
     waves: int = 15
     force: float = 0.1
@@ -43,13 +48,6 @@ class RoughPunchProblem(ChartProblem):
     grids: Grids = GRIDS
     springs: tuple[int, ...] = (24, 32, 64, 128, 256, 512)
     seed: int = 150
-
-    @property
-    def quantities(self) -> tuple[Quantity, ...]:
-        return (
-            Quantity(name="mean stiffness", log=logarithm("stiffness"), needs=("stiffness",)),
-            Quantity(name="relative deviation", log=log_deviation, needs=("stiffness",)),
-        )
 
     @property
     def roughness(self) -> PunchRoughness:
@@ -73,9 +71,6 @@ class RoughPunchProblem(ChartProblem):
 
     def gap(self, cells: int, realisation: int) -> FloatArray:
         return -self.roughness.surface(cells, realisation)
-
-    def finish(self, contact: bem3d.Contact) -> bem3d.FixedContactArea:
-        return bem3d.solve_fixed_area(contact.problem.half_space, contact.pressure > 0, tolerance=FIXED_AREA_RESIDUAL)
 
     def read(self, contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> Values:
         assert fixed is not None
