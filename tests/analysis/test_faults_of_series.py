@@ -43,8 +43,8 @@ def test_a_condition_may_be_a_type():
 def test_an_undecided_point_is_worse_than_one_that_agrees_with_a_wider_interval():
     """Of two that differ, the one whose interval ends farther out."""
     undecided, agrees = point(0.95, 0.1, at=1.0), point(0.0, 0.9, at=2.0)
-    assert worst([agrees, undecided], "q a").verdict is Verdict.UNDECIDED
-    assert worst([point(6.0, 2.0, at=1.0), point(3.0, 0.4, at=2.0)], "q a").where["worst at"] == 1.0
+    assert worst([agrees, undecided]).verdict is Verdict.UNDECIDED
+    assert worst([point(6.0, 2.0, at=1.0), point(3.0, 0.4, at=2.0)]).where["q a"] == 1.0
 
 
 def test_a_cell_says_how_many_times_the_sample_would_decide():

@@ -88,9 +88,9 @@ def most_agree(claim):
     return ClaimStatus.HOLDS if 2 * claim.count(claim.confirmed_by) > len(claim.numbers) else ClaimStatus.OPEN
 
 
-def mean_of_the_range(points, parameter):
+def mean_of_the_range(points):
     """The signed mean over a range, in which signs cancel."""
-    return dataclasses.replace(worst(points, parameter), value=float(np.mean([p.difference for p in points])))
+    return dataclasses.replace(worst(points), value=float(np.mean([p.difference for p in points])))
 
 
 def each_alone(estimate, points):
@@ -98,21 +98,20 @@ def each_alone(estimate, points):
     return statistics.student(estimate.samples - 1) * estimate.error
 
 
-def farthest(points, parameter):
+def farthest(points):
     """The point that is farthest off, whatever its interval and its tolerance."""
-    off = max(points, key=lambda p: abs(p.difference))
-    return dataclasses.replace(worst(points, parameter), where={"worst at": off.where[parameter]})
+    return max(points, key=lambda p: abs(p.difference))
 
 
-def about_its_mean(points, parameter, tolerance, reason):
+def about_its_mean(points, tolerance, reason):
     """The scatter over a range, of which a constant difference is no part."""
-    found = over_range.root_mean_square(points, parameter, tolerance, reason)
+    found = over_range.root_mean_square(points, tolerance, reason)
     return dataclasses.replace(found, value=float(np.std([point.difference for point in points])))
 
 
-def of_the_mean_alone(points, parameter, tolerance, reason):
+def of_the_mean_alone(points, tolerance, reason):
     """The half-width of a mean of independent points."""
-    found = over_range.root_mean_square(points, parameter, tolerance, reason)
+    found = over_range.root_mean_square(points, tolerance, reason)
     return dataclasses.replace(found, sample=found.sample / math.sqrt(len(points)))
 
 
