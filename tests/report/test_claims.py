@@ -16,9 +16,9 @@ from validation.analysis.claims import STATUS_WORDS
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Role, Verdict
 from validation.report import formats
 from validation.report.chapter import ENTRIES, ERRATA, ChapterEntry, ChapterTest, answers, chapter_results
+from validation.report.commands.report import lines_of
 from validation.report.contents import CASES, TIMED
 from validation.report.section import Section, case_results, total_of
-from validation.report.terminal import lines_of
 
 AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
 OFF = {AGREE: (0.0, 0.0), DIFFER: (9.0, 0.0), UNDECIDED: (0.1, 1.0)}

@@ -23,7 +23,7 @@ from validation.analysis.evidence import (
 )
 from validation.report import drawing, formats, page
 from validation.report.contents import CASES
-from validation.report.documentation import BUILT, documentation_beside
+from validation.report.provenance import BUILT, documentation_beside
 from validation.report.section import Section, case_results, numbers_table
 
 # --- the page, files ---
