@@ -9,14 +9,13 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from tests.analysis.intervals import TRIALS, binomial, covered, ends, holds, t
+from tests.analysis.intervals import covered, ends, holds, t
 from tests.cases.test_limits import STEEP
 from validation.analysis.statistics import (
     Estimate,
     at_level,
     jackknife_error,
     log_mean,
-    log_ratio_of_means,
     log_relative_deviation,
     mean_estimate,
     ratio_of_means,
@@ -152,19 +151,6 @@ def test_leaving_out_one_is_the_standard_error_of_a_mean():
     np.testing.assert_allclose(jackknife_error(without), x.std(axis=0, ddof=1) / math.sqrt(7), rtol=1e-12)
 
 
-@pytest.mark.parametrize(("size", "own"), [(3, 0.1), (6, 0.3)])
-def test_the_interval_of_a_logarithm_of_a_ratio_covers_its_truth(size, own):
-    """Of strips in pairs, over two bands: what both share drops out, the rest is jackknifed; skew costs a little."""
-    rng, weights = np.random.default_rng(size), np.array([0.5, 0.0, 0.5])
-
-    def drawn():
-        linear = rng.lognormal(0, 0.5, (size, 3))
-        values = 1.3 * linear * rng.lognormal(-(own**2) / 2, own, (size, 3))
-        return ends(log_ratio_of_means(values, linear, weights))
-
-    assert holds(covered(drawn, math.log(1.3)), short=0.03)
-
-
 # --- straight lines, shares, borders ---
 
 
@@ -181,19 +167,6 @@ def test_the_drift_of_an_energy_covers_its_truth():
     rng = np.random.default_rng(0)
     place = (np.arange(10) + 0.5) / 10
     assert holds(covered(lambda: ends(fit_drift(2 * place + 0.1 * rng.standard_normal(10))), 2.0))
-
-
-@pytest.mark.parametrize("points", [1, 50])
-def test_the_growth_over_laps_covers_its_truth(points):
-    """At 95 %, and at 99.9 %, which is 95 % of fifty points at once."""
-    rng = np.random.default_rng(0)
-
-    def drawn():
-        grown = mean_estimate(0.3 + 0.1 * rng.standard_normal(5))
-        return grown.value, grown.half_width_among(points)
-
-    confidence = 1 - 0.05 / points
-    assert abs(covered(drawn, 0.3) - confidence) <= binomial(TRIALS, confidence)
 
 
 @pytest.mark.slow

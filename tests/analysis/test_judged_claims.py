@@ -98,6 +98,9 @@ WORST = [
     # beside the tolerance of each
     ([point(0.5, at=1.0), point(1.2, at=2.0, tolerance=3.0)], 1.0),
     ([point(5.0, at=1.0), point(6.0, at=2.0, tolerance=3.0)], 1.0),
+    # one that is undecided beside one that agrees with a wider interval; the end that is farther out
+    ([point(0.95, 0.1, at=1.0), point(0.0, 0.9, at=2.0)], 1.0),
+    ([point(6.0, 2.0, at=1.0), point(3.0, 0.4, at=2.0)], 1.0),
 ]
 
 
