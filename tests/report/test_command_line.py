@@ -231,13 +231,6 @@ def lose(place):
     stored.save(place, key, {**outcome, **lost, "failed": np.ones_like(outcome["failed"])})
 
 
-@pytest.mark.slow
-def test_another_seed_draws_other_surfaces(small, tmp_path):
-    for seed in ("5", "6"):
-        report("--only", "geike", "--out", str(tmp_path / seed), "--workers", "1", "--seed", seed)
-    assert contents(tmp_path / "5", "data/*") != contents(tmp_path / "6", "data/*")
-
-
 def text_of(folder):
     """Of all pages."""
     return "".join(page.read_text() for page in sorted(folder.glob("*.html")))
