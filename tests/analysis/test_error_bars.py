@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from tests.analysis.intervals import covered, ends, holds, t
+from tests.analysis.intervals import covered, ends, holds
 from tests.cases.test_limits import STEEP
 from validation.analysis.statistics import (
     Estimate,
@@ -130,19 +130,6 @@ def test_the_bootstrap_covers_log_normal_populations(size, sigma):
         found_ = iter([ends(one.estimate(at_level(0, statistic))) for one in draws])
         share = covered(lambda found_=found_: next(found_), truth[statistic], trials=200)
         assert holds(share, trials=200, short=short)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("statistic", "size"), [(log_mean, 6), (log_relative_deviation, 30)])
-def test_an_interval_shrinks_with_the_root_of_the_sample_and_its_quantile(statistic, size):
-    """To four times the sample: half of the standard error, and Student's quantile of either."""
-    rng = np.random.default_rng(2)
-
-    def mean_width(size):
-        draws = (1 + 0.2 * rng.standard_normal((size, 1)) for _ in range(60))
-        return np.mean([sample(one, rng).estimate(at_level(0, statistic)).half_width for one in draws])
-
-    assert mean_width(size) / mean_width(4 * size) == pytest.approx(2 * t(size) / t(4 * size), rel=0.1)
 
 
 def test_leaving_out_one_is_the_standard_error_of_a_mean():

@@ -7,7 +7,6 @@ import pytest
 from scipy import stats
 
 from validation.analysis.multilevel import Linearised, log, moments, multilevel_moments, weighted_sum
-from validation.analysis.statistics import student
 
 SPREAD = 0.25
 MEAN = math.exp(SPREAD**2 / 2)
@@ -68,22 +67,6 @@ def test_mean_and_variance_have_no_bias(sizes, correlations):
         assert abs(np.mean(found) - true) < 3.5 * np.std(found) / math.sqrt(len(found))
 
 
-def test_the_logarithm_of_a_deviation_has_little_bias():
-    """A fifth of its standard error at 60 realisations without the second-order term; here a fiftieth or so."""
-    rng = np.random.default_rng(4)
-    found = [finest(rng, (60,), ()).log_relative_deviation for _ in range(2000)]
-    assert abs(np.mean([x.value for x in found]) - math.log(RELATIVE)) < 0.1 * np.median([x.error for x in found])
-
-
-def test_correlated_grids_take_less_work():
-    """Forty fine realisations and a thousand coarse ones have nearly the error of a thousand."""
-    rng = np.random.default_rng(5)
-    grids = population(rng, (1000, 40), (0.999,), coarse=0.0)
-    both, plain = multilevel_moments(grids)[-1], multilevel_moments(grids[1:])[-1]
-    for name in ("log_mean", "log_relative_deviation"):
-        assert getattr(both, name).error < 0.4 * getattr(plain, name).error
-
-
 def test_one_grid_is_plain_sampling():
     values = np.random.default_rng(6).standard_normal(50) + 5
     (found,) = multilevel_moments([values])
@@ -106,15 +89,6 @@ def test_values_from_the_same_realisations_share_their_errors():
     assert x.beside(x).error == pytest.approx(math.sqrt(2) * x.error)
     assert weighted_sum([0.25, 0.75], [x, x]).error == pytest.approx(x.error)
     assert x.beside(2.0 * x).value == pytest.approx(-x.value)
-
-
-def test_degrees_of_freedom_are_of_those_that_contribute():
-    """Normal contributions: as many as realisations; three that outweigh all others: few of them."""
-    even = np.random.default_rng(8).standard_normal(4000)
-    assert Linearised(0.0, even).freedom == pytest.approx(4000, rel=0.15)
-    uneven = np.concatenate([np.full(3, 10.0), 0.01 * even])
-    assert Linearised(0.0, uneven).freedom < 10
-    assert Linearised(0.0, uneven).half_width > 1.1 * student(4000) * Linearised(0.0, uneven).error
 
 
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])

@@ -3,7 +3,6 @@
 import math
 from dataclasses import replace
 from functools import partial
-from types import SimpleNamespace
 
 import numpy as np
 import scipy
@@ -22,6 +21,7 @@ from tests.analysis import (
     test_series,
 )
 from tests.analysis import test_spectra as test_wheel_spectra
+from tests.planted_faults.wrong import with_math
 from validation.analysis import claims, multilevel, nominal_bands, over_range, spectra, statistics
 from validation.analysis import series as declared
 from validation.analysis import spectral_features as regions
@@ -153,16 +153,6 @@ def shuffled(other):
     return replace(other, influence=other.influence[::-1])
 
 
-def without_the_second_order(rng, sizes, correlations):
-    found = finest(rng, sizes, correlations)
-    mean, variance = (replace(x, influence=0 * x.influence) for x in (found.mean, found.variance))
-    bare = multilevel.Moments(mean, variance).log_relative_deviation
-    return SimpleNamespace(log_relative_deviation=replace(bare, influence=found.log_relative_deviation.influence))
-
-
-finest = test_multilevel.finest
-
-
 def both_edges(bands, q, values):
     inside = (q[:, np.newaxis] >= bands.edges[:-1]) & (q[:, np.newaxis] <= bands.edges[1:])
     return values @ inside.astype(complex)
@@ -250,7 +240,7 @@ FAULTS = {
     ),
     "the covariance of two grids lost": (
         (multilevel.Linearised, "__sub__", lambda mine, other: mine + -1.0 * shuffled(other)),
-        test_multilevel.test_correlated_grids_take_less_work,
+        test_multilevel.test_values_from_the_same_realisations_share_their_errors,
     ),
     "the quantile of 90 % for that of 95": (
         (multilevel, "student", lambda freedom, confidence=0.95: 1.6),
@@ -269,8 +259,8 @@ FAULTS = {
         partial(test_multilevel.test_intervals_that_hold_together_share_their_five_per_cent, 25),
     ),
     "no bias of the logarithm taken off": (
-        (test_multilevel, "finest", without_the_second_order),
-        test_multilevel.test_the_logarithm_of_a_deviation_has_little_bias,
+        (multilevel, "math", with_math(log1p=lambda relative: 0.0)),
+        test_multilevel.test_the_bias_of_a_logarithm_is_half_of_its_variance,
     ),
     "profiles and surfaces taken for the same realisations": (
         (multilevel.Linearised, "beside", lambda mine, other: mine - other),
