@@ -166,3 +166,9 @@ def test_several_columns_have_an_axis_for_each_of_their_values():
     np.testing.assert_array_equal(axes[3].lines[0].get_ydata(), [10, 11, 12])
     # a mark that the panel does not reach is not drawn
     assert [list(line.get_xdata()) for line in axes[3].lines[1:]] == [[2.0, 2.0]]
+
+
+@pytest.mark.parametrize("curve", [Curve("level", style="nowhere"), Curve("level", by=("nowhere",))])
+def test_a_style_or_a_column_that_is_nowhere_is_named_with_its_chart(curve):
+    with pytest.raises(ValueError, match="chart 'c' names 'nowhere'"):
+        drawn(curve)
