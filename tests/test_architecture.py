@@ -1,6 +1,7 @@
 """Who may lean on whom, read from the imports; and what numerics must not do."""
 
 import ast
+import dataclasses
 import functools
 import re
 from pathlib import Path
@@ -182,7 +183,8 @@ def test_oracles_share_no_code_with_what_they_check():
     assert not rooms(ROOT / "tests" / "oracles.py") & set(PACKAGES)
 
 
-def test_two_cases_of_one_name_are_refused(monkeypatch):
-    monkeypatch.setattr("validation.cases.exact.geike.CASE", contents.CASES["hertz"])
-    with pytest.raises(ValueError, match="a name of its own, got twice: hertz"):
+@pytest.mark.parametrize(("other", "said"), [({}, "name of its own, got twice: hertz"), ({"name": "my"}, "place")])
+def test_two_cases_of_one_name_or_place_are_refused(monkeypatch, other, said):
+    monkeypatch.setattr("validation.cases.exact.geike.CASE", dataclasses.replace(contents.CASES["hertz"], **other))
+    with pytest.raises(ValueError, match=said):
         contents._found()

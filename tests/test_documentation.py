@@ -12,7 +12,7 @@ import pytest
 import bem3d
 import mdr
 import validation
-from validation.report.documentation import BUILT
+from validation.report.provenance import BUILT
 from validation.scenes import rail_file
 
 ROOT = Path(__file__).parents[1]

@@ -29,7 +29,7 @@ COMMANDS = {
     "cases": "list the cases and what each shows",
 }
 TIMED = ("precision", "race")
-"""Of one module; each of the others has its own in `validation.report.commands`, imported when its command is given."""
+"""Of the module of `report`; each other one has its own in `validation.report.commands`, imported when it is given."""
 
 STDOUT = 1
 """Its file descriptor."""
@@ -97,7 +97,7 @@ class _CommandParser(_Parser):
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         command = self.prog.split()[-1]
-        module = "timed" if command in TIMED else command
+        module = "report" if command in TIMED else command
         import_module(f"validation.report.commands.{module}").describe(self)
         return super().parse_known_args(args, namespace)
 

@@ -83,6 +83,8 @@ OF_QUANTITIES = [number(v, quantity=q) for q, v in (("height", DIFFER), ("gradie
     ("along", "numbers", "limits"),
     [
         ("-h/d", by_height(DIFFER, AGREE, AGREE), "h/d from 1 on"),
+        # one of several quantities ends them
+        ("h/d", [*by_height(AGREE, AGREE), *by_height(AGREE, DIFFER, quantity="slope")], "h/d up to 0.1"),
         ("q a", by_band(AGREE, AGREE, DIFFER), "q a up to 4"),
         ("-q a", by_band(DIFFER, AGREE, AGREE), "q a from 2 on"),
         ("-quantity", OF_QUANTITIES, "in curvature, gradient"),
@@ -124,6 +126,7 @@ def test_members_are_chosen_by_quantity_model_and_conditions():
     assert chosen(model="a", where={"across": ...}) == [("a", "ridges"), ("a", "ground")]
     assert chosen(model="a", where={"across": lambda across: across != "ridges"}) == [("a", "ground")]
     assert chosen(model=("a", "b"), where={"across": "ridges"}) == [("a", "ridges"), ("b", "ridges")]
+    assert chosen(model="b", where={"across": float}) == [] and len(chosen(where={"h/d": float})) == 1
     both = ({"model": "b"}, {"where": {"h/d": 0.1}})
     assert chosen(either=both) == [("b", "ridges"), ("b", "ground"), ("a", 0.1)]
 
@@ -203,3 +206,27 @@ def test_a_claim_that_no_number_tests_is_told():
     found = Study(title="t", method="", series=lambda result: [series], claims=claims).evidence(Outcomes(None, {}))
     assert [claim.claim for claim in found.claims] == ["It is so."]
     assert found.conclusions == ("No number tests the claim: It is not.",)
+
+
+def test_a_cell_says_how_many_times_the_sample_would_decide():
+    """0.3 left beside 0.2 of room takes (0.3 / 0.2)² = 2.25; beside 0.02 of room, too many to say."""
+    numbers = [point(value, 0.3, where={"H": h}) for h, value in (("a", 0.8), ("b", 0.98), ("c", 0.2))]
+    cells = Matrix(name="t", quantity="level", rows=("H",), columns="model").table(numbers).columns["m"]
+    assert [cell.after for cell in cells] == ["needs 2.3 times the sample", "", ""]
+
+
+def test_a_matrix_of_models_has_no_column_of_a_quantity_and_a_study_prints_what_it_names():
+    matrix = Matrix(name="t", quantity=("level", "slope"), rows=("h/d",), columns="model")
+    assert list(matrix.table(by_height(AGREE)).columns) == ["h/d", "m"]
+    one, other = (Series(name, "m", (2.0,)) for name in ("level", "slope"))
+    study = Study(title="t", method="m", series=lambda _: [one, other], claims=(), printed=("slope",))
+    assert [table.name for table in study.evidence(Outcomes(None, {})).page_tables] == ["slope"]
+
+
+def test_a_number_is_printed_beside_its_reference_with_the_digits_of_its_tolerance():
+    near = point(1234.5, reference=1234.5678, tolerance=1.0)
+    assert [beside(replace(near, tolerance=t)) for t in (1.0, 2.0)] == [
+        "1234.5 beside 1234.57 dB",
+        "1234.5 beside 1234.6 dB",
+    ]
+    assert [beside(point(x)) for x in (0.5, 0.0, -0.5)] == ["+0.5 dB", "0 dB", "-0.5 dB"]

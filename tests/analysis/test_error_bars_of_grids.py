@@ -64,22 +64,6 @@ def test_sample_and_grid_together_hold_cells_of_no_size(refined):
     assert covered(drawn, 0.0, trials=200) >= 0.95
 
 
-@pytest.mark.slow
-def test_what_a_grid_leaves_open_shrinks_with_the_cells_and_with_the_surfaces():
-    rng = np.random.default_rng(5)
-
-    def left(surfaces, **changes):
-        coarse, fine = on_grids(rng, surfaces, **changes)
-        finer = paired_samples(coarse, fine, rng).estimate(difference_of_halves(at_level(0, log_mean)))
-        return extrapolated(Estimate(0.0, 0.0, 9), finer)[1]
-
-    # cells half as wide, all alike: half of it
-    assert left(5, scatter=0.0, slope=0.05) == pytest.approx(left(5, scatter=0.0) / 2)
-    # surfaces that differ: the root of their number, and Student's quantile
-    few, many = (np.mean([left(n, slope=0.0) - 0.01 / math.sqrt(n) for _ in range(60)]) for n in (4, 16))
-    assert few / many == pytest.approx(2 * t(4) / t(16), rel=0.2)
-
-
 def steps(*values, error=0.01, n=50):
     """A statistic on grids, coarse to fine, from the same realisations; the steps between grids have no error."""
     influence = np.zeros(n)

@@ -8,7 +8,7 @@ import pytest
 
 from tests.analysis.intervals import covered, ends, holds
 from validation.analysis.series import Estimates
-from validation.analysis.statistics import POWER_DECIBEL, Estimate, ratio_of_means
+from validation.analysis.statistics import POWER_DECIBEL, Estimate
 from validation.analysis.study import Outcomes
 from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import features as wheel_features
@@ -77,15 +77,6 @@ def test_the_rms_jump_covers_its_truth():
     """A mean square of Gaussian jumps."""
     rng = np.random.default_rng(1)
     assert holds(covered(lambda: ends(wheel_distance.rms_over(rng.standard_normal(60), 1.0)), 1.0), wide=0.01)
-
-
-def test_the_mean_square_over_that_of_the_steady_state_counts_the_scatter_of_both():
-    rng = np.random.default_rng(2)
-
-    def drawn():
-        return ends(ratio_of_means(1.5 * rng.gamma(50, 1 / 50, 8), rng.gamma(50, 1 / 50, 8)))
-
-    assert holds(covered(drawn, 1.5), short=0.01)
 
 
 def test_the_level_over_linear_theory_covers_its_truth():

@@ -75,35 +75,6 @@ def test_so_much_more_of_a_sample_would_decide(value, tolerance, grid, sample):
         assert other.verdict is Verdict.UNDECIDED
 
 
-# deviation and mean of each, and how it is drawn
-POPULATIONS = {
-    "normal": (1.0, 0.0, lambda rng, size: rng.standard_normal(size)),
-    "uniform": (12**-0.5, 0.5, lambda rng, size: rng.random(size)),
-}
-# the first of two levels, and the mean over both
-OVER_LEVELS = (lambda s: at_level(0, s), lambda s: weighted_mean(np.array([0.5, 0.5]), s))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("population", list(POPULATIONS))
-@pytest.mark.parametrize("size", [12, 60])
-def test_intervals_cover_the_truth(size, population):
-    """95 % nominal, 300 samples of a known population: binomial error 1.3 %; small samples lack a few."""
-    rng = np.random.default_rng(1)
-    deviation, middle, draw = POPULATIONS[population]
-    mean = 1 + 0.2 * middle
-    truths = {log_mean: np.log(mean), log_relative_deviation: np.log(0.2 * deviation / mean)}
-    hits = []
-    for _ in range(300):
-        # the levels of a realisation are correlated, as forces are
-        common, own = draw(rng, (size, 1)), draw(rng, (size, 2))
-        found = sample(1 + 0.2 * np.where(np.arange(2) == 0, common, own), rng)
-        estimates = [(found.estimate(over(s)), truth) for over in OVER_LEVELS for s, truth in truths.items()]
-        hits.append([abs(estimate.value - truth) <= estimate.half_width for estimate, truth in estimates])
-    shares = np.mean(hits, axis=0)
-    assert 0.95 - 4 * 0.013 - 0.5 / size <= shares.min() <= shares.max() <= 0.95 + 4 * 0.013
-
-
 def test_levels_of_a_realisation_are_resampled_together():
     """What has the same scatter at two levels has none in their ratio."""
     rng = np.random.default_rng(0)
@@ -114,22 +85,6 @@ def test_levels_of_a_realisation_are_resampled_together():
     assert ratio.error == pytest.approx(0, abs=1e-12)
     alone = both.estimate(at_level(0, log_mean)).error
     assert both.estimate(weighted_mean(np.array([0.5, 0.5]), log_mean)).error == pytest.approx(alone, rel=1e-6)
-
-
-@pytest.mark.slow
-def test_error_of_a_paired_change():
-    """The bootstrap of pairs against the spread of what many samples of pairs measure."""
-    rng = np.random.default_rng(0)
-    changes = [difference_of_halves(at_level(0, statistic)) for statistic in (log_mean, log_relative_deviation)]
-    found = []
-    for _ in range(300):
-        coarse = 1 + 0.2 * rng.standard_normal(40)
-        fine = coarse * np.exp(0.02 * rng.standard_normal(40))
-        pairs = sample(np.stack([coarse, fine], axis=1), rng)
-        found.append([pairs.estimate(change) for change in changes])
-    for estimates in zip(*found, strict=True):
-        # the standard deviation of 300 values is known to 4 %, each error to some 10 %, and small samples lack a few
-        assert np.mean([e.error for e in estimates]) == pytest.approx(np.std([e.value for e in estimates]), rel=0.15)
 
 
 def test_lost_realisations_are_left_out():

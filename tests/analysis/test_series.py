@@ -1,12 +1,14 @@
 """Numbers, tables and verdicts of planted series: worst points, root mean squares, intervals that hold at once."""
 
 import math
+import re
 
 import numpy as np
 import pytest
 
 from validation.analysis.evidence import Role, Verdict
-from validation.analysis.series import Estimates, Margin, Series, numbers_of, spans, tables_of
+from validation.analysis.margins import MARGINS
+from validation.analysis.series import Estimates, Margin, Series, masked, numbers_of, single, spans, tables_of
 from validation.analysis.statistics import Estimate, Interval, extrapolated, student
 
 NEAR = Margin(tolerance=1.0, reason="r", source="s", rms=(0.5, "q"))
@@ -108,3 +110,49 @@ def test_ends_of_a_row_hold_sample_and_grid_and_ranges_have_a_table_of_their_own
 def test_a_series_has_a_value_at_each_point():
     with pytest.raises(ValueError, match="must have a value at each q"):
         series(1.0, 2.0, at=(1.0,))
+
+
+def test_what_is_exact_has_no_sample_and_an_absolute_margin_knows_no_scale():
+    margin = Margin(tolerance=0.3, reason="r").beside("theory")
+    (exact,) = Series("x", "m", (2.0,), reference=1.0, scale=5.0, grid=0.1, margin=margin).numbers
+    assert (exact.value, exact.reference, exact.sample, exact.grid) == (10.0, 5.0, 0.0, 0.5)
+    assert (exact.tolerance, exact.source) == (0.3, "theory")
+    (alone,) = single("x", "m", 2.0, 0.1, "s", "r", where={"band": (1.0, 2.0)}).numbers
+    assert (alone.where, alone.tolerance, alone.role) == ({"band": (1.0, 2.0)}, 0.1, Role.CRITERION)
+    (table,) = tables_of([Series("x", "m", (2.0,), where={"band": (1.0, 2.0)})])
+    assert table["band"].tolist() == ["1 to 2"]
+
+
+def test_what_is_masked_is_judged_nowhere_and_kept_elsewhere():
+    values = Estimates(Estimate(x, 0.1, 5) for x in (9.0, 0.1, 0.2))
+    kept = masked(values, np.array([False, True, True]))
+    assert math.isnan(kept[0].value) and kept[1:] == list(values[1:])
+    (found,) = Series("x", "m", kept, along="q", at=(1.0, 2.0, 4.0), margin=Margin(tolerance=1.0, reason="r")).numbers
+    assert found.where["q"] == (2.0, 4.0) and found.verdict is Verdict.AGREE
+
+
+def test_sums_and_ratios_of_estimates_are_taken_element_by_element():
+    one, other = (Estimates(Estimate(x, 0.1, 5) for x in values) for values in ((1.0, 2.0), (0.5, 4.0)))
+    assert (one + other).values.tolist() == [1.5, 6.0] and (one - other).values.tolist() == [0.5, -2.0]
+    assert [x.error for x in one - other] == pytest.approx([0.1 * math.sqrt(2)] * 2)
+    exact = Estimates.exact([1.0, 2.0])
+    assert exact.values.tolist() == [1.0, 2.0] and [x.error for x in exact] == [0.0, 0.0]
+    rows = np.array([[1.0, 8.0], [3.0, 8.0]])
+    assert Estimates.ratios(rows, np.ones((2, 2))).values == pytest.approx(np.log([2.0, 8.0]))
+    assert Estimates.ratios(rows, np.array([1.0, 4.0])).values == pytest.approx(np.log([2.0, 2.0]))
+    assert Estimates.ratios(rows[:, 0], np.ones(2)).values == pytest.approx([math.log(2)])
+    for pair in ((one, Estimates(other[:1])), (other[:1], one)):
+        with pytest.raises(ValueError, match="zip"):
+            Estimates(pair[0]) - Estimates(pair[1])
+
+
+def test_ends_of_ranges_of_small_values_are_sharp():
+    assert list(spans((1e-6, 2e-6, 4e-6), (2e-6, 3e-6))) == [(2e-6, 2e-6)]
+    assert list(spans((2e-6, 4e-6), (1e-6, 3e-6), (5e-6, 6e-6))) == [(2e-6, 2e-6)]
+
+
+@pytest.mark.parametrize("name", MARGINS)
+def test_a_shared_margin_is_as_wide_as_its_reason_says(name):
+    number, unit = re.match(r"([\d.]+) ?(%|dB)?", MARGINS[name].reason).groups()
+    assert MARGINS[name].tolerance == pytest.approx(float(number) / (100 if unit == "%" else 1))
+    assert MARGINS[name].relative is (name in ("peak", "jump", "period", "lift-off"))

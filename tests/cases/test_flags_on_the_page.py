@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from validation import __main__ as command
+from validation.analysis.case import Case
 from validation.analysis.evidence import Evidence, Number, Role, Verdict
 from validation.engine.engine import Engine
 from validation.engine.progress import Part
@@ -40,8 +41,8 @@ def number(value, role=Role.CRITERION, sample=0.0):
 )
 def test_what_a_report_ends_with(numbers, unconverged, status, monkeypatch, tmp_path, capsys):
     shown, out = evidence(numbers, unconverged), tmp_path / "report"
-    made_up = replace(CASES["geike"], run=lambda case, engine: shown, evidence=lambda result: result)
-    monkeypatch.setitem(CASES, "geike", made_up)
+    monkeypatch.setattr(Case, "evidence", lambda case, result: result)
+    monkeypatch.setitem(CASES, "geike", replace(CASES["geike"], run=lambda case, engine: shown))
     assert command.main(["report", "--only", "geike", "--out", str(out), "--workers", "1"]) == status
     page = "".join(page.read_text() for page in out.glob("*.html"))
     printed, results = capsys.readouterr().out, (out / "results.json").read_text()
@@ -77,7 +78,7 @@ def section_of(part, result, making, monkeypatch):
     """What a report makes of a result that has come."""
     future = Future()
     future.set_result(result)
-    monkeypatch.setitem(CASES, "geike", replace(CASES["geike"], evidence=making))
+    monkeypatch.setattr(Case, "evidence", lambda case, result: making(result))
     return build._section("geike", CASES["geike"].quick, future, part)
 
 

@@ -165,7 +165,7 @@ FAULTS = {
         (
             analysis_series,
             "worst",
-            lambda points, parameter: replace(points[0], value=float(np.mean([p.difference for p in points]))),
+            lambda points: replace(points[0], value=float(np.mean([p.difference for p in points]))),
         ),
         test_fractal_punch.test_a_decade_is_judged_by_its_worst_force,
     ),
@@ -242,7 +242,7 @@ FAULTS = {
         partial(test_wheel_cases.test_the_contrast_is_that_of_filled_zeros, 0.1),
     ),
     "the first zero for the worst": (
-        (analysis_series, "worst", lambda points, parameter: points[0]),
+        (analysis_series, "worst", lambda points: points[0]),
         test_wheel_cases.test_an_oscillation_that_dies_is_noticed,
     ),
     "a valley behind the jump": (

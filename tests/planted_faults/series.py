@@ -1,13 +1,9 @@
 """Faults planted in series, in claims and in what cases declare of both: where, what is wrong, who must catch it."""
 
-import functools
-
-from tests.analysis import test_declared_claims, test_series
-from tests.analysis.test_declared_claims import AGREE, DIFFER
+from tests.analysis import test_series
 from tests.cases import test_faults_of_series_of_cases as test_cases
 from tests.cases import test_faults_of_series_of_wheels as test_wheels
-from validation.analysis import claims, series
-from validation.analysis.evidence import ClaimStatus
+from validation.analysis import series
 from validation.analysis.statistics import DECIBEL, Estimate
 from validation.cases.punch import bandwidth, fractal_punch_study
 from validation.cases.rail import contact_filter, rolled_filters
@@ -24,16 +20,6 @@ def of_the_fine_cells(result, key, model, other):
 
 
 FAULTS = {
-    "limits of a declared claim of whatever agrees": (
-        (claims, "takewhile", filter),
-        functools.partial(
-            test_declared_claims.test_status_limits_and_headline_follow_from_verdicts,
-            (DIFFER, AGREE, AGREE),
-            ClaimStatus.CONTRADICTED,
-            "",
-            "It: +3.00 ± 0.10 dB at h/d = 0.1",
-        ),
-    ),
     "a series without the error of its reference": (
         (Estimate, "minus", lambda mine, other: Estimate(mine.value - other.value, mine.error, mine.samples)),
         test_series.test_a_reference_with_an_error_widens_the_interval_and_one_without_does_not,

@@ -78,11 +78,6 @@ def test_what_was_not_met_says_what_would_help():
     assert not any(name.startswith("figures/") for name in nothing)
 
 
-def test_names_are_text_and_no_markup():
-    found = Comparison(punch(load=1.0, name="<b>a & b</b>"), "stiffness", select_model([Finding()], 0.2))
-    assert b"<b>a" not in files_of(found, found)[PAGE]
-
-
 @pytest.mark.slow
 def test_several_scenes_have_one_figure_and_a_section_each():
     one, other = (of_models(Finding(value=(value,))) for value in (1.0, 2.0))

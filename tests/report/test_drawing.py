@@ -25,8 +25,8 @@ TABLE = Table(
 EVIDENCE = Evidence(title="t", method="", numbers=(), tables=(TABLE,), conclusions=(), captions={})
 
 
-def drawn(*curves, **settings):
-    return draw(Chart("c", "", (Panel("q a", "y", curves, **settings),)), EVIDENCE).axes
+def drawn(*curves, tables=(TABLE,), **settings):
+    return draw(Chart("c", "", (Panel("q a", "y", curves, **settings),)), replace(EVIDENCE, tables=tables)).axes
 
 
 def test_a_family_has_a_curve_for_each_value_with_its_label_and_shift():
@@ -55,10 +55,8 @@ def test_few_decades_of_a_logarithmic_axis_have_plain_numbers():
 
 
 def test_a_bar_to_zero_and_below_goes_down_a_decade_on_a_logarithmic_axis():
-    columns = {name: column[:3] for name, column in TABLE.columns.items()} | {"low": [-1.0, 1.9, 2.9]}
-    evidence = replace(EVIDENCE, tables=(Table("level", columns),))
-    panel = Panel("q a", "y", (Curve("level", style="bem", label="b", bars=True),), log="xy")
-    (axis,) = draw(Chart("c", "", (panel,)), evidence).axes
+    table = Table("level", {**TABLE.rows(range(3)).columns, "low": [-1.0, 1.9, 2.9]})
+    (axis,) = drawn(Curve("level", style="bem", label="b", bars=True), tables=(table,), log="xy")
     ends = [segment[:, 1] for segment in axis.containers[0].lines[2][0].get_segments()]
     np.testing.assert_allclose(ends, [[0.1, 1.3], [1.9, 2.3], [2.9, 3.3]])
 
@@ -66,9 +64,8 @@ def test_a_bar_to_zero_and_below_goes_down_a_decade_on_a_logarithmic_axis():
 def test_each_model_has_its_style_and_bars_where_it_has_an_interval():
     is_mdr = TABLE["model"] == "mdr"
     exact = {**TABLE.columns, **{end: np.where(is_mdr, VALUE, TABLE[end]).tolist() for end in ("low", "high")}}
-    evidence = replace(EVIDENCE, tables=(Table("level", exact),))
     curves = by_model("level", {"mdr": "exact", "bem": "bem"}, bars=True)
-    (axis,) = draw(Chart("c", "", (Panel("q a", "y", curves),)), evidence).axes
+    (axis,) = drawn(*curves, tables=(Table("level", exact),))
     assert [container.get_label() for container in axis.containers] == ["bem"]
     assert axis.get_legend_handles_labels()[1] == ["mdr", "bem"]
 
@@ -105,20 +102,15 @@ def test_places_along_x_are_marked():
 
 
 def test_what_has_no_room_on_a_logarithmic_axis_is_not_drawn():
-    zero = Table("level", {**{name: column[:3] for name, column in TABLE.columns.items()}, "value": [1.0, 0.0, 2.0]})
-    (axis,) = draw(
-        Chart("c", "", (Panel("q a", "y", (Curve("level", label="b"),), log="xy"),)),
-        Evidence(title="t", method="", numbers=(), tables=(zero,), conclusions=(), captions={}),
-    ).axes
+    zero = Table("level", {**TABLE.rows(range(3)).columns, "value": [1.0, 0.0, 2.0]})
+    (axis,) = drawn(Curve("level", label="b"), tables=(zero,), log="xy")
     np.testing.assert_array_equal(axis.lines[0].get_ydata(), [1, np.nan, 2])
 
 
 def test_verdicts_stand_over_their_ranges():
     judged = {"from": [1.0], "to": [4.0], "value": [2.0], "low": [1.5], "high": [2.5], "verdict": ["differ"]}
     tables = (TABLE, Table("level, judged", {"h/d": [0.1], "model": ["m"], **judged}))
-    evidence = Evidence(title="t", method="", numbers=(), tables=tables, conclusions=(), captions={})
-    panel = Panel("q a", "y", (Curve("level", "bem", label="b"),), judged="level", facet="h/d")
-    first, second = draw(Chart("c", "", (panel,)), evidence).axes
+    first, second = drawn(Curve("level", "bem", label="b"), tables=tables, judged="level", facet="h/d")
     assert [text.get_text() for text in first.texts] == ["≠"] and first.texts[0].get_position()[0] == 2.0
     assert not second.texts
 
@@ -132,19 +124,16 @@ def test_a_quantity_that_a_run_does_not_have_leaves_its_panel_empty():
 
 def test_values_of_a_quantity_are_marked_by_the_names_of_their_models():
     marks = Table("marks", {"model": ["ω_eigen", "q_min v₀"], "value": [1.5, 3.0]})
-    evidence = Evidence(title="t", method="", numbers=(), tables=(TABLE, marks), conclusions=(), captions={})
-    marked = Curve("marks", style="guide", upright=True)
-    chart = Chart("c", "", (Panel("q a", "y", (Curve("level", "bem", label="b"), marked)),))
-    (axis,) = draw(chart, evidence).axes
+    curves = Curve("level", "bem", label="b"), Curve("marks", style="guide", upright=True)
+    (axis,) = drawn(*curves, tables=(TABLE, marks))
     assert {text.get_text(): text.get_position()[0] for text in axis.texts} == {"ω_eigen": 1.5, "q_min v₀": 3.0}
-    assert chart.tables == ("level", "marks")
+    assert Chart("c", "", (Panel("q a", "y", curves),)).tables == ("level", "marks")
 
 
 def test_decades_are_those_below_the_largest_value_and_not_below_a_line_across_the_panel():
     small = Table("level", {**TABLE.columns, "value": (1e-6 * VALUE).tolist()})
     marked = Curve("level", "bem", "guide", "_", upright=True)
-    panel = Panel("q a", "y", (Curve("level", label="b"), marked), log="xy", decades=3.0)
-    (axis,) = draw(Chart("c", "", (panel,)), replace(EVIDENCE, tables=(small,))).axes
+    (axis,) = drawn(Curve("level", label="b"), marked, tables=(small,), log="xy", decades=3.0)
     assert axis.get_ylim() == pytest.approx((1e-9 * VALUE[-1], 6e-6 * VALUE[-1]))
 
 
@@ -177,3 +166,9 @@ def test_several_columns_have_an_axis_for_each_of_their_values():
     np.testing.assert_array_equal(axes[3].lines[0].get_ydata(), [10, 11, 12])
     # a mark that the panel does not reach is not drawn
     assert [list(line.get_xdata()) for line in axes[3].lines[1:]] == [[2.0, 2.0]]
+
+
+@pytest.mark.parametrize("curve", [Curve("level", style="nowhere"), Curve("level", by=("nowhere",))])
+def test_a_style_or_a_column_that_is_nowhere_is_named_with_its_chart(curve):
+    with pytest.raises(ValueError, match="chart 'c' names 'nowhere'"):
+        drawn(curve)

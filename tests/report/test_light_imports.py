@@ -6,8 +6,8 @@ import sys
 
 import pytest
 
+from validation.report.commands.cases import answers_of_cases
 from validation.report.contents import CASES
-from validation.report.listing import answers_of_cases
 
 HEAVY = {"matplotlib", "pyfftw", "joblib", "dask", "distributed", "jinja2", "scipy.optimize", "scipy.stats"}
 """Each takes a tenth of a second or more to import."""

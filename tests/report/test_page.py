@@ -127,7 +127,8 @@ def test_a_table_comes_back_from_its_file():
     values = {"x": [1.5, float("nan")], "n": [1, 2], "yes": [True, False], "name": ["a", ""]}
     back = from_csv("t", as_csv(Table("t", values)).decode())
     assert [type(column[0]) for column in back.columns.values()] == [float, int, bool, str]
-    assert as_csv(back) == as_csv(Table("t", values))
+    assert as_csv(back) == as_csv(Table("t", values)) == b"x,n,yes,name\n1.5,1,True,a\n,2,False,\n"
+    assert as_csv(Table("t", {"x": [float("inf")]})) == b'x\n""\n'
 
 
 def test_the_tables_of_a_figure_are_those_that_it_asks_for():

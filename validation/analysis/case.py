@@ -32,8 +32,7 @@ class Case:
     name: on the command line, of its figures and of its data; chapter, place: where it stands, cases of a chapter in
     the order of their places; answers: which figure or question; quick, full: its settings, frozen dataclasses, in both
     sizes; run: result of settings and an engine; study: what the result shows, whose first claim is that of the case;
-    needs: which model it takes, a text or a function of the settings; timed: whether it is run last and alone;
-    evidence: of a result, by default as the study declares it.
+    needs: which model it takes, a text or a function of the settings; timed: whether it is run last and alone.
     """
 
     name: str
@@ -46,11 +45,10 @@ class Case:
     needs: Callable[[Any], str] | str
     study: "Study"
     timed: bool = False
-    evidence: "Callable[[Any], Evidence]" = None  # type: ignore[assignment]
 
-    def __post_init__(self) -> None:
-        if self.evidence is None:
-            object.__setattr__(self, "evidence", self.study.evidence)
+    def evidence(self, result: Any) -> "Evidence":
+        """Of a result, as the study declares it."""
+        return self.study.evidence(result)
 
     @property
     def claim(self) -> str:

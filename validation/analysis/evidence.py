@@ -76,14 +76,6 @@ class Number:
         """The last part of its key: "h/d = 0.1, low band"."""
         return ", ".join(_placed(name, value) for name, value in self.where.items())
 
-    def matches(self, quantity: str | None = None, model: str | None = None, **where: Place) -> bool:
-        """Whether its key has these parts. Names of conditions with other letters: `matches(**{"h/d": 0.1})`."""
-        return (
-            quantity in (None, self.quantity)
-            and model in (None, self.model)
-            and all(name in self.where and self.where[name] == value for name, value in where.items())
-        )
-
     @property
     def difference(self) -> float:
         return self.value - self.reference
@@ -131,8 +123,9 @@ class Number:
 def numbers_with(
     numbers: Iterable[Number], quantity: str | None = None, model: str | None = None, **where: Place
 ) -> list[Number]:
-    """Those whose key has these parts, in their order."""
-    return [number for number in numbers if number.matches(quantity, model, **where)]
+    """Those whose key has these parts, in their order. Conditions with other letters: `**{"h/d": 0.1}`."""
+    named = (n for n in numbers if quantity in (None, n.quantity) and model in (None, n.model))
+    return [number for number in named if where.items() <= number.where.items()]
 
 
 def number_with(
@@ -244,22 +237,16 @@ class JudgedClaim:
     @property
     def status(self) -> ClaimStatus:
         """By the verdicts of all numbers, or of those inside the limits; one counterexample contradicts."""
-        if self._confirmed(self.numbers):
+        verdicts, inside = ({number.verdict for number in some} for some in (self.numbers, self.inside))
+        if verdicts == {self.confirmed_by}:
             return ClaimStatus.HOLDS
-        if self.inside and self._confirmed(self.inside):
+        if inside == {self.confirmed_by}:
             return ClaimStatus.LIMITED
-        return ClaimStatus.CONTRADICTED if self.count(self._contradicted_by) else ClaimStatus.OPEN
+        return ClaimStatus.OPEN if verdicts <= {self.confirmed_by, Verdict.UNDECIDED} else ClaimStatus.CONTRADICTED
 
     def count(self, verdict: Verdict) -> int:
         """Of the numbers that test it."""
         return sum(number.verdict is verdict for number in self.numbers)
-
-    @property
-    def _contradicted_by(self) -> Verdict:
-        return Verdict.DIFFER if self.confirmed_by is Verdict.AGREE else Verdict.AGREE
-
-    def _confirmed(self, numbers: Sequence[Number]) -> bool:
-        return all(number.verdict is self.confirmed_by for number in numbers)
 
 
 @dataclass(frozen=True, kw_only=True)

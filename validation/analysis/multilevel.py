@@ -65,11 +65,6 @@ class Linearised:
         """Half of the 95 % interval."""
         return self.half_width_among(1)
 
-    @property
-    def interval(self) -> tuple[float, float, float]:
-        """The value, and both ends of its 95 % interval."""
-        return self.value, self.value - self.half_width, self.value + self.half_width
-
 
 def weighted_sum(weights: Sequence[float] | FloatArray, parts: Sequence[Linearised]) -> Linearised:
     """sum_i w_i x_i of values from the same realisations; NaN of infinities that oppose each other."""

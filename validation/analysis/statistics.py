@@ -42,11 +42,6 @@ class Estimate:
     samples: int
 
     @property
-    def interval(self) -> tuple[float, float, float]:
-        """The value, and both ends of its 95 % interval."""
-        return self.value, self.value - self.half_width, self.value + self.half_width
-
-    @property
     def half_width(self) -> float:
         """Half of the 95 % interval: Student's quantile times the standard error."""
         return self.half_width_among(1)

@@ -20,14 +20,13 @@ from validation.engine.workers import Workers
 from validation.report.answers.first_screen import answered_questions, plain
 from validation.report.chapter import chapter_results
 from validation.report.contents import CASES, TIMED
-from validation.report.documentation import documentation_beside
 from validation.report.durations import expected_seconds
 from validation.report.figures import drawing
 from validation.report.folder import REALISATIONS, RESULTS, Folder
 from validation.report.kept import DATA, PROVENANCE, kept_provenance, kept_sections
 from validation.report.page import pages, scene_summary
 from validation.report.pictures import FIGURES, Pictures
-from validation.report.provenance import provenance, with_kept
+from validation.report.provenance import documentation_beside, provenance, with_kept
 from validation.report.section import Section, numbers_table, results_of, written_tables
 from validation.report.sounds import sound_files
 from validation.scenes.dynamic_wheel import WheelScene

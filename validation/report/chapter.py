@@ -9,10 +9,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from validation.analysis.claims import Claim
-from validation.analysis.evidence import ClaimStatus, Evidence, JudgedClaim
+from validation.analysis.evidence import Evidence, JudgedClaim
 from validation.report.section import Section, answer_of
 
 BOOK = Path(__file__).with_suffix(".toml")
+Answer = dict[str, str | None]
+"""Its case, and status and answer there; no status where this run has no number for it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,10 +28,6 @@ class ChapterTest:
     claim: str = ""
     quantity: str = ""
     model: str = ""
-
-    def __post_init__(self) -> None:
-        if self.quantity and self.claim:
-            raise ValueError(f"a test of {BOOK.name} must name a quantity or a claim, got both: {self}")
 
     def judged(self, statement: str, evidence: Evidence) -> JudgedClaim | None:
         """The claim of this evidence, or the statement with its numbers; None where it has none, or no such claim."""
@@ -49,57 +47,32 @@ class ChapterEntry:
     tests: tuple[ChapterTest, ...] = ()
     untested: str = ""
 
-    def __post_init__(self) -> None:
-        if bool(self.tests) == bool(self.untested):
-            raise ValueError(f"{self.place} of {BOOK.name} must have tests, or say why it is untested")
+
+def _entry(*, tests: Sequence[dict[str, str]] = (), **told: str) -> ChapterEntry:
+    return ChapterEntry(**told, tests=tuple(ChapterTest(**test) for test in tests))
 
 
-@dataclass(frozen=True, kw_only=True)
-class Erratum:
-    """What is printed in the chapter, and what it should be. why: how one sees it."""
-
-    place: str
-    printed: str
-    correct: str
-    why: str
+_BOOK = tomllib.loads(BOOK.read_text(encoding="utf-8"))
+ENTRIES = tuple(_entry(**entry) for entry in _BOOK["entry"])
+ERRATA: tuple[dict[str, str], ...] = tuple(_BOOK["erratum"])
+"""place; what is printed in the chapter, and what is correct; why: how one sees it."""
 
 
-@dataclass(frozen=True)
-class ChapterAnswer:
-    """The answer of a case; without status where this run has no number for it."""
-
-    case: str
-    status: ClaimStatus | None
-    answer: str
-
-
-def _read() -> tuple[tuple[ChapterEntry, ...], tuple[Erratum, ...]]:
-    book = tomllib.loads(BOOK.read_text(encoding="utf-8"))
-    entries = (
-        ChapterEntry(**{**entry, "tests": tuple(ChapterTest(**test) for test in entry.get("tests", ()))})
-        for entry in book["entry"]
-    )
-    return tuple(entries), tuple(Erratum(**erratum) for erratum in book["erratum"])
-
-
-ENTRIES, ERRATA = _read()
-
-
-def answers(entry: ChapterEntry, sections: Sequence[Section]) -> list[ChapterAnswer]:
+def answers(entry: ChapterEntry, sections: Sequence[Section]) -> list[Answer]:
     """One for each of its tests whose case is in the report."""
     named = {section.name: section for section in sections}
     return [_answered(entry, test, named[test.case]) for test in entry.tests if test.case in named]
 
 
-def _answered(entry: ChapterEntry, test: ChapterTest, section: Section) -> ChapterAnswer:
+def _answered(entry: ChapterEntry, test: ChapterTest, section: Section) -> Answer:
     judged = test.judged(entry.statement, section.evidence) if section.evidence else None
     if judged is None:
-        return ChapterAnswer(section.name, None, "This run has no number for it.")
+        return {"case": section.name, "status": None, "answer": "This run has no number for it."}
     tested = "" if judged.claim == entry.statement else f"Tested as “{judged.claim}” "
-    return ChapterAnswer(section.name, judged.status, tested + answer_of(judged))
+    return {"case": section.name, "status": judged.status, "answer": tested + answer_of(judged)}
 
 
-def chapter_of(sections: Sequence[Section]) -> list[tuple[ChapterEntry, list[ChapterAnswer]]]:
+def chapter_of(sections: Sequence[Section]) -> list[tuple[ChapterEntry, list[Answer]]]:
     """Each entry that this report answers, with its answers; what nothing tests, too, beside any answer."""
     rows = [(entry, answers(entry, sections)) for entry in ENTRIES]
     any_answer = any(found for _, found in rows)
@@ -108,12 +81,7 @@ def chapter_of(sections: Sequence[Section]) -> list[tuple[ChapterEntry, list[Cha
 
 def chapter_results(sections: Sequence[Section]) -> list[dict[str, object]]:
     """The same as plain values."""
+    told = ("place", "statement", "untested")
     return [
-        {
-            "place": entry.place,
-            "statement": entry.statement,
-            "untested": entry.untested,
-            "answers": [vars(answer) for answer in found],
-        }
-        for entry, found in chapter_of(sections)
+        {**{name: getattr(entry, name) for name in told}, "answers": found} for entry, found in chapter_of(sections)
     ]

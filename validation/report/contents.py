@@ -9,7 +9,7 @@ from validation.benchmarks.peers import peers_installed
 
 
 def _found() -> list[Case]:
-    """In the order of their chapters and of their places there. Raises ValueError for a name that two cases have."""
+    """In the order of their chapters and of their places there. ValueError for a name or a place that two have."""
     modules = [
         import_module(module.name)
         for room in (cases, benchmarks)
@@ -17,9 +17,12 @@ def _found() -> list[Case]:
     ]
     chapters = list(Chapter)
     entries = [module.CASE for module in modules if hasattr(module, "CASE")]
-    names = [case.name for case in entries]
-    if twice := {name for name in names if names.count(name) > 1}:
-        raise ValueError(f"a case must have a name of its own, got twice: {', '.join(sorted(twice))}")
+    for what, known in (
+        ("name", [case.name for case in entries]),
+        ("place", [f"{case.place} of {case.chapter!r}" for case in entries]),
+    ):
+        if twice := {one for one in known if known.count(one) > 1}:
+            raise ValueError(f"a case must have a {what} of its own, got twice: {', '.join(sorted(twice))}")
     return sorted(entries, key=lambda case: (chapters.index(case.chapter), case.place))
 
 

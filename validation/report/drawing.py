@@ -56,7 +56,12 @@ def draw(chart: Chart, evidence: Evidence) -> Figure:
     shared: Literal["all", "none"] = "all" if chart.sharey else "none"
     figure, axes = panels(rows, columns, width=chart.width, height=min(chart.height, HIGHEST * rows), sharey=shared)
     for axis, (panel, facet) in zip(axes, facets, strict=False):
-        _panel(axis, panel, facet, evidence)
+        try:
+            _panel(axis, panel, facet, evidence)
+        except KeyError as error:
+            raise ValueError(
+                f"chart {chart.name!r} names {error}, which is no style, and no column of its tables"
+            ) from error
     for axis, (panel, _) in zip(axes, facets, strict=False):
         _limits(axis, panel)
     for axis in axes[len(facets) :]:

@@ -65,10 +65,15 @@ def format_counts(claim: JudgedClaim) -> str:
     return counted + ("; the claim is that they differ" if claim.confirmed_by is Verdict.DIFFER else "")
 
 
+def in_four_digits(cell: object) -> str:
+    """A number that is no whole one; anything else as it is."""
+    return f"{cell:.4g}" if isinstance(cell, float) else str(cell)
+
+
 def format_cell(cell: object, *, unsteady: bool = False) -> Markup:
     """A cell of a table, with its verdict where it has one."""
     if not isinstance(cell, VerdictCell):
-        return escape(f"{cell:.4g}" if isinstance(cell, float) else str(cell))
+        return escape(in_four_digits(cell))
     badge = format_verdict(cell.verdict, unsteady=unsteady)
     after = f"; {cell.after}" if cell.after else ""
     return Markup("{}<br>{}{}").format(cell.text, badge, after)

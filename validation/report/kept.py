@@ -61,6 +61,7 @@ def _section(folder: Path, name: str, case: Mapping[str, Any]) -> Section:
 
 def _evidence(folder: Path, name: str, case: Mapping[str, Any]) -> Evidence:
     numbers = {number["label"]: _number(number) for number in case["numbers"]}
+    sounds = case["sounds"]
     paths = {table: folder / DATA / csv_name(name, table) for table in case["tables"]}
     return Evidence(
         **{word: case[word] for word in WORDS},
@@ -68,9 +69,12 @@ def _evidence(folder: Path, name: str, case: Mapping[str, Any]) -> Evidence:
         tables=tuple(from_csv(table, path.read_text(encoding="utf-8")) for table, path in paths.items()),
         conclusions=tuple(case["conclusions"]),
         unconverged=tuple(case["unconverged"]),
-        page_tables=tuple(_page_table(table) for table in case["page tables"]),
+        page_tables=tuple(
+            Table(table["name"], {name: list(map(_cell, cells)) for name, cells in table["columns"].items()})
+            for table in case["page tables"]
+        ),
         claims=tuple(_claim(claim, numbers) for claim in case["claims"]),
-        sounds=_sounds(case["sounds"]) if case["sounds"] else None,
+        sounds=Sounds(**{**sounds, "tracks": tuple(Sound(**track) for track in sounds["tracks"])}) if sounds else None,
     )
 
 
@@ -86,13 +90,5 @@ def _claim(told: Mapping[str, Any], numbers: Mapping[str, Number]) -> JudgedClai
     return JudgedClaim(**words, numbers=tested, inside=inside, confirmed_by=Verdict(told["confirmed by"]))
 
 
-def _page_table(told: Mapping[str, Any]) -> Table:
-    return Table(told["name"], {name: list(map(_cell, cells)) for name, cells in told["columns"].items()})
-
-
 def _cell(cell: Any) -> object:
     return VerdictCell(cell["text"], Verdict(cell["verdict"]), cell["after"]) if isinstance(cell, dict) else cell
-
-
-def _sounds(told: Mapping[str, Any]) -> Sounds:
-    return Sounds(**{**told, "tracks": tuple(Sound(**track) for track in told["tracks"])})

@@ -177,7 +177,7 @@ def _worst_scenes(varied: list[dict[str, Series]]) -> Iterator[Series]:
     for key in SOURCES:
         if of_key := [features[key] for features in varied if key in features]:
             numbered = [replace(n, where={"scene": float(i)}) for i, one in enumerate(of_key) for n in one.numbers]
-            far = of_key[int(worst(numbered, "scene").where["worst at"])]  # type: ignore[arg-type]
+            far = of_key[int(worst(numbered).where["scene"])]  # type: ignore[arg-type]
             name = f"worst of {len(of_key)} with one parameter changed: {far.where['scene']}"
             yield replace(far, where={"scenes": name})
 

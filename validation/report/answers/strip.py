@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from validation.analysis.claims import Choice
 from validation.analysis.evidence import Evidence, Number, Place, Verdict
+from validation.analysis.over_range import worst
 
 WORDS = {Verdict.AGREE: "yes", Verdict.DIFFER: "no", Verdict.UNDECIDED: "open"}
 
@@ -20,10 +21,8 @@ class Cell:
     @property
     def verdict(self) -> Verdict:
         """One counterexample is enough for no; one that is undecided, and one that lacks, leaves it open."""
-        verdicts = {number.verdict for number in self.numbers}
-        if Verdict.DIFFER in verdicts:
-            return Verdict.DIFFER
-        return Verdict.UNDECIDED if Verdict.UNDECIDED in verdicts or self.lacking else Verdict.AGREE
+        found = worst(self.numbers).verdict
+        return Verdict.UNDECIDED if self.lacking and found is Verdict.AGREE else found
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,24 +1,33 @@
-"""Run cases and write their report."""
+"""Run cases and write their report; by `precision` and `race` what is timed alone."""
 
 import argparse
 from collections.abc import Sequence
-from functools import partial
 from pathlib import Path
 
+from validation.analysis.evidence import Table
 from validation.engine.engine import LOCAL
 from validation.report.build import build
 from validation.report.commands.arguments import add_options, add_profile, add_workers, at_least
 from validation.report.commands.exit_status import Exit
 from validation.report.contents import CASES, TIMED, timed_here
-from validation.report.section import Section, total_of
-from validation.report.terminal import lines_of
+from validation.report.formats import format_counts, in_four_digits
+from validation.report.section import Section, answer_of, total_of
 from validation.scenes.description import description_lines
 from validation.scenes.dynamic_wheel import WheelScene, bundled_wheels, load_wheel_scene
 from validation.scenes.printable import printable
 
 
 def describe(making: argparse.ArgumentParser) -> None:
+    name = making.prog.split()[-1]
+    making.set_defaults(
+        command=report, only=None, keep=False, workers=1, executor=LOCAL, scene=None, timed=name in TIMED
+    )
     add_profile(making)
+    if name in TIMED:
+        making.set_defaults(only=[name])
+        out = ("--out", "DIR", Path, f"folder (default: reports/{name}-quick or reports/{name})")
+        add_options(making, out, ("--seed", "S", at_least(0), "seed of the rough surfaces"))
+        return
     making.add_argument(
         "--only",
         nargs="+",
@@ -44,34 +53,16 @@ def describe(making: argparse.ArgumentParser) -> None:
         ("--executor", "WHERE", str, '"local" (default), or dask://HOST:PORT, whose workers replace local processes'),
         ("--scene", "FILE", str, scene),
     )
-    making.set_defaults(command=report, executor=LOCAL)
 
 
 def report(arguments: argparse.Namespace) -> Exit:
-    """Run cases and write their report."""
+    """Run cases, write their report, and say how it came out."""
     # what is timed is run last, when nothing else is; a race needs other solvers
-    timed = timed_here()
-    everything = [*CASES, *timed] if arguments.scene is None else ["wheel"]
+    everything = [*CASES, *timed_here()] if arguments.scene is None else ["wheel"]
     names = list(dict.fromkeys(arguments.only or everything))
     if arguments.keep and not arguments.only:
         raise ValueError("--keep is for --only, got it alone: without --only no case is left to be kept")
-    some = names if (arguments.only or arguments.scene) and not arguments.keep else ()
-    out = arguments.out or Path("reports") / "-".join([arguments.profile, *some])
-    return built(names, out, arguments)
-
-
-def _scene_of(arguments: argparse.Namespace, names: Sequence[str]) -> WheelScene | None:
-    """The scene of `--scene`, refused where a case takes none."""
-    if arguments.scene is None:
-        return None
-    without = [name for name in names if name in TIMED or not hasattr(CASES[name].quick, "scene")]
-    if without:
-        raise ValueError(f"--scene is for cases of the dynamic wheel, got {', '.join(without)}")
-    return load_wheel_scene(arguments.scene)
-
-
-def built(names: Sequence[str], out: Path, arguments: argparse.Namespace) -> Exit:
-    """Write a report and say how it came out."""
+    out = arguments.out or Path("reports") / _folder(names, arguments)
     scene = _scene_of(arguments, names)
     if scene is not None:
         print("\n".join([scene.name, *description_lines(scene), ""]), flush=True)
@@ -85,7 +76,7 @@ def built(names: Sequence[str], out: Path, arguments: argparse.Namespace) -> Exi
         scene=scene,
         executor=arguments.executor,
         keep=arguments.keep,
-        callback=partial(_print_section, unsteady=unsteady),
+        callback=lambda section: print("\n".join(lines_of(section, unsteady=unsteady)), flush=True),
     )
     if not unsteady and any(section.claims for section in sections):
         print(total_of(sections))
@@ -95,5 +86,43 @@ def built(names: Sequence[str], out: Path, arguments: argparse.Namespace) -> Exi
     return Exit.CRITERION_FAILED if any(section.missed for section in sections) else Exit.MET
 
 
-def _print_section(section: Section, *, unsteady: bool) -> None:
-    print("\n".join(lines_of(section, unsteady=unsteady)), flush=True)
+def _folder(names: Sequence[str], arguments: argparse.Namespace) -> str:
+    if arguments.timed:
+        return "-".join([*names, *["quick"] * (arguments.profile == "quick")])
+    some = names if (arguments.only or arguments.scene) and not arguments.keep else ()
+    return "-".join([arguments.profile, *some])
+
+
+def _scene_of(arguments: argparse.Namespace, names: Sequence[str]) -> WheelScene | None:
+    """The scene of `--scene`, refused where a case takes none."""
+    if arguments.scene is None:
+        return None
+    without = [name for name in names if name in TIMED or not hasattr(CASES[name].quick, "scene")]
+    if without:
+        raise ValueError(f"--scene is for cases of the dynamic wheel, got {', '.join(without)}")
+    return load_wheel_scene(arguments.scene)
+
+
+def lines_of(section: Section, *, unsteady: bool = False) -> list[str]:
+    """A line for the case, each claim, conclusion, missed criterion and failed solve; unsteady: it has no level."""
+    met = f"criteria met {section.criteria - len(section.missed)} of {section.criteria}"
+    if unsteady:
+        met = "no steady answer, the results hold for this distance alone"
+    details: list[str] = []
+    if not unsteady:
+        details += [f"{c.status}: {c.claim} {answer_of(c)} ({format_counts(c)})" for c in section.claims]
+        details += section.evidence.conclusions if section.evidence else ()
+    details += [f"missed: {number.sentence}" for number in section.missed]
+    details += [f"not converged: {solve}" for solve in section.unconverged]
+    if section.name in TIMED and section.evidence:
+        details += [line for table in section.evidence.page_tables for line in _rows(table)]
+    head = f"{section.name:15s} {'no result' if section.failure else met}"
+    return [head, *(f"    {line}" for line in details)]
+
+
+def _rows(table: Table) -> list[str]:
+    """A line a row, under the name of the table."""
+    rows = zip(*table.columns.values(), strict=True)
+    pairs = ([pair for pair in zip(table.columns, row, strict=True) if pair[1] != ""] for row in rows)
+    said = ("; ".join(f"{name}: {in_four_digits(cell)}" for name, cell in some) for some in pairs)
+    return [f"{table.name}:", *(f"  {line}" for line in said)]
