@@ -38,7 +38,7 @@ from validation.selection import (
     swept,
     tolerance,
 )
-from validation.simulation import calibration, rolling_claims, sampling
+from validation.simulation import calibrated_range, calibration, rolling_claims, sampling
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
 from validation.simulation import rolling_quantity as rolling_question
@@ -248,7 +248,7 @@ FAULTS = {
         test_ladder.test_a_coarse_grid_knows_how_far_it_is_from_a_fine_one,
     ),
     "a linear filter for waves shorter than the contact": (
-        (rolling_claims, "outside", lambda *_: ""),
+        (calibrated_range, "outside", lambda *_: ""),
         functools.partial(
             test_claims.test_waves_shorter_than_the_contact_are_left_to_boundary_elements, "force-rms", 0.15
         ),
