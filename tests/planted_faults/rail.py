@@ -69,7 +69,7 @@ FAULTS = {
             "error_in_bands",
             property(lambda answer: np.sqrt(sum(part**2 for part in answer.band_errors.values()))),
         ),
-        BARS.test_errors_of_bands_add_a_bias_to_what_is_random,
+        BARS.test_what_the_ground_leaves_adds_to_grid_and_sample_as_it_is,
     ),
     "a bias of the worst band on a rail added at a right angle": (
         (Answer, "error", property(lambda answer: float(np.sqrt(answer.model**2 + answer.grid**2 + answer.sample**2)))),

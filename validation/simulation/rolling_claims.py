@@ -18,12 +18,9 @@ from validation.simulation.sampling import distance
 
 FloatArray = NDArray[np.float64]
 Rule = tuple[float, float, float]
-MovingRule = tuple[float, float, float, float]
 
-LINEAR_BANDS: Rule = (2.0, 0.5, 0.015)
 LINEAR_RMS: Rule = (1.2, 0.05, 0.002)
-LINEAR_MOVING: MovingRule = (1.2, 3.0, 0.0, 0.008)
-"""Of linear theory, in bands, in the rms, and in the rms of the acceleration: `RollingClaim`."""
+"""Of linear theory."""
 FORCE_RMS, MOVING_RMS = "force-rms", "acceleration-rms"
 """The quantity whose errors are those of the rms; Geike's rule keeps the variance of the force. That of a wheel that
 moves."""
@@ -52,7 +49,7 @@ class RollingClaim:
 
     bands: Rule
     rms: Rule = LINEAR_RMS
-    moving: MovingRule | None = None
+    moving: tuple[float, float, float, float] | None = None
     on_bands: str = ""
     on_rms: str = ""
     own: float = MEASURED_SCATTER

@@ -96,18 +96,12 @@ def all_profiles(target: Target, resolution: Resolution) -> Cost:
 
 def one_of_many_surfaces(model: Model, target: Target, resolution: Resolution) -> ErrorEstimate:
     """A measured surface is one of those that have its spectrum."""
-    too_many, own = "", 2 * SCATTER
-    if resolution.size > MOST_SPRINGS:
-        too_many = f"a profile needs {resolution.size:.3g} springs, more than {MOST_SPRINGS:.3g}"
+    needed, own = f"a profile needs {resolution.size:.3g} springs, more than {MOST_SPRINGS:.3g}", 2 * SCATTER
+    too_many = needed if resolution.size > MOST_SPRINGS else ""
     expected = calibrated_by_spectrum(model, target, resolution, own=own, beyond=too_many)
-    if ground_of(target.scene).is_single and expected.in_range:
-        scatters = f"one surface scatters {own:.0%} about the mean of its spectrum"
-        expected = replace(expected, reason=f"{scatters}; {expected.reason}")
-    return replace(expected, sample=target.tolerance / 5)
-
-
-def shape_on_springs(target: Target) -> float:
-    return sphere_shape(target.scene) * (1 + ROLL_OFF * (conditions_of(target.scene).get(WAVES, 1.0) - 1))
+    one = ground_of(target.scene).is_single and expected.in_range
+    scatters = f"one surface scatters {own:.0%} about the mean of its spectrum; " if one else ""
+    return replace(expected, sample=target.tolerance / 5, reason=scatters + expected.reason)
 
 
 @model(
@@ -117,7 +111,9 @@ def shape_on_springs(target: Target) -> float:
     resolutions=springs_of_a_profile,
     cost=all_profiles,
     claim=one_of_many_surfaces,
-    shape=shape_on_springs,
+    shape=lambda target: (
+        sphere_shape(target.scene) * (1 + ROLL_OFF * (conditions_of(target.scene).get(WAVES, 1.0) - 1))
+    ),
     element="springs",
     charted=False,
     is_mdr=True,
