@@ -20,10 +20,7 @@ from validation.simulation.model_names import ONE_SIDED_BED
 from validation.simulation.rail_models import ContactFilter
 from validation.simulation.rail_quantity import RailQuantity
 
-graduated, model_error, over_twin = (graduation.graduated, ContactFilter.model_error, ContactFilter.over_twin)
-
-
-slope_error, borne_by = graduation.Graduation.slope_error, equivalent_displacement.borne_by
+graduated, model_error, over_twin = graduation.graduated, ContactFilter.model_error, ContactFilter.over_twin
 
 
 def without_sample_error(*args):

@@ -184,11 +184,11 @@ FAULTS = {
     **{f"{solve} without its flag": without_its_flag(place, solve, path) for place, solve, path in FLAGS},
     "a rolling contact that always says it has converged": (
         (rolling_contact.WheelContact, "converged", property(lambda contact: True)),
-        functools.partial(test_flags_of_rolling.test_a_position_without_a_solution_has_no_number, "roll"),
+        test_flags_of_rolling.test_a_position_without_a_solution_has_no_number,
     ),
     "numbers of a rolling contact that has not converged": (
         (rolling_contact, "math", types.SimpleNamespace(nan=1.0)),
-        functools.partial(test_flags_of_rolling.test_a_position_without_a_solution_has_no_number, "RollingContact"),
+        test_flags_of_rolling.test_a_position_without_a_solution_has_no_number,
     ),
     "a reduced model on a layer that has not converged": (
         (bem3d, "solve", functools.partial(bem3d.solve, raise_on_failure=False)),

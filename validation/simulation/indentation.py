@@ -2,6 +2,7 @@
 
 import math
 from functools import lru_cache, partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,6 +40,11 @@ LATTICE = 512
 def is_pressed(scene: object, quantity: str) -> bool:
     """Whether a model of stiffness may have the quantity."""
     return isinstance(scene, IndentationScene) and quantity == "stiffness"
+
+
+def is_rough(scene: Any, quantity: str) -> bool:
+    """The same of a rough body."""
+    return is_pressed(scene, quantity) and scene.ground is not None
 
 
 def ground_of(scene: IndentationScene) -> RoughSurface:

@@ -16,7 +16,6 @@ from validation.simulation.exact_contacts import off
 from validation.simulation.probing import FloatArray, Point, Values, along, answered, message_of, recorded, swept
 from validation.simulation.rough_punch import PunchRoughness
 
-Sizes = tuple[int, ...]
 HERTZ = 4 / 3
 LATTICE = 3.900265
 """-4 zeta(1/2) beta(1/2): the sum of 1 / |n| over a square lattice but for its origin, less its mean; Borwein et al.,
@@ -57,39 +56,28 @@ def images(period: int, fine: int = 4) -> tuple[float, float, str]:
     return period, abs(imaged.approach / press(half_space(cells, dx)).approach - 1), message
 
 
-def grid_sides(sides: Sizes, *, finer: int = 8) -> Outcome:
+@along
+def grid_sides(side: int, finer: int = 8) -> tuple[float, float, str]:
     """Force on grids of fewer and fewer cells a side, against a wide grid."""
-    dx = 1 / finer
-
-    def press(side: int) -> bem3d.Contact:
-        return bem3d.solve(half_space(side, dx), sphere(side, dx), approach=1.0)
-
     # an odd grid has a cell below the middle of the sphere, an even one has none
-    true = [press(side).force for side in (4 * finer, 4 * finer + 1)]
-
-    def point(side: int) -> Point:
-        contact, message = answered(partial(press, side))
-        return abs(contact.force / true[side % 2] - 1), message
-
-    return swept(np.array(sides) * dx / 2, *zip(*map(point, sides), strict=True))
+    dx, wide = 1 / finer, 4 * finer + side % 2
+    true = bem3d.solve(half_space(wide, dx), sphere(wide, dx), approach=1.0).force
+    contact, message = answered(partial(bem3d.solve, half_space(side, dx), sphere(side, dx), approach=1.0))
+    return side * dx / 2, abs(contact.force / true - 1), message
 
 
-def strip_widths(widths: Sizes, *, finer: int = 8) -> Outcome:
+@along
+def strip_widths(width: int, finer: int = 8) -> tuple[float, float, str]:
     """Force on smooth strips as wide as those grids, rolled over for two cells."""
     dx, length = 1 / finer, 4 * finer
 
-    def roll(width: int) -> float:
-        flat = np.zeros((length, width))
+    def roll(columns: int) -> float:
+        flat = np.zeros((length, columns))
         rolled = bem3d.roll(flat, spacing=dx, radius=1.0, modulus=1.0, approach=1.0, positions=2)
         return float(rolled.force[-1])
 
-    true = roll(length)
-
-    def point(width: int) -> Point:
-        force, message = recorded(partial(roll, width))
-        return math.inf if force is None else abs(force / true - 1), message
-
-    return swept(np.array(widths) * dx / 2, *zip(*map(point, widths), strict=True))
+    true, (force, message) = roll(length), recorded(partial(roll, width))
+    return width * dx / 2, math.inf if force is None else abs(force / true - 1), message
 
 
 def spikes(heights: Values, *, finer: int = 8) -> Outcome:
@@ -107,7 +95,7 @@ def spikes(heights: Values, *, finer: int = 8) -> Outcome:
     return swept(heights, *zip(*map(point, heights), strict=True), measured=1 / (LONE_CELL * dx))
 
 
-def rough_grids(cells: Sizes, *, resolved: int, seed: int, finest: int = 512, force: float = 1.5) -> Outcome:
+def rough_grids(cells: tuple[int, ...], *, resolved: int, seed: int, finest: int = 512, force: float = 1.5) -> Outcome:
     """Contact area of periodic rough surfaces under Fbar = F / (E* h L) against the finest grid, by cells to the
     shortest wave; messages are those of drawing the surface."""
     r, surfaces = PunchRoughness(hurst=0.7, waves=(1, 8), seed=seed), range(resolved)

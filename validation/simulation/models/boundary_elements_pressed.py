@@ -10,7 +10,7 @@ import bem3d
 from validation.scenes.indentation import IndentationScene
 from validation.simulation import indentation as face
 from validation.simulation.calibrated_range import SCATTER
-from validation.simulation.indentation import cells_wanted, ground_of, height_of, is_pressed, side_of
+from validation.simulation.indentation import cells_wanted, ground_of, height_of, is_rough, side_of
 from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.model import Cost, ErrorEstimate, GridModel, Model, Target
 from validation.simulation.model_names import BEM
@@ -123,7 +123,7 @@ def left_by_grid(target: Target, resolution: Resolution, values: FloatArray, oth
 
 
 MODEL = GridModel(
-    serves=lambda scene, quantity: is_pressed(scene, quantity) and scene.ground is not None,
+    serves=is_rough,
     label=lambda resolution: f"{BEM} {resolution.size:g}²",
     resolutions=resolutions,
     references=references,
