@@ -20,10 +20,7 @@ from validation.simulation.model_names import ONE_SIDED_BED
 from validation.simulation.rail_models import ContactFilter
 from validation.simulation.rail_quantity import RailQuantity
 
-graduated, model_error, over_twin = (graduation.graduated, ContactFilter.model_error, ContactFilter.over_twin)
-
-
-slope_error, borne_by = graduation.Graduation.slope_error, equivalent_displacement.borne_by
+graduated, model_error, over_twin = graduation.graduated, ContactFilter.model_error, ContactFilter.over_twin
 
 
 def without_sample_error(*args):
@@ -69,7 +66,7 @@ FAULTS = {
             "error_in_bands",
             property(lambda answer: np.sqrt(sum(part**2 for part in answer.band_errors.values()))),
         ),
-        BARS.test_errors_of_bands_add_a_bias_to_what_is_random,
+        BARS.test_what_the_ground_leaves_adds_to_grid_and_sample_as_it_is,
     ),
     "a bias of the worst band on a rail added at a right angle": (
         (Answer, "error", property(lambda answer: float(np.sqrt(answer.model**2 + answer.grid**2 + answer.sample**2)))),

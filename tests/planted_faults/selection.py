@@ -38,7 +38,7 @@ from validation.selection import (
     swept,
     tolerance,
 )
-from validation.simulation import calibration, rolling_claims, sampling
+from validation.simulation import calibrated_range, calibration, rolling_claims, sampling
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
 from validation.simulation import rolling_quantity as rolling_question
@@ -237,18 +237,18 @@ FAULTS = {
     ),
     "a scene that calibrates itself": (
         (calibration.MeasuredErrors, "left_out", lambda table: table.errors),
-        test_calibration.test_a_scene_does_not_calibrate_itself,
+        functools.partial(test_calibration.test_errors_nearby_are_those_of_a_loop_over_all_scenes, "punch"),
     ),
     "a table without the growth of its errors": (
         (calibration.MeasuredErrors, "trend", 0.0),
-        test_calibration.test_an_error_that_grows_with_the_height_is_followed,
+        functools.partial(test_calibration.test_errors_nearby_are_those_of_a_loop_over_all_scenes, "sphere"),
     ),
     "a grid that leaves too much solved to the end of its sample": (
         (boundary_elements_pressed, "MODEL", dataclasses.replace(surfaces, grid_error=lambda *_: (0.0, ""))),
         test_ladder.test_a_coarse_grid_knows_how_far_it_is_from_a_fine_one,
     ),
     "a linear filter for waves shorter than the contact": (
-        (rolling_claims, "outside", lambda *_: ""),
+        (calibrated_range, "outside", lambda *_: ""),
         functools.partial(
             test_claims.test_waves_shorter_than_the_contact_are_left_to_boundary_elements, "force-rms", 0.15
         ),

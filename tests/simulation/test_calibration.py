@@ -122,15 +122,6 @@ def test_equal_errors_are_claimed_as_they_are():
     assert table.estimate({name: value for name, value in PUNCH.items() if name != HURST}).error == pytest.approx(0.1)
 
 
-def test_an_error_that_grows_with_the_height_is_followed():
-    points, _ = population(60, 5)
-    table = measured("sphere", points, 0.2 * 10 ** points[:, 0])
-    assert table.trend == pytest.approx(1.0)
-    for height in (0.02, 0.3, 5.0):
-        at = {**conditions((LOW + HIGH) / 2, "sphere"), HEIGHT: height}
-        assert table.estimate(at).error == pytest.approx(0.2 * height)
-
-
 @pytest.mark.parametrize(("power", "of_shape", "found"), [(0.5, 0, 0.5), (-1, 0, 0), (2, 0, 1), (1, 0.5, 0.5)])
 def test_an_error_over_its_shape_grows_with_the_height_by_a_power_from_zero_to_one(power, of_shape, found):
     points, _ = population(60, 5)
@@ -173,15 +164,6 @@ def test_errors_nearby_are_those_of_a_loop_over_all_scenes(kind):
     assert claimed == pytest.approx(table.factor * 1.7 * table._scale(points[7], np.ones(200, dtype=bool)))
 
 
-def test_a_scene_does_not_calibrate_itself():
-    points, errors = population(40, 6)
-    one = errors.copy()
-    one[7] *= 100
-    before, after = (measured("sphere", points, e).left_out()[7] for e in (errors, one))
-    # but for the trend, which is of all scenes
-    assert after == pytest.approx(before, rel=0.3)
-
-
 def cheap(name, target):
     return next(model for model in models_serving(target.scene, target.quantity) if model.name == name)
 
@@ -196,11 +178,6 @@ def test_what_is_not_in_the_table_has_no_claim():
     assert calibrated(cheap("springs", still), still).in_range
     of_heights = next(model for model in all_models() if model.name == "linear filter, 3D")
     assert "not in the table" in calibrated(of_heights, still).reason
-
-
-def test_a_dynamic_wheel_has_errors_of_its_own():
-    still, moving = Target(wheel(), "force-spectrum"), Target(wheel(mass=1.0, speed=10.0), "acceleration")
-    assert (conditions_by_kind(still)[0], conditions_by_kind(moving)[0]) == ("rolling", "wheel")
 
 
 @pytest.mark.parametrize("quantity", QUANTITIES["wheel"])
@@ -326,16 +303,6 @@ def test_each_row_is_a_scene_of_the_design():
         for name, value in found.items():
             if row.get(name):
                 assert value == pytest.approx(float(row[name]), rel=1e-4)
-
-
-def test_no_measured_error_depends_on_units():
-    ground = Roughness(rms=1e-3, hurst=0.7, longest=1.0, shortest=1 / 8)
-    one = IndentationScene(name="p", shape="punch", size=1.0, load=1e-3, modulus=1.0, ground=ground)
-    rough = replace(ground, rms=1e-9, longest=1e-6, shortest=1e-6 / 8)
-    other = replace(one, size=1e-6, load=1e-3 * 2e11 * 1e-12, modulus=2e11, ground=rough)
-    for name in ("fit", "springs"):
-        here, there = (calibrated(cheap(name, target), target).error for target in (Target(one), Target(other)))
-        assert here == pytest.approx(there)
 
 
 def test_a_table_is_measured_once(tmp_path, monkeypatch):

@@ -12,10 +12,9 @@ from scipy.optimize import brentq
 
 from validation import load_scene
 from validation.selection.rail_model import RailSceneModel
-from validation.selection.scene_model import Answer
 from validation.simulation import rail_models
 from validation.simulation.method import Resolution
-from validation.simulation.model import Cost, Target, models_serving
+from validation.simulation.model import Target, models_serving
 from validation.simulation.model_names import BEM, LINEAR
 from validation.simulation.models.rail import BOUNDARY_ELEMENTS
 from validation.simulation.rail_quantity import RailQuantity
@@ -134,9 +133,3 @@ def test_what_the_ground_leaves_adds_to_grid_and_sample_as_it_is():
     assert [20 * math.log10(1 + part) for part in (answer.grid, answer.sample)] == pytest.approx(
         [filters.grid[at], filters.sample[at]], rel=1e-6
     )
-
-
-def test_errors_of_bands_add_a_bias_to_what_is_random():
-    bands = {"model": np.array([3.0, 1.0]), "grid": np.array([0.0, 3.0]), "sample": np.array([4.0, 4.0])}
-    answer = Answer(value=np.ones(2), cost=Cost(work=1, seconds=1.0), band_errors=bands)
-    assert answer.error_in_bands.tolist() == [7.0, 6.0]

@@ -36,7 +36,7 @@ def test_the_mean_contact_of_a_smooth_wheel_is_that_of_hertz():
     found = mean.mean_contact(mean.GapLaw(np.array([0.01, 0.1, 1.0]), np.zeros(3)), 1.0)
     assert found.force == pytest.approx(4 / 3, rel=0.01)
     assert found.stiffness == pytest.approx(2.0, rel=0.02)
-    r = mean.radii()
+    r = mean.RADII
     expected = 2 / math.pi * np.sqrt(np.maximum(1 - r**2, 0.0))
     np.testing.assert_allclose(found.pressure[r < 0.9], expected[r < 0.9], rtol=0.02)
 
@@ -47,7 +47,7 @@ def test_the_mean_gap_is_that_of_its_pressure(approach):
     law = mean.GapLaw(np.geomspace(0.01, 1.0, 8), 0.5 * np.geomspace(0.01, 1.0, 8) ** -0.3 - 0.4)
     found, more = (mean.mean_contact(law, approach + step) for step in (0.0, 1e-5))
     touching = found.pressure > 1e-12
-    gap = mean.ring_operator() @ found.pressure + mean.radii() ** 2 / 2 - approach
+    gap = mean.ring_operator() @ found.pressure + mean.RADII**2 / 2 - approach
     np.testing.assert_allclose(gap[touching], law(np.log(found.pressure[touching]))[0], atol=1e-6)
     np.testing.assert_allclose(more.force - found.force, 1e-5 * found.stiffness, rtol=1e-2)
 

@@ -43,6 +43,10 @@ MOVING_LONG = "q a of the longest wave above the resonance"
 """What decides how far cheap models are off, in words."""
 CONDITIONS = (LOAD, HEIGHT, WAVES, LONG, MOVING_LONG, RATIO, HURST)
 """Those of the calibration."""
+ENVELOPE: Ranges = {HEIGHT: (0, 1), LONG: (0, 2), SHORT: (0, 40), RATIO: (2, 64), HURST: (0.2, 1.2)}
+"""Of rolling: drawn scenes were rolled with h/d from 0.003, q a of the longest wave from 0.2 and bands up to a factor
+20 wide. Longer waves only move the contact, which linear theory knows; that it holds in wider bands is taken from Table
+14.1 alone."""
 SPHERE_SHAPE = (1.0, 0.05, 0.005)
 """What the errors of a rough sphere go with, `shape` of the calibration: the contact that is lost, h q a / d with the q
 of the longest wave, no rms slope, and what the reference leaves."""
@@ -70,6 +74,13 @@ def rolling_conditions(quantity: RollingQuantity) -> dict[str, float]:
     longest = {MOVING_LONG: quantity.longest_moving * scene.contact_radius} if quantity.dynamic else {LONG: first}
     conditions = {HEIGHT: height, **longest, SHORT: last, RATIO: last / first}
     return conditions if ground.hurst is None else {**conditions, HURST: ground.hurst}
+
+
+def beyond_envelope(quantity: RollingQuantity) -> str:
+    """Why rules of rolling models do not hold where no error is measured; empty where they do."""
+    scene = quantity.scene
+    as_given = {LONG: scene.ground.q_min * scene.contact_radius, HEIGHT: scene.roughness_ratio}
+    return outside({**rolling_conditions(quantity), **as_given}, ENVELOPE)
 
 
 def lost_contact(scene: IndentationScene | RollingScene) -> float:

@@ -77,17 +77,15 @@ class MeasuredErrors:
     def estimate(self, conditions: Mapping[str, float], shape: float = 1.0) -> ErrorEstimate:
         """The root mean square of the errors nearby over their shapes, times the factor that covers them."""
         low, high = self.points.min(axis=0), self.points.max(axis=0)
-        named = [name for name in self.names if name in conditions]
         at = np.array([_coordinate(name, conditions[name]) if name in conditions else math.nan for name in self.names])
-        for i, name in enumerate(self.names):
-            if (at[i] < low[i] - MARGIN and name not in OPEN_BELOW) or (
-                at[i] > high[i] + MARGIN and name not in OPEN_ABOVE
-            ):
-                ends = " to ".join(f"{_condition(name, end):.3g}" for end in (low[i], high[i]))
-                reason = f"{name} = {conditions[name]:.3g}; the error of the model is measured from {ends} only"
+        for name, here, *ends in zip(self.names, at, low, high, strict=True):
+            below, above = here < ends[0] - MARGIN, here > ends[1] + MARGIN
+            if (below and name not in OPEN_BELOW) or (above and name not in OPEN_ABOVE):
+                span = " to ".join(f"{end if name == HURST else 10**end:.3g}" for end in ends)
+                reason = f"{name} = {conditions[name]:.3g}; the error of the model is measured from {span} only"
                 return ErrorEstimate.out_of_range(reason)
         error = self.factor * shape * self._scale(np.clip(at, low, high), np.ones(len(self.errors), dtype=bool))
-        leading = counted({name: conditions[name] for name in named[:2]})
+        leading = counted({name: conditions[name] for name in self.names[:2]})
         reason = f"errors reach so far on the nearest of {len(self.errors)} measured scenes, at {leading}"
         return ErrorEstimate(model=error, reason=reason)
 
@@ -159,10 +157,6 @@ def conditions_by_kind(target: Target) -> tuple[str, dict[str, float]]:
 
 def _coordinate(name: str, value: float) -> float:
     return value if name == HURST else math.log10(value)
-
-
-def _condition(name: str, coordinate: float) -> float:
-    return coordinate if name == HURST else 10**coordinate
 
 
 @cache

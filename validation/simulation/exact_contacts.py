@@ -92,21 +92,18 @@ class CosineWave:
     tolerance: float
 
     @property
+    def unloaded(self) -> dict[str, float]:
+        return {name: getattr(self, name) for name in ("amplitude", "wavelength", "modulus")}
+
+    @property
     def full_pressure(self) -> float:
         """p* = pi E* h / lambda [Pa]."""
-        return closed_forms.westergaard_full_pressure(
-            amplitude=self.amplitude, wavelength=self.wavelength, modulus=self.modulus
-        )
+        return closed_forms.westergaard_full_pressure(**self.unloaded)
 
     @property
     def scene(self) -> dict[str, float]:
         """Arguments of the closed forms."""
-        return {
-            "mean_pressure": self.load * self.full_pressure,
-            "amplitude": self.amplitude,
-            "wavelength": self.wavelength,
-            "modulus": self.modulus,
-        }
+        return {"mean_pressure": self.load * self.full_pressure, **self.unloaded}
 
     @property
     def spacing(self) -> float:
@@ -163,19 +160,18 @@ def press_flat_punches(punches: FlatPunches) -> Outcome:
 
 
 APPROACH, PRESSURE = "approach", "largest pressure"
-CURVATURES = (0.001015, 0.0004215)
-"""Of its gap, A x^2 + B y^2 [1/mm]."""
+FORCE, RADII = 100e3, (1e-3 / (2 * 0.001015), 1e-3 / (2 * 0.0004215))
+"""[N]; 1 / (2 A) along and 1 / (2 B) across of its gap A x^2 + B y^2 [m]."""
 STRIP = 2.6
 """Length and width of the flat strip over those of the contact."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class PublishedContact:
-    """cells: of the grid, to the semi-axis along; tolerance: residual of boundary elements; force [N]."""
+    """cells: of the grid, to the semi-axis along; tolerance: residual of boundary elements."""
 
     cells: int
     tolerance: float
-    force: float = 100e3
 
     @property
     def modulus(self) -> float:
@@ -183,14 +179,8 @@ class PublishedContact:
         return 82e9 / (1 - 0.28)
 
     @property
-    def radii(self) -> tuple[float, float]:
-        """1 / (2 A) along, 1 / (2 B) across [m]."""
-        along, across = (1e-3 / (2 * curvature) for curvature in CURVATURES)
-        return along, across
-
-    @property
     def closed(self) -> EllipticContact:
-        return elliptic_contact(self.radii, modulus=self.modulus, force=self.force)
+        return elliptic_contact(RADII, modulus=self.modulus, force=FORCE)
 
 
 def press_ellipse(problem: PublishedContact) -> Outcome:
@@ -198,9 +188,9 @@ def press_ellipse(problem: PublishedContact) -> Outcome:
     smooth = problem.closed
     spacing = smooth.along / problem.cells
     shape = tuple(2 * round(STRIP / 2 * axis / spacing) + 1 for axis in (2 * smooth.along, 2 * smooth.across))
-    track = bem3d.Track(height=np.zeros(shape), spacing=spacing, radius=problem.radii, modulus=problem.modulus)
+    track = bem3d.Track(height=np.zeros(shape), spacing=spacing, radius=RADII, modulus=problem.modulus)
     wheel = bem3d.RollingContact(track, tolerance=problem.tolerance)
-    found = wheel.carry(0, problem.force)
+    found = wheel.carry(0, FORCE)
     return {
         APPROACH: np.array(1e3 * found.approach),
         PRESSURE: np.array(1e-6 * wheel.pressure()[2].max() if found.converged else math.nan),

@@ -1,7 +1,8 @@
 """The rough face of a body that is pressed, on a grid: how large and how fine it must be, drawn or measured."""
 
 import math
-from functools import lru_cache
+from functools import lru_cache, partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,6 +40,11 @@ LATTICE = 512
 def is_pressed(scene: object, quantity: str) -> bool:
     """Whether a model of stiffness may have the quantity."""
     return isinstance(scene, IndentationScene) and quantity == "stiffness"
+
+
+def is_rough(scene: Any, quantity: str) -> bool:
+    """The same of a rough body."""
+    return is_pressed(scene, quantity) and scene.ground is not None
 
 
 def ground_of(scene: IndentationScene) -> RoughSurface:
@@ -94,17 +100,6 @@ def cells_wanted(scene: IndentationScene) -> int:
     return int(max(FEW, 2 ** math.ceil(math.log2(wanted * (1 - 1e-9)))))
 
 
-def finest_cells(scene: IndentationScene) -> int:
-    """A side of the finest grid that is offered."""
-    return min(MANY_POINTS if ground_of(scene).is_single else MANY, cells_wanted(scene))
-
-
-def holds_waves(scene: IndentationScene, cells: int) -> bool:
-    """Whether a grid of so many cells a side holds the longest wave."""
-    ground = ground_of(scene)
-    return ground.is_single or ground.q_min <= shortest_held(scene, cells)
-
-
 def shortest_held(scene: IndentationScene, cells: int) -> float:
     """Wavenumber of two cells to a wave [rad/m]."""
     return math.pi * cells / side_of(scene) * (1 + 1e-9)
@@ -139,12 +134,8 @@ def highest_of(scene: IndentationScene, cells: int) -> FloatArray:
 
 def _drawn(ground: RoughSurface, shortest: float, cells: int, side: float, rng: np.random.Generator) -> FloatArray:
     """The waves of a surface up to a wavenumber; the same waves on every grid."""
-    surface = draw_surface(
-        lambda q: np.where(np.abs(q) <= shortest, ground.c2d(q), 0.0),
-        shape=(cells, cells),
-        spacing=side / cells,
-        rng=rng,
-    )
+    draw = partial(draw_surface, shape=(cells, cells), spacing=side / cells, rng=rng)
+    surface = draw(lambda q: np.where(np.abs(q) <= shortest, ground.c2d(q), 0.0))
     # the mean square of the whole band, less what is left out of it
     return np.asarray(surface * _whole(ground, side))
 
@@ -163,14 +154,10 @@ def _whole(ground: RoughSurface, side: float) -> float:
         q = q[q <= 2 * np.pi / side * LATTICE]
     drawn = (2 * np.pi / side) ** 2 * float(ground.c2d(q[q > 0]).sum())
     if waves > LATTICE:
-        drawn += _mean_square_above(ground, 2 * np.pi / side * LATTICE)
+        # and 2 pi int C_2D q dq of shorter ones
+        low = max(2 * np.pi / side * LATTICE, ground.q_min)
+        q, weight = on_panels(np.geomspace(low, ground.q_max, 2 + math.ceil(math.log2(ground.q_max / low))), 24)
+        drawn += float(2 * np.pi * np.sum(weight * q * ground.c2d(q)))
     if not drawn > 0:
         raise ValueError("no wave of the roughness fits the side a whole number of times")
     return ground.rms / math.sqrt(drawn)
-
-
-def _mean_square_above(ground: RoughSurface, first: float) -> float:
-    """2 pi int C_2D q dq from a wavenumber to the last [m^2]."""
-    low = max(first, ground.q_min)
-    q, weight = on_panels(np.geomspace(low, ground.q_max, 2 + math.ceil(math.log2(ground.q_max / low))), 24)
-    return float(2 * np.pi * np.sum(weight * q * ground.c2d(q)))

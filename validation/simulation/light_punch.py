@@ -33,12 +33,15 @@ def press_lightly(surface: Surface) -> Outcome:
     half_space = bem3d.HalfSpace(shape=(cells, cells), spacing=1 / cells, modulus=1.0)
     forces = surface.roughness.height * np.array(surface.forces)
     found: list[tuple[float, ...]] = []
+    # two real transforms of a padded grid take 5/2 n log2(n) operations each, a product two
+    points = (2 * cells) ** 2
+    products = 2.5 * points * math.log2(points)
     try:
         contacts = bem3d.indent_few_cells(
             half_space, -_height(surface), forces=forces, max_cells=OVERLAPPING * cells, tolerance=surface.tolerance
         )
         for contact in _while_few(contacts, forces, TOUCHING * cells):
-            work = np.array([contact.products, contact.stiffness_products]) / products_of_an_application(cells)
+            work = np.array([contact.products, contact.stiffness_products]) / products
             found.append((contact.stiffness, contact.area, contact.approach, contact.residual, *work))
     except (bem3d.TooManyCellsError, bem3d.ConvergenceError):
         pass
@@ -59,15 +62,6 @@ def _while_few(
         yield contact
         if len(contact.cells) * following > most * contact.force:
             return
-
-
-def products_of_an_application(cells: int) -> float:
-    """Multiplications with an addition that two real transforms of a padded grid take, 5/2 n log2(n) operations each.
-
-    cells: on a side, before padding.
-    """
-    points = (2 * cells) ** 2
-    return 2.5 * points * math.log2(points)
 
 
 def _height(surface: Surface) -> FloatArray:

@@ -13,11 +13,9 @@ import mdr
 from validation.engine.engine import Outcome
 from validation.engine.random_numbers import random_generator
 from validation.simulation.exact_contacts import off
-from validation.simulation.probing import FloatArray, Point, answered, message_of, recorded, swept
+from validation.simulation.probing import FloatArray, Point, Values, along, answered, message_of, recorded, swept
 from validation.simulation.rough_punch import PunchRoughness
 
-Values = tuple[float, ...]
-Sizes = tuple[int, ...]
 HERTZ = 4 / 3
 LATTICE = 3.900265
 """-4 zeta(1/2) beta(1/2): the sum of 1 / |n| over a square lattice but for its origin, less its mean; Borwein et al.,
@@ -39,64 +37,47 @@ def half_space(cells: int, spacing: float, *, periodic: bool = False) -> bem3d.H
     return bem3d.HalfSpace(shape=(cells, cells), spacing=spacing, modulus=1.0, periodic=periodic)
 
 
-def few_cells(coarse: Values, *, places: int = 8) -> Outcome:
+@along
+def few_cells(cells: float, places: int = 8) -> tuple[float, float, str]:
     """Stiffness on a / dx cells against Hertz, rms over places on a cell along its diagonal; messages of the first."""
-
-    def point(cells: float) -> Point:
-        side = 2 * math.ceil(1.3 * cells) + 4
-        at = (np.arange(places) + 0.5) / (2 * places)
-        gaps = [sphere(side, 1 / cells, float(place)) for place in at]
-        solved = [answered(partial(bem3d.solve, half_space(side, 1 / cells), gap, approach=1.0)) for gap in gaps]
-        return math.sqrt(sum((contact.stiffness() / 2 - 1) ** 2 / places for contact, _ in solved)), solved[0][1]
-
-    return swept(np.pi * np.array(coarse) ** 2, *zip(*map(point, coarse), strict=True))
+    side, at = 2 * math.ceil(1.3 * cells) + 4, (np.arange(places) + 0.5) / (2 * places)
+    gaps = [sphere(side, 1 / cells, float(place)) for place in at]
+    solved = [answered(partial(bem3d.solve, half_space(side, 1 / cells), gap, approach=1.0)) for gap in gaps]
+    error = math.sqrt(sum((contact.stiffness() / 2 - 1) ** 2 / places for contact, _ in solved))
+    return math.pi * cells**2, error, solved[0][1]
 
 
-def images(periods: Sizes, *, fine: int = 4) -> Outcome:
+@along
+def images(period: int, fine: int = 4) -> tuple[float, float, str]:
     """Approach under the force of Hertz in a period L / a, against the same cells in free space."""
-
-    def point(period: int) -> Point:
-        cells, dx = period * fine, 1 / fine
-        press = partial(bem3d.solve, gap=sphere(cells, dx), force=HERTZ)
-        imaged, message = answered(partial(press, half_space(cells, dx, periodic=True)))
-        return abs(imaged.approach / press(half_space(cells, dx)).approach - 1), message
-
-    return swept(periods, *zip(*map(point, periods), strict=True))
+    cells, dx = period * fine, 1 / fine
+    press = partial(bem3d.solve, gap=sphere(cells, dx), force=HERTZ)
+    imaged, message = answered(partial(press, half_space(cells, dx, periodic=True)))
+    return period, abs(imaged.approach / press(half_space(cells, dx)).approach - 1), message
 
 
-def grid_sides(sides: Sizes, *, finer: int = 8) -> Outcome:
+@along
+def grid_sides(side: int, finer: int = 8) -> tuple[float, float, str]:
     """Force on grids of fewer and fewer cells a side, against a wide grid."""
-    dx = 1 / finer
-
-    def press(side: int) -> bem3d.Contact:
-        return bem3d.solve(half_space(side, dx), sphere(side, dx), approach=1.0)
-
     # an odd grid has a cell below the middle of the sphere, an even one has none
-    true = [press(side).force for side in (4 * finer, 4 * finer + 1)]
-
-    def point(side: int) -> Point:
-        contact, message = answered(partial(press, side))
-        return abs(contact.force / true[side % 2] - 1), message
-
-    return swept(np.array(sides) * dx / 2, *zip(*map(point, sides), strict=True))
+    dx, wide = 1 / finer, 4 * finer + side % 2
+    true = bem3d.solve(half_space(wide, dx), sphere(wide, dx), approach=1.0).force
+    contact, message = answered(partial(bem3d.solve, half_space(side, dx), sphere(side, dx), approach=1.0))
+    return side * dx / 2, abs(contact.force / true - 1), message
 
 
-def strip_widths(widths: Sizes, *, finer: int = 8) -> Outcome:
+@along
+def strip_widths(width: int, finer: int = 8) -> tuple[float, float, str]:
     """Force on smooth strips as wide as those grids, rolled over for two cells."""
     dx, length = 1 / finer, 4 * finer
 
-    def roll(width: int) -> float:
-        flat = np.zeros((length, width))
+    def roll(columns: int) -> float:
+        flat = np.zeros((length, columns))
         rolled = bem3d.roll(flat, spacing=dx, radius=1.0, modulus=1.0, approach=1.0, positions=2)
         return float(rolled.force[-1])
 
-    true = roll(length)
-
-    def point(width: int) -> Point:
-        force, message = recorded(partial(roll, width))
-        return math.inf if force is None else abs(force / true - 1), message
-
-    return swept(np.array(widths) * dx / 2, *zip(*map(point, widths), strict=True))
+    true, (force, message) = roll(length), recorded(partial(roll, width))
+    return width * dx / 2, math.inf if force is None else abs(force / true - 1), message
 
 
 def spikes(heights: Values, *, finer: int = 8) -> Outcome:
@@ -114,7 +95,7 @@ def spikes(heights: Values, *, finer: int = 8) -> Outcome:
     return swept(heights, *zip(*map(point, heights), strict=True), measured=1 / (LONE_CELL * dx))
 
 
-def rough_grids(cells: Sizes, *, resolved: int, seed: int, finest: int = 512, force: float = 1.5) -> Outcome:
+def rough_grids(cells: tuple[int, ...], *, resolved: int, seed: int, finest: int = 512, force: float = 1.5) -> Outcome:
     """Contact area of periodic rough surfaces under Fbar = F / (E* h L) against the finest grid, by cells to the
     shortest wave; messages are those of drawing the surface."""
     r, surfaces = PunchRoughness(hurst=0.7, waves=(1, 8), seed=seed), range(resolved)
@@ -145,38 +126,30 @@ def _wave(cells: int) -> tuple[bem3d.HalfSpace, FloatArray, FloatArray]:
     return body, 2 * np.sin(np.pi * x[:, np.newaxis]) ** 2, x
 
 
-def full_contact(loads: Values, *, cells: int = 128) -> Outcome:
+@along
+def full_contact(load: float, cells: int = 128) -> tuple[float, float, str]:
     """Force at the approach that a mean pressure over p* has; from full contact on that is the mean gap."""
     body, gap, x = _wave(cells)
-
-    def point(load: float) -> Point:
-        force = load * math.pi * body.cell_area * x.size
-        known, _ = answered(partial(bem3d.solve, body, gap, force=force, tolerance=1e-9))
-        approach = known.approach if load < 1 else float(gap.mean())
-        contact, message = recorded(partial(bem3d.solve, body, gap, approach=approach, tolerance=RESIDUAL))
-        return math.inf if contact is None else abs(contact.force / force - 1), message
-
-    return swept(loads, *zip(*map(point, loads), strict=True))
+    force = load * math.pi * body.cell_area * x.size
+    known, _ = answered(partial(bem3d.solve, body, gap, force=force, tolerance=1e-9))
+    approach = known.approach if load < 1 else float(gap.mean())
+    contact, message = recorded(partial(bem3d.solve, body, gap, approach=approach, tolerance=RESIDUAL))
+    return load, math.inf if contact is None else abs(contact.force / force - 1), message
 
 
-def huge_forces(loads: Values, *, cells: int = 128) -> Outcome:
+@along
+def huge_forces(load: float, cells: int = 128) -> tuple[float, float, str]:
     """Waves of the pressure in full contact under a mean pressure over p*, rms over p*."""
     body, gap, x = _wave(cells)
-
-    def point(load: float) -> Point:
-        press = partial(bem3d.solve, body, gap, force=load * math.pi * body.cell_area * x.size, tolerance=RESIDUAL)
-        contact, _ = answered(partial(press, raise_on_failure=False))
-        waves = contact.pressure[:, 0] / math.pi - load - np.cos(2 * np.pi * x)
-        return float(np.sqrt(np.mean(waves**2))), message_of(press)
-
-    return swept(loads, *zip(*map(point, loads), strict=True))
+    press = partial(bem3d.solve, body, gap, force=load * math.pi * body.cell_area * x.size, tolerance=RESIDUAL)
+    contact, _ = answered(partial(press, raise_on_failure=False))
+    waves = contact.pressure[:, 0] / math.pi - load - np.cos(2 * np.pi * x)
+    return load, float(np.sqrt(np.mean(waves**2))), message_of(press)
 
 
 SCENES = ("sphere", "rough punch", "rough, periodic")
-SOLVERS: dict[str, Callable[..., bem3d.Contact]] = {
-    "solve": bem3d.solve,
-    "solve_polonsky_keer": bem3d.solve_polonsky_keer,
-}
+SOLVERS = ("solve", "solve_polonsky_keer")
+"""Of bem3d."""
 MEASURES = ("load", "stiffness", "pressure")
 TRUE = 1e-11
 """The residual of what stands for the truth."""
@@ -211,9 +184,9 @@ def press_grid(grid: Grid) -> Outcome:
     """
     body, gap, load = setup_problem(grid.scene, grid.cells, grid.seed)
     true = bem3d.solve(body, gap, **load, tolerance=TRUE, raise_on_failure=False) if grid.true else None
-    rows = []
+    solve, rows = getattr(bem3d, grid.solver), []
     for tolerance in grid.tolerances:
-        contact = SOLVERS[grid.solver](body, gap, **load, tolerance=tolerance, raise_on_failure=False)
+        contact = solve(body, gap, **load, tolerance=tolerance, raise_on_failure=False)
         errors = _errors(contact, true) if true else (math.nan,) * 3
         work = contact.iterations, contact.operator_applications
         rows.append((*work, contact.residual, float(not contact.converged), *errors))

@@ -12,15 +12,13 @@ from validation.simulation.contact_laws import HertzLaw
 from validation.simulation.free_vibration import SCHEMES, WHEEL, Vibrations, vibrate
 from validation.simulation.integrators import VELOCITY_VERLET
 from validation.simulation.motion import simulate
-from validation.simulation.probing import FloatArray, Point, answered, message_of, swept
+from validation.simulation.probing import FloatArray, Point, Values, along, answered, message_of, swept
 from validation.simulation.rolling_strip import RoughStrip, Strip, roll_strip
 from validation.simulation.rough_punch import Profiles, PunchRoughness, Surface, press_profiles, press_surface
 from validation.simulation.spring_tracks import FINE, STRIDES, LiftOff, RoughTrack, coarsen, filtered, lift_off
 from validation.simulation.track_spectrum import PiecewisePowerLaw, TrackSpectrum, self_affine
 from validation.theory.rolling import force_spectrum_1d, force_spectrum_3d, force_variance, response
 
-Values = tuple[float, ...]
-Sizes = tuple[int, ...]
 HURST = 0.7
 GEIKE_TRACK, UNIT_TRACK = 1, 2
 """Spawn keys of a track of Geike's spectrum, and of one of unit height."""
@@ -33,10 +31,8 @@ def rough_punches(
     """Contact fraction and mean gap of springs against boundary elements, means over punches of Fig. 14.1; measured:
     the rms gradient over h."""
     r = PunchRoughness(hurst=HURST, waves=(1, cells // 4), seed=seed)
-    pressed = [
-        press_surface(Surface(roughness=r, realisation=i, cells=cells, forces=forces, tolerance=1e-4))
-        for i in range(surfaces)
-    ]
+    punch = partial(Surface, roughness=r, cells=cells, forces=forces, tolerance=1e-4)
+    pressed = [press_surface(punch(realisation=i)) for i in range(surfaces)]
     springs = press_profiles(Profiles(roughness=r, realisations=profiles, points=points, length=1.0, forces=forces))
     area, gap = (np.mean([s[name] for s in pressed], axis=0) for name in ("area", "gap"))
     errors = np.abs(springs["area"].mean(axis=0) / area - 1), np.abs(springs["gap"].mean(axis=0) - gap) / r.height
@@ -75,14 +71,15 @@ def octaves(centres: Values, *, seed: int, lines: int = 48) -> Outcome:
         level = 1 / (spectrum.c2d(q) / q)
         true = np.sum(level * force_spectrum_3d(q, spectrum.c2d, edges=spectrum.edges, **UNIT))
         springs = np.sum(level * force_spectrum_1d(q, TrackSpectrum(spectrum, "geike"), **UNIT))
-        return abs(decibel(float(springs / true)))
+        return abs(10 * math.log10(springs / true))
 
     # springs have a spectrum and no surface: one track, with the waves about the contact, gives their only message
     message = message_of(partial(_rolled, self_affine(HURST, 0.25, 8.0), seed))
     return swept(centres, list(map(error, centres)), [message] * len(centres))
 
 
-def anisotropy(ratios: Values, *, seed: int) -> Outcome:
+@along
+def anisotropy(ratio: float, seed: int) -> tuple[float, float, str]:
     """rms force of springs that take a cut along the track for isotropic, over that of the half-space.
 
     The roughness is isotropic between two wavenumbers, then stretched along the track and shrunk across, keeping areas:
@@ -91,15 +88,11 @@ def anisotropy(ratios: Values, *, seed: int) -> Outcome:
     1 / |k|^2, whose mean over all directions does not depend on the ratio.
     """
     spectrum = self_affine(HURST, 20.0, 200.0)
-
-    def point(ratio: float) -> Point:
-        edges = tuple(edge / math.sqrt(ratio) for edge in spectrum.edges)
-        cut = PiecewisePowerLaw(edges=edges, exponents=spectrum.exponents)
-        springs = force_variance(cut.c2d, edges=cut.edges, **UNIT)
-        error = abs(math.sqrt(springs / stretched_variance(spectrum, ratio)) - 1)
-        return error, message_of(partial(_rolled, cut, seed))
-
-    return swept(np.array(ratios) - 1, *zip(*map(point, ratios), strict=True))
+    edges = tuple(edge / math.sqrt(ratio) for edge in spectrum.edges)
+    cut = PiecewisePowerLaw(edges=edges, exponents=spectrum.exponents)
+    springs = force_variance(cut.c2d, edges=cut.edges, **UNIT)
+    error = abs(math.sqrt(springs / stretched_variance(spectrum, ratio)) - 1)
+    return ratio - 1, error, message_of(partial(_rolled, cut, seed))
 
 
 def stretched_variance(spectrum: PiecewisePowerLaw, ratio: float, lines: int = 1500, angles: int = 180) -> float:
@@ -121,10 +114,6 @@ def _rolled(spectrum: PiecewisePowerLaw, seed: int) -> FloatArray:
     return mdr.rolling_force(track, spacing=length / points, radius=1.0, modulus=1.0, approach=1.0)
 
 
-def decibel(ratio: float) -> float:
-    return 10 * math.log10(ratio)
-
-
 def rough_tracks(heights: Values, *, track: float, seed: int, springs: int = 32) -> Outcome:
     """The linear filter against one-sided springs: difference about its mean, over the fluctuation.
 
@@ -132,13 +121,8 @@ def rough_tracks(heights: Values, *, track: float, seed: int, springs: int = 32)
     force of linear theory over E* a h.
     """
     spectrum = self_affine(HURST, 1.0, 8.0)
-    unit = mdr.rough_profile(
-        TrackSpectrum(spectrum, "geike"),
-        length=track,
-        points=round(track * springs),
-        rng=random_generator(seed, UNIT_TRACK),
-        rms=1.0,
-    )
+    points, rng = round(track * springs), random_generator(seed, UNIT_TRACK)
+    unit = mdr.rough_profile(TrackSpectrum(spectrum, "geike"), length=track, points=points, rng=rng, rms=1.0)
 
     def point(height: float) -> Point:
         roll = partial(mdr.roll, height * unit, spacing=1 / springs, radius=1.0, modulus=1.0, approach=1.0)
@@ -165,12 +149,12 @@ def rough_strips(heights: Values, *, length: float, strip_cells: int, seed: int,
     return swept(heights, *zip(*points, strict=True), measured=spectrum.gradient, failed=sum(failed))
 
 
-def coarser_springs(strides: Sizes, *, seed: int) -> Outcome:
+def coarser_springs(strides: tuple[int, ...], *, seed: int) -> Outcome:
     """The last one-third octave on coarser springs, by springs to the shortest wave; messages are those of drawing
     such a track. The solve of the case `wheel_stability`, which has these strides."""
     track = RoughTrack(rms=1e-3 * WHEEL.approach, seed=seed, waves=9, per_wave=FINE)
     levels = dict(zip(STRIDES, coarsen(track)["level"].tolist(), strict=True))
-    errors = [abs(decibel(levels[n])) if levels[n] > 0 else math.inf for n in strides]
+    errors = [abs(10 * math.log10(levels[n])) if levels[n] > 0 else math.inf for n in strides]
     messages = [message_of(partial(track.heights, 1, track.points // n)) for n in strides]
     return swept(FINE / np.array(strides), errors, messages)
 

@@ -14,8 +14,9 @@ from scipy import special
 
 FloatArray = NDArray[np.float64]
 
-RINGS, OUTER = 48, 3.0
-"""Of equal width, up to so many radii."""
+EDGES = np.linspace(0.0, 3.0, 49)
+RADII, AREAS = (EDGES[1:] + EDGES[:-1]) / 2, np.pi * np.diff(EDGES**2)
+"""Of rings of equal width."""
 SOFTEST = 1e-3
 """-dg / d ln p at the least: without it a smooth wheel has no tangent outside of its contact."""
 LOWEST = -300.0
@@ -44,7 +45,7 @@ class GapLaw:
 
 @dataclass(frozen=True, eq=False)
 class MeanContact:
-    """Over `radii`: pressure p, tangent P = dp/dd, and the displacement K P under it; force and stiffness."""
+    """Over `RADII`: pressure p, tangent P = dp/dd, and the displacement K P under it; force and stiffness."""
 
     pressure: FloatArray
     tangent: FloatArray
@@ -52,16 +53,16 @@ class MeanContact:
 
     @property
     def force(self) -> float:
-        return float(self.pressure @ areas())
+        return float(self.pressure @ AREAS)
 
     @property
     def stiffness(self) -> float:
-        return float(self.tangent @ areas())
+        return float(self.tangent @ AREAS)
 
 
 def mean_contact(law: GapLaw, approach: float) -> MeanContact:
     """By Newton's method on ln p. Raises ArithmeticError where it does not converge."""
-    operator, r = ring_operator(), radii()
+    operator, r = ring_operator(), RADII
     log_p = np.log(2 / np.pi * np.sqrt(np.maximum(approach - r**2 / 2, 0.0)) + 1e-3 * np.exp(-(r**2) / 2))
     for _ in range(STEPS):
         touching = np.flatnonzero(log_p > LOWEST)
@@ -82,22 +83,9 @@ def mean_contact(law: GapLaw, approach: float) -> MeanContact:
 
 
 @cache
-def edges() -> FloatArray:
-    return np.linspace(0.0, OUTER, RINGS + 1)
-
-
-def radii() -> FloatArray:
-    return np.asarray((edges()[1:] + edges()[:-1]) / 2)
-
-
-def areas() -> FloatArray:
-    return np.asarray(np.pi * np.diff(edges() ** 2))
-
-
-@cache
 def ring_operator() -> FloatArray:
     """Displacement at the middle of each ring under unit pressure on each: differences of discs."""
-    return np.asarray(np.diff([under_disc(radii(), radius) for radius in edges()], axis=0).T)
+    return np.asarray(np.diff([under_disc(RADII, radius) for radius in EDGES], axis=0).T)
 
 
 def under_disc(r: ArrayLike, radius: float) -> FloatArray:
@@ -109,9 +97,7 @@ def under_disc(r: ArrayLike, radius: float) -> FloatArray:
     r = np.asarray(r, dtype=np.float64)
     if radius == 0:
         return np.zeros_like(r)
-    inside, m = (
-        4 * radius / np.pi * special.ellipe(np.minimum((r / radius) ** 2, 1.0)),
-        (radius / np.maximum(r, radius)) ** 2,
-    )
+    inside = 4 * radius / np.pi * special.ellipe(np.minimum((r / radius) ** 2, 1.0))
+    m = (radius / np.maximum(r, radius)) ** 2
     outside = 4 * r / np.pi * (special.ellipe(m) - (1 - m) * special.ellipk(np.minimum(m, 1 - 1e-15)))
     return np.asarray(np.where(r <= radius, inside, outside))

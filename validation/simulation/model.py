@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from importlib import import_module
-from pkgutil import iter_modules
+from pkgutil import iter_modules, resolve_name
 from typing import Any
 
 import numpy as np
@@ -128,7 +128,7 @@ class Model:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """To another process goes its place: functions inside of functions do not."""
-        return _at, self.place
+        return resolve_name, (":".join(self.place),)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -197,7 +197,3 @@ def _declared() -> Iterator[tuple[str, str, Model]]:
     for module in iter_modules(models.__path__):
         name = f"{models.__name__}.{module.name}"
         yield from ((name, key, one) for key, one in vars(import_module(name)).items() if isinstance(one, Model))
-
-
-def _at(module: str, variable: str) -> Any:
-    return getattr(import_module(module), variable)

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import bem3d
-from validation.simulation.mean_contact import GapLaw, MeanContact, mean_contact, radii
+from validation.simulation.mean_contact import RADII, GapLaw, MeanContact, mean_contact
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -114,7 +114,7 @@ def _on_cells(
     reach = math.floor(ALONG / spacing)
     x, y = np.arange(-reach, reach + 1)[:, np.newaxis] * spacing, (np.arange(across) - (across - 1) / 2) * spacing
     p, tangent, displaced = (
-        np.interp(np.hypot(x, y), radii(), field) for field in (contact.pressure, contact.tangent, contact.displaced)
+        np.interp(np.hypot(x, y), RADII, field) for field in (contact.pressure, contact.tangent, contact.displaced)
     )
     place = np.interp(np.log(np.maximum(p, 1e-300)), np.log(PRESSURES), np.arange(len(PRESSURES)))
     share = np.maximum(1 - np.abs(place - np.arange(len(PRESSURES))[:, np.newaxis, np.newaxis]), 0.0)

@@ -2,6 +2,7 @@
 
 import warnings
 from collections.abc import Callable, Sequence
+from functools import wraps
 from typing import TypeVar, cast
 
 import numpy as np
@@ -12,6 +13,7 @@ import mdr
 from validation.engine.engine import Outcome
 
 FloatArray = NDArray[np.float64]
+Values = tuple[float, ...]
 Point = tuple[float, str]
 """The error at one value, infinite where there is no answer, and the message of the software, empty without one."""
 T = TypeVar("T")
@@ -33,6 +35,16 @@ def swept(
         "messages": cast(FloatArray, np.asarray(messages, dtype=np.str_)[order]),
         **{name: np.asarray(value, dtype=np.float64) for name, value in also.items()},
     }
+
+
+def along(point: Callable[..., tuple[float, float, str]]) -> Callable[..., Outcome]:
+    """A probe by that of one value, which gives the value to be shown, the error, and the message."""
+
+    @wraps(point)
+    def probe(values: Sequence[float], **settings: int) -> Outcome:
+        return swept(*zip(*(point(value, **settings) for value in values), strict=True))
+
+    return probe
 
 
 def recorded(call: Callable[[], T]) -> tuple[T | None, str]:

@@ -5,7 +5,7 @@ model is its difference from linear theory and that of linear theory. What is no
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
@@ -61,13 +61,9 @@ class ContactFilter:
     across: StatedAcross | None = None
 
     @property
-    def twin(self) -> str:
-        """The name of the linear model of a one-sided one, and of that one's track; of any other its own."""
-        return twin_of(self.name)
-
-    @property
     def on_strips(self) -> bool:
-        return self.twin != self.name
+        """Whether it is one-sided, and has a linear twin."""
+        return twin_of(self.name) != self.name
 
     def serves(self, scene: Any, quantity: str) -> bool:
         known = isinstance(scene, RailScene) and quantity in RAIL_QUANTITIES
@@ -89,20 +85,18 @@ class ContactFilter:
                 over[i, inside], sample[i, inside] = fine
                 grid[i, inside] = OF_FINE * np.abs(fine[0] - coarse[0])
             found = quantity.between(found + over)
-        a3 = found.mean(axis=0)
-        error = self.model_error(quantity, a3)
-        return {"a3": a3, "model": error, "grid": grid.max(axis=0), "sample": sample.max(axis=0)}
+        a3, left = found.mean(axis=0), {"grid": grid.max(axis=0), "sample": sample.max(axis=0)}
+        return {"a3": a3, "model": self.model_error(quantity, a3), **left}
 
-    def over_twin(self, scene: RailScene, across: StatedAcross, cells: int, seed: int) -> tuple[FloatArray, FloatArray]:
+    def over_twin(self, scene: RailScene, across: StatedAcross, cells: int, seed: int) -> FloatArray:
         """The model over its linear twin on the same strips, in their bands, and what the sample leaves of it [dB]."""
         strips = [strip_of(scene, across, cells, i, seed) for i in range(STRIPS)]
         outcomes = [self.roll(scene, strip) for strip in strips]
         bands = Bands(tuple(strip_bands(scene).edges.tolist()))
         if any(outcome["failed"] for outcome in outcomes):
-            return np.full((2, len(bands.centres)), np.nan)  # type: ignore[return-value]
-        found = log_over(self.name, self.twin, outcomes, strips[0].spacing, bands)
-        values, errors = zip(*((one.value, one.half_width) for one in found), strict=True)
-        return POWER_DECIBEL * np.array(values), POWER_DECIBEL * np.array(errors)
+            return np.full((2, len(bands.centres)), np.nan)
+        found = log_over(self.name, twin_of(self.name), outcomes, strips[0].spacing, bands)
+        return np.asarray(POWER_DECIBEL * np.array([(one.value, one.half_width) for one in found]).T)
 
     def roll(self, scene: RailScene, strip: RailStrip) -> Outcome:
         """Tracks along a strip of this model and of its twin, by their names [m]; failed: positions without any.
@@ -228,19 +222,15 @@ def reason_of(quantity: RailQuantity, a3: FloatArray, error: FloatArray) -> str:
     if not quantity.counted(a3).any():
         return quantity.none_counts
     at = int(np.argmax(np.where(quantity.counted(a3), error, -1.0)))
-    causes = [f"h' a_x / d = {quantity.lost:.2g} of waves of {strip_bands(quantity.scene).span}"]
-    if (apart := abs(a3[at] - quantity.linear.mean(axis=0)[at])) > LINEAR_ERROR:
-        causes.insert(0, f"{apart:.2g} dB off {LINEAR}, on this ground")
-    causes = [*ground_causes(quantity, at), *causes]
-    return f"its error is largest at {1e3 * quantity.bands.nominal[at]:g} mm: {'; '.join(causes)}"
-
-
-def ground_causes(quantity: RailQuantity, at: int) -> Iterator[str]:
-    """What the ground leaves of the error in a band."""
     apart = f"ridges and isotropic ground are ± {quantity.half_width[at]:.2g} dB apart"
-    if quantity.scene.across is None:
-        yield f"across is not given, {apart}"
-    elif quantity.stands_out[at]:
-        yield f"no isotropic ground has this level, {apart}"
-    if quantity.smoothing_error[at] > 0:
-        yield f"levels that scatter leave ± {quantity.smoothing_error[at]:.2g} dB of isotropic ground"
+    off, smoothing = abs(a3[at] - quantity.linear.mean(axis=0)[at]), quantity.smoothing_error[at]
+    is_open, of_strips = quantity.scene.across is None, strip_bands(quantity.scene).span
+    causes = {
+        f"across is not given, {apart}": is_open,
+        f"no isotropic ground has this level, {apart}": quantity.stands_out[at] and not is_open,
+        f"levels that scatter leave ± {smoothing:.2g} dB of isotropic ground": smoothing > 0,
+        f"{off:.2g} dB off {LINEAR}, on this ground": off > LINEAR_ERROR,
+        f"h' a_x / d = {quantity.lost:.2g} of waves of {of_strips}": True,
+    }
+    due = "; ".join(cause for cause, holds in causes.items() if holds)
+    return f"its error is largest at {1e3 * quantity.bands.nominal[at]:g} mm: {due}"

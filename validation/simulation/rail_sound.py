@@ -6,6 +6,7 @@ Nothing moves but the place: no inertia, no resonance, no radiation. f = v / lam
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -86,11 +87,9 @@ def _linear(problem: HeldWheel) -> FloatArray:
 
 
 def _boundary_elements(problem: HeldWheel) -> FloatArray:
-    strip, held = problem.strip, problem.strip.contact.approach
-    positions = problem.last - problem.first
-    return roll_boundary_elements(
-        strip, problem.tolerance, first=problem.first, positions=positions, approach=held
-    ).force.copy()
+    strip, positions = problem.strip, problem.last - problem.first
+    roll = partial(roll_boundary_elements, strip, problem.tolerance, first=problem.first, positions=positions)
+    return roll(approach=strip.contact.approach).force.copy()
 
 
 def _springs_that_read(problem: HeldWheel) -> FloatArray:
@@ -100,22 +99,14 @@ def _springs_that_read(problem: HeldWheel) -> FloatArray:
     return _on_springs(problem, mdr.roll_surface, strip.surface[:, middle - reach : middle + reach], strip.spacing)
 
 
-def _springs_of_geike(problem: HeldWheel) -> FloatArray:
-    return _on_springs(problem, mdr.roll, geike_track(problem.strip))
-
-
 def _on_springs(
     problem: HeldWheel, roll: Callable[..., mdr.RollingTrack], height: FloatArray, *across: float
 ) -> FloatArray:
     """Of several springs to a cell, between which the heights are interpolated by their waves. across: dy."""
     strip, dx = problem.strip, problem.strip.spacing / SPRINGS_TO_A_CELL
-    rolled = roll(
-        scipy.signal.resample(height, SPRINGS_TO_A_CELL * len(height), axis=0),
-        spacing=(dx, *across) if across else dx,
-        radius=strip.radii,
-        modulus=strip.modulus,
-        approach=strip.contact.approach,
-    )
+    finer = scipy.signal.resample(height, SPRINGS_TO_A_CELL * len(height), axis=0)
+    wheel = {"radius": strip.radii, "modulus": strip.modulus, "approach": strip.contact.approach}
+    rolled = roll(finer, spacing=(dx, *across) if across else dx, **wheel)
     return rolled.force[::SPRINGS_TO_A_CELL][problem.first : problem.last].copy()
 
 
@@ -123,7 +114,7 @@ FORCES: dict[str, Callable[[HeldWheel], FloatArray]] = {
     BEM: _boundary_elements,
     LINEAR: _linear,
     SPRINGS_THAT_READ: _springs_that_read,
-    GEIKE: _springs_of_geike,
+    GEIKE: lambda problem: _on_springs(problem, mdr.roll, geike_track(problem.strip)),
 }
 
 

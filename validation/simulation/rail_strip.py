@@ -6,7 +6,7 @@ Units: metres, newtons, pascals; wavenumbers in rad/m, x along the track.
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Literal
 
 import numpy as np
@@ -134,12 +134,9 @@ class RailStrip:
         Waves of equal power and random phases, each times the root of its variance.
         """
         highest = self.ground.highest * (1 + 1e-9)
-        white = draw_surface(
-            lambda q: np.where(q <= highest, 1.0, 0.0),
-            shape=self.shape,
-            spacing=self.spacing,
-            rng=random_generator(self.seed, STRIPS, self.realisation),
-        )
+        rng = random_generator(self.seed, STRIPS, self.realisation)
+        draw = partial(draw_surface, shape=self.shape, spacing=self.spacing, rng=rng)
+        white = draw(lambda q: np.where(q <= highest, 1.0, 0.0))
         amplitude = np.sqrt(self.variance * self.length * self.width) / (2 * math.pi)
         return np.asarray(np.fft.ifft2(amplitude * np.fft.fft2(white)).real)
 
@@ -184,23 +181,18 @@ def positions_along(scene: RailScene, cells: int) -> int:
 
 def _sides_of_strip(scene: RailScene) -> tuple[int, int]:
     """Length and width over the smaller semi-axis."""
-    smaller, larger = sorted((scene.contact.along, scene.contact.across))
+    smaller, larger = sorted(scene.contact.semi_axes)
     return math.ceil(LENGTH * larger / smaller), math.ceil(WIDTH * larger / smaller)
 
 
 def strip_of(scene: RailScene, across: StatedAcross, cells: int, realisation: int, seed: int) -> RailStrip:
     """One realisation with so many cells to the smaller semi-axis; the same surface on every grid."""
-    contact, edges = scene.contact, strip_bands(scene).edges
-    unit = min(contact.along, contact.across)
+    first, last = strip_bands(scene).edges[[0, -1]].tolist()
+    whole = None if scene.isotropic is None else scene.isotropic.whole
+    unit = min(scene.contact.semi_axes)
     length, width = (sides * unit for sides in _sides_of_strip(scene))
     return RailStrip(
-        ground=RailGround(
-            line=line_of(scene),
-            whole=None if scene.isotropic is None else scene.isotropic.whole,
-            across=across,
-            first=float(edges[0]),
-            last=float(edges[-1]),
-        ),
+        ground=RailGround(line=line_of(scene), whole=whole, across=across, first=first, last=last),
         radii=scene.radii,
         force=scene.load,
         modulus=scene.modulus,

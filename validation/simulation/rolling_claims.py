@@ -9,19 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.scenes.rolling import RollingScene
-from validation.simulation.calibrated_range import (
-    HEIGHT,
-    HURST,
-    LONG,
-    RATIO,
-    SHORT,
-    Ranges,
-    beyond_spectrum,
-    counted,
-    lost_contact,
-    outside,
-    rolling_conditions,
-)
+from validation.simulation.calibrated_range import beyond_envelope, beyond_spectrum, counted, lost_contact
 from validation.simulation.calibration import calibrated
 from validation.simulation.method import Resolution
 from validation.simulation.model import ErrorEstimate, Function, Model, Target, model
@@ -30,12 +18,9 @@ from validation.simulation.sampling import distance
 
 FloatArray = NDArray[np.float64]
 Rule = tuple[float, float, float]
-MovingRule = tuple[float, float, float, float]
 
-LINEAR_BANDS: Rule = (2.0, 0.5, 0.015)
 LINEAR_RMS: Rule = (1.2, 0.05, 0.002)
-LINEAR_MOVING: MovingRule = (1.2, 3.0, 0.0, 0.008)
-"""Of linear theory, in bands, in the rms, and in the rms of the acceleration: `RollingClaim`."""
+"""Of linear theory."""
 FORCE_RMS, MOVING_RMS = "force-rms", "acceleration-rms"
 """The quantity whose errors are those of the rms; Geike's rule keeps the variance of the force. That of a wheel that
 moves."""
@@ -43,10 +28,6 @@ MEASURED_SCATTER = 0.5
 """Of the levels of one track about those of all that have its spectrum."""
 NODE = 4.5e-4
 """Seconds that a quadrature across the track takes, about."""
-RANGES: Ranges = {HEIGHT: (0, 1), LONG: (0, 2), SHORT: (0, 40), RATIO: (2, 64), HURST: (0.2, 1.2)}
-"""Scenes for which the rules hold: drawn ones were rolled with h/d from 0.003, q a of the longest wave from 0.2 and
-bands up to a factor 20 wide. Longer waves only move the contact, which linear theory knows; that it holds in wider
-bands is taken from Table 14.1 alone."""
 
 
 def of_a_wheel(scene: object, quantity: str) -> bool:
@@ -68,7 +49,7 @@ class RollingClaim:
 
     bands: Rule
     rms: Rule = LINEAR_RMS
-    moving: MovingRule | None = None
+    moving: tuple[float, float, float, float] | None = None
     on_bands: str = ""
     on_rms: str = ""
     own: float = MEASURED_SCATTER
@@ -88,24 +69,21 @@ class RollingClaim:
         beyond = beyond_spectrum(ground) if self.of_spectrum else str(ground.not_gaussian())
         if reason := beyond or quantity.no_answer:
             return ErrorEstimate.out_of_range(reason)
-        expected = calibrated(model, target)
-        if not expected.in_range:
+        if not (expected := calibrated(model, target)).in_range:
             expected = self._by_envelope(target, expected.reason)
         if not expected.in_range:
             return expected
         if (size := self.size(target, resolution)) > self.most:
             return ErrorEstimate.out_of_range(f"{self.too_large.format(size)}, more than {self.most:.2g}")
-        reasons = [self.on_rms if quantity.name == FORCE_RMS else self.on_bands, expected.reason]
         own = self.own if ground.is_single else 0.0
-        if own:
-            reasons.insert(0, f"one track scatters {own:.0%} about the mean of its spectrum")
-        reason = "; ".join(filter(None, reasons))
+        scatters = f"one track scatters {own:.0%} about the mean of its spectrum" if own else ""
+        rests_on = scatters, self.on_rms if quantity.name == FORCE_RMS else self.on_bands, expected.reason
+        reason = "; ".join(filter(None, rests_on))
         return ErrorEstimate(model=expected.model + own, sample=target.tolerance / self.sample, reason=reason)
 
     def shape(self, target: Target) -> float:
         """What the error goes with."""
-        quantity = target.rolling
-        lost, ratio = _causes(target)
+        quantity, (lost, ratio) = target.rolling, _causes(target)
         if self.moving and target.quantity == MOVING_RMS:
             longest = quantity.longest_moving * target.scene.contact_radius
             return float(np.dot(self.moving, (lost, ratio**2 * (quantity.amplification - 1), longest, 1.0)))
@@ -113,13 +91,10 @@ class RollingClaim:
 
     def _by_envelope(self, target: Target, why: str) -> ErrorEstimate:
         """why: the scene is not one of the table."""
-        quantity, scene = target.rolling, target.scene
-        longest = scene.ground.q_min * scene.contact_radius
-        conditions = {**rolling_conditions(quantity), LONG: longest, HEIGHT: scene.roughness_ratio}
-        if reason := outside(conditions, RANGES):
+        if reason := beyond_envelope(target.rolling):
             return ErrorEstimate.out_of_range(reason)
         lost, ratio = _causes(target)
-        height = "h/d, by the resonance" if quantity.amplification > 1 else "h/d"
+        height = "h/d, by the resonance" if target.rolling.amplification > 1 else "h/d"
         named = counted({"loss of contact by linear theory": lost, height: ratio})
         return ErrorEstimate(model=self.shape(target), reason=f"an envelope, not calibrated ({why}): {named}")
 

@@ -1,8 +1,9 @@
 """What is asked of a wheel that rolls: levels in bands, of force or acceleration, and what linear theory expects."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import Literal
 
 import numpy as np
@@ -53,10 +54,8 @@ class RollingQuantity:
         """
         if not self.dynamic or self.scene.speed is None:
             return 1.0
-        body, ground = self.scene.body, self.scene.ground
-        contact = {"contact_radius": self.scene.contact_radius, "modulus": self.scene.modulus}
-        still = math.sqrt(force_variance(ground.c2d, edges=ground.edges, **contact))
-        return max(1.0, force_on_the_way(body, self.scene.speed, [ground]) / still)
+        still = float(replace(self, name="force-rms").expected(one_dimensional=False)[0])
+        return max(1.0, force_on_the_way(self.scene.body, self.scene.speed, [self.scene.ground]) / still)
 
     @property
     def whole(self) -> bool:
@@ -65,8 +64,7 @@ class RollingQuantity:
     @property
     def q_max(self) -> float:
         """The shortest wave that counts: of measured heights, four of their points [rad/m]."""
-        ground = self.scene.ground
-        return ground.q_resolved
+        return self.scene.ground.q_resolved
 
     @cached_property
     def bands(self) -> Bands:
@@ -127,13 +125,11 @@ class RollingQuantity:
 
     def expected(self, one_dimensional: bool) -> FloatArray:
         """Levels by linear theory, of the spectrum [N] or [m/s^2]; the variance of the force is the same in both."""
-        scene, ground = self.scene, self.scene.ground
-        contact = {"contact_radius": scene.contact_radius, "modulus": scene.modulus}
+        ground, found = self.scene.ground, []
+        contact = {"contact_radius": self.scene.contact_radius, "modulus": self.scene.modulus}
         if self.name == "force-rms":
             return np.array([math.sqrt(force_variance(ground.c2d, edges=ground.edges, **contact))])
-        found = []
-        for low, high in zip(self.bands.edges, self.bands.edges[1:], strict=False):
-            q, weight = _nodes(low, high, scene.contact_radius)
+        for q, weight in self._quadratures:
             if one_dimensional:
                 density = force_spectrum_1d(q, lambda s: np.pi * np.abs(s) * ground.c2d(s), **contact)
             else:
@@ -146,15 +142,17 @@ class RollingQuantity:
         """Of the quadrature over all bands."""
         if self.name == "force-rms" or self._no_band:
             return NODES
-        pairs = zip(self.bands.edges, self.bands.edges[1:], strict=False)
-        return sum(_nodes(low, high, self.scene.contact_radius)[0].size for low, high in pairs)
+        return sum(q.size for q, _ in self._quadratures)
 
+    @cached_property
+    def _quadratures(self) -> list[tuple[FloatArray, FloatArray]]:
+        """Nodes of Gauss and Legendre in each band, and their weights.
 
-def _nodes(low: float, high: float, contact_radius: float) -> tuple[FloatArray, FloatArray]:
-    """Of Gauss and Legendre in a band, and their weights.
-
-    On panels no longer than half a wave of sin^2(q a), nor than what a power law bends in.
-    """
-    waves = np.linspace(low, high, 2 + math.floor((high - low) * contact_radius / math.pi))
-    powers = np.geomspace(low, high, 2 + math.floor(math.log(high / low) / math.log(PANEL)))
-    return on_panels(np.union1d(waves, powers), NODES)
+        On panels no longer than half a wave of sin^2(q a), nor than what a power law bends in.
+        """
+        found, a = [], self.scene.contact_radius
+        for low, high in pairwise(self.bands.edges):
+            waves = np.linspace(low, high, 2 + math.floor((high - low) * a / math.pi))
+            powers = np.geomspace(low, high, 2 + math.floor(math.log(high / low) / math.log(PANEL)))
+            found.append(on_panels(np.union1d(waves, powers), NODES))
+        return found

@@ -8,18 +8,9 @@ from numpy.typing import NDArray
 
 import bem3d
 from validation.scenes.indentation import IndentationScene
+from validation.simulation import indentation as face
 from validation.simulation.calibrated_range import SCATTER
-from validation.simulation.indentation import (
-    FEW,
-    cells_wanted,
-    finest_cells,
-    ground_of,
-    height_of,
-    highest_of,
-    holds_waves,
-    is_pressed,
-    side_of,
-)
+from validation.simulation.indentation import cells_wanted, ground_of, height_of, is_rough, side_of
 from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.model import Cost, ErrorEstimate, GridModel, Model, Target
 from validation.simulation.model_names import BEM
@@ -48,9 +39,10 @@ MOST = 1000
 
 def resolutions(target: Target) -> tuple[Resolution, ...]:
     """Cells a side; measured heights on their own points alone, on a coarser grid the mean of these in each cell."""
-    finest = finest_cells(target.scene)
-    sides = (finest,) if ground_of(target.scene).is_single else (finest // 4, finest // 2, finest)
-    return tuple(on_grid(cells) for cells in sides if cells >= FEW)
+    single, wanted = ground_of(target.scene).is_single, cells_wanted(target.scene)
+    finest = min(face.MANY_POINTS if single else face.MANY, wanted)
+    sides = (finest,) if single else (finest // 4, finest // 2, finest)
+    return tuple(on_grid(cells) for cells in sides if cells >= face.FEW)
 
 
 def references(target: Target, resolution: Resolution) -> tuple[Resolution, ...]:
@@ -73,37 +65,28 @@ def cost(target: Target, resolution: Resolution) -> Cost:
 
 def sample_alone(model: Model, target: Target, resolution: Resolution) -> ErrorEstimate:
     """Only a solve tells what the grid leaves."""
-    coarsest = round(min(grid.size for grid in references(target, resolution)))
-    if not holds_waves(target.scene, coarsest):
-        return ErrorEstimate.out_of_range(
-            f"a grid of {coarsest}² cells, the reference of its grid error, resolves no wave"
-        )
-    least = STUDENT * scatter(target) / math.sqrt(MOST)
-    return ErrorEstimate(
-        sample=0.0 if ground_of(target.scene).is_single else max(target.tolerance / 2, least),
-        reason="sample only: the grid error is estimated from coarser grids after the solve",
-    )
+    coarsest, ground = round(min(grid.size for grid in references(target, resolution))), ground_of(target.scene)
+    if not ground.is_single and ground.q_min > face.shortest_held(target.scene, coarsest):
+        reason = f"a grid of {coarsest}² cells, the reference of its grid error, resolves no wave"
+        return ErrorEstimate.out_of_range(reason)
+    least = max(target.tolerance / 2, STUDENT * scatter(target) / math.sqrt(MOST))
+    reason = "sample only: the grid error is estimated from coarser grids after the solve"
+    return ErrorEstimate(sample=0.0 if ground.is_single else least, reason=reason)
 
 
 def prepare(target: Target, resolution: Resolution) -> Prepared:
     """Surfaces on cells x cells, with the waves that those carry."""
     scene, cells = target.scene, round(resolution.size)
-    half_space = half_space_of(scene, cells)
 
     def solve(realisation: int) -> Result:
-        height = height_of(scene, cells, realisation, target.seed)
-        return pressed(scene, half_space, height, resolution.residual)
+        return pressed(scene, height_of(scene, cells, realisation, target.seed), resolution.residual)
 
     return lambda realisation: Solve(lambda: solve(realisation), lambda result: result)
 
 
-def half_space_of(scene: IndentationScene, cells: int) -> bem3d.HalfSpace:
-    """As wide as what it may touch."""
-    return bem3d.HalfSpace(shape=(cells, cells), spacing=side_of(scene) / cells, modulus=scene.modulus)
-
-
-def pressed(scene: IndentationScene, half_space: bem3d.HalfSpace, height: FloatArray, residual: float) -> Result:
+def pressed(scene: IndentationScene, height: FloatArray, residual: float) -> Result:
     """Under a rough face, of a sphere over r^2 / 2R, whose contact at the edge of the grid is none."""
+    half_space = bem3d.HalfSpace(shape=height.shape, spacing=side_of(scene) / len(height), modulus=scene.modulus)
     gap, sphere = -height, scene.shape == "sphere"
     if sphere:
         x = ((np.arange(len(gap)) + 0.5) / len(gap) - 0.5) * side_of(scene)
@@ -140,7 +123,7 @@ def left_by_grid(target: Target, resolution: Resolution, values: FloatArray, oth
 
 
 MODEL = GridModel(
-    serves=lambda scene, quantity: is_pressed(scene, quantity) and scene.ground is not None,
+    serves=is_rough,
     label=lambda resolution: f"{BEM} {resolution.size:g}²",
     resolutions=resolutions,
     references=references,
@@ -184,8 +167,8 @@ def grid_error_of_one(scene: IndentationScene, cells: int, changes: FloatArray, 
 def hidden(target: Target, resolution: Resolution, stiffness: float) -> float:
     """What the mean over cells may hide: the change of the logarithm by the highest point of each in its place."""
     scene, cells = target.scene, round(resolution.size)
-    highest = highest_of(scene, cells)
+    highest = face.highest_of(scene, cells)
     if np.array_equal(highest, height_of(scene, cells, 0, target.seed)):
         return 0.0
-    found = pressed(scene, half_space_of(scene, cells), highest, resolution.residual)
+    found = pressed(scene, highest, resolution.residual)
     return math.inf if found.failed else abs(math.log(float(found.values["stiffness"]) / stiffness))

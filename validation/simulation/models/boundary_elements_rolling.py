@@ -5,18 +5,12 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from validation.simulation import rolling_levels as grids
 from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.model import Cost, ErrorEstimate, GridModel, Model, Target
 from validation.simulation.model_names import BEM
 from validation.simulation.rolling_claims import of_a_wheel
-from validation.simulation.rolling_levels import (
-    FINE,
-    LEAST,
-    MOST_CELLS,
-    RollingGrid,
-    grids_of_points,
-    on_boundary_elements,
-)
+from validation.simulation.rolling_levels import RollingGrid, on_boundary_elements
 from validation.simulation.sampling import distance
 
 FloatArray = NDArray[np.float64]
@@ -37,11 +31,11 @@ COARSE = 2.5
 def resolutions(target: Target) -> tuple[Resolution, ...]:
     """Cells to a contact radius; of measured heights on their points, where those are few enough."""
     ground = target.scene.ground
-    if ground.is_single and len(sizes := grids_of_points(ground, target.scene.contact_radius)) > 1:
+    if ground.is_single and len(sizes := grids.grids_of_points(ground, target.scene.contact_radius)) > 1:
         return tuple(Resolution(size=size) for size in sizes)
     radii = target.rolling.q_max * target.scene.contact_radius / (2 * math.pi)
-    coarse = min(max(LEAST, math.ceil(COARSE * radii)), MOST_CELLS * 2 // 3)
-    fine = min(max(math.ceil(1.5 * coarse), math.ceil(FINE * radii)), MOST_CELLS)
+    coarse = min(max(grids.LEAST, math.ceil(COARSE * radii)), grids.MOST_CELLS * 2 // 3)
+    fine = min(max(math.ceil(1.5 * coarse), math.ceil(grids.FINE * radii)), grids.MOST_CELLS)
     return Resolution(size=coarse), Resolution(size=fine)
 
 

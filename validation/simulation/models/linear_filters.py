@@ -10,15 +10,7 @@ from validation.scenes.measured import OBLONG
 from validation.simulation.method import Resolution, Result
 from validation.simulation.model import Cost, ErrorEstimate, Model, Target
 from validation.simulation.model_names import FILTER_1D, FILTER_3D
-from validation.simulation.rolling_claims import (
-    FORCE_RMS,
-    LINEAR_BANDS,
-    LINEAR_MOVING,
-    NODE,
-    RollingClaim,
-    filled,
-    of_a_wheel,
-)
+from validation.simulation.rolling_claims import FORCE_RMS, NODE, RollingClaim, filled, of_a_wheel
 from validation.simulation.rolling_levels import FINE, LEAST, by_linear_theory, strip_of
 from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.sampling import distance
@@ -34,7 +26,7 @@ ON_A_LINE = RollingClaim(
     on_bands="Geike's rule does not keep levels along a track",
     on_rms="Geike's rule keeps the variance of the force",
 )
-ON_HALF_SPACE = RollingClaim(bands=LINEAR_BANDS, moving=LINEAR_MOVING, own=0.0, of_spectrum=False)
+ON_HALF_SPACE = RollingClaim(bands=(2.0, 0.5, 0.015), moving=(1.2, 3.0, 0.0, 0.008), own=0.0, of_spectrum=False)
 
 
 def formulas(target: Target, resolution: Resolution) -> Cost:

@@ -3,7 +3,6 @@
 import math
 from dataclasses import replace
 from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -11,7 +10,7 @@ import mdr
 from validation.engine.random_numbers import random_generator
 from validation.simulation.calibrated_range import SCATTER, WAVES, conditions_of, sphere_shape
 from validation.simulation.calibration import calibrated_by_spectrum
-from validation.simulation.indentation import ground_of, is_pressed, side_of
+from validation.simulation.indentation import ground_of, is_pressed, is_rough, side_of
 from validation.simulation.method import Resolution, Result
 from validation.simulation.model import Cost, ErrorEstimate, Model, Target, model
 from validation.simulation.model_names import CLOSED_FORM, FIT, SPRINGS
@@ -60,7 +59,7 @@ def one_of_many_faces(model: Model, target: Target, resolution: Resolution) -> E
 @model(
     name=FIT,
     setting="flat punch on its rough face",
-    serves=lambda scene, quantity: rough(scene, quantity) and scene.shape == "punch",
+    serves=lambda scene, quantity: is_rough(scene, quantity) and scene.shape == "punch",
     cost=formula,
     claim=one_of_many_faces,
     # few waves are no mean face: N on a side are N^2 parts, whose mean scatters as 1 / N about a bias
@@ -70,10 +69,6 @@ def fit(target: Target, resolution: Resolution) -> float:
     """1 / k = 1 / (1.1523 E* L) + 0.48 h / F, h measured: the flat punch in series with its rough face."""
     scene, height = target.scene, ground_of(target.scene).rms
     return rough_punch_stiffness(side=scene.size, modulus=scene.modulus, force=scene.load, height=height)
-
-
-def rough(scene: Any, quantity: str) -> bool:
-    return is_pressed(scene, quantity) and scene.ground is not None
 
 
 def springs_of_a_profile(target: Target) -> tuple[Resolution, ...]:
@@ -96,28 +91,24 @@ def all_profiles(target: Target, resolution: Resolution) -> Cost:
 
 def one_of_many_surfaces(model: Model, target: Target, resolution: Resolution) -> ErrorEstimate:
     """A measured surface is one of those that have its spectrum."""
-    too_many, own = "", 2 * SCATTER
-    if resolution.size > MOST_SPRINGS:
-        too_many = f"a profile needs {resolution.size:.3g} springs, more than {MOST_SPRINGS:.3g}"
+    needed, own = f"a profile needs {resolution.size:.3g} springs, more than {MOST_SPRINGS:.3g}", 2 * SCATTER
+    too_many = needed if resolution.size > MOST_SPRINGS else ""
     expected = calibrated_by_spectrum(model, target, resolution, own=own, beyond=too_many)
-    if ground_of(target.scene).is_single and expected.in_range:
-        scatters = f"one surface scatters {own:.0%} about the mean of its spectrum"
-        expected = replace(expected, reason=f"{scatters}; {expected.reason}")
-    return replace(expected, sample=target.tolerance / 5)
-
-
-def shape_on_springs(target: Target) -> float:
-    return sphere_shape(target.scene) * (1 + ROLL_OFF * (conditions_of(target.scene).get(WAVES, 1.0) - 1))
+    one = ground_of(target.scene).is_single and expected.in_range
+    scatters = f"one surface scatters {own:.0%} about the mean of its spectrum; " if one else ""
+    return replace(expected, sample=target.tolerance / 5, reason=scatters + expected.reason)
 
 
 @model(
     name=SPRINGS,
     setting="profiles of Geike's spectrum",
-    serves=rough,
+    serves=is_rough,
     resolutions=springs_of_a_profile,
     cost=all_profiles,
     claim=one_of_many_surfaces,
-    shape=shape_on_springs,
+    shape=lambda target: (
+        sphere_shape(target.scene) * (1 + ROLL_OFF * (conditions_of(target.scene).get(WAVES, 1.0) - 1))
+    ),
     element="springs",
     charted=False,
     is_mdr=True,

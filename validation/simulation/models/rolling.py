@@ -10,21 +10,13 @@ from numpy.typing import NDArray
 
 import mdr
 from validation.scenes.rolling import RollingScene
+from validation.simulation import rolling_levels as grids
 from validation.simulation.method import Resolution, Result
 from validation.simulation.model import Cost, Model, Target
 from validation.simulation.model_names import PRESSED_LAYER, SPRINGS, SPRINGS_THAT_READ
 from validation.simulation.pressed_layer import roll_on_layer
 from validation.simulation.rolling_claims import FORCE_RMS, NODE, RollingClaim, of_a_wheel
-from validation.simulation.rolling_levels import (
-    FINE,
-    LEAST,
-    RollingGrid,
-    by_linear_theory,
-    levels_of,
-    on_springs,
-    springs_to_a_radius,
-    strip_of,
-)
+from validation.simulation.rolling_levels import RollingGrid, by_linear_theory, levels_of, on_springs, strip_of
 from validation.simulation.wheel_on_half_space import crop_to_reach
 
 FloatArray = NDArray[np.float64]
@@ -58,7 +50,7 @@ ON_TRACKS = RollingClaim(
 @ON_TRACKS.model(
     name=SPRINGS,
     setting=f"{TRACKS} tracks",
-    resolutions=lambda target: (Resolution(size=springs_to_a_radius(target.rolling)),),
+    resolutions=lambda target: (Resolution(size=grids.springs_to_a_radius(target.rolling)),),
     cost=positions,
     charted=False,
     is_mdr=True,
@@ -83,7 +75,7 @@ def drawn_force(scene: Any, quantity: str) -> bool:
 
 def cells_to_a_radius(target: Target) -> tuple[Resolution, ...]:
     shortest = target.rolling.q_max * target.scene.contact_radius / (2 * math.pi)
-    return (Resolution(size=max(LEAST, math.ceil(FINE * shortest))),)
+    return (Resolution(size=max(grids.LEAST, math.ceil(grids.FINE * shortest))),)
 
 
 def cells_of_a_strip(target: Target, resolution: Resolution) -> float:
