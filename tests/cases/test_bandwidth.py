@@ -19,9 +19,9 @@ from validation.cases.punch.bandwidth import (
     STATISTICS,
     STUDY,
     Bandwidth,
-    change,
     series,
 )
+from validation.cases.punch.ensembles import change, of_rows
 from validation.simulation.rough_punch import FEW_CELLS
 
 CASE = Bandwidth(cells=16, surfaces=12, pairs=(4, 3), refined=3, rolled_off=4, profiles=20, points=256)
@@ -91,7 +91,7 @@ def test_intervals_of_a_change_hold_it_as_often_as_they_say(quantity):
     for _ in range(400):
         before, common = lognormal(rng, 12, mean=one, deviation=0.25 * one)
         after, _ = lognormal(rng, 12, mean=1.1 * one, deviation=0.2 * one, common=common)
-        (found,) = change(STATISTICS[quantity], {"stiffness": before}, {"stiffness": after})
+        (found,) = change(STATISTICS[quantity], before, after)
         assert found.half_width == pytest.approx(student(11) * found.error)
         held.append(abs(found.value - truth) <= found.half_width)
     assert np.mean(held) == pytest.approx(0.95, abs=4 * np.sqrt(0.95 * 0.05 / 400))
@@ -164,7 +164,7 @@ def test_a_wide_band_is_the_narrow_one_and_the_changes():
     for quantity, statistic in STATISTICS.items():
         bem = of_bem(result, quantity)
         for band in (1, 2):
-            direct = statistic(result[f"wider {band - 1}"]["stiffness"])
+            direct = of_rows(statistic, result[f"wider {band - 1}"]["stiffness"])
             for one, other in zip(bem[band], direct, strict=True):
                 assert one.value == pytest.approx(other, abs=2 * one.half_width)
     contacts = result["wider 1"]["area"].mean(axis=0) * 64**2

@@ -16,7 +16,7 @@ from validation.cases.punch import fractal_punch
 from validation.cases.punch.ensembles import DEVIATION, MEAN
 from validation.cases.punch.fractal_punch import CONVEX, LONG, SLOPE, TREND, FractalPunch
 from validation.cases.punch.fractal_punch_study import EXPONENT, LESS, STUDY
-from validation.cases.punch.work import Worked
+from validation.cases.punch.work import APPLICATIONS, worked
 from validation.cases.rolling.force_spectrum import ForceSpectrum
 from validation.engine.random_numbers import random_generator
 from validation.simulation import rolling_strip, rough_punch
@@ -331,4 +331,4 @@ def test_work_counts_loads_alike():
     light, heavy = np.full(4, 0.5), np.array([20.0, np.nan, np.nan, np.nan])
     work = np.stack([light, heavy], axis=1)
     outcome = {"applications": work, "frozen applications": np.zeros_like(work)}
-    assert Worked.of(64, 2048, [outcome]).applications == pytest.approx(10.25)
+    assert worked(64, 2048, [outcome])[APPLICATIONS] == pytest.approx([10.25])
