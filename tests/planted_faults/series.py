@@ -44,11 +44,11 @@ FAULTS = {
     ),
     "decibels of a power for those of an amplitude, in stiffness": (
         (ensembles, "DECIBEL", DECIBEL / 2),
-        test_cases.test_a_change_of_the_band_is_of_springs_less_of_boundary_elements_and_all_decades_hold_at_once,
+        test_cases.test_changes_are_of_springs_less_of_boundary_elements_and_all_decades_hold_at_once,
     ),
     "one decade of a claim on bandwidth for all of them": (
         (bandwidth.Bandwidth, "family", lambda case, others: 1),
-        test_cases.test_of_a_roll_off_boundary_elements_are_taken_as_well_and_all_claims_hold_at_once,
+        test_cases.test_changes_are_of_springs_less_of_boundary_elements_and_all_decades_hold_at_once,
     ),
     "decibels of a power for those of an amplitude, in Fig. 14.1": (
         (ensembles, "DECIBEL", DECIBEL / 2),
