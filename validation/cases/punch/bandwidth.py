@@ -96,21 +96,13 @@ def run(case: Bandwidth, engine: Engine = SERIAL) -> Outcomes:
 
 
 CHANGE, SIZE, OF_BEM = "change of MDR over bem3d, ", "with the roll-off over without, ", " over bem3d"
+NO_CHANGE = partial(Margin, source="no change")
 MARGINS = {
-    MEAN: Margin(
-        tolerance=FIVE_PER_CENT,
-        reason="5 %, less than half of what MDR is off by in full contact, 13 %",
-        source="no change",
-    ),
-    DEVIATION: Margin(
-        tolerance=DECIBEL * math.log(1.1), reason="10 %, the margin at which Fig. 14.1 is decided", source="no change"
-    ),
+    MEAN: NO_CHANGE(FIVE_PER_CENT, "5 %, less than half of what MDR is off by in full contact, 13 %"),
+    DEVIATION: NO_CHANGE(DECIBEL * math.log(1.1), "10 %, the margin at which Fig. 14.1 is decided"),
 }
-OF_FIT = Margin(
-    tolerance=DECIBEL * math.log(1.06),
-    reason="6 %, less than half of what MDR is off by in full contact, 13 %",
-    source="bem3d",
-)
+SIX_PER_CENT = DECIBEL * math.log(1.06)
+OF_FIT = Margin(SIX_PER_CENT, "6 %, less than half of what MDR is off by in full contact, 13 %", source="bem3d")
 FIT, FIT_RANGE = "fit", (0.3, 10.0)
 STATISTICS = {MEAN: log_mean, DEVIATION: log_relative_deviation}
 
