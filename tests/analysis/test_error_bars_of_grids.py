@@ -145,7 +145,7 @@ def test_intervals_of_where_mdr_must_fail():
     mine = RollOffSamples(
         1,
         {(BEM, "gap"): sample(coarse, rng), (MDR, "gap"): sample(other, rng)},
-        {"gap": np.stack([coarse[:4], fine[:4]], axis=1)},
+        {"gap": (coarse, fine[:4])},
     )
     (number,) = over_bem(MdrLimits(roll_offs=(1,), decades=(-1, 0), per_decade=1), mine, GAP).numbers
     fine, coarse = fine[:4, 0], coarse[:4, 0]

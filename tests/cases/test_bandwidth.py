@@ -6,23 +6,20 @@ import numpy as np
 import pytest
 
 from tests.cases.planted import statuses
-from validation.analysis.evidence import ClaimStatus, numbers_with
+from validation.analysis.evidence import ClaimStatus
 from validation.analysis.statistics import student
 from validation.analysis.study import Outcomes
 from validation.cases.punch import bandwidth
 from validation.cases.punch.bandwidth import (
     BANDWIDTH,
-    CHANGE,
     MEAN,
-    OF_BEM,
     ROLL_OFF,
     STATISTICS,
     STUDY,
     Bandwidth,
-    change,
     series,
 )
-from validation.simulation.rough_punch import FEW_CELLS
+from validation.cases.punch.ensembles import change
 
 CASE = Bandwidth(cells=16, surfaces=12, pairs=(4, 3), refined=3, rolled_off=4, profiles=20, points=256)
 
@@ -91,7 +88,7 @@ def test_intervals_of_a_change_hold_it_as_often_as_they_say(quantity):
     for _ in range(400):
         before, common = lognormal(rng, 12, mean=one, deviation=0.25 * one)
         after, _ = lognormal(rng, 12, mean=1.1 * one, deviation=0.2 * one, common=common)
-        (found,) = change(STATISTICS[quantity], {"stiffness": before}, {"stiffness": after})
+        (found,) = change(STATISTICS[quantity], before, after)
         assert found.half_width == pytest.approx(student(11) * found.error)
         held.append(abs(found.value - truth) <= found.half_width)
     assert np.mean(held) == pytest.approx(0.95, abs=4 * np.sqrt(0.95 * 0.05 / 400))
@@ -119,28 +116,21 @@ def result_of(case, narrow, before, wider, rolled_off, springs):
 
 
 HOLDS, LIMITED, CONTRADICTED = ClaimStatus.HOLDS, ClaimStatus.LIMITED, ClaimStatus.CONTRADICTED
-WITH_THE_FIT = MEAN + OF_BEM, "fit", {ROLL_OFF: 4.0}, pytest.approx(0, abs=0.1)
-CHANGED = CHANGE + MEAN, None, {BANDWIDTH: (16.0, 32.0)}, pytest.approx(20 * np.log10(1.2), abs=1e-6)
-STIFFER = MEAN + OF_BEM, "mdr", {BANDWIDTH: 32.0}, pytest.approx(20 * np.log10(1.2), abs=0.1)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("planting", "expected", "number"),
+    ("planting", "expected"),
     [
-        ({"size": 1.0}, [HOLDS, HOLDS, HOLDS, HOLDS, HOLDS], WITH_THE_FIT),
-        ({}, [HOLDS, HOLDS, CONTRADICTED, HOLDS, HOLDS], WITH_THE_FIT),
-        ({"wide": 1.2}, [CONTRADICTED, HOLDS, CONTRADICTED, HOLDS, CONTRADICTED], CHANGED),
-        ({"rolled_off": 0.85}, [HOLDS, CONTRADICTED, CONTRADICTED, HOLDS, LIMITED], WITH_THE_FIT),
-        ({"mdr": 1.2}, [HOLDS, HOLDS, CONTRADICTED, HOLDS, CONTRADICTED], STIFFER),
+        ({"size": 1.0}, [HOLDS, HOLDS, HOLDS, HOLDS, HOLDS]),
+        ({}, [HOLDS, HOLDS, CONTRADICTED, HOLDS, HOLDS]),
+        ({"wide": 1.2}, [CONTRADICTED, HOLDS, CONTRADICTED, HOLDS, CONTRADICTED]),
+        ({"rolled_off": 0.85}, [HOLDS, CONTRADICTED, CONTRADICTED, HOLDS, LIMITED]),
+        ({"mdr": 1.2}, [HOLDS, HOLDS, CONTRADICTED, HOLDS, CONTRADICTED]),
     ],
 )
-def test_claims_and_numbers_follow_a_planted_answer(planting, expected, number):
-    """One evidence for both, since it takes seconds."""
-    found, (quantity, model, where, value) = STUDY.evidence(planted(**planting)), number
-    assert statuses(found) == expected
-    numbers = numbers_with(found.numbers, quantity, model, **where)
-    assert numbers and all(one.value == value for one in numbers)
+def test_claims_follow_a_planted_answer(planting, expected):
+    assert statuses(STUDY.evidence(planted(**planting))) == expected
 
 
 def of_bem(result, quantity):
@@ -154,21 +144,6 @@ def test_a_planted_change_of_boundary_elements_adds_up():
     bem = of_bem(result_of(CASE, stiff, stiff, {"stiffness": 1.1 * one}, stiff, [stiff] * 4), MEAN)
     for narrow, wide in zip(bem[0], bem[2], strict=True):
         assert wide.value - narrow.value == pytest.approx(2 * np.log(1.1), rel=1e-9)
-
-
-@pytest.mark.slow
-def test_a_wide_band_is_the_narrow_one_and_the_changes():
-    """On the surfaces themselves: what was pressed in the widest band, had it been on as many surfaces."""
-    case = Bandwidth(cells=16, surfaces=60, pairs=(30, 30), refined=3, rolled_off=3, profiles=20, points=256)
-    result = bandwidth.run(case)
-    for quantity, statistic in STATISTICS.items():
-        bem = of_bem(result, quantity)
-        for band in (1, 2):
-            direct = statistic(result[f"wider {band - 1}"]["stiffness"])
-            for one, other in zip(bem[band], direct, strict=True):
-                assert one.value == pytest.approx(other, abs=2 * one.half_width)
-    contacts = result["wider 1"]["area"].mean(axis=0) * 64**2
-    assert contacts[-1] > FEW_CELLS
 
 
 @pytest.mark.parametrize("wrong", [{"pairs": (4,)}, {"pairs": (4, 2)}, {"refined": 2}, {"surfaces": 1}])

@@ -14,9 +14,9 @@ from validation.analysis.series import numbers_of
 from validation.cases.selection import edge_scenes, model_selection
 from validation.cases.selection.edge_scenes import (
     EDGE_KINDS,
+    EDGE_QUANTITIES,
     MEASURED,
     PUNCH,
-    QUANTITIES,
     RAIL,
     ROLLING,
     SPHERE,
@@ -48,14 +48,14 @@ def test_a_scene_is_that_of_its_numbers_and_has_its_quantity(kind):
         assert kind == RAIL or again.ground.rms == scene.ground.rms
         assert edge_scene(kind, number, 4)[0].load != scene.load
         assert quantity in quantities_of(scene)
-    assert {quantity for _, quantity in drawn(kind)} == set(QUANTITIES[kind.removeprefix(MEASURED)])
+    assert {quantity for _, quantity in drawn(kind)} == set(EDGE_QUANTITIES[kind.removeprefix(MEASURED)])
 
 
 def claimed_by_cheap(models):
     return any(model.estimate().in_range for model in models if model.kind != GridModel.name)
 
 
-@pytest.mark.parametrize("body", [body for body in QUANTITIES if body != RAIL])
+@pytest.mark.parametrize("body", [body for body in EDGE_QUANTITIES if body != RAIL])
 def test_some_are_inside_and_some_beyond_what_cheap_models_claim(body):
     found = set()
     for scene, quantity in drawn(body, 72):

@@ -1,5 +1,6 @@
 """Where each method fails: on its side of the predicted threshold, and with the warnings of the software."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +11,7 @@ import bem3d
 import mdr
 from tests.cases.planted import changed, judged, verdicts, whole
 from tests.oracles import dense_operator
-from validation.analysis.evidence import Verdict
+from validation.analysis.evidence import Role, Verdict
 from validation.cases.limits import limits as case
 from validation.cases.limits.sweeps import LIMITS, Failing, Judged, Limit, LimitName, Probe, Sweep
 from validation.simulation import limits_of_half_space as elements
@@ -127,31 +128,72 @@ def test_crossings_of_a_power_law(side):
     assert far.share_of_correct_warnings < 1
 
 
-def test_sweeps_without_a_crossing():
+# --- planted sweeps: on which side, by how much, and what is known where none is crossed ---
+
+X = np.array([1.0, 2.0, 4.0, 8.0])
+
+
+def planted(error, side="above", messages=("", "", "no", "no"), derived=False):
+    """Past 2 the error must exceed 4, within a factor 1.5; they are told where they do."""
+    judged = STEEP.judged._replace(derived=derived, warned=derived)
+    limit = replace(STEEP, fails=STEEP.fails._replace(side=side), judged=judged)
+    return Sweep(limit, X, np.array(error), 2.0, messages)
+
+
+@pytest.mark.parametrize(
+    ("error", "side", "octaves", "half"),
+    [
+        ([1.0, 2.0, 8.0, 9.0], "above", 0.5, 0.5),
+        ([8.0, 2.0, 1.0, 1.0], "below", 0.5, 0.5),
+        ([9.0, 9.0, 8.0, 2.0], "below", -1.5, 0.5),
+        # none is crossed: it fails nowhere, or everywhere
+        ([1.0, 1.0, 1.0, 1.0], "above", 2.0, 0.0),
+        ([9.0, 9.0, 9.0, 9.0], "above", -1.0, 0.0),
+        ([1.0, 1.0, 1.0, 1.0], "below", 1.0, 0.0),
+        ([9.0, 9.0, 9.0, 9.0], "below", -2.0, 0.0),
+        # it fails where it should not, and not where it should
+        ([9.0, 1.0, 1.0, 1.0], "above", -1.0, 0.0),
+        ([1.0, 1.0, 1.0, 9.0], "below", -2.0, 0.0),
+    ],
+)
+def test_a_threshold_is_positive_where_it_fails_later(error, side, octaves, half):
+    (number,) = case.threshold(planted(error, side)).numbers
+    assert (number.value, number.grid) == pytest.approx((octaves, half))
+    assert number.tolerance == pytest.approx(math.log2(1.5)) and number.role is Role.FINDING
+
+
+def test_what_follows_from_theory_alone_must_hold_and_all_warnings_count():
+    right = planted([1.0, 2.0, 8.0, 9.0], derived=True)
+    assert case.threshold(right).numbers[0].role is Role.CRITERION
+    (warned,) = case.warnings(right).numbers
+    assert (warned.value, warned.reference, warned.verdict) == (1.0, 1.0, Verdict.AGREE)
+    assert (warned.role, warned.tolerance) == (Role.CRITERION, 0.0)
+    (silent,) = case.warnings(replace(right, messages=("", "", "", "no"))).numbers
+    assert silent.value == pytest.approx(2 / 3) and silent.verdict is Verdict.DIFFER
+    assert case.warnings(planted([1.0, 2.0, 8.0, 9.0])).numbers[0].role is Role.FINDING
+
+
+def test_a_limit_is_where_predicted_only_if_all_past_it_fail_and_its_message_is_the_nearest():
+    assert planted([1.0, 2.0, 8.0, 9.0]).predicted and not planted([1.0, 2.0, 8.0, 1.0]).predicted
+    assert planted([1.0, 2.0, 8.0, 9.0], messages=("early", "", "near", "far")).first_message == "near"
+    assert planted([9.0, 2.0, 1.0, 1.0], "below", ("only", "", "", "far")).first_message == "only"
+
+
+def test_a_refusal_is_a_crossing_in_the_middle_of_its_step_and_warnings_near_the_threshold_are_free():
     x = np.array([1.0, 1.9, 2.1, 9.0])
-    assert Sweep(STEEP, x, np.zeros(4), 2.0, ("",) * 4).crossing is None
-    assert Sweep(STEEP, x, np.full(4, 9.0), 2.0, ("",) * 4).crossing is None
     refused = Sweep(STEEP, x, np.array([1.0, 1.0, np.inf, np.inf]), 2.0, ("", "", "no", "no"))
-    assert refused.crossing[0] == pytest.approx(np.sqrt(1.9 * 2.1))
-    assert refused.predicted
-    assert refused.share_of_correct_warnings == 1.0
-    assert replace(refused, messages=("", "", "", "no")).share_of_correct_warnings == 1.0
-    assert replace(refused, messages=("no", "", "", "no")).share_of_correct_warnings == 0.5
+    assert refused.crossing[0] == pytest.approx(np.sqrt(1.9 * 2.1)) and refused.predicted
+    for words, share in ((("", "", "no", "no"), 1.0), (("", "", "", "no"), 1.0), (("no", "", "", "no"), 0.5)):
+        assert replace(refused, messages=words).share_of_correct_warnings == share
 
 
-def test_sweeps_are_put_in_order():
-    sweep = Sweep.of(STEEP, swept([3.0, 1.0, 2.0], [9.0, 1.0, 4.0], ["c", "a", "b"]))
-    assert sweep.values.tolist() == [1.0, 2.0, 3.0]
-    assert sweep.error.tolist() == [1.0, 4.0, 9.0]
-    assert sweep.messages == ("a", "b", "c")
-
-
-def test_limits_with_one_problem_have_errors_and_thresholds_of_their_own():
-    outcome = swept([1.0, 2.0], [[1.0, 2.0], [3.0, 4.0]], ["", ""], measured=[5.0, 6.0])
-    limits = (replace(STEEP, probe=replace(STEEP.probe, part=i), threshold=lambda _, x: 10 * x) for i in range(2))
-    one, other = (Sweep.of(limit, outcome) for limit in limits)
-    assert (one.error.tolist(), one.predicted_threshold) == ([1.0, 2.0], 50.0)
-    assert (other.error.tolist(), other.predicted_threshold) == ([3.0, 4.0], 60.0)
+def test_sweeps_are_put_in_order_and_limits_with_one_problem_have_errors_and_thresholds_of_their_own():
+    outcome = swept([2.0, 1.0], [[2.0, 1.0], [4.0, 3.0]], ["b", "a"], measured=[5.0, 6.0])
+    for part, errors, threshold in ((0, [1.0, 2.0], 50.0), (1, [3.0, 4.0], 60.0)):
+        limit = replace(STEEP, probe=replace(STEEP.probe, part=part), threshold=lambda _, x: 10 * x)
+        sweep = Sweep.of(limit, outcome)
+        assert (sweep.values.tolist(), sweep.messages) == ([1.0, 2.0], ("a", "b"))
+        assert (sweep.error.tolist(), sweep.predicted_threshold) == (errors, threshold)
 
 
 def test_warnings_and_refusals_are_recorded():

@@ -38,16 +38,6 @@ def test_estimated_errors_hold_on_surfaces_that_no_model_has_seen(account):
     assert len(found.numbers) == 2 * 3 + 1
 
 
-@pytest.mark.slow
-def test_an_estimate_that_is_too_small_is_found_out(account):
-    outcomes = [
-        {**outcome, "met": np.ones(2), "estimated": outcome["true"] / 2, "reference": np.array(0.0)}
-        for outcome in account["random"]
-    ]
-    found = calibration.STUDY.evidence(Outcomes(account.case, {"random": outcomes, "edges": []}))
-    assert (found.numbers[0].value, found.numbers[0].verdict) == (0.0, "differ")
-
-
 def outcome(estimated, true, spent, fine, *, met=1.0, every=()):
     """Of a trial at one tolerance; every: estimated and true errors of springs."""
     all_of_them = np.full((2, len(ladder.CHEAP)), np.nan)

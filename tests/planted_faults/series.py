@@ -5,7 +5,7 @@ from tests.cases import test_faults_of_series_of_cases as test_cases
 from tests.cases import test_faults_of_series_of_wheels as test_wheels
 from validation.analysis import series
 from validation.analysis.statistics import DECIBEL, Estimate
-from validation.cases.punch import bandwidth, fractal_punch_study
+from validation.cases.punch import bandwidth, ensembles
 from validation.cases.rail import contact_filter, rolled_filters
 from validation.cases.rolling import force_spectrum
 from validation.cases.wheel import half_space_study
@@ -29,15 +29,15 @@ FAULTS = {
         test_cases.test_the_rms_force_is_that_on_cells_of_no_size_and_both_models_hold_at_once,
     ),
     "decibels of a power for those of an amplitude, in stiffness": (
-        (bandwidth, "DECIBEL", DECIBEL / 2),
-        test_cases.test_a_change_of_the_band_is_of_springs_less_of_boundary_elements_and_all_decades_hold_at_once,
+        (ensembles, "DECIBEL", DECIBEL / 2),
+        test_cases.test_changes_are_of_springs_less_of_boundary_elements_and_all_decades_hold_at_once,
     ),
     "one decade of a claim on bandwidth for all of them": (
-        (bandwidth, "_ranges", lambda case: 1),
-        test_cases.test_of_a_roll_off_boundary_elements_are_taken_as_well_and_all_claims_hold_at_once,
+        (bandwidth.Bandwidth, "family", lambda case, others: 1),
+        test_cases.test_changes_are_of_springs_less_of_boundary_elements_and_all_decades_hold_at_once,
     ),
     "decibels of a power for those of an amplitude, in Fig. 14.1": (
-        (fractal_punch_study, "DECIBEL", DECIBEL / 2),
+        (ensembles, "DECIBEL", DECIBEL / 2),
         test_cases.test_each_length_of_springs_has_its_own_level_and_exponents_their_grid,
     ),
     "a change of the cells for what they leave, in contact filters": (

@@ -6,10 +6,9 @@ import pytest
 
 from tests.report.test_printed import html_of, number
 from validation.analysis.evidence import Evidence, Role, Table, Verdict
-from validation.cases.punch import fractal_punch_study
+from validation.cases.punch import fractal_punch_study, work
 from validation.cases.punch import mdr_limits as rolled_off
-from validation.cases.punch.ensembles import DEVIATION, MEAN
-from validation.cases.punch.work import Worked
+from validation.cases.punch.ensembles import DEVIATION, MEAN, OVER
 from validation.cases.rail import rolled_filters, rough_rail
 from validation.cases.rail.rail_dynamic import BESIDE, RMS
 from validation.cases.rolling import reduced_models
@@ -25,14 +24,14 @@ from validation.report.section import Section
 from validation.simulation import model_names, wheel_on_rail
 
 TEN = fractal_punch_study.LEVEL.tolerance
-WORKED = Worked(128, 2048, 15.2).table
+WORKED = Table(work.WORK, {work.CELLS: [128], work.SPRINGS: [2048], work.APPLICATIONS: [15.2]})
 DECADES = {(0.01, 0.1): "0.01 to 0.1", (0.1, 1.0): "0.1 to 1", (1.0, 10.0): "1 to 10"}
 
 
 def at(decade, value, half=0.0, hurst=0.7, **changes):
     """MDR over boundary elements in a decade [dB], within 10 %."""
     where = {"H": hurst, "Fbar": decade, "worst at": decade[0]}
-    settings = {"reference": 0.0, "tolerance": TEN, "sample": half, "model": rolled_off.OVER, "role": Role.FINDING}
+    settings = {"reference": 0.0, "tolerance": TEN, "sample": half, "model": OVER, "role": Role.FINDING}
     return number(value, **{"quantity": MEAN, "where": where, "reason": "10 %: reason", **settings, **changes})
 
 

@@ -14,10 +14,11 @@ import bem3d
 import mdr
 from tests.selection.by_kind import CHEAP, estimates_by_kind, grid_of, grids_of, model_of_kind
 from tests.selection.planted_answers import PARTS, ROUGH, Fake, Finding, compared, punch, wheel
-from validation.cases.selection.random_scenes import KINDS, QUANTITIES_BY_KIND, random_scene
+from validation.cases.selection.random_scenes import KINDS, random_scene
 from validation.report.contents import CASES
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
+from validation.selection import calibrate
 from validation.selection.columns import bands_of
 from validation.selection.compare import compare
 from validation.selection.hierarchy import (
@@ -321,7 +322,7 @@ def test_force_of_low_roughness_needs_a_filter_and_of_high_boundary_elements():
 @given(kind=st.sampled_from(KINDS), number=st.integers(0, 10**6), tolerance=st.floats(0.01, 1.0))
 def test_models_are_asked_in_the_order_of_their_cost(kind, number, tolerance):
     scene = random_scene(kind, number, 0)
-    for quantity in QUANTITIES_BY_KIND[kind]:
+    for quantity in calibrate.QUANTITIES[kind]:
         costs = [model.cost().seconds for model in models_of(scene, quantity, tolerance, 0)]
         solved = costs[-3 if kind in ("punch", "sphere") else -2 :]
         assert solved == sorted(solved)

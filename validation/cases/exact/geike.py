@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -14,7 +14,7 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, off_by
 from validation.analysis.evidence import Role
-from validation.analysis.series import Margin, Series, single
+from validation.analysis.series import Series, single
 from validation.analysis.study import Outcomes, Study
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.simulation.surface import RoughnessDraw, measure_profile, measure_surface
@@ -55,17 +55,18 @@ def run(case: Geike, engine: Engine = SERIAL) -> Outcomes:
 
 
 MOMENTS = (0, 1, 2, 3, 4)
-NAMED = {0: "mean square height", 2: "mean square gradient", 4: "mean square curvature"}
 MEASURED = {0: "height", 2: "gradient", 4: "curvature"}
+NAMED = {n: f"mean square {measured}" for n, measured in MEASURED.items()}
+OVER_SURFACE = {n: f"{name} over that of the surface" for n, name in NAMED.items()}
 GEIKE, LINE, LINES = "Geike's 1D spectrum", "line trace", "lines of drawn surfaces"
 PROFILES, SURFACES, INTEGRAL = "drawn profiles", "drawn surfaces", "integral of the spectrum"
 DIRECTIONS = "mean of |cos φ|ⁿ"
 SPECTRUM, WAVENUMBER = "C_1D [m³]", "wavenumber q [rad/m]"
 SHARE, POWER = "moment over that of the surface", "moment n of |q|ⁿ"
 OVER_LINE, OVER_GEIKE = "measured spectrum over the line trace, mid band", "measured spectrum over Geike's, mid band"
-CLOSE = Margin(0.02, "2 % (0.09 dB of a power), a third of the finest tolerance of a level here")
+CLOSE = "2 % (0.09 dB of a power), a third of the finest tolerance of a level here"
 SUM = "a sum over waves across the line in place of an integral; the integrand is smooth there, and small where it ends"
-KINK = "exact; error of the quadrature at the kink of the line trace"
+ON_DIRECTIONS, KINK = "mean of |cos|^n over directions", "exact; error of the quadrature at the kink of the line trace"
 
 
 def series(result: Outcomes) -> list[Series]:
@@ -85,7 +86,10 @@ def series(result: Outcomes) -> list[Series]:
         *_ratios(PROFILES, profiles, SURFACES, surfaces),
         *_ratios(PROFILES, profiles, INTEGRAL, integrals),
         *_ratios(SURFACES, surfaces, INTEGRAL, integrals),
-        *(_of_line(name, shares[LINE][n], shares[DIRECTIONS][n]) for n, name in NAMED.items()),
+        *(
+            single(OVER_SURFACE[n], LINE, shares[LINE][n], 1e-6, ON_DIRECTIONS, KINK, shares[DIRECTIONS][n])
+            for n in NAMED
+        ),
         *_of_lines(case, spectra),
     ]
 
@@ -123,13 +127,9 @@ def _spectrum(outcomes: Sequence[Outcome]) -> NDArray[np.float64]:
 
 def _ratios(name: str, moments: Mapping[int, float], over: str, references: Mapping[int, float]) -> Iterator[Series]:
     for n, quantity in NAMED.items():
-        ratio = moments[n] / references[n]
-        yield Series(quantity, f"{name} over {over}", (ratio,), reference=1.0, margin=replace(CLOSE, source=over))
-
-
-def _of_line(name: str, share: float, exact: float) -> Series:
-    quantity = f"{name} over that of the surface"
-    return single(quantity, LINE, share, 1e-6, "mean of |cos|^n over directions", KINK, exact)
+        yield single(
+            quantity, f"{name} over {over}", moments[n] / references[n], 0.02, over, CLOSE, 1.0, role=Role.FINDING
+        )
 
 
 def _of_lines(case: Geike, spectra: Mapping[str, NDArray[np.float64]]) -> Iterator[Series]:
@@ -140,6 +140,16 @@ def _of_lines(case: Geike, spectra: Mapping[str, NDArray[np.float64]]) -> Iterat
     yield single(OVER_GEIKE, LINES, over_geike, 1e-3, "(10.12)", "0.001, as for the line trace", 1.0, role=Role.FINDING)
 
 
+SPECTRA = (
+    Curve(SPECTRUM, GEIKE, "exact", "Geike, π q C_2D"),
+    Curve(SPECTRUM, LINE, "other", LINE),
+    Curve(SPECTRUM, PROFILES, "mdr", PROFILES, apart=0.02),
+    Curve(SPECTRUM, LINES, "bem", "lines cut from drawn surfaces", apart=0.02),
+)
+SHARES = (
+    Curve(SHARE, GEIKE, "mdr around", "Geike"),
+    *(Curve(SHARE, model, style, model) for model, style in ((LINE, "bem"), (DIRECTIONS, "exact"))),
+)
 STUDY = Study(
     title="Geike's rule",
     method=(
@@ -167,7 +177,7 @@ STUDY = Study(
         ),
         Claim(
             says="A line on the surface keeps its mean square height and half of its mean square gradient.",
-            quantity=(*(f"{name} over that of the surface" for name in NAMED.values()), OVER_LINE),
+            quantity=(*OVER_SURFACE.values(), OVER_LINE),
             printed=off_by,
         ),
     ),
@@ -177,32 +187,8 @@ STUDY = Study(
             "(a) Geike's spectrum and the line trace, with those measured on drawn profiles and along lines of drawn "
             "surfaces. (b) n-th moment of both over that of the surface.",
             (
-                Panel(
-                    WAVENUMBER,
-                    SPECTRUM,
-                    (
-                        Curve(SPECTRUM, GEIKE, "exact", "Geike, π q C_2D"),
-                        Curve(SPECTRUM, LINE, "other", LINE),
-                        Curve(SPECTRUM, PROFILES, "mdr", PROFILES, apart=0.02),
-                        Curve(SPECTRUM, LINES, "bem", "lines cut from drawn surfaces", apart=0.02),
-                    ),
-                    log="xy",
-                    decades=4.2,
-                    legend="lower left",
-                ),
-                Panel(
-                    POWER,
-                    SHARE,
-                    (
-                        Curve(SHARE, GEIKE, "mdr around", "Geike"),
-                        Curve(SHARE, LINE, "bem", LINE),
-                        Curve(SHARE, DIRECTIONS, "exact", DIRECTIONS),
-                    ),
-                    log="",
-                    ylim=(0, 1.1),
-                    ticked=True,
-                    legend="lower left",
-                ),
+                Panel(WAVENUMBER, SPECTRUM, SPECTRA, log="xy", decades=4.2, legend="lower left"),
+                Panel(POWER, SHARE, SHARES, log="", ylim=(0, 1.1), ticked=True, legend="lower left"),
             ),
             claims=(1,),
         ),

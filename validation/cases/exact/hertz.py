@@ -52,14 +52,8 @@ class Hertz:
 
     def sphere(self, resolution: int, approach: float) -> SmoothSphere:
         """On cells of side a / resolution, where a is the contact radius of the case."""
-        return SmoothSphere(
-            radius=self.radius,
-            modulus=self.modulus,
-            approach=approach,
-            cells=4 * resolution,
-            spacing=self.contact_radius / resolution,
-            tolerance=self.tolerance,
-        )
+        same = partial(SmoothSphere, radius=self.radius, modulus=self.modulus, tolerance=self.tolerance)
+        return same(approach=approach, cells=4 * resolution, spacing=self.contact_radius / resolution)
 
 
 def run(case: Hertz, engine: Engine = SERIAL) -> Outcomes:
@@ -148,16 +142,10 @@ def _over_hertz(case: Hertz, model: str, outcomes: list[Outcome]) -> Iterator[Se
     yield single("order of the force error in the cell size", model, rate, 0.5, "error model", second, 2.0)
 
 
-LOOKS = {
-    HERTZ: ("exact", HERTZ),
-    BEM: ("bem", "boundary elements"),
-    MDR: ("mdr around", "MDR"),
-    SECOND: ("guide", SECOND),
-}
-
-
 def _curves(quantity: str, *models: str) -> tuple[Curve, ...]:
-    return tuple(Curve(quantity, model, *LOOKS[model]) for model in models)
+    looks = {BEM: ("bem", "boundary elements"), MDR: ("mdr around", "MDR")}
+    looks |= {HERTZ: ("exact", HERTZ), SECOND: ("guide", SECOND)}
+    return tuple(Curve(quantity, model, *looks[model]) for model in models)
 
 
 STUDY = Study(
@@ -190,7 +178,6 @@ STUDY = Study(
         ),
     ),
 )
-evidence = STUDY.evidence
 CASE = Case(
     name="hertz",
     chapter=Chapter.EXACT,

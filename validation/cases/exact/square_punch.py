@@ -1,6 +1,6 @@
 """Flat punches: the stiffness of a square and of a circle, and what length the 1D model should have."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -10,7 +10,7 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim
 from validation.analysis.evidence import Role
-from validation.analysis.series import Margin, Series
+from validation.analysis.series import Series, single
 from validation.analysis.study import Outcomes, Study
 from validation.cases.exact.refinement import first_order_limit
 from validation.engine.engine import SERIAL, Engine
@@ -39,23 +39,14 @@ def run(case: SquarePunch, engine: Engine = SERIAL) -> Outcomes:
 
 
 SQUARE, CIRCLE, FULL = "k / (E* L) of the square", "k / (2 E* a) of the circle", "k / (E* L) in full contact"
-LIMIT, QUOTED = (
-    SQUARE + ", extrapolated",
-    "often quoted factor 1.012 * 2 / sqrt(pi), against the extrapolated k / (E* L)",
-)
+LIMIT = SQUARE + ", extrapolated"
+QUOTED = "often quoted factor 1.012 * 2 / sqrt(pi), against the extrapolated k / (E* L)"
 ORDER, PRESSURE, CELLS = "order of k of the square in the cell size", "p / mean p", "cells per side"
-DIGITS = Margin(
-    tolerance=5e-4,
-    reason="five units of the last digit of the reference, 1.1523",
-    source="capacitance of the square, numerical",
-    role=Role.CRITERION,
-)
-FIRST_ORDER = Margin(
-    tolerance=0.1,
-    reason="first order, since the pressure is singular at the edge; the next term, of order 1.5, changes it",
-    source="error model",
-    role=Role.CRITERION,
-)
+LENGTHS, EXTRAPOLATED = ("L_1D = L", "L_1D = 1.1523 L"), "bem3d, extrapolated"
+FIVE_UNITS, NUMERICAL = 5e-4, "capacitance of the square, numerical"
+DIGITS = "five units of the last digit of the reference, 1.1523"
+FIRST_ORDER = "first order, since the pressure is singular at the edge; the next term, of order 1.5, changes it"
+HALF_A_CELL = "half a cell at the edge; a is the radius of a circle with the area of the cells; 2 dx / L"
 
 
 def series(result: Outcomes) -> list[Series]:
@@ -63,52 +54,29 @@ def series(result: Outcomes) -> list[Series]:
     n, last = result.case.cells, result[result.case.cells[-1]]
     square, circle = (np.array([float(result[cells][name]) for cells in n]) for name in ("square", "circle"))
     limit, exact = first_order_limit(square), closed_forms.square_punch_stiffness(side=1.0, modulus=1.0)
-    step = np.abs(np.diff(square))
-    by_cells = partial(Series, along=CELLS, at=n)
-    half = Margin(
-        tolerance=2 / n[-1],
-        reason="half a cell at the edge; a is the radius of a circle with the area of the cells; 2 dx / L",
-        source="Boussinesq",
-        role=Role.CRITERION,
-    )
-    quoted = replace(
-        DIGITS, source="bem3d", reason="as for the extrapolated k / (E* L) of the square", role=Role.FINDING
-    )
+    step, by_cells = np.abs(np.diff(square)), partial(Series, along=CELLS, at=n)
+    quoted, as_limit = 1.012 * 2 / np.sqrt(np.pi), "as for the extrapolated k / (E* L) of the square"
+    left, rate = abs(limit - first_order_limit(square[:-1])), float(np.log2(step[-2] / step[-1]))
     springs = [
         mdr.load_curve(np.zeros(n[0]), length=length, modulus=1.0).at_approach(1e-3).stiffness
         for length in (1.0, closed_forms.SQUARE_PUNCH)
     ]
+    digits = partial(single, within=FIVE_UNITS, of=NUMERICAL, reason=DIGITS, reference=exact)
     return [
         by_cells(SQUARE, "bem3d", square),
         *(by_cells(SQUARE, name, np.full(len(n), k)) for name, k in zip(LENGTHS, springs, strict=True)),
         by_cells(SQUARE, "capacitance", np.full(len(n), exact)),
-        Series(
-            SQUARE,
-            EXTRAPOLATED,
-            np.array([2 * square[i] - square[i - 1] for i in range(1, len(n))]),
-            along=CELLS,
-            at=n[1:],
-        ),
+        Series(SQUARE, EXTRAPOLATED, 2 * square[1:] - square[:-1], along=CELLS, at=n[1:]),
         by_cells(CIRCLE, "bem3d, on each grid", circle),
         Series(PRESSURE, "bem3d", last["pressure"], along="x / L", at=last["x"]),
-        Series(
-            LIMIT, "bem3d", (limit,), reference=exact, grid=abs(limit - first_order_limit(square[:-1])), margin=DIGITS
-        ),
-        Series(ORDER, "bem3d", (float(np.log2(step[-2] / step[-1])),), reference=1.0, margin=FIRST_ORDER),
-        Series(CIRCLE, "bem3d", (circle[-1],), reference=1.0, margin=half),
-        Series(
-            FULL,
-            "mdr",
-            (springs[0],),
-            where={"length": LENGTHS[0]},
-            reference=exact,
-            margin=replace(DIGITS, role=Role.FINDING),
-        ),
-        Series(QUOTED, "", (1.012 * 2 / np.sqrt(np.pi),), reference=limit, margin=quoted),
+        digits(LIMIT, "bem3d", limit, grid=left),
+        single(ORDER, "bem3d", rate, 0.1, "error model", FIRST_ORDER, 1.0),
+        single(CIRCLE, "bem3d", float(circle[-1]), 2 / n[-1], "Boussinesq", HALF_A_CELL, 1.0),
+        digits(FULL, "mdr", springs[0], where={"length": LENGTHS[0]}, role=Role.FINDING),
+        single(QUOTED, "", quoted, FIVE_UNITS, "bem3d", as_limit, limit, role=Role.FINDING),
     ]
 
 
-LENGTHS, EXTRAPOLATED = ("L_1D = L", "L_1D = 1.1523 L"), "bem3d, extrapolated"
 STUDY = Study(
     title="Flat punches",
     method=(

@@ -38,14 +38,8 @@ class Westergaard:
             raise ValueError(f"loads must contain 0.5, where the rate is measured, got {self.loads}")
 
     def wave(self, load: float, cells: int) -> CosineWave:
-        return CosineWave(
-            wavelength=self.wavelength,
-            amplitude=self.amplitude,
-            modulus=self.modulus,
-            load=load,
-            cells=cells,
-            tolerance=self.tolerance,
-        )
+        same = partial(CosineWave, wavelength=self.wavelength, amplitude=self.amplitude, modulus=self.modulus)
+        return same(load=load, cells=cells, tolerance=self.tolerance)
 
 
 def run(case: Westergaard, engine: Engine = SERIAL) -> Outcomes:
@@ -58,8 +52,6 @@ BEM, EXACT, FIRST = "bem3d", "Westergaard", "first order"
 LOAD, PLACE, CELLS = "mean p / p*", "x / wavelength", "cells per wavelength"
 PRESSURE, ERROR = "pressure p / p*", "relative L2 error of the pressure"
 ON_GRIDS, EDGES = f"{ERROR} on each grid", "share of the squared error in the two worst cells"
-
-
 FIRST_ORDER = (
     "the edge cells have p ~ dx^(1/2) and the weight dx^(1/2) in L2; at half load the edges lie between cells on every "
     "grid, at other loads the error scatters"
@@ -111,6 +103,9 @@ def _at_half_load(case: Westergaard, errors: NDArray[np.float64]) -> Iterator[Se
     yield here("order of the pressure error in the cell size", BEM, rate, 0.1, "error model", FIRST_ORDER, 1.0)
 
 
+at_each_load = partial(Curve, by=(LOAD,))
+PRESSED = at_each_load(PRESSURE, EXACT, "exact", EXACT), at_each_load(PRESSURE, BEM, "open marks", apart=0.02)
+ERRORS = at_each_load(ON_GRIDS, BEM, "open marks"), Curve(ON_GRIDS, FIRST, "guide", FIRST)
 STUDY = Study(
     title="Periodic wave",
     method=(
@@ -132,22 +127,8 @@ STUDY = Study(
             "(a) Pressure at each mean pressure, finest grid, some of its cells; lines: Westergaard. (b) Relative L2 "
             "error of the pressure against cells.",
             (
-                Panel(
-                    PLACE,
-                    PRESSURE,
-                    (
-                        Curve(PRESSURE, EXACT, "exact", EXACT, by=(LOAD,)),
-                        Curve(PRESSURE, BEM, "open marks", by=(LOAD,), apart=0.02),
-                    ),
-                    log="",
-                ),
-                Panel(
-                    CELLS,
-                    ERROR,
-                    (Curve(ON_GRIDS, BEM, "open marks", by=(LOAD,)), Curve(ON_GRIDS, FIRST, "guide", FIRST)),
-                    log="xy",
-                    ticked=True,
-                ),
+                Panel(PLACE, PRESSURE, PRESSED, log=""),
+                Panel(CELLS, ERROR, ERRORS, log="xy", ticked=True),
             ),
         ),
     ),

@@ -182,10 +182,8 @@ def errors_of_residuals(solved: Sequence[tuple[Grid, Outcome]]) -> Iterator[Seri
             yield one(along=RESIDUAL, at=found[RESIDUAL])
         known = np.isfinite(error) & (error > ROUNDING)
         largest, source = float((error[known] / residual[known]).max()), "a residual that bounds the error"
-        where: Where = {"measure": measure}
-        yield single(
-            RATIO, "both solvers", largest, 10.0, source, "a factor 10: one digit", where=where, role=Role.FINDING
-        )
+        ratio = partial(single, RATIO, "both solvers", where={"measure": measure}, role=Role.FINDING)
+        yield ratio(largest, 10.0, source, "a factor 10: one digit")
 
 
 def tables(result: Outcomes) -> list[Table]:
@@ -249,13 +247,8 @@ ALL = (
 )
 AGAINST_CELLS = LOG(CELLS, ITERATIONS, of_solvers(ITERATIONS), "to a residual of 1e-8", legend="upper left")
 AGAINST_RESIDUAL = tuple(
-    LOG(
-        RESIDUAL,
-        "relative error",
-        (Curve(ERROR + m, "error = residual", "guide", "_"), *of_solvers(ERROR + m)),
-        ERROR + m,
-    )
-    for m in MEASURES
+    LOG(RESIDUAL, "relative error", (Curve(error, "error = residual", "guide", "_"), *of_solvers(error)), error)
+    for error in (ERROR + measure for measure in MEASURES)
 )
 SOLVER = (
     "(a) Iterations to a residual of 1e-8 against cells on a side: filled, solve; open, Polonsky-Keer. (b), (c), (d) "

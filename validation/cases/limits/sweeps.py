@@ -297,9 +297,8 @@ class Sweep:
     @property
     def predicted(self) -> bool:
         """Whether the error exceeds its tolerance everywhere past the threshold, and nowhere before it."""
-        good, failed = (
-            self.error[side] > self.limit.fails.tolerance for side in (self.before_threshold, self.past_threshold)
-        )
+        fails = self.error > self.limit.fails.tolerance
+        good, failed = fails[self.before_threshold], fails[self.past_threshold]
         return bool(good.size and failed.size and failed.all() and not good.any())
 
     @property
@@ -313,11 +312,8 @@ class Sweep:
 
         From the good side on, for the last time; None where it does not.
         """
-        values, error, tolerance = (
-            np.log2(self.values[:: self._sign]),
-            self.error[:: self._sign],
-            self.limit.fails.tolerance,
-        )
+        values, error = np.log2(self.values[:: self._sign]), self.error[:: self._sign]
+        tolerance = self.limit.fails.tolerance
         good = np.flatnonzero(error <= tolerance)
         if not good.size or good[-1] == error.size - 1:
             return None

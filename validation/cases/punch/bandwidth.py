@@ -5,7 +5,7 @@ that have the same long waves. The sum is unbiased, and what these waves scatter
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
 from itertools import accumulate, pairwise
@@ -16,15 +16,15 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, Matrix, per_cent
 from validation.analysis.series import Estimates, Margin, Series, Where, spans
-from validation.analysis.statistics import DECIBEL, FIVE_PER_CENT, ROUNDING, FloatArray, jackknifed
+from validation.analysis.statistics import DECIBEL, FIVE_PER_CENT, jackknifed, log_mean, log_relative_deviation
 from validation.analysis.study import Outcomes, Study
-from validation.cases.punch.ensembles import DEVIATION, MEAN, PunchEnsembles, press
-from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.cases.punch.ensembles import DEVIATION, FORCE, MEAN, OVER, PunchEnsembles, change, of_rows, press
+from validation.engine.engine import SERIAL, Engine
 from validation.selection import model_needed
 from validation.simulation.rough_punch import PunchRoughness, RolledOffRoughness, Surface, require_converged
 from validation.theory import closed_forms
 
-BANDWIDTH, ROLL_OFF, FORCE = "q_max / q_min", "q_r L / 2π", "Fbar"
+BANDWIDTH, ROLL_OFF = "q_max / q_min", "q_r L / 2π"
 KINDS = (BANDWIDTH, ROLL_OFF)
 Kind = tuple[str, float]
 
@@ -75,8 +75,7 @@ class Bandwidth(PunchEnsembles):
 
     def pressed(self, roughness: PunchRoughness, first: int, count: int, finer: int = 1) -> list[Surface]:
         """Realisations from the first on, four cells to the shortest wave, or so many times more."""
-        cells = 4 * roughness.waves[1] * finer
-        return [self.surface_of(roughness, first + i, cells, self.forces) for i in range(count)]
+        return self.surfaces_of(roughness, 4 * roughness.waves[1] * finer, count, first)
 
 
 def run(case: Bandwidth, engine: Engine = SERIAL) -> Outcomes:
@@ -97,43 +96,15 @@ def run(case: Bandwidth, engine: Engine = SERIAL) -> Outcomes:
 
 
 CHANGE, SIZE, OF_BEM = "change of MDR over bem3d, ", "with the roll-off over without, ", " over bem3d"
+NO_CHANGE = partial(Margin, source="no change")
 MARGINS = {
-    MEAN: Margin(
-        tolerance=FIVE_PER_CENT,
-        reason="5 %, less than half of what MDR is off by in full contact, 13 %",
-        source="no change",
-    ),
-    DEVIATION: Margin(
-        tolerance=DECIBEL * math.log(1.1), reason="10 %, the margin at which Fig. 14.1 is decided", source="no change"
-    ),
+    MEAN: NO_CHANGE(FIVE_PER_CENT, "5 %, less than half of what MDR is off by in full contact, 13 %"),
+    DEVIATION: NO_CHANGE(DECIBEL * math.log(1.1), "10 %, the margin at which Fig. 14.1 is decided"),
 }
-OF_FIT = Margin(
-    tolerance=DECIBEL * math.log(1.06),
-    reason="6 %, less than half of what MDR is off by in full contact, 13 %",
-    source="bem3d",
-)
+SIX_PER_CENT = DECIBEL * math.log(1.06)
+OF_FIT = Margin(SIX_PER_CENT, "6 %, less than half of what MDR is off by in full contact, 13 %", source="bem3d")
 FIT, FIT_RANGE = "fit", (0.3, 10.0)
-
-
-def log_mean(stiffness: FloatArray) -> FloatArray:
-    """ln of the mean of realisations."""
-    return np.asarray(np.log(stiffness.mean(axis=0)))
-
-
-def log_deviation(stiffness: FloatArray) -> FloatArray:
-    """ln of the relative standard deviation; minus infinity where realisations differ by rounding alone."""
-    relative = stiffness.std(axis=0, ddof=1) / stiffness.mean(axis=0)
-    return np.asarray(np.log(np.where(relative > ROUNDING, relative, 0.0)))
-
-
-STATISTICS = {MEAN: log_mean, DEVIATION: log_deviation}
-
-
-def change(statistic: Callable[[FloatArray], FloatArray], before: Outcome, after: Outcome) -> Estimates:
-    """From one to another of the same realisations."""
-    count = min(len(before["stiffness"]), len(after["stiffness"]))
-    pairs = np.stack([before["stiffness"][:count], after["stiffness"][:count]], axis=1)
-    return Estimates(jackknifed(lambda rows: statistic(rows[:, 1]) - statistic(rows[:, 0]), pairs))
+STATISTICS = {MEAN: log_mean, DEVIATION: log_relative_deviation}
 
 
 def series(result: Outcomes) -> list[Series]:
@@ -148,15 +119,19 @@ def _of(result: Outcomes, quantity: str) -> Iterator[Series]:
     case, statistic = result.case, STATISTICS[quantity]
 
     def found(key: object) -> Estimates:
-        return Estimates(jackknifed(statistic, result[key]["stiffness"]))
+        return Estimates(jackknifed(partial(of_rows, statistic), result[key]["stiffness"]))
 
-    steps = [change(statistic, result[f"before {i}"], result[f"wider {i}"]) for i in range(len(case.pairs))]
+    def changed(before: object, after: object) -> Estimates:
+        return change(statistic, result[before]["stiffness"], result[after]["stiffness"])
+
+    steps = [changed(f"before {i}", f"wider {i}") for i in range(len(case.pairs))]
     springs = {kind: found(kind) for kind in case.ground}
     bem = dict(zip(springs, [*accumulate(steps, initial=found("narrow")), found("rolled off")], strict=True))
-    left = np.array([abs(e.value) + e.half_width for e in change(statistic, result["narrow"], result["refined"])])
+    left = np.array([abs(e.value) + e.half_width for e in changed("narrow", "refined")])
     shown = partial(Series, along=FORCE, at=case.forces, shown=math.exp)
+    family = case.family(max(len(case.bandwidths) - 1, 1))
     # to first order cells of no size are twice as far away as cells of half the size
-    over = partial(shown, grid=2 * left, scale=DECIBEL, unit="dB", shown=_ratio, fewest=2, family=_ranges(case))
+    over = partial(case.in_decibels, grid=2 * left, shown=lambda x: math.exp(x / DECIBEL), fewest=2, family=family)
     for kind, mine in springs.items():
         where: Where = dict([kind])
         yield shown(quantity, "bem3d", bem[kind], where=where)
@@ -166,21 +141,15 @@ def _of(result: Outcomes, quantity: str) -> Iterator[Series]:
         if quantity == MEAN:
             fit = Estimates.exact(np.log(fitted(case)), 10**9)
             yield over(quantity + OF_BEM, FIT, fit - bem[kind], where=where, **judged)
-    changed = partial(over, grid=left, margin=MARGINS[quantity], ranges=case.by_decade)
+    by_decade = partial(over, grid=left, margin=MARGINS[quantity])
     for (a, b), step in zip(pairwise(springs), steps, strict=False):
-        apart = change(statistic, result[a], result[b]) - step
-        yield changed(CHANGE + quantity, "mdr over bem3d", apart, where={BANDWIDTH: (a[1], b[1])})
+        yield by_decade(CHANGE + quantity, OVER, changed(a, b) - step, where={BANDWIDTH: (a[1], b[1])})
     (first, *_, rolled), where = springs, {ROLL_OFF: float(case.roll_off)}
     apart = (springs[rolled] - bem[rolled]) - (springs[first] - bem[first])
-    yield changed(CHANGE + quantity, "mdr over bem3d", apart, where=where)
+    yield by_decade(CHANGE + quantity, OVER, apart, where=where)
     if quantity == DEVIATION:
         for model, of in (("bem3d", bem), ("mdr", springs)):
-            yield changed(SIZE + quantity, model, of[rolled] - of[first], where=where)
-
-
-def _ranges(case: Bandwidth) -> int:
-    """Numbers of a claim at most, whose intervals hold at once: decades of all bandwidths, of mean and deviation."""
-    return 2 * len(case.first_forces) * max(len(case.bandwidths) - 1, 1)
+            yield by_decade(SIZE + quantity, model, of[rolled] - of[first], where=where)
 
 
 def fitted(case: Bandwidth) -> list[float]:
@@ -191,11 +160,18 @@ def fitted(case: Bandwidth) -> list[float]:
     ]
 
 
-def _ratio(decibels: float) -> float:
-    return math.exp(decibels / DECIBEL)
-
-
-CHANGES = (CHANGE + MEAN, CHANGE + DEVIATION)
+of_change = partial(Claim, quantity=(CHANGE + MEAN, CHANGE + DEVIATION), along="-Fbar", printed=per_cent)
+of_mean = partial(Claim, quantity=MEAN + OF_BEM, along=ROLL_OFF, printed=per_cent)
+of_kinds = partial(Curve, by=KINDS)
+against_force = partial(Panel, FORCE, "")
+STIFFER = (of_kinds(MEAN + OF_BEM, "mdr", bars=True), of_kinds(MEAN + OF_BEM, FIT, "dotted", "_"))
+SCATTERED = (of_kinds(DEVIATION, "bem3d", "marks", bars=True), of_kinds(DEVIATION, "mdr", "lines"))
+WIDER = (of_kinds(DEVIATION + OF_BEM, bars=True),)
+PANELS = (
+    against_force(STIFFER, "mean stiffness, over bem3d", ylim=(0.75, 1.25), lines=(1.0,)),
+    against_force(WIDER, "relative deviation, MDR over bem3d", log="xy", ylim=(0.3, 3), lines=(1.0,)),
+    against_force(SCATTERED, "relative deviation", log="xy", ylim=(5e-4, 1)),
+)
 STUDY = Study(
     title="Bandwidth, roll-off and size: does the answer of Fig. 14.1 depend on them?",
     method=(
@@ -210,41 +186,26 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(
+        of_change(
             says="What Fig. 14.1 says of MDR beside boundary elements does not depend on bandwidth.",
             short="Change of MDR over boundary elements by bandwidth",
-            quantity=CHANGES,
             where={BANDWIDTH: ...},
-            along="-Fbar",
-            printed=per_cent,
         ),
-        Claim(
+        of_change(
             says="What Fig. 14.1 says of MDR beside boundary elements does not depend on a roll-off.",
             short="by a roll-off",
-            quantity=CHANGES,
             where={ROLL_OFF: ...},
-            along="-Fbar",
-            printed=per_cent,
         ),
         Claim(
             says="The fluctuation of Fig. 14.1 does not depend on how many of its longest waves the punch holds.",
             quantity=SIZE + DEVIATION,
             printed=per_cent,
         ),
-        Claim(
+        of_mean(
             says="The fit 1/kbar = 1/1.1523 + 0.48/Fbar has the mean stiffness within 6 % for Fbar from 0.32 to 10.",
-            quantity=MEAN + OF_BEM,
             model=FIT,
-            along=ROLL_OFF,
-            printed=per_cent,
         ),
-        Claim(
-            says="MDR has the mean stiffness within 6 % for Fbar from 0.32 to 10.",
-            quantity=MEAN + OF_BEM,
-            model="mdr",
-            along=ROLL_OFF,
-            printed=per_cent,
-        ),
+        of_mean(says="MDR has the mean stiffness within 6 % for Fbar from 0.32 to 10.", model="mdr"),
     ),
     charts=(
         Chart(
@@ -252,39 +213,7 @@ STUDY = Study(
             "H = {c.hurst:g}. (a) Mean stiffness over that of boundary elements: MDR at each bandwidth, with and "
             "without a roll-off; dotted, the fit. (b) Relative deviation, MDR over bem3d. (c) Relative deviation "
             "itself: symbols, boundary elements; lines, MDR. Bars: 95 % of the sample, in (a) and (b) with the grid.",
-            (
-                Panel(
-                    FORCE,
-                    "",
-                    (
-                        Curve(MEAN + OF_BEM, "mdr", by=KINDS, bars=True),
-                        Curve(MEAN + OF_BEM, FIT, "dotted", "_", by=KINDS),
-                    ),
-                    "mean stiffness, over bem3d",
-                    ylim=(0.75, 1.25),
-                    lines=(1.0,),
-                ),
-                Panel(
-                    FORCE,
-                    "",
-                    (Curve(DEVIATION + OF_BEM, by=KINDS, bars=True),),
-                    "relative deviation, MDR over bem3d",
-                    log="xy",
-                    ylim=(0.3, 3),
-                    lines=(1.0,),
-                ),
-                Panel(
-                    FORCE,
-                    "",
-                    (
-                        Curve(DEVIATION, "bem3d", "marks", by=KINDS, bars=True),
-                        Curve(DEVIATION, "mdr", "lines", by=KINDS),
-                    ),
-                    "relative deviation",
-                    log="xy",
-                    ylim=(5e-4, 1),
-                ),
-            ),
+            PANELS,
             claims=(0, 1),
         ),
     ),

@@ -2,9 +2,13 @@
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TypeVar
 
-from validation.analysis.series import Ranges, spans
+import numpy as np
+
+from validation.analysis.series import Estimates, Ranges, Series, spans
+from validation.analysis.statistics import DECIBEL, FloatArray, Statistic, jackknifed
 from validation.engine.engine import Engine, Outcome
 from validation.simulation.rough_punch import (
     Profiles,
@@ -18,6 +22,7 @@ from validation.simulation.rough_punch import (
 )
 
 MEAN, DEVIATION = "mean stiffness", "relative deviation"
+FORCE, OVER, FEW = "Fbar", "mdr over bem3d", "bem3d, few cells"
 K = TypeVar("K", bound=Hashable)
 J = TypeVar("J", bound=Hashable)
 
@@ -57,6 +62,15 @@ class PunchEnsembles:
         """Levels of force of each decade, both ends with it."""
         return spans(self.forces, *((first, 10 * first) for first in self.first_forces))
 
+    @property
+    def in_decibels(self) -> partial[Series]:
+        """Of natural logarithms at each force, judged decade by decade."""
+        return partial(Series, along=FORCE, at=self.forces, scale=DECIBEL, unit="dB", ranges=self.by_decade)
+
+    def family(self, others: int) -> int:
+        """Numbers of a claim at most, whose intervals hold at once: decades of so many others, of two quantities."""
+        return 2 * len(self.first_forces) * others
+
     def band(self, hurst: float, first: int = 1) -> PunchRoughness:
         """Self-affine from `first` waves on a side to four cells a wave, the same on every grid and by both methods."""
         return PunchRoughness(hurst=hurst, waves=(first, self.cells // 4), height=self.height, seed=self.seed)
@@ -65,6 +79,10 @@ class PunchEnsembles:
         return Surface(
             roughness=roughness, realisation=realisation, cells=cells, forces=forces, tolerance=self.tolerance
         )
+
+    def surfaces_of(self, roughness: PunchRoughness, cells: int, count: int, first: int = 0) -> list[Surface]:
+        """So many realisations from the first on, at all forces."""
+        return [self.surface_of(roughness, first + i, cells, self.forces) for i in range(count)]
 
     def profiles_of(self, roughness: PunchRoughness, points: int, length: float = 1.0) -> Profiles:
         """All profiles, to be pressed in a 1D model of length L_1D."""
@@ -84,3 +102,15 @@ def press(
     unconverged = [line for key, group in surfaces.items() for line in describe_failures(list(group), pressed[key])]
     springs = zip(profiles, engine.map(press_profiles, list(profiles.values())), strict=True)
     return {key: stacked(rows) for key, rows in pressed.items()}, dict(springs), tuple(unconverged)
+
+
+def of_rows(statistic: Statistic, rows: FloatArray) -> FloatArray:
+    """Of realisations, one a row."""
+    return statistic(rows.mean(axis=0), rows.std(axis=0, ddof=1))
+
+
+def change(statistic: Statistic, before: FloatArray, after: FloatArray) -> Estimates:
+    """From one to another of the first realisations that both have, by the jackknife, since they are few."""
+    count = min(len(before), len(after))
+    pairs = np.stack([before[:count], after[:count]], axis=1)
+    return Estimates(jackknifed(lambda some: of_rows(statistic, some[:, 1]) - of_rows(statistic, some[:, 0]), pairs))

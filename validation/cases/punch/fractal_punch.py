@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from validation.analysis.evidence import Role, Table, table_of
+from validation.analysis.evidence import Table, table_of
 from validation.analysis.multilevel import (
     Linearised,
     Moments,
@@ -18,11 +18,11 @@ from validation.analysis.multilevel import (
     on_finest,
     on_no_size,
 )
-from validation.analysis.series import Margin, Series, masked
+from validation.analysis.series import Series, masked, single
 from validation.analysis.statistics import FloatArray, nearest
 from validation.analysis.study import Outcomes
-from validation.cases.punch.ensembles import DEVIATION, MEAN, PunchEnsembles, press
-from validation.cases.punch.work import Worked, estimator
+from validation.cases.punch.ensembles import DEVIATION, FEW, FORCE, MEAN, PunchEnsembles, press
+from validation.cases.punch.work import LOGARITHMS, estimator, worked
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.simulation.light_punch import press_lightly
 from validation.simulation.rough_punch import BEM, FEW_CELLS, MDR, Profiles, PunchRoughness, Surface, require_converged
@@ -204,7 +204,7 @@ class PunchStatistics:
     def steps(self, hurst: float, method: str, statistic: str, level: int) -> dict[int, Linearised]:
         """ln of the mean stiffness, or of the relative deviation, under one force, on each grid."""
         found = self._moments[hurst, method, level]
-        return {n: mine.log_mean if statistic == MEAN else mine.log_relative_deviation for n, mine in found.items()}
+        return {n: LOGARITHMS[statistic](mine) for n, mine in found.items()}
 
     def at(self, hurst: float | None, method: str, statistic: str, level: int) -> Resolved:
         """On cells of no size, or on twice the springs."""
@@ -242,10 +242,9 @@ class PunchStatistics:
         return cells**2 * float(np.nanmean(self.result[hurst, BEM, cells]["area"][:, level]))
 
 
-FORCE, H = "Fbar", "H"
-STIFFNESS, SCATTER, SLOPE = "k / (E* L)", "relative deviation of k", "d ln k / d ln F"
+H, STIFFNESS, SCATTER, SLOPE = "H", "k / (E* L)", "relative deviation of k", "d ln k / d ln F"
 TREND = "d ln deviation / d H"
-LAW, FEW, FRACTION = "1 / (1 + H)", "bem3d, few cells", "contact fraction"
+LAW, FRACTION = "1 / (1 + H)", "contact fraction"
 CONVEX = "largest excess of the slope of the load curve over the stiffnesses at its two ends"
 FLAT = "largest stiffness of any surface over that of the flat punch"
 
@@ -254,12 +253,9 @@ def criteria(found: PunchStatistics) -> Iterator[Series]:
     """F(d) is convex: its slope lies between the stiffnesses at two forces. No punch is stiffer than a flat one."""
     case = found.case
     force = case.height * np.array(case.forces)
-    convex = Margin(
-        tolerance=100 * case.tolerance,
-        reason="force, approach and stiffness of every realisation are consistent; residual of the solver, and two "
-        "digits of cancellation in the difference of approaches",
-        source="F(d) is convex",
-        role=Role.CRITERION,
+    consistent = (
+        "force, approach and stiffness of every realisation are consistent; residual of the solver, and two digits of "
+        "cancellation in the difference of approaches"
     )
     for method in (BEM, MDR):
         excess = 1.0
@@ -267,17 +263,12 @@ def criteria(found: PunchStatistics) -> Iterator[Series]:
             slope, stiffness = np.diff(force) / np.diff(outcome["approach"], axis=1), outcome["stiffness"]
             for ratio in (stiffness[:, :-1] / slope, slope / stiffness[:, 1:]):
                 excess = float(np.fmax.reduce(ratio, axis=None, initial=excess))
-        yield Series(CONVEX, method, (excess - 1,), margin=convex)
+        yield single(CONVEX, method, excess - 1, 100 * case.tolerance, "F(d) is convex", consistent)
     largest = max(float(np.nanmax(found.result[hurst, BEM, case.cells]["stiffness"])) for hurst in case.hursts)
-    deficit = 2 / case.cells
-    flat = Margin(
-        tolerance=deficit / 2,
-        reason="never stiffer than all cells in contact; at the largest force at most two cells a side "
-        f"({deficit:.2g}) softer",
-        source="flat punch: all cells in contact",
-        role=Role.CRITERION,
-    )
-    yield Series(FLAT, BEM, (largest / closed_forms.SQUARE_PUNCH,), reference=1.0 - deficit / 2, margin=flat)
+    over_flat, half = largest / closed_forms.SQUARE_PUNCH, 1 / case.cells
+    all_cells = "flat punch: all cells in contact"
+    reason = "never stiffer than all cells in contact; at the largest force at most two cells a side "
+    yield single(FLAT, BEM, over_flat, half, all_cells, f"{reason}({2 * half:.2g}) softer", 1.0 - half)
 
 
 def curves(found: PunchStatistics, hurst: float) -> Iterator[Series]:
@@ -335,4 +326,4 @@ def tables(result: Outcomes) -> tuple[Table, ...]:
         costs = estimator(case.counts(last), stiffness, work)
         rows += [{"Fbar from": first, "Fbar to": last, **row} for row in costs]
     pressed = [result[h, BEM, case.cells] for h in case.hursts]
-    return table_of("estimator", rows), Worked.of(case.cells, case.points, pressed).table
+    return table_of("estimator", rows), worked(case.cells, case.points, pressed)

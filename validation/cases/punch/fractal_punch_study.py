@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import product
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
@@ -13,7 +14,7 @@ from validation.analysis.series import Margin, Series
 from validation.analysis.statistics import DECIBEL
 from validation.analysis.study import Outcomes, Study
 from validation.cases.punch import fractal_punch as shown
-from validation.cases.punch.ensembles import DEVIATION, MEAN
+from validation.cases.punch.ensembles import DEVIATION, FEW, FORCE, MEAN, OVER
 from validation.selection import model_needed
 from validation.simulation.rough_punch import BEM, FEW_CELLS, MDR
 
@@ -29,14 +30,8 @@ FIGURE = replace(
     "less",
 )
 DIGITS = replace(LEVEL, tolerance=0.02, reason="the published exponents have two digits")
-FACTOR = Margin(
-    tolerance=3.0,
-    reason="3 dB: since k ~ F^(1/(1+H)), a wrong factor 2 in the force or the length changes k by 3 dB or more, H <= 1",
-    role=Role.CRITERION,
-)
-ROLLING = Margin(
-    tolerance=3.0, reason="accuracy claimed for 1D models of rolling noise against 3D models: Ford and Thompson (2006)"
-)
+FACTOR = "3 dB: since k ~ F^(1/(1+H)), a wrong factor 2 in the force or the length changes k by 3 dB or more, H <= 1"
+ROLLING = "accuracy claimed for 1D models of rolling noise against 3D models: Ford and Thompson (2006)"
 PUBLISHED = (0.51, 0.77)
 """Exponents of fractal dimensions 2 to 3; Pohrt and Popov, Phys. Rev. Lett. 108, 104301 (2012), abstract."""
 
@@ -59,25 +54,15 @@ def compared(found: shown.PunchStatistics, hurst: float | None) -> Iterator[Seri
     """Each 1D model over boundary elements; every decade is judged by its worst force, whose intervals hold at once."""
     case = found.case
     where: dict[str, Place] = {shown.H: "mean over H" if hurst is None else hurst}
-    judged = partial(
-        Series,
-        where=where,
-        along=shown.FORCE,
-        at=case.forces,
-        scale=DECIBEL,
-        unit="dB",
-        shown=lambda decibels: math.exp(decibels / DECIBEL),
-        ranges=case.by_decade,
-        fewest=case.per_decade + 1,
-    )
+    judged = partial(case.in_decibels, where=where, shown=lambda x: math.exp(x / DECIBEL), fewest=case.per_decade + 1)
     for statistic, margin in ((DEVIATION, FIGURE), (MEAN, LEVEL)):
         for method, name in ((MDR, statistic), (shown.LONG, statistic + OF_LONG)):
             ratios = [found.ratio(hurst, method, statistic, level) for level in range(len(case.forces))]
             values, grid = [ratio.value for ratio in ratios], [ratio.grid for ratio in ratios]
-            yield judged(name, "mdr over bem3d", values, grid=grid, margin=margin)
+            yield judged(name, OVER, values, grid=grid, margin=margin)
     for first in case.first_forces:
         springs, bem = (found.exponent(hurst, method, *case.decade(first)) for method in (MDR, BEM))
-        apart, place = springs.beside(bem), {**where, shown.FORCE: (first, 10 * first)}
+        apart, place = springs.beside(bem), {**where, FORCE: (first, 10 * first)}
         yield Series(EXPONENT, LESS, (apart.value,), where=place, grid=[apart.grid], margin=DIGITS)
 
 
@@ -85,19 +70,11 @@ def laws(found: shown.PunchStatistics) -> Iterator[Series]:
     """Exponents beside 1 / (1 + H), their intervals at once for all H, off the last asperity and off saturation."""
     case = found.case
     first = min(case.first_forces, key=lambda force: abs(math.log(force / 0.01)))
-    for hurst in case.hursts:
-        for method in (BEM, MDR):
-            mine = found.exponent(hurst, method, *case.decade(first))
-            yield Series(
-                EXPONENT,
-                method,
-                (mine.value,),
-                where={shown.H: hurst, shown.FORCE: (first, 10 * first)},
-                reference=1 / (1 + hurst),
-                grid=[mine.grid],
-                family=len(case.hursts),
-                margin=replace(DIGITS, source=shown.LAW),
-            )
+    law = partial(Series, EXPONENT, family=len(case.hursts), margin=replace(DIGITS, source=shown.LAW))
+    for hurst, method in product(case.hursts, (BEM, MDR)):
+        where: dict[str, Place] = {shown.H: hurst, FORCE: (first, 10 * first)}
+        mine = found.exponent(hurst, method, *case.decade(first))
+        yield law(method, (mine.value,), where=where, reference=1 / (1 + hurst), grid=[mine.grid])
 
 
 def once_more(result: Outcomes, numbers: Sequence[Number]) -> list[Number]:
@@ -111,27 +88,22 @@ def once_more(result: Outcomes, numbers: Sequence[Number]) -> list[Number]:
         for first, last in map(case.decade, case.first_forces[:-1])
         if min(found.contact(hurst, first, case.cells) for hurst in case.hursts) < FEW_CELLS
     }
-    mean = [n for n in numbers_with(numbers, MEAN) if n.where[shown.FORCE] not in light]
+    mean = [n for n in numbers_with(numbers, MEAN) if n.where[FORCE] not in light]
     judged = (
-        (mean, f"{MEAN} where the models", FACTOR),
-        (numbers_with(numbers, DEVIATION), f"{DEVIATION} where it", ROLLING),
+        (mean, f"{MEAN} where the models", FACTOR, Role.CRITERION),
+        (numbers_with(numbers, DEVIATION), f"{DEVIATION} where it", ROLLING, Role.FINDING),
     )
     return [
-        replace(
-            max(some, key=lambda n: abs(n.value) + n.uncertainty),
-            quantity=f"{what} may differ most, within 3 dB",
-            tolerance=margin.tolerance,
-            reason=margin.reason,
-            role=margin.role,
-        )
-        for some, what, margin in judged
+        replace(farthest, quantity=f"{what} may differ most, within 3 dB", tolerance=3.0, reason=reason, role=role)
+        for some, what, reason, role in judged
         if some
+        for farthest in [max(some, key=lambda n: abs(n.value) + n.uncertainty)]
     ]
 
 
 COMPARED = (
     Curve(shown.STIFFNESS, BEM, "bem", "boundary elements", bars=True),
-    Curve(shown.STIFFNESS, shown.FEW, "bem, few cells", "boundary elements, few cells", bars=True),
+    Curve(shown.STIFFNESS, FEW, "bem, few cells", "boundary elements, few cells", bars=True),
     Curve(shown.STIFFNESS, MDR, "mdr line", "MDR, L_1D = L", band=True),
     Curve(shown.STIFFNESS, shown.LONG, "other", "MDR, L_1D = 1.1523 L"),
     Curve(shown.STIFFNESS, shown.LAW, "guide", "1 / (1 + H)"),
@@ -153,12 +125,15 @@ def _by_hurst(
 ) -> Chart:
     """A panel for each Hurst exponent."""
     mine = tuple(replace(curve, quantity=quantity) for curve in drawn)
-    panels = (Panel(shown.FORCE, label, mine, facet=shown.H, **panel),)  # type: ignore[arg-type]
+    panels = (Panel(FORCE, label, mine, facet=shown.H, **panel),)  # type: ignore[arg-type]
     name = f"fractal_punch-{part}"
     return Chart(name, caption, panels, claims=(claim,), columns=4, height=6.4, sharey=True)
 
 
-FIGURE_14_1 = "MDR has the fluctuation of the stiffness of rough punches (Fig. 14.1)."
+at_each_hurst = partial(Claim, where={shown.H: float}, along=FORCE, printed=per_cent)
+of_hursts = partial(Matrix, rows=(shown.H,), columns=FORCE)
+at_h = partial(Curve, by=(shown.H,), band=True)
+BEM_AT_H = (at_h(shown.SCATTER, BEM), at_h(shown.SCATTER, FEW, "open marks", "_"))
 STUDY = Study(
     title="Fractal punch (Fig. 14.1)",
     method=(
@@ -181,21 +156,15 @@ STUDY = Study(
     once_more=once_more,
     tables=shown.tables,
     claims=(
-        Claim(
-            says=FIGURE_14_1,
+        at_each_hurst(
+            says="MDR has the fluctuation of the stiffness of rough punches (Fig. 14.1).",
             short="MDR's fluctuation over boundary elements",
             quantity=DEVIATION,
-            where={shown.H: float},
-            along=shown.FORCE,
-            printed=per_cent,
         ),
-        Claim(
+        at_each_hurst(
             says="MDR has the mean stiffness of rough punches.",
             short="MDR's mean stiffness over boundary elements",
             quantity=MEAN,
-            where={shown.H: float},
-            along=shown.FORCE,
-            printed=per_cent,
         ),
         Claim(
             says="The stiffness of a rough punch grows with the force as F^(1 / (1 + H)).",
@@ -212,16 +181,9 @@ STUDY = Study(
             "= L; lines end where all springs touch.",
             (
                 Panel(
-                    shown.FORCE,
-                    "relative standard deviation of the stiffness",
-                    (
-                        Curve(shown.SCATTER, BEM, by=(shown.H,), band=True),
-                        Curve(shown.SCATTER, shown.FEW, "open marks", "_", by=(shown.H,), band=True),
-                    ),
-                    "boundary elements",
-                    ylim=(0, 0.6),
+                    FORCE, "relative standard deviation of the stiffness", BEM_AT_H, "boundary elements", ylim=(0, 0.6)
                 ),
-                Panel(shown.FORCE, "", (Curve(shown.SCATTER, MDR, by=(shown.H,), band=True),), "MDR", ylim=(0, 0.6)),
+                Panel(FORCE, "", (at_h(shown.SCATTER, MDR),), "MDR", ylim=(0, 0.6)),
             ),
             width=9.0,
         ),
@@ -269,28 +231,14 @@ STUDY = Study(
     ),
     matrices=(
         *(
-            Matrix(
-                name=f"{name}: MDR over boundary elements",
-                quantity=name,
-                rows=(shown.H,),
-                columns=shown.FORCE,
-                where={shown.H: ...},
-                printed=per_cent,
-            )
-            for name in (DEVIATION, DEVIATION + OF_LONG, MEAN, MEAN + OF_LONG)
+            of_hursts(name=f"{one}: MDR over boundary elements", quantity=one, where={shown.H: ...}, printed=per_cent)
+            for one in (DEVIATION, DEVIATION + OF_LONG, MEAN, MEAN + OF_LONG)
         ),
-        Matrix(
-            name="exponent: MDR less boundary elements",
-            quantity=EXPONENT,
-            model=LESS,
-            rows=(shown.H,),
-            columns=shown.FORCE,
-        ),
-        Matrix(
+        of_hursts(name="exponent: MDR less boundary elements", quantity=EXPONENT, model=LESS),
+        of_hursts(
             name=f"exponent of the mean stiffness beside 1 / (1 + H); published: {PUBLISHED[0]} to {PUBLISHED[1]}",
             quantity=EXPONENT,
             model=(BEM, MDR),
-            rows=(shown.H,),
             columns="model",
         ),
     ),

@@ -8,29 +8,27 @@ from functools import partial
 import numpy as np
 
 from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel
+from validation.analysis.chart import Bounds, Chart, Curve, Panel
 from validation.analysis.claims import Claim, times
 from validation.analysis.evidence import Table
-from validation.analysis.series import Estimates, Margin, Series, masked
+from validation.analysis.series import Estimates, Margin, Series, Where, masked
 from validation.analysis.statistics import (
-    DECIBEL,
     FIVE_PER_CENT,
     FloatArray,
     Sample,
     Statistic,
     decade_slope,
     extrapolated,
-    jackknifed,
     log_mean,
     log_relative_deviation,
     sample,
     weighted_mean,
 )
 from validation.analysis.study import Outcomes, Study
-from validation.cases.punch.ensembles import PunchEnsembles, press
+from validation.cases.punch.ensembles import DEVIATION, FEW, FORCE, OVER, PunchEnsembles, change, press
 from validation.cases.punch.rough_interface import SPRINGS, Layer, layer_on_half_space
-from validation.cases.punch.work import Worked
-from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.cases.punch.work import worked
+from validation.engine.engine import SERIAL, Engine
 from validation.engine.random_numbers import random_generator
 from validation.selection import model_needed
 from validation.simulation.rough_punch import BEM, BOOTSTRAP, FEW_CELLS, MDR, METHODS, PunchRoughness, require_converged
@@ -69,7 +67,7 @@ class MdrLimits(PunchEnsembles):
 def run(case: MdrLimits, engine: Engine = SERIAL) -> Outcomes:
     """Press surfaces and profiles of every roll-off with equal forces: outcomes by roll-off, and cells or "mdr"."""
     surfaces = {
-        (roll_off, cells): [case.surface_of(case.roughness(roll_off), i, cells, case.forces) for i in range(count)]
+        (roll_off, cells): case.surfaces_of(case.roughness(roll_off), cells, count)
         for roll_off in case.roll_offs
         for cells, count in ((case.cells, case.surfaces), (case.finer, case.refined))
     }
@@ -78,9 +76,8 @@ def run(case: MdrLimits, engine: Engine = SERIAL) -> Outcomes:
     return Outcomes(case, {**bem, **mdr}, unconverged)
 
 
-STIFFNESS, AREA, GAP, DEVIATION = "stiffness", "contact fraction", "mean gap", "relative deviation"
+STIFFNESS, AREA, GAP, ROLL_OFF = "stiffness", "contact fraction", "mean gap", "q_r L / 2π"
 EXPONENT = "exponent of the stiffness of the interface"
-ROLL_OFF, FORCE, OVER, FEW = "q_r L / 2π", "Fbar", "mdr over bem3d", "bem3d, few cells"
 JUDGED: Mapping[str, tuple[str, Statistic]] = {
     STIFFNESS: ("stiffness", log_mean),
     AREA: ("area", log_mean),
@@ -110,20 +107,16 @@ PROPORTIONAL = Margin(
 class RollOffSamples:
     """What was measured at one roll-off, resampled, by method and quantity.
 
-    grids: by quantity, on cells and on cells half as wide, shape (surfaces, 2, levels).
+    grids: by quantity, on cells and on cells half as wide, a row a surface and a column a level.
     """
 
     roll_off: int
     by_method: Mapping[tuple[str, str], Sample]
-    grids: Mapping[str, FloatArray]
+    grids: Mapping[str, tuple[FloatArray, FloatArray]]
 
     def finer(self, measured: str, statistic: Statistic) -> Estimates:
-        """The changes to cells half as wide; by the jackknife, since the surfaces are few."""
-
-        def of_grid(pairs: FloatArray, grid: int) -> FloatArray:
-            return statistic(pairs[:, grid].mean(axis=0), pairs[:, grid].std(axis=0, ddof=1))
-
-        return Estimates(jackknifed(lambda pairs: of_grid(pairs, 1) - of_grid(pairs, 0), self.grids[measured]))
+        """The changes to cells half as wide."""
+        return change(statistic, *self.grids[measured])
 
     def there(self, method: str, measured: str) -> np.ndarray:
         """Levels at which a method has it: in full contact there is no gap."""
@@ -131,16 +124,15 @@ class RollOffSamples:
 
 
 def resampled(result: Outcomes, roll_off: int) -> RollOffSamples:
-    case = result.case
-    outcomes: dict[str, Outcome] = {BEM: result[roll_off, case.cells], MDR: result[roll_off, MDR]}
-    by_method, grids = {}, {}
+    case, by_method, grids = result.case, {}, {}
     for i, measured in enumerate(MEASURED):
-        for j, (method, outcome) in enumerate(outcomes.items()):
-            # the gap of full contact is rounding
-            values = np.maximum(outcome[measured], ZERO_GAP)
+        # the gap of full contact is rounding
+        coarse, fine, springs = (
+            np.maximum(result[roll_off, which][measured], ZERO_GAP) for which in (case.cells, case.finer, MDR)
+        )
+        for j, (method, values) in enumerate({BEM: coarse, MDR: springs}.items()):
             by_method[method, measured] = sample(values, random_generator(case.seed, BOOTSTRAP, roll_off, i, j))
-        coarse, fine = outcomes[BEM][measured][: case.refined], result[roll_off, case.finer][measured]
-        grids[measured] = np.stack([np.maximum(coarse, ZERO_GAP), np.maximum(fine, ZERO_GAP)], axis=1)
+        grids[measured] = coarse, fine
     return RollOffSamples(roll_off, by_method, grids)
 
 
@@ -167,46 +159,23 @@ def over_bem(case: MdrLimits, mine: RollOffSamples, quantity: str) -> Series:
     measured, statistic = JUDGED[quantity]
     bem, springs = (Estimates(mine.by_method[method, measured].by_level(statistic)) for method in METHODS)
     on_no_size, grid = zip(*map(extrapolated, bem, mine.finer(measured, statistic)), strict=True)
-    return Series(
-        quantity,
-        OVER,
-        masked(springs - Estimates(on_no_size), mine.there(MDR, measured)),
-        where={ROLL_OFF: mine.roll_off},
-        along=FORCE,
-        at=case.forces,
-        grid=grid,
-        scale=DECIBEL,
-        unit="dB",
-        margin=NEAR,
-        ranges=case.by_decade,
-        fewest=2,
-        family=_family(case),
-    )
-
-
-def _family(case: MdrLimits) -> int:
-    """Numbers of a claim, whose intervals hold at once: decades and roll-offs, of area and gap."""
-    return 2 * len(case.first_forces) * len(case.roll_offs)
+    found = masked(springs - Estimates(on_no_size), mine.there(MDR, measured))
+    where, family = {ROLL_OFF: mine.roll_off}, case.family(len(case.roll_offs))
+    return case.in_decibels(quantity, OVER, found, where=where, grid=grid, margin=NEAR, fewest=2, family=family)
 
 
 def _exponents(case: MdrLimits, mine: RollOffSamples, layers: Mapping[str, Layer]) -> Iterator[Series]:
     """d ln kappa / d ln F over each decade; no number where the punch is as stiff as the flat one."""
+    family = case.family(len(case.roll_offs))
+    judged = partial(Series, EXPONENT, reference=1.0, margin=PROPORTIONAL, family=family)
     for first in case.first_forces if mine.roll_off >= MIN_ROLL_OFF else ():
         for method in METHODS:
             slope = weighted_mean(decade_slope(case.forces, first), layers[method].statistic)
             found, grid = mine.by_method[method, "stiffness"].estimate(slope), 0.0
             if method == BEM:
                 found, grid = extrapolated(found, *mine.finer("stiffness", slope))
-            yield Series(
-                EXPONENT,
-                method,
-                (found,),
-                where={ROLL_OFF: mine.roll_off, FORCE: (first, 10 * first)},
-                reference=1.0,
-                grid=(grid,),
-                margin=PROPORTIONAL,
-                family=_family(case),
-            )
+            where: Where = {ROLL_OFF: mine.roll_off, FORCE: (first, 10 * first)}
+            yield judged(method, (found,), where=where, grid=(grid,))
 
 
 def _shown(case: MdrLimits, mine: RollOffSamples, layers: Mapping[str, Layer]) -> Iterator[Series]:
@@ -239,18 +208,16 @@ def persson_fractions(case: MdrLimits, gradient: FloatArray) -> FloatArray:
 
 def _work(result: Outcomes) -> tuple[Table]:
     case = result.case
-    return (Worked.of(case.cells, case.points, [result[roll_off, case.cells] for roll_off in case.roll_offs]).table,)
+    return (worked(case.cells, case.points, [result[roll_off, case.cells] for roll_off in case.roll_offs]),)
 
 
-def _curves(quantity: str) -> tuple[Curve, ...]:
-    by = ("model", ROLL_OFF)
-    return (
-        Curve(quantity, BEM, "marks", by=by, bars=True),
-        Curve(quantity, FEW, "open marks", "_", by=by, bars=True),
-        Curve(quantity, MDR, "lines", by=by, band=True),
-    )
+def _panel(quantity: str, title: str, *more: Curve, ylim: Bounds | None = None) -> Panel:
+    of = partial(Curve, quantity, by=("model", ROLL_OFF))
+    bem = of(BEM, "marks", bars=True), of(FEW, "open marks", "_", bars=True)
+    return Panel(FORCE, quantity, (*bem, of(MDR, "lines", band=True), *more), title, log="xy", ylim=ylim)
 
 
+of_ratios = partial(Claim, printed=times)
 STUDY = Study(
     title="Where MDR must fail: contact area, mean gap, roughness with a roll-off",
     method=(
@@ -265,21 +232,19 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(
+        of_ratios(
             says="MDR has neither the true contact area nor the mean gap of a rough punch.",
             short="MDR's contact area and mean gap beside those of boundary elements",
             quantity=(AREA, GAP),
             differ=True,
-            printed=times,
         ),
-        Claim(
+        of_ratios(
             says="MDR has the stiffness of roughness with a roll-off.",
             short="its stiffness with a roll-off over theirs",
             quantity=STIFFNESS,
             where={ROLL_OFF: lambda waves: waves != 1},
-            printed=times,
         ),
-        Claim(says="MDR has the relative deviation of the stiffness.", quantity=DEVIATION, printed=times),
+        of_ratios(says="MDR has the relative deviation of the stiffness.", quantity=DEVIATION),
         *(
             Claim(
                 says=f"With a roll-off the stiffness of the rough interface is proportional to the load, by {method}.",
@@ -297,16 +262,10 @@ STUDY = Study(
             "erf(√2 p / (E* g)), g the rms gradient. (b) Mean gap over h. (c) Stiffness of the interface alone over "
             "the force. (d) Relative deviation of the stiffness.",
             (
-                Panel(
-                    FORCE,
-                    FRACTION,
-                    (*_curves(FRACTION), Curve(FRACTION, PERSSON, "dotted", PERSSON, by=(ROLL_OFF,))),
-                    "contact fraction",
-                    log="xy",
-                ),
-                Panel(FORCE, GAP_OVER_H, _curves(GAP_OVER_H), "mean gap", log="xy", ylim=(0.02, None)),
-                Panel(FORCE, INTERFACE, _curves(INTERFACE), "interface: constant if k ~ F", log="xy"),
-                Panel(FORCE, SCATTER, _curves(SCATTER), "fluctuation of the punch", log="xy"),
+                _panel(FRACTION, "contact fraction", Curve(FRACTION, PERSSON, "dotted", PERSSON, by=(ROLL_OFF,))),
+                _panel(GAP_OVER_H, "mean gap", ylim=(0.02, None)),
+                _panel(INTERFACE, "interface: constant if k ~ F"),
+                _panel(SCATTER, "fluctuation of the punch"),
             ),
             columns=2,
             height=7.0,

@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import product
 from typing import Literal
 
 import numpy as np
@@ -13,7 +14,6 @@ from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, per_cent
 from validation.analysis.series import Estimates, Margin, Series, Where
 from validation.analysis.statistics import (
-    DECIBEL,
     THREE_PER_CENT,
     Sample,
     at_level,
@@ -25,7 +25,7 @@ from validation.analysis.statistics import (
     sample,
 )
 from validation.analysis.study import Outcomes, Study
-from validation.cases.punch.ensembles import PunchEnsembles, press
+from validation.cases.punch.ensembles import FORCE, OVER, PunchEnsembles, press
 from validation.engine.engine import SERIAL, Engine
 from validation.engine.random_numbers import random_generator
 from validation.selection import model_needed
@@ -59,10 +59,7 @@ class Normalisation(PunchEnsembles):
 def run(case: Normalisation, engine: Engine = SERIAL) -> Outcomes:
     """Press all of them with both methods: outcomes by Hurst exponent, variant and method."""
     ways = {(hurst, variant): case.roughness(hurst, variant) for hurst in case.hursts for variant in VARIANTS}
-    surfaces = {
-        way: [case.surface_of(roughness, i, case.cells, case.forces) for i in range(case.surfaces)]
-        for way, roughness in ways.items()
-    }
+    surfaces = {way: case.surfaces_of(roughness, case.cells, case.surfaces) for way, roughness in ways.items()}
     profiles = {way: case.profiles_of(roughness, case.points) for way, roughness in ways.items()}
     bem, mdr, unconverged = press(engine, surfaces, profiles)
     outcomes = {(*way, method): found[way] for way in ways for method, found in ((BEM, bem), (MDR, mdr))}
@@ -88,7 +85,7 @@ def scatter(case: Normalisation, hurst: float, method: str) -> float:
 
 PAIRS = 4
 """The spawn key of the bootstrap of pairs."""
-FORCE, WAY, FIRST = "Fbar", "drawn with", "Fbar, first of a decade"
+WAY, FIRST = "drawn with", "Fbar, first of a decade"
 DEVIATION, OVER_DECADE = "relative deviation of k", "relative deviation of k over a decade"
 OF_MDR = "relative deviation of k over a decade, MDR over boundary elements"
 SQUARE, SPREAD = "mean of h² over h0²", "relative deviation of h²"
@@ -113,27 +110,17 @@ def series(result: Outcomes) -> list[Series]:
 def _changes(result: Outcomes, samples: Mapping[tuple[float, str, str], Sample]) -> Iterator[Series]:
     """At the worst force of each decade; the two Gaussian ways on the same draws, resampled as pairs."""
     case = result.case
-    change = partial(
-        Series,
-        along=FORCE,
-        at=case.forces,
-        scale=DECIBEL,
-        unit="dB",
-        margin=NO_CHANGE,
-        ranges=case.by_decade,
-        # the intervals of a change hold at once everywhere
-        family=len(case.first_forces) * len(case.hursts) * len(METHODS),
-    )
-    for h, hurst in enumerate(case.hursts):
-        for m, method in enumerate(METHODS):
-            drawn = (samples[hurst, way, method] for way in (FIXED, EACH))
-            fixed, each = (Estimates(one.by_level(log_relative_deviation)) for one in drawn)
-            before, after = (result[hurst, way, method]["stiffness"] for way in (EACH, ENSEMBLE))
-            pairs = paired_samples(before, after, random_generator(case.seed, PAIRS, h, m))
-            levels = (at_level(level, log_relative_deviation) for level in range(len(case.forces)))
-            changed = [pairs.estimate(difference_of_halves(level)) for level in levels]
-            yield change(GAUSSIAN, method, each - fixed, where={"H": hurst})
-            yield change(OF_ENSEMBLE, method, changed, where={"H": hurst})
+    # the intervals of a change hold at once everywhere, of both methods
+    change = partial(case.in_decibels, margin=NO_CHANGE, family=case.family(len(case.hursts)))
+    for (h, hurst), (m, method) in product(enumerate(case.hursts), enumerate(METHODS)):
+        drawn = (samples[hurst, way, method] for way in (FIXED, EACH))
+        fixed, each = (Estimates(one.by_level(log_relative_deviation)) for one in drawn)
+        before, after = (result[hurst, way, method]["stiffness"] for way in (EACH, ENSEMBLE))
+        pairs = paired_samples(before, after, random_generator(case.seed, PAIRS, h, m))
+        levels = (at_level(level, log_relative_deviation) for level in range(len(case.forces)))
+        changed = [pairs.estimate(difference_of_halves(level)) for level in levels]
+        yield change(GAUSSIAN, method, each - fixed, where={"H": hurst})
+        yield change(OF_ENSEMBLE, method, changed, where={"H": hurst})
 
 
 def _deviations(case: Normalisation, samples: Mapping[tuple[float, str, str], Sample]) -> Iterator[Series]:
@@ -150,7 +137,7 @@ def _deviations(case: Normalisation, samples: Mapping[tuple[float, str, str], Sa
                 yield Series(DEVIATION, method, values, where=key, along=FORCE, at=case.forces, shown=math.exp)
                 found[method] = Estimates(map(mine.estimate, decades))
                 yield by_decade(OVER_DECADE, method, found[method], where=key, shown=math.exp)
-            yield by_decade(OF_MDR, "mdr over bem3d", found[MDR] - found[BEM], where=key, shown=math.exp)
+            yield by_decade(OF_MDR, OVER, found[MDR] - found[BEM], where=key, shown=math.exp)
 
 
 def _heights(result: Outcomes) -> Iterator[Series]:
@@ -167,6 +154,13 @@ def _heights(result: Outcomes) -> Iterator[Series]:
                 yield by_hurst(SPREAD, f"{method}, expected", expected)
 
 
+def _panel(way: str) -> Panel:
+    of = partial(Curve, DEVIATION, of={WAY: way})
+    both = of(BEM, "bem", "boundary elements", bars=True), of(MDR, "mdr line", "MDR, L_1D = L", band=True)
+    return Panel(FORCE, f"{way}\n{DEVIATION}", both, facet="H", ylim=(0, None))
+
+
+of_ratios = partial(Claim, printed=per_cent)
 STUDY = Study(
     title="Normalisation: how fluctuations depend on the way heights are drawn",
     method=(
@@ -181,19 +175,15 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(
+        of_ratios(
             says="Gaussian amplitudes in place of fixed ones leave the relative deviation of the stiffness as it is.",
             short="Fluctuation with Gaussian amplitudes over fixed ones",
             quantity=GAUSSIAN,
-            printed=per_cent,
         ),
-        Claim(
-            says=(
-                "The rms height of the ensemble in place of that of each draw leaves the relative deviation as it is."
-            ),
+        of_ratios(
+            says="The rms height of the ensemble in place of that of each draw leaves the relative deviation as it is.",
             short="with heights of the ensemble over those of each draw",
             quantity=OF_ENSEMBLE,
-            printed=per_cent,
         ),
     ),
     charts=(
@@ -201,19 +191,7 @@ STUDY = Study(
             "normalisation",
             "Relative standard deviation of the stiffness, a row for each way to draw; 95 % intervals. Circles: "
             "boundary elements; line in a band: MDR. The first row is drawn like Fig. 14.1.",
-            tuple(
-                Panel(
-                    FORCE,
-                    f"{way}\n{DEVIATION}",
-                    (
-                        Curve(DEVIATION, BEM, "bem", "boundary elements", of={WAY: way}, bars=True),
-                        Curve(DEVIATION, MDR, "mdr line", "MDR, L_1D = L", of={WAY: way}, band=True),
-                    ),
-                    facet="H",
-                    ylim=(0, None),
-                )
-                for way in VARIANTS
-            ),
+            tuple(map(_panel, VARIANTS)),
             claims=(0, 1),
             columns=3,
             sharey=True,

@@ -1,51 +1,31 @@
 """What a punch costs, counted: operator applications of boundary elements, springs of the 1D model."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
+from operator import attrgetter
 from statistics import mean
 
 import numpy as np
 
 from validation.analysis.evidence import Table
-from validation.analysis.multilevel import Linearised, Moments, moments, multilevel_moments, on_no_size
+from validation.analysis.multilevel import Linearised, moments, multilevel_moments, on_no_size
 from validation.analysis.statistics import FloatArray
 from validation.cases.punch.ensembles import DEVIATION, MEAN
 from validation.engine.engine import Outcome
 
-WORK = "work"
+WORK, CELLS, SPRINGS = "work", "cells on a side", "springs of a profile"
+APPLICATIONS = "operator applications a load"
+LOGARITHMS = {MEAN: attrgetter("log_mean"), DEVIATION: attrgetter("log_relative_deviation")}
 
 
-@dataclass(frozen=True)
-class Worked:
-    """cells: on a side of the usual grid; springs: of a profile; applications: a contact with its stiffness."""
+def worked(cells: int, springs: int, outcomes: Iterable[Outcome]) -> Table:
+    """A contact with its stiffness on so many cells a side: the mean over loads, each the mean of what it took.
 
-    cells: int
-    springs: int
-    applications: float
-
-    @classmethod
-    def of(cls, cells: int, springs: int, outcomes: Iterable[Outcome]) -> "Worked":
-        """The mean over the loads, each the mean of what was found under it: light loads have more surfaces.
-
-        outcomes: a row a surface and a column a load, NaN where a surface was not pressed.
-        """
-        found = [outcome["applications"] + outcome["frozen applications"] for outcome in outcomes]
-        by_load = [np.nanmean(values, axis=0) for values in found]
-        return cls(cells, springs, float(np.nanmean(np.concatenate(by_load))))
-
-    @classmethod
-    def read(cls, table: Table) -> "Worked":
-        return cls(*(table[name][0].item() for name in cls._columns()))
-
-    @property
-    def table(self) -> Table:
-        values = (self.cells, self.springs, self.applications)
-        return Table(WORK, {name: [value] for name, value in zip(self._columns(), values, strict=True)})
-
-    @staticmethod
-    def _columns() -> tuple[str, ...]:
-        return "cells on a side", "springs of a profile", "operator applications a load"
+    outcomes: a row a surface and a column a load, NaN where a surface was not pressed: light loads have more.
+    """
+    found = [outcome["applications"] + outcome["frozen applications"] for outcome in outcomes]
+    mean_of_loads = float(np.nanmean(np.concatenate([np.nanmean(values, axis=0) for values in found])))
+    return Table(WORK, {CELLS: [cells], SPRINGS: [springs], APPLICATIONS: [mean_of_loads]})
 
 
 OnGrids = Mapping[int, FloatArray]
@@ -102,16 +82,13 @@ def _steps(stiffness: OnGrids) -> dict[int, float]:
 
 def _plain(values: FloatArray, known: FloatArray, name: str = DEVIATION) -> Linearised:
     """Of plain sampling, over the realisations that are known on a grid."""
-    return _logarithm(moments(values, np.isfinite(known) & np.isfinite(values)), name)
-
-
-def _logarithm(found: Moments, name: str) -> Linearised:
-    return found.log_mean if name == MEAN else found.log_relative_deviation
+    found: Linearised = LOGARITHMS[name](moments(values, np.isfinite(known) & np.isfinite(values)))
+    return found
 
 
 def _plain_surfaces(stiffness: OnGrids, name: str) -> float:
     """How many plain sampling needs, on_no_size from the two finest grids alike, for the error of all grids."""
     middle, fine = list(stiffness.values())[-2:]
     plain = 2.0 * _plain(fine, fine, name) - _plain(middle, fine, name)
-    multilevel = on_no_size([_logarithm(one, name) for one in multilevel_moments(list(stiffness.values()))])
+    multilevel = on_no_size([LOGARITHMS[name](one) for one in multilevel_moments(list(stiffness.values()))])
     return float(np.isfinite(fine).sum() * (plain.error / multilevel.value.error) ** 2)

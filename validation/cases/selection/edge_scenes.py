@@ -16,6 +16,7 @@ from validation.scenes.rail import Across, RailScene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.scenes.roughness_levels import MOST, RoughnessLevels
+from validation.selection.calibrate import QUANTITIES
 from validation.simulation.surface import draw_surface
 from validation.theory.closed_forms import hertz_force
 
@@ -26,16 +27,10 @@ PUNCH, SPHERE, ROLLING, WHEEL, RAIL = "punch", "sphere", "rolling", "wheel", "ra
 MEASURED = "measured "
 """Before the name of a body: one surface of points, no two of the same texture after each other."""
 EDGE_KINDS = (*(start + body for start in ("", MEASURED) for body in (PUNCH, SPHERE, ROLLING, WHEEL)), RAIL)
-QUANTITIES = {
-    PUNCH: ("stiffness",),
-    SPHERE: ("stiffness",),
-    ROLLING: ("force-spectrum", "force-rms"),
-    WHEEL: ("acceleration", "acceleration-rms"),
-    RAIL: ("contact-filter",),
-}
+EDGE_QUANTITIES = {**QUANTITIES, ROLLING: QUANTITIES[ROLLING][::-1], RAIL: ("contact-filter",)}
 LOADS = (-6.0, 2.0)
 """lg of F / (E* h L) of punches."""
-SPHERE_HEIGHTS, ROLLING_HEIGHTS, WHEEL_HEIGHTS = (-2.5, 1.0), (-2.5, 0.3), (-2.5, -0.3)
+HEIGHTS = {SPHERE: (-2.5, 1.0), ROLLING: (-2.5, 0.3), WHEEL: (-2.5, -0.3)}
 """lg of h / d."""
 HURSTS = (0.2, 1.2)
 WAVES_ON_A_SIDE = (1, 2, 4, 8, 16, 32)
@@ -60,8 +55,8 @@ def edge_scene(kind: str, number: int, seed: int) -> tuple[Scene, str]:
     """A scene of one of `EDGE_KINDS` and a quantity of it; the same for the same numbers."""
     rng = random_generator(seed, EDGE_KINDS.index(kind), number)
     body, name = kind.removeprefix(MEASURED), f"{kind} {number}"
-    draw_face = _texture(number) if kind.startswith(MEASURED) else None
-    quantity = QUANTITIES[body][number // 2 % len(QUANTITIES[body])]
+    draw_face = TEXTURES[number % len(TEXTURES)] if kind.startswith(MEASURED) else None
+    quantity = EDGE_QUANTITIES[body][number // 2 % len(EDGE_QUANTITIES[body])]
     if body == RAIL:
         return edge_rail(rng, name), quantity
     make = _punch if body == PUNCH else _round
@@ -85,9 +80,8 @@ def _round(rng: Generator, body: str, name: str, draw_face: "Face | None") -> Sc
     modulus, radius = 10 ** rng.uniform(6, 11.5), 10 ** rng.uniform(-3, 0)
     approach = radius * 10 ** rng.uniform(-5, -3.5)
     a = math.sqrt(radius * approach)
-    heights = {SPHERE: SPHERE_HEIGHTS, ROLLING: ROLLING_HEIGHTS, WHEEL: WHEEL_HEIGHTS}[body]
     longest = a * _log_uniform(rng, LONGEST)
-    band = _band(rng, approach * 10 ** rng.uniform(*heights), longest)
+    band = _band(rng, approach * 10 ** rng.uniform(*HEIGHTS[body]), longest)
     settings: dict[str, Any] = {"name": name, "modulus": modulus, "ground": band}
     settings["load"] = hertz_force(radius=radius, modulus=modulus, approach=approach)
     if draw_face:
@@ -216,7 +210,3 @@ def pits(height: FloatArray, rng: Generator) -> FloatArray:
 
 
 TEXTURES: tuple[Face, ...] = (gaussian_face, ridges, honed, log_normal, outliers, pits)
-
-
-def _texture(number: int) -> Face:
-    return TEXTURES[number % len(TEXTURES)]

@@ -13,12 +13,14 @@ import numpy as np
 
 from validation.analysis.study import Outcomes
 from validation.cases.selection.edge_scenes import MEASURED, PUNCH, RAIL, ROLLING, SPHERE, WHEEL, edge_scene
-from validation.cases.selection.random_scenes import KINDS, QUANTITIES_BY_KIND, random_scene
+from validation.cases.selection.random_scenes import KINDS, random_scene
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.measured import MeasuredHeights
+from validation.scenes.rail import RailScene
+from validation.selection.calibrate import OTHER_SEED, QUANTITIES
 from validation.selection.hierarchy import select_model, try_to_solve
 from validation.selection.quantities import models_of
 from validation.selection.scene_model import SceneModel, Shared
@@ -27,8 +29,6 @@ from validation.simulation.rail_models import RailModel, relative
 from validation.simulation.rail_quantity import COUNTED
 from validation.simulation.sampling import distance
 
-OTHER_SEED = 1_000_003
-"""Added to the seed of the tested models: the reference has surfaces of its own."""
 REFERENCE_TOLERANCE = 0.05
 FACES, TRACKS = (MEASURED + PUNCH, MEASURED + SPHERE), (MEASURED + ROLLING, MEASURED + WHEEL)
 PARTS = 4
@@ -103,14 +103,22 @@ class CalibrationTrial:
     seed: int
 
     @property
+    def drawn(self) -> tuple[Scene, str]:
+        """The scene, and one of the quantities of its kind, one scene after the other."""
+        quantities = QUANTITIES[self.kind]
+        return random_scene(self.kind, self.number, self.seed), quantities[self.number % len(quantities)]
+
+    @property
+    def scene(self) -> Scene:
+        return self.drawn[0]
+
+    @property
     def quantity(self) -> str:
-        """The quantities of the kind, one scene after the other."""
-        return QUANTITIES_BY_KIND[self.kind][self.number % len(QUANTITIES_BY_KIND[self.kind])]
+        return self.drawn[1]
 
     def models(self, tolerance: float, seed: int = 0) -> Sequence[SceneModel]:
         """All models of the scene; seed: added to that of the trial."""
-        scene = random_scene(self.kind, self.number, self.seed)
-        return models_of(scene, self.quantity, tolerance, self.seed + seed)
+        return models_of(*self.drawn, tolerance, self.seed + seed)
 
 
 def run(case: CalibrationTest, engine: Engine = SERIAL) -> Outcomes:
@@ -140,15 +148,18 @@ def calibrate(trial: CalibrationTrial) -> Outcome:
     rows = np.array([_selected(trial, tolerance, reference.value, slower) for tolerance in trial.tolerances])
     models = trial.models(EVERY_TOLERANCE)
     every = np.array([_solved(models, kind, reference.value) for kind in CHEAP])
-    scene = random_scene(trial.kind, trial.number, trial.seed)
-    punch = isinstance(scene, IndentationScene) and scene.shape == "punch"
+    scene, height, load = trial.scene, math.nan, math.nan
+    if isinstance(scene, IndentationScene) and scene.shape == "punch":
+        load = scene.reduced_load
+    elif not isinstance(scene, RailScene):
+        height = scene.roughness_ratio
     return {
         "reference": np.array(math.nan if reference.failed else reference.error),
         **dict(zip(("model", "estimated", "true", "spent", "fine", "met"), rows.T, strict=True)),
         "every estimated": every[:, 0],
         "every true": every[:, 1],
-        "height": np.array(math.nan if punch else scene.roughness_ratio),
-        "load": np.array(scene.reduced_load if isinstance(scene, IndentationScene) and punch else math.nan),
+        "height": np.array(height),
+        "load": np.array(load),
         "failed": np.array(float(bool(reference.failed))),
     }
 
@@ -185,26 +196,12 @@ def _solved(models: Sequence[SceneModel], kind: str, truth: np.ndarray) -> tuple
 # --- at the edges ---
 
 
-@dataclass(frozen=True, kw_only=True)
-class EdgeTrial:
-    """One scene of `EDGE_KINDS`: one reference, and a selection at each tolerance."""
-
-    kind: str
-    number: int
-    tolerances: tuple[float, ...]
-    seed: int
+class EdgeTrial(CalibrationTrial):
+    """One scene of `EDGE_KINDS`."""
 
     @property
-    def quantity(self) -> str:
-        return edge_scene(self.kind, self.number, self.seed)[1]
-
-    @property
-    def scene(self) -> Scene:
-        return edge_scene(self.kind, self.number, self.seed)[0]
-
-    def models(self, tolerance: float) -> Sequence[SceneModel]:
-        """All models of the scene."""
-        return models_of(self.scene, self.quantity, tolerance, self.seed)
+    def drawn(self) -> tuple[Scene, str]:
+        return edge_scene(self.kind, self.number, self.seed)
 
     def sharing(self, tolerance: float, solved: Shared) -> Sequence[SceneModel]:
         """The same, whose grids have what was solved on them at other tolerances: the same realisations."""
@@ -216,18 +213,21 @@ class EdgeTrial:
     def reference(self) -> SceneModel:
         """Boundary elements on the finest grid that is offered; of measured faces with their points split."""
         scene = split(self.scene) if self.kind in FACES else self.scene
-        models = models_of(scene, self.quantity, REFERENCE_TOLERANCE, self.seed + OTHER_SEED)
-        return [model for model in models if model.kind == GridModel.name][-1]
+        return finest_grid(models_of(scene, self.quantity, REFERENCE_TOLERANCE, self.seed + OTHER_SEED))
 
     @property
     def offered(self) -> SceneModel:
         """Boundary elements on the finest grid of the scene itself."""
-        return [model for model in self.models(REFERENCE_TOLERANCE) if model.kind == GridModel.name][-1]
+        return finest_grid(self.models(REFERENCE_TOLERANCE))
 
     @property
     def is_own_reference(self) -> bool:
         """Whether boundary elements on the finest grid are the reference itself: no seed draws a track anew."""
         return self.kind in TRACKS
+
+
+def finest_grid(models: Sequence[SceneModel]) -> SceneModel:
+    return [model for model in models if model.kind == GridModel.name][-1]
 
 
 def split(scene: Scene) -> IndentationScene:

@@ -8,16 +8,10 @@ from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
+from validation.selection.calibrate import QUANTITIES
 from validation.theory.closed_forms import hertz_force
 
-KINDS = ("punch", "sphere", "rolling", "wheel")
-QUANTITIES_BY_KIND = {
-    "punch": ("stiffness",),
-    "sphere": ("stiffness",),
-    "rolling": ("force-rms", "force-spectrum"),
-    "wheel": ("acceleration", "acceleration-rms"),
-}
-"""Of each kind, one scene after the other."""
+KINDS = tuple(QUANTITIES)
 RANGES = (
     "Hurst exponent 0.3 to 1, h/d from 0.003 to 1, F / (E* h L) from 0.003 to 30, q a of the longest wave from 0.5 to "
     "2, the shortest three to ten times shorter, of punches up to three of the longest waves on a side"

@@ -111,10 +111,8 @@ OMEGA_DT, RELEASE, HEIGHT, WIDTH = "omega dt", "released at [d_N]", "height [d_N
 PERIOD, CHANGE, STEP = "error of the period", "change in a turn", "growth of a step"
 GROWTH = "largest error of ln(growth in one step), on both sides of the limit"
 LINEAR, HERTZ = "linear contact", "Hertz contact"
-LIMIT, HALVES = (
-    "period over 2 pi / omega, extrapolated to dt = 0",
-    "largest change of energy, second half over first half",
-)
+LIMIT = "period over 2 pi / omega, extrapolated to dt = 0"
+HALVES = "largest change of energy, second half over first half"
 SUM = "level of the last one-third octave over the sum over springs, at the least likely spacing"
 EULERS, LOWEST = "ln(growth of the energy) over n ln(1 + (omega dt)^2)", "lowest force over F_N, if negative"
 IMBALANCE = "imbalance of impulse and momentum over F_N T, largest of all loads and heights"
@@ -161,19 +159,15 @@ def linear_vibration(name: str, x: FloatArray, found: Outcome) -> Iterator[Serie
         yield Series(quantity, name, steps[kept], along=OMEGA_DT, at=x[kept])
         yield Series(quantity, f"theory of {name}", theory[kept], along=OMEGA_DT, at=x[kept])
     one = partial(single, model=name, where={"contact": LINEAR})
-    growth = np.abs(np.log(found["growth"] / np.abs(exact))).max()
+    growth, source = np.abs(np.log(found["growth"] / np.abs(exact))).max(), "eigenvalue of one step of y'' = -omega^2 y"
     for quantity, largest in ((GROWTH, growth), (ANGLE, turned[below].max())):
-        source = "eigenvalue of one step of y'' = -omega^2 y"
         yield one(quantity, value=largest, within=ROUNDING, of=source, reason="both are exact; rounding remains")
     for quantity, error, order in zip((PERIOD, CHANGE), (period, found["change"]), ORDERS[name], strict=True):
         slope = math.log(error[1] / error[0]) / math.log(x[1] / x[0])
         within, source = 10 * x[1] + 2 * ROUNDING, "leading term in omega dt of the eigenvalue of one step"
         reason = "higher terms, and a period that is no whole number of steps: both of the order of omega dt"
         yield one(f"order of the {quantity}", value=slope, within=within, of=source, reason=reason, reference=order)
-    within, source = (
-        max(10 * x[0] ** 2, 1e-4 if name == KUTTA else 0.0),
-        "the conserved quantity of the scheme, or |lambda|^2",
-    )
+    within, source = max(10 * x[0] ** 2, 1e-4 * (name == KUTTA)), "the conserved quantity of the scheme, or |lambda|^2"
     reason = (
         "the extremes may lie between steps, (omega dt)^2; for Runge-Kutta the change is so small that rounding shows"
     )
@@ -273,19 +267,17 @@ def coarse_springs(spacing: Mapping[float, Sequence[Outcome]]) -> Iterator[Serie
     """Means over the tracks; no level where the springs cannot carry the last band. Judged on the lowest roughness."""
     strides = np.array(STRIDES)
     for height, found in spacing.items():
-        error, level, linear, spread = (
-            np.stack([o[key] for o in found]) for key in ("error", "level", "linear", "spread")
-        )
-        carried = level.mean(axis=0) > 0
+        level, linear, spread = (np.mean([o[key] for o in found], axis=0) for key in ("level", "linear", "spread"))
+        carried = level > 0
         of = partial(Series, where={HEIGHT: height}, along=WIDTH, at=2 * math.pi * strides / FINE)
         decibels, by_theory, left = (
             POWER_DECIBEL * np.log(np.where(carried, x, math.nan))
-            for x in (level.mean(axis=0), linear.mean(axis=0), 1 + spread.mean(axis=0) / math.sqrt(len(found)))
+            for x in (level, linear, 1 + spread / math.sqrt(len(found)))
         )
         left_open = [Estimate(*pair, CERTAIN) for pair in zip(decibels.tolist(), left.tolist(), strict=True)]
         yield of(OCTAVE + " [dB]", "springs", found=left_open)
         yield of(OCTAVE + " [dB]", THEORY, found=by_theory)
-        yield of(SPACED, "springs", found=np.sqrt(np.mean(error**2, axis=0)))
+        yield of(SPACED, "springs", found=np.sqrt(np.mean([o["error"] ** 2 for o in found], axis=0)))
         if height > min(spacing):
             continue
         off = decibels - by_theory

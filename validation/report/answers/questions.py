@@ -7,10 +7,9 @@ from functools import partial
 
 from validation.analysis.evidence import Evidence
 from validation.analysis.statistics import DECIBEL
-from validation.cases.punch import bandwidth
+from validation.cases.punch import bandwidth, work
 from validation.cases.punch import ensembles as punch
 from validation.cases.punch import mdr_limits as limits
-from validation.cases.punch.work import WORK, Worked
 from validation.cases.rail import rail_dynamic, rolled_filters, rough_rail
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import reduced_models as reduced
@@ -72,10 +71,11 @@ class Question:
 
 def worked(evidence: Evidence) -> str:
     """A contact on boundary elements, beside the springs."""
-    work = Worked.read(evidence.table(WORK))
+    table = evidence.table(work.WORK)
+    applications, cells, springs = (table[name][0] for name in (work.APPLICATIONS, work.CELLS, work.SPRINGS))
     return (
-        f"{work.applications:.0f} applications of the operator to {work.cells}² cells a surface and load; springs: "
-        f"one sort of {work.springs} for all loads"
+        f"{applications:.0f} applications of the operator to {cells}² cells a surface and load; springs: one sort of "
+        f"{springs} for all loads"
     )
 
 
@@ -86,8 +86,8 @@ def times_springs(model: str, evidence: Evidence) -> str:
 
 
 def steps(evidence: Evidence) -> str:
-    work = evidence.table(WHEEL)
-    applications, cells = (work[name][0] for name in (APPLICATIONS, "cells to a contact radius"))
+    table = evidence.table(WHEEL)
+    applications, cells = (table[name][0] for name in (APPLICATIONS, "cells to a contact radius"))
     return f"{applications:.0f} applications of the operator in each time step, {cells:.0f} cells to a contact radius"
 
 
@@ -100,9 +100,9 @@ INTEGRAL, BY_FORMULA, OF_SPRINGS = "an integral over the spectrum", "a formula",
 LINEAR_3D, EQUIVALENT = "linear theory in 3D", "springs, rolling-equivalent spectrum"
 FIT = partial(Alternative, "the fit 1/kbar = 1/1.1523 + 0.48/Fbar", cost=BY_FORMULA)
 PRESSED = partial(Alternative, BEM, None, worked)
-over_force = partial(Source, axis=limits.FORCE, over=limits.FORCE)
-of_punch = partial(over_force, case="fractal_punch", model=limits.OVER, where={"H": float}, series=("H",))
-of_limits = partial(over_force, case="mdr_limits", model=limits.OVER, series=(limits.ROLL_OFF,))
+over_force = partial(Source, axis=punch.FORCE, over=punch.FORCE)
+of_punch = partial(over_force, case="fractal_punch", model=punch.OVER, where={"H": float}, series=("H",))
+of_limits = partial(over_force, case="mdr_limits", model=punch.OVER, series=(limits.ROLL_OFF,))
 of_fit = partial(
     over_force, case="bandwidth", series=bandwidth.KINDS, quantity=punch.MEAN + bandwidth.OF_BEM, model=bandwidth.FIT
 )
