@@ -3,9 +3,9 @@
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
@@ -13,16 +13,15 @@ from validation.analysis.claims import Claim, Matrix, decibels
 from validation.analysis.evidence import Role
 from validation.analysis.margins import FIELD
 from validation.analysis.series import Margin, Series, Where, only
+from validation.analysis.statistics import FloatArray
 from validation.analysis.study import Outcomes, Study
-from validation.cases.rail.filters import ACROSS, COUNTED, SPEEDS, counted, linear_filter, over_in_decibel_a, scene_of
-from validation.cases.rail.published import RailWheel
+from validation.cases.rail import filters
+from validation.cases.rail.filters import ACROSS, COUNTED, RailWheel, counted, scene_of
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine
 from validation.simulation.exact_contacts import APPROACH, PRESSURE, PublishedContact, press_ellipse
 from validation.simulation.model_names import LINEAR
 from validation.simulation.rail_strip import StatedAcross
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,9 +66,7 @@ OF_ELLIPSE = FIELD.beside("filter of the ellipse")
 
 
 def series(result: Outcomes) -> list[Series]:
-    case = result.case
-    crowns = [one for crown in case.crowns for one in _crown(case, crown)]
-    return [*_published(result), *crowns]
+    return [*_published(result), *(one for crown in result.case.crowns for one in _crown(result.case, crown))]
 
 
 def _published(result: Outcomes) -> Iterator[Series]:
@@ -92,18 +89,18 @@ def _crown(case: Ellipse, crown: float) -> Iterator[Series]:
         yield Series(SEMI_AXIS, axis, (value,), where={CROWN: 1000 * crown}, unit="mm")
     itself = math.isclose(1000 * crown, case.wheel.diameter / 2)
     margin = replace(OF_ELLIPSE, role=Role.IDENTITY) if itself else OF_ELLIPSE
-    at = np.round(1000 * scene.levels.bands.nominal, 2)
+    at = filters.millimetres(scene.levels.bands)
     for name, ground in ACROSS.items():
         where: Where = {CROWN: 1000 * crown, GROUND: name}
         ellipse, circle = circle_excess(case, crown, ground)
         keep, excess = counted(ellipse), circle - ellipse
-        for model, a3 in (("ellipse", ellipse), (CIRCLE, circle)):
-            yield Series(A3, model, a3, where=where, along=WAVE, at=at, unit="dB")
-        shown = np.where(keep, excess, np.nan)
-        yield Series(EXCESS, "", shown, where=where, along=WAVE, at=at, unit="dB", margin=margin, ranges=only(at, keep))
+        in_bands = partial(Series, where=where, along=WAVE, at=at, unit="dB")
+        yield in_bands(A3, "ellipse", ellipse)
+        yield in_bands(A3, CIRCLE, circle)
+        yield in_bands(EXCESS, "", np.where(keep, excess, np.nan), margin=margin, ranges=only(at, keep))
         yield Series(SHORT, "", excess[at == 16], where=where, unit="dB")
-        by_speed = over_in_decibel_a(scene, circle, ellipse)
-        yield Series(WEIGHTED, "", by_speed, where=where, along=SPEED, at=SPEEDS, unit="dB(A)", margin=margin)
+        weighted = partial(Series, WEIGHTED, "", where=where, along=SPEED, at=filters.SPEEDS, unit="dB(A)")
+        yield weighted(filters.over_in_decibel_a(scene, circle, ellipse), margin=margin)
 
 
 def circle_excess(case: Ellipse, crown: float, across: StatedAcross) -> tuple[FloatArray, FloatArray]:
@@ -111,9 +108,8 @@ def circle_excess(case: Ellipse, crown: float, across: StatedAcross) -> tuple[Fl
     scene = scene_of(case.wheel, crown=crown)
     contact = scene.contact
     radius = float(np.sqrt(contact.along * contact.across))
-    both = contact, replace(contact, along=radius, across=radius)
-    ellipse, circle = (linear_filter(scene, LINEAR, across, one) for one in both)
-    return ellipse, circle
+    circle = replace(contact, along=radius, across=radius)
+    return filters.linear_filter(scene, LINEAR, across), filters.linear_filter(scene, LINEAR, across, circle)
 
 
 STUDY = Study(

@@ -15,21 +15,14 @@ from validation.analysis.series import Estimates, Margin, Series, masked, only
 from validation.analysis.statistics import mean_estimate
 from validation.analysis.study import Study
 from validation.cases.rail import rolled_filters as rolled
-from validation.cases.rail.filters import COUNTED, counted
+from validation.cases.rail.filters import COUNTED, counted, millimetres
+from validation.simulation import model_names as named
 from validation.simulation.equivalent_displacement import AREA
-from validation.simulation.model_names import (
-    BEM,
-    LINEAR,
-    ONE_SIDED_BED,
-    SPRINGS_GEIKE,
-    SPRINGS_ON_LINE,
-    SPRINGS_ROLLING,
-    SPRINGS_THAT_READ,
-    twin_of,
-)
+from validation.simulation.model_names import BEM, LINEAR, twin_of
 from validation.simulation.rail_strip import SHORTEST, lost_contact_number, strip_bands
 
-MODELS = (LINEAR, SPRINGS_THAT_READ, ONE_SIDED_BED, SPRINGS_ON_LINE, SPRINGS_ROLLING, SPRINGS_GEIKE)
+SHOWN = (LINEAR, named.SPRINGS_THAT_READ, named.ONE_SIDED_BED)
+MODELS = (*SHOWN, named.SPRINGS_ON_LINE, named.SPRINGS_ROLLING, named.SPRINGS_GEIKE)
 OFFSET, WAVES, GROUND = "offset [dB]", "waves of h'", "isotropic ground"
 SHORT, LONG = "waves beyond the first zero", "bands that count"
 OF_BEM, LOST = "interval of A3 of boundary elements", "area in contact over that of the smooth wheel"
@@ -42,9 +35,8 @@ FULL_CONTACT = Margin(
 
 def series(result: rolled.RolledFiltersResult) -> list[Series]:
     """Filters, models over boundary elements, and the area in contact, roughness by roughness."""
-    return [
-        one for key in result.case.keys for one in (*result.filters(key), *_over_bem(result, key), _area(result, key))
-    ]
+    parts = ((*result.filters(key), *_over_bem(result, key), _area(result, key)) for key in result.case.keys)
+    return [one for part in parts for one in part]
 
 
 def _over_bem(result: rolled.RolledFiltersResult, key: rolled.Key) -> Iterator[Series]:
@@ -53,7 +45,7 @@ def _over_bem(result: rolled.RolledFiltersResult, key: rolled.Key) -> Iterator[S
     The two bands of the shortest waves are left out, where oblique waves are missing.
     """
     case, bem, keep = result.case, result.over_twin(key, BEM), counted(result.linear(key))
-    shown, at = rolled.in_bands(case, key), rolled.millimetres(strip_bands(case.scene(key)))
+    shown, at = rolled.in_bands(case, key), millimetres(strip_bands(case.scene(key)))
     whole = np.arange(at.size) < at.size - 2
     margin = FIELD.beside(f"boundary elements on the same {case.strips} strips")
     scatter = Estimates(replace(one, value=0.0) for one in bem)
@@ -88,7 +80,7 @@ def roughness(case: rolled.RolledFilters) -> Table:
     )
 
 
-SHOWN = (LINEAR, SPRINGS_THAT_READ, ONE_SIDED_BED)
+follow = partial(Claim, quantity=rolled.OVER_BEM, along=OFFSET)
 STUDY = Study(
     title="A rougher rail: where linear theory leaves boundary elements, and where springs do",
     method=(
@@ -101,29 +93,23 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(
+        follow(
             says="Linear theory of the ellipse follows boundary elements within 1 dB up to 20 dB over the limit of "
             "ISO 3095.",
             short="Linear theory of the ellipse",
-            quantity=rolled.OVER_BEM,
             model=LINEAR,
             where={"waves": LONG},
-            along=OFFSET,
         ),
-        Claim(
+        follow(
             says="It follows them within 1 dB at the waves beyond its first zero too.",
             short="linear theory beyond its first zero",
-            quantity=rolled.OVER_BEM,
             model=LINEAR,
             where={"waves": SHORT},
-            along=OFFSET,
         ),
-        Claim(
+        follow(
             says="Springs that read the surface follow boundary elements within 1 dB at all of these waves.",
             short="springs that read the surface",
-            quantity=rolled.OVER_BEM,
-            model=SPRINGS_THAT_READ,
-            along=OFFSET,
+            model=named.SPRINGS_THAT_READ,
         ),
         Claim(
             says="At the limit of ISO 3095 the wheel keeps 95 % of the area of the smooth contact.",
