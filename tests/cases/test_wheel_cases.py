@@ -9,8 +9,8 @@ import pytest
 from tests.cases.planted import COARSE, DECIBEL, QUICK_3D, ROUNDING, SMALL, TABLE, changed, times, whole
 from validation.analysis.evidence import ClaimStatus, Verdict, number_with
 from validation.analysis.series import ENDS, spans
-from validation.cases.wheel import contrast, features, half_space, regions, spectrum
 from validation.cases.wheel import distance as by_distance
+from validation.cases.wheel import features, half_space, regions, spectrum
 from validation.cases.wheel.distance_study import CASE as DISTANCE_CASE
 from validation.cases.wheel.features import BREAK, FLOOR, JUMP, LEVEL, PEAK, PERIOD, PREDICTED, QUANTITIES, SLOPE
 from validation.cases.wheel.half_space_study import CASE as CASE_3D
@@ -282,26 +282,26 @@ def with_filled_zeros(share, lines=60):
 def test_the_contrast_is_that_of_filled_zeros(share):
     """(1 + e c) / (1 - e c), e = 1 - share; c = sin(pi / 12) / (pi / 12): the band is a twelfth of a period."""
     e = (1 - share) * math.sin(math.pi / 12) / (math.pi / 12)
-    found = np.exp(contrast.log_contrasts(*with_filled_zeros(share), TABLE))
+    found = np.exp(features.log_contrasts(*with_filled_zeros(share), TABLE))
     # five lines to a band in place of its integral
     assert found == pytest.approx(np.full(19, (1 + e) / (1 - e)), rel=0.1)
 
 
 def test_zeros_have_both_of_their_maxima_in_region_3():
-    period, zeros = TABLE.oscillation_period, contrast.zeros_of(TABLE)
+    period, zeros = TABLE.oscillation_period, features.zeros_of(TABLE)
     assert TABLE.jump < (zeros[0] - 0.5) * period and TABLE.cutoff > (zeros[-1] + 0.5) * period
     narrow = replace(TABLE, rail=replace(TABLE.rail, longest=2e-3, shortest=1.5e-3))
-    assert contrast.zeros_of(narrow).size == 0
+    assert features.zeros_of(narrow).size == 0
 
 
 def test_an_oscillation_that_dies_is_noticed():
     """Zeros that fill from the first to the last: the worst is the last, and differs; the first alone agrees."""
     (omega, wave), (_, mean) = with_filled_zeros(0.0), with_filled_zeros(1.0)
-    zeros = contrast.zeros_of(TABLE)
+    zeros = features.zeros_of(TABLE)
     share = np.interp(omega / TABLE.oscillation_period, zeros[[0, -1]], [0.0, 1.0])
     groups = ((1 - share) * wave + share * mean) * np.random.default_rng(0).gamma(400, 1 / 400, (6, 1))
-    reference, found = contrast.log_contrasts(omega, wave, TABLE), contrast.contrasts_of(omega, groups, TABLE)
-    series = contrast.contrast_series("springs", found, TABLE, reference)
+    reference, found = features.log_contrasts(omega, wave, TABLE), features.contrasts_of(omega, groups, TABLE)
+    series = features.contrast_series("springs", found, TABLE, reference)
     (first,) = replace(series, ranges=spans(zeros, zeros[[0, 0]])).numbers
     (worst,) = series.numbers
     assert (first.verdict, worst.verdict) == (Verdict.AGREE, Verdict.DIFFER)

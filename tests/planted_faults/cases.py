@@ -38,7 +38,7 @@ from validation.cases.rail import filters as rail_filters
 from validation.cases.rail import line_convention, rail_sound
 from validation.cases.rolling import roughness_from_force, validity
 from validation.cases.selection import model_selection as calibration
-from validation.cases.wheel import contrast, regions
+from validation.cases.wheel import features, regions
 from validation.engine.random_numbers import random_generator
 from validation.scenes import dynamic_wheel as wheel_scene
 from validation.simulation import (
@@ -60,7 +60,7 @@ from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
 
 REAL_SCENE, REAL_WEIGHTING, combined = rail_filters.scene_of, rail_filters.a_weighting, multilevel.combined
-zeros_of, amplification = contrast.zeros_of, free_vibration.amplification
+zeros_of, amplification = features.zeros_of, free_vibration.amplification
 linear_response = rough_springs.linear_response
 places_of, heights_of = wheel_ensemble.WheelEnsemble.places.fget, wheel_ensemble.WheelEnsemble.heights
 
@@ -238,7 +238,7 @@ FAULTS = {
         test_wheel_regions.test_the_second_order_force_is_that_of_drawn_profiles,
     ),
     "a contrast read at the maxima": (
-        (contrast, "zeros_of", lambda scene: zeros_of(scene) + 0.5),
+        (features, "zeros_of", lambda scene: zeros_of(scene) + 0.5),
         partial(test_wheel_cases.test_the_contrast_is_that_of_filled_zeros, 0.1),
     ),
     "the first zero for the worst": (

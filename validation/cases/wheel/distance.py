@@ -12,17 +12,17 @@ from validation.analysis.evidence import Role
 from validation.analysis.margins import MARGINS
 from validation.analysis.series import Estimates, Margin, Series, Where
 from validation.analysis.spectra import band_means
-from validation.analysis.statistics import POWER_DECIBEL, Estimate, ratio_of_means
+from validation.analysis.statistics import Estimate, FloatArray, ratio_of_means
 from validation.analysis.study import Outcomes
 from validation.cases.wheel import features
+from validation.cases.wheel.features import TABLE, decibels
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine
-from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
+from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.roughness import Roughness
 from validation.simulation.wheel_on_springs import TrackKind, WheelEnsemble, simulate_ensemble
 from validation.theory import wheel as wheel_theory
 
-TABLE = load_wheel_scene("table_14_1")
 SHORT = replace(TABLE, distance=0.16)
 MIN_JUMP, MIN_PERIODS = 4.0, 5.0
 """q_min v0 over the eigenfrequency, and periods of the oscillation behind it: with less, regions cannot be separated.
@@ -137,8 +137,7 @@ def run(case: WheelDistance, engine: Engine = SERIAL) -> Outcomes:
 
 def _check_regions(scene: WheelScene) -> None:
     """Refuse a scene without a plateau, or with too few periods of the oscillation behind it."""
-    if scene.rail is None and scene.wheel is None:
-        raise ValueError("scene must have a rough rail or a rough wheel, got both smooth")
+    features.hurst(scene)
     if scene.jump < MIN_JUMP * scene.eigenfrequency:
         raise ValueError(
             f"scene must have q_min v0 of at least {MIN_JUMP:g} omega_eigen, {MIN_JUMP * scene.eigenfrequency:.4g} "
@@ -188,7 +187,6 @@ OF_SQUARE = Margin(
     reason="10 %: 1.5 holds for waves far above the resonance; few wheels",
     source="1 + 1/2: the free vibration begins with the amplitude dF / M that cancels the forced acceleration",
 )
-decibels = partial(Series, scale=POWER_DECIBEL, unit="dB")
 
 
 def series(result: Outcomes) -> list[Series]:
@@ -225,14 +223,14 @@ def _breaks(result: Outcomes) -> Iterator[Series]:
     yield Series(JUMP, OPEN, jumps, along=DISTANCE, at=distances, reference=1.0, margin=OF_JUMP)
 
 
-def law_of_break(t: features.FloatArray, breaks: Estimates) -> Estimate:
+def law_of_break(t: FloatArray, breaks: Estimates) -> Estimate:
     """d ln omega_break / d ln T by weighted least squares."""
     weights = breaks.values / np.array([one.error for one in breaks])
     (slope, _), covariance = np.polyfit(np.log(t), np.log(breaks.values), 1, w=weights, cov="unscaled")
     return Estimate(float(slope), math.sqrt(covariance[0, 0]), breaks[0].samples)
 
 
-def rms_over(jumps: features.FloatArray, linear: float) -> Estimate:
+def rms_over(jumps: FloatArray, linear: float) -> Estimate:
     """The rms jump over that of linear theory, with the error of a mean square of so many Gaussian values."""
     value = float(np.sqrt(np.mean(jumps**2))) / linear
     return Estimate(value, value / math.sqrt(2 * jumps.size), jumps.size)
@@ -288,10 +286,8 @@ def _plateau(result: Outcomes) -> Iterator[Series]:
     for kind in (OPEN, LINEAR_OPEN):
         found = Estimates(features.level(result["phase", kind, phase], band) for phase in case.phases)
         yield decibels(BY_PHASE, kind, found, along="phase", at=case.phases)
-    over, step = (
-        features.ratio(result["height", STEADY, WHOLE], result["height", STEADY, QUARTER], band),
-        math.log(WHOLE / QUARTER),
-    )
+    over = features.ratio(result["height", STEADY, WHOLE], result["height", STEADY, QUARTER], band)
+    step = math.log(WHOLE / QUARTER)
     power = (Estimate(over.value / step, over.error / step, over.samples),)
     where: Where = {"region": features.PLATEAU, "h / h₀": (QUARTER, WHOLE)}
     yield Series(ORDER, STEADY, power, where=where, reference=4.0, margin=OF_ORDER)
@@ -303,9 +299,8 @@ def _motion(result: Outcomes) -> Iterator[Series]:
     squares = (ratio_of_means(result[OPEN]["square"], result[STEADY]["square"]),)
     yield Series(SQUARE, f"{OPEN}, over {STEADY}", squares, reference=1.5, margin=OF_SQUARE)
     for release in case.releases:
-        value = features.measured(features.Spectrum.of(case.vibration(release).scene, [result["release", release]]))[
-            features.PEAK
-        ]
+        spectrum = features.Spectrum.of(case.vibration(release).scene, [result["release", release]])
+        value = features.measured(spectrum)[features.PEAK]
         found.append(Estimate(value.value / frequency, value.error / frequency, value.samples))
         source = "period of free vibration on a Hertz contact, quadrature" if release else "sqrt(2 a E* / M)"
         yield Series(

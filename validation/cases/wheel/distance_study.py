@@ -7,7 +7,7 @@ from validation.analysis.chart import Chart, Curve, Panel, by_model
 from validation.analysis.claims import Claim
 from validation.analysis.study import Study
 from validation.cases.wheel import distance
-from validation.cases.wheel.features import DENSITY, FOURTH, LEVEL, OMEGA, PEAK, QUANTITIES
+from validation.cases.wheel.features import DENSITY, FOURTH, LEVEL, OMEGA, PEAK, QUANTITIES, TABLE
 from validation.selection import model_needed
 from validation.simulation.wheel_on_springs import WAVES_APART
 
@@ -126,7 +126,7 @@ CASE = Case(
     answers="Fig. 14.5: the break that moves with the distance, its cause, and the share of leakage in the plateau",
     quick=distance.WheelDistance(scene=replace(distance.SHORT, springs=64), doublings=3, wheels=40, causes=10),
     full=distance.WheelDistance(
-        scene=distance.TABLE,
+        scene=TABLE,
         doublings=6,
         wheels=300,
         fewest=40,

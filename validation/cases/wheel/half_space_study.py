@@ -15,11 +15,11 @@ from validation.analysis.evidence import Role, Table
 from validation.analysis.margins import MARGINS
 from validation.analysis.series import Estimates, Margin, Series
 from validation.analysis.spectra import band_means
-from validation.analysis.statistics import POWER_DECIBEL, jackknifed
+from validation.analysis.statistics import POWER_DECIBEL, FloatArray, jackknifed
 from validation.analysis.study import Outcomes, Study
+from validation.cases.wheel import features
 from validation.cases.wheel import half_space as wheel
-from validation.cases.wheel.contrast import CONTRAST, ZERO, contrast_series, contrasts_of, linear_contrasts
-from validation.cases.wheel.features import DENSITY, LEVEL, OMEGA, QUANTITIES, SLOPE, FloatArray, hurst, linear_force_3d
+from validation.cases.wheel.features import CONTRAST, DENSITY, LEVEL, OMEGA, QUANTITIES, SLOPE, ZERO, decibels
 from validation.scenes.description import slope_ratio
 from validation.selection import model_needed
 
@@ -34,7 +34,6 @@ REPEATED = Margin(
     source="zero: a periodic motion has no mean acceleration",
     role=Role.CRITERION,
 )
-decibels = partial(Series, scale=POWER_DECIBEL, unit="dB")
 
 
 def series(result: Outcomes) -> list[Series]:
@@ -96,7 +95,7 @@ def _slopes(levels: wheel.WheelLevels) -> Iterator[Series]:
             model,
             jackknifed(of, density),
             where={"region": "region 3"},
-            reference=-2 * hurst(scene) - 3,
+            reference=-2 * features.hurst(scene) - 3,
             family=OF_FIGURE,
             margin=MARGINS[SLOPE].beside("-2 H - 3, (14.13); the same in linear theory in 3D"),
         )
@@ -114,10 +113,11 @@ def _contrasts(levels: wheel.WheelLevels) -> Iterator[Series]:
     """Of boundary elements beside sin²(q a); of the linear contact on the same strips, and of springs."""
     scene = levels.result.case.scene
     for model, (omega, density) in _spectra(levels).items():
-        found, linear = contrasts_of(omega, density, scene), linear_contrasts(omega, scene)
-        yield contrast_series(model, found, scene, linear if model == wheel.BEM else None, OF_FIGURE)
-        if model == wheel.BEM:
-            yield contrast_series(wheel.LINEAR_1D, linear, scene)
+        linear = features.linear_contrasts(omega, scene) if model == wheel.BEM else None
+        found = features.contrasts_of(omega, density, scene)
+        yield features.contrast_series(model, found, scene, linear, OF_FIGURE)
+        if linear is not None:
+            yield features.contrast_series(wheel.LINEAR_1D, linear, scene)
 
 
 def _oscillation(levels: wheel.WheelLevels) -> Iterator[Series]:
@@ -146,7 +146,7 @@ def of_regions(levels: wheel.WheelLevels) -> dict[str, float]:
     far boundary elements fall beyond the roughness, from its last tenth [dB]."""
     scene = levels.result.case.scene
     places = np.array([scene.eigenfrequency, 1.001 * scene.jump]) / scene.speed
-    at_resonance, behind = linear_force_3d(scene, places)
+    at_resonance, behind = features.linear_force_3d(scene, places)
     inside, outside = (
         levels.of_strips(levels.converged, "bem", np.array(band) * scene.cutoff)[:, 0].mean() / (band[1] - band[0])
         for band in ((0.9, 1.0), (1.3, 1.8))
@@ -259,7 +259,7 @@ CASE = Case(
     answers="Boundary elements inside the time loop: the wheel in three dimensions, against every cheaper model",
     quick=wheel.Wheel3D(strips=3, wheels=30),
     full=wheel.Wheel3D(
-        scene=wheel.TABLE,
+        scene=features.TABLE,
         strips=8,
         periods=4,
         width=4,

@@ -15,19 +15,17 @@ from validation.analysis.claims import Claim
 from validation.analysis.margins import MARGINS
 from validation.analysis.series import Estimates, Margin, Series
 from validation.analysis.spectra import band_levels, band_means, one_third_octaves
-from validation.analysis.statistics import POWER_DECIBEL, jackknifed
+from validation.analysis.statistics import POWER_DECIBEL, FloatArray, jackknifed
 from validation.analysis.study import Outcomes, Study
-from validation.cases.wheel.contrast import CONTRAST, log_beside_over_at
-from validation.cases.wheel.features import DENSITY, JUMP, LEVEL, OMEGA, QUANTITIES, FloatArray, resonator, roughness
+from validation.cases.wheel import features
+from validation.cases.wheel.features import CONTRAST, DENSITY, JUMP, LEVEL, OMEGA, QUANTITIES, TABLE, decibels
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine
-from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
+from validation.scenes.dynamic_wheel import WheelScene
 from validation.selection import model_needed
 from validation.simulation.wheel_on_springs import WheelEnsemble, simulate_ensemble
 from validation.theory import rolling as rolling_theory
-from validation.theory import wheel as wheel_theory
 
-TABLE = load_wheel_scene("table_14_1")
 LONG_STEADY, SHORT_STEADY, SHORT_OPEN = "Table 14.1, steady-state", "short waves, steady-state", "short waves, open"
 
 
@@ -111,7 +109,6 @@ RESOLVED = 2
 APART = 3.0
 """Decibels by which a valley stands below the jump behind it."""
 FORCE = "(E* R / 2a)² cos²(q a) 2 int C_1D(k) C_1D(q - k) dk, through the resonator"
-decibels = partial(Series, scale=POWER_DECIBEL, unit="dB")
 
 
 def series(result: Outcomes) -> list[Series]:
@@ -124,14 +121,14 @@ def second_order(scene: WheelScene, omega: FloatArray) -> FloatArray:
     inside = omega < scene.jump
     force = rolling_theory.second_order_force_spectrum(
         omega[inside] / scene.speed,
-        roughness(scene),
+        features.roughness(scene),
         q_max=scene.cutoff / scene.speed,
         contact_radius=scene.contact_radius,
         radius=scene.radius,
         modulus=scene.modulus,
     )
     found = np.zeros(omega.size)
-    found[inside] = wheel_theory.over_frequency(force, speed=scene.speed) * resonator(scene, omega[inside])
+    found[inside] = features.accelerated_by(force, scene, omega[inside])
     return found
 
 
@@ -184,7 +181,7 @@ def maxima_of(scene: WheelScene) -> FloatArray:
 def log_contrasts(scene: WheelScene, omega: FloatArray, groups: FloatArray) -> FloatArray:
     """ln of the mean of A omega^2 about each maximum of cos²(q a) over that about the zeros beside it."""
     flat = groups.mean(axis=0) * omega**2
-    return -log_beside_over_at(omega / scene.oscillation_period, flat, maxima_of(scene))
+    return -features.log_beside_over_at(omega / scene.oscillation_period, flat, maxima_of(scene))
 
 
 def _speeds(result: Outcomes) -> Iterator[Series]:

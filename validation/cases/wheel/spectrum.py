@@ -12,18 +12,17 @@ from validation.analysis.margins import MARGINS
 from validation.analysis.over_range import worst
 from validation.analysis.series import Estimates, Margin, Series, Where
 from validation.analysis.spectra import band_levels, band_means, one_third_octaves
-from validation.analysis.statistics import POWER_DECIBEL, Estimate
+from validation.analysis.statistics import Estimate
 from validation.analysis.study import Outcomes
 from validation.cases.wheel import features
-from validation.cases.wheel.contrast import contrast_series, contrasts_of, linear_contrasts
+from validation.cases.wheel.features import TABLE, decibels
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
+from validation.scenes.dynamic_wheel import WheelScene
 from validation.simulation.wheel_on_half_space import Snapshot, contact_snapshot
 from validation.simulation.wheel_on_springs import WheelEnsemble, simulate_ensemble
 from validation.theory import wheel as wheel_theory
 
-TABLE = load_wheel_scene("table_14_1")
 SNAPSHOT = "contact at one moment"
 
 
@@ -73,8 +72,7 @@ class WheelSpectrum:
 def run(case: WheelSpectrum, engine: Engine = SERIAL) -> Outcomes:
     """Simulate all wheels of all variations."""
     scene = case.scene
-    if scene.rail is None and scene.wheel is None:
-        raise ValueError("scene must have a rough rail or a rough wheel, got both smooth")
+    features.hurst(scene)  # which a smooth one has not
     batches = engine.map_groups(simulate_ensemble, case.batches())
     failed = [name for name, group in batches.items() if any(batch["failed"] for batch in group)]
     if failed:
@@ -192,7 +190,7 @@ def levels_over_linear(spectrum: features.Spectrum) -> list[Series]:
         return []
     found = Estimates.ratios(band_levels(omega, spectrum.hann.T, edges).T, band_levels(omega, spectrum.linear, edges))
     centres = np.sqrt(edges[1:] * edges[:-1])
-    over = partial(Series, model="springs over linear theory", scale=POWER_DECIBEL, unit="dB", margin=OVER_LINEAR)
+    over = partial(decibels, model="springs over linear theory", margin=OVER_LINEAR)
     value, error = (math.sqrt(np.mean(np.square([getattr(one, name) for one in found]))) for name in ("value", "error"))
     where: Where = {"region": "region 3"}
     ends: Where = {features.OMEGA: (float(centres[0]), float(centres[-1]))}
@@ -206,11 +204,8 @@ def levels_over_linear(spectrum: features.Spectrum) -> list[Series]:
 def _contrasts(spectrum: features.Spectrum) -> list[Series]:
     """Of the oscillation of region 3, with Hann's window."""
     scene, omega = spectrum.scene, spectrum.omega
-    linear = linear_contrasts(omega, scene)
-    return [
-        contrast_series("springs", contrasts_of(omega, spectrum.hann, scene), scene, linear),
-        contrast_series(LINEAR, linear, scene),
-    ]
+    linear, found = features.linear_contrasts(omega, scene), features.contrasts_of(omega, spectrum.hann, scene)
+    return [features.contrast_series(*one) for one in (("springs", found, scene, linear), (LINEAR, linear, scene))]
 
 
 def _identities(batches: list[Outcome]) -> Iterator[Series]:

@@ -10,23 +10,8 @@ from validation.analysis.chart import Chart, Curve, Panel, by_model
 from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Table
 from validation.analysis.study import Outcomes, Study
-from validation.cases.wheel import spectrum
-from validation.cases.wheel.contrast import CONTRAST, ZERO
-from validation.cases.wheel.features import (
-    BREAK,
-    DENSITY,
-    JUMP,
-    LEVEL,
-    OMEGA,
-    OSCILLATION_LAST,
-    PEAK,
-    PEAK_LAST,
-    PERIOD,
-    PREDICTED,
-    QUANTITIES,
-    SLOPE,
-    THIRD_FIRST,
-)
+from validation.cases.wheel import features, spectrum
+from validation.cases.wheel.features import CONTRAST, DENSITY, LEVEL, OMEGA, PEAK_LAST, PERIOD, QUANTITIES, TABLE, ZERO
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.selection import model_needed
@@ -74,9 +59,7 @@ def notes(result: Outcomes) -> Sequence[str]:
 
 def is_of_the_book(scene: WheelScene) -> bool:
     """Whether it has what Table 14.1 prints: a changed copy of its file has the same name."""
-    return all(
-        getattr(scene, key) == getattr(spectrum.TABLE, key) for key in ("name", "radius", "mass", "material", "rms")
-    )
+    return all(getattr(scene, key) == getattr(TABLE, key) for key in ("name", "radius", "mass", "material", "rms"))
 
 
 WHOLE = Panel(
@@ -132,7 +115,8 @@ STUDY = Study(
         "the book, or Hann's where leakage would hide a feature. The peak is interpolated between lines of Hann's "
         "spectrum. The jump is where that spectrum reaches half of the level above it. Slope and break come from "
         "means over periods of the oscillation; the floor is measured beyond q_max v₀. The period is sought from "
-        f"{THIRD_FIRST:g} q_min v₀ to {OSCILLATION_LAST:g} q_max v₀. Errors: jackknife over groups of wheels."
+        f"{features.THIRD_FIRST:g} q_min v₀ to {features.OSCILLATION_LAST:g} q_max v₀. Errors: jackknife over groups "
+        "of wheels."
     ),
     series=spectrum.series,
     claims=(
@@ -156,14 +140,14 @@ STUDY = Study(
         of_worst(
             "The frequency of the peak depends on none of q_min, q_max, v₀, H and h₀, only on the contact.",
             "One parameter changed, the peak in the worst case",
-            PEAK,
+            features.PEAK,
         ),
-        of_worst("Region 3 begins at q_min v₀, whatever the speed and the cut-off.", "the jump", JUMP),
-        of_worst("The slope of region 3 is -2 H - 3, whatever the parameters.", "the slope", SLOPE),
+        of_worst("Region 3 begins at q_min v₀, whatever the speed and the cut-off.", "the jump", features.JUMP),
+        of_worst("The slope of region 3 is -2 H - 3, whatever the parameters.", "the slope", features.SLOPE),
         of_worst(
             "The break lies where region 3 meets the predicted floor, whatever the parameters.",
             "the break",
-            BREAK + PREDICTED,
+            features.BREAK + features.PREDICTED,
         ),
     ),
     charts=(
@@ -205,7 +189,7 @@ CASE = Case(
     answers=(
         "Fig. 14.4: the acceleration of a rolling wheel on springs, its regions, and how they depend on the parameters"
     ),
-    quick=spectrum.WheelSpectrum(scene=replace(spectrum.TABLE, distance=0.4), realisations=30, varied=10),
+    quick=spectrum.WheelSpectrum(scene=replace(TABLE, distance=0.4), realisations=30, varied=10),
     full=spectrum.WheelSpectrum(realisations=300, varied=100, cells=24, snapshot_steps=64),
     run=spectrum.run,
     study=STUDY,
