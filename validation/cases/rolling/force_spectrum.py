@@ -19,19 +19,8 @@ from validation.analysis.study import Outcomes
 from validation.cases.rolling.settings import HEIGHT, Q, SelfAffineSettings, slopes_of
 from validation.engine.convergence import require_realisations
 from validation.engine.engine import SERIAL, Engine
-from validation.simulation.rolling_strip import (
-    HERTZ,
-    ROUNDING,
-    Strip,
-    coherence,
-    correlation,
-    force_3d,
-    level_1d,
-    level_3d,
-    roll_strips,
-    roll_tracks,
-    strip_levels,
-)
+from validation.simulation import rolling_strip
+from validation.simulation.rolling_strip import HERTZ, ROUNDING, level_1d, level_3d
 from validation.simulation.track_spectrum import InputSpectrum, TrackSpectrum
 from validation.theory.rolling import force_spectrum_1d, level_ratio, mean_force_spectrum_1d
 
@@ -53,7 +42,7 @@ class ForceSpectrum(SelfAffineSettings):
     def __post_init__(self) -> None:
         require_realisations(strips=self.strips, rough_strips=self.rough_strips, refined=self.refined)
 
-    def strips_of(self, height: float, cells: int) -> list[Strip]:
+    def strips_of(self, height: float, cells: int) -> list[rolling_strip.Strip]:
         """On one grid. The lower the roughness, the less the force fluctuates and the smaller the tolerance."""
         strips = self.rough_strips if height >= ROUGH else self.strips
         count = strips if cells == self.cells else min(self.refined, strips)
@@ -74,14 +63,12 @@ def run(case: ForceSpectrum, engine: Engine = SERIAL) -> Outcomes:
     """Roll all strips and tracks. Raises NotConvergedError where fewer than three strips at a height converge."""
     grids = {"bem3d": case.cells, "refined": 2 * case.cells}
     groups = {(name, h): case.strips_of(h, cells) for name, cells in grids.items() for h in case.heights}
-    strips, unconverged = roll_strips(groups, engine)
-    tracks = {
-        (model, h): case.tracks_on(case.rough_strip(case.spectrum, h), rule)
-        for h in case.heights
-        for model, rule in RULES.items()
-    }
-    levels = {(name, h): strip_levels(one, 1 / grids[name], case.bands) for (name, h), one in strips.items()}
-    rolled = dict(zip(tracks, engine.map(roll_tracks, list(tracks.values())), strict=True))
+    strips, unconverged = rolling_strip.roll_strips(groups, engine)
+    scenes = {h: case.rough_strip(case.spectrum, h) for h in case.heights}
+    tracks = {(model, h): case.tracks_on(one, RULES[model]) for h, one in scenes.items() for model in RULES}
+    of_strips = rolling_strip.strip_levels
+    levels = {(name, h): of_strips(one, 1 / grids[name], case.bands) for (name, h), one in strips.items()}
+    rolled = dict(zip(tracks, engine.map(rolling_strip.roll_tracks, list(tracks.values())), strict=True))
     return Outcomes(case, {**levels, **rolled, **{h: strips["bem3d", h][0] for h in case.heights}}, unconverged)
 
 
@@ -143,12 +130,8 @@ def levels_at(result: Outcomes, height: float) -> Iterator[Series]:
     with np.errstate(divide="ignore"):
         in_1d = np.log(level_1d(case.spectrum, "geike", case.bands) / exact)
     springs = {name: Estimates.ratios(result[name, height]["level"], height**2 * exact) for name in RULES}
-    models = {
-        LINEAR_1D: Estimates.exact(in_1d),
-        SPRINGS: springs[SPRINGS],
-        LINEAR_3D: Estimates.exact(np.zeros(exact.size)),
-        ROLLING_SPRINGS: springs[ROLLING_SPRINGS],
-    }
+    linear = {LINEAR_1D: Estimates.exact(in_1d), LINEAR_3D: Estimates.exact(np.zeros(exact.size))}
+    models = {name: (linear | springs)[name] for name in (LINEAR_1D, SPRINGS, LINEAR_3D, ROLLING_SPRINGS)}
     in_bands = partial(Series, where={HEIGHT: height}, along=Q, at=case.bands.centres)
     decibels = partial(in_bands, scale=POWER_DECIBEL, unit="dB")
     judged = partial(decibels, grid=finer, family=2 * len(case.heights) * len(case.ranges))
@@ -162,8 +145,8 @@ def levels_at(result: Outcomes, height: float) -> Iterator[Series]:
     inside, margin = dict([*case.ranges.items()][-1:]), NEAR.beside("bem3d over linear theory in 3D")
     yield judged(NONLINEAR, BOTH, nonlinear, reference=over_linear, ranges=inside, margin=margin)
     yield decibels(NONLINEAR, "bem3d", over_linear)
-    yield in_bands(COHERENCE, "bem3d", coherence(bem))
-    yield in_bands(COHERENCE, SPRINGS, np.where(np.isfinite(in_1d), coherence(mine), np.nan))
+    yield in_bands(COHERENCE, "bem3d", rolling_strip.coherence(bem))
+    yield in_bands(COHERENCE, SPRINGS, np.where(np.isfinite(in_1d), rolling_strip.coherence(mine), np.nan))
 
 
 def moments_at(result: Outcomes, height: float) -> Iterator[Series]:
@@ -192,7 +175,7 @@ def _whole(result: Outcomes, height: float) -> Iterator[Series]:
         rms = level - whole.on_no_size(finer)
         yield over(RMS_FORCE, model + OVER, rms, family=2 * len(result.case.heights))
     for model, one in (("bem3d", bem), (SPRINGS, springs)):
-        for name, value in zip((CORRELATION, REGRESSION), correlation(one), strict=True):
+        for name, value in zip((CORRELATION, REGRESSION), rolling_strip.correlation(one), strict=True):
             yield single(name, model, (value,))
     yield single(APPLICATIONS, "bem3d", (float(result[height]["applications"].mean()),))
     yield single(EXAMINED, SPRINGS, (float(springs["examined"].mean()),))
@@ -230,7 +213,7 @@ def _spectrum(result: Outcomes, height: float) -> Iterator[Series]:
     wave = partial(Series, SPECTRUM, along=Q, at=q)
     yield wave("(14.12)", force_spectrum_1d(q, geike, contact_radius=1.0, modulus=1.0) / HERTZ**2)
     yield wave("(14.14)", mean_force_spectrum_1d(q, geike, modulus=1.0) / HERTZ**2)
-    yield wave(LINEAR_3D, force_3d(q, case.spectrum) / HERTZ**2)
+    yield wave(LINEAR_3D, rolling_strip.force_3d(q, case.spectrum) / HERTZ**2)
     yield wave(SPRINGS, springs["spectrum"][inside] / height**2)
 
 

@@ -1,5 +1,7 @@
 """What rolling over isotropic roughness shows, declared: method, claims and figures."""
 
+from functools import partial
+
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Map, Panel
 from validation.analysis.claims import Claim, Matrix
@@ -9,6 +11,9 @@ from validation.cases.rolling.settings import HEIGHT, SLOPE, SLOPE_COUNTS, Q
 from validation.selection import model_needed
 
 LEVELS, CHANGES = (shown.LEVEL, "rms of " + shown.LEVEL), (shown.NONLINEAR, "rms of " + shown.NONLINEAR)
+BY_HEIGHT = partial(Curve, by=(HEIGHT,))
+up_to = partial(Claim, along=HEIGHT)
+has_levels = partial(up_to, quantity=LEVELS)
 STUDY = Study(
     title="Rolling over isotropic roughness: levels of 1D models against boundary elements",
     method=(
@@ -27,44 +32,32 @@ STUDY = Study(
     ),
     series=shown.series,
     claims=(
-        Claim(
-            says=(
-                "Springs with Geike's spectrum have the force spectrum of a wheel that rolls over isotropic roughness "
-                "(Fig. 14.3)."
-            ),
+        has_levels(
+            says="Springs with Geike's spectrum have the force spectrum of a wheel that rolls over isotropic roughness "
+            "(Fig. 14.3).",
             short="Springs with Geike's spectrum, level over boundary elements",
-            quantity=LEVELS,
             model=(shown.LINEAR_1D + shown.OVER, shown.SPRINGS + shown.OVER),
-            along=HEIGHT,
         ),
-        Claim(
-            says=(
-                "With the rolling-equivalent spectrum, springs have the level of boundary elements in each one-third "
-                "octave."
-            ),
-            quantity=LEVELS,
+        has_levels(
+            says="With the rolling-equivalent spectrum, springs have the level of boundary elements in each one-third "
+            "octave.",
             model=shown.ROLLING_SPRINGS + shown.OVER,
-            along=HEIGHT,
         ),
-        Claim(
+        has_levels(
             says="Linear theory in 3D has the level of boundary elements in each one-third octave.",
             short="Linear theory in 3D, level over boundary elements",
-            quantity=LEVELS,
             model=shown.LINEAR_3D + shown.OVER,
-            along=HEIGHT,
         ),
-        Claim(
+        up_to(
             says="Nonlinearity changes the level of springs as it changes that of boundary elements.",
             short="Nonlinearity, springs beside boundary elements",
             quantity=CHANGES,
-            along=HEIGHT,
         ),
-        Claim(
+        up_to(
             says="The force at one position has the variance of linear theory, which Geike's rule keeps.",
             quantity=shown.VARIANCE,
-            along=HEIGHT,
         ),
-        Claim(says="Springs have the mean force of boundary elements.", quantity=shown.MEAN, along=HEIGHT),
+        up_to(says="Springs have the mean force of boundary elements.", quantity=shown.MEAN),
     ),
     charts=(
         Chart(
@@ -124,8 +117,8 @@ STUDY = Study(
                     Q,
                     "coherence",
                     (
-                        Curve(shown.COHERENCE, "bem3d", by=(HEIGHT,)),
-                        Curve(shown.COHERENCE, shown.SPRINGS, "open", "_", by=(HEIGHT,)),
+                        BY_HEIGHT(shown.COHERENCE, "bem3d"),
+                        BY_HEIGHT(shown.COHERENCE, shown.SPRINGS, "open", "_"),
                     ),
                     "with linear theory",
                     ylim=(-0.03, 1.05),
@@ -134,8 +127,8 @@ STUDY = Study(
                     Q,
                     "nonlinear over linear [dB]",
                     (
-                        Curve(shown.NONLINEAR, "bem3d", label="_", by=(HEIGHT,)),
-                        Curve(shown.NONLINEAR, shown.BOTH, "open", "_", by=(HEIGHT,)),
+                        BY_HEIGHT(shown.NONLINEAR, "bem3d", label="_"),
+                        BY_HEIGHT(shown.NONLINEAR, shown.BOTH, "open", "_"),
                     ),
                     "level",
                 ),
@@ -143,8 +136,8 @@ STUDY = Study(
                     "x / a",
                     "(F - mean) / (F_Hertz h/d), shifted",
                     (
-                        Curve(shown.FORCE, "bem3d", "lines", "_", by=(HEIGHT,), down=3.2),
-                        Curve(shown.FORCE, shown.LINEAR_3D, "dotted", "_", by=(HEIGHT,), down=3.2),
+                        BY_HEIGHT(shown.FORCE, "bem3d", "lines", "_", down=3.2),
+                        BY_HEIGHT(shown.FORCE, shown.LINEAR_3D, "dotted", "_", down=3.2),
                     ),
                     "force along the track",
                     log="",
@@ -160,16 +153,11 @@ STUDY = Study(
             claims=(2,),
         ),
     ),
-    matrices=(
-        Matrix(
-            name="worst one-third octave over boundary elements",
-            quantity=shown.LEVEL,
-            rows=(HEIGHT, Q),
-            columns="model",
-        ),
-        Matrix(
-            name="root mean square over the bands", quantity="rms of " + shown.LEVEL, rows=(HEIGHT, Q), columns="model"
-        ),
+    matrices=tuple(
+        Matrix(name=name, quantity=quantity, rows=(HEIGHT, Q), columns="model")
+        for name, quantity in zip(
+            ("worst one-third octave over boundary elements", "root mean square over the bands"), LEVELS, strict=True
+        )
     ),
     printed=(SLOPE, shown.CORRELATION, shown.VARIANCE, shown.MEAN, shown.APPLICATIONS),
 )

@@ -19,15 +19,8 @@ from validation.analysis.statistics import POWER_DECIBEL, Estimate, extrapolated
 from validation.analysis.study import Outcomes, Study
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation import rough_punch
-from validation.simulation.rolling_strip import (
-    HERTZ,
-    LoadedStrip,
-    RoughStrip,
-    Tracks,
-    roll_loaded_strip,
-    roll_loaded_tracks,
-)
+from validation.simulation import rolling_strip, rough_punch
+from validation.simulation.rolling_strip import HERTZ, LoadedStrip, RoughStrip, Tracks
 from validation.simulation.track_spectrum import INPUT_SPECTRA, InputSpectrum, PiecewisePowerLaw, self_affine
 
 FloatArray = NDArray[np.float64]
@@ -120,7 +113,7 @@ def run(case: TrackStiffness, engine: Engine = SERIAL) -> Outcomes:
     """Roll and press. Raises NotConvergedError where fewer than three strips or punches converge at a force."""
     cells = {WHEEL: case.cells, REFINED: 2 * case.cells}
     groups = {(name, force): case.strips_of(force, n) for force in case.forces for name, n in cells.items()}
-    strips = engine.map_groups(roll_loaded_strip, groups)
+    strips = engine.map_groups(rolling_strip.roll_loaded_strip, groups)
     lost = tuple(
         f"strip {i}, Fbar = {force:g}, {cells[name]} cells to a radius: {int(one['failed'])} positions"
         for (name, force), found in strips.items()
@@ -132,7 +125,7 @@ def run(case: TrackStiffness, engine: Engine = SERIAL) -> Outcomes:
             raise NotConvergedError(f"fewer than {FEWEST} strips of {key} converged", lost)
     along = {key: {name: np.array([one[name] for one in found]) for name in found[0]} for key, found in strips.items()}
     tracks = {(rule, force): case.tracks_of(force, rule) for force in case.forces for rule in INPUT_SPECTRA}
-    rolled = engine.map(roll_loaded_tracks, list(tracks.values()))
+    rolled = engine.map(rolling_strip.roll_loaded_tracks, list(tracks.values()))
     pressed = engine.map(rough_punch.press_surface, case.faces)
     failures = rough_punch.describe_failures(case.faces, pressed)
     rough_punch.require_converged([rough_punch.stacked(pressed)], failures)

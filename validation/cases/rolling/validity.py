@@ -14,9 +14,9 @@ from validation.analysis.claims import Claim, Matrix
 from validation.analysis.margins import REPEATABLE
 from validation.analysis.series import Margin, Series
 from validation.analysis.spectra import Bands
-from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknife_error, ratio_of_means
+from validation.analysis.statistics import Estimate, ratio_of_means
 from validation.analysis.study import Outcomes, Study
-from validation.cases.rolling.settings import HEIGHT, SLOPE, SLOPE_COUNTS
+from validation.cases.rolling.settings import HEIGHT, SLOPE, SLOPE_COUNTS, rms_decibels
 from validation.engine.convergence import require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.description import slope_ratio
@@ -115,16 +115,8 @@ def contact_kept(strips: list[Outcome]) -> Estimate:
 
 
 def off_linear(outcome: Outcome) -> Estimate:
-    """Root mean square over bands of the level over linear theory on the same surfaces [dB], with its jackknife."""
-    known = np.isfinite(outcome["level"]).all(axis=1)
-    level, linear = outcome["level"][known], outcome["linear level"][known]
-    count = len(level)
-
-    def rms(mine: np.ndarray, other: np.ndarray) -> np.ndarray:
-        return np.asarray(POWER_DECIBEL * np.sqrt(np.mean(np.log(mine / other) ** 2, axis=-1)))
-
-    without = rms(*((one.sum(axis=0) - one) / (count - 1) for one in (level, linear)))
-    return Estimate(float(rms(level.mean(axis=0), linear.mean(axis=0))), float(jackknife_error(without)), count)
+    """Root mean square over bands of the level over linear theory on the same surfaces [dB]."""
+    return rms_decibels(np.stack([outcome["level"], outcome["linear level"]], axis=1))
 
 
 KEPT, OFF, OFF_REDUCED = "share of contact kept", "rms level over linear theory", "rms level over boundary elements"
