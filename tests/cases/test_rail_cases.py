@@ -50,12 +50,6 @@ def test_published_table_has_five_columns_of_all_bands_and_one_masked_value():
     assert filters.compared(WHEEL)[[list(table[WHEEL]).index(one) for one in (40.0, 50.0)]].tolist() == [False, True]
 
 
-def test_a_weighting_is_that_of_the_standard():
-    # IEC 61672-1, table of nominal frequencies, exact base-ten ones
-    for nominal, exact, level in ((31.5, 10**1.5, -39.4), (100, 100, -19.1), (1000, 1000, 0.0), (8000, 10**3.9, -1.1)):
-        assert filters.a_weighting(exact) == pytest.approx(level, abs=0.06), nominal
-
-
 def test_linear_theory_of_the_ellipse_over_isotropic_ground_is_the_published_table_within_a_decibel():
     for wheel in filters.columns_of_table():
         keep = filters.compared(wheel)
@@ -86,18 +80,6 @@ def test_mean_of_heights_over_ridges_is_one_line_and_over_isotropic_ground_less(
     )
     assert len(ridges) == 2 and all(number.verdict is Verdict.AGREE for number in ridges)
     assert len(isotropic) == 2 and all(number.value < -3 for number in isotropic)
-
-
-def test_left_by_grid_vanishes_where_grids_agree():
-    case, outcomes = rolled_filters.RolledFilters(strips=3, across=("ridges",)), {}
-    (key,) = case.keys
-    for cells in case.cells:
-        points = case.problems(key, cells)[0].strip.shape[0]
-        track = np.cos(2 * np.pi * np.outer(np.arange(points) / points, np.arange(1, 90))).sum(axis=1)
-        outcomes[key, cells] = 3 * [{BEM: 0.5 * track, LINEAR: track, "failed": np.array(0.0)}]
-    result = rolled_filters.RolledFiltersResult(case, outcomes, ())
-    assert np.abs(result.left_by_grid(key, BEM, LINEAR)).max() < 1e-9
-    assert [one.value for one in result.over_twin(key, BEM)] == pytest.approx([2 * math.log(0.5)] * 13)
 
 
 @pytest.mark.slow

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.cases.planted import COARSE, DECIBEL, QUICK_3D, ROUNDING, SMALL, TABLE, changed, times, whole
+from tests.cases.planted import DECIBEL, QUICK_3D, ROUNDING, SMALL, TABLE, changed, times, whole
 from validation.analysis.evidence import ClaimStatus, Verdict, number_with
 from validation.analysis.series import ENDS, spans
 from validation.cases.wheel import distance as by_distance
@@ -17,7 +17,6 @@ from validation.cases.wheel.half_space_study import CASE as CASE_3D
 from validation.cases.wheel.half_space_study import LEVELS
 from validation.cases.wheel.spectrum_study import CASE
 from validation.engine.convergence import NotConvergedError
-from validation.engine.engine import Engine
 from validation.simulation import wheel_on_springs
 from validation.simulation.motion import natural_periods
 
@@ -139,7 +138,6 @@ def test_a_rough_wheel_on_a_smooth_rail_is_a_scene_too():
     ("run", "case", "needed"),
     [
         (spectrum.run, replace(LONG, scene=replace(SMALL, rail=None)), "a rough rail or a rough wheel, got both"),
-        (half_space.run, replace(QUICK_3D, scene=replace(COARSE, rail=None)), "a rough rail and a smooth wheel"),
         (regions.run, regions.WheelRegions(scene=replace(TABLE, rail=None)), "a rough rail and a smooth wheel"),
         (regions.run, regions.WheelRegions(scene=replace(TABLE, wheel=TABLE.rail)), "a rough rail and a smooth wheel"),
     ],
@@ -250,6 +248,13 @@ def test_evidence_in_three_dimensions_is_whole(in_3d):
 
 
 @pytest.mark.slow
+def test_a_strip_that_was_lost_counts_in_nothing(in_3d):
+    *others, last = in_3d["finest"]
+    found = changed(in_3d, finest=[*others, last | {"failed": np.array(1.0), "bem": np.nan * last["bem"]}])
+    whole(CASE_3D.evidence(found))
+
+
+@pytest.mark.slow
 def test_a_fifth_more_acceleration_in_three_dimensions(in_3d):
     strips = {name: times(in_3d[name], 1.2, "bem") for name in in_3d.case.strips_of()}
     tables = (CASE_3D.evidence(result).table(LEVEL) for result in (in_3d, changed(in_3d, strips)))
@@ -306,28 +311,3 @@ def test_an_oscillation_that_dies_is_noticed():
     (worst,) = series.numbers
     assert (first.verdict, worst.verdict) == (Verdict.AGREE, Verdict.DIFFER)
     assert worst.where["worst at"] == zeros[-1]
-
-
-# --- interrupted ensembles ---
-
-
-@pytest.mark.slow
-def test_an_interrupted_ensemble_goes_on_where_it_was(tmp_path):
-    """Four files; one is lost: it alone is written anew, and all is as before to the bit."""
-    case, engine = replace(FEW, realisations=12, groups=3, batch=4), Engine(store=tmp_path)
-    first = spectrum.run(case, engine)
-    files = sorted(tmp_path.glob("*.npz"))
-    assert len(files) == 4
-    lost = next(file for file in files if "simulate_ensemble" in file.name)
-    kept = {file: file.stat().st_ino for file in files if file != lost}
-    lost.unlink()
-    again = spectrum.run(case, engine)
-    assert sorted(tmp_path.glob("*.npz")) == files
-    assert {file: file.stat().st_ino for file in kept} == kept
-    outcomes = [[*r[case.scene.name], r[spectrum.SNAPSHOT]] for r in (first, again, spectrum.run(case))]
-    for one, *others in zip(*outcomes, strict=True):
-        for other in others:
-            assert one.keys() == other.keys()
-            for name, values in one.items():
-                np.testing.assert_array_equal(other[name], values, err_msg=name)
-    assert CASE.evidence(first) == CASE.evidence(again)
