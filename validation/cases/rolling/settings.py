@@ -67,11 +67,15 @@ class SelfAffineSettings(RollingSettings):
     def spectrum(self) -> PiecewisePowerLaw:
         return self_affine(self.hurst, self.first, self.last)
 
+    @property
+    def slopes(self) -> FloatArray:
+        """h' a/d at each height, along the track, of all waves."""
+        return self.spectrum.slope_along * np.array(self.heights)
+
 
 def slopes_of(case: SelfAffineSettings) -> Series:
-    """h' a/d at each h/d, along the track, of all waves, for those who ask by the slope."""
-    slopes = case.spectrum.slope_along * np.array(case.heights)
-    return Series(SLOPE, "surface", slopes, along=HEIGHT, at=case.heights)
+    """Beside h/d, for those who ask by the slope."""
+    return Series(SLOPE, "surface", case.slopes, along=HEIGHT, at=case.heights)
 
 
 def decibels(pairs: FloatArray) -> FloatArray:
