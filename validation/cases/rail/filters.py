@@ -139,5 +139,4 @@ def weighted_level(scene: RailScene, a3: FloatArray, speed: float) -> float:
 
 
 def over_in_decibel_a(scene: RailScene, mine: FloatArray, reference: FloatArray) -> list[float]:
-    """Of one filter over another, at each of SPEEDS [dB(A)]."""
     return [weighted_level(scene, mine, v) - weighted_level(scene, reference, v) for v in SPEEDS]

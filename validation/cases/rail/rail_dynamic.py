@@ -125,7 +125,6 @@ class RailDynamic:
 
     @property
     def keys(self) -> dict[Key, int]:
-        """How many strips of each."""
         counts = {FINE: self.strips, COARSE: self.compared}
         return {(offset, model, grid): n for offset in self.offsets for model in MODELS for grid, n in counts.items()}
 
@@ -213,7 +212,6 @@ def series(result: RailDynamicResult) -> list[Series]:
 
 
 def _filters(result: RailDynamicResult, offset: float) -> Iterator[Series]:
-    """A3 of all that lifts a wheel."""
     in_bands = partial(Series, along=FREQUENCY, at=result.case.frequencies, scale=POWER_DECIBEL, unit="dB")
     for model in MODELS:
         for lift in ("constant", "moving", "inferred"):

@@ -90,7 +90,6 @@ class RailSound:
 
     @property
     def samples(self) -> int:
-        """Of one period."""
         return round(self.seconds * self.rate)
 
     @property
@@ -132,7 +131,6 @@ class RailSound:
         )
 
     def problems(self, model: str, cells: int) -> list[HeldWheel]:
-        """Along the whole strip, in parts."""
         strip = self.strip(cells)
         ends = np.linspace(0, strip.shape[0], 1 + (self.parts if model == BEM else 1)).astype(int).tolist()
         return [
@@ -202,7 +200,6 @@ class RailSoundResult(Outcomes):
         return np.where(found > LEAST, np.round(found, 2), np.nan)
 
     def bands_table(self) -> Table:
-        """A row a band."""
         found = {f"{LABELS[model]} [dB re 1 N]": self.in_bands(model).tolist() for model in self.case.sounding}
         return Table("levels", {"f [Hz]": (self.bands.centres / (2 * math.pi)).tolist(), **found})
 

@@ -12,18 +12,8 @@ from validation.analysis.margins import FIELD
 from validation.analysis.series import Series, Where
 from validation.analysis.sound import Sound, Sounds
 from validation.analysis.study import Study
-from validation.cases.rail.rail_sound import (
-    LABELS,
-    LOW,
-    SILENT,
-    SOUNDING,
-    WEIGHTED,
-    RailSound,
-    RailSoundResult,
-    column_of,
-    run,
-    shipped_rail,
-)
+from validation.cases.rail import rail_sound
+from validation.cases.rail.rail_sound import LABELS, LOW, SILENT, SOUNDING, WEIGHTED, RailSound, RailSoundResult
 from validation.simulation.model_names import BEM, LINEAR, SPRINGS_THAT_READ
 from validation.simulation.rail_sound import GEIKE, ISOTROPIC
 
@@ -58,7 +48,6 @@ def series(result: RailSoundResult) -> list[Series]:
 
 
 def or_less(number: Number) -> str:
-    """Of a silent model."""
     return f"{SILENT:g} dB or less" if number.value <= SILENT else beside(number)
 
 
@@ -68,7 +57,6 @@ def signed(value: float) -> str:
 
 
 def sounds_of(result: RailSoundResult) -> Sounds:
-    """Of all models, with one gain."""
     case = result.case
     return Sounds(
         table="samples",
@@ -80,7 +68,7 @@ def sounds_of(result: RailSoundResult) -> Sounds:
             Sound(
                 name=name,
                 label=LABELS[model][0].upper() + LABELS[model][1:],
-                column=column_of(model),
+                column=rail_sound.column_of(model),
                 says=f"{result.level(model, WEIGHTED):.1f} dB(A) re 1 N{_beside(result, model)}.",
             )
             for name, model in SOUNDING.items()
@@ -200,9 +188,9 @@ CASE = Case(
     chapter=Chapter.RAIL,
     place=6,
     answers="What a rough rail sounds like by each model: the contact force as WAV files with one gain",
-    quick=RailSound(rail=shipped_rail(), seconds=0.25, repeats=5, cells=(4, 6)),
-    full=RailSound(rail=shipped_rail(), seconds=2.0, repeats=1, cells=(6, 8), parts=8),
-    run=run,
+    quick=RailSound(rail=rail_sound.shipped_rail(), seconds=0.25, repeats=5, cells=(4, 6)),
+    full=RailSound(rail=rail_sound.shipped_rail(), seconds=2.0, repeats=1, cells=(6, 8), parts=8),
+    run=rail_sound.run,
     study=STUDY,
     needs="linear theory of the ellipse",
 )

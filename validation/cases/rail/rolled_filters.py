@@ -57,7 +57,6 @@ class RolledFilters:
         return filters.scene_of(wheel, crown=self.crown, offset=offset)
 
     def problems(self, key: Key, cells: int) -> list[tracks.RolledRail]:
-        """Strips of one kind on one grid."""
         scene, across, models = self.scene(key), ACROSS[key[2]], (BEM, *RIVALS, *spectral_models(key))
         return [
             tracks.RolledRail(strip=strip_of(scene, across, cells, i, self.seed), models=models)
@@ -71,7 +70,6 @@ def spectral_models(key: Key) -> tuple[str, ...]:
 
 
 def models_of(key: Key) -> tuple[str, ...]:
-    """All that a kind of strip has a filter of."""
     return (BEM, *FILTERS, *RIVALS, *spectral_models(key))
 
 
@@ -91,7 +89,6 @@ class RolledFiltersResult(Outcomes):
         return Estimates(tracks.log_over(model, other, found, spacing, Bands(tuple(bands.edges.tolist()))))
 
     def over_twin(self, key: Key, model: str) -> Estimates:
-        """The same over the linear twin of a one-sided model."""
         return self.over(key, model, twin_of(model))
 
     def left_by_grid(self, key: Key, model: str, other: str) -> FloatArray:

@@ -68,7 +68,6 @@ def _area(result: rolled.RolledFiltersResult, key: rolled.Key) -> Series:
 
 
 def roughness(case: rolled.RolledFilters) -> Table:
-    """How rough the rail is, by h' of the waves of the strips."""
     scenes = {key[1]: case.scene(key) for key in case.keys}
     return Table(
         "roughness and contact",

@@ -70,7 +70,6 @@ Key = tuple[tuple[float, float, float], float]
 
 
 def run(case: ReducedModels, engine: Engine = SERIAL) -> Outcomes:
-    """All models over all strips, by spectrum and height."""
     groups = {key: case.strips_of(*key) for key in product(case.spectra, case.heights)}
     found = engine.map_groups(reduced_strip.roll_by_all, groups)
     unconverged = tuple(
@@ -144,7 +143,6 @@ def slope_of(key: Key) -> float:
 
 
 def octaves(level: FloatArray) -> FloatArray:
-    """Sums of three one-third octaves, along the last axis."""
     return np.asarray(level.reshape(*level.shape[:-1], -1, 3).sum(axis=-1))
 
 
@@ -167,7 +165,6 @@ def coherence(result: Outcomes, key: Key, model: str) -> FloatArray:
 
 
 def _mean_over(result: Outcomes, key: Key, name: str, model: str, other: str) -> float:
-    """Of all strips."""
     mean, names = np.mean([one[name] for one in result[key]], axis=0), list(MODELS)
     return float(mean[names.index(model)] / mean[names.index(other)])
 

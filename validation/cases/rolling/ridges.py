@@ -125,7 +125,6 @@ def series(result: Outcomes) -> list[Series]:
 
 
 def bound_of(method: str, cells: float, q: FloatArray) -> tuple[FloatArray, str]:
-    """How large the error over the envelope may be, and why."""
     if method == BEM:
         off = EDGE * np.maximum(1.0, q) / cells
         return off, f"an edge {EDGE:g} dx out of place: that error of the radius, and {EDGE:g} q dx of phase"

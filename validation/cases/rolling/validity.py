@@ -159,7 +159,6 @@ def _shown(result: Outcomes) -> Iterator[Series]:
 
 
 def _table_14_1() -> Iterator[Series]:
-    """Where the wheel of the book stands."""
     scene = load_wheel_scene("table_14_1")
     yield Series(TABLE_14_1, HEIGHT, (scene.rms / scene.approach,))
     yield Series(TABLE_14_1, SLOPE, (slope_ratio(scene.slope_along, scene),))
@@ -173,7 +172,6 @@ BARS = partial(Curve, by=(SPECTRUM,), bars=True, beside=1.0)
 
 
 def _panels(y: str, *curves: Curve, **settings: Any) -> tuple[Panel, Panel]:
-    """Over h/d and over h' a/d."""
     return Panel(HEIGHT, y, curves, **settings), Panel(SLOPE, y, curves, **settings)
 
 

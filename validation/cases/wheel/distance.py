@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -37,6 +38,8 @@ KINDS: dict[str, tuple[bool, TrackKind]] = {
     LINEAR_STEADY: (True, "steady-state"),
 }
 """Of contact and track: whether the contact is linear, and the track."""
+BY_HEIGHT_OF = {OPEN: 0, LINEAR_OPEN: 2, STEADY: 4}
+"""What makes region 2, with the power of the height as which it grows, where it has one."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,19 +80,16 @@ class WheelDistance:
         return found
 
     def ensemble(self, kind: str, count: int, height: float = 1.0) -> WheelEnsemble:
-        """Wheels of a contact and a track, at a height."""
         linear, track = KINDS[kind]
         scene = scaled(self.scene, height)
         return WheelEnsemble(scene=scene, count=count, groups=self.groups, track=track, linear=linear, seed=self.seed)
 
     def ended(self, kind: str, phase: float) -> WheelEnsemble:
-        """Open tracks that end in a phase of the natural period."""
         period = self.scene.period_length
         whole = max(round(self.scene.length / period), 1)
         return replace(self.ensemble(kind, self.rough), scene=replace(self.scene, distance=(whole + phase) * period))
 
     def vibration(self, release: float) -> WheelEnsemble:
-        """Wheels that begin so much deeper than in equilibrium."""
         scene, count = replace(self.scene, distance=2 * self.scene.distance), self.released
         return WheelEnsemble(scene=scene, count=count, groups=count, release=release, seed=self.seed)
 
@@ -98,18 +98,13 @@ class WheelDistance:
         return {
             **self.distances(),
             **{kind: self.ensemble(kind, self.causes) for kind in KINDS},
-            **{
-                ("height", k, h): self.ensemble(k, self.rough, h)
-                for k in (OPEN, STEADY, LINEAR_OPEN)
-                for h in self.heights
-            },
+            **{("height", k, h): self.ensemble(k, self.rough, h) for k, h in product(BY_HEIGHT_OF, self.heights)},
             **{("phase", k, p): self.ended(k, p) for k in (OPEN, LINEAR_OPEN) for p in self.phases},
             **{("release", release): self.vibration(release) for release in self.releases},
         }
 
 
 def scaled(scene: WheelScene, factor: float) -> WheelScene:
-    """The scene with all heights times a factor."""
 
     def times(rough: Roughness | None) -> Roughness | None:
         return replace(rough, rms=factor * rough.rms) if rough else None
@@ -278,7 +273,7 @@ def _plateau(result: Outcomes) -> Iterator[Series]:
     case, scene, band = result.case, result.case.scene, features.regions_of(result.case.scene)[features.PLATEAU]
     by_height = partial(decibels, BY_HEIGHT, along=H_OVER_D, at=np.array(case.heights) * scene.rms / scene.approach)
     growth = np.log(np.array(case.heights) / case.heights[0])
-    for kind, order in ((OPEN, 0), (LINEAR_OPEN, 2), (STEADY, 4)):
+    for kind, order in BY_HEIGHT_OF.items():
         found = Estimates(features.level(result["height", kind, h], band) for h in case.heights)
         yield by_height(kind, found)
         if order:

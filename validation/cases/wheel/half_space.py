@@ -79,18 +79,13 @@ class Wheel3D:
             TIGHT: [replace(short, tolerance=self.tolerance / TIGHTER)],
         }
 
-    def ensembles(self, input_spectrum: InputSpectrum) -> list[WheelEnsemble]:
+    def ensembles(self, rule: InputSpectrum) -> list[WheelEnsemble]:
         """Springs in the steady state, on tracks as long as the strips."""
         scene = replace(self.scene, distance=self.strip.shape[0] * self.strip.spacing)
         batches = max(self.wheels // self.batch, 1)
         count = self.wheels // batches
         one = WheelEnsemble(
-            scene=scene,
-            count=count,
-            groups=self.groups,
-            track="steady-state",
-            input_spectrum=input_spectrum,
-            seed=self.seed,
+            scene=scene, count=count, groups=self.groups, track="steady-state", input_spectrum=rule, seed=self.seed
         )
         return [replace(one, first=i * count) for i in range(batches)]
 
@@ -218,7 +213,6 @@ class WheelLevels:
 
     @cached_property
     def springs(self) -> dict[str, FloatArray]:
-        """Levels of groups of wheels, (groups, bands)."""
         spectra = {model: self.on_springs(model) for model in ON_SPRINGS}
         return {model: band_levels(omega, groups.T, self.edges).T for model, (omega, groups) in spectra.items()}
 

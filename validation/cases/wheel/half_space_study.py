@@ -165,7 +165,6 @@ def tables(result: Outcomes) -> list[Table]:
 
 
 def over_bem(says: str, short: str, model: str) -> Claim:
-    """Linear theory ends at short waves, along which contact is lost."""
     return Claim(says=says, short=short, quantity=LEVEL, model=wheel.OVER_BEM[model], along="range")
 
 

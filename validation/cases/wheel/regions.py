@@ -75,15 +75,8 @@ class WheelRegions:
         assert rail is not None  # as checked
         slow = replace(self.scene, springs=24, rail=replace(rail, shortest=self.coarse))
         scenes = {ratio: replace(slow, speed=ratio * slow.eigenfrequency / rail.q_min) for ratio in self.ratios}
-        return {
-            ratio: WheelEnsemble(
-                scene=replace(scene, distance=self.periods * scene.period_length),
-                count=self.wheels,
-                groups=self.groups,
-                seed=self.seed,
-            )
-            for ratio, scene in scenes.items()
-        }
+        wheels = partial(WheelEnsemble, count=self.wheels, groups=self.groups, seed=self.seed)
+        return {r: wheels(scene=replace(one, distance=self.periods * one.period_length)) for r, one in scenes.items()}
 
 
 def run(case: WheelRegions, engine: Engine = SERIAL) -> Outcomes:
@@ -112,7 +105,6 @@ FORCE = "(E* R / 2a)² cos²(q a) 2 int C_1D(k) C_1D(q - k) dk, through the reso
 
 
 def series(result: Outcomes) -> list[Series]:
-    """Levels and contrast of region 2 beside the second-order force; the jump and the valley by speed."""
     return [*_plateaus(result), *_speeds(result)]
 
 

@@ -46,7 +46,6 @@ class WheelSpectrum:
     seed: int = 146
 
     def variations(self) -> Mapping[str, WheelScene]:
-        """The scene, and others by the parameter that is changed."""
         varied = _varied(self.scene) if self.parameters else {}
         if self.scene.name in varied:
             raise ValueError(f"name must be another than those of variations, {', '.join(varied)}, got that")
@@ -209,7 +208,6 @@ def _contrasts(spectrum: features.Spectrum) -> list[Series]:
 
 
 def _identities(batches: list[Outcome]) -> Iterator[Series]:
-    """Parseval's theorem and Newton's law."""
     wheels = sum(batch["jump"].size for batch in batches)
     yield Series(
         "integral of A over f, over the mean square acceleration, less one",
@@ -242,17 +240,15 @@ def _drawn(spectrum: features.Spectrum, batches: list[Outcome]) -> Iterator[Seri
     of_wheels, centres = np.concatenate([batch["levels"] for batch in batches], axis=1), np.sqrt(edges[1:] * edges[:-1])
     # linear theory has nothing below the jump, and is infinite at the resonance
     linear = {part: np.where(omega < part * scene.jump, 0.0, spectrum.linear) for part in (0.9, 0.5)}
-    hann, leakage = (
-        spectrum.hann.mean(axis=0),
-        partial(wheel_theory.leakage, jump=math.sqrt(np.mean(spectrum.jumps**2))),
-    )
+    hann, jump = spectrum.hann.mean(axis=0), math.sqrt(np.mean(spectrum.jumps**2))
+    floor = wheel_theory.leakage(centres, jump=jump, time_step=spectrum.time_step, duration=spectrum.duration)
     for model, values in {
         NO_WINDOW: of_wheels.mean(axis=1),
         LOWEST: np.quantile(of_wheels, 0.1, axis=1),
         HIGHEST: np.quantile(of_wheels, 0.9, axis=1),
         HANN: band_means(omega, hann, edges),
         LINEAR: band_means(omega, linear[0.9], edges),
-        PREDICTED_FLOOR: leakage(centres, time_step=spectrum.time_step, duration=spectrum.duration),
+        PREDICTED_FLOOR: floor,
     }.items():
         yield Series(SPECTRUM, model, values, along=features.OMEGA, at=centres)
     width = max(theory[features.PERIOD] / BANDS_PER_PERIOD, omega[0])
@@ -261,13 +257,9 @@ def _drawn(spectrum: features.Spectrum, batches: list[Outcome]) -> Iterator[Seri
     for model, density in {NO_WINDOW: spectrum.plain.mean(axis=0), HANN: hann, LINEAR: linear[0.5]}.items():
         over = band_means(omega, density / law, bands) / mean
         yield Series(OSCILLATION, model, over, along=features.OMEGA, at=(bands[1:] + bands[:-1]) / 2)
-    marks = {
-        "ω_eigen": scene.eigenfrequency,
-        "q_min v₀": scene.jump,
-        "break": theory[features.BREAK],
-        "q_max v₀": scene.cutoff,
-    }
-    yield from (Series(MARKS, name, (at,)) for name, at in marks.items())
+    marks = scene.eigenfrequency, scene.jump, theory[features.BREAK], scene.cutoff
+    for name, at in zip(("ω_eigen", "q_min v₀", "break", "q_max v₀"), marks, strict=True):
+        yield Series(MARKS, name, (at,))
 
 
 def _in_sixths(name: str, spectrum: features.Spectrum) -> Series:

@@ -100,7 +100,6 @@ VARIED = Panel(OMEGA, DENSITY, (BASE, ONE_CHANGED), facet=spectrum.PARAMETER, lo
 
 
 def of_worst(says: str, short: str, feature: str) -> Claim:
-    """Of the scene, with one parameter changed, that decides."""
     return Claim(says=says, short=short, quantity=QUANTITIES[feature], where={"scenes": str})
 
 
