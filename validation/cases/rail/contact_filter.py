@@ -126,41 +126,35 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart(
-            "contact_filter",
+        Chart("contact_filter", claims=(0, 4)).of(
             "(a), (b) A3 of each model over that of linear theory of the ellipse; points: boundary elements, 95 %; "
             "shaded: within 1 dB. (c) Points: the published table, open where masked; lines: linear theory of the "
             "ellipse over ridges, dotted over isotropic ground, a wheel each, shifted by 10 dB.",
-            (
-                Panel(
-                    rolled.WAVE,
-                    "A3 over linear theory of the ellipse [dB]",
-                    (
-                        Curve(OVER_LINEAR, SHOWN, by=("model",), of={"wheel": "first"}),
-                        Curve(OVER_LINEAR, BEM, "bem", BEM, of={"wheel": "first"}, bars=True),
-                    ),
-                    facet="across",
-                    shade=(-1, 1),
-                    ylim=(-1.5, 6.5),
-                    downward=True,
-                ),
-                Panel(
-                    rolled.WAVE,
-                    "A3, shifted [dB]",
-                    (
-                        Curve(OF_WHEELS, "ridges", "lines", "_", by=("wheel",), down=10.0),
-                        Curve(OF_WHEELS, "isotropic ground", "dotted", "_", by=("wheel",), down=10.0),
-                        Curve(OF_WHEELS, TABLE, "marks", by=("wheel",), down=10.0),
-                        Curve(OF_WHEELS, NOT_COMPARED, "open marks", "_", by=("wheel",), down=10.0),
-                    ),
-                    "published table",
-                    xlim=(8, 200),
-                    ylim=(-68, 4),
-                    downward=True,
-                    legend="lower left",
-                ),
+            Panel(
+                rolled.WAVE,
+                "A3 over linear theory of the ellipse [dB]",
+                facet="across",
+                shade=(-1, 1),
+                ylim=(-1.5, 6.5),
+                downward=True,
+            ).of(
+                Curve(OVER_LINEAR, SHOWN, by=("model",), of={"wheel": "first"}),
+                Curve(OVER_LINEAR, BEM, "bem", BEM, of={"wheel": "first"}, bars=True),
             ),
-            claims=(0, 4),
+            Panel(
+                rolled.WAVE,
+                "A3, shifted [dB]",
+                title="published table",
+                xlim=(8, 200),
+                ylim=(-68, 4),
+                downward=True,
+                legend="lower left",
+            ).of(
+                Curve(OF_WHEELS, "ridges", "lines", "_", by=("wheel",), down=10.0),
+                Curve(OF_WHEELS, "isotropic ground", "dotted", "_", by=("wheel",), down=10.0),
+                Curve(OF_WHEELS, TABLE, "marks", by=("wheel",), down=10.0),
+                Curve(OF_WHEELS, NOT_COMPARED, "open marks", "_", by=("wheel",), down=10.0),
+            ),
         ),
     ),
     matrices=(

@@ -135,40 +135,20 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart(
-            "ellipse",
+        Chart("ellipse", claims=(1,)).of(
             "(a) Semi-axes of the contact of {c.wheel.label} over the crown, and the circle of the same area. (b) A3 "
             "of this circle over that of the ellipse, isotropic ground, bands that count; shaded: within 1 dB. (c) The "
             "same at 16 mm, over the crown, both grounds.",
-            (
-                Panel(
-                    CROWN,
-                    "semi-axis [mm]",
-                    (
-                        Curve(SEMI_AXIS, ("a_x, along", "a_y, across"), by=("model",)),
-                        Curve(SEMI_AXIS, "sqrt(a_x a_y)", "guide", by=("model",)),
-                    ),
-                    ylim=(0, None),
-                    legend="upper left",
-                ),
-                Panel(
-                    WAVE,
-                    "circle over ellipse [dB]",
-                    (Curve(EXCESS, of={GROUND: "isotropic ground"}, by=(CROWN,)),),
-                    shade=(-1, 1),
-                    xlim=(11, 140),
-                    downward=True,
-                    legend="upper left",
-                ),
-                Panel(
-                    CROWN,
-                    "circle over ellipse at 16 mm [dB]",
-                    (Curve(SHORT, by=(GROUND,)),),
-                    shade=(-1, 1),
-                    legend="upper right",
-                ),
+            Panel(CROWN, "semi-axis [mm]", ylim=(0, None), legend="upper left").of(
+                Curve(SEMI_AXIS, ("a_x, along", "a_y, across"), by=("model",)),
+                Curve(SEMI_AXIS, "sqrt(a_x a_y)", "guide", by=("model",)),
             ),
-            claims=(1,),
+            Panel(
+                WAVE, "circle over ellipse [dB]", shade=(-1, 1), xlim=(11, 140), downward=True, legend="upper left"
+            ).of(Curve(EXCESS, of={GROUND: "isotropic ground"}, by=(CROWN,))),
+            Panel(CROWN, "circle over ellipse at 16 mm [dB]", shade=(-1, 1), legend="upper right").of(
+                Curve(SHORT, by=(GROUND,))
+            ),
         ),
     ),
     matrices=(

@@ -166,38 +166,32 @@ STUDY = Study(
         Claim(says="Levels from the energy mean of three lines scatter as those of one line do.", quantity=SCATTER),
     ),
     charts=(
-        Chart(
-            "line_convention",
+        Chart("line_convention", claims=(0, 1)).of(
             "(a), (b) Levels of the mean of heights over one line, by what lies across; dotted: A3 of the ellipse over "
             "that of a line; points: energy mean, 95 %; shaded: within 1 dB. (c) Deviation of a level from strip to "
             "strip. Dotted, points and (c): isotropic ground.",
-            (
-                Panel(
-                    WAVE,
-                    "over the level of one line [dB]",
-                    (
-                        Curve(HEIGHTS, by=(GROUND,)),
-                        Curve(ELLIPSE, style="guide", label="ellipse over row of springs"),
-                        Curve(ENERGY, style="bem", label="energy mean", of={GROUND: ISOTROPIC}, bars=True),
-                    ),
-                    facet=SPACING,
-                    shade=(-1, 1),
-                    ylim=(-8, 2),
-                    downward=True,
-                    ticked=True,
-                ),
-                Panel(
-                    WAVE,
-                    "deviation from strip to strip [dB]",
-                    (Curve(SPREAD, of={GROUND: ISOTROPIC}, by=("model",)),),
-                    ISOTROPIC,
-                    ylim=(0, None),
-                    downward=True,
-                    ticked=True,
-                    legend="upper right",
-                ),
+            Panel(
+                WAVE,
+                "over the level of one line [dB]",
+                facet=SPACING,
+                shade=(-1, 1),
+                ylim=(-8, 2),
+                downward=True,
+                ticked=True,
+            ).of(
+                Curve(HEIGHTS, by=(GROUND,)),
+                Curve(ELLIPSE, style="guide", label="ellipse over row of springs"),
+                Curve(ENERGY, style="bem", label="energy mean", of={GROUND: ISOTROPIC}, bars=True),
             ),
-            claims=(0, 1),
+            Panel(
+                WAVE,
+                "deviation from strip to strip [dB]",
+                title=ISOTROPIC,
+                ylim=(0, None),
+                downward=True,
+                ticked=True,
+                legend="upper right",
+            ).of(Curve(SPREAD, of={GROUND: ISOTROPIC}, by=("model",))),
         ),
     ),
 )

@@ -286,38 +286,28 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart(
-            "rail_dynamic",
+        Chart("rail_dynamic").of(
             "(a) A3 at {c.speed:.3g} m/s and the lowest level. (b), (c) In motion over at constant load, 95 %, a curve "
             "for each level; shaded: within 1 dB. Between the dotted lines: near the resonance. Right of the dashed "
             "line: not judged.",
-            (
+            Panel(FREQUENCY, "contact filter A3 [dB]", ylim=(-30, 10), legend="lower left").of(
+                Curve(A3, "linear theory", "thick", "linear theory", of={OFFSET: "first"}),
+                Curve(A3, BEM, "exact", "bem3d, constant load", of={OFFSET: "first", "lift": "constant"}),
+                Curve(A3, BEM, "bem", "bem3d, in motion", of={OFFSET: "first", "lift": "moving"}),
+                Curve(A3, SPRINGS, "mdr", "springs, in motion", of={OFFSET: "first", "lift": "moving"}),
+                Curve(A3, BEM, "crosses", "from the force", of={OFFSET: "first", "lift": "inferred"}),
+                *PLACED,
+            ),
+            *(
                 Panel(
                     FREQUENCY,
-                    "contact filter A3 [dB]",
-                    (
-                        Curve(A3, "linear theory", "thick", "linear theory", of={OFFSET: "first"}),
-                        Curve(A3, BEM, "exact", "bem3d, constant load", of={OFFSET: "first", "lift": "constant"}),
-                        Curve(A3, BEM, "bem", "bem3d, in motion", of={OFFSET: "first", "lift": "moving"}),
-                        Curve(A3, SPRINGS, "mdr", "springs, in motion", of={OFFSET: "first", "lift": "moving"}),
-                        Curve(A3, BEM, "crosses", "from the force", of={OFFSET: "first", "lift": "inferred"}),
-                        *PLACED,
-                    ),
-                    ylim=(-30, 10),
+                    "in motion over constant load [dB]",
+                    title=model,
+                    shade=(-1, 1),
+                    ylim=(-15, 20),
                     legend="lower left",
-                ),
-                *(
-                    Panel(
-                        FREQUENCY,
-                        "in motion over constant load [dB]",
-                        (Curve(MOVING, model, by=(OFFSET,), bars=True), *PLACED),
-                        model,
-                        shade=(-1, 1),
-                        ylim=(-15, 20),
-                        legend="lower left",
-                    )
-                    for model in MODELS
-                ),
+                ).of(Curve(MOVING, model, by=(OFFSET,), bars=True), *PLACED)
+                for model in MODELS
             ),
         ),
     ),

@@ -117,25 +117,21 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart(
-            "rough_rail",
+        Chart("rough_rail").of(
             "A3 of models over that of boundary elements on the same strips, by dB over ISO 3095:2013. Filled: bands "
             "that count; open: waves beyond the first zero. Shaded: within 1 dB. Grey: 95 % of boundary elements, "
             "sample and grid.",
-            (
-                Panel(
-                    rolled.WAVE,
-                    "A3 over that of boundary elements [dB]",
-                    (
-                        Curve(OF_BEM, style="interval", label="95 %, boundary elements", band=True),
-                        Curve(rolled.OVER_BEM, SHOWN, by=("model",), of={"waves": LONG}),
-                        Curve(rolled.OVER_BEM, SHOWN, "open", "_", by=("model",), of={"waves": SHORT}),
-                    ),
-                    facet=OFFSET,
-                    shade=(-1, 1),
-                    ylim=(-6, 9),
-                    downward=True,
-                ),
+            Panel(
+                rolled.WAVE,
+                "A3 over that of boundary elements [dB]",
+                facet=OFFSET,
+                shade=(-1, 1),
+                ylim=(-6, 9),
+                downward=True,
+            ).of(
+                Curve(OF_BEM, style="interval", label="95 %, boundary elements", band=True),
+                Curve(rolled.OVER_BEM, SHOWN, by=("model",), of={"waves": LONG}),
+                Curve(rolled.OVER_BEM, SHOWN, "open", "_", by=("model",), of={"waves": SHORT}),
             ),
         ),
     ),

@@ -60,90 +60,41 @@ STUDY = Study(
         up_to(says="Springs have the mean force of boundary elements.", quantity=shown.MEAN),
     ),
     charts=(
-        Chart(
-            "rolling-line",
+        Chart("rolling-line", claims=(), width=6.4).of(
             "Fig. 14.3, H = {c.hurst:g}: spectrum of the normal force over wavenumber. Line: (14.12); dashed: its mean "
             "(14.14); dots: one-sided springs at h/d = {c.heights[0]:g}; thick grey: linear theory in 3D.",
-            (
-                Panel(
-                    Q,
-                    "C_F / (F_Hertz² a (h/d)²)",
-                    (
-                        Curve(shown.SPECTRUM, shown.LINEAR_3D, "thick", "linear theory, 3D"),
-                        Curve(shown.SPECTRUM, shown.SPRINGS, "dots", "springs"),
-                        Curve(shown.SPECTRUM, "(14.12)", "exact", "(14.12)"),
-                        Curve(shown.SPECTRUM, "(14.14)", "other", "(14.14)"),
-                    ),
-                    log="xy",
-                    decades=7.8,
-                    legend="lower left",
-                ),
+            Panel(Q, "C_F / (F_Hertz² a (h/d)²)", log="xy", decades=7.8, legend="lower left").of(
+                Curve(shown.SPECTRUM, shown.LINEAR_3D, "thick", "linear theory, 3D"),
+                Curve(shown.SPECTRUM, shown.SPRINGS, "dots", "springs"),
+                Curve(shown.SPECTRUM, "(14.12)", "exact", "(14.12)"),
+                Curve(shown.SPECTRUM, "(14.14)", "other", "(14.14)"),
             ),
-            claims=(),
-            width=6.4,
         ),
-        Chart(
-            "rolling",
+        Chart("rolling", columns=3, sharey=True, width=9.0, height=5.8).of(
             "Level of the force in one-third octaves, over (h/d)² and the square of Hertz's force. Circles: boundary "
             "elements, 95 % of sample and grid; squares: one-sided springs, Geike's spectrum; solid: linear theory in "
             "3D; dashed: (14.12), which is zero below the band, left of the vertical line.",
-            (
-                Panel(
-                    Q,
-                    "one-third octave level [dB]",
-                    (
-                        Curve(shown.SHOWN, shown.LINEAR_3D, "exact", "linear theory, 3D"),
-                        Curve(shown.SHOWN, shown.LINEAR_1D, "other", "linear theory, 1D (14.12)"),
-                        Curve(shown.SHOWN, shown.SPRINGS, "mdr", "springs"),
-                        Curve(shown.SHOWN, "bem3d", "bem", "boundary elements", bars=True),
-                    ),
-                    facet=HEIGHT,
-                    ylim=(-66.0, -2.0),
-                    at=(1.0,),
-                ),
+            Panel(Q, "one-third octave level [dB]", facet=HEIGHT, ylim=(-66.0, -2.0), at=(1.0,)).of(
+                Curve(shown.SHOWN, shown.LINEAR_3D, "exact", "linear theory, 3D"),
+                Curve(shown.SHOWN, shown.LINEAR_1D, "other", "linear theory, 1D (14.12)"),
+                Curve(shown.SHOWN, shown.SPRINGS, "mdr", "springs"),
+                Curve(shown.SHOWN, "bem3d", "bem", "boundary elements", bars=True),
             ),
-            columns=3,
-            sharey=True,
-            width=9.0,
-            height=5.8,
         ),
-        Chart(
-            "rolling-coherence",
+        Chart("rolling-coherence", claims=(3,)).of(
             "(a) Coherence with linear theory: filled, boundary elements; open, springs. (b) Nonlinear over linear "
             "level. Dark to light: h/d. (c) Force along the track at three h/d, about its mean: line, boundary "
             "elements; dotted, linear theory.",
-            (
-                Panel(
-                    Q,
-                    "coherence",
-                    (
-                        BY_HEIGHT(shown.COHERENCE, "bem3d"),
-                        BY_HEIGHT(shown.COHERENCE, shown.SPRINGS, "open", "_"),
-                    ),
-                    "with linear theory",
-                    ylim=(-0.03, 1.05),
-                ),
-                Panel(
-                    Q,
-                    "nonlinear over linear [dB]",
-                    (
-                        BY_HEIGHT(shown.NONLINEAR, "bem3d", label="_"),
-                        BY_HEIGHT(shown.NONLINEAR, shown.BOTH, "open", "_"),
-                    ),
-                    "level",
-                ),
-                Panel(
-                    "x / a",
-                    "(F - mean) / (F_Hertz h/d), shifted",
-                    (
-                        BY_HEIGHT(shown.FORCE, "bem3d", "lines", "_", down=3.2),
-                        BY_HEIGHT(shown.FORCE, shown.LINEAR_3D, "dotted", "_", down=3.2),
-                    ),
-                    "force along the track",
-                    log="",
-                ),
+            Panel(Q, "coherence", title="with linear theory", ylim=(-0.03, 1.05)).of(
+                BY_HEIGHT(shown.COHERENCE, "bem3d"), BY_HEIGHT(shown.COHERENCE, shown.SPRINGS, "open", "_")
             ),
-            claims=(3,),
+            Panel(Q, "nonlinear over linear [dB]", title="level").of(
+                BY_HEIGHT(shown.NONLINEAR, "bem3d", label="_"), BY_HEIGHT(shown.NONLINEAR, shown.BOTH, "open", "_")
+            ),
+            Panel("x / a", "(F - mean) / (F_Hertz h/d), shifted", title="force along the track", log="").of(
+                BY_HEIGHT(shown.FORCE, "bem3d", "lines", "_", down=3.2),
+                BY_HEIGHT(shown.FORCE, shown.LINEAR_3D, "dotted", "_", down=3.2),
+            ),
         ),
         Chart(
             "rolling-map",

@@ -225,48 +225,30 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart(
-            "rolling_input",
+        Chart("rolling_input", columns=3, sharey=True, width=9.0, height=5.6).of(
             "Level of (14.12) with each input spectrum over that of linear theory in 3D, in one-third octaves; shaded: "
             "within 3 dB.",
-            (IN_BANDS("(14.12) over linear theory in 3D [dB]", (Curve(LEVEL, LINEAR, by=(INPUT,)),), facet=SPECTRUM),),
-            columns=3,
-            sharey=True,
-            width=9.0,
-            height=5.6,
+            IN_BANDS("(14.12) over linear theory in 3D [dB]", (Curve(LEVEL, LINEAR, by=(INPUT,)),), facet=SPECTRUM),
         ),
-        Chart(
-            "rolling_input-springs",
+        Chart("rolling_input-springs", columns=4, sharey=True, height=5.8).of(
             "One-sided springs over boundary elements, by input spectrum, in one-third octaves, 95 % of the sample. "
             "Shaded: within 3 dB.",
-            (
-                IN_BANDS(
-                    "springs over boundary\nelements [dB]",
-                    (Curve(LEVEL, ONE_SIDED, by=(INPUT,), bars=True),),
-                    facet=(HEIGHT, SPECTRUM),
-                ),
+            IN_BANDS(
+                "springs over boundary\nelements [dB]",
+                (Curve(LEVEL, ONE_SIDED, by=(INPUT,), bars=True),),
+                facet=(HEIGHT, SPECTRUM),
             ),
-            columns=4,
-            sharey=True,
-            height=5.8,
         ),
-        Chart(
-            "rolling_input-punch",
+        Chart("rolling_input-punch", claims=(3,), width=5.4, height=3.6).of(
             "Mean stiffness of punches, H = 0.7, MDR over boundary elements, by input spectrum, at three forces, 95 %; "
             "shaded: within 10 %.",
-            (
-                Panel(
-                    FORCE,
-                    "mean stiffness, MDR over boundary elements",
-                    (Curve(OVER_BEM, by=(INPUT,), bars=True),),
-                    "force Fbar = F / (E* h L)",
-                    shade=(0.9, 1.1),
-                    legend="best",
-                ),
-            ),
-            claims=(3,),
-            width=5.4,
-            height=3.6,
+            Panel(
+                FORCE,
+                "mean stiffness, MDR over boundary elements",
+                title="force Fbar = F / (E* h L)",
+                shade=(0.9, 1.1),
+                legend="best",
+            ).of(Curve(OVER_BEM, by=(INPUT,), bars=True)),
         ),
     ),
     matrices=tuple(

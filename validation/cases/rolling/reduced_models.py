@@ -230,48 +230,23 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart(
-            "reduced_models-map",
+        Chart("reduced_models-map", claims=(0, 1, 2), width=9.0, height=4.6).of(
             "Root mean square over octaves of the level of the force over boundary elements, over h' a/d. Points: "
             "strips of all spectra, with 95 % intervals; lines: the largest up to there. Shaded: within 1 dB.",
-            (
-                Panel(
-                    SLOPE,
-                    "rms over octaves [dB]",
-                    (BY_MODEL(OFF, SHOWN, "marks", bars=True), BY_MODEL(LARGEST, SHOWN, "lines", "_")),
-                    log="xy",
-                    shade=(1e-9, 1),
-                    ylim=(0.01, 20),
-                ),
+            Panel(SLOPE, "rms over octaves [dB]", log="xy", shade=(1e-9, 1), ylim=(0.01, 20)).of(
+                BY_MODEL(OFF, SHOWN, "marks", bars=True), BY_MODEL(LARGEST, SHOWN, "lines", "_")
             ),
-            claims=(0, 1, 2),
-            width=9.0,
-            height=4.6,
         ),
-        Chart(
-            "reduced_models",
+        Chart("reduced_models", claims=(0, 1), height=4.6).of(
             f"At the h' a/d nearest to {LIMIT:.2g}: (a) level over boundary elements in one-third octaves, 95 %; (b) "
             "coherence; (c) root mean square over octaves, over counted work; line: 1 dB; open: trials.",
-            (
-                Panel(
-                    Q,
-                    "level over boundary elements [dB]",
-                    (BY_MODEL(LEVEL, SHOWN, bars=True),),
-                    "in one-third octaves",
-                    lines=(0.0,),
-                ),
-                Panel(Q, COHERENCE, (BY_MODEL(COHERENCE, SHOWN),), "position by position", ylim=(0, 1.02)),
-                Panel(
-                    WORK,
-                    "rms over octaves [dB]",
-                    (BY_MODEL(AT_WORK, SHOWN, "marks"), BY_MODEL(AT_WORK, TRIALS, "open marks")),
-                    "error over work",
-                    log="xy",
-                    lines=(1.0,),
-                ),
+            Panel(Q, "level over boundary elements [dB]", title="in one-third octaves", lines=(0.0,)).of(
+                BY_MODEL(LEVEL, SHOWN, bars=True)
             ),
-            claims=(0, 1),
-            height=4.6,
+            Panel(Q, COHERENCE, title="position by position", ylim=(0, 1.02)).of(BY_MODEL(COHERENCE, SHOWN)),
+            Panel(WORK, "rms over octaves [dB]", title="error over work", log="xy", lines=(1.0,)).of(
+                BY_MODEL(AT_WORK, SHOWN, "marks"), BY_MODEL(AT_WORK, TRIALS, "open marks")
+            ),
         ),
     ),
     matrices=(Matrix(name=OFF, quantity=OFF, rows=("H", Q, "h/d", SLOPE), columns="model"),),

@@ -202,25 +202,18 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart(
-            "roughness_from_force",
+        Chart("roughness_from_force", claims=(0, 2), sharey=True, height=3.6).of(
             "Mean square height of the waves in one-third octaves, found from the force of boundary elements over "
             "the true one, by filter; a panel a roughness. Shaded: within 3 dB; vertical lines: zeros of sin(q a). "
             "Bars: 95 %. -30 dB: nothing found.",
-            (
-                Panel(
-                    Q,
-                    "roughness found over true [dB]",
-                    (Curve(OVER_TRUE, by=("model",), bars=True),),
-                    facet=HEIGHT,
-                    ylim=(-16.0, 10.0),
-                    shade=(-3.0, 3.0),
-                    at=tuple(math.pi * n for n in range(1, 10)),
-                ),
-            ),
-            claims=(0, 2),
-            sharey=True,
-            height=3.6,
+            Panel(
+                Q,
+                "roughness found over true [dB]",
+                facet=HEIGHT,
+                ylim=(-16.0, 10.0),
+                shade=(-3.0, 3.0),
+                at=tuple(math.pi * n for n in range(1, 10)),
+            ).of(Curve(OVER_TRUE, by=("model",), bars=True)),
         ),
     ),
     printed=(SLOPE,),

@@ -251,7 +251,7 @@ def _over_force(quantity: str) -> Panel:
         Curve(SHOWN[quantity], (WHEEL, *SPRINGS.values()), by=("model",), bars=True),
         Curve(SHOWN[quantity], (PUNCH, PROFILE), "open", by=("model",), bars=True),
     )
-    return Panel(FORCE, quantity, curves, ylim=(0, None), ticked=True)
+    return Panel(FORCE, quantity, ylim=(0, None), ticked=True).of(*curves)
 
 
 ALONG = "Along a track under constant load, springs with Geike's spectrum"
@@ -291,24 +291,15 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart(
-            "track_stiffness",
+        Chart("track_stiffness", claims=(0, 1), height=4.4).of(
             "(a) Mean stiffness over 2 E* a of a wheel, and over E* L of punches, over Fbar = F / (E* h L). (b) "
             "Relative deviation, along the track and, open, from punch to punch; 95 %. (c) Level of the stiffness, "
             "springs of Geike's spectrum over boundary elements, dark to light: Fbar; shaded: within 3 dB.",
-            (
-                _over_force(MEAN),
-                _over_force(DEVIATION),
-                Panel(
-                    Q,
-                    "springs over boundary elements [dB]",
-                    (Curve(LEVEL, OVER["geike"], by=(FORCE,), bars=True),),
-                    shade=(-3, 3),
-                    ylim=(-25, 25),
-                ),
+            _over_force(MEAN),
+            _over_force(DEVIATION),
+            Panel(Q, "springs over boundary elements [dB]", shade=(-3, 3), ylim=(-25, 25)).of(
+                Curve(LEVEL, OVER["geike"], by=(FORCE,), bars=True)
             ),
-            claims=(0, 1),
-            height=4.4,
         ),
     ),
     matrices=tuple(

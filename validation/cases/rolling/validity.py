@@ -172,7 +172,7 @@ BARS = partial(Curve, by=(SPECTRUM,), bars=True, beside=1.0)
 
 
 def _panels(y: str, *curves: Curve, **settings: Any) -> tuple[Panel, Panel]:
-    return Panel(HEIGHT, y, curves, **settings), Panel(SLOPE, y, curves, **settings)
+    return Panel(HEIGHT, y, **settings).of(*curves), Panel(SLOPE, y, **settings).of(*curves)
 
 
 STUDY = Study(
@@ -213,27 +213,20 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart(
-            "rolling_validity",
+        Chart("rolling_validity", claims=(0, 1), columns=2, width=9.0, height=8.6).of(
             "Over h/d (left) and over h' a/d (right), by spectrum. (a), (b) Share of contact kept on boundary "
             "elements. (c), (d) Root mean square over one-third octaves of the level over linear theory; line: 1 dB. "
             "(e), (f) The same of reduced models over boundary elements; solid: pressed layer, dashed: springs that "
             "read the surface. Bars: 95 %. Curves that lie on each other show the parameter that counts.",
-            (
-                *_panels(KEPT, BARS(KEPT + ALL)),
-                *_panels("rms over linear theory [dB]", BARS(OFF + ALL), lines=(1.0,), ylim=(0.0, None)),
-                *_panels(
-                    "rms over bem3d [dB]",
-                    BARS(OFF_REDUCED + ALL, LAYER),
-                    Curve(OFF_REDUCED + ALL, READ, "graded dashed", "_", by=(SPECTRUM,)),
-                    lines=(1.0,),
-                    ylim=(0.0, None),
-                ),
+            *_panels(KEPT, BARS(KEPT + ALL)),
+            *_panels("rms over linear theory [dB]", BARS(OFF + ALL), lines=(1.0,), ylim=(0.0, None)),
+            *_panels(
+                "rms over bem3d [dB]",
+                BARS(OFF_REDUCED + ALL, LAYER),
+                Curve(OFF_REDUCED + ALL, READ, "graded dashed", "_", by=(SPECTRUM,)),
+                lines=(1.0,),
+                ylim=(0.0, None),
             ),
-            claims=(0, 1),
-            columns=2,
-            width=9.0,
-            height=8.6,
         ),
     ),
     matrices=tuple(

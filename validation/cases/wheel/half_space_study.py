@@ -170,33 +170,18 @@ def over_bem(says: str, short: str, model: str) -> Claim:
 
 MODEL_STYLES = {wheel.LINEAR_3D: "thick", wheel.LINEAR_1D: "exact", wheel.GEIKE: "mdr", wheel.ROLLING: "triangles"}
 MARKED = Curve(MARKS, style="guide", upright=True)
-BANDS = Panel(OMEGA, LEVELS, (*by_model(LEVELS, {**MODEL_STYLES, wheel.BEM: "bem"}, bars=True), MARKED), decades=75.0)
-DIFFERENCES = Panel(
-    OMEGA,
-    "over boundary elements [dB]",
-    (Curve(OVER, wheel.BEM, "guide", "_", band=True), *by_model(OVER, MODEL_STYLES), MARKED),
-    ylim=(-12.0, 12.0),
-    lines=(-3.0, -1.0, 1.0, 3.0),
+BANDS = Panel(OMEGA, LEVELS, decades=75.0).of(*by_model(LEVELS, {**MODEL_STYLES, wheel.BEM: "bem"}, bars=True), MARKED)
+DIFFERENCES = Panel(OMEGA, "over boundary elements [dB]", ylim=(-12.0, 12.0), lines=(-3.0, -1.0, 1.0, 3.0)).of(
+    Curve(OVER, wheel.BEM, "guide", "_", band=True), *by_model(OVER, MODEL_STYLES), MARKED
 )
-THIRD = Panel(
-    OMEGA,
-    DENSITY,
-    (
-        Curve(OSCILLATION, wheel.LINEAR_3D, "thick", wheel.LINEAR_3D),
-        Curve(OSCILLATION, wheel.GEIKE, "mdr line", f"{wheel.GEIKE}, region 3"),
-        Curve(OSCILLATION, wheel.BEM, "bem line", f"{wheel.BEM}, region 3"),
-    ),
-    log="y",
+THIRD = Panel(OMEGA, DENSITY, log="y").of(
+    Curve(OSCILLATION, wheel.LINEAR_3D, "thick", wheel.LINEAR_3D),
+    Curve(OSCILLATION, wheel.GEIKE, "mdr line", f"{wheel.GEIKE}, region 3"),
+    Curve(OSCILLATION, wheel.BEM, "bem line", f"{wheel.BEM}, region 3"),
 )
-ZEROS = Panel(
-    ZERO,
-    "maxima over zeros [dB]",
-    (
-        *by_model(CONTRAST, {wheel.LINEAR_1D: "exact", wheel.GEIKE: "mdr", wheel.BEM: "bem"}, bars=True),
-        Curve(CONTRAST, wheel.LINEAR_3D, "crosses", f"{wheel.LINEAR_3D}, contrast", bars=True),
-    ),
-    log="",
-    lines=(0.0,),
+ZEROS = Panel(ZERO, "maxima over zeros [dB]", log="", lines=(0.0,)).of(
+    *by_model(CONTRAST, {wheel.LINEAR_1D: "exact", wheel.GEIKE: "mdr", wheel.BEM: "bem"}, bars=True),
+    Curve(CONTRAST, wheel.LINEAR_3D, "crosses", f"{wheel.LINEAR_3D}, contrast", bars=True),
 )
 STUDY = Study(
     title="The wheel in three dimensions: boundary elements inside the time loop",
@@ -236,16 +221,14 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart(
-            "wheel_3d",
+        Chart("wheel_3d", claims=(0, 1), columns=2, width=11.0, height=7.4).of(
             "(a) Acceleration of the wheel in one-third octaves, 95 % of sample, grid and solver. (b) The same over "
             "boundary elements, their interval shaded; lines: ± 1 and ± 3 dB. Region 2 ends at q_min v₀. (c) The "
             "oscillation of region 3. (d) Its contrast at each zero of sin²(q a), 95 %.",
-            (BANDS, DIFFERENCES, THIRD, ZEROS),
-            claims=(0, 1),
-            columns=2,
-            width=11.0,
-            height=7.4,
+            BANDS,
+            DIFFERENCES,
+            THIRD,
+            ZEROS,
         ),
     ),
     tables=tables,

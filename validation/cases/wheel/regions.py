@@ -248,7 +248,7 @@ def plateau_panel(steady: str, *more: Curve) -> Panel:
         Curve(A, steady, "mdr", "springs, steady-state"),
         *more,
     )
-    return Panel(OMEGA, DENSITY, curves, log="y")
+    return Panel(OMEGA, DENSITY, log="y").of(*curves)
 
 
 STUDY = Study(
@@ -282,25 +282,16 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart(
-            "wheel_regions",
+        Chart("wheel_regions", claims=(0, 2), columns=2, height=7.2).of(
             "(a) Region 2 over waves of {c.short:g} m and less, and (b) over those of {c.scene.name}. (c) Spectra at "
             "lower and lower speeds, dark to light. (d) The valley between resonance and jump; dotted: where a record "
             f"of this length no longer keeps them apart; line: {APART:g} dB.",
-            (
-                plateau_panel(SHORT_STEADY, Curve(A, SHORT_OPEN, "guide", "springs, open tracks")),
-                plateau_panel(LONG_STEADY),
-                Panel(OVER_EIGEN, DENSITY, (Curve(BY_SPEED, by=(RATIO,)),), log="xy"),
-                Panel(
-                    RATIO,
-                    VALLEY,
-                    (Curve(VALLEY, label="_"), Curve(MERGES, style="guide", upright=True)),
-                    lines=(APART,),
-                ),
+            plateau_panel(SHORT_STEADY, Curve(A, SHORT_OPEN, "guide", "springs, open tracks")),
+            plateau_panel(LONG_STEADY),
+            Panel(OVER_EIGEN, DENSITY, log="xy").of(Curve(BY_SPEED, by=(RATIO,))),
+            Panel(RATIO, VALLEY, lines=(APART,)).of(
+                Curve(VALLEY, label="_"), Curve(MERGES, style="guide", upright=True)
             ),
-            claims=(0, 2),
-            columns=2,
-            height=7.2,
         ),
     ),
 )

@@ -62,41 +62,29 @@ def is_of_the_book(scene: WheelScene) -> bool:
     return all(getattr(scene, key) == getattr(TABLE, key) for key in ("name", "radius", "mass", "material", "rms"))
 
 
-WHOLE = Panel(
-    OMEGA,
-    DENSITY,
-    (
-        *by_model(
-            spectrum.SPECTRUM,
-            {
-                spectrum.LINEAR: "thick",
-                spectrum.LOWEST: "dotted",
-                spectrum.HIGHEST: "dotted",
-                spectrum.NO_WINDOW: "mdr line",
-                spectrum.HANN: "exact",
-                spectrum.PREDICTED_FLOOR: "bem line",
-            },
-        ),
-        Curve(spectrum.MARKS, style="guide", upright=True),
+WHOLE = Panel(OMEGA, DENSITY, log="xy", decades=13.0, legend="upper right").of(
+    *by_model(
+        spectrum.SPECTRUM,
+        {
+            spectrum.LINEAR: "thick",
+            spectrum.LOWEST: "dotted",
+            spectrum.HIGHEST: "dotted",
+            spectrum.NO_WINDOW: "mdr line",
+            spectrum.HANN: "exact",
+            spectrum.PREDICTED_FLOOR: "bem line",
+        },
     ),
-    log="xy",
-    decades=13.0,
-    legend="upper right",
+    Curve(spectrum.MARKS, style="guide", upright=True),
 )
 STYLES = {spectrum.LINEAR: "thick", spectrum.NO_WINDOW: "mdr line", spectrum.HANN: "exact"}
-THIRD = Panel(
-    OMEGA, spectrum.OSCILLATION, by_model(spectrum.OSCILLATION, STYLES), log="y", ylim=(0.01, 30.0), legend="upper left"
+THIRD = Panel(OMEGA, spectrum.OSCILLATION, log="y", ylim=(0.01, 30.0), legend="upper left").of(
+    *by_model(spectrum.OSCILLATION, STYLES)
 )
-ZEROS = Panel(
-    ZERO,
-    "maxima over zeros [dB]",
-    by_model(CONTRAST, {spectrum.LINEAR: "thick", "springs": "mdr"}, bars=True),
-    log="",
-    lines=(0.0,),
-    legend="center right",
+ZEROS = Panel(ZERO, "maxima over zeros [dB]", log="", lines=(0.0,), legend="center right").of(
+    *by_model(CONTRAST, {spectrum.LINEAR: "thick", "springs": "mdr"}, bars=True)
 )
 BASE, ONE_CHANGED = Curve(spectrum.SPECTRUM, spectrum.NO_WINDOW, "thick", "_"), Curve(spectrum.VARIED, by=("scene",))
-VARIED = Panel(OMEGA, DENSITY, (BASE, ONE_CHANGED), facet=spectrum.PARAMETER, log="xy", legend="lower left")
+VARIED = Panel(OMEGA, DENSITY, facet=spectrum.PARAMETER, log="xy", legend="lower left").of(BASE, ONE_CHANGED)
 
 
 def of_worst(says: str, short: str, feature: str) -> Claim:
@@ -150,31 +138,22 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart(
-            "wheel-contact",
+        Chart("wheel-contact", claims=()).of(
             "The wheel in the simulation. (a) As in Fig. 14.2: the profile x²/R over springs at the height of the "
             "track; dark springs are in contact, with their compression below. (b) Boundary elements in the time loop: "
-            "pressure over Hertz's largest; circle: Hertz.",
-            claims=(),
+            "pressure over Hertz's largest; circle: Hertz."
         ),
-        Chart(
-            "wheel",
+        Chart("wheel", claims=(0, 2), width=13.5, height=4.2).of(
             "Fig. 14.4. (a) Spectrum of the acceleration, (14.17), mean of {c.realisations} wheels, with the tenth and "
             "the ninetieth percentile. Vertical lines: ω_eigen, q_min v₀, predicted break, q_max v₀. (b) Region 3 over "
             "ω^(-2H-3). (c) Contrast of the oscillation at each zero of sin²(q a), Hann's window, 95 %.",
-            (WHOLE, THIRD, ZEROS),
-            claims=(0, 2),
-            width=13.5,
-            height=4.2,
+            WHOLE,
+            THIRD,
+            ZEROS,
         ),
-        Chart(
-            "wheel-parameters",
+        Chart("wheel-parameters", claims=(3, 4, 5, 6), columns=3, width=11.0, height=6.0).of(
             "One parameter at a time, mean of {c.varied} wheels each, without window; thick grey: {c.scene.name}.",
-            (VARIED,),
-            claims=(3, 4, 5, 6),
-            columns=3,
-            width=11.0,
-            height=6.0,
+            VARIED,
         ),
     ),
     tables=tables,
