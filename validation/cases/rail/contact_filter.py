@@ -118,11 +118,8 @@ STUDY = Study(
             named.SPRINGS_GEIKE,
             "Springs on a track of Geike's spectrum are within 1 dB of boundary elements over isotropic ground.",
         ),
-        Claim(
-            says="Linear theory of the ellipse over isotropic ground lies within 1 dB rms of the published table.",
-            quantity="rms of " + OVER_TABLE,
-            model=LINEAR,
-            where={"across": "isotropic ground"},
+        Claim(quantity="rms of " + OVER_TABLE, model=LINEAR, where={"across": "isotropic ground"}).saying(
+            "Linear theory of the ellipse over isotropic ground lies within 1 dB rms of the published table."
         ),
     ),
     charts=(

@@ -122,16 +122,13 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(
-            says="Both the closed form and boundary elements give the contact of the program CONTACT.",
+        Claim(quantity=tuple(CONTACT)).saying(
+            "Both the closed form and boundary elements give the contact of the program CONTACT.",
             short="Closed form and boundary elements beside the contact of CONTACT",
-            quantity=tuple(CONTACT),
         ),
-        Claim(
-            says="A circle of the same area, sqrt(a_x a_y), has the contact filter of the ellipse within 1 dB.",
+        Claim(quantity=EXCESS, printed=decibels).saying(
+            "A circle of the same area, sqrt(a_x a_y), has the contact filter of the ellipse within 1 dB.",
             short="A circle of the same area for the ellipse",
-            quantity=EXCESS,
-            printed=decibels,
         ),
     ),
     charts=(

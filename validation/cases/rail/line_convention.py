@@ -149,19 +149,13 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(
-            says="The mean of the heights of parallel lines has the levels of one line within 1 dB.",
+        Claim(quantity=HEIGHTS, along=GROUND, printed=decibels).saying(
+            "The mean of the heights of parallel lines has the levels of one line within 1 dB.",
             short="Mean of heights over one line",
-            quantity=HEIGHTS,
-            along=GROUND,
-            printed=decibels,
         ),
-        Claim(
-            says="The energy mean of the spectra of parallel lines has the levels of one line within 1 dB.",
+        Claim(quantity=ENERGY, along=GROUND, printed=decibels).saying(
+            "The energy mean of the spectra of parallel lines has the levels of one line within 1 dB.",
             short="energy mean over one line",
-            quantity=ENERGY,
-            along=GROUND,
-            printed=decibels,
         ),
         Claim(says="Levels from the energy mean of three lines scatter as those of one line do.", quantity=SCATTER),
     ),

@@ -263,24 +263,17 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(
-            says="The contact filter of constant load holds when the wheel moves.",
+        Claim(quantity=RMS + MOVING, along=OFFSET).saying(
+            "The contact filter of constant load holds when the wheel moves.",
             short="In motion over constant load, rms over bands",
-            quantity=RMS + MOVING,
-            along=OFFSET,
         ),
-        Claim(
-            says="Springs that read the surface lift a wheel that moves as boundary elements do.",
+        Claim(quantity=RMS + BESIDE, along=OFFSET).saying(
+            "Springs that read the surface lift a wheel that moves as boundary elements do.",
             short="springs that read the surface over boundary elements in motion",
-            quantity=RMS + BESIDE,
-            along=OFFSET,
         ),
         *(
-            Claim(
-                says=f"The force over the linear dynamic stiffness tells what lifts the wheel {bands}.",
-                quantity=RMS + INFERRED,
-                where={"bands": bands},
-                along=OFFSET,
+            Claim(quantity=RMS + INFERRED, where={"bands": bands}, along=OFFSET).saying(
+                f"The force over the linear dynamic stiffness tells what lifts the wheel {bands}."
             )
             for bands in (ABOVE, NEAR)
         ),

@@ -129,12 +129,8 @@ STUDY = Study(
     ),
     series=series,
     claims=[
-        Claim(
-            says=f"{name} as boundary elements do, within 1 dB, A-weighted and in each range.",
-            short=short,
-            quantity=LEVEL,
-            model=LABELS[model],
-            printed=or_less,
+        Claim(quantity=LEVEL, model=LABELS[model], printed=or_less).saying(
+            f"{name} as boundary elements do, within 1 dB, A-weighted and in each range.", short=short
         )
         for model, name, short in (
             (GEIKE, "Springs of Geike's spectrum sound", "Springs of Geike's spectrum over boundary elements"),

@@ -92,28 +92,21 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        follow(
-            says="Linear theory of the ellipse follows boundary elements within 1 dB up to 20 dB over the limit of "
+        follow(model=LINEAR, where={"waves": LONG}).saying(
+            "Linear theory of the ellipse follows boundary elements within 1 dB up to 20 dB over the limit of "
             "ISO 3095.",
             short="Linear theory of the ellipse",
-            model=LINEAR,
-            where={"waves": LONG},
         ),
-        follow(
-            says="It follows them within 1 dB at the waves beyond its first zero too.",
+        follow(model=LINEAR, where={"waves": SHORT}).saying(
+            "It follows them within 1 dB at the waves beyond its first zero too.",
             short="linear theory beyond its first zero",
-            model=LINEAR,
-            where={"waves": SHORT},
         ),
-        follow(
-            says="Springs that read the surface follow boundary elements within 1 dB at all of these waves.",
+        follow(model=named.SPRINGS_THAT_READ).saying(
+            "Springs that read the surface follow boundary elements within 1 dB at all of these waves.",
             short="springs that read the surface",
-            model=named.SPRINGS_THAT_READ,
         ),
-        Claim(
-            says="At the limit of ISO 3095 the wheel keeps 95 % of the area of the smooth contact.",
-            quantity=LOST,
-            where={OFFSET: 0.0},
+        Claim(quantity=LOST, where={OFFSET: 0.0}).saying(
+            "At the limit of ISO 3095 the wheel keeps 95 % of the area of the smooth contact."
         ),
     ),
     charts=(

@@ -32,30 +32,25 @@ STUDY = Study(
     ),
     series=shown.series,
     claims=(
-        has_levels(
-            says="Springs with Geike's spectrum have the force spectrum of a wheel that rolls over isotropic roughness "
+        has_levels(model=(shown.LINEAR_1D + shown.OVER, shown.SPRINGS + shown.OVER)).saying(
+            "Springs with Geike's spectrum have the force spectrum of a wheel that rolls over isotropic roughness "
             "(Fig. 14.3).",
             short="Springs with Geike's spectrum, level over boundary elements",
-            model=(shown.LINEAR_1D + shown.OVER, shown.SPRINGS + shown.OVER),
         ),
-        has_levels(
-            says="With the rolling-equivalent spectrum, springs have the level of boundary elements in each one-third "
-            "octave.",
-            model=shown.ROLLING_SPRINGS + shown.OVER,
+        has_levels(model=shown.ROLLING_SPRINGS + shown.OVER).saying(
+            "With the rolling-equivalent spectrum, springs have the level of boundary elements in each one-third "
+            "octave."
         ),
-        has_levels(
-            says="Linear theory in 3D has the level of boundary elements in each one-third octave.",
+        has_levels(model=shown.LINEAR_3D + shown.OVER).saying(
+            "Linear theory in 3D has the level of boundary elements in each one-third octave.",
             short="Linear theory in 3D, level over boundary elements",
-            model=shown.LINEAR_3D + shown.OVER,
         ),
-        up_to(
-            says="Nonlinearity changes the level of springs as it changes that of boundary elements.",
+        up_to(quantity=CHANGES).saying(
+            "Nonlinearity changes the level of springs as it changes that of boundary elements.",
             short="Nonlinearity, springs beside boundary elements",
-            quantity=CHANGES,
         ),
-        up_to(
-            says="The force at one position has the variance of linear theory, which Geike's rule keeps.",
-            quantity=shown.VARIANCE,
+        up_to(quantity=shown.VARIANCE).saying(
+            "The force at one position has the variance of linear theory, which Geike's rule keeps."
         ),
         up_to(says="Springs have the mean force of boundary elements.", quantity=shown.MEAN),
     ),

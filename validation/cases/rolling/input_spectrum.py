@@ -208,20 +208,15 @@ STUDY = Study(
     series=series,
     claims=(
         *(
-            Claim(
-                says=f"{what} are within 3 dB of 3D in each one-third octave{source}.",
+            Claim(quantity=LEVEL, where={INPUT: name}).saying(
+                f"{what} are within 3 dB of 3D in each one-third octave{source}.",
                 short=f"{what}, beside 3D in one-third octaves",
-                quantity=LEVEL,
-                where={INPUT: name},
             )
             for name, what, source in SPRINGS_ON
         ),
-        Claim(
-            says="The rolling-equivalent spectrum serves punches too: their mean stiffness is that of boundary "
-            "elements.",
+        Claim(quantity=STIFFNESS, where={INPUT: INPUT_NAMES["rolling"]}).saying(
+            "The rolling-equivalent spectrum serves punches too: their mean stiffness is that of boundary elements.",
             short="Mean stiffness of punches on the rolling-equivalent spectrum, over boundary elements as a part",
-            quantity=STIFFNESS,
-            where={INPUT: INPUT_NAMES["rolling"]},
         ),
     ),
     charts=(

@@ -199,34 +199,26 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        in_octaves(
-            says="In octaves a rough layer that is pressed flat beforehand follows boundary elements within 1 dB up to "
+        in_octaves(model=LAYER, where=_up_to(LIMIT)).saying(
+            "In octaves a rough layer that is pressed flat beforehand follows boundary elements within 1 dB up to "
             f"h' a/d of {LIMIT:.2g}.",
             short=f"Pressed layer beside boundary elements up to h' a/d = {LIMIT:.2g}",
-            model=LAYER,
-            where=_up_to(LIMIT),
         ),
-        in_octaves(
-            says="In octaves springs that read the surface follow boundary elements within 1 dB up to h' a/d of "
+        in_octaves(model=READ, where=_up_to(LIMIT_OF_READ)).saying(
+            "In octaves springs that read the surface follow boundary elements within 1 dB up to h' a/d of "
             f"{LIMIT_OF_READ:.2g}.",
             short=f"springs that read the surface up to {LIMIT_OF_READ:.2g}",
-            model=READ,
-            where=_up_to(LIMIT_OF_READ),
         ),
         AtTheLimit(
-            says=f"At h' a/d of {LIMIT:.2g}, linear theory, springs and the bed of the field are more than 1 dB off "
+            quantity=OFF, model=(LINEAR, LINE, READ, reduced_strip.BED), where=_up_to(LIMIT), differ=True
+        ).saying(
+            f"At h' a/d of {LIMIT:.2g}, linear theory, springs and the bed of the field are more than 1 dB off "
             "boundary elements in octaves.",
             short=f"linear theory, springs and the bed at {LIMIT:.2g}",
-            quantity=OFF,
-            model=(LINEAR, LINE, READ, reduced_strip.BED),
-            where=_up_to(LIMIT),
-            differ=True,
         ),
-        in_octaves(
-            says="In octaves boundary elements on a third of the cells follow those on all within 1 dB up to h' a/d of "
-            f"{LIMIT:.2g}.",
-            model=reduced_strip.COARSEST,
-            where=_up_to(LIMIT),
+        in_octaves(model=reduced_strip.COARSEST, where=_up_to(LIMIT)).saying(
+            "In octaves boundary elements on a third of the cells follow those on all within 1 dB up to h' a/d of "
+            f"{LIMIT:.2g}."
         ),
     ),
     charts=(

@@ -147,11 +147,12 @@ STUDY = Study(
     series=series,
     claims=(
         Claim(
-            says="Over ridges across the track the one-dimensional model is exact in three dimensions, (14.11).",
-            short="Over ridges, springs and boundary elements beside (14.11), through its zeros, within their grids",
             quantity=NEAREST,
             model=(BEM, FULL, SPRINGS),
             printed=lambda error: f"{error.value:.2g} of {error.tolerance:.2g} that the grid leaves",
+        ).saying(
+            "Over ridges across the track the one-dimensional model is exact in three dimensions, (14.11).",
+            short="Over ridges, springs and boundary elements beside (14.11), through its zeros, within their grids",
         ),
     ),
     charts=(

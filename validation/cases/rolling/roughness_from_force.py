@@ -176,29 +176,21 @@ STUDY = Study(
     series=series,
     claims=(
         *(
-            Claim(
-                says=f"The roughness spectrum follows from the force spectrum by {by}, read backwards.",
+            Claim(quantity=LEVELS, model=by, along=HEIGHT).saying(
+                f"The roughness spectrum follows from the force spectrum by {by}, read backwards.",
                 short=f"Roughness from force by {by}, in one-third octaves",
-                quantity=LEVELS,
-                model=by,
-                along=HEIGHT,
             )
             for by in (MEAN_FILTER, FILTER_1D)
         ),
         *(
-            Claim(
-                says=f"{where} of sin(q a) the roughness spectrum follows by the filter in 3D, read backwards.",
+            Claim(quantity=LEVELS, model=FILTER_3D, where={"bands": bands}, along=HEIGHT).saying(
+                f"{where} of sin(q a) the roughness spectrum follows by the filter in 3D, read backwards.",
                 short=f"Roughness from force by the filter in 3D, {bands}",
-                quantity=LEVELS,
-                model=FILTER_3D,
-                where={"bands": bands},
-                along=HEIGHT,
             )
             for where, bands in (("Between the zeros", BETWEEN), ("At the zeros", ZEROS))
         ),
-        Claim(
-            says="Filters that are read backwards find no roughness below the band, where there is none.",
-            quantity=BELOW,
+        Claim(quantity=BELOW).saying(
+            "Filters that are read backwards find no roughness below the band, where there is none."
         ),
     ),
     charts=(

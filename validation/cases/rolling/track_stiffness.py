@@ -274,10 +274,8 @@ STUDY = Study(
             "Fluctuation of stiffness along a track, springs beside boundary elements",
         ),
         _claim(MEAN, OVER["geike"], f"{ALONG} have the mean stiffness of boundary elements.", "its mean"),
-        Claim(
-            says="Springs with Geike's spectrum have the level of the stiffness in each one-third octave.",
-            quantity=(LEVEL, "rms of " + LEVEL),
-            model=OVER["geike"],
+        Claim(quantity=(LEVEL, "rms of " + LEVEL), model=OVER["geike"]).saying(
+            "Springs with Geike's spectrum have the level of the stiffness in each one-third octave."
         ),
         _claim(
             DEVIATION,

@@ -190,11 +190,9 @@ STUDY = Study(
     series=series,
     claims=(
         *(
-            Claim(
-                says=f"{what} at the same {parameter}, whatever the band of the roughness and its Hurst exponent.",
+            Claim(quantity=quantity, where={parameter: ...}).saying(
+                f"{what} at the same {parameter}, whatever the band of the roughness and its Hurst exponent.",
                 short=f"{short} over all spectra at equal {parameter}",
-                quantity=quantity,
-                where={parameter: ...},
             )
             for what, short, quantity in (
                 ("Contact is lost", "Contact kept", KEPT),
@@ -203,11 +201,8 @@ STUDY = Study(
             for parameter in (SLOPE, HEIGHT)
         ),
         *(
-            Claim(
-                says=f"{what} boundary elements within 1 dB up to h' a/d of {STEEPEST:.3g}, in all bands.",
-                quantity=OFF_REDUCED,
-                model=model,
-                where={SLOPE: ...},
+            Claim(quantity=OFF_REDUCED, model=model, where={SLOPE: ...}).saying(
+                f"{what} boundary elements within 1 dB up to h' a/d of {STEEPEST:.3g}, in all bands."
             )
             for model, what in ((READ, "Springs that read the surface follow"), (LAYER, "A pressed layer follows"))
         ),

@@ -60,20 +60,15 @@ STUDY = Study(
     ),
     series=distance.series,
     claims=(
-        Claim(
-            says="The break that moves with the distance is leakage (Fig. 14.5).",
-            short="The break is that of leakage",
-            either=({"quantity": distance.BREAK_LAW}, {"model": LINEAR_OVER, "where": {"region": FOURTH}}),
+        Claim(either=({"quantity": distance.BREAK_LAW}, {"model": LINEAR_OVER, "where": {"region": FOURTH}})).saying(
+            "The break that moves with the distance is leakage (Fig. 14.5).", short="The break is that of leakage"
         ),
-        Claim(
-            says="Regions 1, 2 and 4 arise from the non-linearity of the contact.",
+        Claim(quantity=LEVEL, model=LINEAR_OVER, differ=True).saying(
+            "Regions 1, 2 and 4 arise from the non-linearity of the contact.",
             short="Regions 1, 2 and 4 of a linear contact and of springs",
-            quantity=LEVEL,
-            model=LINEAR_OVER,
-            differ=True,
         ),
-        Claim(
-            says="The frequency of the peak depends on the amplitude as on a Hertz contact.", quantity=QUANTITIES[PEAK]
+        Claim(quantity=QUANTITIES[PEAK]).saying(
+            "The frequency of the peak depends on the amplitude as on a Hertz contact."
         ),
     ),
     charts=(

@@ -201,13 +201,14 @@ STUDY = Study(
     series=series,
     claims=(
         Claim(
-            says="Boundary elements in the time loop confirm Fig. 14.4.",
-            short="Springs of Fig. 14.4 over boundary elements in the time loop",
             either=(
                 {"quantity": LEVEL, "model": wheel.OVER_BEM[wheel.GEIKE]},
                 {"quantity": QUANTITIES[SLOPE], "model": wheel.BEM},
                 {"quantity": CONTRAST},
-            ),
+            )
+        ).saying(
+            "Boundary elements in the time loop confirm Fig. 14.4.",
+            short="Springs of Fig. 14.4 over boundary elements in the time loop",
         ),
         over_bem(
             "Linear theory in three dimensions has the acceleration of the wheel.",

@@ -263,22 +263,17 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(
-            says="The plateau of region 2 has a substructure or none, depending on the parameters.",
+        Claim(quantity=CONTRAST, model=SHORT_OPEN, differ=True).saying(
+            "The plateau of region 2 has a substructure or none, depending on the parameters.",
             short="Maxima and zeros of region 2 over short waves",
-            quantity=CONTRAST,
-            model=SHORT_OPEN,
-            differ=True,
         ),
-        Claim(
-            says="Without leakage, region 2 of springs is the second-order force of the roughness.",
+        Claim(either=({"quantity": LEVEL}, {"quantity": CONTRAST, "model": SHORT_STEADY})).saying(
+            "Without leakage, region 2 of springs is the second-order force of the roughness.",
             short="region 2 without leakage beside the second-order force",
-            either=({"quantity": LEVEL}, {"quantity": CONTRAST, "model": SHORT_STEADY}),
         ),
-        Claim(
-            says="At low speed the jump comes to the resonance, and the plateau disappears.",
+        Claim(quantity=(QUANTITIES[JUMP], MERGED)).saying(
+            "At low speed the jump comes to the resonance, and the plateau disappears.",
             short="the end of its plateau at low speed",
-            quantity=(QUANTITIES[JUMP], MERGED),
         ),
     ),
     charts=(

@@ -108,21 +108,20 @@ STUDY = Study(
     series=spectrum.series,
     claims=(
         Claim(
-            says="On springs the peak and the regions of Fig. 14.4 lie where theory has them; region 3 has its level "
-            "and slope.",
-            short="Peak, regions, level and slope of Fig. 14.4",
             either=(
                 {"quantity": tuple(QUANTITIES[k] for k in spectrum.SOURCES if k != PERIOD), "where": {"scene": str}},
                 {"quantity": LEVEL},
-            ),
+            )
+        ).saying(
+            "On springs the peak and the regions of Fig. 14.4 lie where theory has them; region 3 has its level "
+            "and slope.",
+            short="Peak, regions, level and slope of Fig. 14.4",
         ),
-        Claim(
-            says="Region 3 oscillates with the constant period π v₀ / a.", quantity=QUANTITIES[PERIOD], along="scene"
+        Claim(quantity=QUANTITIES[PERIOD], along="scene").saying(
+            "Region 3 oscillates with the constant period π v₀ / a."
         ),
-        Claim(
-            says="Region 3 oscillates as sin²(q a), down to its zeros.",
-            short="maxima of region 3 over its zeros",
-            quantity=CONTRAST,
+        Claim(quantity=CONTRAST).saying(
+            "Region 3 oscillates as sin²(q a), down to its zeros.", short="maxima of region 3 over its zeros"
         ),
         of_worst(
             "The frequency of the peak depends on none of q_min, q_max, v₀, H and h₀, only on the contact.",
