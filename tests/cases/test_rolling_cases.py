@@ -15,8 +15,7 @@ from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import input_spectrum as rolling_input
 from validation.cases.rolling import reduced_models as reduced
 from validation.cases.rolling import ridges
-from validation.cases.rolling.force_spectrum import LEVEL, LINEAR_3D, OVER, RMS_FORCE, SPRINGS, bem_over_linear
-from validation.cases.rolling.force_spectrum_study import CASE
+from validation.cases.rolling.force_spectrum import CASE, LEVEL, LINEAR_3D, OVER, RMS_FORCE, SPRINGS, bem_over_linear
 from validation.report.answers.first_screen import answered_questions
 from validation.report.section import Section
 from validation.simulation import rolling_strip

@@ -105,9 +105,9 @@ class Chart:
     width: float = 10.5
     height: float = 4.0
 
-    def of(self, caption: str, *panels: Panel) -> "Chart":
-        """The same with this caption and these panels."""
-        return replace(self, caption=caption, panels=panels)
+    def of(self, caption: str, *panels: Panel, over: Map | None = None) -> "Chart":
+        """The same with this caption and these panels, or this map."""
+        return replace(self, caption=caption, panels=over or panels)
 
     @property
     def tables(self) -> tuple[str, ...]:

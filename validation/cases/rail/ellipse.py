@@ -56,9 +56,9 @@ A3, EXCESS, SHORT = "A3", "A3 of a circle over that of the ellipse", "A3 of a ci
 WEIGHTED, SEMI_AXIS = "A-weighted level with the circle over that with the ellipse", "semi-axis"
 CROWN, GROUND, WAVE, SPEED = "crown [mm]", "across", "wavelength [mm]", "speed [km/h]"
 DIGITS = Margin(
-    tolerance=2e-4,
+    2e-4,
+    "2e-4: the fourth digit of what is published",
     relative=True,
-    reason="2e-4: the fourth digit of what is published",
     source="CONTACT, published example output, four digits",
     role=Role.CRITERION,
 )

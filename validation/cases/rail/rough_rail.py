@@ -27,8 +27,8 @@ OFFSET, WAVES, GROUND = "offset [dB]", "waves of h'", "isotropic ground"
 SHORT, LONG = "waves beyond the first zero", "bands that count"
 OF_BEM, LOST = "interval of A3 of boundary elements", "area in contact over that of the smooth wheel"
 FULL_CONTACT = Margin(
-    tolerance=0.05,
-    reason="5 %: hardly any contact is lost; cells at the edge count whole, which is 2 % on these grids",
+    0.05,
+    "5 %: hardly any contact is lost; cells at the edge count whole, which is 2 % on these grids",
     source="the ellipse of Hertz",
 )
 

@@ -170,11 +170,7 @@ def _rolled(result: Outcomes) -> Iterator[Series]:
 def punches_of(result: Outcomes) -> Iterator[Series]:
     """Springs over boundary elements at each force, and at Fbar = 0.1 as a part."""
     case, ones = result.case, np.ones(len(result.case.forces))
-    margin = Margin(
-        tolerance=0.1,
-        reason="10 %: grid error of Fig. 14.1 at this force",
-        source=f"bem3d on {case.punch_cells}² cells",
-    )
+    margin = Margin(0.1, "10 %: grid error of Fig. 14.1 at this force", source=f"bem3d on {case.punch_cells}² cells")
     bem = Estimates.ratios(result["punches"]["stiffness"], ones)
     for rule in INPUT_SPECTRA:
         of, mine = {INPUT: INPUT_NAMES[rule]}, result[rule]

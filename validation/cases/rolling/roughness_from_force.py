@@ -110,9 +110,7 @@ FOUND, OVER_TRUE = "mean square height in a one-third octave, over that of all",
 BETWEEN, ZEROS = "between zeros of sin(q a)", "at zeros of sin(q a)"
 NEAR = THREE_DECIBELS.beside("the surface itself")
 LITTLE = Margin(
-    tolerance=0.05,
-    reason="5 %: 0.2 dB of the mean square height",
-    source="the surface itself, over the mean square of its whole height",
+    0.05, "5 %: 0.2 dB of the mean square height", source="the surface itself, over the mean square of its whole height"
 )
 
 

@@ -242,10 +242,6 @@ def percent(number: Number) -> str:
     return f"{100 * number.value:+.0f} ± {100 * number.uncertainty:.0f} %"
 
 
-def _claim(quantity: str, model: str | tuple[str, ...], says: str, short: str = "") -> Claim:
-    return Claim(says=says, short=short, quantity=quantity, model=model, printed=percent)
-
-
 def _over_force(quantity: str) -> Panel:
     curves = (
         Curve(SHOWN[quantity], (WHEEL, *SPRINGS.values()), by=("model",), bars=True),
@@ -254,6 +250,7 @@ def _over_force(quantity: str) -> Panel:
     return Panel(FORCE, quantity, ylim=(0, None), ticked=True).of(*curves)
 
 
+in_per_cent = partial(Claim, printed=percent)
 ALONG = "Along a track under constant load, springs with Geike's spectrum"
 STUDY = Study(
     title="Stiffness along a track at constant load: from Fig. 14.1 to rolling",
@@ -267,25 +264,21 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        _claim(
-            DEVIATION,
-            OVER["geike"],
+        in_per_cent(quantity=DEVIATION, model=OVER["geike"]).saying(
             f"{ALONG} have the fluctuation of stiffness of boundary elements.",
-            "Fluctuation of stiffness along a track, springs beside boundary elements",
+            short="Fluctuation of stiffness along a track, springs beside boundary elements",
         ),
-        _claim(MEAN, OVER["geike"], f"{ALONG} have the mean stiffness of boundary elements.", "its mean"),
+        in_per_cent(quantity=MEAN, model=OVER["geike"]).saying(
+            f"{ALONG} have the mean stiffness of boundary elements.", short="its mean"
+        ),
         Claim(quantity=(LEVEL, "rms of " + LEVEL), model=OVER["geike"]).saying(
             "Springs with Geike's spectrum have the level of the stiffness in each one-third octave."
         ),
-        _claim(
-            DEVIATION,
-            (OVER["line"], OVER["rolling"]),
-            "The line trace or the rolling-equivalent spectrum mends the fluctuation of stiffness.",
+        in_per_cent(quantity=DEVIATION, model=(OVER["line"], OVER["rolling"])).saying(
+            "The line trace or the rolling-equivalent spectrum mends the fluctuation of stiffness."
         ),
-        _claim(
-            DEVIATION,
-            PUNCH_OVER_WHEEL,
-            "The fluctuation of stiffness along a track is that from punch to punch of Fig. 14.1 at the same Fbar.",
+        in_per_cent(quantity=DEVIATION, model=PUNCH_OVER_WHEEL).saying(
+            "The fluctuation of stiffness along a track is that from punch to punch of Fig. 14.1 at the same Fbar."
         ),
     ),
     charts=(

@@ -157,29 +157,27 @@ QUARTER, WHOLE = 0.25, 1.0
 """Heights over h_0 between which the order of growth is measured."""
 NO_CHANGE = "no change: what a region 4 without leakage would show"
 OF_LAW = Margin(
-    tolerance=0.1,
-    reason="0.1: separates this law from no dependence, 0, and from exponents of 1/2 and more",
+    0.1,
+    "0.1: separates this law from no dependence, 0, and from exponents of 1/2 and more",
     source="1 / (2 H + 1): a floor J² / (ω² T) under a spectrum of ω^(-2H-3)",
 )
 OF_JUMP = Margin(
-    tolerance=0.1,
-    reason="10 %: 0.8 dB; nonlinearity adds a part of order h₀/d",
+    0.1,
+    "10 %: 0.8 dB; nonlinearity adds a part of order h₀/d",
     source="(1 + cos²(ω_eigen T)) int A df of (14.12) through the resonator, from static equilibrium",
 )
 NOTHING_THERE = Margin(
-    tolerance=1e-18,
-    reason="square of the rounding of the acceleration, 1e-16 of its size, spread over all frequencies",
+    1e-18,
+    "square of the rounding of the acceleration, 1e-16 of its size, spread over all frequencies",
     source="zero: the track has waves from q_min to q_max alone",
     role=Role.IDENTITY,
 )
 OF_ORDER = Margin(
-    tolerance=0.3,
-    reason="0.3: separates the exponents 2, 3 and 4",
-    source="second order: products of two waves, each linear in h₀",
+    0.3, "0.3: separates the exponents 2, 3 and 4", source="second order: products of two waves, each linear in h₀"
 )
 OF_SQUARE = Margin(
-    tolerance=0.15,
-    reason="10 %: 1.5 holds for waves far above the resonance; few wheels",
+    0.15,
+    "10 %: 1.5 holds for waves far above the resonance; few wheels",
     source="1 + 1/2: the free vibration begins with the amplitude dF / M that cancels the forced acceleration",
 )
 

@@ -29,8 +29,8 @@ WHEEL, APPLICATIONS = "wheel", "applications a time step"
 OF_FIGURE = 5
 """Numbers of the claim of Fig. 14.4, whose intervals hold at once: levels of three ranges, slope, contrast."""
 REPEATED = Margin(
-    tolerance=1e-9,
-    reason="rounding of a sum over all steps",
+    1e-9,
+    "rounding of a sum over all steps",
     source="zero: a periodic motion has no mean acceleration",
     role=Role.CRITERION,
 )
@@ -164,10 +164,6 @@ def tables(result: Outcomes) -> list[Table]:
     return [Table(WHEEL, {name: [value] for name, value in values.items()})]
 
 
-def over_bem(says: str, short: str, model: str) -> Claim:
-    return Claim(says=says, short=short, quantity=LEVEL, model=wheel.OVER_BEM[model], along="range")
-
-
 MODEL_STYLES = {wheel.LINEAR_3D: "thick", wheel.LINEAR_1D: "exact", wheel.GEIKE: "mdr", wheel.ROLLING: "triangles"}
 MARKED = Curve(MARKS, style="guide", upright=True)
 BANDS = Panel(OMEGA, LEVELS, decades=75.0).of(*by_model(LEVELS, {**MODEL_STYLES, wheel.BEM: "bem"}, bars=True), MARKED)
@@ -210,15 +206,12 @@ STUDY = Study(
             "Boundary elements in the time loop confirm Fig. 14.4.",
             short="Springs of Fig. 14.4 over boundary elements in the time loop",
         ),
-        over_bem(
-            "Linear theory in three dimensions has the acceleration of the wheel.",
-            "linear theory in 3D",
-            wheel.LINEAR_3D,
+        Claim(quantity=LEVEL, model=wheel.OVER_BEM[wheel.LINEAR_3D], along="range").saying(
+            "Linear theory in three dimensions has the acceleration of the wheel.", short="linear theory in 3D"
         ),
-        over_bem(
+        Claim(quantity=LEVEL, model=wheel.OVER_BEM[wheel.ROLLING], along="range").saying(
             "Springs of the rolling spectrum have the acceleration of the wheel in three dimensions.",
-            "springs of the rolling spectrum",
-            wheel.ROLLING,
+            short="springs of the rolling spectrum",
         ),
     ),
     charts=(

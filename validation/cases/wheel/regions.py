@@ -224,8 +224,8 @@ def merging(case: WheelRegions, depths: FloatArray) -> Series:
     last = int(np.flatnonzero(depths[::-1] < APART).max(initial=-1))
     low, high = ratios[last] if last >= 0 else 0.0, ratios[min(last + 1, ratios.size - 1)]
     lines = Margin(
-        tolerance=3 / case.periods,
-        reason="three lines of the record: the jump is no tone, and the resonance is higher than it",
+        3 / case.periods,
+        "three lines of the record: the jump is no tone, and the resonance is higher than it",
         source=f"1 + {RESOLVED} / N: a record of N natural periods keeps apart what lies {RESOLVED} lines apart",
     )
     return Series(

@@ -112,10 +112,7 @@ BANDS_PER_PERIOD = 12
 """Of the oscillation."""
 PARSEVAL = Margin(tolerance=1e-11, reason="rounding of the Fourier transforms", source="Parseval", role=Role.IDENTITY)
 BALANCE = Margin(
-    tolerance=1e-11,
-    reason="rounding of a sum over all steps",
-    source="Newton: mean force and load balance",
-    role=Role.IDENTITY,
+    1e-11, "rounding of a sum over all steps", source="Newton: mean force and load balance", role=Role.IDENTITY
 )
 OVER_LINEAR = MARGINS["level"].beside("(14.12) through the resonator: a contact of fixed radius")
 

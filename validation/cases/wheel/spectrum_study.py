@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -87,10 +88,7 @@ BASE, ONE_CHANGED = Curve(spectrum.SPECTRUM, spectrum.NO_WINDOW, "thick", "_"), 
 VARIED = Panel(OMEGA, DENSITY, facet=spectrum.PARAMETER, log="xy", legend="lower left").of(BASE, ONE_CHANGED)
 
 
-def of_worst(says: str, short: str, feature: str) -> Claim:
-    return Claim(says=says, short=short, quantity=QUANTITIES[feature], where={"scenes": str})
-
-
+in_the_worst_scene = partial(Claim, where={"scenes": str})
 STUDY = Study(
     title="Fig. 14.4: the acceleration of a rolling wheel, on springs",
     method=(
@@ -123,17 +121,18 @@ STUDY = Study(
         Claim(quantity=CONTRAST).saying(
             "Region 3 oscillates as sin²(q a), down to its zeros.", short="maxima of region 3 over its zeros"
         ),
-        of_worst(
+        in_the_worst_scene(quantity=QUANTITIES[features.PEAK]).saying(
             "The frequency of the peak depends on none of q_min, q_max, v₀, H and h₀, only on the contact.",
-            "One parameter changed, the peak in the worst case",
-            features.PEAK,
+            short="One parameter changed, the peak in the worst case",
         ),
-        of_worst("Region 3 begins at q_min v₀, whatever the speed and the cut-off.", "the jump", features.JUMP),
-        of_worst("The slope of region 3 is -2 H - 3, whatever the parameters.", "the slope", features.SLOPE),
-        of_worst(
-            "The break lies where region 3 meets the predicted floor, whatever the parameters.",
-            "the break",
-            features.BREAK + features.PREDICTED,
+        in_the_worst_scene(quantity=QUANTITIES[features.JUMP]).saying(
+            "Region 3 begins at q_min v₀, whatever the speed and the cut-off.", short="the jump"
+        ),
+        in_the_worst_scene(quantity=QUANTITIES[features.SLOPE]).saying(
+            "The slope of region 3 is -2 H - 3, whatever the parameters.", short="the slope"
+        ),
+        in_the_worst_scene(quantity=QUANTITIES[features.BREAK + features.PREDICTED]).saying(
+            "The break lies where region 3 meets the predicted floor, whatever the parameters.", short="the break"
         ),
     ),
     charts=(
