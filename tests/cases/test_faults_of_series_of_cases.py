@@ -15,7 +15,7 @@ from validation.analysis.series import Estimates, numbers_of
 from validation.analysis.statistics import DECIBEL, POWER_DECIBEL, Estimate, mean_estimate, ratio_of_means, student
 from validation.analysis.study import Outcomes
 from validation.cases.punch import bandwidth, fractal_punch, fractal_punch_study
-from validation.cases.rail import contact_filter, rolled_filters
+from validation.cases.rail import contact_filter, filters, rolled_filters
 from validation.cases.rail.filters import linear_filter, scene_of
 from validation.cases.rail.rolled_filters import OVER_BEM, RolledFilters, RolledFiltersResult
 from validation.cases.rolling import force_spectrum
@@ -210,8 +210,8 @@ def test_a_filter_over_boundary_elements_has_the_errors_of_both_in_the_bands_tha
 
 def test_filters_beside_the_published_table_and_in_decibel_a():
     rail = rolled_rail()
-    wheel = next(iter(contact_filter.columns_of_table()))
-    keep, table = contact_filter.compared(wheel), contact_filter.a3_of_table(wheel)
+    wheel = next(iter(filters.columns_of_table()))
+    keep, table = filters.compared(wheel), filters.a3_of_table(wheel)
     found = numbers_of(contact_filter._of_table(wheel, rail.case.across))
     for model in (LINEAR, LINEAR_ON_LINE):
         off = (linear_filter(scene_of(wheel), model, "isotropic") - table)[keep]

@@ -85,6 +85,7 @@ PUNCH = fractal_punch.FractalPunch(
 INPUT = input_spectrum.RollingInput(heights=(0.03,), strips=4, cells=4, surfaces=4)
 FORCE = force_spectrum.ForceSpectrum(heights=(0.1, 0.3), strips=4, rough_strips=4, refined=4, cells=4)
 SWEPT = limits.Limits(grids=(32, 64), tolerances=(1e-2, 1e-4))
+STRIPS_3D = half_space.Wheel3D(strips=4)
 GRID = next(grid for grid in SWEPT.on_grids()["judged"] if grid.solver == "solve_polonsky_keer")
 TRIALS = model_selection.CalibrationTest(punches=2, spheres=1, rolling=0, wheels=0)
 LOST = {
@@ -130,6 +131,12 @@ LOST = {
         lambda p: p.track == "steady-state" and p.scene.rms == distance.SHORT.rms and p.linear,
         "1 of 20 wheels do not repeat their motion, h₀ = 5e-07 m",
     ),
+    "wheel in three dimensions": (
+        half_space,
+        STRIPS_3D,
+        the(STRIPS_3D.strips_of()[half_space.FINEST][3]),
+        "strip 3, 12 cells to a radius, residual 0.0001",
+    ),
     "limits, a sweep": (limits, SWEPT, the(limits.LIMITS[0].problem(SWEPT)), "rough strips: 2"),
     "limits, a grid": (
         limits,
@@ -157,9 +164,6 @@ def test_what_is_lost_is_a_line_of_the_result(name):
     assert len(found) == 1 and found[0].startswith(line), found
 
 
-STRIPS_3D = half_space.Wheel3D(strips=4)
-
-
 @pytest.mark.parametrize(
     ("module", "case", "lost"),
     [
@@ -170,6 +174,7 @@ STRIPS_3D = half_space.Wheel3D(strips=4)
         (model_selection, TRIALS, lambda _: True),
         (spectrum, spectrum.WheelSpectrum(parameters=False), lambda p: hasattr(p, "release")),
         (distance, distance.WheelDistance(), lambda p: p.release > 0),
+        (half_space, replace(STRIPS_3D, strips=3), the(STRIPS_3D.strips_of()[half_space.FINEST][0])),
         # no strip may be lost that tells an error bar
         *(
             (half_space, STRIPS_3D, the(STRIPS_3D.strips_of()[which][-1]))

@@ -11,13 +11,13 @@ from tests.simulation.power_law_ground import power_law_ground
 from validation.analysis.evidence import Verdict
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL
-from validation.cases.rail import ellipse, filters, line_convention, published, rolled_filters
+from validation.cases.rail import ellipse, filters, line_convention, rolled_filters
 from validation.engine.engine import SERIAL
 from validation.simulation import equivalent_displacement as displacement
 from validation.simulation.model_names import BEM, LINEAR, LINEAR_ON_LINE, SPRINGS_THAT_READ
 from validation.simulation.rail_strip import RailStrip, strip_bands
 
-WHEEL = published.RailWheel(50, 920)
+WHEEL = filters.RailWheel(50, 920)
 SMALL = {"length": 0.12, "width": 0.04, "spacing": 1e-3, "realisation": 0, "seed": 3}
 
 
@@ -42,24 +42,18 @@ def test_circle_is_right_where_both_radii_are_equal_and_wrong_by_two_decibels_on
 
 
 def test_published_table_has_five_columns_of_all_bands_and_one_masked_value():
-    table, nominal = published.columns_of_table(), 1000 * filters.scene_of(WHEEL).levels.bands.nominal
+    table, nominal = filters.columns_of_table(), 1000 * filters.scene_of(WHEEL).levels.bands.nominal
     assert len(table) == 5
     for wheel, column in table.items():
         assert np.allclose(list(column), nominal, rtol=1e-12), wheel
     assert table[WHEEL][40.0] == -1.3
-    assert published.compared(WHEEL)[[list(table[WHEEL]).index(one) for one in (40.0, 50.0)]].tolist() == [False, True]
-
-
-def test_a_weighting_is_that_of_the_standard():
-    # IEC 61672-1, table of nominal frequencies, exact base-ten ones
-    for nominal, exact, level in ((31.5, 10**1.5, -39.4), (100, 100, -19.1), (1000, 1000, 0.0), (8000, 10**3.9, -1.1)):
-        assert filters.a_weighting(exact) == pytest.approx(level, abs=0.06), nominal
+    assert filters.compared(WHEEL)[[list(table[WHEEL]).index(one) for one in (40.0, 50.0)]].tolist() == [False, True]
 
 
 def test_linear_theory_of_the_ellipse_over_isotropic_ground_is_the_published_table_within_a_decibel():
-    for wheel in published.columns_of_table():
-        keep = published.compared(wheel)
-        found = filters.linear_filter(filters.scene_of(wheel), LINEAR, "isotropic") - published.a3_of_table(wheel)
+    for wheel in filters.columns_of_table():
+        keep = filters.compared(wheel)
+        found = filters.linear_filter(filters.scene_of(wheel), LINEAR, "isotropic") - filters.a3_of_table(wheel)
         assert np.sqrt(np.mean(found[keep] ** 2)) < 1.0, wheel
 
 
@@ -88,22 +82,10 @@ def test_mean_of_heights_over_ridges_is_one_line_and_over_isotropic_ground_less(
     assert len(isotropic) == 2 and all(number.value < -3 for number in isotropic)
 
 
-def test_left_by_grid_vanishes_where_grids_agree():
-    case, outcomes = rolled_filters.RolledFilters(strips=3, across=("ridges",)), {}
-    (key,) = case.keys
-    for cells in case.cells:
-        points = case.problems(key, cells)[0].strip.shape[0]
-        track = np.cos(2 * np.pi * np.outer(np.arange(points) / points, np.arange(1, 90))).sum(axis=1)
-        outcomes[key, cells] = 3 * [{BEM: 0.5 * track, LINEAR: track, "failed": np.array(0.0)}]
-    result = rolled_filters.RolledFiltersResult(case, outcomes, ())
-    assert np.abs(result.left_by_grid(key, BEM, LINEAR)).max() < 1e-9
-    assert [one.value for one in result.over_twin(key, BEM)] == pytest.approx([2 * math.log(0.5)] * 13)
-
-
 @pytest.mark.slow
 def test_springs_on_few_cells_have_the_filter_near_its_zero_of_many():
     """The shortest band that counts over ridges: to and fro by tenths of a decibel where a spring is a cell."""
-    key = published.RailWheel(50.0, 680.0), 0.0, "ridges"
+    key = filters.RailWheel(50.0, 680.0), 0.0, "ridges"
     case = rolled_filters.RolledFilters(wheels=((50.0, 680.0),), across=("ridges",), strips=3, cells=(8, 12))
     scene = case.scene(key)
     bands, at = Bands(tuple(strip_bands(scene).edges.tolist())), strip_bands(scene).nominal.tolist().index(0.0125)

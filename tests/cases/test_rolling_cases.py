@@ -15,24 +15,21 @@ from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import input_spectrum as rolling_input
 from validation.cases.rolling import reduced_models as reduced
 from validation.cases.rolling import ridges
-from validation.cases.rolling.force_spectrum import LEVEL, LINEAR_3D, OVER, RMS_FORCE, SPRINGS, bem_over_linear
-from validation.cases.rolling.force_spectrum_study import CASE
+from validation.cases.rolling.force_spectrum import CASE, LEVEL, LINEAR_3D, OVER, RMS_FORCE, SPRINGS, bem_over_linear
 from validation.report.answers.first_screen import answered_questions
 from validation.report.section import Section
 from validation.simulation import rolling_strip
 from validation.simulation.rolling_strip import (
     RoughStrip,
-    Strip,
     Tracks,
     coherence,
     correlation,
     crop_to_reach,
     levels_beside_linear,
-    roll_strip,
     roll_tracks,
 )
 from validation.simulation.track_spectrum import INPUT_SPECTRA, PiecewisePowerLaw, TrackSpectrum, self_affine
-from validation.theory.rolling import force_variance, linear_force
+from validation.theory.rolling import force_variance
 
 SMALL = rolling.ForceSpectrum(
     heights=(0.01,), last=6.0, lowest=0.5, length=32.0, width=12.0, cells=6, strips=4, refined=3, tracks=40, springs=12
@@ -76,15 +73,6 @@ def test_strips_are_the_same_surface_on_finer_cells():
     coarse, fine = rough().surface(8, 1), rough().surface(24, 1)
     assert fine[1::3, 1::3] == pytest.approx(coarse, abs=1e-10)
     assert coarse.std() == pytest.approx(0.1, rel=1e-12)
-
-
-@pytest.mark.slow
-def test_a_low_strip_is_rolled_as_linear_theory_has_it():
-    """Position by position, to the grid: a few per cent of the fluctuation with 12 cells to a radius."""
-    outcome = roll_strip(Strip(scene=rough(height=1e-3), realisation=1, cells=12, tolerance=1e-8))
-    force, linear = outcome["force"] - outcome["force"].mean(), outcome["linear"] - outcome["linear"].mean()
-    assert np.abs(force - linear).max() <= 0.06 * linear.std()
-    assert outcome["failed"] == 0
 
 
 def test_tracks_have_the_variance_of_linear_theory():
@@ -220,17 +208,6 @@ def test_ridges_agree_and_a_lost_factor_does_not():
     assert whole == []
     assert set(halved) == {ridges.BEM, ridges.FILTER, ridges.FULL, ridges.SPRINGS}
     assert len(turned) >= 5
-
-
-def test_linear_force_of_a_lone_wave_on_a_strip():
-    """Any direction: 2 E* sin(k a) / k under the middle of the strip, between the cells of an even number of them."""
-    nx, ny, dx = 32, 24, 0.25
-    qx, qy = 2 * np.pi * 3 / (nx * dx), 2 * np.pi * 2 / (ny * dx)
-    x, y = np.arange(nx) * dx, (np.arange(ny) - (ny - 1) / 2) * dx
-    height = 1e-3 * np.cos(qx * x[:, np.newaxis] + qy * y + 0.3)
-    k = math.hypot(qx, qy)
-    force = linear_force(height, spacing=dx, radius=1.0, modulus=1.0, approach=1.0)
-    assert force - 4 / 3 == pytest.approx(2 * math.sin(k) / k * 1e-3 * np.cos(qx * x + 0.3), abs=1e-12)
 
 
 # --- reduced models ---

@@ -6,18 +6,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.cases.planted import COARSE, DECIBEL, QUICK_3D, ROUNDING, SMALL, TABLE, changed, times, whole
+from tests.cases.planted import DECIBEL, QUICK_3D, ROUNDING, SMALL, TABLE, changed, times, whole
 from validation.analysis.evidence import ClaimStatus, Verdict, number_with
 from validation.analysis.series import ENDS, spans
-from validation.cases.wheel import contrast, features, half_space, regions, spectrum
 from validation.cases.wheel import distance as by_distance
+from validation.cases.wheel import features, half_space, regions, spectrum
 from validation.cases.wheel.distance_study import CASE as DISTANCE_CASE
 from validation.cases.wheel.features import BREAK, FLOOR, JUMP, LEVEL, PEAK, PERIOD, PREDICTED, QUANTITIES, SLOPE
 from validation.cases.wheel.half_space_study import CASE as CASE_3D
 from validation.cases.wheel.half_space_study import LEVELS
 from validation.cases.wheel.spectrum_study import CASE
 from validation.engine.convergence import NotConvergedError
-from validation.engine.engine import Engine
 from validation.simulation import wheel_on_springs
 from validation.simulation.motion import natural_periods
 
@@ -139,7 +138,6 @@ def test_a_rough_wheel_on_a_smooth_rail_is_a_scene_too():
     ("run", "case", "needed"),
     [
         (spectrum.run, replace(LONG, scene=replace(SMALL, rail=None)), "a rough rail or a rough wheel, got both"),
-        (half_space.run, replace(QUICK_3D, scene=replace(COARSE, rail=None)), "a rough rail and a smooth wheel"),
         (regions.run, regions.WheelRegions(scene=replace(TABLE, rail=None)), "a rough rail and a smooth wheel"),
         (regions.run, regions.WheelRegions(scene=replace(TABLE, wheel=TABLE.rail)), "a rough rail and a smooth wheel"),
     ],
@@ -250,6 +248,13 @@ def test_evidence_in_three_dimensions_is_whole(in_3d):
 
 
 @pytest.mark.slow
+def test_a_strip_that_was_lost_counts_in_nothing(in_3d):
+    *others, last = in_3d["finest"]
+    found = changed(in_3d, finest=[*others, last | {"failed": np.array(1.0), "bem": np.nan * last["bem"]}])
+    whole(CASE_3D.evidence(found))
+
+
+@pytest.mark.slow
 def test_a_fifth_more_acceleration_in_three_dimensions(in_3d):
     strips = {name: times(in_3d[name], 1.2, "bem") for name in in_3d.case.strips_of()}
     tables = (CASE_3D.evidence(result).table(LEVEL) for result in (in_3d, changed(in_3d, strips)))
@@ -282,52 +287,27 @@ def with_filled_zeros(share, lines=60):
 def test_the_contrast_is_that_of_filled_zeros(share):
     """(1 + e c) / (1 - e c), e = 1 - share; c = sin(pi / 12) / (pi / 12): the band is a twelfth of a period."""
     e = (1 - share) * math.sin(math.pi / 12) / (math.pi / 12)
-    found = np.exp(contrast.log_contrasts(*with_filled_zeros(share), TABLE))
+    found = np.exp(features.log_contrasts(*with_filled_zeros(share), TABLE))
     # five lines to a band in place of its integral
     assert found == pytest.approx(np.full(19, (1 + e) / (1 - e)), rel=0.1)
 
 
 def test_zeros_have_both_of_their_maxima_in_region_3():
-    period, zeros = TABLE.oscillation_period, contrast.zeros_of(TABLE)
+    period, zeros = TABLE.oscillation_period, features.zeros_of(TABLE)
     assert TABLE.jump < (zeros[0] - 0.5) * period and TABLE.cutoff > (zeros[-1] + 0.5) * period
     narrow = replace(TABLE, rail=replace(TABLE.rail, longest=2e-3, shortest=1.5e-3))
-    assert contrast.zeros_of(narrow).size == 0
+    assert features.zeros_of(narrow).size == 0
 
 
 def test_an_oscillation_that_dies_is_noticed():
     """Zeros that fill from the first to the last: the worst is the last, and differs; the first alone agrees."""
     (omega, wave), (_, mean) = with_filled_zeros(0.0), with_filled_zeros(1.0)
-    zeros = contrast.zeros_of(TABLE)
+    zeros = features.zeros_of(TABLE)
     share = np.interp(omega / TABLE.oscillation_period, zeros[[0, -1]], [0.0, 1.0])
     groups = ((1 - share) * wave + share * mean) * np.random.default_rng(0).gamma(400, 1 / 400, (6, 1))
-    reference, found = contrast.log_contrasts(omega, wave, TABLE), contrast.contrasts_of(omega, groups, TABLE)
-    series = contrast.contrast_series("springs", found, TABLE, reference)
+    reference, found = features.log_contrasts(omega, wave, TABLE), features.contrasts_of(omega, groups, TABLE)
+    series = features.contrast_series("springs", found, TABLE, reference)
     (first,) = replace(series, ranges=spans(zeros, zeros[[0, 0]])).numbers
     (worst,) = series.numbers
     assert (first.verdict, worst.verdict) == (Verdict.AGREE, Verdict.DIFFER)
     assert worst.where["worst at"] == zeros[-1]
-
-
-# --- interrupted ensembles ---
-
-
-@pytest.mark.slow
-def test_an_interrupted_ensemble_goes_on_where_it_was(tmp_path):
-    """Four files; one is lost: it alone is written anew, and all is as before to the bit."""
-    case, engine = replace(FEW, realisations=12, groups=3, batch=4), Engine(store=tmp_path)
-    first = spectrum.run(case, engine)
-    files = sorted(tmp_path.glob("*.npz"))
-    assert len(files) == 4
-    lost = next(file for file in files if "simulate_ensemble" in file.name)
-    kept = {file: file.stat().st_ino for file in files if file != lost}
-    lost.unlink()
-    again = spectrum.run(case, engine)
-    assert sorted(tmp_path.glob("*.npz")) == files
-    assert {file: file.stat().st_ino for file in kept} == kept
-    outcomes = [[*r[case.scene.name], r[spectrum.SNAPSHOT]] for r in (first, again, spectrum.run(case))]
-    for one, *others in zip(*outcomes, strict=True):
-        for other in others:
-            assert one.keys() == other.keys()
-            for name, values in one.items():
-                np.testing.assert_array_equal(other[name], values, err_msg=name)
-    assert CASE.evidence(first) == CASE.evidence(again)

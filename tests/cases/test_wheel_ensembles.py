@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from tests.cases.planted import BOTH, LITTLE, ROUNDING, SMALL, TRACKS, power, rides
-from validation.analysis import spectra
 from validation.cases.wheel import features as wheel_features
 from validation.cases.wheel.features import FLOOR, PREDICTED, Spectrum
 from validation.simulation import wheel_on_springs as wheel_ensemble
@@ -171,19 +170,6 @@ def test_the_linear_contact_has_its_closed_form_wave_by_wave():
     ratio = outcome["plain"].mean(axis=0)[inside] / (spectrum.linear * leapfrog)[inside]
     assert np.ptp(ratio) <= 1e-6
     assert ratio.mean() == pytest.approx(1, rel=2 * np.pi / (SMALL.rail.q_min * length))
-
-
-def test_the_linear_contact_on_open_tracks_has_its_closed_form_band_by_band():
-    """Within four standard errors over wheels, and a band's part of the sum over waves in place of the integral."""
-    ride = rides(count=40, groups=40, linear=True)
-    spectrum = Spectrum.of(SMALL, [simulate_ensemble(ride)])
-    edges = spectra.one_third_octaves(1.1 * SMALL.jump, 0.9 * SMALL.cutoff)
-    found = spectra.band_levels(spectrum.omega, spectrum.hann.T, edges)
-    exact = spectra.band_levels(spectrum.omega, spectrum.linear, edges)
-    error = found.std(axis=1, ddof=1) / math.sqrt(40)
-    whole = 2 * np.pi / (SMALL.rail.q_min * ride.places * SMALL.spacing)
-    assert exact.size >= 10
-    assert (np.abs(found.mean(axis=1) - exact) <= 4 * error + whole * exact).all()
 
 
 def test_the_floor_of_an_open_record_is_its_jump():

@@ -58,11 +58,6 @@ def test_springs_below_the_band_have_the_second_order_force():
     assert level.mean() == pytest.approx(exact, rel=0.05 + 4 * level.std(ddof=1) / math.sqrt(20) / level.mean())
 
 
-def test_the_second_order_force_has_its_zeros_where_the_first_has_its_maxima():
-    zeros = (np.arange(3) + 0.5) * math.pi
-    assert second_order(zeros).max() <= 1e-20 * second_order(2 * zeros[:1]).max()
-
-
 SMALL = regions.WheelRegions(
     scene=replace(TABLE, rail=replace(TABLE.rail, shortest=0.4e-3)),
     distance=0.15,

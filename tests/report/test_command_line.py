@@ -34,8 +34,7 @@ from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import regions as wheel_regions
 from validation.cases.wheel import spectrum as wheel
-from validation.cases.wheel.contrast import CONTRAST
-from validation.cases.wheel.features import QUANTITIES
+from validation.cases.wheel.features import CONTRAST, QUANTITIES
 from validation.engine import stored
 from validation.report.chapter import ENTRIES
 from validation.report.contents import CASES

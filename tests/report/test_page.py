@@ -11,7 +11,7 @@ from tests.report.test_printed import evidence_with, number
 from validation import __main__ as command
 from validation.analysis.contents import as_csv, from_csv
 from validation.analysis.evidence import JudgedClaim, Role, Table, Verdict, VerdictCell
-from validation.cases.wheel.contrast import CONTRAST
+from validation.cases.wheel.features import CONTRAST
 from validation.report import page
 from validation.report.contents import CASES
 from validation.report.figures import tables_of

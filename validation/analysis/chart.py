@@ -1,7 +1,7 @@
 """Figures as data: what each panel draws, from the tables that `Series` make; `report` draws them."""
 
 from collections.abc import Mapping
-from dataclasses import KW_ONLY, dataclass, field
+from dataclasses import KW_ONLY, dataclass, field, replace
 
 from validation.analysis.series import JUDGED
 
@@ -52,7 +52,7 @@ class Panel:
 
     x: str
     y: str
-    curves: tuple[Curve, ...]
+    curves: tuple[Curve, ...] = ()
     title: str = ""
     _: KW_ONLY
     facet: str | tuple[str, ...] = ()
@@ -67,6 +67,10 @@ class Panel:
     downward: bool = False
     ticked: bool = False
     legend: str = ""
+
+    def of(self, *curves: Curve) -> "Panel":
+        """The same with these curves."""
+        return replace(self, curves=curves)
 
 
 @dataclass(frozen=True)
@@ -92,7 +96,7 @@ class Chart:
     """
 
     name: str
-    caption: str
+    caption: str = ""
     panels: tuple[Panel, ...] | Map = ()
     _: KW_ONLY
     claims: tuple[int, ...] = (0,)
@@ -100,6 +104,10 @@ class Chart:
     sharey: bool = False
     width: float = 10.5
     height: float = 4.0
+
+    def of(self, caption: str, *panels: Panel, over: Map | None = None) -> "Chart":
+        """The same with this caption and these panels, or this map."""
+        return replace(self, caption=caption, panels=over or panels)
 
     @property
     def tables(self) -> tuple[str, ...]:

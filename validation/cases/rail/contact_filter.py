@@ -13,36 +13,18 @@ from validation.analysis.evidence import Role
 from validation.analysis.margins import FIELD
 from validation.analysis.series import Estimates, Series, masked, only
 from validation.analysis.study import Study
+from validation.cases.rail import filters
 from validation.cases.rail import rolled_filters as rolled
-from validation.cases.rail.filters import (
-    ACROSS,
-    COUNTED,
-    REMINGTON,
-    SPEEDS,
-    counted,
-    linear_filter,
-    over_in_decibel_a,
-    scene_of,
-)
-from validation.cases.rail.published import FOLLOWED, LEAST, SOURCE, RailWheel, a3_of_table, columns_of_table, compared
-from validation.simulation.model_names import (
-    BED,
-    BEM,
-    LINEAR,
-    LINEAR_ON_LINE,
-    LINEAR_ON_MEAN,
-    SPRINGS_GEIKE,
-    SPRINGS_ROLLING,
-    SPRINGS_THAT_READ,
-    twin_of,
-)
+from validation.cases.rail.filters import ACROSS, COUNTED, REMINGTON, counted, linear_filter, scene_of
+from validation.simulation import model_names as named
+from validation.simulation.model_names import BEM, LINEAR, twin_of
 from validation.simulation.rail_strip import SHORTEST, strip_bands
 
 OVER_LINEAR, OF_WHEELS = "A3 over linear theory of the ellipse", "A3 of five wheels"
 OVER_TABLE, SPEED = "A3 over the published table", "speed [km/h]"
 WEIGHTED = "A-weighted level over that with linear theory of the ellipse"
 TABLE, NOT_COMPARED = "published table", "published table, not compared"
-OF_TABLE = replace(FIELD, source=SOURCE, worst=False, rms=(FIELD.tolerance, FIELD.reason))
+OF_TABLE = replace(FIELD, source=filters.SOURCE, worst=False, rms=(FIELD.tolerance, FIELD.reason))
 OF_SPEED = FIELD.beside("linear theory of the ellipse, levels of ISO 3095:2013, IEC 61672 A")
 
 
@@ -51,7 +33,7 @@ def series(result: rolled.RolledFiltersResult) -> list[Series]:
     case = result.case
     return [
         *(one for key in case.keys for one in (*result.filters(key), *_of_strips(result, key))),
-        *(one for wheel in columns_of_table() for one in _of_table(wheel, case.across)),
+        *(one for wheel in filters.columns_of_table() for one in _of_table(wheel, case.across)),
         *(_in_decibel_a(result, model, name) for model in rolled.FILTERS[1:] for name in case.across),
     ]
 
@@ -59,7 +41,7 @@ def series(result: rolled.RolledFiltersResult) -> list[Series]:
 def _of_strips(result: rolled.RolledFiltersResult, key: rolled.Key) -> Iterator[Series]:
     """In the bands that count: what is exact of each model, and what it is over its linear twin on the same strips."""
     case, bem, keep = result.case, result.over_twin(key, BEM), counted(result.linear(key))
-    shown, at = rolled.in_bands(case, key), rolled.millimetres(strip_bands(case.scene(key)))
+    shown, at = rolled.in_bands(case, key), filters.millimetres(strip_bands(case.scene(key)))
     margin = FIELD.beside(f"boundary elements, {case.strips} strips of {case.scene(key).name}")
     by_cells = result.left_by_grid(key, BEM, LINEAR)
     for model in rolled.models_of(key):
@@ -69,10 +51,10 @@ def _of_strips(result: rolled.RolledFiltersResult, key: rolled.Key) -> Iterator[
             yield shown(rolled.OVER_BEM, model, over - bem, grid=by_cells + grid, margin=margin, ranges=only(at, keep))
 
 
-def _of_table(wheel: RailWheel, across: tuple[str, ...]) -> Iterator[Series]:
+def _of_table(wheel: filters.RailWheel, across: tuple[str, ...]) -> Iterator[Series]:
     """The published table, linear theory over both grounds, and each filter over the table where it is compared."""
-    scene, table, keep = scene_of(wheel), a3_of_table(wheel), compared(wheel)
-    in_table = partial(Series, along=rolled.WAVE, at=rolled.millimetres(scene.levels.bands), unit="dB")
+    scene, table, keep = scene_of(wheel), filters.a3_of_table(wheel), filters.compared(wheel)
+    in_table = partial(Series, along=rolled.WAVE, at=filters.millimetres(scene.levels.bands), unit="dB")
     for name, ground in ACROSS.items():
         yield in_table(OF_WHEELS, name, linear_filter(scene, LINEAR, ground), where={"wheel": wheel.label})
     for name, shown in ((TABLE, keep), (NOT_COMPARED, ~keep)):
@@ -87,11 +69,11 @@ def _of_table(wheel: RailWheel, across: tuple[str, ...]) -> Iterator[Series]:
 def _in_decibel_a(result: rolled.RolledFiltersResult, model: str, name: str) -> Series:
     """By speed, over linear theory of the ellipse with the same ground; ridges are the same across the contact."""
     scene = result.case.scene(result.case.keys[0])
-    filters = linear_filter(scene, model, ACROSS[name]), linear_filter(scene, LINEAR, ACROSS[name])
-    sees_no_width = ACROSS[name] == "ridges" and model in (LINEAR_ON_LINE, LINEAR_ON_MEAN)
+    both = linear_filter(scene, model, ACROSS[name]), linear_filter(scene, LINEAR, ACROSS[name])
+    sees_no_width = ACROSS[name] == "ridges" and model in (named.LINEAR_ON_LINE, named.LINEAR_ON_MEAN)
     margin = replace(OF_SPEED, role=Role.IDENTITY) if sees_no_width else OF_SPEED
-    found = over_in_decibel_a(scene, *filters)
-    return Series(WEIGHTED, model, found, where={"across": name}, along=SPEED, at=SPEEDS, unit="dB(A)", margin=margin)
+    found, at = filters.over_in_decibel_a(scene, *both), filters.SPEEDS
+    return Series(WEIGHTED, model, found, where={"across": name}, along=SPEED, at=at, unit="dB(A)", margin=margin)
 
 
 def _of(model: str, says: str, short: str = "") -> Claim:
@@ -99,7 +81,7 @@ def _of(model: str, says: str, short: str = "") -> Claim:
     return Claim(says=says, short=short, quantity=rolled.OVER_BEM, model=model, along="across")
 
 
-SHOWN = (SPRINGS_THAT_READ, LINEAR_ON_LINE, LINEAR_ON_MEAN, BED, REMINGTON, SPRINGS_ROLLING, SPRINGS_GEIKE)
+SHOWN = (named.SPRINGS_THAT_READ, *rolled.FILTERS[1:], named.SPRINGS_ROLLING, named.SPRINGS_GEIKE)
 STUDY = Study(
     title="Which contact filter is right for a wheel on a rail",
     method=(
@@ -110,9 +92,10 @@ STUDY = Study(
         "the heights across each strip: the heights of one line do not give them. Remington's circle has the area of "
         f"the ellipse. Bands count down to the first in which A3 of linear theory is below {COUNTED:g} dB, since near "
         f"the zeros beyond it one-third octaves move by decibels. Roughness ends at {SHORTEST:g} a_x. The published "
-        f"table is compared where it lies between {FOLLOWED:g} and {LEAST:g} dB; its value for 50 kN, 920 mm at 40 mm, "
-        "-1.3 dB, is masked: its neighbours, -1.1 dB at 50 mm and -3.5 dB at 31.5 mm, suggest about -2.1 dB. Levels in "
-        "dB(A) are those of the contact force, k times the equivalent roughness, with no mobility of wheel or track."
+        f"table is compared where it lies between {filters.FOLLOWED:g} and {filters.LEAST:g} dB; its value for 50 kN, "
+        "920 mm at 40 mm, -1.3 dB, is masked: its neighbours, -1.1 dB at 50 mm and -3.5 dB at 31.5 mm, suggest about "
+        "-2.1 dB. Levels in dB(A) are those of the contact force, k times the equivalent roughness, with no mobility "
+        "of wheel or track."
     ),
     series=series,
     claims=(
@@ -123,61 +106,52 @@ STUDY = Study(
             "Linear theory of the ellipse",
         ),
         _of(
-            SPRINGS_THAT_READ,
+            named.SPRINGS_THAT_READ,
             "Springs that read the surface have the contact filter of boundary elements within 1 dB.",
             "springs that read the surface",
         ),
-        _of(BED, "The bed of springs of the field (DPRS), linear, is within 1 dB of boundary elements."),
-        _of(LINEAR_ON_LINE, "Springs on the measured line are within 1 dB of boundary elements."),
+        _of(named.BED, "The bed of springs of the field (DPRS), linear, is within 1 dB of boundary elements."),
+        _of(named.LINEAR_ON_LINE, "Springs on the measured line are within 1 dB of boundary elements."),
         _of(REMINGTON, "Remington's closed form, alpha = 1, is within 1 dB of boundary elements.", "Remington"),
-        _of(SPRINGS_ROLLING, "Springs on a track of the rolling spectrum are within 1 dB of boundary elements."),
+        _of(named.SPRINGS_ROLLING, "Springs on a track of the rolling spectrum are within 1 dB of boundary elements."),
         _of(
-            SPRINGS_GEIKE,
+            named.SPRINGS_GEIKE,
             "Springs on a track of Geike's spectrum are within 1 dB of boundary elements over isotropic ground.",
         ),
-        Claim(
-            says="Linear theory of the ellipse over isotropic ground lies within 1 dB rms of the published table.",
-            quantity="rms of " + OVER_TABLE,
-            model=LINEAR,
-            where={"across": "isotropic ground"},
+        Claim(quantity="rms of " + OVER_TABLE, model=LINEAR, where={"across": "isotropic ground"}).saying(
+            "Linear theory of the ellipse over isotropic ground lies within 1 dB rms of the published table."
         ),
     ),
     charts=(
-        Chart(
-            "contact_filter",
+        Chart("contact_filter", claims=(0, 4)).of(
             "(a), (b) A3 of each model over that of linear theory of the ellipse; points: boundary elements, 95 %; "
             "shaded: within 1 dB. (c) Points: the published table, open where masked; lines: linear theory of the "
             "ellipse over ridges, dotted over isotropic ground, a wheel each, shifted by 10 dB.",
-            (
-                Panel(
-                    rolled.WAVE,
-                    "A3 over linear theory of the ellipse [dB]",
-                    (
-                        Curve(OVER_LINEAR, SHOWN, by=("model",), of={"wheel": "first"}),
-                        Curve(OVER_LINEAR, BEM, "bem", BEM, of={"wheel": "first"}, bars=True),
-                    ),
-                    facet="across",
-                    shade=(-1, 1),
-                    ylim=(-1.5, 6.5),
-                    downward=True,
-                ),
-                Panel(
-                    rolled.WAVE,
-                    "A3, shifted [dB]",
-                    (
-                        Curve(OF_WHEELS, "ridges", "lines", "_", by=("wheel",), down=10.0),
-                        Curve(OF_WHEELS, "isotropic ground", "dotted", "_", by=("wheel",), down=10.0),
-                        Curve(OF_WHEELS, TABLE, "marks", by=("wheel",), down=10.0),
-                        Curve(OF_WHEELS, NOT_COMPARED, "open marks", "_", by=("wheel",), down=10.0),
-                    ),
-                    "published table",
-                    xlim=(8, 200),
-                    ylim=(-68, 4),
-                    downward=True,
-                    legend="lower left",
-                ),
+            Panel(
+                rolled.WAVE,
+                "A3 over linear theory of the ellipse [dB]",
+                facet="across",
+                shade=(-1, 1),
+                ylim=(-1.5, 6.5),
+                downward=True,
+            ).of(
+                Curve(OVER_LINEAR, SHOWN, by=("model",), of={"wheel": "first"}),
+                Curve(OVER_LINEAR, BEM, "bem", BEM, of={"wheel": "first"}, bars=True),
             ),
-            claims=(0, 4),
+            Panel(
+                rolled.WAVE,
+                "A3, shifted [dB]",
+                title="published table",
+                xlim=(8, 200),
+                ylim=(-68, 4),
+                downward=True,
+                legend="lower left",
+            ).of(
+                Curve(OF_WHEELS, "ridges", "lines", "_", by=("wheel",), down=10.0),
+                Curve(OF_WHEELS, "isotropic ground", "dotted", "_", by=("wheel",), down=10.0),
+                Curve(OF_WHEELS, TABLE, "marks", by=("wheel",), down=10.0),
+                Curve(OF_WHEELS, NOT_COMPARED, "open marks", "_", by=("wheel",), down=10.0),
+            ),
         ),
     ),
     matrices=(

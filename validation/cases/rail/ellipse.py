@@ -3,9 +3,9 @@
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
@@ -13,16 +13,15 @@ from validation.analysis.claims import Claim, Matrix, decibels
 from validation.analysis.evidence import Role
 from validation.analysis.margins import FIELD
 from validation.analysis.series import Margin, Series, Where, only
+from validation.analysis.statistics import FloatArray
 from validation.analysis.study import Outcomes, Study
-from validation.cases.rail.filters import ACROSS, COUNTED, SPEEDS, counted, linear_filter, over_in_decibel_a, scene_of
-from validation.cases.rail.published import RailWheel
+from validation.cases.rail import filters
+from validation.cases.rail.filters import ACROSS, COUNTED, RailWheel, counted, scene_of
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine
 from validation.simulation.exact_contacts import APPROACH, PRESSURE, PublishedContact, press_ellipse
 from validation.simulation.model_names import LINEAR
 from validation.simulation.rail_strip import StatedAcross
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,9 +56,9 @@ A3, EXCESS, SHORT = "A3", "A3 of a circle over that of the ellipse", "A3 of a ci
 WEIGHTED, SEMI_AXIS = "A-weighted level with the circle over that with the ellipse", "semi-axis"
 CROWN, GROUND, WAVE, SPEED = "crown [mm]", "across", "wavelength [mm]", "speed [km/h]"
 DIGITS = Margin(
-    tolerance=2e-4,
+    2e-4,
+    "2e-4: the fourth digit of what is published",
     relative=True,
-    reason="2e-4: the fourth digit of what is published",
     source="CONTACT, published example output, four digits",
     role=Role.CRITERION,
 )
@@ -67,9 +66,7 @@ OF_ELLIPSE = FIELD.beside("filter of the ellipse")
 
 
 def series(result: Outcomes) -> list[Series]:
-    case = result.case
-    crowns = [one for crown in case.crowns for one in _crown(case, crown)]
-    return [*_published(result), *crowns]
+    return [*_published(result), *(one for crown in result.case.crowns for one in _crown(result.case, crown))]
 
 
 def _published(result: Outcomes) -> Iterator[Series]:
@@ -92,18 +89,18 @@ def _crown(case: Ellipse, crown: float) -> Iterator[Series]:
         yield Series(SEMI_AXIS, axis, (value,), where={CROWN: 1000 * crown}, unit="mm")
     itself = math.isclose(1000 * crown, case.wheel.diameter / 2)
     margin = replace(OF_ELLIPSE, role=Role.IDENTITY) if itself else OF_ELLIPSE
-    at = np.round(1000 * scene.levels.bands.nominal, 2)
+    at = filters.millimetres(scene.levels.bands)
     for name, ground in ACROSS.items():
         where: Where = {CROWN: 1000 * crown, GROUND: name}
         ellipse, circle = circle_excess(case, crown, ground)
         keep, excess = counted(ellipse), circle - ellipse
-        for model, a3 in (("ellipse", ellipse), (CIRCLE, circle)):
-            yield Series(A3, model, a3, where=where, along=WAVE, at=at, unit="dB")
-        shown = np.where(keep, excess, np.nan)
-        yield Series(EXCESS, "", shown, where=where, along=WAVE, at=at, unit="dB", margin=margin, ranges=only(at, keep))
+        in_bands = partial(Series, where=where, along=WAVE, at=at, unit="dB")
+        yield in_bands(A3, "ellipse", ellipse)
+        yield in_bands(A3, CIRCLE, circle)
+        yield in_bands(EXCESS, "", np.where(keep, excess, np.nan), margin=margin, ranges=only(at, keep))
         yield Series(SHORT, "", excess[at == 16], where=where, unit="dB")
-        by_speed = over_in_decibel_a(scene, circle, ellipse)
-        yield Series(WEIGHTED, "", by_speed, where=where, along=SPEED, at=SPEEDS, unit="dB(A)", margin=margin)
+        weighted = partial(Series, WEIGHTED, "", where=where, along=SPEED, at=filters.SPEEDS, unit="dB(A)")
+        yield weighted(filters.over_in_decibel_a(scene, circle, ellipse), margin=margin)
 
 
 def circle_excess(case: Ellipse, crown: float, across: StatedAcross) -> tuple[FloatArray, FloatArray]:
@@ -111,9 +108,8 @@ def circle_excess(case: Ellipse, crown: float, across: StatedAcross) -> tuple[Fl
     scene = scene_of(case.wheel, crown=crown)
     contact = scene.contact
     radius = float(np.sqrt(contact.along * contact.across))
-    both = contact, replace(contact, along=radius, across=radius)
-    ellipse, circle = (linear_filter(scene, LINEAR, across, one) for one in both)
-    return ellipse, circle
+    circle = replace(contact, along=radius, across=radius)
+    return filters.linear_filter(scene, LINEAR, across), filters.linear_filter(scene, LINEAR, across, circle)
 
 
 STUDY = Study(
@@ -126,53 +122,30 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(
-            says="Both the closed form and boundary elements give the contact of the program CONTACT.",
+        Claim(quantity=tuple(CONTACT)).saying(
+            "Both the closed form and boundary elements give the contact of the program CONTACT.",
             short="Closed form and boundary elements beside the contact of CONTACT",
-            quantity=tuple(CONTACT),
         ),
-        Claim(
-            says="A circle of the same area, sqrt(a_x a_y), has the contact filter of the ellipse within 1 dB.",
+        Claim(quantity=EXCESS, printed=decibels).saying(
+            "A circle of the same area, sqrt(a_x a_y), has the contact filter of the ellipse within 1 dB.",
             short="A circle of the same area for the ellipse",
-            quantity=EXCESS,
-            printed=decibels,
         ),
     ),
     charts=(
-        Chart(
-            "ellipse",
+        Chart("ellipse", claims=(1,)).of(
             "(a) Semi-axes of the contact of {c.wheel.label} over the crown, and the circle of the same area. (b) A3 "
             "of this circle over that of the ellipse, isotropic ground, bands that count; shaded: within 1 dB. (c) The "
             "same at 16 mm, over the crown, both grounds.",
-            (
-                Panel(
-                    CROWN,
-                    "semi-axis [mm]",
-                    (
-                        Curve(SEMI_AXIS, ("a_x, along", "a_y, across"), by=("model",)),
-                        Curve(SEMI_AXIS, "sqrt(a_x a_y)", "guide", by=("model",)),
-                    ),
-                    ylim=(0, None),
-                    legend="upper left",
-                ),
-                Panel(
-                    WAVE,
-                    "circle over ellipse [dB]",
-                    (Curve(EXCESS, of={GROUND: "isotropic ground"}, by=(CROWN,)),),
-                    shade=(-1, 1),
-                    xlim=(11, 140),
-                    downward=True,
-                    legend="upper left",
-                ),
-                Panel(
-                    CROWN,
-                    "circle over ellipse at 16 mm [dB]",
-                    (Curve(SHORT, by=(GROUND,)),),
-                    shade=(-1, 1),
-                    legend="upper right",
-                ),
+            Panel(CROWN, "semi-axis [mm]", ylim=(0, None), legend="upper left").of(
+                Curve(SEMI_AXIS, ("a_x, along", "a_y, across"), by=("model",)),
+                Curve(SEMI_AXIS, "sqrt(a_x a_y)", "guide", by=("model",)),
             ),
-            claims=(1,),
+            Panel(
+                WAVE, "circle over ellipse [dB]", shade=(-1, 1), xlim=(11, 140), downward=True, legend="upper left"
+            ).of(Curve(EXCESS, of={GROUND: "isotropic ground"}, by=(CROWN,))),
+            Panel(CROWN, "circle over ellipse at 16 mm [dB]", shade=(-1, 1), legend="upper right").of(
+                Curve(SHORT, by=(GROUND,))
+            ),
         ),
     ),
     matrices=(

@@ -14,28 +14,16 @@ from validation.analysis.evidence import Role
 from validation.analysis.margins import FIELD
 from validation.analysis.series import Margin, Series, Where
 from validation.analysis.spectra import Bands
-from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknifed
+from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed
 from validation.analysis.study import Outcomes, Study
-from validation.cases.rail.filters import counted, decibel, linear_filter, scene_of
-from validation.cases.rail.published import RailWheel
+from validation.cases.rail import filters
+from validation.cases.rail.filters import RailWheel, decibel, scene_of
 from validation.engine.engine import SERIAL, Engine
 from validation.scenes.rail import RailScene
+from validation.simulation import rail_strip
 from validation.simulation.equivalent_displacement import LINEAR_MODELS
 from validation.simulation.model_names import LINE, LINEAR, LINEAR_ON_LINE
-from validation.simulation.rail_strip import (
-    ParallelLines,
-    RailStrip,
-    StatedAcross,
-    line_of,
-    lines_across,
-    mean_of_lines,
-    measure_lines,
-    strip_bands,
-    strip_of,
-    structure_of,
-)
-
-FloatArray = NDArray[np.float64]
+from validation.simulation.rail_strip import ParallelLines, RailStrip, StatedAcross, mean_of_lines, strip_bands
 
 RIDGES, ISOTROPIC = "ridges", "isotropic ground"
 GROUNDS: dict[str, StatedAcross] = {RIDGES: "ridges", "alpha = 0.5": 0.5, "alpha = 1": 1.0, ISOTROPIC: "isotropic"}
@@ -66,7 +54,7 @@ class LineConvention:
 
     def strip(self, ground: str, realisation: int = 0) -> RailStrip:
         """As of the contact filter, and wider: its oblique waves have k_y = 2 pi / width and multiples."""
-        strip = strip_of(self.scene, GROUNDS[ground], CELLS, realisation, self.seed)
+        strip = rail_strip.strip_of(self.scene, GROUNDS[ground], CELLS, realisation, self.seed)
         return replace(strip, width=WIDER * strip.width)
 
     def problems(self, ground: str) -> list[ParallelLines]:
@@ -76,14 +64,9 @@ class LineConvention:
 
 def run(case: LineConvention, engine: Engine = SERIAL) -> Outcomes:
     """Measure the lines of all strips: band powers by ground, (strips, bands) of one line and of energy means."""
-    outcomes = engine.map_groups(measure_lines, {ground: case.problems(ground) for ground in GROUNDS})
-    return Outcomes(
-        case,
-        {
-            ground: {name: np.array([one[name] for one in found]) for name in found[0]}
-            for ground, found in outcomes.items()
-        },
-    )
+    outcomes = engine.map_groups(rail_strip.measure_lines, {ground: case.problems(ground) for ground in GROUNDS})
+    rows = {g: {name: np.array([one[name] for one in some]) for name in some[0]} for g, some in outcomes.items()}
+    return Outcomes(case, rows)
 
 
 ENERGY, HEIGHTS, SCATTER = "energy mean of lines over one line", "mean of heights over one line", "scatter of a level"
@@ -101,7 +84,7 @@ def series(result: Outcomes) -> list[Series]:
     """In the bands that count, ground by ground; the filter of the ellipse beside them."""
     case = result.case
     keep, over_line = _counted(case)
-    at = np.round(1000 * strip_bands(case.scene).nominal[keep], 2)
+    at = filters.millimetres(strip_bands(case.scene))[keep]
     in_bands = partial(Series, along=WAVE, at=at, unit="dB")
     grounds = [one for ground in GROUNDS for one in _of_ground(result, ground, keep, in_bands)]
     return [in_bands(ELLIPSE, "", over_line), *grounds]
@@ -128,8 +111,8 @@ def _of_ground(result: Outcomes, ground: str, keep: NDArray[np.int64], in_bands:
 
 def mean_of_heights(case: LineConvention, ground: str, spacing: float) -> FloatArray:
     """Its levels over those of one line: an integral over what lies across [dB]."""
-    line, places = line_of(case.scene), lines_across(case.lines, spacing)
-    structure = structure_of(GROUNDS[ground], line)
+    line, places = rail_strip.line_of(case.scene), rail_strip.lines_across(case.lines, spacing)
+    structure = rail_strip.structure_of(GROUNDS[ground], line)
     reach = (case.scene.contact.along, places[-1] - places[0])
     return decibel(structure.band_power(line, mean_of_lines(places), edges=case.bands.edges, semi_axes=reach))
 
@@ -149,11 +132,9 @@ def scatter(powers: FloatArray) -> FloatArray:
 
 def _counted(case: LineConvention) -> tuple[NDArray[np.int64], FloatArray]:
     """Bands of the strips that count over isotropic ground; A3 of the ellipse over that of a line there [dB]."""
-    ellipse, line = (linear_filter(case.scene, model, "isotropic") for model in (LINEAR, LINEAR_ON_LINE))
-    bands = strip_bands(case.scene)
-    first = case.scene.levels.bands.longest - bands.longest
-    keep = np.flatnonzero(counted(ellipse)[first : first + len(bands)])
-    return keep, (ellipse - line)[first + keep]
+    ellipse, line = (filters.linear_filter(case.scene, model, "isotropic") for model in (LINEAR, LINEAR_ON_LINE))
+    keep = np.flatnonzero(filters.on_strips(case.scene, filters.counted(ellipse)))
+    return keep, filters.on_strips(case.scene, ellipse - line)[keep]
 
 
 STUDY = Study(
@@ -168,55 +149,43 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(
-            says="The mean of the heights of parallel lines has the levels of one line within 1 dB.",
+        Claim(quantity=HEIGHTS, along=GROUND, printed=decibels).saying(
+            "The mean of the heights of parallel lines has the levels of one line within 1 dB.",
             short="Mean of heights over one line",
-            quantity=HEIGHTS,
-            along=GROUND,
-            printed=decibels,
         ),
-        Claim(
-            says="The energy mean of the spectra of parallel lines has the levels of one line within 1 dB.",
+        Claim(quantity=ENERGY, along=GROUND, printed=decibels).saying(
+            "The energy mean of the spectra of parallel lines has the levels of one line within 1 dB.",
             short="energy mean over one line",
-            quantity=ENERGY,
-            along=GROUND,
-            printed=decibels,
         ),
         Claim(says="Levels from the energy mean of three lines scatter as those of one line do.", quantity=SCATTER),
     ),
     charts=(
-        Chart(
-            "line_convention",
+        Chart("line_convention", claims=(0, 1)).of(
             "(a), (b) Levels of the mean of heights over one line, by what lies across; dotted: A3 of the ellipse over "
             "that of a line; points: energy mean, 95 %; shaded: within 1 dB. (c) Deviation of a level from strip to "
             "strip. Dotted, points and (c): isotropic ground.",
-            (
-                Panel(
-                    WAVE,
-                    "over the level of one line [dB]",
-                    (
-                        Curve(HEIGHTS, by=(GROUND,)),
-                        Curve(ELLIPSE, style="guide", label="ellipse over row of springs"),
-                        Curve(ENERGY, style="bem", label="energy mean", of={GROUND: ISOTROPIC}, bars=True),
-                    ),
-                    facet=SPACING,
-                    shade=(-1, 1),
-                    ylim=(-8, 2),
-                    downward=True,
-                    ticked=True,
-                ),
-                Panel(
-                    WAVE,
-                    "deviation from strip to strip [dB]",
-                    (Curve(SPREAD, of={GROUND: ISOTROPIC}, by=("model",)),),
-                    ISOTROPIC,
-                    ylim=(0, None),
-                    downward=True,
-                    ticked=True,
-                    legend="upper right",
-                ),
+            Panel(
+                WAVE,
+                "over the level of one line [dB]",
+                facet=SPACING,
+                shade=(-1, 1),
+                ylim=(-8, 2),
+                downward=True,
+                ticked=True,
+            ).of(
+                Curve(HEIGHTS, by=(GROUND,)),
+                Curve(ELLIPSE, style="guide", label="ellipse over row of springs"),
+                Curve(ENERGY, style="bem", label="energy mean", of={GROUND: ISOTROPIC}, bars=True),
             ),
-            claims=(0, 1),
+            Panel(
+                WAVE,
+                "deviation from strip to strip [dB]",
+                title=ISOTROPIC,
+                ylim=(0, None),
+                downward=True,
+                ticked=True,
+                legend="upper right",
+            ).of(Curve(SPREAD, of={GROUND: ISOTROPIC}, by=("model",))),
         ),
     ),
 )

@@ -125,7 +125,6 @@ class RailDynamic:
 
     @property
     def keys(self) -> dict[Key, int]:
-        """How many strips of each."""
         counts = {FINE: self.strips, COARSE: self.compared}
         return {(offset, model, grid): n for offset in self.offsets for model in MODELS for grid, n in counts.items()}
 
@@ -213,7 +212,6 @@ def series(result: RailDynamicResult) -> list[Series]:
 
 
 def _filters(result: RailDynamicResult, offset: float) -> Iterator[Series]:
-    """A3 of all that lifts a wheel."""
     in_bands = partial(Series, along=FREQUENCY, at=result.case.frequencies, scale=POWER_DECIBEL, unit="dB")
     for model in MODELS:
         for lift in ("constant", "moving", "inferred"):
@@ -265,61 +263,44 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(
-            says="The contact filter of constant load holds when the wheel moves.",
+        Claim(quantity=RMS + MOVING, along=OFFSET).saying(
+            "The contact filter of constant load holds when the wheel moves.",
             short="In motion over constant load, rms over bands",
-            quantity=RMS + MOVING,
-            along=OFFSET,
         ),
-        Claim(
-            says="Springs that read the surface lift a wheel that moves as boundary elements do.",
+        Claim(quantity=RMS + BESIDE, along=OFFSET).saying(
+            "Springs that read the surface lift a wheel that moves as boundary elements do.",
             short="springs that read the surface over boundary elements in motion",
-            quantity=RMS + BESIDE,
-            along=OFFSET,
         ),
         *(
-            Claim(
-                says=f"The force over the linear dynamic stiffness tells what lifts the wheel {bands}.",
-                quantity=RMS + INFERRED,
-                where={"bands": bands},
-                along=OFFSET,
+            Claim(quantity=RMS + INFERRED, where={"bands": bands}, along=OFFSET).saying(
+                f"The force over the linear dynamic stiffness tells what lifts the wheel {bands}."
             )
             for bands in (ABOVE, NEAR)
         ),
     ),
     charts=(
-        Chart(
-            "rail_dynamic",
+        Chart("rail_dynamic").of(
             "(a) A3 at {c.speed:.3g} m/s and the lowest level. (b), (c) In motion over at constant load, 95 %, a curve "
             "for each level; shaded: within 1 dB. Between the dotted lines: near the resonance. Right of the dashed "
             "line: not judged.",
-            (
+            Panel(FREQUENCY, "contact filter A3 [dB]", ylim=(-30, 10), legend="lower left").of(
+                Curve(A3, "linear theory", "thick", "linear theory", of={OFFSET: "first"}),
+                Curve(A3, BEM, "exact", "bem3d, constant load", of={OFFSET: "first", "lift": "constant"}),
+                Curve(A3, BEM, "bem", "bem3d, in motion", of={OFFSET: "first", "lift": "moving"}),
+                Curve(A3, SPRINGS, "mdr", "springs, in motion", of={OFFSET: "first", "lift": "moving"}),
+                Curve(A3, BEM, "crosses", "from the force", of={OFFSET: "first", "lift": "inferred"}),
+                *PLACED,
+            ),
+            *(
                 Panel(
                     FREQUENCY,
-                    "contact filter A3 [dB]",
-                    (
-                        Curve(A3, "linear theory", "thick", "linear theory", of={OFFSET: "first"}),
-                        Curve(A3, BEM, "exact", "bem3d, constant load", of={OFFSET: "first", "lift": "constant"}),
-                        Curve(A3, BEM, "bem", "bem3d, in motion", of={OFFSET: "first", "lift": "moving"}),
-                        Curve(A3, SPRINGS, "mdr", "springs, in motion", of={OFFSET: "first", "lift": "moving"}),
-                        Curve(A3, BEM, "crosses", "from the force", of={OFFSET: "first", "lift": "inferred"}),
-                        *PLACED,
-                    ),
-                    ylim=(-30, 10),
+                    "in motion over constant load [dB]",
+                    title=model,
+                    shade=(-1, 1),
+                    ylim=(-15, 20),
                     legend="lower left",
-                ),
-                *(
-                    Panel(
-                        FREQUENCY,
-                        "in motion over constant load [dB]",
-                        (Curve(MOVING, model, by=(OFFSET,), bars=True), *PLACED),
-                        model,
-                        shade=(-1, 1),
-                        ylim=(-15, 20),
-                        legend="lower left",
-                    )
-                    for model in MODELS
-                ),
+                ).of(Curve(MOVING, model, by=(OFFSET,), bars=True), *PLACED)
+                for model in MODELS
             ),
         ),
     ),

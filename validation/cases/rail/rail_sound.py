@@ -20,15 +20,9 @@ from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.load import load_scene
 from validation.scenes.rail import RailScene
+from validation.simulation import rail_sound as sounds
 from validation.simulation.model_names import BEM, LINEAR, SPRINGS_THAT_READ
-from validation.simulation.rail_sound import (
-    GEIKE,
-    ISOTROPIC,
-    HeldWheel,
-    roll_held_wheel,
-    samples_of,
-    sounding_strip,
-)
+from validation.simulation.rail_sound import GEIKE, ISOTROPIC, HeldWheel
 from validation.simulation.rail_strip import RailStrip, StatedAcross, strip_bands, strip_of
 
 SOUNDING = {"bem": BEM, "linear": LINEAR, "springs": SPRINGS_THAT_READ, "geike": GEIKE}
@@ -96,7 +90,6 @@ class RailSound:
 
     @property
     def samples(self) -> int:
-        """Of one period."""
         return round(self.seconds * self.rate)
 
     @property
@@ -128,7 +121,7 @@ class RailSound:
         return max(1.0, short.ground.highest * short.spacing / (SHORTEST * math.pi))
 
     def strip(self, cells: int) -> RailStrip:
-        return sounding_strip(
+        return sounds.sounding_strip(
             self.rail,
             across=self.across,
             samples=self.samples,
@@ -138,7 +131,6 @@ class RailSound:
         )
 
     def problems(self, model: str, cells: int) -> list[HeldWheel]:
-        """Along the whole strip, in parts."""
         strip = self.strip(cells)
         ends = np.linspace(0, strip.shape[0], 1 + (self.parts if model == BEM else 1)).astype(int).tolist()
         return [
@@ -208,7 +200,6 @@ class RailSoundResult(Outcomes):
         return np.where(found > LEAST, np.round(found, 2), np.nan)
 
     def bands_table(self) -> Table:
-        """A row a band."""
         found = {f"{LABELS[model]} [dB re 1 N]": self.in_bands(model).tolist() for model in self.case.sounding}
         return Table("levels", {"f [Hz]": (self.bands.centres / (2 * math.pi)).tolist(), **found})
 
@@ -252,7 +243,7 @@ def decibels(power: float) -> float:
 def run(case: RailSound, engine: Engine = SERIAL) -> RailSoundResult:
     """Roll each model on both grids. Raises NotConvergedError where boundary elements fail anywhere."""
     groups = {(model, cells): case.problems(model, cells) for cells in case.cells for model in case.sounding}
-    outcomes = engine.map_groups(roll_held_wheel, groups)
+    outcomes = engine.map_groups(sounds.roll_held_wheel, groups)
     lost = tuple(
         f"{model}, {cells} cells to an axis: {count} positions"
         for (model, cells), some in outcomes.items()
@@ -264,4 +255,4 @@ def run(case: RailSound, engine: Engine = SERIAL) -> RailSoundResult:
 
 
 def _joined(case: RailSound, parts: Sequence[Outcome]) -> FloatArray:
-    return samples_of(np.concatenate([part["force"] for part in parts]), case.samples)
+    return sounds.samples_of(np.concatenate([part["force"] for part in parts]), case.samples)

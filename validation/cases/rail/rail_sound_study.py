@@ -12,18 +12,8 @@ from validation.analysis.margins import FIELD
 from validation.analysis.series import Series, Where
 from validation.analysis.sound import Sound, Sounds
 from validation.analysis.study import Study
-from validation.cases.rail.rail_sound import (
-    LABELS,
-    LOW,
-    SILENT,
-    SOUNDING,
-    WEIGHTED,
-    RailSound,
-    RailSoundResult,
-    column_of,
-    run,
-    shipped_rail,
-)
+from validation.cases.rail import rail_sound
+from validation.cases.rail.rail_sound import LABELS, LOW, SILENT, SOUNDING, WEIGHTED, RailSound, RailSoundResult
 from validation.simulation.model_names import BEM, LINEAR, SPRINGS_THAT_READ
 from validation.simulation.rail_sound import GEIKE, ISOTROPIC
 
@@ -58,7 +48,6 @@ def series(result: RailSoundResult) -> list[Series]:
 
 
 def or_less(number: Number) -> str:
-    """Of a silent model."""
     return f"{SILENT:g} dB or less" if number.value <= SILENT else beside(number)
 
 
@@ -68,7 +57,6 @@ def signed(value: float) -> str:
 
 
 def sounds_of(result: RailSoundResult) -> Sounds:
-    """Of all models, with one gain."""
     case = result.case
     return Sounds(
         table="samples",
@@ -80,7 +68,7 @@ def sounds_of(result: RailSoundResult) -> Sounds:
             Sound(
                 name=name,
                 label=LABELS[model][0].upper() + LABELS[model][1:],
-                column=column_of(model),
+                column=rail_sound.column_of(model),
                 says=f"{result.level(model, WEIGHTED):.1f} dB(A) re 1 N{_beside(result, model)}.",
             )
             for name, model in SOUNDING.items()
@@ -141,12 +129,8 @@ STUDY = Study(
     ),
     series=series,
     claims=[
-        Claim(
-            says=f"{name} as boundary elements do, within 1 dB, A-weighted and in each range.",
-            short=short,
-            quantity=LEVEL,
-            model=LABELS[model],
-            printed=or_less,
+        Claim(quantity=LEVEL, model=LABELS[model], printed=or_less).saying(
+            f"{name} as boundary elements do, within 1 dB, A-weighted and in each range.", short=short
         )
         for model, name, short in (
             (GEIKE, "Springs of Geike's spectrum sound", "Springs of Geike's spectrum over boundary elements"),
@@ -155,39 +139,23 @@ STUDY = Study(
         )
     ],
     charts=(
-        Chart(
-            "rail_sound",
+        Chart("rail_sound", claims=(0, 1, 2), height=5.0).of(
             "(a) The contact force less its mean over the first 20 ms, model by model, each 10 kN below the one "
             "before. (b) Its levels in one-third octaves. Dashed: the ends of the band in which the rail is rough "
             "along the track, {c.band[0]:.0f} and {c.band[1]:.0f} Hz; dotted: the wave as long as the contact, "
             "{c.of_contact:.0f} Hz. What sounds below the band are oblique waves, which a profile with Geike's "
             "spectrum has not.",
-            (
-                Panel(
-                    TIME,
-                    "F, shifted [N]",
-                    (Curve(FORCE, style="lines", by=("model",), down=1e4),),
-                    log="",
-                    ylim=(-6e4, 1e4),
-                    legend="lower left",
-                ),
-                Panel(
-                    FREQUENCY,
-                    "level [dB re 1 N]",
-                    (
-                        Curve(IN_BANDS, LABELS[BEM], "thick", by=("model",)),
-                        Curve(IN_BANDS, LABELS[LINEAR], "crosses", by=("model",)),
-                        Curve(IN_BANDS, SPRINGS_THAT_READ, "mdr", by=("model",)),
-                        Curve(IN_BANDS, GEIKE, "other", by=("model",)),
-                        Curve(PLACES, ENDS, "dashed", "_", upright=True),
-                        Curve(PLACES, OF_CONTACT, "guide", "_", upright=True),
-                    ),
-                    decades=45.0,
-                    legend="lower left",
-                ),
+            Panel(TIME, "F, shifted [N]", log="", ylim=(-6e4, 1e4), legend="lower left").of(
+                Curve(FORCE, style="lines", by=("model",), down=1e4)
             ),
-            claims=(0, 1, 2),
-            height=5.0,
+            Panel(FREQUENCY, "level [dB re 1 N]", decades=45.0, legend="lower left").of(
+                Curve(IN_BANDS, LABELS[BEM], "thick", by=("model",)),
+                Curve(IN_BANDS, LABELS[LINEAR], "crosses", by=("model",)),
+                Curve(IN_BANDS, SPRINGS_THAT_READ, "mdr", by=("model",)),
+                Curve(IN_BANDS, GEIKE, "other", by=("model",)),
+                Curve(PLACES, ENDS, "dashed", "_", upright=True),
+                Curve(PLACES, OF_CONTACT, "guide", "_", upright=True),
+            ),
         ),
     ),
     matrices=(Matrix(name=LEVEL, quantity=LEVEL, rows=("model",), columns="part", printed=or_less),),
@@ -200,9 +168,9 @@ CASE = Case(
     chapter=Chapter.RAIL,
     place=6,
     answers="What a rough rail sounds like by each model: the contact force as WAV files with one gain",
-    quick=RailSound(rail=shipped_rail(), seconds=0.25, repeats=5, cells=(4, 6)),
-    full=RailSound(rail=shipped_rail(), seconds=2.0, repeats=1, cells=(6, 8), parts=8),
-    run=run,
+    quick=RailSound(rail=rail_sound.shipped_rail(), seconds=0.25, repeats=5, cells=(4, 6)),
+    full=RailSound(rail=rail_sound.shipped_rail(), seconds=2.0, repeats=1, cells=(6, 8), parts=8),
+    run=rail_sound.run,
     study=STUDY,
     needs="linear theory of the ellipse",
 )

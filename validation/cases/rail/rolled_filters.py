@@ -3,22 +3,22 @@
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import product, starmap
 
 import numpy as np
 
-from validation.analysis.nominal_bands import NominalBands
 from validation.analysis.series import Estimates, Series, Where
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray
 from validation.analysis.study import Outcomes
-from validation.cases.rail.filters import ACROSS, REMINGTON, linear_filter, scene_of
-from validation.cases.rail.published import RailWheel
+from validation.cases.rail import filters
+from validation.cases.rail.filters import ACROSS, REMINGTON, RailWheel
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import SERIAL, Engine
 from validation.scenes.rail import RailScene
 from validation.simulation import equivalent_displacement as tracks
 from validation.simulation import model_names as named
-from validation.simulation.model_names import BEM, SPRINGS_GEIKE, SPRINGS_ROLLING, twin_of
+from validation.simulation.model_names import BEM, twin_of
 from validation.simulation.rail_strip import strip_bands, strip_of
 
 Key = tuple[RailWheel, float, str]
@@ -50,19 +50,13 @@ class RolledFilters:
 
     @property
     def keys(self) -> list[Key]:
-        return [
-            (RailWheel(*wheel), offset, name)
-            for wheel in self.wheels
-            for offset in self.offsets
-            for name in self.across
-        ]
+        return list(product(starmap(RailWheel, self.wheels), self.offsets, self.across))
 
     def scene(self, key: Key) -> RailScene:
         wheel, offset, _ = key
-        return scene_of(wheel, crown=self.crown, offset=offset)
+        return filters.scene_of(wheel, crown=self.crown, offset=offset)
 
     def problems(self, key: Key, cells: int) -> list[tracks.RolledRail]:
-        """Strips of one kind on one grid."""
         scene, across, models = self.scene(key), ACROSS[key[2]], (BEM, *RIVALS, *spectral_models(key))
         return [
             tracks.RolledRail(strip=strip_of(scene, across, cells, i, self.seed), models=models)
@@ -72,12 +66,11 @@ class RolledFilters:
 
 def spectral_models(key: Key) -> tuple[str, ...]:
     """Springs of input spectra on a kind of strip: Geike's rule is for isotropic ground alone."""
-    return (SPRINGS_ROLLING, SPRINGS_GEIKE) if ACROSS[key[2]] == "isotropic" else (SPRINGS_ROLLING,)
+    return (named.SPRINGS_ROLLING, named.SPRINGS_GEIKE)[: 2 if ACROSS[key[2]] == "isotropic" else 1]
 
 
 def models_of(key: Key) -> tuple[str, ...]:
-    """All that a kind of strip has a filter of."""
-    return (named.BEM, *FILTERS, *RIVALS, *spectral_models(key))
+    return (BEM, *FILTERS, *RIVALS, *spectral_models(key))
 
 
 @dataclass(frozen=True)
@@ -96,7 +89,6 @@ class RolledFiltersResult(Outcomes):
         return Estimates(tracks.log_over(model, other, found, spacing, Bands(tuple(bands.edges.tolist()))))
 
     def over_twin(self, key: Key, model: str) -> Estimates:
-        """The same over the linear twin of a one-sided model."""
         return self.over(key, model, twin_of(model))
 
     def left_by_grid(self, key: Key, model: str, other: str) -> FloatArray:
@@ -108,15 +100,12 @@ class RolledFiltersResult(Outcomes):
     def linear(self, key: Key, model: str = named.LINEAR) -> FloatArray:
         """A3 of the linear twin of a model in the bands of the strips [dB]."""
         scene = self.case.scene(key)
-        bands = strip_bands(scene)
-        first = scene.levels.bands.longest - bands.longest
-        return linear_filter(scene, twin_of(model), ACROSS[key[2]])[first : first + len(bands)]
+        return filters.on_strips(scene, filters.linear_filter(scene, twin_of(model), ACROSS[key[2]]))
 
     def over_linear(self, key: Key, model: str) -> Estimates:
         """ln of the filter of a model over that of linear theory of the ellipse: that of its twin is exact."""
-        return Estimates.exact((self.linear(key, model) - self.linear(key)) / POWER_DECIBEL) + self.over_twin(
-            key, model
-        )
+        apart = Estimates.exact((self.linear(key, model) - self.linear(key)) / POWER_DECIBEL)
+        return apart + self.over_twin(key, model)
 
     def filters(self, key: Key) -> Iterator[Series]:
         """A3 of all models."""
@@ -130,13 +119,8 @@ def in_bands(case: RolledFilters, key: Key) -> Callable[..., Series]:
     """A series over the bands of a kind of strip [dB]."""
     wheel, offset, name = key
     where: Where = {"wheel": wheel.label, "offset [dB]": offset, "across": name}
-    at = millimetres(strip_bands(case.scene(key)))
+    at = filters.millimetres(strip_bands(case.scene(key)))
     return partial(Series, where=where, along=WAVE, at=at, scale=POWER_DECIBEL, unit="dB")
-
-
-def millimetres(bands: NominalBands) -> FloatArray:
-    """As they are named."""
-    return np.round(1000 * bands.nominal, 2)
 
 
 def run_filters(case: RolledFilters, engine: Engine = SERIAL) -> RolledFiltersResult:

@@ -15,36 +15,28 @@ from validation.analysis.series import Estimates, Margin, Series, masked, only
 from validation.analysis.statistics import mean_estimate
 from validation.analysis.study import Study
 from validation.cases.rail import rolled_filters as rolled
-from validation.cases.rail.filters import COUNTED, counted
+from validation.cases.rail.filters import COUNTED, counted, millimetres
+from validation.simulation import model_names as named
 from validation.simulation.equivalent_displacement import AREA
-from validation.simulation.model_names import (
-    BEM,
-    LINEAR,
-    ONE_SIDED_BED,
-    SPRINGS_GEIKE,
-    SPRINGS_ON_LINE,
-    SPRINGS_ROLLING,
-    SPRINGS_THAT_READ,
-    twin_of,
-)
+from validation.simulation.model_names import BEM, LINEAR, twin_of
 from validation.simulation.rail_strip import SHORTEST, lost_contact_number, strip_bands
 
-MODELS = (LINEAR, SPRINGS_THAT_READ, ONE_SIDED_BED, SPRINGS_ON_LINE, SPRINGS_ROLLING, SPRINGS_GEIKE)
+SHOWN = (LINEAR, named.SPRINGS_THAT_READ, named.ONE_SIDED_BED)
+MODELS = (*SHOWN, named.SPRINGS_ON_LINE, named.SPRINGS_ROLLING, named.SPRINGS_GEIKE)
 OFFSET, WAVES, GROUND = "offset [dB]", "waves of h'", "isotropic ground"
 SHORT, LONG = "waves beyond the first zero", "bands that count"
 OF_BEM, LOST = "interval of A3 of boundary elements", "area in contact over that of the smooth wheel"
 FULL_CONTACT = Margin(
-    tolerance=0.05,
-    reason="5 %: hardly any contact is lost; cells at the edge count whole, which is 2 % on these grids",
+    0.05,
+    "5 %: hardly any contact is lost; cells at the edge count whole, which is 2 % on these grids",
     source="the ellipse of Hertz",
 )
 
 
 def series(result: rolled.RolledFiltersResult) -> list[Series]:
     """Filters, models over boundary elements, and the area in contact, roughness by roughness."""
-    return [
-        one for key in result.case.keys for one in (*result.filters(key), *_over_bem(result, key), _area(result, key))
-    ]
+    parts = ((*result.filters(key), *_over_bem(result, key), _area(result, key)) for key in result.case.keys)
+    return [one for part in parts for one in part]
 
 
 def _over_bem(result: rolled.RolledFiltersResult, key: rolled.Key) -> Iterator[Series]:
@@ -53,7 +45,7 @@ def _over_bem(result: rolled.RolledFiltersResult, key: rolled.Key) -> Iterator[S
     The two bands of the shortest waves are left out, where oblique waves are missing.
     """
     case, bem, keep = result.case, result.over_twin(key, BEM), counted(result.linear(key))
-    shown, at = rolled.in_bands(case, key), rolled.millimetres(strip_bands(case.scene(key)))
+    shown, at = rolled.in_bands(case, key), millimetres(strip_bands(case.scene(key)))
     whole = np.arange(at.size) < at.size - 2
     margin = FIELD.beside(f"boundary elements on the same {case.strips} strips")
     scatter = Estimates(replace(one, value=0.0) for one in bem)
@@ -76,7 +68,6 @@ def _area(result: rolled.RolledFiltersResult, key: rolled.Key) -> Series:
 
 
 def roughness(case: rolled.RolledFilters) -> Table:
-    """How rough the rail is, by h' of the waves of the strips."""
     scenes = {key[1]: case.scene(key) for key in case.keys}
     return Table(
         "roughness and contact",
@@ -88,7 +79,7 @@ def roughness(case: rolled.RolledFilters) -> Table:
     )
 
 
-SHOWN = (LINEAR, SPRINGS_THAT_READ, ONE_SIDED_BED)
+follow = partial(Claim, quantity=rolled.OVER_BEM, along=OFFSET)
 STUDY = Study(
     title="A rougher rail: where linear theory leaves boundary elements, and where springs do",
     method=(
@@ -101,56 +92,39 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(
-            says="Linear theory of the ellipse follows boundary elements within 1 dB up to 20 dB over the limit of "
+        follow(model=LINEAR, where={"waves": LONG}).saying(
+            "Linear theory of the ellipse follows boundary elements within 1 dB up to 20 dB over the limit of "
             "ISO 3095.",
             short="Linear theory of the ellipse",
-            quantity=rolled.OVER_BEM,
-            model=LINEAR,
-            where={"waves": LONG},
-            along=OFFSET,
         ),
-        Claim(
-            says="It follows them within 1 dB at the waves beyond its first zero too.",
+        follow(model=LINEAR, where={"waves": SHORT}).saying(
+            "It follows them within 1 dB at the waves beyond its first zero too.",
             short="linear theory beyond its first zero",
-            quantity=rolled.OVER_BEM,
-            model=LINEAR,
-            where={"waves": SHORT},
-            along=OFFSET,
         ),
-        Claim(
-            says="Springs that read the surface follow boundary elements within 1 dB at all of these waves.",
+        follow(model=named.SPRINGS_THAT_READ).saying(
+            "Springs that read the surface follow boundary elements within 1 dB at all of these waves.",
             short="springs that read the surface",
-            quantity=rolled.OVER_BEM,
-            model=SPRINGS_THAT_READ,
-            along=OFFSET,
         ),
-        Claim(
-            says="At the limit of ISO 3095 the wheel keeps 95 % of the area of the smooth contact.",
-            quantity=LOST,
-            where={OFFSET: 0.0},
+        Claim(quantity=LOST, where={OFFSET: 0.0}).saying(
+            "At the limit of ISO 3095 the wheel keeps 95 % of the area of the smooth contact."
         ),
     ),
     charts=(
-        Chart(
-            "rough_rail",
+        Chart("rough_rail").of(
             "A3 of models over that of boundary elements on the same strips, by dB over ISO 3095:2013. Filled: bands "
             "that count; open: waves beyond the first zero. Shaded: within 1 dB. Grey: 95 % of boundary elements, "
             "sample and grid.",
-            (
-                Panel(
-                    rolled.WAVE,
-                    "A3 over that of boundary elements [dB]",
-                    (
-                        Curve(OF_BEM, style="interval", label="95 %, boundary elements", band=True),
-                        Curve(rolled.OVER_BEM, SHOWN, by=("model",), of={"waves": LONG}),
-                        Curve(rolled.OVER_BEM, SHOWN, "open", "_", by=("model",), of={"waves": SHORT}),
-                    ),
-                    facet=OFFSET,
-                    shade=(-1, 1),
-                    ylim=(-6, 9),
-                    downward=True,
-                ),
+            Panel(
+                rolled.WAVE,
+                "A3 over that of boundary elements [dB]",
+                facet=OFFSET,
+                shade=(-1, 1),
+                ylim=(-6, 9),
+                downward=True,
+            ).of(
+                Curve(OF_BEM, style="interval", label="95 %, boundary elements", band=True),
+                Curve(rolled.OVER_BEM, SHOWN, by=("model",), of={"waves": LONG}),
+                Curve(rolled.OVER_BEM, SHOWN, "open", "_", by=("model",), of={"waves": SHORT}),
             ),
         ),
     ),

@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -18,24 +19,9 @@ from validation.analysis.statistics import POWER_DECIBEL, Estimate, nearest
 from validation.analysis.study import Outcomes, Study
 from validation.cases.rolling.settings import HEIGHT, Q, RollingSettings
 from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.simulation import rough_punch
 from validation.simulation.rolling_strip import ROUNDING, level_1d, level_3d, roll_strips, roll_tracks, strip_levels
-from validation.simulation.rough_punch import (
-    InputProfiles,
-    PunchRoughness,
-    Surface,
-    describe_failures,
-    press_input_profiles,
-    press_surface,
-    require_converged,
-    stacked,
-)
-from validation.simulation.track_spectrum import (
-    INPUT_NAMES,
-    INPUT_SPECTRA,
-    InputSpectrum,
-    PiecewisePowerLaw,
-    self_affine,
-)
+from validation.simulation.track_spectrum import INPUT_NAMES, INPUT_SPECTRA, PiecewisePowerLaw, self_affine
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,8 +64,8 @@ class RollingInput(RollingSettings):
         return (0.03, 0.1, 0.3)
 
     @property
-    def punch(self) -> PunchRoughness:
-        return PunchRoughness(hurst=0.7, waves=(1, self.punch_cells // 4), seed=self.seed)
+    def punch(self) -> rough_punch.PunchRoughness:
+        return rough_punch.PunchRoughness(hurst=0.7, waves=(1, self.punch_cells // 4), seed=self.seed)
 
     def below_the_end(self, spectrum: PiecewisePowerLaw) -> slice:
         """One-third octaves that begin below the end of a spectrum."""
@@ -103,21 +89,29 @@ def run(case: RollingInput, engine: Engine = SERIAL) -> Outcomes:
     tracks = {(rule, *key): case.tracks_on(scene, rule) for key, scene in scenes.items() for rule in INPUT_SPECTRA}
     on_springs = engine.map(roll_tracks, list(tracks.values()))
     surfaces = [
-        Surface(roughness=case.punch, realisation=i, cells=case.punch_cells, forces=case.forces, tolerance=1e-4)
+        rough_punch.Surface(
+            roughness=case.punch, realisation=i, cells=case.punch_cells, forces=case.forces, tolerance=1e-4
+        )
         for i in range(case.surfaces)
     ]
-    pressed = engine.map(press_surface, surfaces)
+    pressed = engine.map(rough_punch.press_surface, surfaces)
     profiles = partial(
-        InputProfiles, punch=case.punch, cells=case.punch_cells, realisations=case.profiles, forces=case.forces
+        rough_punch.InputProfiles,
+        punch=case.punch,
+        cells=case.punch_cells,
+        realisations=case.profiles,
+        forces=case.forces,
     )
-    on_profiles = engine.map(press_input_profiles, [profiles(input_spectrum=rule) for rule in INPUT_SPECTRA])
-    failures = describe_failures(surfaces, pressed)
-    require_converged([stacked(pressed)], failures)
+    on_profiles = engine.map(
+        rough_punch.press_input_profiles, [profiles(input_spectrum=rule) for rule in INPUT_SPECTRA]
+    )
+    failures, punches = rough_punch.describe_failures(surfaces, pressed), rough_punch.stacked(pressed)
+    rough_punch.require_converged([punches], failures)
     found: dict[Any, Outcome] = {
         **{("bem3d", *key): strip_levels(group, 1 / case.cells, case.bands) for key, group in strips.items()},
         **dict(zip(tracks, on_springs, strict=True)),
         **dict(zip(INPUT_SPECTRA, on_profiles, strict=True)),
-        "punches": stacked(pressed),
+        "punches": punches,
     }
     return Outcomes(case, found, (*unconverged, *failures))
 
@@ -135,49 +129,39 @@ def series(result: Outcomes) -> list[Series]:
     return [*_linear(result.case), *_rolled(result), *punches_of(result)]
 
 
+def levels_of(case: RollingInput, spectrum: PiecewisePowerLaw) -> partial[Series]:
+    """Over all bands below the end of a spectrum, judged in those inside."""
+    at = case.bands.centres[case.below_the_end(spectrum)]
+    inside = only(at, case.inside(spectrum))
+    return partial(Series, LEVEL, along=Q, at=at, scale=POWER_DECIBEL, unit="dB", ranges=inside)
+
+
 def _linear(case: RollingInput) -> Iterator[Series]:
     """(14.12) over linear theory in 3D."""
     for name, spectrum in case.spectra.items():
-        below, inside = case.below_the_end(spectrum), case.inside(spectrum)
-        at, exact = case.bands.centres[below], level_3d(spectrum, case.bands)[below]
+        below, exact = case.below_the_end(spectrum), level_3d(spectrum, case.bands)
         for rule in INPUT_SPECTRA:
             with np.errstate(divide="ignore"):
-                over = np.log(level_1d(spectrum, rule, case.bands)[below] / exact)
-            yield Series(
-                LEVEL,
-                LINEAR,
-                over,
-                where={SPECTRUM: name, INPUT: INPUT_NAMES[rule]},
-                along=Q,
-                at=at,
-                scale=POWER_DECIBEL,
-                unit="dB",
-                margin=BESIDE_LINEAR,
-                ranges=only(at, inside),
-            )
+                over = np.log(level_1d(spectrum, rule, case.bands) / exact)[below]
+            where = {SPECTRUM: name, INPUT: INPUT_NAMES[rule]}
+            yield levels_of(case, spectrum)(LINEAR, over, where=where, margin=BESIDE_LINEAR)
 
 
 def _rolled(result: Outcomes) -> Iterator[Series]:
     """One-sided springs over boundary elements; intervals of the worst bands hold at once for all spectra, heights."""
     case = result.case
-    for height, (name, spectrum) in ((h, one) for h in case.heights for one in case.rolled.items()):
-        below, inside = case.below_the_end(spectrum), case.inside(spectrum)
-        at, exact = case.bands.centres[below], height**2 * level_3d(spectrum, case.bands)[below]
+    for height, (name, spectrum) in product(case.heights, case.rolled.items()):
+        below = case.below_the_end(spectrum)
+        exact = height**2 * level_3d(spectrum, case.bands)[below]
         bem = result["bem3d", name, height]
         bem_over_linear = Estimates.ratios(bem["level"][:, below], bem["linear level"][:, below])
         for rule in INPUT_SPECTRA:
             springs = np.maximum(result[rule, name, height]["level"][:, below], ROUNDING)
-            yield Series(
-                LEVEL,
+            yield levels_of(case, spectrum)(
                 ONE_SIDED,
                 Estimates.ratios(springs, exact) - bem_over_linear,
                 where={SPECTRUM: name, HEIGHT: height, INPUT: INPUT_NAMES[rule]},
-                along=Q,
-                at=at,
-                scale=POWER_DECIBEL,
-                unit="dB",
                 margin=BESIDE_BEM,
-                ranges=only(at, inside),
                 family=len(case.heights) * len(case.rolled),
                 rms_family=1,
             )
@@ -186,11 +170,7 @@ def _rolled(result: Outcomes) -> Iterator[Series]:
 def punches_of(result: Outcomes) -> Iterator[Series]:
     """Springs over boundary elements at each force, and at Fbar = 0.1 as a part."""
     case, ones = result.case, np.ones(len(result.case.forces))
-    margin = Margin(
-        tolerance=0.1,
-        reason="10 %: grid error of Fig. 14.1 at this force",
-        source=f"bem3d on {case.punch_cells}² cells",
-    )
+    margin = Margin(0.1, "10 %: grid error of Fig. 14.1 at this force", source=f"bem3d on {case.punch_cells}² cells")
     bem = Estimates.ratios(result["punches"]["stiffness"], ones)
     for rule in INPUT_SPECTRA:
         of, mine = {INPUT: INPUT_NAMES[rule]}, result[rule]
@@ -202,11 +182,12 @@ def punches_of(result: Outcomes) -> Iterator[Series]:
         yield Series(PROFILE_HEIGHT, "springs", (float(mine["height"]),), where=of)
 
 
-SPRINGS_ON: tuple[tuple[InputSpectrum, str, str], ...] = (
-    ("rolling", "Springs with the rolling-equivalent spectrum", ""),
-    ("line", "Springs on the trace of a line", " (Ford and Thompson 2006)"),
-    ("geike", "Springs with Geike's spectrum", ""),
+SPRINGS_ON = (
+    (INPUT_NAMES["rolling"], "Springs with the rolling-equivalent spectrum", ""),
+    (INPUT_NAMES["line"], "Springs on the trace of a line", " (Ford and Thompson 2006)"),
+    (INPUT_NAMES["geike"], "Springs with Geike's spectrum", ""),
 )
+IN_BANDS = partial(Panel, Q, ylim=(-11.0, 11.0), shade=(-3.0, 3.0), lines=(0.0,))
 STUDY = Study(
     title="The input spectrum of springs for rolling",
     method=(
@@ -223,97 +204,50 @@ STUDY = Study(
     series=series,
     claims=(
         *(
-            Claim(
-                says=f"{what} are within 3 dB of 3D in each one-third octave{source}.",
+            Claim(quantity=LEVEL, where={INPUT: name}).saying(
+                f"{what} are within 3 dB of 3D in each one-third octave{source}.",
                 short=f"{what}, beside 3D in one-third octaves",
-                quantity=LEVEL,
-                where={INPUT: INPUT_NAMES[rule]},
             )
-            for rule, what, source in SPRINGS_ON
+            for name, what, source in SPRINGS_ON
         ),
-        Claim(
-            says=(
-                "The rolling-equivalent spectrum serves punches too: their mean stiffness is that of boundary elements."
-            ),
+        Claim(quantity=STIFFNESS, where={INPUT: INPUT_NAMES["rolling"]}).saying(
+            "The rolling-equivalent spectrum serves punches too: their mean stiffness is that of boundary elements.",
             short="Mean stiffness of punches on the rolling-equivalent spectrum, over boundary elements as a part",
-            quantity=STIFFNESS,
-            where={INPUT: INPUT_NAMES["rolling"]},
         ),
     ),
     charts=(
-        Chart(
-            "rolling_input",
+        Chart("rolling_input", columns=3, sharey=True, width=9.0, height=5.6).of(
             "Level of (14.12) with each input spectrum over that of linear theory in 3D, in one-third octaves; shaded: "
             "within 3 dB.",
-            (
-                Panel(
-                    Q,
-                    "(14.12) over linear theory in 3D [dB]",
-                    (Curve(LEVEL, LINEAR, by=(INPUT,)),),
-                    facet=SPECTRUM,
-                    ylim=(-11.0, 11.0),
-                    shade=(-3.0, 3.0),
-                    lines=(0.0,),
-                ),
-            ),
-            columns=3,
-            sharey=True,
-            width=9.0,
-            height=5.6,
+            IN_BANDS("(14.12) over linear theory in 3D [dB]", (Curve(LEVEL, LINEAR, by=(INPUT,)),), facet=SPECTRUM),
         ),
-        Chart(
-            "rolling_input-springs",
+        Chart("rolling_input-springs", columns=4, sharey=True, height=5.8).of(
             "One-sided springs over boundary elements, by input spectrum, in one-third octaves, 95 % of the sample. "
             "Shaded: within 3 dB.",
-            (
-                Panel(
-                    Q,
-                    "springs over boundary\nelements [dB]",
-                    (Curve(LEVEL, ONE_SIDED, by=(INPUT,), bars=True),),
-                    facet=(HEIGHT, SPECTRUM),
-                    ylim=(-11.0, 11.0),
-                    shade=(-3.0, 3.0),
-                    lines=(0.0,),
-                ),
+            IN_BANDS(
+                "springs over boundary\nelements [dB]",
+                (Curve(LEVEL, ONE_SIDED, by=(INPUT,), bars=True),),
+                facet=(HEIGHT, SPECTRUM),
             ),
-            columns=4,
-            sharey=True,
-            height=5.8,
         ),
-        Chart(
-            "rolling_input-punch",
+        Chart("rolling_input-punch", claims=(3,), width=5.4, height=3.6).of(
             "Mean stiffness of punches, H = 0.7, MDR over boundary elements, by input spectrum, at three forces, 95 %; "
             "shaded: within 10 %.",
-            (
-                Panel(
-                    FORCE,
-                    "mean stiffness, MDR over boundary elements",
-                    (Curve(OVER_BEM, by=(INPUT,), bars=True),),
-                    "force Fbar = F / (E* h L)",
-                    shade=(0.9, 1.1),
-                    legend="best",
-                ),
-            ),
-            claims=(3,),
-            width=5.4,
-            height=3.6,
+            Panel(
+                FORCE,
+                "mean stiffness, MDR over boundary elements",
+                title="force Fbar = F / (E* h L)",
+                shade=(0.9, 1.1),
+                legend="best",
+            ).of(Curve(OVER_BEM, by=(INPUT,), bars=True)),
         ),
     ),
-    matrices=(
-        Matrix(
-            name="worst band, linear springs over linear 3D",
-            quantity=LEVEL,
-            model=LINEAR,
-            rows=(SPECTRUM,),
-            columns=INPUT,
-        ),
-        Matrix(
-            name="worst band, springs over boundary elements",
-            quantity=LEVEL,
-            model=ONE_SIDED,
-            rows=(SPECTRUM, HEIGHT),
-            columns=INPUT,
-        ),
+    matrices=tuple(
+        Matrix(name=f"worst band, {name}", quantity=LEVEL, model=model, rows=rows, columns=INPUT)
+        for name, model, rows in (
+            ("linear springs over linear 3D", LINEAR, (SPECTRUM,)),
+            ("springs over boundary elements", ONE_SIDED, (SPECTRUM, HEIGHT)),
+        )
     ),
     printed=(PROFILE_HEIGHT,),
 )

@@ -4,9 +4,9 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
@@ -14,30 +14,18 @@ from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Number, Place
 from validation.analysis.margins import REPEATABLE
 from validation.analysis.series import Series
-from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknifed
+from validation.analysis.statistics import Estimate, FloatArray, jackknifed
 from validation.analysis.study import Outcomes, Study
+from validation.cases.rolling.settings import SLOPE, Q, decibels, rms_decibels
 from validation.engine.engine import SERIAL, Engine
+from validation.simulation import reduced_strip
 from validation.simulation.reduced_models import TOLERANCE
-from validation.simulation.reduced_strip import (
-    BED,
-    COARSE,
-    COARSE_LAYER,
-    COARSEST,
-    JUDGE,
-    LAYER,
-    LINE,
-    LINEAR,
-    MODELS,
-    READ,
-    bands_of,
-    roll_by_all,
-)
+from validation.simulation.reduced_strip import COARSE_LAYER, JUDGE, LAYER, LINE, LINEAR, MODELS, READ
 from validation.simulation.rolling_strip import RoughStrip, Strip
 from validation.simulation.track_spectrum import self_affine
 from validation.theory.rolling import slope_in_one_direction
 
-__all__ = ["CASE", "COARSE_LAYER", "JUDGE", "LAYER", "OFF", "READ", "WORK"]
-FloatArray = NDArray[np.float64]
+__all__ = ["CASE", "COARSE_LAYER", "JUDGE", "LAYER", "OFF", "READ", "SLOPE", "WORK", "Q"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,11 +70,8 @@ Key = tuple[tuple[float, float, float], float]
 
 
 def run(case: ReducedModels, engine: Engine = SERIAL) -> Outcomes:
-    """All models over all strips, by spectrum and height."""
-    groups = {
-        (spectrum, height): case.strips_of(spectrum, height) for spectrum in case.spectra for height in case.heights
-    }
-    found = engine.map_groups(roll_by_all, groups)
+    groups = {key: case.strips_of(*key) for key in product(case.spectra, case.heights)}
+    found = engine.map_groups(reduced_strip.roll_by_all, groups)
     unconverged = tuple(
         f"strip {i}, h/d = {key[1]:g}: {int(outcome['failed'])} models with a contact that did not converge"
         for key, outcomes in found.items()
@@ -96,14 +81,11 @@ def run(case: ReducedModels, engine: Engine = SERIAL) -> Outcomes:
     return Outcomes(case, found, unconverged)
 
 
-OFF, LARGEST = (
-    "rms over octaves of the level over boundary elements",
-    "largest rms over octaves of all strips as smooth",
-)
+OFF = "rms over octaves of the level over boundary elements"
+LARGEST = "largest rms over octaves of all strips as smooth"
 OCTAVES, LEVEL = "level of octaves over boundary elements", "level of one-third octaves over boundary elements"
 COHERENCE, SHARED = "coherence", "coherence, mean of one-third octaves"
 FORCE, WORK, AT_WORK = "mean force over bem3d", "work over springs on a line", "rms over octaves beside work"
-SLOPE, Q = "h' a/d", "q a"
 LIMIT, LIMIT_OF_READ = slope_in_one_direction(1.0), slope_in_one_direction(0.3)
 """h' a/d up to which two models are claimed to follow, where the rms gradient g a/d is 1 and 0.3."""
 SLACK = 1.15
@@ -134,7 +116,7 @@ def _of_strips(result: Outcomes, key: Key, model: str) -> Iterator[Series]:
     yield single(
         OFF,
         found=(off(result, key, model),),
-        grid=GRID * off(result, key, COARSE).value,
+        grid=GRID * off(result, key, reduced_strip.COARSE).value,
         unit="dB",
         margin=REPEATABLE.beside("boundary elements on the same strips") if model != JUDGE else None,
     )
@@ -146,7 +128,7 @@ def _of_strips(result: Outcomes, key: Key, model: str) -> Iterator[Series]:
 
 def _in_bands(result: Outcomes, key: Key, model: str) -> Iterator[Series]:
     where = {SLOPE: slope_of(key)}
-    along_q = partial(Series, where=where, along=Q, at=bands_of(self_affine(*key[0])).centres)
+    along_q = partial(Series, where=where, along=Q, at=reduced_strip.bands_of(self_affine(*key[0])).centres)
     yield along_q(LEVEL, model, jackknifed(decibels, _pairs(result, key, model)), unit="dB")
     yield along_q(COHERENCE, model, coherence(result, key, model))
     if model != JUDGE:
@@ -161,22 +143,11 @@ def slope_of(key: Key) -> float:
 
 
 def octaves(level: FloatArray) -> FloatArray:
-    """Sums of three one-third octaves, along the last axis."""
     return np.asarray(level.reshape(*level.shape[:-1], -1, 3).sum(axis=-1))
 
 
-def decibels(pairs: FloatArray) -> FloatArray:
-    """Mean level of a model over that of boundary elements: pairs (strips, 2, bands)."""
-    mine, other = pairs.mean(axis=0)
-    return np.asarray(POWER_DECIBEL * np.log(mine / other))
-
-
-def rms_decibels(pairs: FloatArray) -> FloatArray:
-    return np.asarray(np.sqrt(np.mean(decibels(pairs) ** 2)))
-
-
 def off(result: Outcomes, key: Key, model: str) -> Estimate:
-    return jackknifed(rms_decibels, octaves(_pairs(result, key, model)))[0]
+    return rms_decibels(octaves(_pairs(result, key, model)))
 
 
 def _pairs(result: Outcomes, key: Key, model: str) -> FloatArray:
@@ -194,7 +165,6 @@ def coherence(result: Outcomes, key: Key, model: str) -> FloatArray:
 
 
 def _mean_over(result: Outcomes, key: Key, name: str, model: str, other: str) -> float:
-    """Of all strips."""
     mean, names = np.mean([one[name] for one in result[key]], axis=0), list(MODELS)
     return float(mean[names.index(model)] / mean[names.index(other)])
 
@@ -212,10 +182,11 @@ def _up_to(limit: float) -> dict[str, object]:
     return {SLOPE: lambda slope: slope <= SLACK * limit}
 
 
-SHOWN = (LINE, LINEAR, READ, BED, LAYER, COARSEST)
+SHOWN = (LINE, LINEAR, READ, reduced_strip.BED, LAYER, reduced_strip.COARSEST)
 """As curves; all models have a point over their work."""
 TRIALS = tuple(model for model in MODELS if model not in (*SHOWN, JUDGE))
 BY_MODEL = partial(Curve, by=("model",))
+in_octaves = partial(Claim, quantity=OFF)
 STUDY = Study(
     title="Reduced models of the wheel on a rough surface, beside boundary elements",
     method=(
@@ -228,82 +199,46 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(
-            says="In octaves a rough layer that is pressed flat beforehand follows boundary elements within 1 dB up to "
+        in_octaves(model=LAYER, where=_up_to(LIMIT)).saying(
+            "In octaves a rough layer that is pressed flat beforehand follows boundary elements within 1 dB up to "
             f"h' a/d of {LIMIT:.2g}.",
             short=f"Pressed layer beside boundary elements up to h' a/d = {LIMIT:.2g}",
-            quantity=OFF,
-            model=LAYER,
-            where=_up_to(LIMIT),
         ),
-        Claim(
-            says="In octaves springs that read the surface follow boundary elements within 1 dB up to h' a/d of "
+        in_octaves(model=READ, where=_up_to(LIMIT_OF_READ)).saying(
+            "In octaves springs that read the surface follow boundary elements within 1 dB up to h' a/d of "
             f"{LIMIT_OF_READ:.2g}.",
             short=f"springs that read the surface up to {LIMIT_OF_READ:.2g}",
-            quantity=OFF,
-            model=READ,
-            where=_up_to(LIMIT_OF_READ),
         ),
         AtTheLimit(
-            says=f"At h' a/d of {LIMIT:.2g}, linear theory, springs and the bed of the field are more than 1 dB off "
+            quantity=OFF, model=(LINEAR, LINE, READ, reduced_strip.BED), where=_up_to(LIMIT), differ=True
+        ).saying(
+            f"At h' a/d of {LIMIT:.2g}, linear theory, springs and the bed of the field are more than 1 dB off "
             "boundary elements in octaves.",
             short=f"linear theory, springs and the bed at {LIMIT:.2g}",
-            quantity=OFF,
-            model=(LINEAR, LINE, READ, BED),
-            where=_up_to(LIMIT),
-            differ=True,
         ),
-        Claim(
-            says="In octaves boundary elements on a third of the cells follow those on all within 1 dB up to h' a/d of "
-            f"{LIMIT:.2g}.",
-            quantity=OFF,
-            model=COARSEST,
-            where=_up_to(LIMIT),
+        in_octaves(model=reduced_strip.COARSEST, where=_up_to(LIMIT)).saying(
+            "In octaves boundary elements on a third of the cells follow those on all within 1 dB up to h' a/d of "
+            f"{LIMIT:.2g}."
         ),
     ),
     charts=(
-        Chart(
-            "reduced_models-map",
+        Chart("reduced_models-map", claims=(0, 1, 2), width=9.0, height=4.6).of(
             "Root mean square over octaves of the level of the force over boundary elements, over h' a/d. Points: "
             "strips of all spectra, with 95 % intervals; lines: the largest up to there. Shaded: within 1 dB.",
-            (
-                Panel(
-                    SLOPE,
-                    "rms over octaves [dB]",
-                    (BY_MODEL(OFF, SHOWN, "marks", bars=True), BY_MODEL(LARGEST, SHOWN, "lines", "_")),
-                    log="xy",
-                    shade=(1e-9, 1),
-                    ylim=(0.01, 20),
-                ),
+            Panel(SLOPE, "rms over octaves [dB]", log="xy", shade=(1e-9, 1), ylim=(0.01, 20)).of(
+                BY_MODEL(OFF, SHOWN, "marks", bars=True), BY_MODEL(LARGEST, SHOWN, "lines", "_")
             ),
-            claims=(0, 1, 2),
-            width=9.0,
-            height=4.6,
         ),
-        Chart(
-            "reduced_models",
+        Chart("reduced_models", claims=(0, 1), height=4.6).of(
             f"At the h' a/d nearest to {LIMIT:.2g}: (a) level over boundary elements in one-third octaves, 95 %; (b) "
             "coherence; (c) root mean square over octaves, over counted work; line: 1 dB; open: trials.",
-            (
-                Panel(
-                    Q,
-                    "level over boundary elements [dB]",
-                    (BY_MODEL(LEVEL, SHOWN, bars=True),),
-                    "in one-third octaves",
-                    lines=(0.0,),
-                ),
-                Panel(Q, COHERENCE, (BY_MODEL(COHERENCE, SHOWN),), "position by position", ylim=(0, 1.02)),
-                Panel(
-                    WORK,
-                    "rms over octaves [dB]",
-                    (BY_MODEL(AT_WORK, SHOWN, "marks"), BY_MODEL(AT_WORK, TRIALS, "open marks")),
-                    "error over work",
-                    log="xy",
-                    lines=(1.0,),
-                ),
+            Panel(Q, "level over boundary elements [dB]", title="in one-third octaves", lines=(0.0,)).of(
+                BY_MODEL(LEVEL, SHOWN, bars=True)
             ),
-            claims=(0, 1),
-            height=4.6,
+            Panel(Q, COHERENCE, title="position by position", ylim=(0, 1.02)).of(BY_MODEL(COHERENCE, SHOWN)),
+            Panel(WORK, "rms over octaves [dB]", title="error over work", log="xy", lines=(1.0,)).of(
+                BY_MODEL(AT_WORK, SHOWN, "marks"), BY_MODEL(AT_WORK, TRIALS, "open marks")
+            ),
         ),
     ),
     matrices=(Matrix(name=OFF, quantity=OFF, rows=("H", Q, "h/d", SLOPE), columns="model"),),

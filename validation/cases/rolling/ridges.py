@@ -125,7 +125,6 @@ def series(result: Outcomes) -> list[Series]:
 
 
 def bound_of(method: str, cells: float, q: FloatArray) -> tuple[FloatArray, str]:
-    """How large the error over the envelope may be, and why."""
     if method == BEM:
         off = EDGE * np.maximum(1.0, q) / cells
         return off, f"an edge {EDGE:g} dx out of place: that error of the radius, and {EDGE:g} q dx of phase"
@@ -148,43 +147,27 @@ STUDY = Study(
     series=series,
     claims=(
         Claim(
-            says="Over ridges across the track the one-dimensional model is exact in three dimensions, (14.11).",
-            short="Over ridges, springs and boundary elements beside (14.11), through its zeros, within their grids",
             quantity=NEAREST,
             model=(BEM, FULL, SPRINGS),
             printed=lambda error: f"{error.value:.2g} of {error.tolerance:.2g} that the grid leaves",
+        ).saying(
+            "Over ridges across the track the one-dimensional model is exact in three dimensions, (14.11).",
+            short="Over ridges, springs and boundary elements beside (14.11), through its zeros, within their grids",
         ),
     ),
     charts=(
-        Chart(
-            "ridges",
+        Chart("ridges").of(
             "(a) Response of the force to ridges, finest grids. Line: (14.11); circles: boundary elements; squares: "
             f"one-sided springs. (b) Errors over the envelope; dotted: an edge {EDGE:g} of a cell out of place.",
-            (
-                Panel(
-                    Q,
-                    f"{RESPONSE}, over 2 E* a",
-                    (
-                        Curve(RESPONSE, EXACT, "exact", by=("model",)),
-                        Curve(RESPONSE, BEM, "bem", "boundary elements", of=FINEST, apart=0.03),
-                        Curve(RESPONSE, SPRINGS, "mdr", "springs", of=FINEST, apart=0.03),
-                    ),
-                    "amplitude and sign",
-                    log="",
-                    ylim=(-1.2, 1.6),
-                ),
-                Panel(
-                    Q,
-                    ERROR,
-                    (
-                        Curve(ERROR, BEM, "marks", by=BY_CELLS, apart=0.03),
-                        Curve(BOUND, BEM, "dotted", "_", by=BY_CELLS),
-                        Curve(ERROR, SPRINGS, "lines", by=BY_CELLS),
-                    ),
-                    "errors",
-                    log="xy",
-                    ylim=(1e-7, 1),
-                ),
+            Panel(Q, f"{RESPONSE}, over 2 E* a", title="amplitude and sign", log="", ylim=(-1.2, 1.6)).of(
+                Curve(RESPONSE, EXACT, "exact", by=("model",)),
+                Curve(RESPONSE, BEM, "bem", "boundary elements", of=FINEST, apart=0.03),
+                Curve(RESPONSE, SPRINGS, "mdr", "springs", of=FINEST, apart=0.03),
+            ),
+            Panel(Q, ERROR, title="errors", log="xy", ylim=(1e-7, 1)).of(
+                Curve(ERROR, BEM, "marks", by=BY_CELLS, apart=0.03),
+                Curve(BOUND, BEM, "dotted", "_", by=BY_CELLS),
+                Curve(ERROR, SPRINGS, "lines", by=BY_CELLS),
             ),
         ),
     ),

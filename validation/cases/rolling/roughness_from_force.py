@@ -13,17 +13,15 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim
 from validation.analysis.margins import THREE_DECIBELS
-from validation.analysis.series import Estimates, Margin, Series
+from validation.analysis.series import Margin, Series
 from validation.analysis.spectra import Bands
-from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknife_error
+from validation.analysis.statistics import POWER_DECIBEL, FloatArray, jackknifed
 from validation.analysis.study import Outcomes, Study
 from validation.cases.rolling.settings import HEIGHT, SLOPE, SLOPE_COUNTS, Q, SelfAffineSettings, slopes_of
-from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.engine.engine import SERIAL, Engine
 from validation.simulation.rolling_strip import HERTZ, level_3d, over_bands, roll_strips, strip_levels
 from validation.simulation.track_spectrum import PiecewisePowerLaw, TrackSpectrum
 from validation.theory.rolling import force_spectrum_1d, mean_force_spectrum_1d
-
-FloatArray = NDArray[np.float64]
 
 MEAN_FILTER, FILTER_1D, FILTER_3D = "(14.14)", "(14.12)", "filter in 3D"
 FILTERS = (MEAN_FILTER, FILTER_1D, FILTER_3D)
@@ -68,18 +66,6 @@ def run(case: RoughnessFromForce, engine: Engine = SERIAL) -> Outcomes:
     return Outcomes(case, levels, unconverged)
 
 
-def force_levels(case: RoughnessFromForce, outcome: Outcome) -> tuple[FloatArray, FloatArray]:
-    """int C_F dq in each band over (F_Hertz h/d)^2, h/d = 1: of all strips, and without each of them in turn.
-
-    The level over linear theory on the same surfaces, times that of the spectrum: little scatter is left.
-    """
-    known = np.isfinite(outcome["level"]).all(axis=1)
-    level, linear = outcome["level"][known], outcome["linear level"][known]
-    exact = level_3d(case.spectrum, case.bands)
-    without = (level.sum(axis=0) - level) / (linear.sum(axis=0) - linear)
-    return exact * level.mean(axis=0) / linear.mean(axis=0), exact * without
-
-
 def true_roughness(case: RoughnessFromForce) -> FloatArray:
     """int C_1D dq over each band, Geike's: half of the mean square height of its waves, h_rms = 1."""
     return over_bands(TrackSpectrum(case.spectrum, "geike"), case.bands)
@@ -119,21 +105,12 @@ def filter_3d(bands: Bands) -> FloatArray:
     return np.stack([2 * level_3d(piece, bands) for piece in pieces], axis=1)
 
 
-def with_error(values: list[FloatArray]) -> Estimates:
-    """The first of them, with the jackknife error over the others, each without one of the strips."""
-    whole, *without = (np.atleast_1d(one) for one in values)
-    errors = jackknife_error(np.array(without))
-    return Estimates(Estimate(float(v), float(e), len(without)) for v, e in zip(whole, errors, strict=True))
-
-
 LEVEL, BELOW = "roughness found in a one-third octave", "roughness found below the band"
 FOUND, OVER_TRUE = "mean square height in a one-third octave, over that of all", "roughness found over the true one"
 BETWEEN, ZEROS = "between zeros of sin(q a)", "at zeros of sin(q a)"
 NEAR = THREE_DECIBELS.beside("the surface itself")
 LITTLE = Margin(
-    tolerance=0.05,
-    reason="5 %: 0.2 dB of the mean square height",
-    source="the surface itself, over the mean square of its whole height",
+    0.05, "5 %: 0.2 dB of the mean square height", source="the surface itself, over the mean square of its whole height"
 )
 
 
@@ -148,11 +125,16 @@ def _recovered(result: Outcomes, height: float, by: str) -> Iterator[Series]:
     """By one filter. Intervals of all bands inside hold at once for all heights."""
     case, inside = result.case, result.case.inside
     below = np.array(case.bands.edges[1:]) < case.first * (1 + 1e-9)
-    level, without = force_levels(case, result[height])
-    found = [roughness(case.bands, one, by) for one in (level, *without)]
-    true = true_roughness(case)[inside]
+    strips = np.stack([result[height][name] for name in ("level", "linear level")], axis=1)
+    true, exact = true_roughness(case)[inside], level_3d(case.spectrum, case.bands)
     q, zeros = case.bands.centres[inside], case.zeros[inside]
-    over_true = with_error([np.log(np.maximum(one[inside] / true, LEAST)) for one in found])
+
+    def found(some: FloatArray) -> FloatArray:
+        """From the level over linear theory on the same surfaces, times that of the spectrum: little scatter."""
+        level, linear = some.mean(axis=0)
+        return roughness(case.bands, exact * level / linear, by)
+
+    over_true = jackknifed(lambda some: np.log(np.maximum(found(some)[inside] / true, LEAST)), strips)
     along = partial(Series, model=by, along=Q, unit="dB", scale=POWER_DECIBEL)
     yield along(OVER_TRUE, found=over_true, at=q, where={HEIGHT: height})
     for bands, some in ((BETWEEN, ~zeros), (ZEROS, zeros)):
@@ -167,10 +149,11 @@ def _recovered(result: Outcomes, height: float, by: str) -> Iterator[Series]:
                 family=every / len(kept),
                 rms_family=every,
             )
-    share = with_error([one[below].sum() / true.sum() for one in found])
+    share = jackknifed(lambda some: found(some)[below].sum() / true.sum(), strips)
     family = len(case.heights) * len(FILTERS)
     yield Series(BELOW, by, share, where={HEIGHT: height}, margin=LITTLE, family=family)
-    for model, height_in_band in ((by, found[0][inside]), ("surface", true)):
+    known = strips[np.isfinite(strips).all(axis=(1, 2))]
+    for model, height_in_band in ((by, found(known)[inside]), ("surface", true)):
         yield Series(FOUND, model, height_in_band, where={HEIGHT: height, "filter": by}, along=Q, at=q)
 
 
@@ -191,51 +174,36 @@ STUDY = Study(
     series=series,
     claims=(
         *(
-            Claim(
-                says=f"The roughness spectrum follows from the force spectrum by {by}, read backwards.",
+            Claim(quantity=LEVELS, model=by, along=HEIGHT).saying(
+                f"The roughness spectrum follows from the force spectrum by {by}, read backwards.",
                 short=f"Roughness from force by {by}, in one-third octaves",
-                quantity=LEVELS,
-                model=by,
-                along=HEIGHT,
             )
             for by in (MEAN_FILTER, FILTER_1D)
         ),
         *(
-            Claim(
-                says=f"{where} of sin(q a) the roughness spectrum follows by the filter in 3D, read backwards.",
+            Claim(quantity=LEVELS, model=FILTER_3D, where={"bands": bands}, along=HEIGHT).saying(
+                f"{where} of sin(q a) the roughness spectrum follows by the filter in 3D, read backwards.",
                 short=f"Roughness from force by the filter in 3D, {bands}",
-                quantity=LEVELS,
-                model=FILTER_3D,
-                where={"bands": bands},
-                along=HEIGHT,
             )
             for where, bands in (("Between the zeros", BETWEEN), ("At the zeros", ZEROS))
         ),
-        Claim(
-            says="Filters that are read backwards find no roughness below the band, where there is none.",
-            quantity=BELOW,
+        Claim(quantity=BELOW).saying(
+            "Filters that are read backwards find no roughness below the band, where there is none."
         ),
     ),
     charts=(
-        Chart(
-            "roughness_from_force",
+        Chart("roughness_from_force", claims=(0, 2), sharey=True, height=3.6).of(
             "Mean square height of the waves in one-third octaves, found from the force of boundary elements over "
             "the true one, by filter; a panel a roughness. Shaded: within 3 dB; vertical lines: zeros of sin(q a). "
             "Bars: 95 %. -30 dB: nothing found.",
-            (
-                Panel(
-                    Q,
-                    "roughness found over true [dB]",
-                    (Curve(OVER_TRUE, by=("model",), bars=True),),
-                    facet=HEIGHT,
-                    ylim=(-16.0, 10.0),
-                    shade=(-3.0, 3.0),
-                    at=tuple(math.pi * n for n in range(1, 10)),
-                ),
-            ),
-            claims=(0, 2),
-            sharey=True,
-            height=3.6,
+            Panel(
+                Q,
+                "roughness found over true [dB]",
+                facet=HEIGHT,
+                ylim=(-16.0, 10.0),
+                shade=(-3.0, 3.0),
+                at=tuple(math.pi * n for n in range(1, 10)),
+            ).of(Curve(OVER_TRUE, by=("model",), bars=True)),
         ),
     ),
     printed=(SLOPE,),

@@ -7,10 +7,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from validation.analysis.series import Series
 from validation.analysis.spectra import Bands
+from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed
 from validation.engine.convergence import require_realisations
 from validation.simulation.rolling_strip import RoughStrip, Tracks
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, self_affine
@@ -68,7 +68,7 @@ class SelfAffineSettings(RollingSettings):
         return self_affine(self.hurst, self.first, self.last)
 
     @property
-    def slopes(self) -> NDArray[np.float64]:
+    def slopes(self) -> FloatArray:
         """h' a/d at each height, along the track, of all waves."""
         return self.spectrum.slope_along * np.array(self.heights)
 
@@ -76,3 +76,14 @@ class SelfAffineSettings(RollingSettings):
 def slopes_of(case: SelfAffineSettings) -> Series:
     """Beside h/d, for those who ask by the slope."""
     return Series(SLOPE, "surface", case.slopes, along=HEIGHT, at=case.heights)
+
+
+def decibels(pairs: FloatArray) -> FloatArray:
+    """Mean level of a model over that of another on the same strips: pairs (strips, 2, bands)."""
+    mine, other = pairs.mean(axis=0)
+    return np.asarray(POWER_DECIBEL * np.log(mine / other))
+
+
+def rms_decibels(pairs: FloatArray) -> Estimate:
+    """Their root mean square over the bands, with its jackknife."""
+    return jackknifed(lambda some: np.asarray(np.sqrt(np.mean(decibels(some) ** 2))), pairs)[0]

@@ -19,15 +19,8 @@ from validation.analysis.statistics import POWER_DECIBEL, Estimate, extrapolated
 from validation.analysis.study import Outcomes, Study
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation import rough_punch
-from validation.simulation.rolling_strip import (
-    HERTZ,
-    LoadedStrip,
-    RoughStrip,
-    Tracks,
-    roll_loaded_strip,
-    roll_loaded_tracks,
-)
+from validation.simulation import rolling_strip, rough_punch
+from validation.simulation.rolling_strip import HERTZ, LoadedStrip, RoughStrip, Tracks
 from validation.simulation.track_spectrum import INPUT_SPECTRA, InputSpectrum, PiecewisePowerLaw, self_affine
 
 FloatArray = NDArray[np.float64]
@@ -120,7 +113,7 @@ def run(case: TrackStiffness, engine: Engine = SERIAL) -> Outcomes:
     """Roll and press. Raises NotConvergedError where fewer than three strips or punches converge at a force."""
     cells = {WHEEL: case.cells, REFINED: 2 * case.cells}
     groups = {(name, force): case.strips_of(force, n) for force in case.forces for name, n in cells.items()}
-    strips = engine.map_groups(roll_loaded_strip, groups)
+    strips = engine.map_groups(rolling_strip.roll_loaded_strip, groups)
     lost = tuple(
         f"strip {i}, Fbar = {force:g}, {cells[name]} cells to a radius: {int(one['failed'])} positions"
         for (name, force), found in strips.items()
@@ -132,7 +125,7 @@ def run(case: TrackStiffness, engine: Engine = SERIAL) -> Outcomes:
             raise NotConvergedError(f"fewer than {FEWEST} strips of {key} converged", lost)
     along = {key: {name: np.array([one[name] for one in found]) for name in found[0]} for key, found in strips.items()}
     tracks = {(rule, force): case.tracks_of(force, rule) for force in case.forces for rule in INPUT_SPECTRA}
-    rolled = engine.map(roll_loaded_tracks, list(tracks.values()))
+    rolled = engine.map(rolling_strip.roll_loaded_tracks, list(tracks.values()))
     pressed = engine.map(rough_punch.press_surface, case.faces)
     failures = rough_punch.describe_failures(case.faces, pressed)
     rough_punch.require_converged([rough_punch.stacked(pressed)], failures)
@@ -249,18 +242,15 @@ def percent(number: Number) -> str:
     return f"{100 * number.value:+.0f} ± {100 * number.uncertainty:.0f} %"
 
 
-def _claim(quantity: str, model: str | tuple[str, ...], says: str, short: str = "") -> Claim:
-    return Claim(says=says, short=short, quantity=quantity, model=model, printed=percent)
-
-
 def _over_force(quantity: str) -> Panel:
     curves = (
         Curve(SHOWN[quantity], (WHEEL, *SPRINGS.values()), by=("model",), bars=True),
         Curve(SHOWN[quantity], (PUNCH, PROFILE), "open", by=("model",), bars=True),
     )
-    return Panel(FORCE, quantity, curves, ylim=(0, None), ticked=True)
+    return Panel(FORCE, quantity, ylim=(0, None), ticked=True).of(*curves)
 
 
+in_per_cent = partial(Claim, printed=percent)
 ALONG = "Along a track under constant load, springs with Geike's spectrum"
 STUDY = Study(
     title="Stiffness along a track at constant load: from Fig. 14.1 to rolling",
@@ -274,48 +264,33 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        _claim(
-            DEVIATION,
-            OVER["geike"],
+        in_per_cent(quantity=DEVIATION, model=OVER["geike"]).saying(
             f"{ALONG} have the fluctuation of stiffness of boundary elements.",
-            "Fluctuation of stiffness along a track, springs beside boundary elements",
+            short="Fluctuation of stiffness along a track, springs beside boundary elements",
         ),
-        _claim(MEAN, OVER["geike"], f"{ALONG} have the mean stiffness of boundary elements.", "its mean"),
-        Claim(
-            says="Springs with Geike's spectrum have the level of the stiffness in each one-third octave.",
-            quantity=(LEVEL, "rms of " + LEVEL),
-            model=OVER["geike"],
+        in_per_cent(quantity=MEAN, model=OVER["geike"]).saying(
+            f"{ALONG} have the mean stiffness of boundary elements.", short="its mean"
         ),
-        _claim(
-            DEVIATION,
-            (OVER["line"], OVER["rolling"]),
-            "The line trace or the rolling-equivalent spectrum mends the fluctuation of stiffness.",
+        Claim(quantity=(LEVEL, "rms of " + LEVEL), model=OVER["geike"]).saying(
+            "Springs with Geike's spectrum have the level of the stiffness in each one-third octave."
         ),
-        _claim(
-            DEVIATION,
-            PUNCH_OVER_WHEEL,
-            "The fluctuation of stiffness along a track is that from punch to punch of Fig. 14.1 at the same Fbar.",
+        in_per_cent(quantity=DEVIATION, model=(OVER["line"], OVER["rolling"])).saying(
+            "The line trace or the rolling-equivalent spectrum mends the fluctuation of stiffness."
+        ),
+        in_per_cent(quantity=DEVIATION, model=PUNCH_OVER_WHEEL).saying(
+            "The fluctuation of stiffness along a track is that from punch to punch of Fig. 14.1 at the same Fbar."
         ),
     ),
     charts=(
-        Chart(
-            "track_stiffness",
+        Chart("track_stiffness", claims=(0, 1), height=4.4).of(
             "(a) Mean stiffness over 2 E* a of a wheel, and over E* L of punches, over Fbar = F / (E* h L). (b) "
             "Relative deviation, along the track and, open, from punch to punch; 95 %. (c) Level of the stiffness, "
             "springs of Geike's spectrum over boundary elements, dark to light: Fbar; shaded: within 3 dB.",
-            (
-                _over_force(MEAN),
-                _over_force(DEVIATION),
-                Panel(
-                    Q,
-                    "springs over boundary elements [dB]",
-                    (Curve(LEVEL, OVER["geike"], by=(FORCE,), bars=True),),
-                    shade=(-3, 3),
-                    ylim=(-25, 25),
-                ),
+            _over_force(MEAN),
+            _over_force(DEVIATION),
+            Panel(Q, "springs over boundary elements [dB]", shade=(-3, 3), ylim=(-25, 25)).of(
+                Curve(LEVEL, OVER["geike"], by=(FORCE,), bars=True)
             ),
-            claims=(0, 1),
-            height=4.4,
         ),
     ),
     matrices=tuple(

@@ -14,9 +14,9 @@ from validation.analysis.claims import Claim, Matrix
 from validation.analysis.margins import REPEATABLE
 from validation.analysis.series import Margin, Series
 from validation.analysis.spectra import Bands
-from validation.analysis.statistics import POWER_DECIBEL, Estimate, jackknife_error, ratio_of_means
+from validation.analysis.statistics import Estimate, ratio_of_means
 from validation.analysis.study import Outcomes, Study
-from validation.cases.rolling.settings import HEIGHT, SLOPE, SLOPE_COUNTS
+from validation.cases.rolling.settings import HEIGHT, SLOPE, SLOPE_COUNTS, rms_decibels
 from validation.engine.convergence import require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.description import slope_ratio
@@ -115,16 +115,8 @@ def contact_kept(strips: list[Outcome]) -> Estimate:
 
 
 def off_linear(outcome: Outcome) -> Estimate:
-    """Root mean square over bands of the level over linear theory on the same surfaces [dB], with its jackknife."""
-    known = np.isfinite(outcome["level"]).all(axis=1)
-    level, linear = outcome["level"][known], outcome["linear level"][known]
-    count = len(level)
-
-    def rms(mine: np.ndarray, other: np.ndarray) -> np.ndarray:
-        return np.asarray(POWER_DECIBEL * np.sqrt(np.mean(np.log(mine / other) ** 2, axis=-1)))
-
-    without = rms(*((one.sum(axis=0) - one) / (count - 1) for one in (level, linear)))
-    return Estimate(float(rms(level.mean(axis=0), linear.mean(axis=0))), float(jackknife_error(without)), count)
+    """Root mean square over bands of the level over linear theory on the same surfaces [dB]."""
+    return rms_decibels(np.stack([outcome["level"], outcome["linear level"]], axis=1))
 
 
 KEPT, OFF, OFF_REDUCED = "share of contact kept", "rms level over linear theory", "rms level over boundary elements"
@@ -167,7 +159,6 @@ def _shown(result: Outcomes) -> Iterator[Series]:
 
 
 def _table_14_1() -> Iterator[Series]:
-    """Where the wheel of the book stands."""
     scene = load_wheel_scene("table_14_1")
     yield Series(TABLE_14_1, HEIGHT, (scene.rms / scene.approach,))
     yield Series(TABLE_14_1, SLOPE, (slope_ratio(scene.slope_along, scene),))
@@ -181,8 +172,7 @@ BARS = partial(Curve, by=(SPECTRUM,), bars=True, beside=1.0)
 
 
 def _panels(y: str, *curves: Curve, **settings: Any) -> tuple[Panel, Panel]:
-    """Over h/d and over h' a/d."""
-    return Panel(HEIGHT, y, curves, **settings), Panel(SLOPE, y, curves, **settings)
+    return Panel(HEIGHT, y, **settings).of(*curves), Panel(SLOPE, y, **settings).of(*curves)
 
 
 STUDY = Study(
@@ -200,11 +190,9 @@ STUDY = Study(
     series=series,
     claims=(
         *(
-            Claim(
-                says=f"{what} at the same {parameter}, whatever the band of the roughness and its Hurst exponent.",
+            Claim(quantity=quantity, where={parameter: ...}).saying(
+                f"{what} at the same {parameter}, whatever the band of the roughness and its Hurst exponent.",
                 short=f"{short} over all spectra at equal {parameter}",
-                quantity=quantity,
-                where={parameter: ...},
             )
             for what, short, quantity in (
                 ("Contact is lost", "Contact kept", KEPT),
@@ -213,37 +201,27 @@ STUDY = Study(
             for parameter in (SLOPE, HEIGHT)
         ),
         *(
-            Claim(
-                says=f"{what} boundary elements within 1 dB up to h' a/d of {STEEPEST:.3g}, in all bands.",
-                quantity=OFF_REDUCED,
-                model=model,
-                where={SLOPE: ...},
+            Claim(quantity=OFF_REDUCED, model=model, where={SLOPE: ...}).saying(
+                f"{what} boundary elements within 1 dB up to h' a/d of {STEEPEST:.3g}, in all bands."
             )
             for model, what in ((READ, "Springs that read the surface follow"), (LAYER, "A pressed layer follows"))
         ),
     ),
     charts=(
-        Chart(
-            "rolling_validity",
+        Chart("rolling_validity", claims=(0, 1), columns=2, width=9.0, height=8.6).of(
             "Over h/d (left) and over h' a/d (right), by spectrum. (a), (b) Share of contact kept on boundary "
             "elements. (c), (d) Root mean square over one-third octaves of the level over linear theory; line: 1 dB. "
             "(e), (f) The same of reduced models over boundary elements; solid: pressed layer, dashed: springs that "
             "read the surface. Bars: 95 %. Curves that lie on each other show the parameter that counts.",
-            (
-                *_panels(KEPT, BARS(KEPT + ALL)),
-                *_panels("rms over linear theory [dB]", BARS(OFF + ALL), lines=(1.0,), ylim=(0.0, None)),
-                *_panels(
-                    "rms over bem3d [dB]",
-                    BARS(OFF_REDUCED + ALL, LAYER),
-                    Curve(OFF_REDUCED + ALL, READ, "graded dashed", "_", by=(SPECTRUM,)),
-                    lines=(1.0,),
-                    ylim=(0.0, None),
-                ),
+            *_panels(KEPT, BARS(KEPT + ALL)),
+            *_panels("rms over linear theory [dB]", BARS(OFF + ALL), lines=(1.0,), ylim=(0.0, None)),
+            *_panels(
+                "rms over bem3d [dB]",
+                BARS(OFF_REDUCED + ALL, LAYER),
+                Curve(OFF_REDUCED + ALL, READ, "graded dashed", "_", by=(SPECTRUM,)),
+                lines=(1.0,),
+                ylim=(0.0, None),
             ),
-            claims=(0, 1),
-            columns=2,
-            width=9.0,
-            height=8.6,
         ),
     ),
     matrices=tuple(

@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -12,17 +13,17 @@ from validation.analysis.evidence import Role
 from validation.analysis.margins import MARGINS
 from validation.analysis.series import Estimates, Margin, Series, Where
 from validation.analysis.spectra import band_means
-from validation.analysis.statistics import POWER_DECIBEL, Estimate, ratio_of_means
+from validation.analysis.statistics import Estimate, FloatArray, ratio_of_means
 from validation.analysis.study import Outcomes
 from validation.cases.wheel import features
+from validation.cases.wheel.features import TABLE, decibels
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine
-from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
+from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.roughness import Roughness
 from validation.simulation.wheel_on_springs import TrackKind, WheelEnsemble, simulate_ensemble
 from validation.theory import wheel as wheel_theory
 
-TABLE = load_wheel_scene("table_14_1")
 SHORT = replace(TABLE, distance=0.16)
 MIN_JUMP, MIN_PERIODS = 4.0, 5.0
 """q_min v0 over the eigenfrequency, and periods of the oscillation behind it: with less, regions cannot be separated.
@@ -37,6 +38,8 @@ KINDS: dict[str, tuple[bool, TrackKind]] = {
     LINEAR_STEADY: (True, "steady-state"),
 }
 """Of contact and track: whether the contact is linear, and the track."""
+BY_HEIGHT_OF = {OPEN: 0, LINEAR_OPEN: 2, STEADY: 4}
+"""What makes region 2, with the power of the height as which it grows, where it has one."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,19 +80,16 @@ class WheelDistance:
         return found
 
     def ensemble(self, kind: str, count: int, height: float = 1.0) -> WheelEnsemble:
-        """Wheels of a contact and a track, at a height."""
         linear, track = KINDS[kind]
         scene = scaled(self.scene, height)
         return WheelEnsemble(scene=scene, count=count, groups=self.groups, track=track, linear=linear, seed=self.seed)
 
     def ended(self, kind: str, phase: float) -> WheelEnsemble:
-        """Open tracks that end in a phase of the natural period."""
         period = self.scene.period_length
         whole = max(round(self.scene.length / period), 1)
         return replace(self.ensemble(kind, self.rough), scene=replace(self.scene, distance=(whole + phase) * period))
 
     def vibration(self, release: float) -> WheelEnsemble:
-        """Wheels that begin so much deeper than in equilibrium."""
         scene, count = replace(self.scene, distance=2 * self.scene.distance), self.released
         return WheelEnsemble(scene=scene, count=count, groups=count, release=release, seed=self.seed)
 
@@ -98,18 +98,13 @@ class WheelDistance:
         return {
             **self.distances(),
             **{kind: self.ensemble(kind, self.causes) for kind in KINDS},
-            **{
-                ("height", k, h): self.ensemble(k, self.rough, h)
-                for k in (OPEN, STEADY, LINEAR_OPEN)
-                for h in self.heights
-            },
+            **{("height", k, h): self.ensemble(k, self.rough, h) for k, h in product(BY_HEIGHT_OF, self.heights)},
             **{("phase", k, p): self.ended(k, p) for k in (OPEN, LINEAR_OPEN) for p in self.phases},
             **{("release", release): self.vibration(release) for release in self.releases},
         }
 
 
 def scaled(scene: WheelScene, factor: float) -> WheelScene:
-    """The scene with all heights times a factor."""
 
     def times(rough: Roughness | None) -> Roughness | None:
         return replace(rough, rms=factor * rough.rms) if rough else None
@@ -137,8 +132,7 @@ def run(case: WheelDistance, engine: Engine = SERIAL) -> Outcomes:
 
 def _check_regions(scene: WheelScene) -> None:
     """Refuse a scene without a plateau, or with too few periods of the oscillation behind it."""
-    if scene.rail is None and scene.wheel is None:
-        raise ValueError("scene must have a rough rail or a rough wheel, got both smooth")
+    features.hurst(scene)
     if scene.jump < MIN_JUMP * scene.eigenfrequency:
         raise ValueError(
             f"scene must have q_min v0 of at least {MIN_JUMP:g} omega_eigen, {MIN_JUMP * scene.eigenfrequency:.4g} "
@@ -163,32 +157,29 @@ QUARTER, WHOLE = 0.25, 1.0
 """Heights over h_0 between which the order of growth is measured."""
 NO_CHANGE = "no change: what a region 4 without leakage would show"
 OF_LAW = Margin(
-    tolerance=0.1,
-    reason="0.1: separates this law from no dependence, 0, and from exponents of 1/2 and more",
+    0.1,
+    "0.1: separates this law from no dependence, 0, and from exponents of 1/2 and more",
     source="1 / (2 H + 1): a floor J² / (ω² T) under a spectrum of ω^(-2H-3)",
 )
 OF_JUMP = Margin(
-    tolerance=0.1,
-    reason="10 %: 0.8 dB; nonlinearity adds a part of order h₀/d",
+    0.1,
+    "10 %: 0.8 dB; nonlinearity adds a part of order h₀/d",
     source="(1 + cos²(ω_eigen T)) int A df of (14.12) through the resonator, from static equilibrium",
 )
 NOTHING_THERE = Margin(
-    tolerance=1e-18,
-    reason="square of the rounding of the acceleration, 1e-16 of its size, spread over all frequencies",
+    1e-18,
+    "square of the rounding of the acceleration, 1e-16 of its size, spread over all frequencies",
     source="zero: the track has waves from q_min to q_max alone",
     role=Role.IDENTITY,
 )
 OF_ORDER = Margin(
-    tolerance=0.3,
-    reason="0.3: separates the exponents 2, 3 and 4",
-    source="second order: products of two waves, each linear in h₀",
+    0.3, "0.3: separates the exponents 2, 3 and 4", source="second order: products of two waves, each linear in h₀"
 )
 OF_SQUARE = Margin(
-    tolerance=0.15,
-    reason="10 %: 1.5 holds for waves far above the resonance; few wheels",
+    0.15,
+    "10 %: 1.5 holds for waves far above the resonance; few wheels",
     source="1 + 1/2: the free vibration begins with the amplitude dF / M that cancels the forced acceleration",
 )
-decibels = partial(Series, scale=POWER_DECIBEL, unit="dB")
 
 
 def series(result: Outcomes) -> list[Series]:
@@ -225,14 +216,14 @@ def _breaks(result: Outcomes) -> Iterator[Series]:
     yield Series(JUMP, OPEN, jumps, along=DISTANCE, at=distances, reference=1.0, margin=OF_JUMP)
 
 
-def law_of_break(t: features.FloatArray, breaks: Estimates) -> Estimate:
+def law_of_break(t: FloatArray, breaks: Estimates) -> Estimate:
     """d ln omega_break / d ln T by weighted least squares."""
     weights = breaks.values / np.array([one.error for one in breaks])
     (slope, _), covariance = np.polyfit(np.log(t), np.log(breaks.values), 1, w=weights, cov="unscaled")
     return Estimate(float(slope), math.sqrt(covariance[0, 0]), breaks[0].samples)
 
 
-def rms_over(jumps: features.FloatArray, linear: float) -> Estimate:
+def rms_over(jumps: FloatArray, linear: float) -> Estimate:
     """The rms jump over that of linear theory, with the error of a mean square of so many Gaussian values."""
     value = float(np.sqrt(np.mean(jumps**2))) / linear
     return Estimate(value, value / math.sqrt(2 * jumps.size), jumps.size)
@@ -280,7 +271,7 @@ def _plateau(result: Outcomes) -> Iterator[Series]:
     case, scene, band = result.case, result.case.scene, features.regions_of(result.case.scene)[features.PLATEAU]
     by_height = partial(decibels, BY_HEIGHT, along=H_OVER_D, at=np.array(case.heights) * scene.rms / scene.approach)
     growth = np.log(np.array(case.heights) / case.heights[0])
-    for kind, order in ((OPEN, 0), (LINEAR_OPEN, 2), (STEADY, 4)):
+    for kind, order in BY_HEIGHT_OF.items():
         found = Estimates(features.level(result["height", kind, h], band) for h in case.heights)
         yield by_height(kind, found)
         if order:
@@ -288,10 +279,8 @@ def _plateau(result: Outcomes) -> Iterator[Series]:
     for kind in (OPEN, LINEAR_OPEN):
         found = Estimates(features.level(result["phase", kind, phase], band) for phase in case.phases)
         yield decibels(BY_PHASE, kind, found, along="phase", at=case.phases)
-    over, step = (
-        features.ratio(result["height", STEADY, WHOLE], result["height", STEADY, QUARTER], band),
-        math.log(WHOLE / QUARTER),
-    )
+    over = features.ratio(result["height", STEADY, WHOLE], result["height", STEADY, QUARTER], band)
+    step = math.log(WHOLE / QUARTER)
     power = (Estimate(over.value / step, over.error / step, over.samples),)
     where: Where = {"region": features.PLATEAU, "h / h₀": (QUARTER, WHOLE)}
     yield Series(ORDER, STEADY, power, where=where, reference=4.0, margin=OF_ORDER)
@@ -303,9 +292,8 @@ def _motion(result: Outcomes) -> Iterator[Series]:
     squares = (ratio_of_means(result[OPEN]["square"], result[STEADY]["square"]),)
     yield Series(SQUARE, f"{OPEN}, over {STEADY}", squares, reference=1.5, margin=OF_SQUARE)
     for release in case.releases:
-        value = features.measured(features.Spectrum.of(case.vibration(release).scene, [result["release", release]]))[
-            features.PEAK
-        ]
+        spectrum = features.Spectrum.of(case.vibration(release).scene, [result["release", release]])
+        value = features.measured(spectrum)[features.PEAK]
         found.append(Estimate(value.value / frequency, value.error / frequency, value.samples))
         source = "period of free vibration on a Hertz contact, quadrature" if release else "sqrt(2 a E* / M)"
         yield Series(

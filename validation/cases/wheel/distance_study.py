@@ -7,36 +7,24 @@ from validation.analysis.chart import Chart, Curve, Panel, by_model
 from validation.analysis.claims import Claim
 from validation.analysis.study import Study
 from validation.cases.wheel import distance
-from validation.cases.wheel.features import DENSITY, FOURTH, LEVEL, OMEGA, PEAK, QUANTITIES
+from validation.cases.wheel.features import DENSITY, FOURTH, LEVEL, OMEGA, PEAK, QUANTITIES, TABLE
 from validation.selection import model_needed
 from validation.simulation.wheel_on_springs import WAVES_APART
 
 LINEAR_OVER = f"{distance.LINEAR_OPEN}, over {distance.OPEN}"
-BY_DISTANCE = Panel(
-    OMEGA,
-    DENSITY,
-    (
-        Curve(distance.SPECTRA, "spectrum", by=(distance.DISTANCE,)),
-        Curve(distance.SPECTRA, "break", "open marks", "_", by=(distance.DISTANCE,)),
-    ),
-    log="xy",
-    legend="lower left",
+BY_DISTANCE = Panel(OMEGA, DENSITY, log="xy", legend="lower left").of(
+    Curve(distance.SPECTRA, "spectrum", by=(distance.DISTANCE,)),
+    Curve(distance.SPECTRA, "break", "open marks", "_", by=(distance.DISTANCE,)),
 )
-BREAKS = Panel(
-    distance.DURATION,
-    distance.BREAK_AT,
-    by_model(
+BREAKS = Panel(distance.DURATION, distance.BREAK_AT, log="xy", legend="upper left").of(
+    *by_model(
         distance.BREAK_AT,
         {"found": "bem", "by the jumps of the records": "crosses", "T^(1/(2H+1))": "exact"},
         bars=True,
-    ),
-    log="xy",
-    legend="upper left",
+    )
 )
-CAUSES = Panel(
-    OMEGA,
-    DENSITY,
-    by_model(
+CAUSES = Panel(OMEGA, DENSITY, log="xy", decades=11.0, legend="lower left").of(
+    *by_model(
         distance.CAUSE,
         {
             distance.STEADY: "thick",
@@ -45,28 +33,16 @@ CAUSES = Panel(
             distance.HANN: "exact",
             distance.LINEAR_OPEN: "guide",
         },
-    ),
-    log="xy",
-    decades=11.0,
-    legend="lower left",
+    )
 )
-HEIGHTS = Panel(
-    distance.H_OVER_D,
-    "mean of A in region 2 [dB over (m/s²)² s]",
-    (
-        Curve(distance.BY_HEIGHT, distance.OPEN, "mdr", distance.OPEN, bars=True),
-        Curve(distance.BY_HEIGHT, distance.LINEAR_OPEN, "crosses", "linear, open: leakage", bars=True),
-        Curve(distance.BY_HEIGHT, distance.STEADY, "bem, few cells", "springs, steady: nonlinearity", bars=True),
-        *by_model(distance.BY_HEIGHT, {"h^2": "exact", "h^4": "guide"}),
-    ),
-    legend="lower right",
+HEIGHTS = Panel(distance.H_OVER_D, "mean of A in region 2 [dB over (m/s²)² s]", legend="lower right").of(
+    Curve(distance.BY_HEIGHT, distance.OPEN, "mdr", distance.OPEN, bars=True),
+    Curve(distance.BY_HEIGHT, distance.LINEAR_OPEN, "crosses", "linear, open: leakage", bars=True),
+    Curve(distance.BY_HEIGHT, distance.STEADY, "bem, few cells", "springs, steady: nonlinearity", bars=True),
+    *by_model(distance.BY_HEIGHT, {"h^2": "exact", "h^4": "guide"}),
 )
-AMPLITUDES = Panel(
-    distance.RELEASE,
-    distance.OVER_EIGEN,
-    by_model(distance.OVER_EIGEN, {"Hertz, quadrature": "exact", "springs": "mdr"}, bars=True),
-    log="",
-    legend="lower left",
+AMPLITUDES = Panel(distance.RELEASE, distance.OVER_EIGEN, log="", legend="lower left").of(
+    *by_model(distance.OVER_EIGEN, {"Hertz, quadrature": "exact", "springs": "mdr"}, bars=True)
 )
 STUDY = Study(
     title="Fig. 14.5: the break, the plateau and the ends of a record",
@@ -84,37 +60,31 @@ STUDY = Study(
     ),
     series=distance.series,
     claims=(
-        Claim(
-            says="The break that moves with the distance is leakage (Fig. 14.5).",
-            short="The break is that of leakage",
-            either=({"quantity": distance.BREAK_LAW}, {"model": LINEAR_OVER, "where": {"region": FOURTH}}),
+        Claim(either=({"quantity": distance.BREAK_LAW}, {"model": LINEAR_OVER, "where": {"region": FOURTH}})).saying(
+            "The break that moves with the distance is leakage (Fig. 14.5).", short="The break is that of leakage"
         ),
-        Claim(
-            says="Regions 1, 2 and 4 arise from the non-linearity of the contact.",
+        Claim(quantity=LEVEL, model=LINEAR_OVER, differ=True).saying(
+            "Regions 1, 2 and 4 arise from the non-linearity of the contact.",
             short="Regions 1, 2 and 4 of a linear contact and of springs",
-            quantity=LEVEL,
-            model=LINEAR_OVER,
-            differ=True,
         ),
-        Claim(
-            says="The frequency of the peak depends on the amplitude as on a Hertz contact.", quantity=QUANTITIES[PEAK]
+        Claim(quantity=QUANTITIES[PEAK]).saying(
+            "The frequency of the peak depends on the amplitude as on a Hertz contact."
         ),
     ),
     charts=(
-        Chart(
-            "wheel_distance",
+        Chart("wheel_distance").of(
             "Fig. 14.5. (a) Spectra without window, dark to light from the shortest distance to the longest; open "
             "marks: the break. (b) The break against the duration with 95 % intervals; crosses: predicted by the jumps "
             "of the same records; line: T^(1/(2H+1)) through the middle.",
-            (BY_DISTANCE, BREAKS),
+            BY_DISTANCE,
+            BREAKS,
         ),
-        Chart(
-            "wheel_distance-cause",
+        Chart("wheel_distance-cause", claims=(1,), width=12.5).of(
             "(a) Wheels over {c.scene.length:.3g} m by contact and track. (b) Region 2 against the roughness, and h² "
             "and h⁴. (c) The peak against the amplitude of free vibration; line: quadrature, Hertz.",
-            (CAUSES, HEIGHTS, AMPLITUDES),
-            claims=(1,),
-            width=12.5,
+            CAUSES,
+            HEIGHTS,
+            AMPLITUDES,
         ),
     ),
     printed=(distance.OF_REGION, distance.BY_HEIGHT, distance.BY_PHASE),
@@ -126,7 +96,7 @@ CASE = Case(
     answers="Fig. 14.5: the break that moves with the distance, its cause, and the share of leakage in the plateau",
     quick=distance.WheelDistance(scene=replace(distance.SHORT, springs=64), doublings=3, wheels=40, causes=10),
     full=distance.WheelDistance(
-        scene=distance.TABLE,
+        scene=TABLE,
         doublings=6,
         wheels=300,
         fewest=40,

@@ -3,20 +3,23 @@
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from validation.analysis import spectral_features as regions
+from validation.analysis.margins import MARGINS
+from validation.analysis.series import Estimates, Series
 from validation.analysis.spectra import band_means
-from validation.analysis.statistics import Estimate, jackknifed, log_ratio_of_means
+from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed
 from validation.engine.engine import Outcome
-from validation.scenes.dynamic_wheel import WheelScene
+from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.scenes.roughness import Roughness
 from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
 
-FloatArray = NDArray[np.float64]
+TABLE = load_wheel_scene("table_14_1")
+decibels = partial(Series, scale=POWER_DECIBEL, unit="dB")
 
 PEAK, JUMP, SLOPE, PERIOD, FLOOR, BREAK = "peak", "jump", "slope", "period", "floor", "break"
 PREDICTED = " over predicted"
@@ -30,6 +33,9 @@ QUANTITIES = {
     BREAK + PREDICTED: "break over predicted",
 }
 LEVEL, OMEGA, DENSITY = "level", "ω [rad/s]", "A [(m/s²)² s]"
+CONTRAST, ZERO = "contrast of the oscillation", "zero of sin²(q a)"
+HALF_BAND = 1 / 24
+"""Of a period of the oscillation: half of the band about a maximum or a zero."""
 FEATURES = (PEAK, JUMP, SLOPE, PERIOD, FLOOR, FLOOR + PREDICTED, BREAK, BREAK + PREDICTED)
 THIRD_FIRST, THIRD_LAST, OSCILLATION_LAST = 1.1, 0.9, 0.5
 """Region 3 begins at this multiple of the jump, and ends at this of q_max v_0; the oscillation ends earlier, since
@@ -73,7 +79,7 @@ def linear_spectrum(scene: WheelScene, omega: FloatArray) -> FloatArray:
     force = rolling_theory.force_spectrum_1d(
         omega / scene.speed, roughness(scene), contact_radius=scene.contact_radius, modulus=scene.modulus
     )
-    return np.asarray(wheel_theory.over_frequency(force, speed=scene.speed) * resonator(scene, omega))
+    return accelerated_by(force, scene, omega)
 
 
 def linear_force_3d(scene: WheelScene, q: FloatArray) -> FloatArray:
@@ -84,9 +90,10 @@ def linear_force_3d(scene: WheelScene, q: FloatArray) -> FloatArray:
     )
 
 
-def resonator(scene: WheelScene, omega: FloatArray) -> FloatArray:
-    """|a / dF|^2 of the wheel on its contact spring."""
-    return wheel_theory.acceleration_over_force(omega, eigenfrequency=scene.eigenfrequency, mass=scene.mass)
+def accelerated_by(force: FloatArray, scene: WheelScene, omega: FloatArray) -> FloatArray:
+    """A of the wheel on its contact spring under a force of that C_F."""
+    resonator = wheel_theory.acceleration_over_force(omega, eigenfrequency=scene.eigenfrequency, mass=scene.mass)
+    return np.asarray(wheel_theory.over_frequency(force, speed=scene.speed) * resonator)
 
 
 def roughness(scene: WheelScene) -> Callable[[FloatArray], FloatArray]:
@@ -154,10 +161,10 @@ def expected(spectrum: Spectrum, jumps: FloatArray | None = None) -> dict[str, f
 
 
 def hurst(scene: WheelScene) -> float:
-    """H of the rail, or of the wheel where the rail is smooth."""
+    """H of the rail, or of the wheel where the rail is smooth. Raises ValueError where both are."""
     rough = scene.rail or scene.wheel
     if rough is None:
-        raise ValueError("scene must be rough, got a smooth rail and a smooth wheel")
+        raise ValueError("scene must have a rough rail or a rough wheel, got both smooth")
     return rough.hurst
 
 
@@ -198,6 +205,51 @@ def _features(spectrum: Spectrum, plain: FloatArray, hann: FloatArray, jumps: Fl
     return values
 
 
+# --- the contrast of an oscillation: how far its zeros are filled, one after the other ---
+
+
+def zeros_of(scene: WheelScene) -> FloatArray:
+    """The numbers n of the zeros q a = n pi that have both of their maxima in region 3."""
+    first, last = scene.jump / scene.oscillation_period, scene.cutoff / scene.oscillation_period
+    return np.arange(np.ceil(first + 0.5 + HALF_BAND), np.floor(last - 0.5 - HALF_BAND) + 1)
+
+
+def log_beside_over_at(periods: FloatArray, flat: FloatArray, places: FloatArray) -> FloatArray:
+    """ln of the mean half a period to either side of each place, over that about the place; periods: of each line."""
+
+    def mean_about(place: float) -> float:
+        return float(np.mean(flat[np.abs(periods - place) < HALF_BAND]))
+
+    return np.log([(mean_about(n - 0.5) + mean_about(n + 0.5)) / 2 / mean_about(n) for n in places])
+
+
+def log_contrasts(omega: FloatArray, density: FloatArray, scene: WheelScene) -> FloatArray:
+    """ln of the mean of A omega^(2 H + 3) about the two maxima beside each zero, over that about the zero."""
+    flat = density * omega ** (2 * hurst(scene) + 3)
+    return log_beside_over_at(omega / scene.oscillation_period, flat, zeros_of(scene))
+
+
+def contrasts_of(omega: FloatArray, groups: FloatArray, scene: WheelScene) -> list[Estimate]:
+    """Of the mean of groups of wheels, (groups, frequencies), by the jackknife."""
+    return jackknifed(lambda some: log_contrasts(omega, some.mean(axis=0), scene), groups)
+
+
+def linear_contrasts(omega: FloatArray, scene: WheelScene) -> FloatArray:
+    """Of (14.12) through the resonator, at the lines of a record."""
+    return log_contrasts(omega, linear_spectrum(scene, omega), scene)
+
+
+def contrast_series(
+    model: str, found: list[Estimate] | FloatArray, scene: WheelScene, linear: FloatArray | None = None, family: int = 1
+) -> Series:
+    """By the number of the zero; judged beside linear theory, where that is given."""
+    contrast = partial(decibels, CONTRAST, model, found, along=ZERO, at=zeros_of(scene))
+    if linear is None:
+        return contrast()
+    margin = MARGINS["contrast"].beside("linear theory in the same bands")
+    return contrast(reference=Estimates.exact(linear), family=family, margin=margin)
+
+
 # --- levels of the regions ---
 
 FIRST, PLATEAU, THIRD, FOURTH = "region 1", "region 2", "region 3", "region 4"
@@ -229,5 +281,4 @@ def level(outcome: Outcome, band: tuple[float, float], window: str = "plain") ->
 
 def ratio(mine: Outcome, other: Outcome, band: tuple[float, float], window: str = "plain") -> Estimate:
     """ln of a level over that of another ensemble without window, group by group."""
-    above, below = _of_groups(mine, band, window), _of_groups(other, band, "plain")
-    return log_ratio_of_means(above[:, np.newaxis], below[:, np.newaxis], weights=np.ones(1))
+    return Estimates.ratios(_of_groups(mine, band, window), _of_groups(other, band, "plain"))[0]

@@ -9,18 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.series import Estimates
-from validation.analysis.spectra import RecordSpectra, band_levels, one_third_octaves, record_spectra
-from validation.analysis.statistics import Estimate
+from validation.analysis.spectra import band_levels, one_third_octaves, record_spectra
+from validation.analysis.statistics import Estimate, FloatArray
 from validation.analysis.study import Outcomes
-from validation.cases.wheel.features import FloatArray, linear_force_3d, linear_spectrum, resonator
+from validation.cases.wheel.features import TABLE, accelerated_by, linear_force_3d, linear_spectrum
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
+from validation.scenes.dynamic_wheel import WheelScene
 from validation.simulation.wheel_on_half_space import WheelStrip, simulate_strip
 from validation.simulation.wheel_on_springs import InputSpectrum, WheelEnsemble, simulate_ensemble
-from validation.theory import wheel as wheel_theory
 
-TABLE = load_wheel_scene("table_14_1")
 QUICK = replace(TABLE, rail=replace(TABLE.rail, shortest=0.8e-3)) if TABLE.rail else TABLE
 INPUT_SPECTRA: tuple[InputSpectrum, ...] = ("geike", "rolling")
 FINEST, COARSER, LOOSE, TIGHT = "finest", "coarser", "loose", "tight"
@@ -81,18 +79,13 @@ class Wheel3D:
             TIGHT: [replace(short, tolerance=self.tolerance / TIGHTER)],
         }
 
-    def ensembles(self, input_spectrum: InputSpectrum) -> list[WheelEnsemble]:
+    def ensembles(self, rule: InputSpectrum) -> list[WheelEnsemble]:
         """Springs in the steady state, on tracks as long as the strips."""
         scene = replace(self.scene, distance=self.strip.shape[0] * self.strip.spacing)
         batches = max(self.wheels // self.batch, 1)
         count = self.wheels // batches
         one = WheelEnsemble(
-            scene=scene,
-            count=count,
-            groups=self.groups,
-            track="steady-state",
-            input_spectrum=input_spectrum,
-            seed=self.seed,
+            scene=scene, count=count, groups=self.groups, track="steady-state", input_spectrum=rule, seed=self.seed
         )
         return [replace(one, first=i * count) for i in range(batches)]
 
@@ -164,14 +157,12 @@ class WheelLevels:
 
     def of_strips(self, strips: Sequence[Outcome], contact: str, edges: FloatArray | None = None) -> FloatArray:
         """Levels of each strip, (strips, bands), with Hann's window; contact: "bem" or "linear"."""
-        records = (hann_spectra([strip], contact) for strip in strips)
-        bands = self.edges if edges is None else edges
-        return np.array([band_levels(record.omega, record.density, bands)[:, 0] for record in records])
+        omega, density = hann_spectra(strips, contact)
+        return band_levels(omega, density.T, self.edges if edges is None else edges).T
 
     def spectra(self, contact: str) -> tuple[FloatArray, FloatArray]:
-        """omega, and A with Hann's window, (strips, frequencies), of the strips that converged."""
-        record = hann_spectra(self.converged, contact)
-        return record.omega, record.density.T
+        """Of the strips that converged."""
+        return hann_spectra(self.converged, contact)
 
     @cached_property
     def ratio(self) -> Estimates:
@@ -208,8 +199,7 @@ class WheelLevels:
 
     def _density_3d(self, omega: FloatArray) -> FloatArray:
         scene = self.result.case.scene
-        force = linear_force_3d(scene, omega / scene.speed)
-        return wheel_theory.over_frequency(force, speed=scene.speed) * resonator(scene, omega)
+        return accelerated_by(linear_force_3d(scene, omega / scene.speed), scene, omega)
 
     @cached_property
     def bem(self) -> FloatArray:
@@ -223,7 +213,6 @@ class WheelLevels:
 
     @cached_property
     def springs(self) -> dict[str, FloatArray]:
-        """Levels of groups of wheels, (groups, bands)."""
         spectra = {model: self.on_springs(model) for model in ON_SPRINGS}
         return {model: band_levels(omega, groups.T, self.edges).T for model, (omega, groups) in spectra.items()}
 
@@ -244,7 +233,8 @@ def _integral(density: Callable[[FloatArray], FloatArray], low: float, high: flo
     return float(np.trapezoid(density(omega), omega)) / (2 * math.pi)
 
 
-def hann_spectra(strips: Sequence[Outcome], contact: str) -> RecordSpectra:
-    """Of the acceleration on each strip, with Hann's window."""
+def hann_spectra(strips: Sequence[Outcome], contact: str) -> tuple[FloatArray, FloatArray]:
+    """omega, and A of the acceleration on each strip, (strips, frequencies), with Hann's window."""
     series = np.stack([strip[contact] for strip in strips], axis=1)
-    return record_spectra(series, time_step=float(strips[0]["time step"]), window="hann")
+    record = record_spectra(series, time_step=float(strips[0]["time step"]), window="hann")
+    return record.omega, record.density.T

@@ -15,11 +15,11 @@ from validation.analysis.evidence import Role, Table
 from validation.analysis.margins import MARGINS
 from validation.analysis.series import Estimates, Margin, Series
 from validation.analysis.spectra import band_means
-from validation.analysis.statistics import POWER_DECIBEL, jackknifed
+from validation.analysis.statistics import POWER_DECIBEL, FloatArray, jackknifed
 from validation.analysis.study import Outcomes, Study
+from validation.cases.wheel import features
 from validation.cases.wheel import half_space as wheel
-from validation.cases.wheel.contrast import CONTRAST, ZERO, contrast_series, contrasts_of, linear_contrasts
-from validation.cases.wheel.features import DENSITY, LEVEL, OMEGA, QUANTITIES, SLOPE, FloatArray, hurst, linear_force_3d
+from validation.cases.wheel.features import CONTRAST, DENSITY, LEVEL, OMEGA, QUANTITIES, SLOPE, ZERO, decibels
 from validation.scenes.description import slope_ratio
 from validation.selection import model_needed
 
@@ -29,12 +29,11 @@ WHEEL, APPLICATIONS = "wheel", "applications a time step"
 OF_FIGURE = 5
 """Numbers of the claim of Fig. 14.4, whose intervals hold at once: levels of three ranges, slope, contrast."""
 REPEATED = Margin(
-    tolerance=1e-9,
-    reason="rounding of a sum over all steps",
+    1e-9,
+    "rounding of a sum over all steps",
     source="zero: a periodic motion has no mean acceleration",
     role=Role.CRITERION,
 )
-decibels = partial(Series, scale=POWER_DECIBEL, unit="dB")
 
 
 def series(result: Outcomes) -> list[Series]:
@@ -96,7 +95,7 @@ def _slopes(levels: wheel.WheelLevels) -> Iterator[Series]:
             model,
             jackknifed(of, density),
             where={"region": "region 3"},
-            reference=-2 * hurst(scene) - 3,
+            reference=-2 * features.hurst(scene) - 3,
             family=OF_FIGURE,
             margin=MARGINS[SLOPE].beside("-2 H - 3, (14.13); the same in linear theory in 3D"),
         )
@@ -114,10 +113,11 @@ def _contrasts(levels: wheel.WheelLevels) -> Iterator[Series]:
     """Of boundary elements beside sin²(q a); of the linear contact on the same strips, and of springs."""
     scene = levels.result.case.scene
     for model, (omega, density) in _spectra(levels).items():
-        found, linear = contrasts_of(omega, density, scene), linear_contrasts(omega, scene)
-        yield contrast_series(model, found, scene, linear if model == wheel.BEM else None, OF_FIGURE)
-        if model == wheel.BEM:
-            yield contrast_series(wheel.LINEAR_1D, linear, scene)
+        linear = features.linear_contrasts(omega, scene) if model == wheel.BEM else None
+        found = features.contrasts_of(omega, density, scene)
+        yield features.contrast_series(model, found, scene, linear, OF_FIGURE)
+        if linear is not None:
+            yield features.contrast_series(wheel.LINEAR_1D, linear, scene)
 
 
 def _oscillation(levels: wheel.WheelLevels) -> Iterator[Series]:
@@ -146,7 +146,7 @@ def of_regions(levels: wheel.WheelLevels) -> dict[str, float]:
     far boundary elements fall beyond the roughness, from its last tenth [dB]."""
     scene = levels.result.case.scene
     places = np.array([scene.eigenfrequency, 1.001 * scene.jump]) / scene.speed
-    at_resonance, behind = linear_force_3d(scene, places)
+    at_resonance, behind = features.linear_force_3d(scene, places)
     inside, outside = (
         levels.of_strips(levels.converged, "bem", np.array(band) * scene.cutoff)[:, 0].mean() / (band[1] - band[0])
         for band in ((0.9, 1.0), (1.3, 1.8))
@@ -164,40 +164,20 @@ def tables(result: Outcomes) -> list[Table]:
     return [Table(WHEEL, {name: [value] for name, value in values.items()})]
 
 
-def over_bem(says: str, short: str, model: str) -> Claim:
-    """Linear theory ends at short waves, along which contact is lost."""
-    return Claim(says=says, short=short, quantity=LEVEL, model=wheel.OVER_BEM[model], along="range")
-
-
 MODEL_STYLES = {wheel.LINEAR_3D: "thick", wheel.LINEAR_1D: "exact", wheel.GEIKE: "mdr", wheel.ROLLING: "triangles"}
 MARKED = Curve(MARKS, style="guide", upright=True)
-BANDS = Panel(OMEGA, LEVELS, (*by_model(LEVELS, {**MODEL_STYLES, wheel.BEM: "bem"}, bars=True), MARKED), decades=75.0)
-DIFFERENCES = Panel(
-    OMEGA,
-    "over boundary elements [dB]",
-    (Curve(OVER, wheel.BEM, "guide", "_", band=True), *by_model(OVER, MODEL_STYLES), MARKED),
-    ylim=(-12.0, 12.0),
-    lines=(-3.0, -1.0, 1.0, 3.0),
+BANDS = Panel(OMEGA, LEVELS, decades=75.0).of(*by_model(LEVELS, {**MODEL_STYLES, wheel.BEM: "bem"}, bars=True), MARKED)
+DIFFERENCES = Panel(OMEGA, "over boundary elements [dB]", ylim=(-12.0, 12.0), lines=(-3.0, -1.0, 1.0, 3.0)).of(
+    Curve(OVER, wheel.BEM, "guide", "_", band=True), *by_model(OVER, MODEL_STYLES), MARKED
 )
-THIRD = Panel(
-    OMEGA,
-    DENSITY,
-    (
-        Curve(OSCILLATION, wheel.LINEAR_3D, "thick", wheel.LINEAR_3D),
-        Curve(OSCILLATION, wheel.GEIKE, "mdr line", f"{wheel.GEIKE}, region 3"),
-        Curve(OSCILLATION, wheel.BEM, "bem line", f"{wheel.BEM}, region 3"),
-    ),
-    log="y",
+THIRD = Panel(OMEGA, DENSITY, log="y").of(
+    Curve(OSCILLATION, wheel.LINEAR_3D, "thick", wheel.LINEAR_3D),
+    Curve(OSCILLATION, wheel.GEIKE, "mdr line", f"{wheel.GEIKE}, region 3"),
+    Curve(OSCILLATION, wheel.BEM, "bem line", f"{wheel.BEM}, region 3"),
 )
-ZEROS = Panel(
-    ZERO,
-    "maxima over zeros [dB]",
-    (
-        *by_model(CONTRAST, {wheel.LINEAR_1D: "exact", wheel.GEIKE: "mdr", wheel.BEM: "bem"}, bars=True),
-        Curve(CONTRAST, wheel.LINEAR_3D, "crosses", f"{wheel.LINEAR_3D}, contrast", bars=True),
-    ),
-    log="",
-    lines=(0.0,),
+ZEROS = Panel(ZERO, "maxima over zeros [dB]", log="", lines=(0.0,)).of(
+    *by_model(CONTRAST, {wheel.LINEAR_1D: "exact", wheel.GEIKE: "mdr", wheel.BEM: "bem"}, bars=True),
+    Curve(CONTRAST, wheel.LINEAR_3D, "crosses", f"{wheel.LINEAR_3D}, contrast", bars=True),
 )
 STUDY = Study(
     title="The wheel in three dimensions: boundary elements inside the time loop",
@@ -217,36 +197,32 @@ STUDY = Study(
     series=series,
     claims=(
         Claim(
-            says="Boundary elements in the time loop confirm Fig. 14.4.",
-            short="Springs of Fig. 14.4 over boundary elements in the time loop",
             either=(
                 {"quantity": LEVEL, "model": wheel.OVER_BEM[wheel.GEIKE]},
                 {"quantity": QUANTITIES[SLOPE], "model": wheel.BEM},
                 {"quantity": CONTRAST},
-            ),
+            )
+        ).saying(
+            "Boundary elements in the time loop confirm Fig. 14.4.",
+            short="Springs of Fig. 14.4 over boundary elements in the time loop",
         ),
-        over_bem(
-            "Linear theory in three dimensions has the acceleration of the wheel.",
-            "linear theory in 3D",
-            wheel.LINEAR_3D,
+        Claim(quantity=LEVEL, model=wheel.OVER_BEM[wheel.LINEAR_3D], along="range").saying(
+            "Linear theory in three dimensions has the acceleration of the wheel.", short="linear theory in 3D"
         ),
-        over_bem(
+        Claim(quantity=LEVEL, model=wheel.OVER_BEM[wheel.ROLLING], along="range").saying(
             "Springs of the rolling spectrum have the acceleration of the wheel in three dimensions.",
-            "springs of the rolling spectrum",
-            wheel.ROLLING,
+            short="springs of the rolling spectrum",
         ),
     ),
     charts=(
-        Chart(
-            "wheel_3d",
+        Chart("wheel_3d", claims=(0, 1), columns=2, width=11.0, height=7.4).of(
             "(a) Acceleration of the wheel in one-third octaves, 95 % of sample, grid and solver. (b) The same over "
             "boundary elements, their interval shaded; lines: ± 1 and ± 3 dB. Region 2 ends at q_min v₀. (c) The "
             "oscillation of region 3. (d) Its contrast at each zero of sin²(q a), 95 %.",
-            (BANDS, DIFFERENCES, THIRD, ZEROS),
-            claims=(0, 1),
-            columns=2,
-            width=11.0,
-            height=7.4,
+            BANDS,
+            DIFFERENCES,
+            THIRD,
+            ZEROS,
         ),
     ),
     tables=tables,
@@ -259,7 +235,7 @@ CASE = Case(
     answers="Boundary elements inside the time loop: the wheel in three dimensions, against every cheaper model",
     quick=wheel.Wheel3D(strips=3, wheels=30),
     full=wheel.Wheel3D(
-        scene=wheel.TABLE,
+        scene=features.TABLE,
         strips=8,
         periods=4,
         width=4,

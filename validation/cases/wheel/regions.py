@@ -15,19 +15,17 @@ from validation.analysis.claims import Claim
 from validation.analysis.margins import MARGINS
 from validation.analysis.series import Estimates, Margin, Series
 from validation.analysis.spectra import band_levels, band_means, one_third_octaves
-from validation.analysis.statistics import POWER_DECIBEL, jackknifed
+from validation.analysis.statistics import POWER_DECIBEL, FloatArray, jackknifed
 from validation.analysis.study import Outcomes, Study
-from validation.cases.wheel.contrast import CONTRAST, log_beside_over_at
-from validation.cases.wheel.features import DENSITY, JUMP, LEVEL, OMEGA, QUANTITIES, FloatArray, resonator, roughness
+from validation.cases.wheel import features
+from validation.cases.wheel.features import CONTRAST, DENSITY, JUMP, LEVEL, OMEGA, QUANTITIES, TABLE, decibels
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine
-from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
+from validation.scenes.dynamic_wheel import WheelScene
 from validation.selection import model_needed
 from validation.simulation.wheel_on_springs import WheelEnsemble, simulate_ensemble
 from validation.theory import rolling as rolling_theory
-from validation.theory import wheel as wheel_theory
 
-TABLE = load_wheel_scene("table_14_1")
 LONG_STEADY, SHORT_STEADY, SHORT_OPEN = "Table 14.1, steady-state", "short waves, steady-state", "short waves, open"
 
 
@@ -77,15 +75,8 @@ class WheelRegions:
         assert rail is not None  # as checked
         slow = replace(self.scene, springs=24, rail=replace(rail, shortest=self.coarse))
         scenes = {ratio: replace(slow, speed=ratio * slow.eigenfrequency / rail.q_min) for ratio in self.ratios}
-        return {
-            ratio: WheelEnsemble(
-                scene=replace(scene, distance=self.periods * scene.period_length),
-                count=self.wheels,
-                groups=self.groups,
-                seed=self.seed,
-            )
-            for ratio, scene in scenes.items()
-        }
+        wheels = partial(WheelEnsemble, count=self.wheels, groups=self.groups, seed=self.seed)
+        return {r: wheels(scene=replace(one, distance=self.periods * one.period_length)) for r, one in scenes.items()}
 
 
 def run(case: WheelRegions, engine: Engine = SERIAL) -> Outcomes:
@@ -111,11 +102,9 @@ RESOLVED = 2
 APART = 3.0
 """Decibels by which a valley stands below the jump behind it."""
 FORCE = "(E* R / 2a)² cos²(q a) 2 int C_1D(k) C_1D(q - k) dk, through the resonator"
-decibels = partial(Series, scale=POWER_DECIBEL, unit="dB")
 
 
 def series(result: Outcomes) -> list[Series]:
-    """Levels and contrast of region 2 beside the second-order force; the jump and the valley by speed."""
     return [*_plateaus(result), *_speeds(result)]
 
 
@@ -124,14 +113,14 @@ def second_order(scene: WheelScene, omega: FloatArray) -> FloatArray:
     inside = omega < scene.jump
     force = rolling_theory.second_order_force_spectrum(
         omega[inside] / scene.speed,
-        roughness(scene),
+        features.roughness(scene),
         q_max=scene.cutoff / scene.speed,
         contact_radius=scene.contact_radius,
         radius=scene.radius,
         modulus=scene.modulus,
     )
     found = np.zeros(omega.size)
-    found[inside] = wheel_theory.over_frequency(force, speed=scene.speed) * resonator(scene, omega[inside])
+    found[inside] = features.accelerated_by(force, scene, omega[inside])
     return found
 
 
@@ -184,7 +173,7 @@ def maxima_of(scene: WheelScene) -> FloatArray:
 def log_contrasts(scene: WheelScene, omega: FloatArray, groups: FloatArray) -> FloatArray:
     """ln of the mean of A omega^2 about each maximum of cos²(q a) over that about the zeros beside it."""
     flat = groups.mean(axis=0) * omega**2
-    return -log_beside_over_at(omega / scene.oscillation_period, flat, maxima_of(scene))
+    return -features.log_beside_over_at(omega / scene.oscillation_period, flat, maxima_of(scene))
 
 
 def _speeds(result: Outcomes) -> Iterator[Series]:
@@ -235,8 +224,8 @@ def merging(case: WheelRegions, depths: FloatArray) -> Series:
     last = int(np.flatnonzero(depths[::-1] < APART).max(initial=-1))
     low, high = ratios[last] if last >= 0 else 0.0, ratios[min(last + 1, ratios.size - 1)]
     lines = Margin(
-        tolerance=3 / case.periods,
-        reason="three lines of the record: the jump is no tone, and the resonance is higher than it",
+        3 / case.periods,
+        "three lines of the record: the jump is no tone, and the resonance is higher than it",
         source=f"1 + {RESOLVED} / N: a record of N natural periods keeps apart what lies {RESOLVED} lines apart",
     )
     return Series(
@@ -259,7 +248,7 @@ def plateau_panel(steady: str, *more: Curve) -> Panel:
         Curve(A, steady, "mdr", "springs, steady-state"),
         *more,
     )
-    return Panel(OMEGA, DENSITY, curves, log="y")
+    return Panel(OMEGA, DENSITY, log="y").of(*curves)
 
 
 STUDY = Study(
@@ -274,44 +263,30 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(
-            says="The plateau of region 2 has a substructure or none, depending on the parameters.",
+        Claim(quantity=CONTRAST, model=SHORT_OPEN, differ=True).saying(
+            "The plateau of region 2 has a substructure or none, depending on the parameters.",
             short="Maxima and zeros of region 2 over short waves",
-            quantity=CONTRAST,
-            model=SHORT_OPEN,
-            differ=True,
         ),
-        Claim(
-            says="Without leakage, region 2 of springs is the second-order force of the roughness.",
+        Claim(either=({"quantity": LEVEL}, {"quantity": CONTRAST, "model": SHORT_STEADY})).saying(
+            "Without leakage, region 2 of springs is the second-order force of the roughness.",
             short="region 2 without leakage beside the second-order force",
-            either=({"quantity": LEVEL}, {"quantity": CONTRAST, "model": SHORT_STEADY}),
         ),
-        Claim(
-            says="At low speed the jump comes to the resonance, and the plateau disappears.",
+        Claim(quantity=(QUANTITIES[JUMP], MERGED)).saying(
+            "At low speed the jump comes to the resonance, and the plateau disappears.",
             short="the end of its plateau at low speed",
-            quantity=(QUANTITIES[JUMP], MERGED),
         ),
     ),
     charts=(
-        Chart(
-            "wheel_regions",
+        Chart("wheel_regions", claims=(0, 2), columns=2, height=7.2).of(
             "(a) Region 2 over waves of {c.short:g} m and less, and (b) over those of {c.scene.name}. (c) Spectra at "
             "lower and lower speeds, dark to light. (d) The valley between resonance and jump; dotted: where a record "
             f"of this length no longer keeps them apart; line: {APART:g} dB.",
-            (
-                plateau_panel(SHORT_STEADY, Curve(A, SHORT_OPEN, "guide", "springs, open tracks")),
-                plateau_panel(LONG_STEADY),
-                Panel(OVER_EIGEN, DENSITY, (Curve(BY_SPEED, by=(RATIO,)),), log="xy"),
-                Panel(
-                    RATIO,
-                    VALLEY,
-                    (Curve(VALLEY, label="_"), Curve(MERGES, style="guide", upright=True)),
-                    lines=(APART,),
-                ),
+            plateau_panel(SHORT_STEADY, Curve(A, SHORT_OPEN, "guide", "springs, open tracks")),
+            plateau_panel(LONG_STEADY),
+            Panel(OVER_EIGEN, DENSITY, log="xy").of(Curve(BY_SPEED, by=(RATIO,))),
+            Panel(RATIO, VALLEY, lines=(APART,)).of(
+                Curve(VALLEY, label="_"), Curve(MERGES, style="guide", upright=True)
             ),
-            claims=(0, 2),
-            columns=2,
-            height=7.2,
         ),
     ),
 )

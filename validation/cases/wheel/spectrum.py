@@ -12,18 +12,17 @@ from validation.analysis.margins import MARGINS
 from validation.analysis.over_range import worst
 from validation.analysis.series import Estimates, Margin, Series, Where
 from validation.analysis.spectra import band_levels, band_means, one_third_octaves
-from validation.analysis.statistics import POWER_DECIBEL, Estimate
+from validation.analysis.statistics import Estimate
 from validation.analysis.study import Outcomes
 from validation.cases.wheel import features
-from validation.cases.wheel.contrast import contrast_series, contrasts_of, linear_contrasts
+from validation.cases.wheel.features import TABLE, decibels
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
+from validation.scenes.dynamic_wheel import WheelScene
 from validation.simulation.wheel_on_half_space import Snapshot, contact_snapshot
 from validation.simulation.wheel_on_springs import WheelEnsemble, simulate_ensemble
 from validation.theory import wheel as wheel_theory
 
-TABLE = load_wheel_scene("table_14_1")
 SNAPSHOT = "contact at one moment"
 
 
@@ -47,7 +46,6 @@ class WheelSpectrum:
     seed: int = 146
 
     def variations(self) -> Mapping[str, WheelScene]:
-        """The scene, and others by the parameter that is changed."""
         varied = _varied(self.scene) if self.parameters else {}
         if self.scene.name in varied:
             raise ValueError(f"name must be another than those of variations, {', '.join(varied)}, got that")
@@ -73,8 +71,7 @@ class WheelSpectrum:
 def run(case: WheelSpectrum, engine: Engine = SERIAL) -> Outcomes:
     """Simulate all wheels of all variations."""
     scene = case.scene
-    if scene.rail is None and scene.wheel is None:
-        raise ValueError("scene must have a rough rail or a rough wheel, got both smooth")
+    features.hurst(scene)  # which a smooth one has not
     batches = engine.map_groups(simulate_ensemble, case.batches())
     failed = [name for name, group in batches.items() if any(batch["failed"] for batch in group)]
     if failed:
@@ -115,10 +112,7 @@ BANDS_PER_PERIOD = 12
 """Of the oscillation."""
 PARSEVAL = Margin(tolerance=1e-11, reason="rounding of the Fourier transforms", source="Parseval", role=Role.IDENTITY)
 BALANCE = Margin(
-    tolerance=1e-11,
-    reason="rounding of a sum over all steps",
-    source="Newton: mean force and load balance",
-    role=Role.IDENTITY,
+    1e-11, "rounding of a sum over all steps", source="Newton: mean force and load balance", role=Role.IDENTITY
 )
 OVER_LINEAR = MARGINS["level"].beside("(14.12) through the resonator: a contact of fixed radius")
 
@@ -192,7 +186,7 @@ def levels_over_linear(spectrum: features.Spectrum) -> list[Series]:
         return []
     found = Estimates.ratios(band_levels(omega, spectrum.hann.T, edges).T, band_levels(omega, spectrum.linear, edges))
     centres = np.sqrt(edges[1:] * edges[:-1])
-    over = partial(Series, model="springs over linear theory", scale=POWER_DECIBEL, unit="dB", margin=OVER_LINEAR)
+    over = partial(decibels, model="springs over linear theory", margin=OVER_LINEAR)
     value, error = (math.sqrt(np.mean(np.square([getattr(one, name) for one in found]))) for name in ("value", "error"))
     where: Where = {"region": "region 3"}
     ends: Where = {features.OMEGA: (float(centres[0]), float(centres[-1]))}
@@ -206,15 +200,11 @@ def levels_over_linear(spectrum: features.Spectrum) -> list[Series]:
 def _contrasts(spectrum: features.Spectrum) -> list[Series]:
     """Of the oscillation of region 3, with Hann's window."""
     scene, omega = spectrum.scene, spectrum.omega
-    linear = linear_contrasts(omega, scene)
-    return [
-        contrast_series("springs", contrasts_of(omega, spectrum.hann, scene), scene, linear),
-        contrast_series(LINEAR, linear, scene),
-    ]
+    linear, found = features.linear_contrasts(omega, scene), features.contrasts_of(omega, spectrum.hann, scene)
+    return [features.contrast_series(*one) for one in (("springs", found, scene, linear), (LINEAR, linear, scene))]
 
 
 def _identities(batches: list[Outcome]) -> Iterator[Series]:
-    """Parseval's theorem and Newton's law."""
     wheels = sum(batch["jump"].size for batch in batches)
     yield Series(
         "integral of A over f, over the mean square acceleration, less one",
@@ -247,17 +237,15 @@ def _drawn(spectrum: features.Spectrum, batches: list[Outcome]) -> Iterator[Seri
     of_wheels, centres = np.concatenate([batch["levels"] for batch in batches], axis=1), np.sqrt(edges[1:] * edges[:-1])
     # linear theory has nothing below the jump, and is infinite at the resonance
     linear = {part: np.where(omega < part * scene.jump, 0.0, spectrum.linear) for part in (0.9, 0.5)}
-    hann, leakage = (
-        spectrum.hann.mean(axis=0),
-        partial(wheel_theory.leakage, jump=math.sqrt(np.mean(spectrum.jumps**2))),
-    )
+    hann, jump = spectrum.hann.mean(axis=0), math.sqrt(np.mean(spectrum.jumps**2))
+    floor = wheel_theory.leakage(centres, jump=jump, time_step=spectrum.time_step, duration=spectrum.duration)
     for model, values in {
         NO_WINDOW: of_wheels.mean(axis=1),
         LOWEST: np.quantile(of_wheels, 0.1, axis=1),
         HIGHEST: np.quantile(of_wheels, 0.9, axis=1),
         HANN: band_means(omega, hann, edges),
         LINEAR: band_means(omega, linear[0.9], edges),
-        PREDICTED_FLOOR: leakage(centres, time_step=spectrum.time_step, duration=spectrum.duration),
+        PREDICTED_FLOOR: floor,
     }.items():
         yield Series(SPECTRUM, model, values, along=features.OMEGA, at=centres)
     width = max(theory[features.PERIOD] / BANDS_PER_PERIOD, omega[0])
@@ -266,13 +254,9 @@ def _drawn(spectrum: features.Spectrum, batches: list[Outcome]) -> Iterator[Seri
     for model, density in {NO_WINDOW: spectrum.plain.mean(axis=0), HANN: hann, LINEAR: linear[0.5]}.items():
         over = band_means(omega, density / law, bands) / mean
         yield Series(OSCILLATION, model, over, along=features.OMEGA, at=(bands[1:] + bands[:-1]) / 2)
-    marks = {
-        "ω_eigen": scene.eigenfrequency,
-        "q_min v₀": scene.jump,
-        "break": theory[features.BREAK],
-        "q_max v₀": scene.cutoff,
-    }
-    yield from (Series(MARKS, name, (at,)) for name, at in marks.items())
+    marks = scene.eigenfrequency, scene.jump, theory[features.BREAK], scene.cutoff
+    for name, at in zip(("ω_eigen", "q_min v₀", "break", "q_max v₀"), marks, strict=True):
+        yield Series(MARKS, name, (at,))
 
 
 def _in_sixths(name: str, spectrum: features.Spectrum) -> Series:

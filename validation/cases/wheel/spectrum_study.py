@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -10,23 +11,8 @@ from validation.analysis.chart import Chart, Curve, Panel, by_model
 from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Table
 from validation.analysis.study import Outcomes, Study
-from validation.cases.wheel import spectrum
-from validation.cases.wheel.contrast import CONTRAST, ZERO
-from validation.cases.wheel.features import (
-    BREAK,
-    DENSITY,
-    JUMP,
-    LEVEL,
-    OMEGA,
-    OSCILLATION_LAST,
-    PEAK,
-    PEAK_LAST,
-    PERIOD,
-    PREDICTED,
-    QUANTITIES,
-    SLOPE,
-    THIRD_FIRST,
-)
+from validation.cases.wheel import features, spectrum
+from validation.cases.wheel.features import CONTRAST, DENSITY, LEVEL, OMEGA, PEAK_LAST, PERIOD, QUANTITIES, TABLE, ZERO
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.selection import model_needed
@@ -74,53 +60,35 @@ def notes(result: Outcomes) -> Sequence[str]:
 
 def is_of_the_book(scene: WheelScene) -> bool:
     """Whether it has what Table 14.1 prints: a changed copy of its file has the same name."""
-    return all(
-        getattr(scene, key) == getattr(spectrum.TABLE, key) for key in ("name", "radius", "mass", "material", "rms")
-    )
+    return all(getattr(scene, key) == getattr(TABLE, key) for key in ("name", "radius", "mass", "material", "rms"))
 
 
-WHOLE = Panel(
-    OMEGA,
-    DENSITY,
-    (
-        *by_model(
-            spectrum.SPECTRUM,
-            {
-                spectrum.LINEAR: "thick",
-                spectrum.LOWEST: "dotted",
-                spectrum.HIGHEST: "dotted",
-                spectrum.NO_WINDOW: "mdr line",
-                spectrum.HANN: "exact",
-                spectrum.PREDICTED_FLOOR: "bem line",
-            },
-        ),
-        Curve(spectrum.MARKS, style="guide", upright=True),
+WHOLE = Panel(OMEGA, DENSITY, log="xy", decades=13.0, legend="upper right").of(
+    *by_model(
+        spectrum.SPECTRUM,
+        {
+            spectrum.LINEAR: "thick",
+            spectrum.LOWEST: "dotted",
+            spectrum.HIGHEST: "dotted",
+            spectrum.NO_WINDOW: "mdr line",
+            spectrum.HANN: "exact",
+            spectrum.PREDICTED_FLOOR: "bem line",
+        },
     ),
-    log="xy",
-    decades=13.0,
-    legend="upper right",
+    Curve(spectrum.MARKS, style="guide", upright=True),
 )
 STYLES = {spectrum.LINEAR: "thick", spectrum.NO_WINDOW: "mdr line", spectrum.HANN: "exact"}
-THIRD = Panel(
-    OMEGA, spectrum.OSCILLATION, by_model(spectrum.OSCILLATION, STYLES), log="y", ylim=(0.01, 30.0), legend="upper left"
+THIRD = Panel(OMEGA, spectrum.OSCILLATION, log="y", ylim=(0.01, 30.0), legend="upper left").of(
+    *by_model(spectrum.OSCILLATION, STYLES)
 )
-ZEROS = Panel(
-    ZERO,
-    "maxima over zeros [dB]",
-    by_model(CONTRAST, {spectrum.LINEAR: "thick", "springs": "mdr"}, bars=True),
-    log="",
-    lines=(0.0,),
-    legend="center right",
+ZEROS = Panel(ZERO, "maxima over zeros [dB]", log="", lines=(0.0,), legend="center right").of(
+    *by_model(CONTRAST, {spectrum.LINEAR: "thick", "springs": "mdr"}, bars=True)
 )
 BASE, ONE_CHANGED = Curve(spectrum.SPECTRUM, spectrum.NO_WINDOW, "thick", "_"), Curve(spectrum.VARIED, by=("scene",))
-VARIED = Panel(OMEGA, DENSITY, (BASE, ONE_CHANGED), facet=spectrum.PARAMETER, log="xy", legend="lower left")
+VARIED = Panel(OMEGA, DENSITY, facet=spectrum.PARAMETER, log="xy", legend="lower left").of(BASE, ONE_CHANGED)
 
 
-def of_worst(says: str, short: str, feature: str) -> Claim:
-    """Of the scene, with one parameter changed, that decides."""
-    return Claim(says=says, short=short, quantity=QUANTITIES[feature], where={"scenes": str})
-
-
+in_the_worst_scene = partial(Claim, where={"scenes": str})
 STUDY = Study(
     title="Fig. 14.4: the acceleration of a rolling wheel, on springs",
     method=(
@@ -132,66 +100,58 @@ STUDY = Study(
         "the book, or Hann's where leakage would hide a feature. The peak is interpolated between lines of Hann's "
         "spectrum. The jump is where that spectrum reaches half of the level above it. Slope and break come from "
         "means over periods of the oscillation; the floor is measured beyond q_max v₀. The period is sought from "
-        f"{THIRD_FIRST:g} q_min v₀ to {OSCILLATION_LAST:g} q_max v₀. Errors: jackknife over groups of wheels."
+        f"{features.THIRD_FIRST:g} q_min v₀ to {features.OSCILLATION_LAST:g} q_max v₀. Errors: jackknife over groups "
+        "of wheels."
     ),
     series=spectrum.series,
     claims=(
         Claim(
-            says="On springs the peak and the regions of Fig. 14.4 lie where theory has them; region 3 has its level "
-            "and slope.",
-            short="Peak, regions, level and slope of Fig. 14.4",
             either=(
                 {"quantity": tuple(QUANTITIES[k] for k in spectrum.SOURCES if k != PERIOD), "where": {"scene": str}},
                 {"quantity": LEVEL},
-            ),
+            )
+        ).saying(
+            "On springs the peak and the regions of Fig. 14.4 lie where theory has them; region 3 has its level "
+            "and slope.",
+            short="Peak, regions, level and slope of Fig. 14.4",
         ),
-        Claim(
-            says="Region 3 oscillates with the constant period π v₀ / a.", quantity=QUANTITIES[PERIOD], along="scene"
+        Claim(quantity=QUANTITIES[PERIOD], along="scene").saying(
+            "Region 3 oscillates with the constant period π v₀ / a."
         ),
-        Claim(
-            says="Region 3 oscillates as sin²(q a), down to its zeros.",
-            short="maxima of region 3 over its zeros",
-            quantity=CONTRAST,
+        Claim(quantity=CONTRAST).saying(
+            "Region 3 oscillates as sin²(q a), down to its zeros.", short="maxima of region 3 over its zeros"
         ),
-        of_worst(
+        in_the_worst_scene(quantity=QUANTITIES[features.PEAK]).saying(
             "The frequency of the peak depends on none of q_min, q_max, v₀, H and h₀, only on the contact.",
-            "One parameter changed, the peak in the worst case",
-            PEAK,
+            short="One parameter changed, the peak in the worst case",
         ),
-        of_worst("Region 3 begins at q_min v₀, whatever the speed and the cut-off.", "the jump", JUMP),
-        of_worst("The slope of region 3 is -2 H - 3, whatever the parameters.", "the slope", SLOPE),
-        of_worst(
-            "The break lies where region 3 meets the predicted floor, whatever the parameters.",
-            "the break",
-            BREAK + PREDICTED,
+        in_the_worst_scene(quantity=QUANTITIES[features.JUMP]).saying(
+            "Region 3 begins at q_min v₀, whatever the speed and the cut-off.", short="the jump"
+        ),
+        in_the_worst_scene(quantity=QUANTITIES[features.SLOPE]).saying(
+            "The slope of region 3 is -2 H - 3, whatever the parameters.", short="the slope"
+        ),
+        in_the_worst_scene(quantity=QUANTITIES[features.BREAK + features.PREDICTED]).saying(
+            "The break lies where region 3 meets the predicted floor, whatever the parameters.", short="the break"
         ),
     ),
     charts=(
-        Chart(
-            "wheel-contact",
+        Chart("wheel-contact", claims=()).of(
             "The wheel in the simulation. (a) As in Fig. 14.2: the profile x²/R over springs at the height of the "
             "track; dark springs are in contact, with their compression below. (b) Boundary elements in the time loop: "
-            "pressure over Hertz's largest; circle: Hertz.",
-            claims=(),
+            "pressure over Hertz's largest; circle: Hertz."
         ),
-        Chart(
-            "wheel",
+        Chart("wheel", claims=(0, 2), width=13.5, height=4.2).of(
             "Fig. 14.4. (a) Spectrum of the acceleration, (14.17), mean of {c.realisations} wheels, with the tenth and "
             "the ninetieth percentile. Vertical lines: ω_eigen, q_min v₀, predicted break, q_max v₀. (b) Region 3 over "
             "ω^(-2H-3). (c) Contrast of the oscillation at each zero of sin²(q a), Hann's window, 95 %.",
-            (WHOLE, THIRD, ZEROS),
-            claims=(0, 2),
-            width=13.5,
-            height=4.2,
+            WHOLE,
+            THIRD,
+            ZEROS,
         ),
-        Chart(
-            "wheel-parameters",
+        Chart("wheel-parameters", claims=(3, 4, 5, 6), columns=3, width=11.0, height=6.0).of(
             "One parameter at a time, mean of {c.varied} wheels each, without window; thick grey: {c.scene.name}.",
-            (VARIED,),
-            claims=(3, 4, 5, 6),
-            columns=3,
-            width=11.0,
-            height=6.0,
+            VARIED,
         ),
     ),
     tables=tables,
@@ -205,7 +165,7 @@ CASE = Case(
     answers=(
         "Fig. 14.4: the acceleration of a rolling wheel on springs, its regions, and how they depend on the parameters"
     ),
-    quick=spectrum.WheelSpectrum(scene=replace(spectrum.TABLE, distance=0.4), realisations=30, varied=10),
+    quick=spectrum.WheelSpectrum(scene=replace(TABLE, distance=0.4), realisations=30, varied=10),
     full=spectrum.WheelSpectrum(realisations=300, varied=100, cells=24, snapshot_steps=64),
     run=spectrum.run,
     study=STUDY,
