@@ -12,9 +12,8 @@ from tests.selection.planted_answers import punch
 from validation.__main__ import main
 from validation.engine.engine import Engine
 from validation.scenes.load import load_varied
-from validation.selection import several_scenes
-from validation.selection.compare import compare_quantities
-from validation.selection.several_scenes import SceneProblem, compare_scenes, content_of
+from validation.selection.compare import SceneProblem, content_of
+from validation.selection.several_scenes import compare_scenes
 from validation.selection.summary import summary
 
 SWEEP = ["compare", "rolling_wheel", "--tolerance", "10%", "--workers", "1", "--sweep", "wheel.load=2000 N,4905 N"]
@@ -105,15 +104,15 @@ def test_a_stored_comparison_is_the_one_that_was_solved(tmp_path):
 
 
 def test_an_interrupted_sweep_goes_on(monkeypatch, capsys):
-    solved = []
+    solved, compared = [], SceneProblem.compared
 
-    def interrupted(scene, *given, **named):
-        solved.append(scene.name)
+    def interrupted(problem):
+        solved.append(problem.scene.name)
         if len(solved) == 2:
             raise KeyboardInterrupt
-        return compare_quantities(scene, *given, **named)
+        return compared(problem)
 
-    monkeypatch.setattr(several_scenes, "compare_quantities", interrupted)
+    monkeypatch.setattr(SceneProblem, "compared", interrupted)
     assert main(SWEEP) == 130
     assert "the same command goes on" in capsys.readouterr().err
     assert main(SWEEP) == 0
