@@ -47,18 +47,6 @@ def test_both_quantities_of_a_rail_are_solved_once():
     assert all(f"\n{quantity} by linear, ellipse" in text for quantity in both)
 
 
-@pytest.mark.slow
-def test_the_command_takes_several_quantities(tmp_path, capsys):
-    words = ["compare", "rail", "--quantity", "contact-filter, equivalent-roughness", "--tolerance", "1 dB"]
-    assert main([*words, "--csv", str(tmp_path / "out.csv"), "--json", str(tmp_path / "out.json")]) == 0
-    rows = list(csv.DictReader((tmp_path / "out.csv").read_text().splitlines()))
-    assert [row["quantity"] for row in rows[::35]] == ["contact-filter", "equivalent-roughness"]
-    assert [one["unit"] for one in json.loads((tmp_path / "out.json").read_text())] == ["dB", "dB re 1 µm"]
-    with pytest.raises(SystemExit):
-        main(["compare", "rail", "--quantity", "contact-filter,loudness"])
-    assert "got 'loudness'" in capsys.readouterr().err
-
-
 @pytest.mark.parametrize(
     ("reasons", "found"),
     [

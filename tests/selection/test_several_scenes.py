@@ -70,11 +70,12 @@ def test_a_key_that_is_none_is_refused(key, value, said, capsys):
     assert said in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("word", ["wheel.load", "=1 N", "wheel.load=", "wheel.load=1 N,"])
-def test_a_sweep_without_values_is_refused(word, capsys):
+@pytest.mark.parametrize("word", ["wheel.load", "=1 N", "wheel.load=", "wheel.load=1 N,", "loudness"])
+def test_a_sweep_without_values_and_an_unknown_quantity_are_refused(word, capsys):
+    option = "--quantity" if word == "loudness" else "--sweep"
     with pytest.raises(SystemExit) as refused:
-        main(["compare", "rolling_wheel", "--sweep", word])
-    assert refused.value.code == 2 and "--sweep" in capsys.readouterr().err
+        main(["compare", "rolling_wheel", option, word])
+    assert refused.value.code == 2 and option in capsys.readouterr().err
 
 
 def problem(**changes):

@@ -90,6 +90,12 @@ def test_a_tolerance_is_echoed_in_its_unit(given, relative, shown):
     assert tolerance.shown(math.inf) == "unknown"
 
 
+@pytest.mark.parametrize("ratio", [0.0, -0.1, math.nan, math.inf])
+def test_a_tolerance_is_finite_and_positive(ratio):
+    with pytest.raises(ValueError, match=f"tolerance must be (positive|finite), got {ratio}"):
+        tolerance_of(ratio)
+
+
 @pytest.mark.parametrize(
     ("given", "said"),
     [

@@ -102,10 +102,7 @@ def select_model(
     miss the tolerance is skipped. Where all miss it, the skipped one with the smallest estimate is solved, too, as
     long as that is below the errors of the others; where the scene alone leaves more, the cheapest, and no other. A
     solve that raises one of `REFUSALS` has failed.
-    Raises ValueError for a tolerance that is not finite and positive.
     """
-    if not (math.isfinite(tolerance) and tolerance > 0):
-        raise ValueError(f"tolerance must be finite and positive, got {tolerance}")
     found = Selection(tolerance, ())
     for model in models:
         one = _expected(model, found.met, only is None or any(model is asked for asked in only))
