@@ -289,46 +289,32 @@ def test_the_error_over_bands_is_their_root_mean_square():
     assert together == pytest.approx(math.hypot(*alone) / math.sqrt(2), rel=1e-12)
 
 
-def left_by_one_face(cells, changes, split=()):
-    """Of a face of 64 points a side."""
+@pytest.mark.parametrize(
+    ("cells", "changes", "split", "error"),
+    [
+        (64, (0.1, 0.15, 0.2), (), 0.15),
+        (32, (0.1, 0.15, 0.2), (), 0.3),
+        (16, (0.1, 0.15, 0.2), (), 0.45),
+        (64, (-0.01, 0.1, 0.2), (), 0.075),
+        # changes that cancel leave no less than those before
+        (64, (1e-4, 1e-4, 0.4), (), 1.5 * 0.1),
+        (64, (1e-5, 1e-5, 1e-4), (), 1.5 * 0.35 / 64),
+        (64, (0.2, 0.15, 0.1), (), math.inf),
+        # points that are split leave twice what that changes, and some of the coarser grids
+        (64, (0.1, 0.1, 0.1), (-0.05,), 0.1),
+        # a change that passes through zero
+        (64, (0.15, 0.1, 0.1), (0.0,), 0.1),
+        (64, (0.1, 0.3, 0.1), (0.0,), 0.1),
+        (64, (0.1, 0.1, 0.6), (0.0,), 0.1),
+        (64, (0.0, 0.0, 0.0), (0.0,), 2 * 0.35 / 64),
+    ],
+)
+def test_a_single_face_leaves_its_change_and_as_much_for_each_doubling_to_come(cells, changes, split, error):
+    """Half as much again of the last change, of half of that before, or of the edge of a punch, whichever is more."""
     height = 1e-3 * np.random.default_rng(4).standard_normal((64, 64))
     scene = replace(punch(), ground=MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64)))
-    return boundary_elements_pressed.grid_error_of_one(scene, cells, np.array(changes), np.array(split))
-
-
-@pytest.mark.parametrize(
-    ("cells", "changes", "error"),
-    [
-        (64, (0.1, 0.15, 0.2), 0.15),
-        (32, (0.1, 0.15, 0.2), 0.3),
-        (16, (0.1, 0.15, 0.2), 0.45),
-        (64, (-0.01, 0.1, 0.2), 0.075),
-        # changes that cancel leave no less than those before
-        (64, (1e-4, 1e-4, 0.4), 1.5 * 0.1),
-        (64, (1e-5, 1e-5, 1e-4), 1.5 * 0.35 / 64),
-        (64, (0.2, 0.15, 0.1), math.inf),
-    ],
-)
-def test_a_single_face_leaves_its_change_and_as_much_for_each_doubling_to_come(cells, changes, error):
-    """Half as much again of the last change, of half of that before, or of the edge of a punch, whichever is more."""
-    assert left_by_one_face(cells, changes) == pytest.approx(error)
-
-
-@pytest.mark.parametrize(
-    ("split", "changes", "error"),
-    [
-        (-0.05, (0.1, 0.1, 0.1), 0.1),
-        # a change that passes through zero
-        (0.0, (0.15, 0.1, 0.1), 0.1),
-        (0.0, (0.1, 0.3, 0.1), 0.1),
-        (0.0, (0.1, 0.1, 0.6), 0.1),
-        (0.0, (0.0, 0.0, 0.0), 2 * 0.35 / 64),
-    ],
-)
-def test_a_face_whose_points_are_split_leaves_twice_what_that_changes_and_some_of_the_coarser_grids(
-    split, changes, error
-):
-    assert left_by_one_face(64, changes, (split,)) == pytest.approx(error)
+    left = boundary_elements_pressed.grid_error_of_one(scene, cells, np.array(changes), np.array(split))
+    assert left == pytest.approx(error)
 
 
 def test_grids_are_compared_on_the_same_surfaces():
@@ -519,12 +505,6 @@ def test_grids_are_as_fine_in_any_unit():
     cells = pressed_heights.cells_wanted(light)
     assert cells > 8 * 4
     assert 16 <= share * cells**2 < 4 * 16
-
-
-def test_a_handful_of_springs_is_none_in_any_unit():
-    ground = Roughness(rms=1e-9, hurst=0.7, longest=1e-6, shortest=1e-6 / 32)
-    few = IndentationScene(name="few", shape="punch", size=1e-6, load=1e-3 * 2e11 * 1e-15, modulus=2e11, ground=ground)
-    assert "springs or fewer" in model_of_kind("springs", few, "stiffness", 0.5).solve().failed
 
 
 def test_a_sphere_of_low_roughness_is_that_of_hertz():
