@@ -13,7 +13,7 @@ from validation.engine.sources import modules_behind, version_behind
 PUNCH = "validation.simulation.rough_punch"
 
 
-REMEMBERED = (sources._tree, sources._meaning, sources._words, sources._version, sources.modules_behind)
+REMEMBERED = (sources._tree, sources._meaning, sources._words, sources.version_of, sources.modules_behind)
 
 
 @pytest.fixture
