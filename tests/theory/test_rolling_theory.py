@@ -11,7 +11,7 @@ from scipy import integrate
 
 import mdr
 from tests.oracles import moment_1d
-from tests.strategies import bumps, scales
+from tests.strategies import bumps
 from validation.analysis.spectra import Bands, Waves, cross_levels, levels, waves
 from validation.theory.rolling import (
     contact_lost,
@@ -241,50 +241,6 @@ def test_springs_that_are_fed_for_rolling_have_the_level_of_the_half_space(hurst
     assert decibels.max() <= 1.75
     # Geike's spectrum is too loud by the ratio of levels: the rule is needed
     assert np.median(10 * np.log10(geike / surface)) > 3
-
-
-def test_third_octaves():
-    bands = between(1.0, 8.0)
-    assert len(bands.edges) == 10
-    assert np.array(bands.edges[::3]) == pytest.approx([1, 2, 4, 8], rel=1e-14)
-    assert bands.centres == pytest.approx(np.array(bands.edges[:-1]) * 2 ** (1 / 6), rel=1e-14)
-    assert between(1.0, 7.99).edges[-1] < 7.99
-    around = Bands.around(np.pi, 0.5, 20.0)
-    assert np.abs(around.centres - np.pi).min() < 1e-14
-    assert around.edges[0] >= 0.5 > around.edges[0] / 2 ** (1 / 3)
-    assert around.edges[-1] <= 20.0 < around.edges[-1] * 2 ** (1 / 3)
-
-
-def test_bands_that_hold_no_wave_are_refused():
-    bands = Bands.around(np.pi, 0.5, 20.0)
-    assert bands.on(100.0) is bands
-    with pytest.raises(ValueError, match="length must be so large that each band has a wave, got 12"):
-        bands.on(12.0)
-
-
-@given(points=st.integers(1, 60).map(lambda n: 2 * n + 1), seed=st.integers(0, 1000), spacing=scales)
-def test_bands_add_up_to_the_variance(points, seed, spacing):
-    """Parseval for odd numbers of points: <x^2> - <x>^2 = 2 sum |c|^2 over all bands, of positive wavenumbers."""
-    series = np.random.default_rng(seed).normal(1.0, 1.0, size=(3, points))
-    found = waves(series, spacing=spacing)
-    bands = between(found.q[0] * 0.9, found.q[-1] * 1.5)
-    assert 2 * levels(found, bands).sum(axis=-1) == pytest.approx(series.var(axis=-1), rel=1e-12)
-    assert bands.counts(found.q).sum() == points // 2
-    integral = 2 * found.spectrum.sum(axis=-1) * found.q[0]
-    assert integral == pytest.approx(series.var(axis=-1), rel=1e-12)
-
-
-@pytest.mark.parametrize("points", [64, 65])
-def test_a_wave_is_found_where_it_is(points):
-    """cos(q x): a quarter of its mean square, 1/2, is |c|^2 of the positive wave; the spectrum is two-sided."""
-    x = np.arange(points) * 0.25
-    q = 2 * np.pi * 5 / (points * 0.25)
-    found = waves(3 + np.cos(q * x + 0.7), spacing=0.25)
-    assert found.q[4] == pytest.approx(q)
-    assert found.amplitude[4] == pytest.approx(0.5 * np.exp(0.7j))
-    assert found.spectrum[4] == pytest.approx(0.25 / found.q[0])
-    assert np.delete(np.abs(found.amplitude), 4) == pytest.approx(0, abs=1e-14)
-    assert found.q.size == (points - 1) // 2
 
 
 def test_spectra_of_profiles_are_the_ones_they_are_drawn_from():
