@@ -9,8 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
-from tests.selection.planted_answers import Finding
-from tests.selection.test_claims import punch
+from tests.selection.planted_answers import Finding, punch
 from validation.analysis.study import Outcomes
 from validation.cases.selection import model_selection as ladder
 from validation.cases.selection import model_selection_study as calibration

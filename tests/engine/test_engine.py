@@ -202,16 +202,6 @@ def test_other_numerics_do_not_reuse_results(problems, tmp_path, monkeypatch):
     assert len(computed(problems[0].log)) == 10
 
 
-def test_a_failed_write_leaves_nothing_behind(problems, tmp_path, monkeypatch):
-    def full_disk(self, target):
-        raise OSError("no space")
-
-    monkeypatch.setattr(Path, "replace", full_disk)
-    with pytest.raises(OSError, match="no space"):
-        Engine(store=tmp_path / "store").map(toy, problems)
-    assert list((tmp_path / "store").iterdir()) == []
-
-
 def test_realisations_have_addresses():
     """Independent of how many others are drawn; different for every key."""
     draws = {key: random_generator(7, *key).random() for key in [(1, 700, 0), (1, 700, 1), (2, 700, 0), (1, 400, 0)]}
@@ -246,18 +236,6 @@ def test_another_version_of_a_library_is_another_version_of_the_numerics(library
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(importlib.metadata, "version", lambda name: "9" if name == library else version(name))
         assert digest() != here
-
-
-def test_an_engine_is_its_settings():
-    """Silent, alone and without a store unless it is told; what a timed run has asked for is no setting."""
-    assert Engine() == Engine(workers=1, store=None, progress=None, executor="local")
-    with Engine().timed() as alone:
-        alone.map(plain_toy, [1])
-        assert alone == Engine()
-
-
-def plain_toy(problem):
-    return {"value": np.zeros(problem)}
 
 
 @pytest.mark.slow

@@ -80,14 +80,6 @@ def test_a_pipe_is_written_into(tmp_path):
     assert got == [b"it"] and stat.S_ISFIFO(pipe.lstat().st_mode)
 
 
-def test_a_device_is_written_into(tmp_path):
-    """A link to it stands for the device, which nothing but a rename over it could harm."""
-    (tmp_path / "null").symlink_to("/dev/null")
-    for path in (tmp_path / "null", tmp_path / "null"):
-        write_given(path, b"it")
-    assert (tmp_path / "null").is_symlink() and names(tmp_path) == ["null"]
-
-
 @pytest.mark.skipif(os.geteuid() != 0, reason="needs the right to make a device")
 def test_a_device_stays_one(tmp_path):
     device = tmp_path / "device"

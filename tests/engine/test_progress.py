@@ -141,14 +141,3 @@ def test_a_run_that_stands_still_is_seen(monkeypatch):
         while stream.getvalue().count("\n") < 2:
             run._over.wait(0.01)
     assert stream.getvalue().startswith("hertz, a few seconds left")
-
-
-def test_a_run_of_one_part_follows_its_own_pace(clock):
-    """Half of its solves took a minute, whatever it was taken for; the other half, and what follows, take longer."""
-    run = Progress({"sound": progress.UNKNOWN}, shown=False, clock=clock)
-    part = run.parts["sound"]
-    part.begin("roll", total=20)
-    for _ in range(10):
-        clock.now += 6.0
-        part.step()
-    assert run.line == "sound: roll 10/20, about 80 s left"

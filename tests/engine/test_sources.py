@@ -13,7 +13,7 @@ from validation.engine.sources import modules_behind, version_behind
 PUNCH = "validation.simulation.rough_punch"
 
 
-REMEMBERED = (sources._tree, sources._meaning, sources._words, sources._version, sources.modules_behind)
+REMEMBERED = (sources._tree, sources._meaning, sources._words, sources.version_of, sources.modules_behind)
 
 
 @pytest.fixture
@@ -40,6 +40,21 @@ def test_a_punch_rests_on_both_methods_and_on_no_page():
     assert {PUNCH, "bem3d.solver", "bem3d", "mdr.foundation", "validation.simulation.surface"} <= behind
     assert not [name for name in behind if name.startswith(("validation.selection", "validation.cases"))]
     assert not [name for name in sources.modules() if ".report" in name]
+    # problems go through the engine, and what draws their random numbers stands beside it
+    assert not {"validation.engine.engine", "validation.engine.progress", "validation.engine.stored"} & behind
+    assert "validation.engine.random_numbers" in behind
+
+
+IMPORTS = ("import validation", "from validation import compare", "import importlib\nimportlib.import_module('math')")
+
+
+@pytest.mark.parametrize(("number", "text"), [*enumerate(IMPORTS)])
+def test_a_solve_that_uses_the_face_or_imports_by_name_rests_on_everything(number, text, tmp_path, monkeypatch):
+    monkeypatch.syspath_prepend(str(tmp_path))
+    (tmp_path / f"any_import_{number}.py").write_text(text)
+    behind = modules_behind(import_module(f"any_import_{number}").__name__)
+    assert "validation.selection.compare" in behind
+    assert number < 2 or behind >= set(sources.modules()) - {sources.ENGINE}
 
 
 def test_every_import_of_the_running_code_is_found():
@@ -50,26 +65,6 @@ def test_every_import_of_the_running_code_is_found():
     left = {name for name in loaded - modules_behind(PUNCH) if not name.startswith("validation.engine")}
     assert not left
     assert len(loaded) > 20
-
-
-def test_the_engine_changes_no_result():
-    """Problems go through it, and what draws their random numbers stands beside it."""
-    behind = modules_behind(PUNCH)
-    assert not {"validation.engine.engine", "validation.engine.progress", "validation.engine.stored"} & behind
-    assert "validation.engine.random_numbers" in behind
-
-
-def test_a_solve_that_uses_the_face_rests_on_everything(tmp_path, monkeypatch):
-    monkeypatch.syspath_prepend(str(tmp_path))
-    for number, line in enumerate(("import validation", "from validation import compare")):
-        (tmp_path / f"by_face_{number}.py").write_text(f"{line}\n")
-        assert modules_behind(import_module(f"by_face_{number}").__name__) >= {"validation.selection.compare"}
-
-
-def test_a_module_that_imports_by_name_rests_on_everything(tmp_path, monkeypatch):
-    monkeypatch.syspath_prepend(str(tmp_path))
-    (tmp_path / "by_name.py").write_text("from importlib import import_module\n\nimport_module('math')\n")
-    assert modules_behind(import_module("by_name").__name__) >= set(sources.modules()) - {sources.ENGINE}
 
 
 @pytest.mark.slow
@@ -120,9 +115,10 @@ def test_the_code_of_a_user_counts(tmp_path, monkeypatch):
     assert found[0] != found[1]
 
 
-def test_a_solve_without_source_is_refused():
+@pytest.mark.parametrize("version", [lambda name: sources.version_of((name,)), partial(version_behind, problem=None)])
+def test_a_solve_without_source_is_refused(version):
     with pytest.raises(RuntimeError, match="the source of nowhere is not to be found"):
-        version_behind("nowhere", None)
+        version("nowhere")
 
 
 @pytest.mark.slow
@@ -133,8 +129,3 @@ def test_what_is_left_out_of_a_version_does_not_count(edited):
     edited(sources.modules()["validation.simulation.surface"], b"def ", b"def other_")
     assert version(without) == some
     assert version() != whole
-
-
-def test_a_version_of_nothing_is_refused():
-    with pytest.raises(RuntimeError, match="the source of nowhere is not to be found"):
-        sources.version_of(("nowhere",))

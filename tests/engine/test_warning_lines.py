@@ -1,6 +1,5 @@
 """Warnings in a terminal are one line without a path, in this process and in its workers."""
 
-import re
 import subprocess
 import sys
 import warnings
@@ -41,8 +40,3 @@ def test_the_form_of_python_is_restored():
     with one_line_warnings():
         assert warnings.formatwarning is as_one_line
     assert warnings.formatwarning is before
-
-
-def test_a_line_has_neither_path_nor_code():
-    assert as_one_line(UserWarning("a\n  b"), UserWarning, __file__, 3) == "warning: a b\n"
-    assert not re.search(r"\.py|:\d", as_one_line(RuntimeWarning("overflow"), RuntimeWarning, "x.py", 3, "1 / 0"))

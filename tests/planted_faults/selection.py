@@ -141,7 +141,7 @@ def independent_bands(force):
 FAULTS = {
     "A-weighting at the frequency of half a wave": (
         (contact_force, "a_weighting", lambda frequency: real_weighting(2 * frequency)),
-        test_contact_force.test_the_sum_is_that_of_the_table_of_the_standard,
+        test_contact_force.test_each_band_is_weighted_as_the_table_of_the_standard_has_its_frequency,
     ),
     "the force over the approach for the stiffness of Hertz": (
         (rail.RailScene, "contact", property(of_the_secant)),

@@ -11,7 +11,7 @@ from tests.selection.planted_answers import Fake, Finding, punch
 from validation.__main__ import main
 from validation.report.compared_page import PAGE, files_of_comparison
 from validation.selection.columns import label
-from validation.selection.compare import Comparison, compare_quantities
+from validation.selection.compare import Comparison, SceneProblem
 from validation.selection.contact_force import LEVELS, contact_force
 from validation.selection.hierarchy import select_model
 from validation.selection.summary import sentences_on_mdr
@@ -52,7 +52,7 @@ def test_the_page_of_a_rail_has_its_levels_its_force_and_the_seconds_of_its_mode
     """A section a quantity; what has the same name in text and page has the same words."""
     names = ("linear, ellipse", "Remington")
     scene, quantities = validation.load_scene("rail"), ("contact-filter", "equivalent-roughness")
-    found = compare_quantities(scene, quantities, "1 dB", 0, solve_all=True, models=names)
+    found = SceneProblem(scene, quantities, "1 dB", solve_all=True, models=names).compared()
     files = files_of(*found.values())
     text, force = text_of(files[PAGE]), contact_force(found["contact-filter"])
     assert files[PAGE].count(b"<section id=") == 2 and "figures/all.svg" not in files

@@ -17,7 +17,7 @@ from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import load_scene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
-from validation.selection import several_scenes
+from validation.selection.compare import SceneProblem
 
 ROLLING = (SCENES / "rolling_wheel.toml").read_text(encoding="utf-8")
 
@@ -164,13 +164,13 @@ def test_what_a_scene_cannot_answer_is_refused(capsys):
 
 
 def test_the_seed_of_a_comparison_is_that_of_the_command(capsys, monkeypatch):
-    seeds, real = [], several_scenes.compare_quantities
+    seeds, real = [], SceneProblem.compared
 
-    def seen(scene, quantities, tolerance, seed, *settings):
-        seeds.append(seed)
-        return real(scene, quantities, tolerance, seed, *settings)
+    def seen(problem, *callback):
+        seeds.append(problem.seed)
+        return real(problem, *callback)
 
-    monkeypatch.setattr(several_scenes, "compare_quantities", seen)
+    monkeypatch.setattr(SceneProblem, "compared", seen)
     for words in ([], ["--seed", "0"], ["--seed", "7"]):
         assert main(["compare", "sphere", *words]) == 0
     assert seeds == [0, 0, 7]

@@ -20,7 +20,6 @@ from validation.selection.tolerance import tolerance_of
 from validation.simulation.model import Cost, ErrorEstimate
 from validation.simulation.rolling_quantity import RollingQuantity
 
-ROUGH = Roughness(rms=1e-3, hurst=0.7, longest=1.0, shortest=1 / 8)
 PARTS = (0.1, 0.02, 0.003)
 """Errors of a model, a grid and a sample."""
 REASON = "a reason " * 20
@@ -94,16 +93,31 @@ class Finding(Fake):
         return Answer(value=np.array(self.value), cost=cost, model=model, grid=grid, sample=sample)
 
 
+def waves(first=1, last=8, rms=1e-3, hurst=0.7):
+    """So many on a length of one, from the longest to the shortest."""
+    return Roughness(rms=rms, hurst=hurst, longest=1 / first, shortest=1 / last)
+
+
+ROUGH = waves()
+
+
 def punch(load=0.1, ground=ROUGH, **changes):
     height = ground.rms if ground else 1.0
     settings = {"name": "punch", "shape": "punch", "size": 1.0, "load": load * height, "modulus": 1.0, "ground": ground}
     return IndentationScene(**{**settings, **changes})
 
 
-def wheel(height=0.03, first=1.0, last=4.0, **changes):
-    ground = Roughness(rms=height, hurst=0.7, longest=2 * math.pi / first, shortest=2 * math.pi / last)
+def wheel(height=0.03, first=1.0, last=4.0, hurst=0.7, **changes):
+    """With a = d = 1. height: over d; first, last: q a."""
+    ground = waves(first / (2 * math.pi), last / (2 * math.pi), height, hurst)
     settings = {"name": "wheel", "radius": 1.0, "load": 4 / 3, "modulus": 1.0, "ground": ground}
     return RollingScene(**{**settings, **changes})
+
+
+def ball(height, first, last):
+    """A sphere with a = 1, R = 10, d = 0.1."""
+    ground = waves(first / (2 * math.pi), last / (2 * math.pi), 0.1 * height)
+    return IndentationScene(name="sphere", shape="sphere", size=10.0, load=4 / 3 * 0.1, modulus=1.0, ground=ground)
 
 
 def compared(*models, tolerance="20%", scene=None, quantity="stiffness", **settings):

@@ -8,7 +8,6 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import validation
@@ -45,23 +44,6 @@ def test_the_keys_are_documented():
     said = {keys: set(re.findall(r"`(\w+)`", content)) for keys, content in rows}
     assert set(found["assumed"]) == said["`assumed`"]
     assert set(found["models"][0]) == said["`models`"]
-
-
-@pytest.mark.slow
-def test_a_spectrum_is_written_band_by_band():
-    result = spectrum(solve_all=True)
-    found, rows = read(result), rows_of(result)
-    assert found["value"] == pytest.approx(result.value.tolist())
-    assert found["wavelength_mm"] == pytest.approx((2e3 * math.pi / result.wavenumbers).tolist())
-    amplitudes = {name: 10 ** (np.array(halves) / 20) - 1 for name, halves in found["error_parts"].items()}
-    whole = amplitudes["model"] + np.hypot(amplitudes["grid"], amplitudes["sample"])
-    assert found["error"] == pytest.approx([result.error] * len(whole))
-    assert found["error"] == pytest.approx(20 * np.log10(1 + whole))
-    mine = [row for row in rows if row["selected"] == "True"]
-    assert {row["model"] for row in mine} == {result.model}
-    assert [float(row["value"]) for row in mine] == pytest.approx(found["value"])
-    assert [(float(row["high"]) - float(row["low"])) / 2 for row in mine] == pytest.approx(found["error"])
-    assert len({row["model"] for row in rows}) == len(result.selection.solved) > 2
 
 
 def test_the_contact_that_is_assumed_is_that_of_hertz():

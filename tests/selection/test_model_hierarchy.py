@@ -22,7 +22,6 @@ from validation.selection import calibrate
 from validation.selection.columns import bands_of
 from validation.selection.compare import compare
 from validation.selection.hierarchy import (
-    Answer,
     needed,
     select_model,
 )
@@ -56,31 +55,14 @@ def pressed_stiffness(height, spacing, load):
 # The climb
 
 
-def statuses(selection):
-    return [candidate.status for candidate in selection.candidates]
-
-
-def test_a_climb_ends_where_the_tolerance_is_met():
-    models = [
-        Fake(claimed=0.5, seconds=1),
-        Fake(left=0.2, seconds=2),
-        Fake(failed="lost", seconds=4),
-        Fake(left=0.1, seconds=8),
-        Fake(seconds=16),
-    ]
-    selection = select_model(models, 0.1)
-    assert statuses(selection) == ["skipped", "not accurate enough", "failed", "accepted", "not needed"]
-    assert selection.met
-    assert selection.best.model is models[3]
-    assert selection.spent == 2 + 4 + 8
-    reasons = [candidate.reason for candidate in selection.candidates[:4]]
-    assert reasons == ["claims 0.5", "leaves 0.2", "lost", "leaves 0.1"]
+CLIMB = ["skipped", "not accurate enough", "failed"]
 
 
 @pytest.mark.parametrize(
     ("claims", "errors", "expected", "best"),
     [
         ((0.2, 0.1), (0.1, 0.05), ["skipped", "accepted"], 1),
+        ((0.5, 0, 0, 0, 0), (0, 0.2, None, 0, 0), [*CLIMB, "accepted", "not needed"], 3),
         # an error of just the tolerance meets it
         ((0.1, 0.1), (0.11, 0.1), ["not accurate enough", "accepted"], 1),
         ((0.1, 0.1, 0.1), (0.1, 0.0, 0.0), ["accepted", "not needed", "not needed"], 0),
@@ -106,30 +88,9 @@ def test_what_becomes_of_models(claims, errors, expected, best):
         Fake(claimed=c, left=e or 0.0, failed="lost" if e is None else "") for c, e in zip(claims, errors, strict=True)
     ]
     found = select_model(models, 0.1)
-    assert statuses(found) == expected
+    assert [candidate.status for candidate in found.candidates] == expected
     assert found.met == ("accepted" in expected)
     assert (found.best and found.best.model) is (None if best is None else models[best])
-
-
-@pytest.mark.parametrize("tolerance", [0.0, -0.1, math.nan, math.inf])
-def test_tolerances_out_of_range_are_refused(tolerance):
-    with pytest.raises(ValueError, match=f"^tolerance must be finite and positive, got {tolerance}"):
-        select_model([Fake()], tolerance)
-
-
-@pytest.mark.slow
-def test_what_was_done_is_counted_and_not_what_was_expected():
-    model = grid_of(punch(), 0.15, 3, 32)
-    selection = select_model([model], 0.15)
-    fine, coarse = int(selection.candidates[0].reason.rsplit(" ", 1)[1]), 8
-    assert fine > coarse
-    assert selection.candidates[0].answer.cost.work == 24 * 32**2 * (fine + coarse / 4 + coarse / 16)
-    assert selection.spent == selection.candidates[0].answer.cost.seconds
-    rough = grids_of(wheel(height=0.2), "force-spectrum", 0.12, seed=1)[-1]
-    found = rough.solve()
-    strips = int(found.reason.rsplit(" ", 1)[1])
-    assert found.cost == rough._cost({rough.resolution: strips, rough.references[0]: 1})
-    assert strips > 4
 
 
 def test_a_grid_that_was_solved_as_a_reference_is_not_solved_again():
@@ -142,18 +103,6 @@ def test_a_grid_that_was_solved_as_a_reference_is_not_solved_again():
     assert last.cost.work == pytest.approx(8 * 24 * models[-1].resolution.size ** 2)
     assert alone.cost.work == pytest.approx(last.cost.work * (1 + 1 / 4 + 1 / 16))
     assert first.cost.work * finer == pytest.approx(alone.cost.work)
-
-
-def test_what_is_needed_is_known_beforehand():
-    models = [Fake(claimed=0.5), Fake(claimed=0.05), Fake()]
-    assert needed(models, 0.1) is models[1]
-    assert needed(models[:1], 0.1) is None
-
-
-def test_grid_and_sample_are_independent_and_the_model_is_not():
-    parts = {"value": np.ones(1), "cost": Fake().cost(), "model": 0.1, "grid": 0.02, "sample": 0.003}
-    assert Answer(**parts).error == pytest.approx(0.1 + math.hypot(0.02, 0.003))
-    assert Answer(**parts, failed="lost").error == Answer(**{**parts, "grid": math.inf}).error == math.inf
 
 
 def test_a_distance_is_over_all_numbers():

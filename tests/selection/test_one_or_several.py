@@ -62,15 +62,6 @@ def test_a_model_is_found_by_its_name_or_the_beginning_of_it():
     assert found["springs"] is found[0] and found["springs that"] is found[1]
 
 
-@pytest.mark.parametrize(
-    ("names", "found"),
-    [("mdr", ["springs"]), (" MDR ", ["springs"]), (("springs",), ["springs"]), ("mdr, fit", ["fit", "springs"])],
-)
-def test_one_text_names_models(names, found):
-    models = validation.compare(validation.load_scene("rough_punch"), tolerance=0.3, models=names).models
-    assert [one.name for one in models if one.status != "not asked"] == found
-
-
 @pytest.mark.parametrize("names", [["mdr", 3], [None]])
 def test_names_that_are_no_texts_are_refused(names):
     with pytest.raises(TypeError, match="models must be names, got "):

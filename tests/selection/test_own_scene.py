@@ -17,7 +17,7 @@ from validation.report import compared as figures
 from validation.report.compared_seconds import figure_over_seconds
 from validation.report.compared_sweep import draw_sweep
 from validation.selection import scene_model
-from validation.selection.compare import compare_quantities
+from validation.selection.compare import SceneProblem
 from validation.selection.reasons import grouped
 from validation.selection.side_by_side import shown_models, speed_and_accuracy
 from validation.selection.summary import findings, summary
@@ -36,7 +36,7 @@ def test_both_quantities_of_a_rail_are_solved_once():
     asked, found, quantities = [], ContactFilter.find, ("contact-filter", "equivalent-roughness")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(ContactFilter, "find", lambda model, *given: asked.append(model.name) or found(model, *given))
-        both = compare_quantities(RAIL, quantities, "1 dB", 0, solve_all=False, models=CLOSED)
+        both = SceneProblem(RAIL, quantities, "1 dB", models=CLOSED).compared()
     assert sorted(asked) == sorted(CLOSED)
     alone = validation.compare(RAIL, "equivalent-roughness", "1 dB", models=CLOSED)
     assert validation.to_json(both["equivalent-roughness"]) == validation.to_json(alone)
@@ -45,18 +45,6 @@ def test_both_quantities_of_a_rail_are_solved_once():
     text = findings(list(both.values()))
     assert text.count("what became of it") == 1 and text.count("L_eq = L_r + A3") == 1
     assert all(f"\n{quantity} by linear, ellipse" in text for quantity in both)
-
-
-@pytest.mark.slow
-def test_the_command_takes_several_quantities(tmp_path, capsys):
-    words = ["compare", "rail", "--quantity", "contact-filter, equivalent-roughness", "--tolerance", "1 dB"]
-    assert main([*words, "--csv", str(tmp_path / "out.csv"), "--json", str(tmp_path / "out.json")]) == 0
-    rows = list(csv.DictReader((tmp_path / "out.csv").read_text().splitlines()))
-    assert [row["quantity"] for row in rows[::35]] == ["contact-filter", "equivalent-roughness"]
-    assert [one["unit"] for one in json.loads((tmp_path / "out.json").read_text())] == ["dB", "dB re 1 µm"]
-    with pytest.raises(SystemExit):
-        main(["compare", "rail", "--quantity", "contact-filter,loudness"])
-    assert "got 'loudness'" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

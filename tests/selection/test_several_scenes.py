@@ -12,9 +12,8 @@ from tests.selection.planted_answers import punch
 from validation.__main__ import main
 from validation.engine.engine import Engine
 from validation.scenes.load import load_varied
-from validation.selection import several_scenes
-from validation.selection.compare import compare_quantities
-from validation.selection.several_scenes import SceneProblem, compare_scenes, content_of
+from validation.selection.compare import SceneProblem, content_of
+from validation.selection.several_scenes import compare_scenes
 from validation.selection.summary import summary
 
 SWEEP = ["compare", "rolling_wheel", "--tolerance", "10%", "--workers", "1", "--sweep", "wheel.load=2000 N,4905 N"]
@@ -71,11 +70,12 @@ def test_a_key_that_is_none_is_refused(key, value, said, capsys):
     assert said in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("word", ["wheel.load", "=1 N", "wheel.load=", "wheel.load=1 N,"])
-def test_a_sweep_without_values_is_refused(word, capsys):
+@pytest.mark.parametrize("word", ["wheel.load", "=1 N", "wheel.load=", "wheel.load=1 N,", "loudness"])
+def test_a_sweep_without_values_and_an_unknown_quantity_are_refused(word, capsys):
+    option = "--quantity" if word == "loudness" else "--sweep"
     with pytest.raises(SystemExit) as refused:
-        main(["compare", "rolling_wheel", "--sweep", word])
-    assert refused.value.code == 2 and "--sweep" in capsys.readouterr().err
+        main(["compare", "rolling_wheel", option, word])
+    assert refused.value.code == 2 and option in capsys.readouterr().err
 
 
 def problem(**changes):
@@ -105,15 +105,15 @@ def test_a_stored_comparison_is_the_one_that_was_solved(tmp_path):
 
 
 def test_an_interrupted_sweep_goes_on(monkeypatch, capsys):
-    solved = []
+    solved, compared = [], SceneProblem.compared
 
-    def interrupted(scene, *given, **named):
-        solved.append(scene.name)
+    def interrupted(problem):
+        solved.append(problem.scene.name)
         if len(solved) == 2:
             raise KeyboardInterrupt
-        return compare_quantities(scene, *given, **named)
+        return compared(problem)
 
-    monkeypatch.setattr(several_scenes, "compare_quantities", interrupted)
+    monkeypatch.setattr(SceneProblem, "compared", interrupted)
     assert main(SWEEP) == 130
     assert "the same command goes on" in capsys.readouterr().err
     assert main(SWEEP) == 0

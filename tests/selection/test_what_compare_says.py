@@ -90,6 +90,12 @@ def test_a_tolerance_is_echoed_in_its_unit(given, relative, shown):
     assert tolerance.shown(math.inf) == "unknown"
 
 
+@pytest.mark.parametrize("ratio", [0.0, -0.1, math.nan, math.inf])
+def test_a_tolerance_is_finite_and_positive(ratio):
+    with pytest.raises(ValueError, match=f"tolerance must be (positive|finite), got {ratio}"):
+        tolerance_of(ratio)
+
+
 @pytest.mark.parametrize(
     ("given", "said"),
     [
@@ -163,10 +169,7 @@ def test_the_error_of_a_difference_is_both_errors_together():
     """Of the models the sum; grid and sample are independent: 0.1 + 0.02 + sqrt(0.03² + 0.04² + 0.12²) = 0.25."""
     coarse, fine = Finding(parts=(0.1, 0.03, 0.04)), Finding(parts=(0.02, 0.12, 0.0), name="fine")
     found = compared(coarse, fine, solve_all=True)
-    one, other = found.selection.solved
-    (error,) = error_of_difference(found, one, other)
-    assert error == pytest.approx(20 * math.log10(1.25))
-    assert error == error_of_difference(found, other, one)
+    assert error_of_difference(found, found.selection.solved[0]) == pytest.approx(20 * math.log10(1.25))
     unknown = replace(coarse, parts=(math.inf, 0, 0))
     (line, _) = list(side_by_side(compared(unknown, fine, solve_all=True)))[3:-1]
     assert line.count("± unknown") == 2

@@ -50,23 +50,24 @@ def test_hertz_displacement_under_its_pressure_is_the_sphere():
     assert 2 / 2.0 * p[0] == pytest.approx(0.5, rel=1e-8)
 
 
+WAVE = {"amplitude": 1e-6, "wavelength": 1e-3, "modulus": 1e9}
+
+
 @given(load=st.floats(0.01, 1.0))
 def test_westergaard_pressure_has_its_mean(load):
-    scene = {"amplitude": 1e-6, "wavelength": 1e-3, "modulus": 1e9}
-    mean = load * closed_forms.westergaard_full_pressure(**scene)
-    a = closed_forms.westergaard_half_width(mean_pressure=mean, **scene)
+    mean = load * closed_forms.westergaard_full_pressure(**WAVE)
+    a = closed_forms.westergaard_half_width(mean_pressure=mean, **WAVE)
     t = np.pi * (np.arange(4000) + 0.5) / 4000 - np.pi / 2
     x = a * np.sin(t)
-    p = closed_forms.westergaard_pressure(x, mean_pressure=mean, **scene)
+    p = closed_forms.westergaard_pressure(x, mean_pressure=mean, **WAVE)
     total = np.sum(p * a * np.cos(t)) * np.pi / 4000
     assert total / 1e-3 == pytest.approx(mean, rel=1e-6)
 
 
 def test_westergaard_closes_at_the_full_pressure():
-    scene = {"amplitude": 1e-6, "wavelength": 1e-3, "modulus": 1e9}
-    full = closed_forms.westergaard_full_pressure(**scene)
-    assert closed_forms.westergaard_half_width(mean_pressure=full, **scene) == pytest.approx(0.5e-3)
-    valley = closed_forms.westergaard_pressure(0.5e-3, mean_pressure=full, **scene)
+    full = closed_forms.westergaard_full_pressure(**WAVE)
+    assert closed_forms.westergaard_half_width(mean_pressure=full, **WAVE) == pytest.approx(0.5e-3)
+    valley = closed_forms.westergaard_pressure(0.5e-3, mean_pressure=full, **WAVE)
     assert valley == pytest.approx(0, abs=1e-9 * full)
 
 
@@ -99,11 +100,10 @@ def test_bad_input_is_named(form, bad):
 
 def test_westergaard_beyond_full_contact_is_refused():
     wave = {"amplitude": 1.0, "wavelength": 1.0, "modulus": 1.0}
-    words = "^mean_pressure must not exceed the pressure of full contact, 3.14159, got 4.0$"
     for form in (closed_forms.westergaard_half_width, closed_forms.westergaard_approach):
-        with pytest.raises(ValueError, match=words):
-            form(mean_pressure=4.0, **wave)
         assert form(mean_pressure=math.pi, **wave) > 0
+        with pytest.raises(ValueError, match=r"^mean_pressure must not exceed .* full contact, 3.14159, got 4.0$"):
+            form(mean_pressure=4.0, **wave)
 
 
 @pytest.mark.parametrize("load", [0.01, 0.2, 0.7])
@@ -150,11 +150,6 @@ def test_persson():
 def test_a_rough_punch_is_a_flat_one_in_series_with_its_face():
     scene = {"side": 0.2, "modulus": 3.0}
     flat = closed_forms.square_punch_stiffness(**scene)
-    alone = closed_forms.rough_punch_stiffness(force=1e9, height=1e-3, **scene)
-    assert alone == pytest.approx(flat, rel=1e-9)
-    soft = closed_forms.rough_punch_stiffness(force=1e-9, height=1e-3, **scene)
-    assert soft == pytest.approx(1e-9 / (0.48 * 1e-3), rel=1e-5)
-    both = closed_forms.rough_punch_stiffness(force=1e-3, height=1e-3, **scene)
-    assert 1 / both == pytest.approx(1 / flat + 0.48 * 1e-3 / 1e-3)
-    with pytest.raises(ValueError, match=r"^height"):
-        closed_forms.rough_punch_stiffness(force=1e-3, height=0.0, **scene)
+    for force in (1e-9, 1e-3, 1e9):
+        both = closed_forms.rough_punch_stiffness(force=force, height=1e-3, **scene)
+        assert 1 / both == pytest.approx(1 / flat + 0.48 * 1e-3 / force, rel=1e-14)

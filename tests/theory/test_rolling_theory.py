@@ -11,7 +11,7 @@ from scipy import integrate
 
 import mdr
 from tests.oracles import moment_1d
-from tests.strategies import bumps, scales
+from tests.strategies import bumps
 from validation.analysis.spectra import Bands, Waves, cross_levels, levels, waves
 from validation.theory.rolling import (
     contact_lost,
@@ -243,50 +243,6 @@ def test_springs_that_are_fed_for_rolling_have_the_level_of_the_half_space(hurst
     assert np.median(10 * np.log10(geike / surface)) > 3
 
 
-def test_third_octaves():
-    bands = between(1.0, 8.0)
-    assert len(bands.edges) == 10
-    assert np.array(bands.edges[::3]) == pytest.approx([1, 2, 4, 8], rel=1e-14)
-    assert bands.centres == pytest.approx(np.array(bands.edges[:-1]) * 2 ** (1 / 6), rel=1e-14)
-    assert between(1.0, 7.99).edges[-1] < 7.99
-    around = Bands.around(np.pi, 0.5, 20.0)
-    assert np.abs(around.centres - np.pi).min() < 1e-14
-    assert around.edges[0] >= 0.5 > around.edges[0] / 2 ** (1 / 3)
-    assert around.edges[-1] <= 20.0 < around.edges[-1] * 2 ** (1 / 3)
-
-
-def test_bands_that_hold_no_wave_are_refused():
-    bands = Bands.around(np.pi, 0.5, 20.0)
-    assert bands.on(100.0) is bands
-    with pytest.raises(ValueError, match="length must be so large that each band has a wave, got 12"):
-        bands.on(12.0)
-
-
-@given(points=st.integers(1, 60).map(lambda n: 2 * n + 1), seed=st.integers(0, 1000), spacing=scales)
-def test_bands_add_up_to_the_variance(points, seed, spacing):
-    """Parseval for odd numbers of points: <x^2> - <x>^2 = 2 sum |c|^2 over all bands, of positive wavenumbers."""
-    series = np.random.default_rng(seed).normal(1.0, 1.0, size=(3, points))
-    found = waves(series, spacing=spacing)
-    bands = between(found.q[0] * 0.9, found.q[-1] * 1.5)
-    assert 2 * levels(found, bands).sum(axis=-1) == pytest.approx(series.var(axis=-1), rel=1e-12)
-    assert bands.counts(found.q).sum() == points // 2
-    integral = 2 * found.spectrum.sum(axis=-1) * found.q[0]
-    assert integral == pytest.approx(series.var(axis=-1), rel=1e-12)
-
-
-@pytest.mark.parametrize("points", [64, 65])
-def test_a_wave_is_found_where_it_is(points):
-    """cos(q x): a quarter of its mean square, 1/2, is |c|^2 of the positive wave; the spectrum is two-sided."""
-    x = np.arange(points) * 0.25
-    q = 2 * np.pi * 5 / (points * 0.25)
-    found = waves(3 + np.cos(q * x + 0.7), spacing=0.25)
-    assert found.q[4] == pytest.approx(q)
-    assert found.amplitude[4] == pytest.approx(0.5 * np.exp(0.7j))
-    assert found.spectrum[4] == pytest.approx(0.25 / found.q[0])
-    assert np.delete(np.abs(found.amplitude), 4) == pytest.approx(0, abs=1e-14)
-    assert found.q.size == (points - 1) // 2
-
-
 def test_spectra_of_profiles_are_the_ones_they_are_drawn_from():
     """Two-sided, wave by wave, since the amplitudes are fixed."""
     spectrum = mdr.SelfAffine(hurst=0.7, q_min=5.0, q_max=60.0, rms=1.0)
@@ -307,7 +263,7 @@ def test_cross_levels_tell_how_alike_two_series_are():
     assert (np.abs(cross_levels(series, other, bands)) <= limit * (1 + 1e-12)).all()
 
 
-@pytest.mark.parametrize("height", [0.003, 0.05, 1.0])
+@pytest.mark.parametrize("height", [0.003, 0.05, 1.0, 1e6])
 def test_contact_that_linear_theory_loses_by_drawing_pressures(height):
     c2d, edges = (lambda q: np.where((q >= 1) & (q <= 8), height**2 * q**-3.4, 0.0)), (1.0, 8.0)
     found = contact_lost(c2d, edges=edges, contact_radius=1.0, radius=2.0)
@@ -316,13 +272,9 @@ def test_contact_that_linear_theory_loses_by_drawing_pressures(height):
     radius, drawn = np.sqrt(rng.random(200_000)), rng.standard_normal(200_000)
     pressure = 2 / (math.pi * 2.0) * np.sqrt(1 - radius**2) + slope / 2 * drawn
     share = np.mean(pressure < 0)
-    # three standard errors of a share
+    # three standard errors of a share; half is lost under endless roughness
     assert found == pytest.approx(share, abs=3 * math.sqrt(max(share, 1e-5) / drawn.size) + 1e-6)
-
-
-def test_contact_is_lost_by_half_under_endless_roughness():
-    c2d = lambda q: np.where((q >= 1) & (q <= 8), 1e12, 0.0)  # noqa: E731
-    assert contact_lost(c2d, edges=(1.0, 8.0), contact_radius=1.0, radius=1.0) == pytest.approx(0.5, abs=1e-6)
+    assert found <= 0.5
 
 
 def test_the_second_order_of_an_even_band_has_the_zeros_of_both_ends():

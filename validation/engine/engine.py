@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from concurrent.futures import CancelledError, as_completed
 from contextlib import closing, contextmanager, nullcontext
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
@@ -45,10 +45,10 @@ class Engine:
 
     workers: int = 1
     store: Path | None = None
-    progress: Part | None = field(default=None, repr=False, compare=False)
+    progress: Part | None = None
     executor: str = LOCAL
-    shared: Workers | None = field(default=None, repr=False, compare=False)
-    timed_results: dict[Path, str] | None = field(default=None, repr=False, compare=False)
+    shared: Workers | None = None
+    timed_results: dict[Path, str] | None = None
     """The places and keys of a timed run."""
 
     def __post_init__(self) -> None:

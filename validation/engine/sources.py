@@ -31,14 +31,19 @@ def version_of_numerics() -> str:
     return _digest(_source(path) for path in sorted(modules().values()))
 
 
-def version_of(roots: Iterable[str], without: Iterable[str] = ()) -> str:
+@cache
+def version_of(roots: tuple[str, ...], without: tuple[str, ...] = ()) -> str:
     """Digest of these modules and of all that they import, directly or not, but for comments and docstrings.
 
     without: packages and modules that are left out. Raises RuntimeError where no source is found.
     """
     starts = tuple(f"{name}." for name in without)
     left_out = frozenset(name for name in modules() if f"{name}.".startswith(starts))
-    return _version(tuple(roots), left_out)
+    behind = {name for root in roots for name in modules_behind(root, left_out)}
+    paths = sorted({path for name in behind for path in _files_of(name)})
+    if not paths:
+        raise RuntimeError(f"the source of {roots[0]} is not to be found")
+    return _digest(_meaning(path) for path in paths)
 
 
 def version_behind(module: str, problem: object) -> str:
@@ -47,7 +52,7 @@ def version_behind(module: str, problem: object) -> str:
     That is the code of the module and of the classes of the problem and its parts, and of all that these import.
     Raises RuntimeError where no source is found.
     """
-    return _version((module, *sorted({type(value).__module__ for value in _values(problem)})), frozenset())
+    return version_of((module, *sorted({type(value).__module__ for value in _values(problem)})))
 
 
 @cache
@@ -82,15 +87,6 @@ def modules_behind(module: str, without: frozenset[str] = frozenset()) -> frozen
             return frozenset(found | set(modules())) - {ENGINE, *without}
         left |= (_imported(name) & set(modules())) - found - {ENGINE, *without}
     return frozenset(found)
-
-
-@cache
-def _version(roots: tuple[str, ...], without: frozenset[str]) -> str:
-    behind = {name for root in roots for name in modules_behind(root, without)}
-    paths = sorted({path for name in behind for path in _files_of(name)})
-    if not paths:
-        raise RuntimeError(f"the source of {roots[0]} is not to be found")
-    return _digest(_meaning(path) for path in paths)
 
 
 def _digest(sources: Iterable[bytes]) -> str:

@@ -33,10 +33,17 @@ def load(path: Path, key: str) -> Outcome | None:
     if is_there(path) and not is_plain(path):
         raise ValueError(f"a stored result must be a plain file, got {path}: move that away")
     try:
-        return _arrays(_unsealed(path), key)
-    # a valid seal may have been put before any bytes
+        whole = read_plain(path)
+        archive, seal = whole[:-SEAL], whole[-SEAL:]
+        if hashlib.sha256(archive).digest() != seal:
+            return None
+        with np.load(io.BytesIO(archive), allow_pickle=False) as entries:
+            arrays = {name: entries[name] for name in entries.files}
+        label = json.loads(str(arrays.pop(LABEL)))
+    # a valid seal may have been put behind any bytes
     except Exception:
         return None
+    return arrays if label == {"format": FORMAT, "key": key, "arrays": _listed(arrays)} else None
 
 
 def save(path: Path, key: str, outcome: Outcome) -> None:
@@ -57,23 +64,5 @@ def forget(stored: Mapping[Path, str]) -> None:
             path.unlink()
 
 
-def _unsealed(path: Path) -> bytes:
-    whole = read_plain(path)
-    archive, seal = whole[:-SEAL], whole[-SEAL:]
-    if hashlib.sha256(archive).digest() != seal:
-        raise ValueError("the seal is broken")
-    return archive
-
-
 def _listed(arrays: Outcome) -> dict[str, list[object]]:
     return {name: [array.dtype.str, list(array.shape)] for name, array in arrays.items()}
-
-
-def _arrays(archive: bytes, key: str) -> Outcome:
-    """The arrays of an archive. Raises an exception of any kind where it is not as `save` writes it."""
-    with np.load(io.BytesIO(archive), allow_pickle=False) as entries:
-        arrays = {name: entries[name] for name in entries.files}
-    label = json.loads(str(arrays.pop(LABEL)))
-    if label != {"format": FORMAT, "key": key, "arrays": _listed(arrays)}:
-        raise ValueError("the archive is not what its label says")
-    return arrays

@@ -3,11 +3,9 @@
 import csv
 import io
 import math
-from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, date, datetime
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -72,7 +70,7 @@ class CalibrationScene:
         low, high = np.array(DESIGNS[self.kind]).T
         rng = random_generator(self.seed, list(DESIGNS).index(self.kind), self.number)
         power, first, ratio, hurst = rng.uniform(low, high).tolist()
-        common: dict[str, Any] = {"name": self.name, "modulus": 1.0}
+        common: dict[str, Any] = {"name": f"{self.kind} {self.number}", "modulus": 1.0}
         if self.kind == "punch":
             waves = round(10**first)
             last = max(min(round(waves * 10**ratio), SHORTEST[self.kind]), 3 * waves)
@@ -91,18 +89,14 @@ class CalibrationScene:
             common |= {"mass": 1.0, "speed": over * math.sqrt(2 * a) / ground.q_min}
         return RollingScene(radius=RADIUS, ground=ground, **common)
 
-    @property
-    def name(self) -> str:
-        return f"{self.kind} {self.number}"
-
-    def target(self, tolerance: float, seed: int = 0) -> Target:
+    def target(self, tolerance: float = MODEL_TOLERANCE, seed: int = 0) -> Target:
         """seed: added to that of the design."""
         return Target(self.scene, self.quantity, tolerance, self.seed + self.number + seed)
 
     @property
     def cheap(self) -> tuple[Model, ...]:
         """The models that are measured."""
-        return cheap_models(self.target(MODEL_TOLERANCE))
+        return cheap_models(self.target())
 
 
 def measure_errors(point: CalibrationScene) -> Outcome:
@@ -114,7 +108,7 @@ def measure_errors(point: CalibrationScene) -> Outcome:
     (judge,) = (model for model in models_serving(point.scene, point.quantity) if isinstance(model, GridModel))
     reference = try_to_solve(SceneModel(judge, target, judge.resolutions(target)[-1]))
     return {
-        "error": np.array([_error(model, point.target(MODEL_TOLERANCE), reference.value) for model in point.cheap]),
+        "error": np.array([_error(model, point.target(), reference.value) for model in point.cheap]),
         "reference": np.array(reference.error),
         "failed": np.array(float(bool(reference.failed))),
     }
@@ -172,21 +166,22 @@ def as_table(about: Mapping[str, str], rows: Sequence[Mapping[str, object]]) -> 
     return text.getvalue().encode()
 
 
-def rows_of_point(point: CalibrationScene, outcome: Outcome) -> list[dict[str, object]]:
+def rows_of_point(point: CalibrationScene, outcome: Outcome) -> list[dict[str, Any]]:
     """A row a model that has an answer; none where boundary elements have none."""
     if outcome["failed"]:
         return []
-    kind, conditions = conditions_by_kind(point.target(MODEL_TOLERANCE))
+    target = point.target()
+    kind, conditions = conditions_by_kind(target)
     named = {name: f"{conditions[name]:.5g}" for name in CONDITIONS if name in conditions}
     about = {"kind": kind, "quantity": point.quantity, "number": point.number, **named}
     return [
         {
             **about,
             "model": model.name,
-            "shape": f"{model.shape(point.target(MODEL_TOLERANCE)):.5g}",
+            "shape": f"{model.shape(target):.5g}",
             "error": f"{error:.5g}",
             "reference": f"{float(outcome['reference']):.3g}",
-            "code": code_behind(model, point.target(MODEL_TOLERANCE)),
+            "code": code_behind(model, target),
         }
         for model, error in zip(point.cheap, outcome["error"], strict=True)
         if np.isfinite(error)
@@ -216,49 +211,33 @@ def calibration_age(path: Path = TABLE, target: Target | None = None) -> str:
     about = provenance(path)
     if not about:
         return "errors of models: no calibration"
-    known, asked = table(path), _one_of_each() if target is None else [target]
+    one_of_each = CalibrationRun(punches=1, spheres=1, rolling=1, wheels=1).points
     models = {
         (kind_of(one), one.quantity, model.name): code_behind(model, one)
-        for one in asked
+        for one in ([target] if target else [point.target() for point in one_of_each])
         for model in cheap_models(one)
     }
+    known = table(path)
     without = [key for key in models if key not in known]
     other = [key for key, code in models.items() if key in known and known[key].codes != {code}]
-    names = partial(_names, every=list(models), whole=target is None)
-    missing = f"not in the table of the calibration: {names(without)}" if without else ""
+    missing = f"not in the table of the calibration: {_names(without, models, target)}" if without else ""
     if len(without) == len(models):
         return f"errors of models: {missing}"
     days = (today() - date.fromisoformat(about["measured"])).days
-    code = f"by other code than today's: {names(other)}" if other else _code(about)
-    age = f"calibrated {about['measured']}, {days} day{'s' * (days != 1)} ago, {code}"
+    checked, _, solves = about.get("checked", "").partition(", ")
+    code = f"code that gives the same as today's, checked {checked} on {solves}" if checked else "today's code"
+    code = f"other code than today's: {_names(other, models, target)}" if other else code
+    age = f"calibrated {about['measured']}, {days} day{'s' * (days != 1)} ago, by {code}"
     return f"errors of models: {'; '.join(filter(None, (age, missing)))}"
 
 
-def _names(some: Sequence[Key], every: Sequence[Key], *, whole: bool) -> str:
-    """Of models; whole: with the scene in front, or that alone where it is all of its models."""
-    if not whole:
-        return "; ".join(model for _, _, model in some)
-    models = {place: [model for *of, model in some if (*of,) == place] for place in (key[:2] for key in some)}
-    known = Counter(key[:2] for key in every)
-    return "; ".join(
-        " ".join(place) + ending
-        for place, named in models.items()
-        for ending in ([""] if len(named) == known[place] else [f", {model}" for model in named])
-    )
-
-
-def _one_of_each() -> list[Target]:
-    """What the table is asked for, as a whole."""
-    points = CalibrationRun(punches=1, spheres=1, rolling=1, wheels=1).points
-    return [point.target(MODEL_TOLERANCE) for point in points]
-
-
-def _code(about: Mapping[str, str]) -> str:
-    """What was checked was measured by another code, and then taken for today's."""
-    if "checked" in about:
-        day, _, solves = about["checked"].partition(", ")
-        return f"by code that gives the same as today's, checked {day} on {solves}"
-    return "by today's code"
+def _names(some: Sequence[Key], every: Iterable[Key], target: Target | None) -> str:
+    """Of models; without a target with the scene in front, or that alone where it is all of its models."""
+    if target:
+        return "; ".join(model for *_, model in some)
+    others = {key[:2] for key in every if key not in some}
+    names = (f"{kind} {of}, {model}" if (kind, of) in others else f"{kind} {of}" for kind, of, model in some)
+    return "; ".join(dict.fromkeys(names))
 
 
 def cheap_models(target: Target) -> tuple[Model, ...]:

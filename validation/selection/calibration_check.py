@@ -10,7 +10,6 @@ from validation.engine.engine import SERIAL, Engine
 from validation.engine.files import write_given
 from validation.scenes.printable import printable
 from validation.selection.calibrate import (
-    MODEL_TOLERANCE,
     CalibrationRun,
     CalibrationScene,
     as_table,
@@ -38,18 +37,17 @@ def check_calibration(
     if not rows:
         raise ValueError(f"no table of the calibration is in {printable(path)}")
     seed = int(about["command"].rsplit(" ", 1)[1])
-    groups = defaultdict[tuple[str, str], list[CalibrationScene]](list)
-    for point in dict.fromkeys(_point(row, seed) for row in rows):
-        groups[point.kind, point.quantity].append(point)
+    of_point, groups = defaultdict[CalibrationScene, list[Row]](list), defaultdict[str, list[CalibrationScene]](list)
+    for row in rows:
+        of_point[_point(row, seed)].append(row)
+    for point in of_point:
+        groups[f"{point.kind} {point.quantity}"].append(point)
     points = [point for group in groups.values() for point in _spread(group, scenes)]
     outcomes = engine.map(measure_errors, points)
     differing = [
         line
         for point, outcome in zip(points, outcomes, strict=True)
-        for line in _differences(
-            [row for row in rows if _point(row, seed) == point],
-            [{name: str(value) for name, value in row.items()} for row in rows_of_point(point, outcome)],
-        )
+        for line in _differences(of_point[point], rows_of_point(point, outcome))
     ]
     solves = f"{len(points)} of {sum(map(len, groups.values()))} solves"
     if stamp and not differing:
@@ -82,7 +80,7 @@ def _differences(rows: list[Row], again: list[Row]) -> list[str]:
 def _with_code_of_today(row: Row, seed: int) -> Row:
     point = _point(row, seed)
     (model,) = (one for one in point.cheap if one.name == row["model"])
-    return {**row, "code": code_behind(model, point.target(MODEL_TOLERANCE))}
+    return {**row, "code": code_behind(model, point.target())}
 
 
 def check_installable(run: CalibrationRun, path: Path = TABLE) -> None:

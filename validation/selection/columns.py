@@ -119,7 +119,7 @@ def _apart(comparison: Comparison, one: Candidate) -> str:
         return NONE
     off = differences(one, reference)
     worst = abs(off).argmax()
-    largest, error = (float(of[worst]) for of in (off, error_of_difference(comparison, one, reference)))
+    largest, error = (float(of[worst]) for of in (off, error_of_difference(comparison, one)))
     if comparison.is_level or comparison.in_decibels:
         return f"{'+' if largest > 0 else ''}{short(largest)} {half_width(error)} dB"
     return f"{per_cent(largest):+.2g} {half_width(per_cent(error))} %"
@@ -134,15 +134,11 @@ def numbers_beside(comparison: Comparison) -> Columns:
         f"{comparison.quantity} [{comparison.unit}]": [f"{value:.4g}" for value, _ in found],
         "±": [two_digits(half) for _, half in found],
     }
-    off = [(float(differences(one, reference)[0]), float(_error(comparison, one)[0])) for one in solved]
+    off = [(float(differences(one, reference)[0]), float(error_of_difference(comparison, one)[0])) for one in solved]
     for head, of, digits in (("difference [dB]", float, 2), ("[%]", per_cent, 1)):
         cells = [f"{signed(of(apart), digits)} {half_width(of(error))}" for apart, error in off]
         columns[head] = [NONE if one is reference else cell for one, cell in zip(solved, cells, strict=True)]
     return columns
-
-
-def _error(comparison: Comparison, one: Candidate) -> FloatArray:
-    return error_of_difference(comparison, one, reference_of(comparison))
 
 
 def levels_beside(comparison: Comparison) -> tuple[dict[str, str], Columns]:
@@ -157,7 +153,9 @@ def levels_beside(comparison: Comparison) -> tuple[dict[str, str], Columns]:
     columns = _cells(axis, {}) | {"level": [tenth(level) for level in comparison.value_of(reference)]}
     for letter, one in letters.items():
         columns[letter] = [signed(off, 1) for off in differences(one, reference).tolist()]
-    names = {letter: f"{one.name}, {_range(one, _error(comparison, one))}" for letter, one in letters.items()}
+    names = {
+        letter: f"{one.name}, {_range(one, error_of_difference(comparison, one))}" for letter, one in letters.items()
+    }
     return names, columns
 
 

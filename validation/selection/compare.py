@@ -1,8 +1,11 @@
 """One scene: the quantity, the cheapest model that is accurate enough, and why."""
 
+import hashlib
+import json
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -252,33 +255,57 @@ def compare(
         raise TypeError(f"scene must be what load_scene returns, got {type(scene).__name__}")
     count("seed", seed, least=0)
     asked = quantity or quantities_of(scene)[0]
-    return compare_quantities(scene, (asked,), tolerance, seed, solve_all, models, callback)[asked]
+    return SceneProblem(scene, (asked,), tolerance, seed, solve_all, models).compared(callback)[asked]
 
 
-def compare_quantities(
-    scene: Scene,
-    quantities: Sequence[str],
-    tolerance: float | str,
-    seed: int,
-    solve_all: bool,
-    models: Sequence[str],
-    callback: Callable[[SceneModel], None] = lambda _: None,
-) -> dict[str, Comparison]:
-    """`compare` of several quantities of a scene, by their names; a filter and what it leaves share their solves."""
-    found, shared, wanted = dict[str, Comparison](), Shared(), tolerance_of(tolerance)
-    for asked in quantities:
-        every = models_of(scene, asked, wanted.relative, seed, shared)
-        announced = found and isinstance(scene, RailScene)  # both quantities of a rail have the same solves
-        selection = select_model(
-            every,
-            wanted.relative,
-            callback=(lambda _: None) if announced else callback,
-            solve_all=solve_all or bool(models),
-            only=models_named(every, models, wanted.relative) if models else every,
-            beyond=_beyond,
-        )
-        found[asked] = Comparison(scene, asked, selection, wanted.in_decibels, timed=solve_all)
-    return found
+@dataclass(frozen=True)
+class SceneProblem:
+    """What `compare` is asked of one scene, of each quantity.
+
+    content: digest of all that the scene is made of, since its repr leaves out most of an array.
+    """
+
+    scene: Scene = field(repr=False)
+    quantities: tuple[str, ...]
+    tolerance: float | str
+    seed: int = 0
+    solve_all: bool = False
+    models: Sequence[str] = ()
+    content: str = field(init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "content", content_of(self.scene))
+
+    @property
+    def wanted(self) -> Tolerance:
+        return tolerance_of(self.tolerance)
+
+    def compared(self, callback: Callable[[SceneModel], None] = lambda _: None) -> dict[str, Comparison]:
+        """Each quantity by its name; a filter and what it leaves share their solves."""
+        found, shared, tolerance = dict[str, Comparison](), Shared(), self.wanted.relative
+        for asked in self.quantities:
+            every = models_of(self.scene, asked, tolerance, self.seed, shared)
+            announced = found and isinstance(self.scene, RailScene)  # both quantities of a rail have the same solves
+            selection = select_model(
+                every,
+                tolerance,
+                callback=(lambda _: None) if announced else callback,
+                solve_all=self.solve_all or bool(self.models),
+                only=models_named(every, self.models, tolerance) if self.models else every,
+                beyond=_beyond,
+            )
+            found[asked] = Comparison(self.scene, asked, selection, self.wanted.in_decibels, timed=self.solve_all)
+        return found
+
+
+def content_of(scene: Scene) -> str:
+    """Digest of a scene: equal for equal values, whatever has been computed from them."""
+
+    def of_array(value: Any) -> object:
+        return value.dtype.str, value.shape, hashlib.sha256(value.tobytes()).hexdigest()
+
+    made_of = json.dumps([type(scene).__name__, asdict(scene)], default=of_array)
+    return hashlib.sha256(made_of.encode()).hexdigest()[:16]
 
 
 def _beyond(model: SceneModel) -> bool:

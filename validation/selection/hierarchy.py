@@ -102,23 +102,23 @@ def select_model(
     miss the tolerance is skipped. Where all miss it, the skipped one with the smallest estimate is solved, too, as
     long as that is below the errors of the others; where the scene alone leaves more, the cheapest, and no other. A
     solve that raises one of `REFUSALS` has failed.
-    Raises ValueError for a tolerance that is not finite and positive.
     """
-    if not (math.isfinite(tolerance) and tolerance > 0):
-        raise ValueError(f"tolerance must be finite and positive, got {tolerance}")
     found = Selection(tolerance, ())
     for model in models:
         one = _expected(model, found.met, only is None or any(model is asked for asked in only))
         if one.status == "skipped" and one.claimed <= tolerance:
-            one = _solved(one, tolerance, callback)
+            one = _solved(one, callback, tolerance)
         found = Selection(tolerance, (*found.candidates, one))
     # what one finds may be more than another claims
     while not found.met and (least := _least_estimate(found)) is not None:
-        candidates = [_solved(one, tolerance, callback) if one is least else one for one in found.candidates]
+        candidates = [_solved(one, callback, tolerance) if one is least else one for one in found.candidates]
         found = Selection(tolerance, tuple(candidates))
-    if not solve_all:
-        return found
-    return Selection(tolerance, tuple(_with_answer(one, callback, beyond) for one in found.candidates))
+
+    def is_left(one: Candidate) -> bool:
+        return one.status in ("skipped", "not needed") or (one.status == "out of range" and beyond(one.model))
+
+    every = tuple(_solved(one, callback) if solve_all and is_left(one) else one for one in found.candidates)
+    return Selection(tolerance, every)
 
 
 def needed(models: Sequence[SceneModel], tolerance: float) -> SceneModel | None:
@@ -142,11 +142,14 @@ def _expected(model: SceneModel, met: bool, asked: bool) -> Candidate:
     return Candidate(model, status, expected.reason, expected)
 
 
-def _solved(one: Candidate, tolerance: float, callback: Callable[[SceneModel], None]) -> Candidate:
+def _solved(one: Candidate, callback: Callable[[SceneModel], None], tolerance: float | None = None) -> Candidate:
+    """tolerance: None for one that is seen beside the others, and not selected."""
     callback(one.model)
     answer = try_to_solve(one.model)
     if answer.failed:
         return replace(one, status="failed", reason=answer.failed, answer=answer)
+    if tolerance is None:
+        return replace(one, reason=answer.reason or one.reason, answer=answer)
     status: Status = "accepted" if answer.error <= tolerance else "not accurate enough"
     return replace(one, status=status, reason=answer.reason, answer=answer)
 
@@ -158,15 +161,3 @@ def _least_estimate(found: Selection) -> Candidate | None:
         skipped = skipped[-1:] if found.best is None else []
     least = min(skipped, key=lambda one: one.claimed, default=None)
     return least if least and (found.best is None or least.claimed < found.best.error) else None
-
-
-def _with_answer(
-    one: Candidate, callback: Callable[[SceneModel], None], beyond: Callable[[SceneModel], bool]
-) -> Candidate:
-    """Solved to be seen beside the others: no other is selected."""
-    if one.status not in ("skipped", "not needed") and not (one.status == "out of range" and beyond(one.model)):
-        return one
-    callback(one.model)
-    answer = try_to_solve(one.model)
-    status: Status = "failed" if answer.failed else one.status
-    return replace(one, answer=answer, status=status, reason=answer.failed or answer.reason or one.reason)

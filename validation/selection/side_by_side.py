@@ -27,18 +27,16 @@ def differences(candidate: Candidate, reference: Candidate) -> np.ndarray:
     return np.asarray(20 * np.log10(candidate.answer.value / reference.answer.value))
 
 
-def error_of_difference(comparison: Comparison, candidate: Candidate, reference: Candidate) -> np.ndarray:
-    """Half-widths of 95 % of `differences` [dB]: `TOGETHER`; infinite where one is unknown."""
-    ours, theirs = (_parts(comparison, one) for one in (candidate, reference))
-    random = [part for parts in (ours, theirs) for part in (parts["grid"], parts["sample"])]
-    both = ours["model"] + theirs["model"] + np.sqrt(np.sum(np.square(random), axis=0))
+def error_of_difference(comparison: Comparison, candidate: Candidate) -> np.ndarray:
+    """Half-widths of 95 % of `differences` from the reference [dB]: `TOGETHER`; infinite where one is unknown."""
+    parts = [
+        {name: part / (1.0 if comparison.is_level else np.abs(comparison.value_of(one))) for name, part in of.items()}
+        for one in (candidate, reference_of(comparison))
+        for of in [comparison.error_parts_of(one)]
+    ]
+    random = [of[name] for of in parts for name in ("grid", "sample")]
+    both = sum(of["model"] for of in parts) + np.sqrt(np.sum(np.square(random), axis=0))
     return np.asarray(both if comparison.is_level else 20 * np.log10(1 + both))
-
-
-def _parts(comparison: Comparison, one: Candidate) -> dict[str, np.ndarray]:
-    """Errors by their names: of levels in dB, else relative."""
-    scale = 1.0 if comparison.is_level else np.abs(comparison.value_of(one))
-    return {name: part / scale for name, part in comparison.error_parts_of(one).items()}
 
 
 def per_cent(level: float) -> float:
@@ -75,30 +73,26 @@ def speed_and_accuracy(comparison: Comparison) -> Table:
     """
     reference, rows = reference_of(comparison), list[dict[str, object]]()
     unit = "dB" if comparison.is_level else comparison.tolerance.unit
+    of_reference = decibels(reference.error) if unit == "dB" else 100 * reference.error
     for one in comparison.selection.solved:
-        error, half = _apart(comparison, one, reference, unit)
+        error, half = (of if unit == "dB" else per_cent(of) for of in _apart(comparison, one))
         low, high = (max(error - half, 0.0), error + half) if math.isfinite(half) else (math.nan, math.nan)
         if here := one is reference:
-            error = low = math.nan
-            high = decibels(reference.error) if unit == "dB" else 100 * reference.error
-            high = high if math.isfinite(high) else math.nan
+            error, low, high = math.nan, math.nan, of_reference if math.isfinite(of_reference) else math.nan
         named = {"model": one.name, "is_mdr": one.is_mdr, "selected": one.name == comparison.model}
         timed = {"is_reference": here, "seconds": comparison.seconds_of(one)}
         rows.append({**named, **timed, "error": error, "low": low, "high": high, "unit": unit})
     return table_of(comparison.quantity, rows)
 
 
-def _apart(comparison: Comparison, one: Candidate, reference: Candidate, unit: str) -> tuple[float, float]:
-    """Distance from the reference, and its half-width of 95 %, in this unit."""
-    off = np.abs(differences(one, reference))
-    half = np.broadcast_to(error_of_difference(comparison, one, reference), off.shape)
+def _apart(comparison: Comparison, one: Candidate) -> tuple[float, float]:
+    """Distance from the reference, and its half-width of 95 % [dB]."""
+    reference = reference_of(comparison)
+    off, half = np.abs(differences(one, reference)), error_of_difference(comparison, one)
     within = counts(comparison, reference) & np.isfinite(off)
     if not within.any():
         return math.nan, math.nan
     if isinstance(comparison.scene, RailScene):
         at = int(np.argmax(np.where(within, off, -1.0)))
-        found = [float(of[at]) for of in (off, half)]
-    else:
-        found = [float(np.sqrt(np.mean(of[within] ** 2))) for of in (off, half)]
-    distance, error = found if unit == "dB" else map(per_cent, found)
-    return distance, error
+        return float(off[at]), float(half[at])
+    return float(np.sqrt(np.mean(off[within] ** 2))), float(np.sqrt(np.mean(half[within] ** 2)))

@@ -136,7 +136,11 @@ def _on_mdr(comparison: Comparison, springs: Candidate) -> str:
         return "not known to be enough"
     shown = tolerance.shown_beside(springs.error)
     if springs.answer is None:
-        errors = f"for {_asked_of(comparison.scene)} ({shown} claimed before a solve, {tolerance} wanted)"
+        scene = comparison.scene
+        heights = scene.roughness if isinstance(scene, RailScene) else scene.ground
+        # a report finds the mean over surfaces
+        asked = "this surface" if isinstance(heights, MeasuredHeights) else "this scene"
+        errors = f"for {asked} ({shown} claimed before a solve, {tolerance} wanted)"
     else:
         errors = f"({shown} found, {tolerance} wanted)"
     if springs.error > selection.tolerance:
@@ -144,12 +148,6 @@ def _on_mdr(comparison: Comparison, springs: Candidate) -> str:
     cheaper = selection.best
     others = f"; {cheaper.name} is cheaper" if cheaper is not None and cheaper.model is not springs.model else ""
     return f"enough {errors}{others}"
-
-
-def _asked_of(scene: Scene) -> str:
-    """What a claim is about: one surface that was measured, or one scene; a report finds the mean over surfaces."""
-    heights = scene.roughness if isinstance(scene, RailScene) else scene.ground
-    return "this surface" if isinstance(heights, MeasuredHeights) else "this scene"
 
 
 def result_of(comparison: Comparison, answer: Answer) -> str:
@@ -192,7 +190,8 @@ def what_would_help(comparison: Comparison) -> Iterator[str]:
     other = others and f"{others[0].name}, which was not asked and claims {tolerance.shown(others[0].claimed)}"
     if best is None or best.answer is None:
         if comparison.models:
-            yield f"what would help: {other or _another_scene(comparison)}"
+            another = f"a scene for which this does not hold: {comparison.models[-1].reason}"
+            yield f"what would help: {other or another}"
         return
     yield f"not reached: the tolerance of {tolerance}; the smallest error is {tolerance.shown_beside(best.error)}"
     if (left := best.estimate.of_scene) > min(tolerance.relative, best.answer.error / 2):
@@ -210,10 +209,6 @@ def what_would_help(comparison: Comparison) -> Iterator[str]:
     met = f"{other}; or " if other else ""
     met += f"a tolerance of {tolerance.shown(1.05 * best.answer.error)}"
     yield f"what would help: {met}; most of the error is {max(causes, key=causes.__getitem__)}"
-
-
-def _another_scene(comparison: Comparison) -> str:
-    return f"a scene for which this does not hold: {comparison.models[-1].reason}"
 
 
 def wrapped(lines: list[str], indent: int) -> Iterator[str]:

@@ -18,12 +18,12 @@ from validation.report.manifest import COMPARISON
 from validation.scenes.load import Scene, bundled_for_compare, files_of, load_scene, load_varied
 from validation.scenes.printable import printable
 from validation.selection.cells import format_seconds
-from validation.selection.compare import Comparison
+from validation.selection.compare import Comparison, SceneProblem
 from validation.selection.exported import filter_table, table_of_several, to_json_of
 from validation.selection.named_models import models_named
 from validation.selection.quantities import QUANTITIES, models_of, quantities_of
 from validation.selection.scene_model import SceneModel
-from validation.selection.several_scenes import SceneProblem, compare_scenes
+from validation.selection.several_scenes import compare_scenes
 from validation.selection.summary import findings, heading, summary
 from validation.selection.swept import Swept, swept_values
 from validation.selection.tolerance import tolerance_of
