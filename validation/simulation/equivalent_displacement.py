@@ -23,7 +23,7 @@ import mdr
 from mdr.approach_by_sorting import borne_by
 from validation.analysis.spectra import Bands, levels, waves
 from validation.analysis.statistics import Estimate, jackknifed
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.scenes.transverse_profile import TransverseProfile
 from validation.simulation.model_names import (
     BED,
@@ -48,8 +48,6 @@ from validation.theory.elliptic_contact import EllipticContact
 from validation.theory.line_spectrum import LineSpectrum
 from validation.theory.spring_input import geike_over_line, rolling_input_filter
 from validation.theory.transverse_structure import IsotropicGround, Ridges
-
-FloatArray = NDArray[np.float64]
 
 AREA = "area in contact"
 FINER = 3

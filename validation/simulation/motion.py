@@ -7,11 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from validation.engine.engine import FloatArray
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import ContactLaw, LinearLaw
 from validation.simulation.integrators import VELOCITY_VERLET, Integrator
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -6,15 +6,11 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
 import bem3d
 import mdr
+from validation.engine.engine import FloatArray
 from validation.simulation.method import Prepared, Resolution, Result, Solve, Values
 from validation.simulation.model_names import MDR
-
-FloatArray = NDArray[np.float64]
 
 MOST_ITERATIONS = 5000
 FIXED_AREA_RESIDUAL = 1e-4

@@ -18,9 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import bem3d
+from validation.engine.engine import FloatArray
 from validation.simulation.mean_contact import GapLaw, MeanContact, mean_contact, radii
 
-FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 HERTZ = 4 / 3

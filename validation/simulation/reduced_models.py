@@ -8,17 +8,15 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import special
 
 import bem3d
 import mdr
 from mdr.rolling_surface import weights_across
+from validation.engine.engine import FloatArray
 from validation.simulation.pressed_layer import PRESSURES, middle, press, roll_on_layer
 from validation.simulation.rolling_strip import HERTZ, SMOOTH, crop_to_reach
 from validation.theory.rolling import linear_force
-
-FloatArray = NDArray[np.float64]
 
 SPLIT = 2.0
 """q a between the long and the short waves of two scales."""

@@ -6,17 +6,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 import bem3d
 import mdr
 from validation.analysis.spectra import Bands, Waves, cross_levels, levels, waves
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.simulation import reduced_models as reduced
 from validation.simulation.rolling_strip import Strip
 from validation.simulation.track_spectrum import PiecewisePowerLaw
 
-FloatArray = NDArray[np.float64]
 Solve = Callable[[FloatArray, float], reduced.Reduced]
 
 READ, LAYER, LINE = "springs that read the surface", "pressed layer", "springs on a line"

@@ -7,23 +7,22 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 import bem3d
 import mdr
 from validation.analysis.spectra import levels, waves
+from validation.engine.engine import FloatArray
 from validation.engine.random_numbers import random_generator
 from validation.scenes.measured import MeasuredHeights
 from validation.simulation.contact_laws import BoundaryElementsLaw, LinearLaw, SpringsLaw
 from validation.simulation.motion import simulate_from_linear_motion
 from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.sampling import too_few
-from validation.simulation.surface import surface_on_grid
+from validation.simulation.surface import draw_track, surface_on_grid
+from validation.simulation.track_spectrum import InputSpectrum
 from validation.simulation.wheel_on_half_space import crop_to_reach, linear_law_3d
-from validation.simulation.wheel_on_springs import linear_law_1d, rolling_input
+from validation.simulation.wheel_on_springs import linear_law_1d
 from validation.theory.rolling import linear_force
-
-FloatArray = NDArray[np.float64]
 
 TRACKS, STRIPS = 1, 2
 """The spawn keys under which each kind of roughness draws."""
@@ -171,24 +170,11 @@ def springs_to_a_radius(quantity: RollingQuantity) -> int:
 
 
 def _tracks(quantity: RollingQuantity, tracks: int, seed: int) -> tuple[FloatArray, float]:
-    scene, ground = quantity.scene, quantity.scene.ground
-    coarse = RollingGrid.of(quantity, 1)
-    a = scene.contact_radius
-    springs = springs_to_a_radius(quantity)
-    points, spacing = coarse.along * springs, a / springs
-    geike = quantity.name == "force-rms"
-    feed = (lambda q: mdr.geike(q, ground.c2d)) if geike else rolling_input(ground, a)
-    drawn = [
-        mdr.rough_profile(
-            feed,
-            length=points * spacing,
-            points=points,
-            rng=random_generator(seed, TRACKS, i),
-            rms=ground.rms if geike else None,
-        )
-        for i in range(tracks)
-    ]
-    return np.array(drawn).T, spacing
+    ground, a, springs = quantity.scene.ground, quantity.scene.contact_radius, springs_to_a_radius(quantity)
+    points, spacing = RollingGrid.of(quantity, 1).along * springs, a / springs
+    rule: InputSpectrum = "geike" if quantity.name == "force-rms" else "rolling"
+    draw = partial(draw_track, ground, rule, contact_radius=a, rms=ground.rms, length=points * spacing, points=points)
+    return np.array([draw(rng=random_generator(seed, TRACKS, i)) for i in range(tracks)]).T, spacing
 
 
 def _springs_accelerated(quantity: RollingQuantity, height: FloatArray, spacing: float) -> FloatArray:

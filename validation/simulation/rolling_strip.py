@@ -12,19 +12,16 @@ from functools import cache, partial
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 import bem3d
 import mdr
 from validation.analysis.spectra import Bands, cross_levels, levels, waves
 from validation.engine.convergence import FEWEST, NotConvergedError
-from validation.engine.engine import Engine, Outcome
+from validation.engine.engine import Engine, FloatArray, Outcome
 from validation.engine.random_numbers import random_generator
-from validation.simulation.surface import draw_surface, middle_of
+from validation.simulation.surface import draw_surface, draw_track, middle_of
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, TrackSpectrum
 from validation.theory.rolling import Spectrum, force_spectrum_1d, force_spectrum_3d, linear_force
-
-FloatArray = NDArray[np.float64]
 
 K = TypeVar("K", bound=Hashable)
 
@@ -70,13 +67,8 @@ class RoughStrip:
 
     def track(self, input_spectrum: InputSpectrum, springs: int, realisation: int) -> FloatArray:
         """Heights of so many springs to a contact radius."""
-        unit = mdr.rough_profile(
-            TrackSpectrum(self.spectrum, input_spectrum),
-            length=self.length,
-            points=round(self.length * springs),
-            rng=random_generator(self.seed, TRACKS, realisation),
-            rms=1.0 if input_spectrum == "geike" else None,
-        )
+        rng, points = random_generator(self.seed, TRACKS, realisation), round(self.length * springs)
+        unit = draw_track(self.spectrum, input_spectrum, length=self.length, points=points, rng=rng, rms=1.0)
         return np.asarray(self.height * unit)
 
     def strips(self, cells: int, tolerance: float, count: int) -> list["Strip"]:

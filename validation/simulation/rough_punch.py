@@ -8,19 +8,17 @@ from functools import partial
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 import bem3d
 import mdr
 from validation.engine.convergence import FEWEST, NotConvergedError
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.roughness import Roughness
 from validation.simulation.surface import draw_surface
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, TrackSpectrum
-
-FloatArray = NDArray[np.float64]
 
 BEM, MDR = "bem3d", "mdr"
 METHODS = (BEM, MDR)

@@ -8,18 +8,15 @@ from functools import partial
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 import mdr
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.engine.random_numbers import random_generator
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import HertzLaw, SpringsLaw
 from validation.simulation.free_vibration import SCHEMES, SPEED, TENTHS, WHEEL
 from validation.simulation.integrators import INTEGRATORS
 from validation.simulation.motion import simulate
-
-FloatArray = NDArray[np.float64]
 
 HEIGHT = 0.5e-6
 """h_rms of Table 14.1 [m]."""

@@ -5,11 +5,10 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 import bem3d
 from mdr import SelfAffine
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.engine.random_numbers import random_generator
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.roughness import Roughness
@@ -19,8 +18,6 @@ from validation.simulation.motion import simulate, simulate_from_linear_motion
 from validation.simulation.surface import draw_surface, middle_of, surface_on_grid
 from validation.simulation.wheel_on_springs import WheelEnsemble
 from validation.theory.rolling import linear_force
-
-FloatArray = NDArray[np.float64]
 
 STRIPS = 4
 """Key of the random numbers of surfaces."""

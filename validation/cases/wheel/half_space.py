@@ -16,8 +16,9 @@ from validation.cases.wheel.features import FloatArray, linear_force_3d, linear_
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
+from validation.simulation.track_spectrum import InputSpectrum
 from validation.simulation.wheel_on_half_space import WheelStrip, simulate_strip
-from validation.simulation.wheel_on_springs import InputSpectrum, WheelEnsemble, simulate_ensemble
+from validation.simulation.wheel_on_springs import WheelEnsemble, simulate_ensemble
 from validation.theory import wheel as wheel_theory
 
 TABLE = load_wheel_scene("table_14_1")
