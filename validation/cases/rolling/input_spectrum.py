@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import partial
 from typing import Any
 
@@ -20,11 +20,12 @@ from validation.cases.rolling.settings import HEIGHT, Q, RollingSettings
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.simulation.rolling_strip import ROUNDING, level_1d, level_3d, roll_strips, roll_tracks, strip_levels
 from validation.simulation.rough_punch import (
-    InputProfiles,
+    InputRoughness,
+    Profiles,
     PunchRoughness,
     Surface,
     describe_failures,
-    press_input_profiles,
+    press_profiles,
     press_surface,
     require_converged,
     stacked,
@@ -81,6 +82,9 @@ class RollingInput(RollingSettings):
     def punch(self) -> PunchRoughness:
         return PunchRoughness(hurst=0.7, waves=(1, self.punch_cells // 4), seed=self.seed)
 
+    def profiles_of(self, rule: InputSpectrum) -> InputRoughness:
+        return InputRoughness(**asdict(self.punch), input_spectrum=rule)
+
     def below_the_end(self, spectrum: PiecewisePowerLaw) -> slice:
         """One-third octaves that begin below the end of a spectrum."""
         return slice(np.count_nonzero(np.array(self.bands.edges[:-1]) < spectrum.edges[-1] * 0.999))
@@ -108,9 +112,9 @@ def run(case: RollingInput, engine: Engine = SERIAL) -> Outcomes:
     ]
     pressed = engine.map(press_surface, surfaces)
     profiles = partial(
-        InputProfiles, punch=case.punch, cells=case.punch_cells, realisations=case.profiles, forces=case.forces
+        Profiles, realisations=case.profiles, points=16 * case.punch_cells, length=1.0, forces=case.forces
     )
-    on_profiles = engine.map(press_input_profiles, [profiles(input_spectrum=rule) for rule in INPUT_SPECTRA])
+    on_profiles = engine.map(press_profiles, [profiles(roughness=case.profiles_of(rule)) for rule in INPUT_SPECTRA])
     failures = describe_failures(surfaces, pressed)
     require_converged([stacked(pressed)], failures)
     found: dict[Any, Outcome] = {
@@ -199,7 +203,7 @@ def punches_of(result: Outcomes) -> Iterator[Series]:
         one = over[nearest(case.forces, 0.1)]
         part = Estimate(math.expm1(one.value), math.exp(one.value) * one.error, one.samples)
         yield Series(STIFFNESS, ONE_SIDED, (part,), where={FORCE: 0.1, **of}, margin=margin)
-        yield Series(PROFILE_HEIGHT, "springs", (float(mine["height"]),), where=of)
+        yield Series(PROFILE_HEIGHT, "springs", (case.profiles_of(rule).profile_height,), where=of)
 
 
 SPRINGS_ON: tuple[tuple[InputSpectrum, str, str], ...] = (
