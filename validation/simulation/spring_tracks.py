@@ -172,14 +172,7 @@ def linear_change(wheel: Wheel, track: RoughTrack, height: FloatArray) -> FloatA
 
 
 def filtered(wheel: Wheel, track: RoughTrack, height: FloatArray) -> mdr.RollingTrack:
-    return mdr.roll(
-        height,
-        spacing=track.spacing,
-        radius=wheel.radius,
-        modulus=wheel.modulus,
-        approach=wheel.approach,
-        contact="linear",
-    )
+    return mdr.roll(height, spacing=track.spacing, contact="linear", **wheel.smooth)
 
 
 def coarsen(track: RoughTrack) -> Outcome:
@@ -201,9 +194,7 @@ def coarsen(track: RoughTrack) -> Outcome:
 
 
 def force_at(height: FloatArray, spacing: float) -> FloatArray:
-    return mdr.rolling_force(
-        height, spacing=spacing, radius=WHEEL.radius, modulus=WHEEL.modulus, approach=WHEEL.approach
-    )
+    return mdr.rolling_force(height, spacing=spacing, **WHEEL.smooth)
 
 
 def level(force: FloatArray, track: RoughTrack) -> float:

@@ -104,8 +104,7 @@ def simulate_strip(strip: WheelStrip) -> Outcome:
 
 def linear_law_3d(wheel: Wheel, surface: FloatArray, spacing: float) -> LinearLaw:
     """A contact that keeps its radius, with the force of linear theory along the middle of this surface."""
-    smooth = {"spacing": spacing, "radius": wheel.radius, "modulus": wheel.modulus, "approach": wheel.approach}
-    return LinearLaw(wheel, (linear_force(surface, **smooth) - wheel.load)[:, np.newaxis])
+    return LinearLaw(wheel, (linear_force(surface, spacing=spacing, **wheel.smooth) - wheel.load)[:, np.newaxis])
 
 
 def crop_to_reach(surface: FloatArray, spacing: float, wheel: Wheel) -> FloatArray:
