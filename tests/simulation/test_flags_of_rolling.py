@@ -15,7 +15,6 @@ from tests.simulation.test_calibration import wheel
 from validation.benchmarks.solvers.throughput import RolledStrip
 from validation.benchmarks.work_precision import rolling as rolling_chart
 from validation.cases.rolling.ridges import RollingOverRidges
-from validation.cases.rolling.track_stiffness import TrackStiffness
 from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.scenes.load import load_scene
 from validation.scenes.transverse_profile import TransverseProfile
@@ -48,7 +47,6 @@ RAIL = RailStrip(
 )
 ON_A_RAIL = "validation.simulation.equivalent_displacement:roll_boundary_elements"
 RIDGES = ridges.RidgesTrack(ridges=RollingOverRidges(length=8, shortest=4.0).ridges, method="bem3d", cells=4)
-LOADED = rolling_strip.LoadedStrip(strip=STRIP, bands=TrackStiffness().bands)
 MOVING = WheelOnRail(strip=RAIL, mass=500.0, speed=22.0, model=wheel_on_rail.BEM, tolerance=1e-6)
 HELD = HeldWheel(strip=RAIL, model=BEM, first=0, last=4, tolerance=1e-6)
 ROLLERS = ("bem3d.roll", "bem3d.rolling_force", "bem3d.RollingContact")
@@ -76,7 +74,7 @@ def by_a_model(target):
 PATHS = {
     "validation.simulation.rolling_strip:roll_strip": lambda: roll_strip(STRIP),
     "validation.simulation.ridges:_roll": lambda: ridges.roll_over(RIDGES),
-    "validation.simulation.rolling_strip:roll_loaded_strip": lambda: rolling_strip.roll_loaded_strip(LOADED),
+    "validation.simulation.rolling_strip:roll_loaded_strip": lambda: rolling_strip.roll_loaded_strip(STRIP),
     "validation.simulation.reduced_models:boundary_elements": lambda: roll_by_all(STRIP),
     "validation.simulation.rolling_levels:by_boundary_elements": lambda: by_a_model(Target(wheel(), "force-rms")),
     "validation.simulation.contact_laws:BoundaryElementsLaw": in_time,

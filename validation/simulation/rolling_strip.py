@@ -198,23 +198,17 @@ def levels_beside_linear(force: FloatArray, linear: FloatArray, spacing: float, 
     }
 
 
-@dataclass(frozen=True, kw_only=True)
-class LoadedStrip:
-    """One rough strip under a wheel of constant load."""
-
-    strip: Strip
-    bands: Bands
-
-
-def roll_loaded_strip(problem: LoadedStrip) -> Outcome:
-    """Boundary elements: `moments` of k = dF/dd at a constant contact area, over 2 E* a; failed: positions."""
-    strip, spacing = problem.strip, 1 / problem.strip.cells
-    height = np.ascontiguousarray(crop_to_reach(strip.surface(), spacing))
-    wheel = bem3d.RollingContact(
-        bem3d.Track(height=height, spacing=spacing, radius=1.0, modulus=1.0), tolerance=strip.tolerance
+def roll_loaded_strip(strip: Strip) -> Outcome:
+    """Boundary elements under a constant load: k = dF/dd at a constant contact area, over 2 E* a; failed: positions."""
+    track = bem3d.Track(
+        height=np.ascontiguousarray(crop_to_reach(strip.surface(), 1 / strip.cells)),
+        spacing=1 / strip.cells,
+        radius=1.0,
+        modulus=1.0,
     )
-    stiffness = np.array([tangent_stiffness(wheel, position) for position in range(len(height))]) / STIFFNESS
-    return {**moments(stiffness, spacing, problem.bands), "failed": np.array(float(np.isnan(stiffness).sum()))}
+    wheel = bem3d.RollingContact(track, tolerance=strip.tolerance)
+    stiffness = np.array([tangent_stiffness(wheel, position) for position in range(len(track.height))]) / STIFFNESS
+    return {"stiffness": stiffness, "failed": np.array(float(np.isnan(stiffness).sum()))}
 
 
 def tangent_stiffness(wheel: bem3d.RollingContact, position: int) -> float:
@@ -233,16 +227,16 @@ def half_space(shape: tuple[int, int], spacing: float) -> bem3d.HalfSpace:
 
 
 def roll_loaded_tracks(tracks: Tracks) -> Outcome:
-    """One-sided springs: `moments` of the stiffness along each track."""
+    """One-sided springs: `stiffness_moments` along each track."""
     spacing = 1 / tracks.springs
     with warnings.catch_warnings():
         # the smooth contact has springs enough, which is what the warning is about
         warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
         rolled = [mdr.roll(h, spacing=spacing, radius=1.0, modulus=1.0, force=HERTZ) for h in tracks.heights()]
-    return moments(np.array([one.stiffness for one in rolled]) / STIFFNESS, spacing, tracks.bands)
+    return stiffness_moments(np.array([one.stiffness for one in rolled]) / STIFFNESS, spacing, tracks.bands)
 
 
-def moments(stiffness: FloatArray, spacing: float, bands: Bands) -> Outcome:
+def stiffness_moments(stiffness: FloatArray, spacing: float, bands: Bands) -> Outcome:
     """Mean and variance along a track, and the level int C_k dq in each band; along the last axis."""
     return {
         "mean": np.asarray(stiffness.mean(axis=-1)),

@@ -3,10 +3,12 @@
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, ClassVar
 
 import numpy as np
 
+import bem3d
 from validation.analysis.statistics import POWER_DECIBEL
 from validation.benchmarks.found_models import TimedProblem, configurations_of
 from validation.benchmarks.timing import FINISHED, Configuration, Timing, along, time_in_turns
@@ -14,7 +16,7 @@ from validation.engine.engine import Outcome
 from validation.simulation import model_names
 from validation.simulation.method import FloatArray, Method, Prepared, Resolution, Values
 from validation.simulation.model import Model
-from validation.simulation.pressed import PressedGrid
+from validation.simulation.pressed import MOST_ITERATIONS, press_on_grid
 
 CLOSED, FILTER_1D, FILTER_3D = model_names.CLOSED_FORM, model_names.FILTER_1D, model_names.FILTER_3D
 MDR, MDR_ROLLING = model_names.MDR, model_names.MDR_ROLLING
@@ -114,11 +116,12 @@ class ChartProblem(ABC):
 
     @property
     def method(self) -> Method:
-        return PressedGrid()
+        return NamedMethod("BEM", press_on_grid)
 
     @property
     def published(self) -> Method:
-        return PressedGrid(POLONSKY_KEER, polonsky_keer=True)
+        solve = partial(bem3d.solve_polonsky_keer, max_iterations=MOST_ITERATIONS)
+        return NamedMethod(POLONSKY_KEER, press_on_grid, (solve,))
 
     @property
     @abstractmethod

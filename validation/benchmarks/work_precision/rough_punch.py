@@ -8,10 +8,10 @@ import numpy as np
 import bem3d
 import mdr
 from validation.benchmarks.timing import Configuration, along
-from validation.benchmarks.work_precision.problem import ChartProblem, Grids, Quantity, logarithm
+from validation.benchmarks.work_precision.problem import MDR, ChartProblem, Grids, NamedMethod, Quantity, logarithm
 from validation.scenes.indentation import IndentationScene
 from validation.simulation.method import FloatArray, Values
-from validation.simulation.pressed import FIXED_AREA_RESIDUAL, PressedSprings
+from validation.simulation.pressed import FIXED_AREA_RESIDUAL, press_on_springs
 from validation.simulation.rough_punch import PunchRoughness
 
 
@@ -63,7 +63,8 @@ class RoughPunchProblem(ChartProblem):
 
     def configurations(self) -> tuple[Configuration, ...]:
         own: dict[str, Any] = {"realisations": self.profiles, "paired": False}
-        return (*along(PressedSprings(), self, self.springs, "# springs a side", **own), *self.boundary_elements())
+        springs = along(NamedMethod(MDR, press_on_springs), self, self.springs, "# springs a side", **own)
+        return (*springs, *self.boundary_elements())
 
     def load(self, cells: int) -> dict[str, float]:
         return {"force": self.force * self.roughness.height}
