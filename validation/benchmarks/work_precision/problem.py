@@ -75,6 +75,10 @@ class CountedSpectrum:
         return self.c2d(q)
 
 
+PUBLISHED = partial(bem3d.solve_polonsky_keer, max_iterations=MOST_ITERATIONS)
+"""One object: methods are known by their options."""
+
+
 @dataclass(frozen=True)
 class NamedMethod:
     """A function of a scene, a resolution and these options that prepares a method."""
@@ -120,8 +124,7 @@ class ChartProblem(ABC):
 
     @property
     def published(self) -> Method:
-        solve = partial(bem3d.solve_polonsky_keer, max_iterations=MOST_ITERATIONS)
-        return NamedMethod(POLONSKY_KEER, press_on_grid, (solve,))
+        return NamedMethod(POLONSKY_KEER, press_on_grid, (PUBLISHED,))
 
     @property
     @abstractmethod
