@@ -20,7 +20,7 @@ from validation.cases.rail.filters import linear_filter, scene_of
 from validation.cases.rail.rolled_filters import OVER_BEM, RolledFilters, RolledFiltersResult
 from validation.cases.rolling import force_spectrum
 from validation.cases.rolling.force_spectrum import SPRINGS
-from validation.simulation.equivalent_displacement import BEM, LINEAR, LINEAR_ON_LINE, SPRINGS_ON_LINE
+from validation.simulation.model_names import BEM, LINEAR, LINEAR_ON_LINE, SPRINGS_ON_LINE
 from validation.simulation.rail_strip import strip_bands
 from validation.theory.rolling import level_ratio
 

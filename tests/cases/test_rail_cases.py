@@ -60,7 +60,7 @@ def test_linear_theory_of_the_ellipse_over_isotropic_ground_is_the_published_tab
 def test_a_strip_of_ridges_has_the_filter_of_a_row_of_springs_in_boundary_elements():
     strip = strip_of("ridges")
     rolled = displacement.roll_rail(displacement.RolledRail(strip=strip, models=(BEM,), tolerance=1e-9))
-    expected = strip.along_middle(displacement.LINEAR_MODELS[LINEAR_ON_LINE](strip.contact))
+    expected = strip.along_middle(displacement.transfer_of(LINEAR_ON_LINE, strip.contact))
     # six cells to the semi-axis: the error of the grid is a twentieth of the track
     assert np.abs(rolled[BEM] - expected).max() < 0.05 * np.abs(expected).max()
 

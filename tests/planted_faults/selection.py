@@ -38,7 +38,7 @@ from validation.selection import (
     swept,
     tolerance,
 )
-from validation.simulation import calibrated_range, calibration, rolling_claims, sampling
+from validation.simulation import calibrated_range, calibration, rolling_claims, sampling, surface
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
 from validation.simulation import rolling_quantity as rolling_question
@@ -113,8 +113,8 @@ def another_strip_on_the_coarse_grid(target, resolution):
     return (lambda strip: solve(strip + 1)) if resolution == coarse else solve
 
 
-def geike_for_what_rolls(ground, contact_radius):
-    return functools.partial(mdr.geike, c2d=ground.c2d)
+def geike_for_what_rolls(ground, rule, **settings):
+    return surface.draw_track(ground, "geike", **settings)
 
 
 real_weighting, real_models_of = contact_force.a_weighting, compare.models_of
@@ -314,7 +314,7 @@ FAULTS = {
         functools.partial(test_claims.test_two_grids_of_second_order_leave_what_they_miss, finest=True),
     ),
     "Geike's spectrum for springs that roll": (
-        (rolled, "rolling_input", geike_for_what_rolls),
+        (rolled, "draw_track", geike_for_what_rolls),
         functools.partial(
             test_claims.test_springs_on_low_roughness_are_linear_theory_in_the_mean_over_bands, "force-spectrum"
         ),

@@ -1,8 +1,8 @@
 """Faults planted in what `tests/simulation` looks at: where, what is wrong there, and the test that must catch it."""
 
 import dataclasses
-import functools
 import types
+from functools import partial
 
 import numpy as np
 
@@ -164,7 +164,7 @@ def told_of_none(solve):
 
 def without_its_flag(place, solve, path):
     """A solve that keeps what failed to itself, and the test that rolls it over a position without a solution."""
-    test = functools.partial(test_flags_of_rolling.test_a_position_without_a_solution_is_flagged_and_is_no_number, path)
+    test = partial(test_flags_of_rolling.test_a_position_without_a_solution_is_flagged_and_is_no_number, path)
     return (place, solve, told_of_none(getattr(place, solve))), test
 
 
@@ -190,14 +190,12 @@ FAULTS = {
         test_flags_of_rolling.test_a_position_without_a_solution_has_no_number,
     ),
     "a reduced model on a layer that has not converged": (
-        (bem3d, "solve", functools.partial(bem3d.solve, raise_on_failure=False)),
-        functools.partial(
-            test_flags_of_rolling.test_a_reduced_model_on_a_contact_without_a_solution_has_no_force, "solve"
-        ),
+        (bem3d, "solve", partial(bem3d.solve, raise_on_failure=False)),
+        partial(test_flags_of_rolling.test_a_reduced_model_on_a_contact_without_a_solution_has_no_force, "solve"),
     ),
     "a finer grid half a cell aside": (
         (light_punch, "refined", half_a_fine_cell_aside),
-        functools.partial(test_light_punch.test_the_same_numbers_as_by_transforms, 128),
+        partial(test_light_punch.test_the_same_numbers_as_by_transforms, 128),
     ),
     "half of a light force": (
         (light_punch.bem3d, "indent_few_cells", half_of_a_light_force),
@@ -213,7 +211,7 @@ FAULTS = {
     ),
     "light loads that are not carried on": (
         (light_punch, "press_surface", heavier_loads_as_light_ones),
-        functools.partial(test_light_punch.test_heavier_loads_go_on_by_transforms, "OVERLAPPING", 1),
+        partial(test_light_punch.test_heavier_loads_go_on_by_transforms, "OVERLAPPING", 1),
     ),
     "a fitted radius in place of the transverse profile": (
         (equivalent_displacement, "heights_across", on_the_fitted_radius),
@@ -229,19 +227,17 @@ FAULTS = {
     ),
     "long waves that do not pass under springs on the rolling spectrum": (
         (equivalent_displacement, "rolling_input_filter", scaled(spring_input.rolling_input_filter, 1.1)),
-        functools.partial(
-            test_rail_filters.test_long_waves_pass_under_every_model_but_springs_on_geikes_spectrum, "isotropic"
-        ),
+        partial(test_rail_filters.test_long_waves_pass_under_every_model_but_springs_on_geikes_spectrum, "isotropic"),
     ),
     "the line trace taken for Geike's spectrum under springs on a rail": (
         (equivalent_displacement, "geike_over_line", lambda wavenumber, ground: np.ones_like(wavenumber)),
-        functools.partial(
+        partial(
             test_rail_filters.test_long_waves_under_springs_on_geikes_spectrum_are_off_by_his_rule_over_the_line, 2.0
         ),
     ),
     "a one-sided spectrum of Geike's rule under springs on a rail": (
         (equivalent_displacement, "geike_over_line", scaled(spring_input.geike_over_line, 2.0)),
-        functools.partial(
+        partial(
             test_rail_filters.test_long_waves_under_springs_on_geikes_spectrum_are_off_by_his_rule_over_the_line, 1.0
         ),
     ),
@@ -259,19 +255,19 @@ FAULTS = {
     ),
     "rms of the ensemble for that of each": (
         (PunchRoughness, "_normalised", lambda roughness, height: height),
-        functools.partial(test_rough_punches.test_heights_are_normalised_as_they_say, "bem3d", 1.0),
+        partial(test_rough_punches.test_heights_are_normalised_as_they_say, "bem3d", 1.0),
     ),
     "rms of each for that of the ensemble": (
         (PunchRoughness, "_normalised", lambda roughness, height: height * roughness.height / height.std()),
-        functools.partial(test_rough_punches.test_heights_are_normalised_as_they_say, "mdr", 1.0),
+        partial(test_rough_punches.test_heights_are_normalised_as_they_say, "mdr", 1.0),
     ),
     "interface and half-space in series": (
         (Layer, "log_kappa", lambda layer, stiffness: -np.log(1 / stiffness - 1 / layer.flat)),
-        functools.partial(test_rough_punches.test_the_exponent_of_the_interface_is_found_behind_the_punch, 1.0),
+        partial(test_rough_punches.test_the_exponent_of_the_interface_is_found_behind_the_punch, 1.0),
     ),
     "the punch taken for its interface": (
         (Layer, "log_kappa", lambda layer, stiffness: np.log(stiffness)),
-        functools.partial(test_rough_punches.test_the_exponent_of_the_interface_is_found_behind_the_punch, 1.0),
+        partial(test_rough_punches.test_the_exponent_of_the_interface_is_found_behind_the_punch, 1.0),
     ),
     "half of the displacement under the mean contact": (
         (mean_contact, "ring_operator", scaled(mean_contact.ring_operator, 0.5)),
@@ -279,9 +275,7 @@ FAULTS = {
     ),
     "a trial on a pressed layer without its step": (
         (pressed_layer, "_where_no_step_is_left", lambda forces, steps, approach: forces[len(forces) // 2]),
-        functools.partial(
-            test_reduced_models.test_low_waves_under_a_pressed_layer_have_the_filter_of_the_half_space, (2, 0)
-        ),
+        partial(test_reduced_models.test_low_waves_under_a_pressed_layer_have_the_filter_of_the_half_space, (2, 0)),
     ),
     "E for E* in the force, not in the approach at rest": (
         (mdr.RollingEnsemble, "force", scaled(force_in_step, E_FOR_E_STAR)),
@@ -289,7 +283,7 @@ FAULTS = {
     ),
     "load forgotten in the equation of motion": (
         (test_wheel_motion, "simulate", without_load),
-        functools.partial(
+        partial(
             test_wheel_motion.test_on_a_smooth_track_a_wheel_stays_at_rest,
             contact_laws.HertzLaw(test_wheel_motion.WHEEL, 2),
             4 * test_wheel_motion.ULP,
@@ -297,11 +291,11 @@ FAULTS = {
     ),
     "explicit Euler where nothing is asked for": (
         (wheel_in_motion.simulate, "__kwdefaults__", by_another(integrators.EXPLICIT_EULER)),
-        functools.partial(test_wheel_motion.test_time_reversal, 0.05, 0.0),
+        partial(test_wheel_motion.test_time_reversal, 0.05, 0.0),
     ),
     "symplectic Euler where nothing is asked for": (
         (wheel_in_motion.simulate, "__kwdefaults__", by_another(integrators.SYMPLECTIC_EULER)),
-        functools.partial(test_wheel_motion.test_free_vibration_of_a_linear_contact_is_the_exact_one_of_leapfrog, 0.3),
+        partial(test_wheel_motion.test_free_vibration_of_a_linear_contact_is_the_exact_one_of_leapfrog, 0.3),
     ),
     "the step of a cell for that of two in Runge and Kutta": (
         (
@@ -309,7 +303,7 @@ FAULTS = {
             "SCHEMES",
             {**test_time_stepping.SCHEMES, "Runge-Kutta": half_a_step(integrators.RUNGE_KUTTA)},
         ),
-        functools.partial(test_time_stepping.test_order_of_a_scheme_on_a_free_vibration, "Runge-Kutta"),
+        partial(test_time_stepping.test_order_of_a_scheme_on_a_free_vibration, "Runge-Kutta"),
     ),
     "velocity Verlet with the force of the beginning alone": (
         (
@@ -320,19 +314,19 @@ FAULTS = {
                 "velocity Verlet": dataclasses.replace(integrators.VELOCITY_VERLET, march=old_force_in_the_velocity),
             },
         ),
-        functools.partial(test_time_stepping.test_symplectic_schemes_keep_the_energy, "velocity Verlet", 1.5),
+        partial(test_time_stepping.test_symplectic_schemes_keep_the_energy, "velocity Verlet", 1.5),
     ),
     "factor 4 lost in the leakage": (
         (wheel_theory, "leakage", scaled(wheel_theory.leakage, 4.0)),
-        functools.partial(test_periodic_motion.test_leakage_is_the_spectrum_of_a_ramp, 64),
+        partial(test_periodic_motion.test_leakage_is_the_spectrum_of_a_ramp, 64),
     ),
     "a period a thousandth too long": (
         (wheel_theory, "hertz_period", scaled(wheel_theory.hertz_period, 1.001)),
-        functools.partial(test_time_stepping.test_period_of_free_vibration_by_small_steps, 1.5),
+        partial(test_time_stepping.test_period_of_free_vibration_by_small_steps, 1.5),
     ),
     "a period without lift-off": (
         (wheel_theory, "_other_turning_point", held_at_the_edge),
-        functools.partial(test_time_stepping.test_period_of_free_vibration_by_small_steps, 2.2),
+        partial(test_time_stepping.test_period_of_free_vibration_by_small_steps, 2.2),
     ),
     "omega / omega_0 for omega_0 / omega": (
         (wheel_theory, "acceleration_over_force", inverted),
@@ -348,7 +342,7 @@ FAULTS = {
     ),
     "a jump that is not there": (
         (wheel_in_motion.Motion, "jump", property(without_a_jump)),
-        functools.partial(test_wheel_motion.test_the_change_of_velocity_is_the_mean_acceleration, "linear"),
+        partial(test_wheel_motion.test_the_change_of_velocity_is_the_mean_acceleration, "linear"),
     ),
     "shooting without a correction": (
         (test_periodic_motion, "periodic_motion", one_copy),
@@ -356,9 +350,7 @@ FAULTS = {
     ),
     "a steady motion in continuous time": (
         (contact_laws.LinearLaw, "steady_state", softer_steady),
-        functools.partial(
-            test_wheel_motion.test_the_steady_motion_is_that_of_a_dense_solve_and_repeats_itself, 50, 0.1
-        ),
+        partial(test_wheel_motion.test_the_steady_motion_is_that_of_a_dense_solve_and_repeats_itself, 50, 0.1),
     ),
     "a linear spring for Hertz in what lifts a wheel": (
         (

@@ -10,12 +10,11 @@ import numpy as np
 import pytest
 
 import bem3d
-from tests.simulation.power_law_ground import power_law_ground
+from tests.simulation.power_law_ground import isotropic_strip
 from tests.simulation.test_calibration import wheel
 from validation.benchmarks.solvers.throughput import RolledStrip
 from validation.benchmarks.work_precision import rolling as rolling_chart
 from validation.cases.rolling.ridges import RollingOverRidges
-from validation.cases.rolling.track_stiffness import TrackStiffness
 from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.scenes.load import load_scene
 from validation.scenes.transverse_profile import TransverseProfile
@@ -32,7 +31,6 @@ from validation.simulation.model_names import BEM
 from validation.simulation.models.boundary_elements_rolling import MODEL as ROLLING
 from validation.simulation.models.rail import BOUNDARY_ELEMENTS
 from validation.simulation.rail_sound import HeldWheel, roll_held_wheel
-from validation.simulation.rail_strip import RailStrip
 from validation.simulation.reduced_strip import roll_by_all
 from validation.simulation.rolling_strip import RoughStrip, roll_strip
 from validation.simulation.track_spectrum import self_affine
@@ -41,14 +39,9 @@ from validation.simulation.wheel_on_rail import WheelOnRail, roll_and_move
 ROOT = Path(bem3d.__file__).parents[1]
 
 (STRIP,) = RoughStrip(spectrum=self_affine(0.7, 1.0, 4.0), height=0.2, length=8.0, width=6.0, seed=1).strips(6, 1e-6, 1)
-RAIL = RailStrip(
-    ground=power_law_ground(3e-6, 2 * np.pi / 0.06, 2 * np.pi / 0.015),
-    radii=(0.46, 0.3),
-    **{"force": 5e4, "modulus": 115e9, "length": 0.06, "width": 0.06, "spacing": 1.5e-3, "realisation": 0, "seed": 3},
-)
+RAIL = isotropic_strip(3e-6, 0.06, 1.5e-3)
 ON_A_RAIL = "validation.simulation.equivalent_displacement:roll_boundary_elements"
 RIDGES = ridges.RidgesTrack(ridges=RollingOverRidges(length=8, shortest=4.0).ridges, method="bem3d", cells=4)
-LOADED = rolling_strip.LoadedStrip(strip=STRIP, bands=TrackStiffness().bands)
 MOVING = WheelOnRail(strip=RAIL, mass=500.0, speed=22.0, model=wheel_on_rail.BEM, tolerance=1e-6)
 HELD = HeldWheel(strip=RAIL, model=BEM, first=0, last=4, tolerance=1e-6)
 ROLLERS = ("bem3d.roll", "bem3d.rolling_force", "bem3d.RollingContact")
@@ -76,7 +69,7 @@ def by_a_model(target):
 PATHS = {
     "validation.simulation.rolling_strip:roll_strip": lambda: roll_strip(STRIP),
     "validation.simulation.ridges:_roll": lambda: ridges.roll_over(RIDGES),
-    "validation.simulation.rolling_strip:roll_loaded_strip": lambda: rolling_strip.roll_loaded_strip(LOADED),
+    "validation.simulation.rolling_strip:roll_loaded_strip": lambda: rolling_strip.roll_loaded_strip(STRIP),
     "validation.simulation.reduced_models:boundary_elements": lambda: roll_by_all(STRIP),
     "validation.simulation.rolling_levels:by_boundary_elements": lambda: by_a_model(Target(wheel(), "force-rms")),
     "validation.simulation.contact_laws:BoundaryElementsLaw": in_time,

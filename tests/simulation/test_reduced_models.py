@@ -22,7 +22,7 @@ MODELS = (
     reduced.one_sided_in_two_dimensions,
     reduced.one_sided_bed,
     reduced.frozen_weights,
-    reduced.pressed_layer,
+    roll_on_layer,
     reduced.boundary_elements,
 )
 
@@ -97,9 +97,9 @@ def test_over_ridges_weights_across_change_nothing():
 def test_a_pressed_layer_follows_boundary_elements_position_by_position_where_springs_do_not():
     strip = rough_strip(0.5)
     truth = reduced.boundary_elements(strip, DX).force
-    off = [np.std(model(strip, DX).force - truth) for model in (reduced.pressed_layer, reduced.springs_that_read)]
+    off = [np.std(model(strip, DX).force - truth) for model in (roll_on_layer, reduced.springs_that_read)]
     assert off[0] < 0.5 * off[1]
-    assert np.mean(reduced.pressed_layer(strip, DX).force) == pytest.approx(np.mean(truth), rel=0.03)
+    assert np.mean(roll_on_layer(strip, DX).force) == pytest.approx(np.mean(truth), rel=0.03)
 
 
 def test_both_scales_are_the_strip():

@@ -1,36 +1,23 @@
 """A wheel on a rail: what lifts it at constant load and in motion, on boundary elements and on springs."""
 
 import warnings
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import mdr
-from tests.simulation.power_law_ground import power_law_ground
+from tests.simulation.power_law_ground import isotropic_strip
 from validation.simulation import wheel_on_rail
 from validation.simulation.contact_laws import HertzLaw
 from validation.simulation.motion import simulate
-from validation.simulation.rail_strip import RailStrip
 from validation.simulation.wheel_on_rail import BEM, SPRINGS, SurfaceSpringsLaw, WheelOnRail
 
 CELL = 1e-3
-WAVES = 2 * np.pi / 0.06, 2 * np.pi / 0.015
-STRIP = RailStrip(
-    ground=power_law_ground(1e-7, *WAVES),
-    radii=(0.46, 0.3),
-    force=5e4,
-    modulus=115e9,
-    length=0.18,
-    width=0.06,
-    spacing=CELL,
-    realisation=0,
-    seed=3,
-)
+STRIP = isotropic_strip(1e-7, 0.18, CELL)
 
 
 def problem(model, rms=1e-7):
-    strip = replace(STRIP, ground=power_law_ground(rms, *WAVES))
+    strip = isotropic_strip(rms, 0.18, CELL)
     return WheelOnRail(strip=strip, mass=500.0, speed=22.0, model=model, tolerance=1e-6)
 
 

@@ -19,6 +19,7 @@ from validation.engine.sources import version_behind, version_of_numerics
 from validation.engine.termination import RESUME_NOTE, WorkerLostError
 from validation.engine.workers import Workers
 
+FloatArray = stored.FloatArray
 Outcome = stored.Outcome
 P = TypeVar("P")
 K = TypeVar("K")

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from validation.engine.files import is_plain, is_there, read_plain, write_whole
 
-Outcome = dict[str, NDArray[np.float64]]
+FloatArray = NDArray[np.float64]
+Outcome = dict[str, FloatArray]
 
 FORMAT = 2
 """Format 1 had no list of its arrays."""

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 from validation.theory.closed_forms import circular_punch_stiffness, hertz_approach, hertz_contact_radius
 from validation.theory.wheel import eigenfrequency
@@ -46,6 +47,11 @@ class Wheel:
     def eigenfrequency(self) -> float:
         """omega_eigen = sqrt(2 a E* / M) [rad/s]."""
         return eigenfrequency(contact_radius=self.contact_radius, modulus=self.modulus, mass=self.mass)
+
+    @property
+    def smooth(self) -> dict[str, Any]:
+        """Radius, modulus and approach of its smooth contact, as `mdr` and `bem3d` take them."""
+        return {"radius": self.radius, "modulus": self.modulus, "approach": self.approach}
 
 
 class OnHalfSpace:

@@ -13,6 +13,7 @@ import math
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -23,33 +24,16 @@ import mdr
 from mdr.approach_by_sorting import borne_by
 from validation.analysis.spectra import Bands, levels, waves
 from validation.analysis.statistics import Estimate, jackknifed
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.scenes.transverse_profile import TransverseProfile
-from validation.simulation.model_names import (
-    BED,
-    BEM,
-    LINE,
-    LINEAR,
-    LINEAR_GEIKE,
-    LINEAR_ON_LINE,
-    LINEAR_ON_MEAN,
-    LINEAR_ROLLING,
-    ONE_SIDED_BED,
-    SPRINGS_GEIKE,
-    SPRINGS_ON_LINE,
-    SPRINGS_ON_MEAN,
-    SPRINGS_ROLLING,
-    SPRINGS_THAT_READ,
-    twin_of,
-)
+from validation.simulation import model_names as named
+from validation.simulation.model_names import BEM, LINE, twin_of
 from validation.simulation.rail_strip import RailStrip, Transfer
 from validation.theory.contact_filters import half_space_filter, row_of_means_filter, spring_bed_filter
 from validation.theory.elliptic_contact import EllipticContact
 from validation.theory.line_spectrum import LineSpectrum
 from validation.theory.spring_input import geike_over_line, rolling_input_filter
 from validation.theory.transverse_structure import IsotropicGround, Ridges
-
-FloatArray = NDArray[np.float64]
 
 AREA = "area in contact"
 FINER = 3
@@ -59,29 +43,25 @@ MOST_NUMBERS = 2**21
 """Springs of a bed times positions that are sorted at once."""
 
 
-def rolling_input(contact: EllipticContact) -> Transfer:
-    """From the surface to a line that has its rolling spectrum."""
-    return lambda along, across: rolling_input_filter(along, across, semi_axes=contact.semi_axes)
-
-
-def springs_along(contact: EllipticContact) -> Transfer:
+def springs_along(along: FloatArray, across: FloatArray, *, semi_axes: tuple[float, float]) -> FloatArray:
     """(14.11), whatever lies across."""
-    return lambda along, across: np.sinc((along + 0 * across) * contact.along / np.pi)
+    return np.sinc((along + 0 * across) * semi_axes[0] / np.pi)
 
 
-LINEAR_MODELS: Mapping[str, Callable[[EllipticContact], Transfer]] = {
-    LINE: lambda contact: lambda along, across: np.ones_like(along + across),
-    LINEAR: lambda contact: lambda along, across: half_space_filter(along, across, semi_axes=contact.semi_axes),
-    BED: lambda contact: lambda along, across: spring_bed_filter(along, across, semi_axes=contact.semi_axes),
-    LINEAR_ON_LINE: springs_along,
-    LINEAR_ON_MEAN: lambda contact: (
-        lambda along, across: row_of_means_filter(along, across, semi_axes=contact.semi_axes)
-    ),
-    LINEAR_ROLLING: lambda contact: (
-        lambda along, across: rolling_input(contact)(along, across) * springs_along(contact)(along, across)
-    ),
+LINEAR_MODELS: Mapping[str, Callable[..., FloatArray]] = {
+    LINE: lambda along, across, **axes: np.ones_like(along + across),
+    named.LINEAR: half_space_filter,
+    named.BED: spring_bed_filter,
+    named.LINEAR_ON_LINE: springs_along,
+    named.LINEAR_ON_MEAN: row_of_means_filter,
+    named.LINEAR_ROLLING: lambda *waves, **axes: rolling_input_filter(*waves, **axes) * springs_along(*waves, **axes),
 }
-"""From the smooth contact to H(k_x, k_y)."""
+"""H(k_x, k_y) of the smooth contact with these semi-axes."""
+
+
+def transfer_of(model: str, contact: EllipticContact) -> Transfer:
+    """Of one of `LINEAR_MODELS`."""
+    return partial(LINEAR_MODELS[model], semi_axes=contact.semi_axes)
 
 
 def geike_power(line: LineSpectrum, contact: EllipticContact, edges: FloatArray) -> FloatArray:
@@ -90,7 +70,7 @@ def geike_power(line: LineSpectrum, contact: EllipticContact, edges: FloatArray)
     int sin^2(q a_x) / (q a_x)^2 pi q C_2D dq over int C_line dq, between ascending wavenumbers [rad/m]. Raises
     ValueError where no isotropic surface has such a line.
     """
-    springs, ground = springs_along(contact), IsotropicGround(line)
+    springs, ground = transfer_of(named.LINEAR_ON_LINE, contact), IsotropicGround(line)
     return Ridges().band_power(
         line,
         lambda along, across: np.sqrt(geike_over_line(along, ground)) * springs(along, across),
@@ -104,7 +84,7 @@ def geike_track(strip: RailStrip, line: str = LINE) -> FloatArray:
 
     The waves keep their phases, and the scatter of their amplitudes. line: by which of `LINEAR_MODELS`.
     """
-    track = strip.along_middle(LINEAR_MODELS[line](strip.contact))
+    track = strip.along_middle(transfer_of(line, strip.contact))
     k = np.abs(2 * np.pi * np.fft.fftfreq(track.size, strip.spacing))
     of_line = strip.variance.sum(axis=1) * strip.width / (2 * math.pi)
     mapped = math.pi * k * strip.variance[:, 0] * (strip.width / (2 * math.pi)) ** 2
@@ -112,11 +92,16 @@ def geike_track(strip: RailStrip, line: str = LINE) -> FloatArray:
     return np.asarray(np.fft.ifft(np.sqrt(ratio) * np.fft.fft(track)).real)
 
 
+def rolling_track(strip: RailStrip) -> FloatArray:
+    """A line that has the rolling spectrum of the surface."""
+    return strip.along_middle(partial(rolling_input_filter, semi_axes=strip.contact.semi_axes))
+
+
 def linear_displacement(strip: RailStrip, model: str) -> FloatArray:
     """Of a model that is linear: the surface by its filter, along the middle, less its mean."""
-    if model == LINEAR_GEIKE:
-        return geike_track(strip, LINEAR_ON_LINE)
-    return strip.along_middle(LINEAR_MODELS[model](strip.contact))
+    if model == named.LINEAR_GEIKE:
+        return geike_track(strip, named.LINEAR_ON_LINE)
+    return strip.along_middle(transfer_of(model, strip.contact))
 
 
 def roll_boundary_elements(
@@ -163,7 +148,7 @@ def roll_springs(
 
 
 def on_finer_springs(
-    strip: RailStrip, height: Callable[[RailStrip], FloatArray], roll: Callable[..., mdr.RollingTrack]
+    strip: RailStrip, height: Callable[[RailStrip], FloatArray], roll: Callable[..., mdr.RollingTrack] = mdr.roll
 ) -> FloatArray:
     """At the centres of the cells, with more springs than cells under the same waves."""
     fine = replace(strip, spacing=strip.spacing / FINER)
@@ -204,14 +189,12 @@ def lifted(approach: FloatArray) -> FloatArray:
 
 
 ONE_SIDED: Mapping[str, Callable[[RailStrip], FloatArray]] = {
-    SPRINGS_THAT_READ: lambda strip: on_finer_springs(strip, lambda fine: fine.surface, mdr.roll_surface),
-    SPRINGS_ON_LINE: lambda strip: on_finer_springs(strip, lambda fine: linear_displacement(fine, LINE), mdr.roll),
-    SPRINGS_ON_MEAN: lambda strip: on_finer_springs(strip, mean_across, mdr.roll),
-    ONE_SIDED_BED: one_sided_bed,
-    SPRINGS_ROLLING: lambda strip: lifted(
-        roll_springs(strip, strip.along_middle(rolling_input(strip.contact))).approach
-    ),
-    SPRINGS_GEIKE: lambda strip: lifted(roll_springs(strip, geike_track(strip)).approach),
+    named.SPRINGS_THAT_READ: lambda strip: on_finer_springs(strip, lambda fine: fine.surface, mdr.roll_surface),
+    named.SPRINGS_ON_LINE: lambda strip: on_finer_springs(strip, lambda fine: linear_displacement(fine, LINE)),
+    named.SPRINGS_ON_MEAN: lambda strip: on_finer_springs(strip, mean_across),
+    named.ONE_SIDED_BED: one_sided_bed,
+    named.SPRINGS_ROLLING: lambda strip: lifted(roll_springs(strip, rolling_track(strip)).approach),
+    named.SPRINGS_GEIKE: lambda strip: lifted(roll_springs(strip, geike_track(strip)).approach),
 }
 """Displacements along a strip, beside those of boundary elements; Geike's rule is for isotropic ground alone."""
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from validation.analysis.statistics import Estimate
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import ContactLaw, HertzLaw, LinearLaw
 from validation.simulation.integrators import (
@@ -21,8 +21,6 @@ from validation.simulation.integrators import (
     Integrator,
 )
 from validation.theory import wheel as wheel_theory
-
-FloatArray = NDArray[np.float64]
 
 WHEEL = Wheel(radius=0.5, mass=500.0, modulus=236.25e9, load=4905.0)
 """Table 14.1, and the load M g."""

@@ -20,16 +20,14 @@ State = tuple[FloatArray, FloatArray, FloatArray]
 class Integrator:
     """A scheme of motion.
 
-    march(f, y, v, dt): iterator of steps without end, dt of a cell; cells: of a step; order: of its error; limit: omega
-    dt of a step up to which a linear vibration stays bounded; evaluations: of f, a step.
+    march(f, y, v, dt): iterator of steps without end, dt of a cell; cells: of a step; limit: omega dt of a step up to
+    which a linear vibration stays bounded.
     """
 
     name: str
     march: Callable[[Acceleration, FloatArray, FloatArray, float], Iterator[State]]
-    order: int
     limit: float
     cells: int = 1
-    evaluations: int = 1
 
 
 def _explicit_euler(f: Acceleration, y: FloatArray, v: FloatArray, dt: float) -> Iterator[State]:
@@ -73,8 +71,8 @@ def _runge_kutta(f: Acceleration, y: FloatArray, v: FloatArray, dt: float) -> It
         y, v, place = y + h / 6 * (v + 2 * v2 + 2 * v3 + v4), v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4), place + 2
 
 
-EXPLICIT_EULER = Integrator("explicit Euler", _explicit_euler, order=1, limit=0.0)
-SYMPLECTIC_EULER = Integrator("symplectic Euler", _symplectic_euler, order=1, limit=2.0)
-VELOCITY_VERLET = Integrator("velocity Verlet", _velocity_verlet, order=2, limit=2.0)
-RUNGE_KUTTA = Integrator("Runge-Kutta", _runge_kutta, order=4, limit=2 * math.sqrt(2), cells=2, evaluations=4)
+EXPLICIT_EULER = Integrator("explicit Euler", _explicit_euler, limit=0.0)
+SYMPLECTIC_EULER = Integrator("symplectic Euler", _symplectic_euler, limit=2.0)
+VELOCITY_VERLET = Integrator("velocity Verlet", _velocity_verlet, limit=2.0)
+RUNGE_KUTTA = Integrator("Runge-Kutta", _runge_kutta, limit=2 * math.sqrt(2), cells=2)
 INTEGRATORS = (EXPLICIT_EULER, SYMPLECTIC_EULER, VELOCITY_VERLET, RUNGE_KUTTA)

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from mdr.checks import positive
+from validation.engine.engine import FloatArray
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import ContactLaw, LinearLaw
 from validation.simulation.integrators import VELOCITY_VERLET, Integrator
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -65,7 +65,7 @@ def simulate(
     Wheels may lose contact, F = 0, and come back.
     Raises ValueError for a step at or past the limit of the integrator, omega_eigen dt, before it begins.
     """
-    step = integrator.cells * _positive("time_step", time_step)
+    step = integrator.cells * positive("time_step", time_step)
     _check_stable(wheel, step, integrator)
     if steps < 1:
         raise ValueError(f"steps must be at least 1, got {steps}")
@@ -174,9 +174,3 @@ def _check_stable(wheel: Wheel, step: float, integrator: Integrator) -> None:
             f"time_step must be below {limit:.6g} / omega_eigen = {limit / wheel.eigenfrequency:.6g} s for "
             f"{integrator.name}, got {step:.6g} s: omega_eigen dt = {omega_dt:.6g}, and {why}"
         )
-
-
-def _positive(name: str, value: float) -> float:
-    if not (math.isfinite(value) and value > 0):
-        raise ValueError(f"{name} must be finite and positive, got {value}")
-    return float(value)

@@ -2,27 +2,21 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
-from functools import partial
 from typing import Protocol
-
-import numpy as np
-from numpy.typing import NDArray
 
 import bem3d
 import mdr
+from validation.engine.engine import FloatArray
 from validation.simulation.method import Prepared, Resolution, Result, Solve, Values
-from validation.simulation.model_names import MDR
-
-FloatArray = NDArray[np.float64]
 
 MOST_ITERATIONS = 5000
+"""Of Polonsky and Keer's method."""
 FIXED_AREA_RESIDUAL = 1e-4
 """Residual of a fixed contact area, whose stiffness is good to some tens of times its square."""
 
 
-class GridScene(Protocol):
-    """A body that is pressed onto a half-space on a grid."""
+class PressedScene(Protocol):
+    """A body that is pressed onto a half-space on a grid, with an image on springs, E* = 1."""
 
     def load(self, cells: int) -> dict[str, float]:
         """The force or the approach that is prescribed, by its name."""
@@ -37,64 +31,47 @@ class GridScene(Protocol):
 
     def read(self, contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> Values: ...
 
-
-class PressedScene(GridScene, Protocol):
-    """The same with an image on springs, E* = 1."""
-
     def profile(self, springs: float, realisation: int) -> tuple[FloatArray, float]:
         """Heights and length of the foundation. Raises ValueError where there is no image in one dimension."""
 
     def read_springs(self, point: mdr.LoadPoint[float]) -> Values: ...
 
 
-@dataclass(frozen=True)
-class PressedSprings:
-    """The foundation: one sort."""
+def press_on_springs(scene: PressedScene, resolution: Resolution) -> Prepared:
+    """The foundation: one sort. Raises ValueError for waves that springs do not resolve."""
+    scene.profile(resolution.size, 0)
 
-    name: str = MDR
+    def draw(realisation: int) -> Solve:
+        height, length = scene.profile(resolution.size, realisation)
 
-    def prepare(self, scene: PressedScene, resolution: Resolution) -> Prepared:
-        """Raises ValueError for waves that springs do not resolve."""
-        scene.profile(resolution.size, 0)
+        def run() -> mdr.LoadPoint[float]:
+            curve = mdr.load_curve(height, length=length, modulus=1.0)
+            load = scene.load(height.size)
+            return curve.at_force(load["force"]) if "force" in load else curve.at_approach(load["approach"])
 
-        def draw(realisation: int) -> Solve:
-            height, length = scene.profile(resolution.size, realisation)
+        return Solve(run, lambda point: Result(scene.read_springs(point), height.size))
 
-            def run() -> mdr.LoadPoint[float]:
-                curve = mdr.load_curve(height, length=length, modulus=1.0)
-                load = scene.load(height.size)
-                return curve.at_force(load["force"]) if "force" in load else curve.at_approach(load["approach"])
-
-            return Solve(run, lambda point: Result(scene.read_springs(point), height.size))
-
-        return draw
+    return draw
 
 
-@dataclass(frozen=True)
-class PressedGrid:
-    """Boundary elements, from a cold start: our solver, or the iteration of Polonsky and Keer."""
+def press_on_grid(
+    scene: PressedScene, resolution: Resolution, solver: Callable[..., bem3d.Contact] = bem3d.solve
+) -> Prepared:
+    """Boundary elements, from a cold start; a first solve makes plans, coarser grids and windows."""
+    cells = round(resolution.size)
+    half_space = scene.half_space(cells)
 
-    name: str = "BEM"
-    polonsky_keer: bool = False
+    def draw(realisation: int) -> Solve:
+        gap = scene.gap(cells, realisation)
 
-    def prepare(self, scene: GridScene, resolution: Resolution) -> Prepared:
-        """The half-space; a first solve makes plans, coarser grids and windows."""
-        cells = round(resolution.size)
-        half_space = scene.half_space(cells)
-        published = partial(bem3d.solve_polonsky_keer, max_iterations=MOST_ITERATIONS)
-        solver: Callable[..., bem3d.Contact] = published if self.polonsky_keer else bem3d.solve
+        def run() -> tuple[bem3d.Contact, bem3d.FixedContactArea | None]:
+            contact = solver(half_space, gap, **scene.load(cells), tolerance=resolution.residual)
+            return contact, scene.finish(contact)
 
-        def draw(realisation: int) -> Solve:
-            gap = scene.gap(cells, realisation)
+        return Solve(run, lambda found: Result(scene.read(*found), cell_applications(*found)))
 
-            def run() -> tuple[bem3d.Contact, bem3d.FixedContactArea | None]:
-                contact = solver(half_space, gap, **scene.load(cells), tolerance=resolution.residual)
-                return contact, scene.finish(contact)
-
-            return Solve(run, lambda found: Result(scene.read(*found), cell_applications(*found)))
-
-        draw(0).run()
-        return draw
+    draw(0).run()
+    return draw
 
 
 def cell_applications(contact: bem3d.Contact, fixed: bem3d.FixedContactArea | None) -> float:

@@ -18,9 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 import bem3d
+from validation.engine.engine import FloatArray
 from validation.simulation.mean_contact import RADII, GapLaw, MeanContact, mean_contact
+from validation.simulation.surface import middle_of
 
-FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 HERTZ = 4 / 3
@@ -35,8 +36,8 @@ ACROSS, ALONG = 3.0, 2.5
 
 
 @dataclass(frozen=True, eq=False)
-class LayerTrack:
-    """Force over that of Hertz at each row, and the cell applications that it took."""
+class Reduced:
+    """force: over that of Hertz, at each row; work: springs, cells read and cell applications, of the whole strip."""
 
     force: FloatArray
     work: float
@@ -53,7 +54,7 @@ class Layers:
     work: float
 
 
-def roll_on_layer(surface: FloatArray, spacing: float) -> LayerTrack:
+def roll_on_layer(surface: FloatArray, spacing: float) -> Reduced:
     """Roll along the middle of a strip, periodic along axis 0, heights over d; spacing over a.
 
     Raises ValueError where it is shorter than twice the contact that is looked at, bem3d.ConvergenceError where a layer
@@ -61,12 +62,12 @@ def roll_on_layer(surface: FloatArray, spacing: float) -> LayerTrack:
     """
     if len(surface) * spacing < 2 * ALONG:
         raise ValueError(f"surface must be longer than {2 * ALONG:g} radii, got {len(surface) * spacing:g}")
-    strip = middle(surface, spacing)
+    strip = middle_of(surface, ACROSS, spacing, more=0)
     mean, rms = float(strip.mean()), float(strip.std())
     layers = press(strip - mean, spacing)
     trials = [1 + mean + rms * t for t in TRIALS] if rms > 0 else [1 + mean]
     forces, steps = zip(*(_trial(layers, strip.shape[1], spacing, approach) for approach in trials), strict=True)
-    return LayerTrack(_where_no_step_is_left(np.array(forces), np.array(steps), 1 + mean) / HERTZ, layers.work)
+    return Reduced(_where_no_step_is_left(np.array(forces), np.array(steps), 1 + mean) / HERTZ, layers.work)
 
 
 def press(strip: FloatArray, spacing: float) -> Layers:
@@ -125,10 +126,3 @@ def _where_no_step_is_left(forces: FloatArray, steps: FloatArray, approach: floa
     """Between trials, (trials, rows), of ascending approach."""
     rising = np.maximum.accumulate(steps, axis=0)
     return np.array([np.interp(approach, *column) for column in zip(rising.T, forces.T, strict=True)])
-
-
-def middle(surface: FloatArray, spacing: float, half_width: float = ACROSS) -> FloatArray:
-    """No wider than so many radii to both sides."""
-    across = surface.shape[1]
-    side = min(math.ceil(half_width / spacing), across // 2)
-    return surface[:, across // 2 - side : across - across // 2 + side]

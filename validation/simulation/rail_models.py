@@ -17,7 +17,7 @@ from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL
 from validation.engine.engine import Outcome
 from validation.scenes.rail import ProfiledRail, RailScene
-from validation.simulation.equivalent_displacement import LINEAR_MODELS, RolledRail, log_over, roll_rail
+from validation.simulation.equivalent_displacement import RolledRail, log_over, roll_rail, transfer_of
 from validation.simulation.method import Resolution, Result, Values
 from validation.simulation.model import Cost, ErrorEstimate, Model, Target, model
 from validation.simulation.model_names import LINEAR, twin_of
@@ -178,7 +178,7 @@ def rail_model(name: str, setting: str, *, is_mdr: bool = False, **of_filter: An
     """of_filter: fields of `ContactFilter`; a linear filter of `LINEAR_MODELS` is known by the name of the model."""
 
     def linear(quantity: RailQuantity) -> FloatArray:
-        return quantity.filtered(LINEAR_MODELS[twin_of(name)](quantity.scene.contact))
+        return quantity.filtered(transfer_of(twin_of(name), quantity.scene.contact))
 
     one = ContactFilter(**{"name": name, "closed": linear, **of_filter})
     about = {"name": name, "setting": setting, "is_mdr": is_mdr, "charted": False}

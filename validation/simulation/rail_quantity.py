@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from validation.analysis.nominal_bands import NominalBands
 from validation.scenes.rail import RailScene
 from validation.scenes.roughness_levels import MICROMETRE
-from validation.simulation.equivalent_displacement import LINEAR_MODELS
+from validation.simulation.equivalent_displacement import transfer_of
 from validation.simulation.model_names import LINEAR
 from validation.simulation.rail_strip import StatedAcross, line_of, lost_contact_number, structure_of
 from validation.theory.line_spectrum import LineSpectrum
@@ -106,7 +106,7 @@ class RailQuantity:
     @cached_property
     def linear(self) -> FloatArray:
         """A3 of the half-space under an ellipse that keeps its size, (ends, bands) [dB]."""
-        return self.filtered(LINEAR_MODELS[LINEAR](self.scene.contact))
+        return self.filtered(transfer_of(LINEAR, self.scene.contact))
 
     def filtered(self, transfer: Filter) -> FloatArray:
         """A3 of a linear filter on the stated ground, (ends, bands) [dB]."""
@@ -143,7 +143,7 @@ class RailQuantity:
         if isotropic is None or isotropic.as_it_is:
             return np.zeros(len(self.bands))
         lines = self.line, self.line.steeper(TILT), isotropic.smoother
-        transfer = LINEAR_MODELS[LINEAR](self.scene.contact)
+        transfer = transfer_of(LINEAR, self.scene.contact)
         own, tilted, smoother = (self._of_ground(IsotropicGround(line), line, transfer) for line in lines)
         found = np.abs(tilted - own) / TILT * isotropic.slope_error + OF_SMOOTHING * np.abs(smoother - own)
         return np.asarray(found)

@@ -5,20 +5,18 @@ Most of them are trials, which no scene is solved with: a case reports what each
 """
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import special
 
 import bem3d
 import mdr
 from mdr.rolling_surface import weights_across
-from validation.simulation.pressed_layer import PRESSURES, middle, press, roll_on_layer
+from validation.engine.engine import FloatArray
+from validation.simulation.pressed_layer import ACROSS, PRESSURES, Reduced, press
 from validation.simulation.rolling_strip import HERTZ, SMOOTH, crop_to_reach
+from validation.simulation.surface import middle_of
 from validation.theory.rolling import linear_force
-
-FloatArray = NDArray[np.float64]
 
 SPLIT = 2.0
 """q a between the long and the short waves of two scales."""
@@ -28,14 +26,6 @@ FROZEN = 0.5
 """Radii between positions whose contact gives the weights of those around them."""
 TOLERANCE = 1e-4
 """Residual of boundary elements, over the rms height."""
-
-
-@dataclass(frozen=True, eq=False)
-class Reduced:
-    """force: over that of Hertz, at each row; work: springs, cells read and cell applications, of the whole strip."""
-
-    force: FloatArray
-    work: float
 
 
 def springs_on_a_line(strip: FloatArray, dx: float) -> Reduced:
@@ -48,7 +38,7 @@ def linear_theory(strip: FloatArray, dx: float) -> Reduced:
 
 
 def springs_that_read(strip: FloatArray, dx: float) -> Reduced:
-    found = mdr.roll_surface(middle(strip, dx, 1.1), spacing=dx, **SMOOTH)
+    found = mdr.roll_surface(middle_of(strip, 1.1, dx, more=0), spacing=dx, **SMOOTH)
     return Reduced(found.force / HERTZ, float(found.examined.sum()) + math.pi / 2 * len(strip) / dx**2)
 
 
@@ -93,7 +83,7 @@ def two_scales_by_persson(strip: FloatArray, dx: float) -> Reduced:
 
 def two_scales_pressed(strip: FloatArray, dx: float) -> Reduced:
     """Short waves as the periodic half-space deforms them under the pressure of Hertz."""
-    long, short = (middle(one, dx) for one in split(strip, dx))
+    long, short = (middle_of(one, ACROSS, dx, more=0) for one in split(strip, dx))
     layers, weights = press(short, dx), punch_weights(long.shape[1], dx)
     place = np.interp(
         np.log(np.maximum(_hertz(long.shape[1], dx), 1e-300)), np.log(PRESSURES), np.arange(len(PRESSURES))
@@ -125,11 +115,6 @@ def frozen_weights(strip: FloatArray, dx: float) -> Reduced:
             total[row] += weight * (found.force + float(np.sum(frozen.pressure * changed)) * dx**2)
             share[row] += weight
     return Reduced(total / share / HERTZ, float(work + 2 * len(strip) * x.size * y.size))
-
-
-def pressed_layer(strip: FloatArray, dx: float) -> Reduced:
-    found = roll_on_layer(strip, dx)
-    return Reduced(found.force, found.work)
 
 
 def boundary_elements(strip: FloatArray, dx: float) -> Reduced:

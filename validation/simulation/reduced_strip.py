@@ -6,18 +6,17 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 import bem3d
 import mdr
 from validation.analysis.spectra import Bands, Waves, cross_levels, levels, waves
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.simulation import reduced_models as reduced
+from validation.simulation.pressed_layer import Reduced, roll_on_layer
 from validation.simulation.rolling_strip import Strip
 from validation.simulation.track_spectrum import PiecewisePowerLaw
 
-FloatArray = NDArray[np.float64]
-Solve = Callable[[FloatArray, float], reduced.Reduced]
+Solve = Callable[[FloatArray, float], Reduced]
 
 READ, LAYER, LINE = "springs that read the surface", "pressed layer", "springs on a line"
 LINEAR, BED, COARSE_LAYER = "linear theory, 3D", "one-sided bed (DPRS)", "pressed layer, 1/2 of the cells"
@@ -37,8 +36,8 @@ MODELS: Mapping[str, tuple[Solve, int]] = {
     "two scales, Persson": (reduced.two_scales_by_persson, 1),
     "two scales, short waves pressed": (reduced.two_scales_pressed, 1),
     "weights of some positions": (reduced.frozen_weights, 1),
-    LAYER: (reduced.pressed_layer, 1),
-    COARSE_LAYER: (reduced.pressed_layer, 2),
+    LAYER: (roll_on_layer, 1),
+    COARSE_LAYER: (roll_on_layer, 2),
     COARSE: (reduced.boundary_elements, 2),
     COARSEST: (reduced.boundary_elements, 3),
 }
@@ -92,7 +91,7 @@ def _cells(strip: Strip, coarser: int) -> int:
     return math.ceil(strip.cells / coarser)
 
 
-def _solve(strip: Strip, solve: Solve, coarser: int) -> reduced.Reduced:
+def _solve(strip: Strip, solve: Solve, coarser: int) -> Reduced:
     cells = _cells(strip, coarser)
     with warnings.catch_warnings():
         # what fewer cells change is compared, or small beside what the models leave
@@ -101,11 +100,11 @@ def _solve(strip: Strip, solve: Solve, coarser: int) -> reduced.Reduced:
         return solve(replace(strip, cells=cells).surface(), 1 / cells)
 
 
-def _roll(strip: Strip, solve: Solve, coarser: int) -> reduced.Reduced:
+def _roll(strip: Strip, solve: Solve, coarser: int) -> Reduced:
     try:
         return _solve(strip, solve, coarser)
     except bem3d.ConvergenceError:
-        return reduced.Reduced(np.full(round(strip.scene.length * _cells(strip, coarser)), math.nan), math.nan)
+        return Reduced(np.full(round(strip.scene.length * _cells(strip, coarser)), math.nan), math.nan)
 
 
 def _waves(force: FloatArray, spacing: float, bands: Bands) -> Waves:

@@ -7,23 +7,22 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 import bem3d
 import mdr
 from validation.analysis.spectra import levels, waves
+from validation.engine.engine import FloatArray
 from validation.engine.random_numbers import random_generator
 from validation.scenes.measured import MeasuredHeights
-from validation.simulation.contact_laws import BoundaryElementsLaw, LinearLaw, SpringsLaw
+from validation.simulation.contact_laws import BoundaryElementsLaw, ContactLaw, LinearLaw, SpringsLaw
 from validation.simulation.motion import simulate_from_linear_motion
 from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.sampling import too_few
-from validation.simulation.surface import surface_on_grid
+from validation.simulation.surface import draw_track, surface_on_grid
+from validation.simulation.track_spectrum import InputSpectrum
 from validation.simulation.wheel_on_half_space import crop_to_reach, linear_law_3d
-from validation.simulation.wheel_on_springs import linear_law_1d, rolling_input
+from validation.simulation.wheel_on_springs import linear_law_1d
 from validation.theory.rolling import linear_force
-
-FloatArray = NDArray[np.float64]
 
 TRACKS, STRIPS = 1, 2
 """The spawn keys under which each kind of roughness draws."""
@@ -108,25 +107,20 @@ def strip_of(quantity: RollingQuantity, cells: float, realisation: int, seed: in
 
 def by_linear_theory(quantity: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
     """Root mean square in each band along a strip, for a contact that keeps its radius."""
-    scene = quantity.scene
-    force = linear_force(surface, spacing=spacing, radius=scene.radius, modulus=scene.modulus, approach=scene.approach)
+    force = linear_force(surface, spacing=spacing, **quantity.scene.body.smooth)
     return levels_of(quantity, force, spacing, quantity.transfer)
 
 
 def by_boundary_elements(quantity: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
     """Root mean square in each band along a strip; NaN where a contact did not converge."""
-    scene = quantity.scene
+    body = quantity.scene.body
+    strip = crop_to_reach(surface, spacing, body)
+    # the lower the roughness, the less its waves change the force, and the finer the residual
+    tolerance = float(np.clip(1e-4 * quantity.scene.roughness_ratio, 1e-7, 3e-5))
     if quantity.dynamic:
-        return _accelerated(quantity, surface, spacing)
-    found = bem3d.roll(
-        crop_to_reach(surface, spacing, scene.body),
-        spacing=spacing,
-        radius=scene.radius,
-        modulus=scene.modulus,
-        approach=scene.approach,
-        tolerance=_tolerance(quantity),
-        raise_on_failure=False,
-    )
+        law = partial(BoundaryElementsLaw, body, [strip], spacing, tolerance=tolerance)
+        return np.asarray(_accelerated(quantity, law, linear_law_3d(body, surface, spacing), spacing)[0])
+    found = bem3d.roll(strip, spacing=spacing, tolerance=tolerance, raise_on_failure=False, **body.smooth)
     if not found.converged.all():
         return np.full(len(quantity.bands.edges) - 1, np.nan)
     if few := too_few(float(np.median(found.area)) / spacing**2, "cells"):
@@ -149,18 +143,20 @@ def on_springs(quantity: RollingQuantity, tracks: int, seed: int) -> FloatArray:
     Of the rms of the force, on tracks of Geike's spectrum and over the linear filter on them; else on tracks of
     the rolling spectrum, over the half-space.
     """
-    scene = quantity.scene
+    body = quantity.scene.body
     height, spacing = _tracks(quantity, tracks, seed)
     if quantity.dynamic:
-        return _springs_accelerated(quantity, height, spacing)
-    roll = partial(mdr.roll, spacing=spacing, radius=scene.radius, modulus=scene.modulus, approach=scene.approach)
+        law, linear = partial(SpringsLaw, body, height, spacing), linear_law_1d(body, height, spacing)
+        found = _accelerated(quantity, law, linear, spacing)
+        return np.asarray(np.log(found) - np.log(quantity.expected(one_dimensional=False)))
+    wheel = {"spacing": spacing, **body.smooth}
     with warnings.catch_warnings():
         # how far a linear contact is off is what both are compared for
         warnings.simplefilter("ignore", mdr.LinearityWarning)
-        found = levels_of(quantity, np.array([roll(track).force for track in height.T]), spacing)
+        found = levels_of(quantity, np.array([mdr.roll(track, **wheel).force for track in height.T]), spacing)
         if quantity.name == "force-rms":
-            linear = np.array([roll(track, contact="linear").force for track in height.T])
-            return np.asarray(np.log(found) - np.log(levels_of(quantity, linear, spacing)))
+            filtered = np.array([mdr.roll(track, contact="linear", **wheel).force for track in height.T])
+            return np.asarray(np.log(found) - np.log(levels_of(quantity, filtered, spacing)))
     return np.asarray(np.log(found) - np.log(quantity.expected(one_dimensional=False)))
 
 
@@ -171,53 +167,26 @@ def springs_to_a_radius(quantity: RollingQuantity) -> int:
 
 
 def _tracks(quantity: RollingQuantity, tracks: int, seed: int) -> tuple[FloatArray, float]:
-    scene, ground = quantity.scene, quantity.scene.ground
-    coarse = RollingGrid.of(quantity, 1)
-    a = scene.contact_radius
-    springs = springs_to_a_radius(quantity)
-    points, spacing = coarse.along * springs, a / springs
-    geike = quantity.name == "force-rms"
-    feed = (lambda q: mdr.geike(q, ground.c2d)) if geike else rolling_input(ground, a)
-    drawn = [
-        mdr.rough_profile(
-            feed,
-            length=points * spacing,
-            points=points,
-            rng=random_generator(seed, TRACKS, i),
-            rms=ground.rms if geike else None,
-        )
-        for i in range(tracks)
-    ]
-    return np.array(drawn).T, spacing
+    ground, a, springs = quantity.scene.ground, quantity.scene.contact_radius, springs_to_a_radius(quantity)
+    points, spacing = RollingGrid.of(quantity, 1).along * springs, a / springs
+    rule: InputSpectrum = "geike" if quantity.name == "force-rms" else "rolling"
+    draw = partial(draw_track, ground, rule, contact_radius=a, rms=ground.rms, length=points * spacing, points=points)
+    return np.array([draw(rng=random_generator(seed, TRACKS, i)) for i in range(tracks)]).T, spacing
 
 
-def _springs_accelerated(quantity: RollingQuantity, height: FloatArray, spacing: float) -> FloatArray:
-    body = quantity.scene.body
-    try:
-        found = _rolled_on(quantity, SpringsLaw(body, height, spacing), linear_law_1d(body, height, spacing), spacing)
-    except ArithmeticError:
-        return np.full((height.shape[1], len(quantity.bands.edges) - 1), np.nan)
-    return np.asarray(np.log(levels_of(quantity, found.T, spacing)) - np.log(quantity.expected(one_dimensional=False)))
-
-
-def _accelerated(quantity: RollingQuantity, surface: FloatArray, spacing: float) -> FloatArray:
-    """Of a wheel with boundary elements in the time loop."""
-    body = quantity.scene.body
-    law = BoundaryElementsLaw(body, [crop_to_reach(surface, spacing, body)], spacing, tolerance=_tolerance(quantity))
-    linear = linear_law_3d(body, surface, spacing)
-    try:
-        found = _rolled_on(quantity, law, linear, spacing)
-    except bem3d.ConvergenceError:
-        return np.full(len(quantity.bands.edges) - 1, np.nan)
-    return levels_of(quantity, found[:, 0], spacing)
-
-
-def _rolled_on(
-    quantity: RollingQuantity, law: BoundaryElementsLaw | SpringsLaw, linear: LinearLaw, spacing: float
+def _accelerated(
+    quantity: RollingQuantity, law: Callable[[], ContactLaw], linear: LinearLaw, spacing: float
 ) -> FloatArray:
-    """Acceleration of wheels over one round, (steps, wheels), begun on the linear motion that repeats itself."""
+    """Levels of wheels over one round, (wheels, bands), begun on the linear motion that repeats itself; NaN where lost.
+
+    A contact did not converge, or a wheel flew so high that sums of springs would be rounded.
+    """
     assert quantity.scene.speed is not None  # a dynamic quantity has a speed
-    return simulate_from_linear_motion(law, linear, spacing / quantity.scene.speed, len(linear.change)).acceleration
+    try:
+        motion = simulate_from_linear_motion(law(), linear, spacing / quantity.scene.speed, len(linear.change))
+    except (ArithmeticError, bem3d.ConvergenceError):
+        return np.full((linear.change.shape[1], len(quantity.bands.edges) - 1), np.nan)
+    return levels_of(quantity, motion.acceleration.T, spacing)
 
 
 def levels_of(
@@ -231,8 +200,3 @@ def levels_of(
     if transfer is not None:
         found = type(found)(found.q, found.amplitude * transfer(found.q))
     return np.asarray(np.sqrt(2 * levels(found, quantity.bands)))
-
-
-def _tolerance(quantity: RollingQuantity) -> float:
-    """The lower the roughness, the less its waves change the force, and the finer the residual."""
-    return float(np.clip(1e-4 * quantity.scene.roughness_ratio, 1e-7, 3e-5))

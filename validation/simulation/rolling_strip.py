@@ -12,19 +12,16 @@ from functools import cache, partial
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 import bem3d
 import mdr
 from validation.analysis.spectra import Bands, cross_levels, levels, waves
 from validation.engine.convergence import FEWEST, NotConvergedError
-from validation.engine.engine import Engine, Outcome
+from validation.engine.engine import Engine, FloatArray, Outcome
 from validation.engine.random_numbers import random_generator
-from validation.simulation.surface import draw_surface, middle_of
+from validation.simulation.surface import draw_surface, draw_track, middle_of
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, TrackSpectrum
 from validation.theory.rolling import Spectrum, force_spectrum_1d, force_spectrum_3d, linear_force
-
-FloatArray = NDArray[np.float64]
 
 K = TypeVar("K", bound=Hashable)
 
@@ -70,13 +67,8 @@ class RoughStrip:
 
     def track(self, input_spectrum: InputSpectrum, springs: int, realisation: int) -> FloatArray:
         """Heights of so many springs to a contact radius."""
-        unit = mdr.rough_profile(
-            TrackSpectrum(self.spectrum, input_spectrum),
-            length=self.length,
-            points=round(self.length * springs),
-            rng=random_generator(self.seed, TRACKS, realisation),
-            rms=1.0 if input_spectrum == "geike" else None,
-        )
+        rng, points = random_generator(self.seed, TRACKS, realisation), round(self.length * springs)
+        unit = draw_track(self.spectrum, input_spectrum, length=self.length, points=points, rng=rng, rms=1.0)
         return np.asarray(self.height * unit)
 
     def strips(self, cells: int, tolerance: float, count: int) -> list["Strip"]:
@@ -206,23 +198,17 @@ def levels_beside_linear(force: FloatArray, linear: FloatArray, spacing: float, 
     }
 
 
-@dataclass(frozen=True, kw_only=True)
-class LoadedStrip:
-    """One rough strip under a wheel of constant load."""
-
-    strip: Strip
-    bands: Bands
-
-
-def roll_loaded_strip(problem: LoadedStrip) -> Outcome:
-    """Boundary elements: `moments` of k = dF/dd at a constant contact area, over 2 E* a; failed: positions."""
-    strip, spacing = problem.strip, 1 / problem.strip.cells
-    height = np.ascontiguousarray(crop_to_reach(strip.surface(), spacing))
-    wheel = bem3d.RollingContact(
-        bem3d.Track(height=height, spacing=spacing, radius=1.0, modulus=1.0), tolerance=strip.tolerance
+def roll_loaded_strip(strip: Strip) -> Outcome:
+    """Boundary elements under a constant load: k = dF/dd at a constant contact area, over 2 E* a; failed: positions."""
+    track = bem3d.Track(
+        height=np.ascontiguousarray(crop_to_reach(strip.surface(), 1 / strip.cells)),
+        spacing=1 / strip.cells,
+        radius=1.0,
+        modulus=1.0,
     )
-    stiffness = np.array([tangent_stiffness(wheel, position) for position in range(len(height))]) / STIFFNESS
-    return {**moments(stiffness, spacing, problem.bands), "failed": np.array(float(np.isnan(stiffness).sum()))}
+    wheel = bem3d.RollingContact(track, tolerance=strip.tolerance)
+    stiffness = np.array([tangent_stiffness(wheel, position) for position in range(len(track.height))]) / STIFFNESS
+    return {"stiffness": stiffness, "failed": np.array(float(np.isnan(stiffness).sum()))}
 
 
 def tangent_stiffness(wheel: bem3d.RollingContact, position: int) -> float:
@@ -241,16 +227,16 @@ def half_space(shape: tuple[int, int], spacing: float) -> bem3d.HalfSpace:
 
 
 def roll_loaded_tracks(tracks: Tracks) -> Outcome:
-    """One-sided springs: `moments` of the stiffness along each track."""
+    """One-sided springs: `stiffness_moments` along each track."""
     spacing = 1 / tracks.springs
     with warnings.catch_warnings():
         # the smooth contact has springs enough, which is what the warning is about
         warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
         rolled = [mdr.roll(h, spacing=spacing, radius=1.0, modulus=1.0, force=HERTZ) for h in tracks.heights()]
-    return moments(np.array([one.stiffness for one in rolled]) / STIFFNESS, spacing, tracks.bands)
+    return stiffness_moments(np.array([one.stiffness for one in rolled]) / STIFFNESS, spacing, tracks.bands)
 
 
-def moments(stiffness: FloatArray, spacing: float, bands: Bands) -> Outcome:
+def stiffness_moments(stiffness: FloatArray, spacing: float, bands: Bands) -> Outcome:
     """Mean and variance along a track, and the level int C_k dq in each band; along the last axis."""
     return {
         "mean": np.asarray(stiffness.mean(axis=-1)),

@@ -2,25 +2,24 @@
 
 import math
 import warnings
-from collections.abc import Iterable, Sequence
-from dataclasses import asdict, dataclass
-from functools import partial
-from typing import Literal
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import asdict, dataclass, replace
+from functools import cached_property
+from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 import bem3d
 import mdr
+from bem3d.checks import Spectrum
 from validation.engine.convergence import FEWEST, NotConvergedError
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.roughness import Roughness
 from validation.simulation.surface import draw_surface
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, TrackSpectrum
-
-FloatArray = NDArray[np.float64]
 
 BEM, MDR = "bem3d", "mdr"
 METHODS = (BEM, MDR)
@@ -64,27 +63,12 @@ class PunchRoughness:
 
     def surface(self, cells: int, realisation: int) -> FloatArray:
         """Height of one realisation at the centres of cells x cells."""
-        height = draw_surface(
-            self.spectrum.c2d,
-            shape=(cells, cells),
-            spacing=1 / cells,
-            rng=self._generator(SURFACES, realisation),
-            rms=self.height,
-            amplitudes=self.amplitudes,
-        )
-        return self._normalised(height)
+        grid: dict[str, Any] = {"shape": (cells, cells), "spacing": 1 / cells}
+        return self._drawn(draw_surface, self.spectrum.c2d, SURFACES, realisation, **grid)
 
     def profile(self, points: int, realisation: int) -> FloatArray:
         """Height of one realisation of Geike's profile at the middle of its springs."""
-        height = mdr.rough_profile(
-            self.spectrum.c1d,
-            length=1.0,
-            points=points,
-            rng=self._generator(PROFILES, realisation),
-            rms=self.height,
-            amplitudes=self.amplitudes,
-        )
-        return self._normalised(height)
+        return self._drawn(mdr.rough_profile, self.spectrum.c1d, PROFILES, realisation, length=1.0, points=points)
 
     def scene(self, force: float) -> IndentationScene:
         """A punch of this roughness under Fbar, E* = 1, for models that know no realisation."""
@@ -93,10 +77,13 @@ class PunchRoughness:
         load = force * self.height
         return IndentationScene(name="punch", shape="punch", size=1.0, load=load, modulus=1.0, ground=ground)
 
-    def _generator(self, kind: int, realisation: int) -> np.random.Generator:
+    def _drawn(
+        self, draw: Callable[..., FloatArray], spectrum: Spectrum, kind: int, realisation: int, **grid: Any
+    ) -> FloatArray:
         """The address of a Hurst exponent is its own, unless they have common random numbers."""
         address = 0 if self.common else round(1000 * self.hurst)
-        return random_generator(self.seed, kind, address, realisation)
+        rng = random_generator(self.seed, kind, address, realisation)
+        return self._normalised(draw(spectrum, rng=rng, rms=self.height, amplitudes=self.amplitudes, **grid))
 
     def _normalised(self, height: FloatArray) -> FloatArray:
         if self.amplitudes == "fixed" or self.normalised == "ensemble":
@@ -146,30 +133,20 @@ def press_surface(surface: Surface) -> Outcome:
         tolerance=surface.tolerance,
         raise_on_failure=False,
     )
-    found, solves = [], []
+    rows = []
     with warnings.catch_warnings():
         # the punch ends where its grid does, and the figures mark what stands on few cells
         warnings.simplefilter("ignore", bem3d.ContactWarning)
         for contact in path:
-            converged = contact.converged and contact.frozen is not None and contact.frozen.converged
-            gap = float((contact.pressure * uniform).sum()) - contact.approach
-            found.append((contact.stiffness(), contact.area, contact.approach, gap) if converged else LOST)
-            frozen = contact.frozen.operator_applications if contact.frozen is not None else 0
-            solves.append((contact.residual, contact.operator_applications, frozen))
-    stiffness, area, approach, gap_mean = np.array(found).T
-    residual, applications, frozen_applications = np.array(solves).T
-    return {
-        "stiffness": stiffness,
-        "area": area,
-        "approach": approach,
-        "gap": gap_mean,
-        "residual": residual,
-        "applications": applications,
-        "frozen applications": frozen_applications,
-        "height": np.array(height.std()),
-        "gradient": np.array(_gradient(height)),
-        "failed": np.array(float(np.isnan(stiffness).sum())),
-    }
+            frozen, gap = contact.frozen, float((contact.pressure * uniform).sum()) - contact.approach
+            converged = contact.converged and frozen is not None and frozen.converged
+            known = (contact.stiffness(), contact.area, contact.approach, gap) if converged else LOST
+            applications = contact.operator_applications, frozen.operator_applications if frozen is not None else 0
+            rows.append((*known, contact.residual, *applications))
+    names = "stiffness", "area", "approach", "gap", "residual", "applications", "frozen applications"
+    found = dict(zip(names, np.array(rows).T, strict=True))
+    of_surface = {"height": np.array(height.std()), "gradient": np.array(_gradient(height))}
+    return {**found, **of_surface, "failed": np.array(float(np.isnan(found["stiffness"]).sum()))}
 
 
 def press_profiles(profiles: Profiles) -> Outcome:
@@ -255,30 +232,24 @@ class RolledOffRoughness(PunchRoughness):
 
 
 @dataclass(frozen=True, kw_only=True)
-class InputProfiles:
-    """The first so many profiles of a punch, pressed at all forces. cells: of the surface; forces: F / (E* h L)."""
+class InputRoughness(PunchRoughness):
+    """Whose profiles have another input spectrum than Geike's, of the side of the punch for the diameter of a wheel."""
 
-    punch: PunchRoughness
-    cells: int
     input_spectrum: InputSpectrum
-    realisations: int
-    forces: tuple[float, ...]
 
+    @property
+    def c1d(self) -> TrackSpectrum:
+        edges = self.spectrum.q_min, self.spectrum.q_max
+        spectrum = PiecewisePowerLaw(edges=edges, exponents=(2 * self.hurst + 2,))
+        return TrackSpectrum(spectrum, self.input_spectrum, contact_radius=0.5)
 
-def press_input_profiles(profiles: InputProfiles) -> Outcome:
-    """k / (E* L) of each profile at each force; height: rms of the profiles over that of the surface."""
-    punch, cells = profiles.punch, profiles.cells
-    spectrum = PiecewisePowerLaw(edges=(2 * math.pi, math.pi / 2 * cells), exponents=(2 * punch.hurst + 2,))
-    q = 2 * np.pi * np.arange(1.0, cells // 4 + 1)
-    # the side of the punch for the diameter of the contact
-    c1d = TrackSpectrum(spectrum, profiles.input_spectrum, contact_radius=0.5)
-    height = math.sqrt(float(c1d(q).sum() / TrackSpectrum(spectrum, "geike")(q).sum()))
-    draw = partial(mdr.rough_profile, c1d, length=1.0, points=16 * cells, rms=punch.height * height)
-    heights = [draw(rng=random_generator(punch.seed, PROFILES, i)) for i in range(profiles.realisations)]
-    curves = [mdr.load_curve(one, length=1.0, modulus=1.0) for one in heights]
-    forces = punch.height * np.array(profiles.forces)
-    with warnings.catch_warnings():
-        # the lightest loads stand on few springs
-        warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
-        stiffness = [curve.at_force(forces).stiffness for curve in curves]
-    return {"stiffness": np.array(stiffness), "height": np.array(height)}
+    @cached_property
+    def profile_height(self) -> float:
+        """rms of the profiles over that of the surface."""
+        c1d, q = self.c1d, 2 * np.pi * np.arange(1.0, self.waves[1] + 1)
+        return math.sqrt(float(c1d(q).sum() / replace(c1d, input_spectrum="geike")(q).sum()))
+
+    def profile(self, points: int, realisation: int) -> FloatArray:
+        rng = random_generator(self.seed, PROFILES, realisation)
+        height = self.height * self.profile_height
+        return mdr.rough_profile(self.c1d, length=1.0, points=points, rms=height, rng=rng)

@@ -8,18 +8,17 @@ from functools import partial
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 import mdr
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.engine.random_numbers import random_generator
+from validation.scenes.roughness import Roughness
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import HertzLaw, SpringsLaw
 from validation.simulation.free_vibration import SCHEMES, SPEED, TENTHS, WHEEL
 from validation.simulation.integrators import INTEGRATORS
 from validation.simulation.motion import simulate
-
-FloatArray = NDArray[np.float64]
+from validation.simulation.surface import draw_track
 
 HEIGHT = 0.5e-6
 """h_rms of Table 14.1 [m]."""
@@ -56,20 +55,10 @@ class RoughTrack:
 
     def heights(self, count: int, points: int | None = None) -> FloatArray:
         """So many tracks, shape (points, count) [m]; points: of another grid."""
-        spectrum = mdr.SelfAffine(
-            hurst=self.hurst, q_min=2 * np.pi / self.longest, q_max=2 * np.pi / self.shortest, rms=self.rms
-        )
-        draws = [
-            mdr.rough_profile(
-                spectrum.c1d,
-                length=self.waves * self.longest,
-                points=points or self.points,
-                rng=random_generator(self.seed, self.realisation + i),
-                rms=self.rms,
-            )
-            for i in range(count)
-        ]
-        return np.stack(draws, axis=1)
+        ground = Roughness(rms=self.rms, hurst=self.hurst, longest=self.longest, shortest=self.shortest)
+        length = self.waves * self.longest
+        draw = partial(draw_track, ground, "geike", rms=self.rms, length=length, points=points or self.points)
+        return np.stack([draw(rng=random_generator(self.seed, self.realisation + i)) for i in range(count)], axis=1)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -152,7 +141,10 @@ def lift_off(problem: LiftOff) -> Outcome:
     )
     force = 1 + wheel.mass / wheel.load * motion.acceleration
     momentum = wheel.mass * (motion.velocity + motion.time_step / 2 * motion.jump) / motion.duration
-    linear = np.stack([linear_change(wheel, track, one) for one in height.T], axis=1)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", mdr.LinearityWarning)
+        # dF / F_N of (14.11)
+        linear = np.stack([filtered(wheel, track, one).force / wheel.load - 1 for one in height.T], axis=1)
     return {
         "airborne": motion.airborne / len(force),
         "highest": force.max(axis=0),
@@ -167,22 +159,8 @@ def lift_off(problem: LiftOff) -> Outcome:
     }
 
 
-def linear_change(wheel: Wheel, track: RoughTrack, height: FloatArray) -> FloatArray:
-    """dF / F_N of (14.11) along a track."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", mdr.LinearityWarning)
-        return np.asarray(filtered(wheel, track, height).force / wheel.load - 1)
-
-
 def filtered(wheel: Wheel, track: RoughTrack, height: FloatArray) -> mdr.RollingTrack:
-    return mdr.roll(
-        height,
-        spacing=track.spacing,
-        radius=wheel.radius,
-        modulus=wheel.modulus,
-        approach=wheel.approach,
-        contact="linear",
-    )
+    return mdr.roll(height, spacing=track.spacing, contact="linear", **wheel.smooth)
 
 
 def coarsen(track: RoughTrack) -> Outcome:
@@ -192,21 +170,15 @@ def coarsen(track: RoughTrack) -> Outcome:
     octave over that of the finest, as it is and by linear theory; spread: see there, of both together.
     """
     height = track.heights(1)[:, 0]
-    fine = force_at(height, track.spacing)
+    fine = mdr.rolling_force(height, spacing=track.spacing, **WHEEL.smooth)
     finest, rows = spread(track, 1), []
     for stride in STRIDES:
         middle = slice((stride - 1) // 2, None, stride)
-        force = force_at(height[middle], stride * track.spacing)
+        force = mdr.rolling_force(height[middle], spacing=stride * track.spacing, **WHEEL.smooth)
         error = np.std(force - fine[middle]) / fine.std()
         found = level(force, track) / level(fine, track), linear_level(height, stride, track)
         rows.append((error, *found, math.hypot(finest, spread(track, stride))))
     return dict(zip(("error", "level", "linear", "spread"), np.array(rows).T, strict=True))
-
-
-def force_at(height: FloatArray, spacing: float) -> FloatArray:
-    return mdr.rolling_force(
-        height, spacing=spacing, radius=WHEEL.radius, modulus=WHEEL.modulus, approach=WHEEL.approach
-    )
 
 
 def level(force: FloatArray, track: RoughTrack) -> float:

@@ -1,4 +1,4 @@
-"""Rough surfaces on a grid: drawn from a spectrum and measured back, measured elsewhere, and on a finer grid."""
+"""Rough surfaces and tracks: drawn from a spectrum and measured back, measured elsewhere, and on a finer grid."""
 
 import math
 import warnings
@@ -7,17 +7,15 @@ from typing import Any
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 import bem3d
 import mdr
 from bem3d.checks import Spectrum
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.engine.random_numbers import random_generator
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.roughness import RoughSurface
-
-FloatArray = NDArray[np.float64]
+from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, TrackSpectrum
 
 
 def draw_surface(c2d: Spectrum, **settings: Any) -> FloatArray:
@@ -25,6 +23,19 @@ def draw_surface(c2d: Spectrum, **settings: Any) -> FloatArray:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", bem3d.ResolutionWarning)
         return bem3d.rough_surface(c2d, **settings)
+
+
+def draw_track(
+    surface: PiecewisePowerLaw | RoughSurface,
+    rule: InputSpectrum,
+    *,
+    rms: float,
+    contact_radius: float = 1.0,
+    **settings: Any,
+) -> FloatArray:
+    """`mdr.rough_profile` for an isotropic surface: of Geike's rule, which keeps it, with its rms height."""
+    c1d = TrackSpectrum(surface, rule, contact_radius)
+    return mdr.rough_profile(c1d, rms=rms if rule == "geike" else None, **settings)
 
 
 def surface_on_grid(
@@ -36,10 +47,10 @@ def surface_on_grid(
     return draw_surface(ground.c2d, shape=shape, spacing=spacing, rng=rng, rms=ground.rms)
 
 
-def middle_of(surface: FloatArray, half_width: float, spacing: float) -> FloatArray:
-    """The columns that reach so far to both sides, and one more, or all that there are."""
+def middle_of(surface: FloatArray, half_width: float, spacing: float, more: int = 1) -> FloatArray:
+    """The columns that reach so far to both sides, and so many more, or all that there are."""
     middle = surface.shape[1] // 2
-    side = min(math.ceil(half_width / spacing) + 1, middle)
+    side = min(math.ceil(half_width / spacing) + more, middle)
     return surface[:, middle - side : surface.shape[1] - middle + side]
 
 

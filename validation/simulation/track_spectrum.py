@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import mdr
+from validation.scenes.roughness import RoughSurface
 from validation.theory.rolling import section, slope_in_one_direction
 
 FloatArray = NDArray[np.float64]
@@ -83,24 +84,24 @@ def self_affine(hurst: float, first: float = 1.0, last: float = 20.0) -> Piecewi
 
 @dataclass(frozen=True)
 class TrackSpectrum:
-    """C_1D(q) of a track for an isotropic surface; values are kept, since each is a quadrature.
+    """C_1D(q) of a track for an isotropic surface; values are kept where each is a quadrature.
 
     contact_radius: on which the rolling-equivalent spectrum depends.
     """
 
-    spectrum: PiecewisePowerLaw
+    spectrum: PiecewisePowerLaw | RoughSurface
     input_spectrum: InputSpectrum
     contact_radius: float = 1.0
 
     def __call__(self, q: NDArray[np.floating]) -> FloatArray:
+        if self.input_spectrum == "geike":
+            return mdr.geike(q, self.spectrum.c2d)
         return _values(self, tuple(q.ravel().tolist())).reshape(q.shape)
 
 
 @cache
 def _values(track: TrackSpectrum, q: tuple[float, ...]) -> FloatArray:
     c2d, edges = track.spectrum.c2d, track.spectrum.edges
-    if track.input_spectrum == "geike":
-        return mdr.geike(np.array(q), c2d)
     if track.input_spectrum == "line":
         return section(np.array(q), c2d, edges=edges)
     return mdr.rolling_spectrum(np.array(q), c2d, edges=edges, contact_radius=track.contact_radius)

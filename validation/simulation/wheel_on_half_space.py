@@ -5,11 +5,10 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 import bem3d
 from mdr import SelfAffine
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.engine.random_numbers import random_generator
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.roughness import Roughness
@@ -19,8 +18,6 @@ from validation.simulation.motion import simulate, simulate_from_linear_motion
 from validation.simulation.surface import draw_surface, middle_of, surface_on_grid
 from validation.simulation.wheel_on_springs import WheelEnsemble
 from validation.theory.rolling import linear_force
-
-FloatArray = NDArray[np.float64]
 
 STRIPS = 4
 """Key of the random numbers of surfaces."""
@@ -107,8 +104,7 @@ def simulate_strip(strip: WheelStrip) -> Outcome:
 
 def linear_law_3d(wheel: Wheel, surface: FloatArray, spacing: float) -> LinearLaw:
     """A contact that keeps its radius, with the force of linear theory along the middle of this surface."""
-    smooth = {"spacing": spacing, "radius": wheel.radius, "modulus": wheel.modulus, "approach": wheel.approach}
-    return LinearLaw(wheel, (linear_force(surface, **smooth) - wheel.load)[:, np.newaxis])
+    return LinearLaw(wheel, (linear_force(surface, spacing=spacing, **wheel.smooth) - wheel.load)[:, np.newaxis])
 
 
 def crop_to_reach(surface: FloatArray, spacing: float, wheel: Wheel) -> FloatArray:

@@ -5,21 +5,18 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 import bem3d
 import mdr
 from mdr.elliptic_wheel import spring_wheel
 from mdr.rolling_surface import weights_across
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import BoundaryElementsLaw, ContactLaw, LinearLaw
 from validation.simulation.equivalent_displacement import linear_displacement, roll_boundary_elements, roll_springs
 from validation.simulation.model_names import LINE, LINEAR, SPRINGS_THAT_READ
 from validation.simulation.motion import simulate_from_linear_motion
 from validation.simulation.rail_strip import RailStrip
-
-FloatArray = NDArray[np.float64]
 
 BEM, SPRINGS = "bem3d", SPRINGS_THAT_READ
 DEEPER = 2.0

@@ -1,29 +1,26 @@
 """Ensembles of wheels on springs, each wheel on a track of its own, simulated together."""
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import next_fast_len
 
-import mdr
 from validation.analysis.spectra import band_means, record_spectra
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.engine.random_numbers import random_generator
 from validation.scenes.dynamic_wheel import WheelScene
-from validation.scenes.roughness import Roughness, RoughSurface
+from validation.scenes.roughness import Roughness
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import ContactLaw, LinearLaw, SpringsLaw
 from validation.simulation.motion import Motion, periodic_motion, simulate
+from validation.simulation.surface import draw_track
+from validation.simulation.track_spectrum import InputSpectrum
 from validation.theory.rolling import response
 
-FloatArray = NDArray[np.float64]
 TrackKind = Literal["open", "periodic", "steady-state"]
-InputSpectrum = Literal["geike", "rolling"]
 
 RAIL, WHEEL = 1, 2
 """Keys of the random numbers of either roughness."""
@@ -41,8 +38,8 @@ class WheelEnsemble:
 
     scene; first, count: the realisations; groups: of wheels, whose mean spectra are kept; seed: zero or positive;
     release: approach at the beginning beyond that of equilibrium, over d; linear: whether the contact is the filter
-    (14.11) in place of springs; input_spectrum: of the tracks, by Geike's rule, or `mdr.rolling_spectrum`, with which
-    springs have the force level of the half-space; track: "open": its end is far from its beginning; "periodic": its
+    (14.11) in place of springs; input_spectrum: of the tracks, by Geike's rule, or the one with which springs have the
+    force level of the half-space; track: "open": its end is far from its beginning; "periodic": its
     end is its beginning, after a whole number of natural periods; "steady-state": periodic like its motion, after a
     whole number of natural periods and a half.
     """
@@ -105,25 +102,15 @@ class WheelEnsemble:
         return np.where(place > middle, place - self.places, place)
 
     def _drawn(self, roughness: Roughness, points: int, kind: int, number: int) -> FloatArray:
-        geike = self.input_spectrum == "geike"
-        return mdr.rough_profile(
-            roughness.spectrum.c1d if geike else rolling_input(roughness, self.scene.contact_radius),
+        return draw_track(
+            roughness,
+            self.input_spectrum,
+            contact_radius=self.scene.contact_radius,
+            rms=roughness.rms,
             length=points * self.scene.spacing,
             points=points,
             rng=random_generator(self.seed, kind, number),
-            rms=roughness.rms if geike else None,
         )
-
-
-@cache
-def rolling_input(ground: RoughSurface, contact_radius: float) -> Callable[[FloatArray], FloatArray]:
-    """`mdr.rolling_spectrum` of a surface as a callable C_1D(q); values are kept, since each is a quadrature."""
-
-    @cache
-    def values(q: tuple[float, ...]) -> FloatArray:
-        return mdr.rolling_spectrum(np.array(q), ground.c2d, edges=ground.edges, contact_radius=contact_radius)
-
-    return lambda q: values(tuple(q.tolist()))
 
 
 def simulate_ensemble(ensemble: WheelEnsemble) -> Outcome:

@@ -26,8 +26,9 @@ from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import BoundaryElementsLaw, LinearLaw, SpringsLaw
 from validation.simulation.method import FloatArray, Prepared, Resolution, Result, Solve
 from validation.simulation.motion import periodic_motion, simulate, simulate_from_linear_motion
+from validation.simulation.track_spectrum import InputSpectrum
 from validation.simulation.wheel_on_half_space import WheelStrip, crop_to_reach, linear_law_3d
-from validation.simulation.wheel_on_springs import STEADY_TOLERANCE, InputSpectrum, WheelEnsemble, linear_law_1d
+from validation.simulation.wheel_on_springs import STEADY_TOLERANCE, WheelEnsemble, linear_law_1d
 from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
 

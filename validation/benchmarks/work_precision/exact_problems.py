@@ -16,10 +16,10 @@ import mdr
 from validation.benchmarks import peers
 from validation.benchmarks.peers import DiscreteProblem, solvers_on_grids
 from validation.benchmarks.timing import Configuration, NamedMethod, along
-from validation.benchmarks.work_precision.problem import CLOSED, ChartProblem, Grids, mean_of
+from validation.benchmarks.work_precision.problem import CLOSED, MDR, ChartProblem, Grids, mean_of
 from validation.scenes.indentation import IndentationScene
 from validation.simulation.method import FloatArray, Prepared, Resolution, Result, Solve, Values
-from validation.simulation.pressed import PressedSprings
+from validation.simulation.pressed import press_on_springs
 from validation.theory import closed_forms
 
 RESIDUALS = (0.1, 1e-2, 1e-3, 1e-4)
@@ -88,7 +88,7 @@ class ExactProblem(ChartProblem):
         grids = self.grids
         return (
             *along(NamedMethod(CLOSED, closed_form), self, (1.0,), "exact", is_reference=True),
-            *along(PressedSprings(), self, self.springs, f"# springs {grids.per}"),
+            *along(NamedMethod(MDR, press_on_springs), self, self.springs, f"# springs {grids.per}"),
             *self.boundary_elements(),
             *solvers_on_grids(peers.of_others(), self, self.peers, grids.per, grids.tight),
         )

@@ -3,6 +3,7 @@
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, ClassVar
 
 import numpy as np
@@ -21,7 +22,7 @@ from validation.engine.engine import Outcome
 from validation.simulation import model_names
 from validation.simulation.method import FloatArray, Method, Prepared, Resolution, Values
 from validation.simulation.model import Model
-from validation.simulation.pressed import FIXED_AREA_RESIDUAL, PressedGrid
+from validation.simulation.pressed import FIXED_AREA_RESIDUAL, MOST_ITERATIONS, press_on_grid
 from validation.theory.rolling import response
 
 CLOSED, FILTER_1D, FILTER_3D = model_names.CLOSED_FORM, model_names.FILTER_1D, model_names.FILTER_3D
@@ -88,6 +89,10 @@ class CountedSpectrum:
         return self.c2d(q)
 
 
+PUBLISHED = partial(bem3d.solve_polonsky_keer, max_iterations=MOST_ITERATIONS)
+"""One object: methods are known by their options."""
+
+
 def linear_power(
     surface: FloatArray, spacing: float, *, load: float = 1.0, **contact: float
 ) -> tuple[FloatArray, FloatArray]:
@@ -132,11 +137,11 @@ class ChartProblem(ABC):
 
     @property
     def method(self) -> Method:
-        return PressedGrid()
+        return NamedMethod("BEM", press_on_grid)
 
     @property
     def published(self) -> Method:
-        return PressedGrid(POLONSKY_KEER, polonsky_keer=True)
+        return NamedMethod(POLONSKY_KEER, press_on_grid, (PUBLISHED,))
 
     @abstractmethod
     def configurations(self) -> tuple[Configuration, ...]:

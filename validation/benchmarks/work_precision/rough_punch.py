@@ -7,11 +7,11 @@ import numpy as np
 
 import bem3d
 import mdr
-from validation.benchmarks.timing import Configuration, along
-from validation.benchmarks.work_precision.problem import ChartProblem, Grids, Quantity, mean_of
+from validation.benchmarks.timing import Configuration, NamedMethod, along
+from validation.benchmarks.work_precision.problem import MDR, ChartProblem, Grids, Quantity, mean_of
 from validation.scenes.indentation import IndentationScene
 from validation.simulation.method import FloatArray, Values
-from validation.simulation.pressed import PressedSprings
+from validation.simulation.pressed import press_on_springs
 from validation.simulation.rough_punch import PunchRoughness
 
 
@@ -61,7 +61,8 @@ class RoughPunchProblem(ChartProblem):
 
     def configurations(self) -> tuple[Configuration, ...]:
         own: dict[str, Any] = {"realisations": self.profiles, "paired": False}
-        return (*along(PressedSprings(), self, self.springs, "# springs a side", **own), *self.boundary_elements())
+        springs = along(NamedMethod(MDR, press_on_springs), self, self.springs, "# springs a side", **own)
+        return (*springs, *self.boundary_elements())
 
     def load(self, cells: int) -> dict[str, float]:
         return {"force": self.force * self.roughness.height}

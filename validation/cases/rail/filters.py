@@ -15,7 +15,7 @@ from validation.analysis.sound import a_weighting, energy_sum
 from validation.analysis.statistics import FloatArray
 from validation.scenes.level_files import curve
 from validation.scenes.rail import RailScene
-from validation.simulation.equivalent_displacement import LINEAR_MODELS, geike_power
+from validation.simulation.equivalent_displacement import geike_power, transfer_of
 from validation.simulation.model_names import LINEAR_GEIKE
 from validation.simulation.rail_strip import StatedAcross, line_of, strip_bands, structure_of
 from validation.theory.contact_filters import remington_filter
@@ -103,7 +103,7 @@ def linear_filter(
         return decibel(passed.sum(axis=1) / power.sum(axis=1))
     if model == LINEAR_GEIKE:
         return decibel(geike_power(line, contact, bands.edges))
-    transfer = LINEAR_MODELS[model](contact)
+    transfer = transfer_of(model, contact)
     return decibel(structure_of(across, line).band_power(line, transfer, edges=bands.edges, semi_axes=axes))
 
 

@@ -21,7 +21,7 @@ from validation.cases.rail.filters import RailWheel, decibel, scene_of
 from validation.engine.engine import SERIAL, Engine
 from validation.scenes.rail import RailScene
 from validation.simulation import rail_strip
-from validation.simulation.equivalent_displacement import LINEAR_MODELS
+from validation.simulation.equivalent_displacement import transfer_of
 from validation.simulation.model_names import LINE, LINEAR, LINEAR_ON_LINE
 from validation.simulation.rail_strip import ParallelLines, RailStrip, StatedAcross, mean_of_lines, strip_bands
 
@@ -120,7 +120,7 @@ def mean_of_heights(case: LineConvention, ground: str, spacing: float) -> FloatA
 def energy_mean(case: LineConvention, ground: str, powers: FloatArray) -> list[Estimate]:
     """ln of the energy mean over one line in the mean of all realisations."""
     strip = case.strip(ground)
-    one = strip.expected_power(LINEAR_MODELS[LINE](strip.contact), case.bands)
+    one = strip.expected_power(transfer_of(LINE, strip.contact), case.bands)
     return jackknifed(lambda rows: np.log(rows.mean(axis=0) / one), powers)
 
 

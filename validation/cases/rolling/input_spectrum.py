@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import partial
 from itertools import product
 from typing import Any
@@ -21,7 +21,13 @@ from validation.cases.rolling.settings import HEIGHT, Q, RollingSettings
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.simulation import rough_punch
 from validation.simulation.rolling_strip import ROUNDING, level_1d, level_3d, roll_strips, roll_tracks, strip_levels
-from validation.simulation.track_spectrum import INPUT_NAMES, INPUT_SPECTRA, PiecewisePowerLaw, self_affine
+from validation.simulation.track_spectrum import (
+    INPUT_NAMES,
+    INPUT_SPECTRA,
+    InputSpectrum,
+    PiecewisePowerLaw,
+    self_affine,
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,6 +73,9 @@ class RollingInput(RollingSettings):
     def punch(self) -> rough_punch.PunchRoughness:
         return rough_punch.PunchRoughness(hurst=0.7, waves=(1, self.punch_cells // 4), seed=self.seed)
 
+    def profiles_of(self, rule: InputSpectrum) -> rough_punch.InputRoughness:
+        return rough_punch.InputRoughness(**asdict(self.punch), input_spectrum=rule)
+
     def below_the_end(self, spectrum: PiecewisePowerLaw) -> slice:
         """One-third octaves that begin below the end of a spectrum."""
         return slice(np.count_nonzero(np.array(self.bands.edges[:-1]) < spectrum.edges[-1] * 0.999))
@@ -96,14 +105,10 @@ def run(case: RollingInput, engine: Engine = SERIAL) -> Outcomes:
     ]
     pressed = engine.map(rough_punch.press_surface, surfaces)
     profiles = partial(
-        rough_punch.InputProfiles,
-        punch=case.punch,
-        cells=case.punch_cells,
-        realisations=case.profiles,
-        forces=case.forces,
+        rough_punch.Profiles, realisations=case.profiles, points=16 * case.punch_cells, length=1.0, forces=case.forces
     )
     on_profiles = engine.map(
-        rough_punch.press_input_profiles, [profiles(input_spectrum=rule) for rule in INPUT_SPECTRA]
+        rough_punch.press_profiles, [profiles(roughness=case.profiles_of(rule)) for rule in INPUT_SPECTRA]
     )
     failures, punches = rough_punch.describe_failures(surfaces, pressed), rough_punch.stacked(pressed)
     rough_punch.require_converged([punches], failures)
@@ -179,7 +184,7 @@ def punches_of(result: Outcomes) -> Iterator[Series]:
         one = over[nearest(case.forces, 0.1)]
         part = Estimate(math.expm1(one.value), math.exp(one.value) * one.error, one.samples)
         yield Series(STIFFNESS, ONE_SIDED, (part,), where={FORCE: 0.1, **of}, margin=margin)
-        yield Series(PROFILE_HEIGHT, "springs", (float(mine["height"]),), where=of)
+        yield Series(PROFILE_HEIGHT, "springs", (case.profiles_of(rule).profile_height,), where=of)
 
 
 SPRINGS_ON = (

@@ -20,7 +20,7 @@ from validation.analysis.study import Outcomes, Study
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.simulation import rolling_strip, rough_punch
-from validation.simulation.rolling_strip import HERTZ, LoadedStrip, RoughStrip, Tracks
+from validation.simulation.rolling_strip import HERTZ, RoughStrip, Strip, Tracks
 from validation.simulation.track_spectrum import INPUT_SPECTRA, InputSpectrum, PiecewisePowerLaw, self_affine
 
 FloatArray = NDArray[np.float64]
@@ -95,9 +95,8 @@ class TrackStiffness:
             spectrum=self.spectrum, height=self.height(force), length=self.length, width=self.width, seed=self.seed
         )
 
-    def strips_of(self, force: float, cells: int) -> list[LoadedStrip]:
-        strips = self.rough_strip(force).strips(cells, 3e-5, self.strips if cells == self.cells else self.refined)
-        return [LoadedStrip(strip=strip, bands=self.bands) for strip in strips]
+    def strips_of(self, force: float, cells: int) -> list[Strip]:
+        return self.rough_strip(force).strips(cells, 3e-5, self.strips if cells == self.cells else self.refined)
 
     def tracks_of(self, force: float, rule: InputSpectrum) -> Tracks:
         return Tracks(
@@ -123,7 +122,11 @@ def run(case: TrackStiffness, engine: Engine = SERIAL) -> Outcomes:
     for key, found in strips.items():
         if sum(not one["failed"] for one in found) < FEWEST:
             raise NotConvergedError(f"fewer than {FEWEST} strips of {key} converged", lost)
-    along = {key: {name: np.array([one[name] for one in found]) for name in found[0]} for key, found in strips.items()}
+    rows = {
+        key: [rolling_strip.stiffness_moments(one["stiffness"], 1 / cells[key[0]], case.bands) for one in found]
+        for key, found in strips.items()
+    }
+    along = {key: {name: np.array([one[name] for one in found]) for name in found[0]} for key, found in rows.items()}
     tracks = {(rule, force): case.tracks_of(force, rule) for force in case.forces for rule in INPUT_SPECTRA}
     rolled = engine.map(rolling_strip.roll_loaded_tracks, list(tracks.values()))
     pressed = engine.map(rough_punch.press_surface, case.faces)

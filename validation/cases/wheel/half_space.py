@@ -16,8 +16,9 @@ from validation.cases.wheel.features import TABLE, accelerated_by, linear_force_
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene
+from validation.simulation.track_spectrum import InputSpectrum
 from validation.simulation.wheel_on_half_space import WheelStrip, simulate_strip
-from validation.simulation.wheel_on_springs import InputSpectrum, WheelEnsemble, simulate_ensemble
+from validation.simulation.wheel_on_springs import WheelEnsemble, simulate_ensemble
 
 QUICK = replace(TABLE, rail=replace(TABLE.rail, shortest=0.8e-3)) if TABLE.rail else TABLE
 INPUT_SPECTRA: tuple[InputSpectrum, ...] = ("geike", "rolling")

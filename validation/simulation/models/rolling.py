@@ -149,6 +149,4 @@ def springs_that_read(scene: RollingScene, surface: FloatArray, spacing: float) 
     Linear theory of the half-space while all springs touch; a spring lets go over its whole width at once.
     """
     strip = crop_to_reach(surface, spacing, scene.body)
-    return mdr.roll_surface(
-        strip, spacing=spacing, radius=scene.radius, modulus=scene.modulus, approach=scene.approach
-    ).force
+    return mdr.roll_surface(strip, spacing=spacing, **scene.body.smooth).force
