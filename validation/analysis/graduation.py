@@ -4,11 +4,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from validation.analysis.statistics import student
-
-FloatArray = NDArray[np.float64]
+from validation.analysis.statistics import FloatArray, student
 
 STIFFNESS = 10.0
 """Of the graduation: half of a wave of 11 values is left, a decade of one-third octaves."""

@@ -12,11 +12,10 @@ from itertools import pairwise
 
 import numpy as np
 import scipy
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from validation.analysis.spectra import Bands, levels, waves
-
-FloatArray = NDArray[np.float64]
+from validation.analysis.statistics import FloatArray
 
 MANTISSAS = (1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0)
 """Of nominal wavelengths, over a decade."""

@@ -5,9 +5,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-FloatArray = NDArray[np.float64]
+from validation.analysis.statistics import FloatArray
 
 
 def a_weighting(frequency: ArrayLike) -> FloatArray:

@@ -7,7 +7,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-FloatArray = NDArray[np.float64]
+from validation.analysis.statistics import FloatArray
+
 ComplexArray = NDArray[np.complex128]
 Window = Literal["none", "hann"]
 

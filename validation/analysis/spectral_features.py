@@ -6,9 +6,8 @@ omega: frequencies of a record, evenly spaced from the first [rad/s]; density: A
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from validation.analysis.statistics import FloatArray
 
 OUTSTANDING = 40.0
 """Over the median, what is no noise: of thousands of lines of noise the largest is about ten times the median."""

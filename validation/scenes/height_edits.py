@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-FloatArray = NDArray[np.float64]
+from validation.analysis.statistics import FloatArray
 
 BY_HAND = "cut out a part that is known, or fill them in from their neighbours"
 MOST_FILLED = 0.01

@@ -10,11 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from validation.analysis.graduation import graduated, scatter_of
+from validation.analysis.statistics import FloatArray
 from validation.scenes.roughness_levels import MICROMETRE, RoughnessLevels, nodes_of
 from validation.theory.line_spectrum import LineSpectrum
 from validation.theory.transverse_structure import has_isotropic_surface
-
-FloatArray = NDArray[np.float64]
 
 WHOLE_DECIBELS = 0.3
 """Scatter of levels that are rounded to them [dB]: with no more, a line of isotropic ground is left as it is."""

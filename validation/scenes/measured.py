@@ -10,10 +10,9 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.checks import positive
+from validation.analysis.statistics import FloatArray
 from validation.scenes.height_edits import UNTOUCHED, HeightEdits, known_heights
 from validation.scenes.units import in_unit
-
-FloatArray = NDArray[np.float64]
 
 FEWEST = 16
 """Points along each side, below which there is no spectrum to speak of."""

@@ -6,10 +6,10 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mdr.checks import finite, positive
 from validation.analysis.nominal_bands import NominalBands
+from validation.analysis.statistics import FloatArray
 from validation.scenes.height_edits import edited_lines, known_heights
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.number_table import NumberTable
@@ -19,8 +19,6 @@ from validation.scenes.reader import LENGTH, Reader, errors_of, nonblank_text, t
 from validation.scenes.roughness_levels import LEAST, MICROMETRE, RoughnessLevels
 from validation.scenes.table_files import FORM, heights_of_columns, sentence_about, table_beside
 from validation.scenes.units import LENGTHS, in_unit, quantity, unit_of
-
-FloatArray = NDArray[np.float64]
 
 WAVES_PER_LINE = 4
 """Of the longest band, at the least: with fewer waves it is narrower than what a line resolves."""

@@ -5,9 +5,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mdr.checks import positive
+from validation.analysis.statistics import FloatArray
 from validation.scenes.height_edits import HeightEdits, central_square, filled_in, points_to_fill, real_numbers
 from validation.scenes.measured import FEWEST, MeasuredHeights, check_grid
 from validation.scenes.number_table import NumberTable
@@ -16,8 +16,6 @@ from validation.scenes.printable import shortened
 from validation.scenes.reader import LENGTH, Reader, nonblank_text, table, yes_or_no
 from validation.scenes.table_files import FORM, heights_of_columns, sentence_about, table_beside
 from validation.scenes.units import in_unit, metres_of, unit_of
-
-FloatArray = NDArray[np.float64]
 
 
 def measured(surface: Any, *, unit: str | None = None, crop: bool = False, fill: bool = False) -> MeasuredHeights:

@@ -11,14 +11,12 @@ from itertools import chain, islice
 from typing import IO
 
 import numpy as np
-from numpy.typing import NDArray
 
+from validation.analysis.statistics import FloatArray
 from validation.scenes import text_dialect
 from validation.scenes.column_names import Column, columns_of, unit_of_all
 from validation.scenes.printable import quoted
 from validation.scenes.text_dialect import COMMENTS, Dialect, about_row, token
-
-FloatArray = NDArray[np.float64]
 
 MOST_VALUES = 2**24
 """Of a table: 4096 x 4096 heights."""

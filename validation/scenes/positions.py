@@ -6,10 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from validation.analysis.statistics import FloatArray
 from validation.scenes.number_table import NumberTable
 from validation.scenes.units import UNITS, in_unit, metres_of
-
-FloatArray = NDArray[np.float64]
 
 FEWEST = 8
 """Points of a column that can be told to run evenly."""

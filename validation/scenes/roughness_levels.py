@@ -5,12 +5,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from mdr.checks import finite
 from validation.analysis.nominal_bands import NominalBands
-
-FloatArray = NDArray[np.float64]
+from validation.analysis.statistics import FloatArray
 
 MICROMETRE = 1e-6
 LEAST, MOST = -100.0, 50.0

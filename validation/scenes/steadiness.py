@@ -8,14 +8,12 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from validation.analysis.statistics import FloatArray
 from validation.scenes.roughness import RoughSurface
 from validation.scenes.wheel_body import Wheel
 from validation.theory.gauss_legendre import on_panels
 from validation.theory.rolling import force_spectrum_1d
-
-FloatArray = NDArray[np.float64]
 
 MAX_FORCE = 0.25
 """Root mean square of the force by linear theory, over the load: above it wheels leave the track."""

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mdr.checks import count, finite
+from validation.analysis.statistics import FloatArray
 from validation.scenes.height_edits import real_numbers
 from validation.scenes.input_files import check_regular
 from validation.scenes.number_table import MOST_VALUES, NumberTable, TableForm, known_alone, table_of_text
@@ -26,8 +27,6 @@ from validation.scenes.printable import printable, quoted, shortened
 from validation.scenes.reader import Reader, nonblank_text, without_unit
 from validation.scenes.text_dialect import NoTextError
 from validation.scenes.units import LENGTHS, in_unit, metres_of
-
-FloatArray = NDArray[np.float64]
 
 MOST_BYTES = 2**28
 """Of a file; 4096 x 4096 heights of sixteen characters."""

@@ -11,14 +11,13 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.checks import finite
+from validation.analysis.statistics import FloatArray
 from validation.scenes.number_table import NumberTable
 from validation.scenes.printable import printable
 from validation.scenes.reader import Reader, errors_of, nonblank_text, table, yes_or_no
 from validation.scenes.table_files import FORM, heights_of_columns, sentence_about, table_beside
 from validation.scenes.units import LENGTHS, in_unit, unit_of
 from validation.theory.elliptic_contact import elliptic_contact
-
-FloatArray = NDArray[np.float64]
 
 FEWEST, MOST = 7, 100_000
 """Points of a profile."""

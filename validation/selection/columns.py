@@ -5,8 +5,8 @@ import string
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from validation.engine.engine import FloatArray
 from validation.scenes.rolling import RollingScene
 from validation.selection.cells import (
     NAMES,
@@ -25,8 +25,6 @@ from validation.selection.contact_force import ContactForce, contact_force
 from validation.selection.hierarchy import Candidate, Status
 from validation.selection.quantities import UNITS
 from validation.selection.side_by_side import TOGETHER, differences, error_of_difference, per_cent, reference_of
-
-FloatArray = NDArray[np.float64]
 
 ABREAST = 10
 """Models in a table, so that its lines fit."""

@@ -8,10 +8,10 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mdr.checks import count
 from validation.analysis.nominal_bands import MANTISSAS
+from validation.engine.engine import FloatArray
 from validation.scenes.load import Scene
 from validation.scenes.printable import shortened
 from validation.scenes.rail import RailScene
@@ -23,8 +23,6 @@ from validation.selection.scene_model import SceneModel, Shared
 from validation.selection.swept import Swept
 from validation.selection.tolerance import Tolerance, decibels, tolerance_of
 from validation.simulation.rolling_quantity import RollingQuantity
-
-FloatArray = NDArray[np.float64]
 
 LONGEST_BEYOND_RANGE = 60.0
 """Seconds that a model may take whose error is unknown."""

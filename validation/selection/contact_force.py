@@ -5,18 +5,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from validation.analysis.sound import a_weighting, energy_sum
+from validation.engine.engine import FloatArray
 from validation.scenes.rail import RailScene
 from validation.scenes.roughness_levels import MICROMETRE
 from validation.selection.cells import NAMES, NONE, Columns, half_width, signed
 from validation.selection.compare import Comparison
 from validation.selection.hierarchy import Candidate
 from validation.simulation.rail_models import RailModel, rail_quantity
-
-FloatArray = NDArray[np.float64]
-
 
 LEVELS = (
     "L_r: roughness, A3: contact filter, L_eq = L_r + A3: equivalent roughness [dB re 1 µm]; L_FA: contact force, "

@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from validation.analysis.contents import as_csv, as_json
 from validation.analysis.evidence import Table, table_of
 from validation.analysis.nominal_bands import LONGEST, NominalBands
+from validation.engine.engine import FloatArray
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.rail import RailScene
@@ -22,8 +22,6 @@ from validation.selection.hierarchy import Candidate
 from validation.selection.tolerance import decibels
 from validation.simulation.model import Target
 from validation.simulation.rail_models import RailModel, rail_quantity
-
-FloatArray = NDArray[np.float64]
 
 SCHEMA_OF_JSON = Path(__file__).with_name("comparison.schema.json")
 AXES, OF_RAIL = ("wavelength_mm", "frequency_hz"), ("roughness_dB", "a3_dB", "equivalent_dB", "force_dBA")

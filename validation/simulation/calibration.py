@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from validation.engine.engine import FloatArray
 from validation.engine.sources import version_of
 from validation.scenes.indentation import IndentationScene
 from validation.simulation.calibrated_range import (
@@ -27,7 +28,6 @@ from validation.simulation.calibrated_range import (
 from validation.simulation.method import Resolution
 from validation.simulation.model import ErrorEstimate, GridModel, Model, Target, models_serving
 
-FloatArray = NDArray[np.float64]
 Key = tuple[str, str, str]
 """Kind of scene, quantity, name of the model."""
 

@@ -6,13 +6,11 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 import bem3d
 import mdr
+from validation.engine.engine import FloatArray
 from validation.scenes.wheel_body import Wheel
-
-FloatArray = NDArray[np.float64]
 
 
 class ContactLaw(Protocol):

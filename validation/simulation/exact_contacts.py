@@ -5,15 +5,12 @@ import warnings
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 import bem3d
 import mdr
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.theory import closed_forms
 from validation.theory.elliptic_contact import EllipticContact, elliptic_contact
-
-FloatArray = NDArray[np.float64]
 
 
 def off(found: FloatArray, true: FloatArray) -> float:

@@ -5,8 +5,8 @@ from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from validation.engine.engine import FloatArray
 from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
@@ -14,8 +14,6 @@ from validation.scenes.roughness import RoughSurface
 from validation.simulation.surface import draw_surface
 from validation.theory.gauss_legendre import on_panels
 from validation.theory.rolling import rms_gradient
-
-FloatArray = NDArray[np.float64]
 
 SURFACES = 2
 """The spawn key under which surfaces draw."""

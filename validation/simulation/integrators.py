@@ -8,10 +8,8 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
+from validation.engine.engine import FloatArray
 
-FloatArray = NDArray[np.float64]
 Acceleration = Callable[[int, FloatArray], FloatArray]
 State = tuple[FloatArray, FloatArray, FloatArray]
 

@@ -5,14 +5,11 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 import bem3d
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.simulation.rough_punch import Surface, press_surface
 from validation.simulation.surface import refined
-
-FloatArray = NDArray[np.float64]
 
 CELLS_A_WAVE = 4
 """Of the shortest wave on the grid that a surface is drawn on; a finer one has the same waves."""

@@ -10,10 +10,10 @@ import numpy as np
 
 import bem3d
 import mdr
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.engine.random_numbers import random_generator
 from validation.simulation.exact_contacts import off
-from validation.simulation.probing import FloatArray, Point, Values, along, answered, message_of, recorded, swept
+from validation.simulation.probing import Point, Values, along, answered, message_of, recorded, swept
 from validation.simulation.rough_punch import PunchRoughness
 
 HERTZ = 4 / 3

@@ -6,13 +6,13 @@ from functools import partial
 import numpy as np
 
 import mdr
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.engine.random_numbers import random_generator
 from validation.simulation.contact_laws import HertzLaw
 from validation.simulation.free_vibration import SCHEMES, WHEEL, Vibrations, vibrate
 from validation.simulation.integrators import VELOCITY_VERLET
 from validation.simulation.motion import simulate
-from validation.simulation.probing import FloatArray, Point, Values, along, answered, message_of, swept
+from validation.simulation.probing import Point, Values, along, answered, message_of, swept
 from validation.simulation.rolling_strip import RoughStrip, Strip, roll_strip
 from validation.simulation.rough_punch import Profiles, PunchRoughness, Surface, press_profiles, press_surface
 from validation.simulation.spring_tracks import FINE, STRIDES, LiftOff, RoughTrack, coarsen, filtered, lift_off

@@ -9,10 +9,10 @@ from functools import cache
 
 import numpy as np
 import scipy
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy import special
 
-FloatArray = NDArray[np.float64]
+from validation.engine.engine import FloatArray
 
 EDGES = np.linspace(0.0, 3.0, 49)
 RADII, AREAS = (EDGES[1:] + EDGES[:-1]) / 2, np.pi * np.diff(EDGES**2)

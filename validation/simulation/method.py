@@ -8,10 +8,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-import numpy as np
-from numpy.typing import NDArray
+from validation.engine.engine import FloatArray
 
-FloatArray = NDArray[np.float64]
 Values = Mapping[str, FloatArray]
 """By name; where a solve has several realisations, they are along the first axis."""
 

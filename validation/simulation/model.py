@@ -12,16 +12,14 @@ from pkgutil import iter_modules, resolve_name
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mdr.checks import positive
+from validation.engine.engine import FloatArray
 from validation.simulation import models
 from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.model_names import BEM, MODELS
 from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.sampling import FEWEST
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -6,13 +6,12 @@ from functools import wraps
 from typing import TypeVar, cast
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 import bem3d
 import mdr
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 
-FloatArray = NDArray[np.float64]
 Values = tuple[float, ...]
 Point = tuple[float, str]
 """The error at one value, infinite where there is no answer, and the message of the software, empty without one."""

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.scenes.rail import ProfiledRail, RailScene
 from validation.simulation.equivalent_displacement import RolledRail, log_over, roll_rail, transfer_of
 from validation.simulation.method import Resolution, Result, Values
@@ -23,8 +23,6 @@ from validation.simulation.model import Cost, ErrorEstimate, Model, Target, mode
 from validation.simulation.model_names import LINEAR, twin_of
 from validation.simulation.rail_quantity import RAIL_QUANTITIES, RailQuantity
 from validation.simulation.rail_strip import RailStrip, StatedAcross, positions_along, strip_bands, strip_of
-
-FloatArray = NDArray[np.float64]
 
 LINEAR_ERROR, PER_LOST_CONTACT = 0.2, 1.1
 """Error of linear theory beside boundary elements [dB]: 0.2 min(1, q a_x) + 1.1 q a_x h' a_x / d, an envelope of what

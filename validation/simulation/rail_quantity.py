@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.nominal_bands import NominalBands
+from validation.engine.engine import FloatArray
 from validation.scenes.rail import RailScene
 from validation.scenes.roughness_levels import MICROMETRE
 from validation.simulation.equivalent_displacement import transfer_of
@@ -20,7 +21,6 @@ from validation.simulation.rail_strip import StatedAcross, line_of, lost_contact
 from validation.theory.line_spectrum import LineSpectrum
 from validation.theory.transverse_structure import Filter, IsotropicGround, TransverseStructure
 
-FloatArray = NDArray[np.float64]
 RailQuantityName = Literal["contact-filter", "equivalent-roughness"]
 
 RAIL_QUANTITIES: tuple[RailQuantityName, ...] = ("contact-filter", "equivalent-roughness")

@@ -11,16 +11,13 @@ from typing import Literal
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 import mdr
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.scenes.rail import RailScene
 from validation.simulation.equivalent_displacement import geike_track, linear_displacement, roll_boundary_elements
 from validation.simulation.model_names import BEM, LINEAR, SPRINGS_THAT_READ
 from validation.simulation.rail_strip import LENGTH, RailStrip, StatedAcross, strip_of
-
-FloatArray = NDArray[np.float64]
 
 GEIKE = "springs of Geike's spectrum"
 ISOTROPIC: Literal["isotropic"] = "isotropic"

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from validation.analysis.nominal_bands import NominalBands
 from validation.analysis.spectra import Bands, levels, waves
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.engine.random_numbers import random_generator
 from validation.scenes.rail import RailScene
 from validation.simulation.surface import draw_surface
@@ -22,7 +22,6 @@ from validation.theory.elliptic_contact import EllipticContact, elliptic_contact
 from validation.theory.line_spectrum import LineSpectrum
 from validation.theory.transverse_structure import IsotropicGround, Ridges, TransverseStructure, WaveBand
 
-FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 Transfer = Callable[[FloatArray, FloatArray], FloatArray]
 """H(k_x, k_y), from the height of a wave to that of the result."""

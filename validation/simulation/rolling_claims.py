@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import Any, get_args
 
 import numpy as np
-from numpy.typing import NDArray
 
+from validation.engine.engine import FloatArray
 from validation.scenes.rolling import RollingScene
 from validation.simulation.calibrated_range import beyond_envelope, beyond_spectrum, counted, lost_contact
 from validation.simulation.calibration import calibrated
@@ -16,7 +16,6 @@ from validation.simulation.model import ErrorEstimate, Function, Model, Target, 
 from validation.simulation.rolling_quantity import QuantityName
 from validation.simulation.sampling import distance
 
-FloatArray = NDArray[np.float64]
 Rule = tuple[float, float, float]
 
 LINEAR_RMS: Rule = (1.2, 0.05, 0.002)

@@ -7,15 +7,14 @@ from itertools import pairwise
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from validation.analysis.spectra import Bands
+from validation.engine.engine import FloatArray
 from validation.scenes.rolling import RollingScene
 from validation.scenes.steadiness import force_on_the_way
 from validation.theory.gauss_legendre import on_panels
 from validation.theory.rolling import force_spectrum_1d, force_spectrum_3d, force_variance
 
-FloatArray = NDArray[np.float64]
 QuantityName = Literal["force-rms", "force-spectrum", "acceleration", "acceleration-rms"]
 
 NODES = 8

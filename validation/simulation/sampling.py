@@ -3,11 +3,8 @@
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-from validation.analysis.statistics import student
-
-FloatArray = NDArray[np.float64]
+from validation.analysis.statistics import FloatArray, student
 
 STUDENT = 2.0
 """Standard errors of a 95 % interval; samples here have eight realisations or more, or say so by a wider one."""

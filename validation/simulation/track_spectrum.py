@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import mdr
+from validation.engine.engine import FloatArray
 from validation.scenes.roughness import RoughSurface
 from validation.theory.rolling import section, slope_in_one_direction
 
-FloatArray = NDArray[np.float64]
 InputSpectrum = Literal["geike", "line", "rolling"]
 """Geike's rule; the line trace of the surface; the rolling-equivalent spectrum, `mdr.rolling_spectrum`."""
 

@@ -20,11 +20,11 @@ from validation.benchmarks.timing import (
     interval_of_median,
     time_in_turns,
 )
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.roughness import Roughness
-from validation.simulation.method import FloatArray, Values
+from validation.simulation.method import Values
 from validation.simulation.rough_punch import PunchRoughness, Surface, press_surface
 from validation.simulation.surface import draw_surface
 

@@ -13,10 +13,9 @@ from validation.benchmarks.isolation import timed
 from validation.benchmarks.work_precision.dynamic_wheel import CountedSprings
 from validation.benchmarks.work_precision.rolling import moving_window
 from validation.engine.convergence import NotConvergedError
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.simulation.contact_laws import SpringsLaw
-from validation.simulation.method import FloatArray
 from validation.simulation.motion import simulate
 from validation.simulation.rolling_strip import RoughStrip, Strip, crop_to_reach
 from validation.simulation.track_spectrum import PiecewisePowerLaw

@@ -21,10 +21,11 @@ from validation.benchmarks.work_precision.problem import (
     linear_power,
     log_power,
 )
+from validation.engine.engine import FloatArray
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import BoundaryElementsLaw, LinearLaw, SpringsLaw
-from validation.simulation.method import FloatArray, Prepared, Resolution, Result, Solve
+from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.motion import periodic_motion, simulate, simulate_from_linear_motion
 from validation.simulation.track_spectrum import InputSpectrum
 from validation.simulation.wheel_on_half_space import WheelStrip, crop_to_reach, linear_law_3d

@@ -13,8 +13,8 @@ from validation.benchmarks.timing import FINISHED, OUT_OF_RANGE, Configuration, 
 from validation.benchmarks.work_precision.pareto import Point
 from validation.benchmarks.work_precision.problem import EXTRAPOLATED, ChartProblem, Quantity, values_of
 from validation.engine.convergence import NotConvergedError
-from validation.engine.engine import Outcome
-from validation.simulation.method import FloatArray, Values
+from validation.engine.engine import FloatArray, Outcome
+from validation.simulation.method import Values
 
 IntArray = NDArray[np.int64]
 

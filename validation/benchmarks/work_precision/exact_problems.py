@@ -17,8 +17,9 @@ from validation.benchmarks import peers
 from validation.benchmarks.peers import DiscreteProblem, solvers_on_grids
 from validation.benchmarks.timing import Configuration, NamedMethod, along
 from validation.benchmarks.work_precision.problem import CLOSED, MDR, ChartProblem, Grids, mean_of
+from validation.engine.engine import FloatArray
 from validation.scenes.indentation import IndentationScene
-from validation.simulation.method import FloatArray, Prepared, Resolution, Result, Solve, Values
+from validation.simulation.method import Prepared, Resolution, Result, Solve, Values
 from validation.simulation.pressed import press_on_springs
 from validation.theory import closed_forms
 

@@ -18,9 +18,9 @@ from validation.benchmarks.timing import (
     configurations_of,
     time_in_turns,
 )
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.simulation import model_names
-from validation.simulation.method import FloatArray, Method, Prepared, Resolution, Values
+from validation.simulation.method import Method, Prepared, Resolution, Values
 from validation.simulation.model import Model
 from validation.simulation.pressed import FIXED_AREA_RESIDUAL, MOST_ITERATIONS, press_on_grid
 from validation.theory.rolling import response

@@ -27,9 +27,10 @@ from validation.benchmarks.work_precision.problem import (
     log_power,
 )
 from validation.engine.convergence import NotConvergedError
+from validation.engine.engine import FloatArray
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
-from validation.simulation.method import FloatArray, Prepared, Resolution, Result, Solve, Values
+from validation.simulation.method import Prepared, Resolution, Result, Solve, Values
 from validation.simulation.pressed import MOST_ITERATIONS
 from validation.simulation.rolling_strip import HERTZ, RoughStrip, crop_to_reach
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, self_affine

@@ -9,8 +9,9 @@ import bem3d
 import mdr
 from validation.benchmarks.timing import Configuration, NamedMethod, along
 from validation.benchmarks.work_precision.problem import MDR, ChartProblem, Grids, Quantity, mean_of
+from validation.engine.engine import FloatArray
 from validation.scenes.indentation import IndentationScene
-from validation.simulation.method import FloatArray, Values
+from validation.simulation.method import Values
 from validation.simulation.pressed import press_on_springs
 from validation.simulation.rough_punch import PunchRoughness
 

@@ -9,14 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.margins import MARGINS
-from validation.engine.engine import Outcome
+from validation.engine.engine import FloatArray, Outcome
 from validation.simulation import limits_of_half_space as elements
 from validation.simulation import limits_of_springs as springs
 from validation.simulation.limit_sweeps import SweepProblem
 from validation.simulation.rough_punch import force_levels
 from validation.simulation.spring_tracks import FINE, STRIDES
 
-FloatArray = NDArray[np.float64]
 FULL, HALF = 1.1631 / math.sqrt(2), 0.4769 / math.sqrt(2)
 """p over E* g at which Persson's contact fraction erf(sqrt(2) p / (E* g)) is 0.9, and one half; g: rms gradient."""
 

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
@@ -13,11 +12,10 @@ from validation.analysis.claims import Claim
 from validation.analysis.evidence import Role
 from validation.analysis.series import Margin, Series
 from validation.analysis.study import Outcomes, Study
-from validation.engine.engine import SERIAL, Engine
+from validation.engine.engine import SERIAL, Engine, FloatArray
 from validation.simulation.ridges import BEM, FILTER, FULL, SPRINGS, RidgesTrack, SuperposedRidges, roll_over
 from validation.theory.rolling import response
 
-FloatArray = NDArray[np.float64]
 EDGE = 0.4
 """How far the edge of a contact on a grid is out of place at most, in cells, measured on circles of 8 to 32 cells."""
 FAR = 5.0

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
@@ -18,12 +17,11 @@ from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, extrapolated, jackknife_error, log_ratio_of_means
 from validation.analysis.study import Outcomes, Study
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
-from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.engine.engine import SERIAL, Engine, FloatArray, Outcome
 from validation.simulation import rolling_strip, rough_punch
 from validation.simulation.rolling_strip import HERTZ, RoughStrip, Strip, Tracks
 from validation.simulation.track_spectrum import INPUT_SPECTRA, InputSpectrum, PiecewisePowerLaw, self_affine
 
-FloatArray = NDArray[np.float64]
 ROUNDING = 1e-9
 """A relative deviation below is none: all springs touch."""
 

@@ -5,8 +5,8 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from validation.engine.engine import FloatArray
 from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.level_files import curve
@@ -20,7 +20,6 @@ from validation.selection.calibrate import QUANTITIES
 from validation.simulation.surface import draw_surface
 from validation.theory.closed_forms import hertz_force
 
-FloatArray = NDArray[np.float64]
 Generator = np.random.Generator
 
 PUNCH, SPHERE, ROLLING, WHEEL, RAIL = "punch", "sphere", "rolling", "wheel", "rail"

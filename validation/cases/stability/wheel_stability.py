@@ -8,21 +8,19 @@ from itertools import product
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from validation.analysis.evidence import Role
 from validation.analysis.margins import MARGINS
 from validation.analysis.series import Estimates, Series, Where, single
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, mean_estimate
 from validation.analysis.study import Outcomes
-from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.engine.engine import SERIAL, Engine, FloatArray, Outcome
 from validation.simulation import free_vibration as free
 from validation.simulation import spring_tracks as springs
 from validation.simulation.free_vibration import LIFT_OFF, SCHEMES, TENTHS, WHEEL
 from validation.simulation.spring_tracks import FINE, STRIDES, RoughTrack
 from validation.theory import wheel as wheel_theory
 
-FloatArray = NDArray[np.float64]
 EULER, SYMPLECTIC, VERLET, KUTTA = "explicit Euler", "symplectic Euler", "velocity Verlet", "Runge-Kutta"
 ORDERS = {EULER: (2.0, 1.0), SYMPLECTIC: (2.0, 1.0), VERLET: (2.0, 2.0), KUTTA: (4.0, 5.0)}
 """Of the period and of the energy."""

@@ -4,9 +4,9 @@ import math
 import warnings
 
 import numpy as np
-from numpy.typing import NDArray
 
 import bem3d
+from validation.engine.engine import FloatArray
 from validation.scenes.indentation import IndentationScene
 from validation.simulation import indentation as face
 from validation.simulation.calibrated_range import SCATTER
@@ -16,8 +16,6 @@ from validation.simulation.model import Cost, ErrorEstimate, GridModel, Model, T
 from validation.simulation.model_names import BEM
 from validation.simulation.pressed import cell_applications
 from validation.simulation.sampling import FEWEST, STUDENT, grid_error
-
-FloatArray = NDArray[np.float64]
 
 CELL, PRESS = 2.0e-8, 3.5e-3
 """Seconds that a cell takes in an application, and what else a contact, about."""

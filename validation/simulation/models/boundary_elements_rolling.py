@@ -3,8 +3,8 @@
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from validation.engine.engine import FloatArray
 from validation.simulation import rolling_levels as grids
 from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.model import Cost, ErrorEstimate, GridModel, Model, Target
@@ -12,8 +12,6 @@ from validation.simulation.model_names import BEM
 from validation.simulation.rolling_claims import of_a_wheel
 from validation.simulation.rolling_levels import RollingGrid, on_boundary_elements
 from validation.simulation.sampling import distance
-
-FloatArray = NDArray[np.float64]
 
 CELL, POSITION = 2.0e-8, 1.0e-3
 """Seconds that a cell takes in an application, and what else a contact, about."""

@@ -4,16 +4,14 @@ import math
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from validation.engine.engine import FloatArray
 from validation.simulation import model_names as named
 from validation.simulation.equivalent_displacement import geike_power
 from validation.simulation.rail_models import STRIPS, rail_model
 from validation.simulation.rail_quantity import RailQuantity
 from validation.theory.contact_filters import remington_filter
 from validation.theory.transverse_structure import Ridges
-
-FloatArray = NDArray[np.float64]
 
 ALPHA = 1.0
 """Of Remington's filter, the usual choice, where the scene states no band of waves."""

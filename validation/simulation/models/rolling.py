@@ -6,9 +6,9 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import mdr
+from validation.engine.engine import FloatArray
 from validation.scenes.rolling import RollingScene
 from validation.simulation import rolling_levels as grids
 from validation.simulation.method import Resolution, Result
@@ -18,8 +18,6 @@ from validation.simulation.pressed_layer import roll_on_layer
 from validation.simulation.rolling_claims import FORCE_RMS, NODE, RollingClaim, of_a_wheel
 from validation.simulation.rolling_levels import RollingGrid, by_linear_theory, levels_of, on_springs, strip_of
 from validation.simulation.wheel_on_half_space import crop_to_reach
-
-FloatArray = NDArray[np.float64]
 
 TRACKS = 60
 MOST_ON_TRACKS, MOST_ON_A_STRIP = 2**27, 2**24
