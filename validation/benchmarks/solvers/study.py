@@ -13,7 +13,7 @@ GUIDE = Curve(problems.SOLVE, case.GUIDE, "guide", case.GUIDE, of={"problem": "r
 
 
 def panel(along: str, quantity: str, legend: str, *curves: Curve) -> Panel:
-    return Panel(along, quantity, curves, log="xy", ticked=True, legend=legend)
+    return Panel(along, quantity, log="xy", ticked=True, legend=legend).of(*curves)
 
 
 SOLVE, MEMORY = (Curve(quantity, OUR_SOLVER, by=("problem",)) for quantity in (problems.SOLVE, problems.MEMORY))
@@ -38,45 +38,29 @@ STUDY = Study(
     printed=(case.SECONDS, case.LOADS, case.WORK, case.ROLLED, case.EXPONENT, case.PEERS),
     matrices=(Matrix(name=case.SPEED, quantity=case.SPEED, rows=("problem",), columns="cells", printed=times_source),),
     claims=(
-        Claim(
-            says="Our solver is the fastest at the same residual.",
-            short="Problems on which our solver is the fastest",
-            quantity=case.SPEED,
-            along="-cells",
-            printed=times_source,
-            counted=True,
+        Claim(quantity=case.SPEED, along="-cells", printed=times_source, counted=True).saying(
+            "Our solver is the fastest at the same residual.", short="Problems on which our solver is the fastest"
         ),
-        Claim(
-            says="Different solvers of the same discrete problem find the same pressure.",
-            quantity=tuple(case.DIFFERENCE.format(what) for what, *_ in case.AGREEMENT),
-            printed=off_by,
+        Claim(quantity=tuple(case.DIFFERENCE.format(what) for what, *_ in case.AGREEMENT), printed=off_by).saying(
+            "Different solvers of the same discrete problem find the same pressure."
         ),
     ),
     charts=(
-        Chart(
-            "race",
+        Chart("race").of(
             "Grids of {c.cells} cells a side. (a) Median time to the residual, bars from the fastest to the slowest "
-            "run. (b) The same over the median of bem3d.solve.",
+            "run. (b) The same over the median of bem3d.solve."
         ),
-        Chart(
-            "race-growth",
+        Chart("race-growth", claims=(), width=11.0).of(
             "Our solver alone against the cells along a side. (a) Time of a solve, and n² log n through the largest "
             "rough one in free space. (b) Peak memory of its process, less that of an idle one.",
-            (
-                panel(case.CELLS, problems.SOLVE, "upper left", SOLVE, GUIDE),
-                panel(case.CELLS, problems.MEMORY, "upper left", MEMORY),
-            ),
-            claims=(),
-            width=11.0,
+            panel(case.CELLS, problems.SOLVE, "upper left", SOLVE, GUIDE),
+            panel(case.CELLS, problems.MEMORY, "upper left", MEMORY),
         ),
-        Chart(
-            "race-wheel",
+        Chart("race-wheel", claims=(), width=5.4).of(
             "A dynamic wheel on springs, {c.wheel.wheels} in a batch on one core: steps of one wheel a second against "
             "the springs to a contact radius, by roughness h0/d. Filled: as simulated; open: plain sums over all "
             "springs.",
-            (panel(case.SPRINGS, STEPS, "best", *STEPPED),),
-            claims=(),
-            width=5.4,
+            panel(case.SPRINGS, STEPS, "best", *STEPPED),
         ),
     ),
 )

@@ -51,53 +51,37 @@ STUDY = Study(
     tables=case.tables,
     printed=(case.WITHIN, case.WITHOUT, COST_OF_STEPS),
     claims=(
-        Claim(
-            says="Up to the error that springs reach, they are the cheapest method of every scene.",
+        Claim(quantity=case.TIME, model=case.UP_TO, printed=times_source, counted=True).saying(
+            "Up to the error that springs reach, they are the cheapest method of every scene.",
             short="Charts on which springs are the cheapest, as close as they come",
-            quantity=case.TIME,
-            model=case.UP_TO,
-            printed=times_source,
-            counted=True,
         ),
-        Claim(
-            says="Beyond the error that springs reach, boundary elements are the cheapest method of every scene.",
+        Claim(quantity=case.TIME, model=case.FROM, printed=times_source, counted=True).saying(
+            "Beyond the error that springs reach, boundary elements are the cheapest method of every scene.",
             short="charts on which boundary elements are the cheapest, closer than springs",
-            quantity=case.TIME,
-            model=case.FROM,
-            printed=times_source,
-            counted=True,
         ),
         ClaimOfTheClosest(
             says="A model without boundary elements comes within 10 %, or 1 dB, of them on every rough scene.",
             where={"setting": ...},
         ),
-        Claim(
-            says="Errors fall with the size of cells and springs as theory has it.",
-            quantity=tuple(case.ORDER.format(quantity) for _, quantity, *_ in case.ORDERS),
+        Claim(quantity=tuple(case.ORDER.format(quantity) for _, quantity, *_ in case.ORDERS)).saying(
+            "Errors fall with the size of cells and springs as theory has it."
         ),
-        Claim(
-            says="The published iteration and ours have equal values on equal grids.",
-            quantity=tuple(case.EQUAL.format(quantity) for _, quantity in case.SAME),
-            printed=off_by,
+        Claim(quantity=tuple(case.EQUAL.format(quantity) for _, quantity in case.SAME), printed=off_by).saying(
+            "The published iteration and ours have equal values on equal grids."
         ),
-        Claim(
-            says="Contact in three dimensions is too costly for the dynamic simulation of Fig. 14.4.",
-            quantity=case.COST,
-            differ=True,
+        Claim(quantity=case.COST, differ=True).saying(
+            "Contact in three dimensions is too costly for the dynamic simulation of Fig. 14.4."
         ),
     ),
     charts=(
-        Chart(
-            "precision-summary",
+        Chart("precision-summary").of(
             "The cheapest method within each tolerance, closed forms left out where they are the reference; levels "
             "within 20 lg (1 + tolerance) dB. Seconds of one realisation, one thread; costs within a factor 1.5 share "
-            "a mark.",
+            "a mark."
         ),
-        Chart("precision", f"Error against seconds, a chart a quantity. {MARKS}", claims=(1,)),
-        Chart(
-            "precision-work",
-            f"The same against work: cells times operator applications, springs evaluated, points filtered. {MARKS}",
-            claims=(),
+        Chart("precision", claims=(1,)).of(f"Error against seconds, a chart a quantity. {MARKS}"),
+        Chart("precision-work", claims=()).of(
+            f"The same against work: cells times operator applications, springs evaluated, points filtered. {MARKS}"
         ),
     ),
 )

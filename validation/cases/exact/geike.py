@@ -161,36 +161,25 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(
-            says="A profile drawn by Geike's rule has the mean square height, gradient and curvature of the surface.",
+        # the higher the derivative, the less the first wave counts
+        Claim(quantity=tuple(NAMED.values()), model=f"{PROFILES} over {SURFACES}", along="-quantity").saying(
+            "A profile drawn by Geike's rule has the mean square height, gradient and curvature of the surface.",
             short="Drawn profiles beside drawn surfaces",
-            quantity=tuple(NAMED.values()),
-            model=f"{PROFILES} over {SURFACES}",
-            # the higher the derivative, the less the first wave counts
-            along="-quantity",
         ),
-        Claim(
-            says="Geike's spectrum is not that of a line on the surface.",
+        Claim(quantity=OVER_GEIKE, differ=True).saying(
+            "Geike's spectrum is not that of a line on the surface.",
             short="The spectrum of a line on the surface and Geike's",
-            quantity=OVER_GEIKE,
-            differ=True,
         ),
-        Claim(
-            says="A line on the surface keeps its mean square height and half of its mean square gradient.",
-            quantity=(*OVER_SURFACE.values(), OVER_LINE),
-            printed=off_by,
+        Claim(quantity=(*OVER_SURFACE.values(), OVER_LINE), printed=off_by).saying(
+            "A line on the surface keeps its mean square height and half of its mean square gradient."
         ),
     ),
     charts=(
-        Chart(
-            "geike",
+        Chart("geike", claims=(1,)).of(
             "(a) Geike's spectrum and the line trace, with those measured on drawn profiles and along lines of drawn "
             "surfaces. (b) n-th moment of both over that of the surface.",
-            (
-                Panel(WAVENUMBER, SPECTRUM, SPECTRA, log="xy", decades=4.2, legend="lower left"),
-                Panel(POWER, SHARE, SHARES, log="", ylim=(0, 1.1), ticked=True, legend="lower left"),
-            ),
-            claims=(1,),
+            Panel(WAVENUMBER, SPECTRUM, log="xy", decades=4.2, legend="lower left").of(*SPECTRA),
+            Panel(POWER, SHARE, log="", ylim=(0, 1.1), ticked=True, legend="lower left").of(*SHARES),
         ),
     ),
 )

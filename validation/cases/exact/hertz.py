@@ -158,23 +158,18 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(
-            says="Both methods give the contact of Hertz.",
-            short="Springs and boundary elements beside the contact of Hertz",
-            printed=off_by,
+        Claim(printed=off_by).saying(
+            "Both methods give the contact of Hertz.", short="Springs and boundary elements beside the contact of Hertz"
         ),
     ),
     charts=(
-        Chart(
-            "hertz",
+        Chart("hertz").of(
             "(a) Load curve, {c.cells_per_radius[1]} cells in the largest contact radius. (b) Pressure along a row of "
             "cells next to the centre, {c.cells_per_radius[1]} cells in the contact radius. (c) Relative error of the "
             "force at a given approach against cells in the contact radius. Dotted: second order.",
-            (
-                Panel(APPROACH, FORCE, _curves(FORCE, HERTZ, BEM, MDR), log=""),
-                Panel(DISTANCE, PRESSURE, _curves(PRESSURE, HERTZ, BEM), log=""),
-                Panel(CELLS, ERROR, _curves(ERROR, BEM, MDR, SECOND), log="xy", ticked=True),
-            ),
+            Panel(APPROACH, FORCE, log="").of(*_curves(FORCE, HERTZ, BEM, MDR)),
+            Panel(DISTANCE, PRESSURE, log="").of(*_curves(PRESSURE, HERTZ, BEM)),
+            Panel(CELLS, ERROR, log="xy", ticked=True).of(*_curves(ERROR, BEM, MDR, SECOND)),
         ),
     ),
 )

@@ -85,40 +85,29 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(
-            says="A flat square punch on the half-space has the stiffness 1.1523 E* L, and a circular one 2 E* a.",
+        Claim(quantity=(LIMIT, ORDER, CIRCLE)).saying(
+            "A flat square punch on the half-space has the stiffness 1.1523 E* L, and a circular one 2 E* a.",
             short="Boundary elements beside the closed forms of flat punches",
-            quantity=(LIMIT, ORDER, CIRCLE),
         ),
-        Claim(
-            says="A 1D model as long as the side has the stiffness of the square in full contact.",
+        Claim(quantity=FULL).saying(
+            "A 1D model as long as the side has the stiffness of the square in full contact.",
             short="a 1D model of length L",
-            quantity=FULL,
         ),
         Claim(says="The factor of the square is 1.012 * 2 / sqrt(pi), as it is often quoted.", quantity=QUOTED),
     ),
     charts=(
-        Chart(
-            "square_punch",
+        Chart("square_punch", claims=(0, 1)).of(
             "(a) Stiffness of the square over E* L against the cells, with the closed form and both 1D lengths. (b) "
             "Pressure under the square along its middle over its mean, finest grid: singular at the edges.",
-            (
-                Panel(
-                    CELLS,
-                    "k / (E* L); circle k / (2 E* a)",
-                    (
-                        Curve(SQUARE, "capacitance", "thick", "square, numerical capacitance"),
-                        Curve(SQUARE, LENGTHS[0], "mdr line", "MDR, L_1D = L"),
-                        Curve(SQUARE, LENGTHS[1], "other", "MDR, L_1D = 1.1523 L"),
-                        Curve(SQUARE, EXTRAPOLATED, "guide", "first-order extrapolation"),
-                        Curve(SQUARE, "bem3d", "bem", "boundary elements, square"),
-                        Curve(CIRCLE, "bem3d, on each grid", "crosses", "boundary elements, circle"),
-                    ),
-                    ticked=True,
-                ),
-                Panel("x / L", PRESSURE, (Curve(PRESSURE, style="bem", label="_"),), log="y"),
+            Panel(CELLS, "k / (E* L); circle k / (2 E* a)", ticked=True).of(
+                Curve(SQUARE, "capacitance", "thick", "square, numerical capacitance"),
+                Curve(SQUARE, LENGTHS[0], "mdr line", "MDR, L_1D = L"),
+                Curve(SQUARE, LENGTHS[1], "other", "MDR, L_1D = 1.1523 L"),
+                Curve(SQUARE, EXTRAPOLATED, "guide", "first-order extrapolation"),
+                Curve(SQUARE, "bem3d", "bem", "boundary elements, square"),
+                Curve(CIRCLE, "bem3d, on each grid", "crosses", "boundary elements, circle"),
             ),
-            claims=(0, 1),
+            Panel("x / L", PRESSURE, log="y").of(Curve(PRESSURE, style="bem", label="_")),
         ),
     ),
 )

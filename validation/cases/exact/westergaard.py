@@ -115,21 +115,17 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(
-            says="The periodic half-space gives Westergaard's contact.",
+        Claim(printed=off_by).saying(
+            "The periodic half-space gives Westergaard's contact.",
             short="The periodic half-space beside Westergaard's contact",
-            printed=off_by,
         ),
     ),
     charts=(
-        Chart(
-            "westergaard",
+        Chart("westergaard").of(
             "(a) Pressure at each mean pressure, finest grid, some of its cells; lines: Westergaard. (b) Relative L2 "
             "error of the pressure against cells.",
-            (
-                Panel(PLACE, PRESSURE, PRESSED, log=""),
-                Panel(CELLS, ERROR, ERRORS, log="xy", ticked=True),
-            ),
+            Panel(PLACE, PRESSURE, log="").of(*PRESSED),
+            Panel(CELLS, ERROR, log="xy", ticked=True).of(*ERRORS),
         ),
     ),
     printed=(EDGES,),

@@ -231,7 +231,7 @@ def panel(limit: Limit) -> Panel:
     title = f"{limit.named.method}:\n{limit.named.title} {'→' if limit.fails.side == 'above' else '←'}"
     log = "xy" if max(limit.probe.values) > 4 * min(limit.probe.values) else "y"
     y, tolerance = textwrap.fill(limit.fails.error, 30), limit.fails.tolerance
-    return Panel(limit.named.parameter, y, curves, title, log=log, lines=(tolerance,))
+    return Panel(limit.named.parameter, y, title=title, log=log, lines=(tolerance,)).of(*curves)
 
 
 def of_solvers(quantity: str) -> tuple[Curve, ...]:
@@ -287,7 +287,9 @@ STUDY = Study(
     charts=(
         figure("limits", "Springs and time stepping." + ALL, tuple(map(panel, SPRINGS)), height=9.6),
         figure("limits-bem", "Boundary elements." + ALL, tuple(map(panel, HALF_SPACE)), height=6.6),
-        Chart("limits-solver", SOLVER, (AGAINST_CELLS, *AGAINST_RESIDUAL), claims=(), columns=2, width=9.0, height=6.6),
+        Chart("limits-solver", claims=(), columns=2, width=9.0, height=6.6).of(
+            SOLVER, AGAINST_CELLS, *AGAINST_RESIDUAL
+        ),
     ),
     tables=tables,
     printed=(SUMMARY, UNANSWERED),

@@ -196,10 +196,8 @@ STUDY = Study(
             short="by a roll-off",
             where={ROLL_OFF: ...},
         ),
-        Claim(
-            says="The fluctuation of Fig. 14.1 does not depend on how many of its longest waves the punch holds.",
-            quantity=SIZE + DEVIATION,
-            printed=per_cent,
+        Claim(quantity=SIZE + DEVIATION, printed=per_cent).saying(
+            "The fluctuation of Fig. 14.1 does not depend on how many of its longest waves the punch holds."
         ),
         of_mean(
             says="The fit 1/kbar = 1/1.1523 + 0.48/Fbar has the mean stiffness within 6 % for Fbar from 0.32 to 10.",
@@ -208,13 +206,11 @@ STUDY = Study(
         of_mean(says="MDR has the mean stiffness within 6 % for Fbar from 0.32 to 10.", model="mdr"),
     ),
     charts=(
-        Chart(
-            "bandwidth",
+        Chart("bandwidth", claims=(0, 1)).of(
             "H = {c.hurst:g}. (a) Mean stiffness over that of boundary elements: MDR at each bandwidth, with and "
             "without a roll-off; dotted, the fit. (b) Relative deviation, MDR over bem3d. (c) Relative deviation "
             "itself: symbols, boundary elements; lines, MDR. Bars: 95 % of the sample, in (a) and (b) with the grid.",
-            PANELS,
-            claims=(0, 1),
+            *PANELS,
         ),
     ),
     matrices=(

@@ -125,9 +125,9 @@ def _by_hurst(
 ) -> Chart:
     """A panel for each Hurst exponent."""
     mine = tuple(replace(curve, quantity=quantity) for curve in drawn)
-    panels = (Panel(FORCE, label, mine, facet=shown.H, **panel),)  # type: ignore[arg-type]
+    panels = (Panel(FORCE, label, facet=shown.H, **panel).of(*mine),)  # type: ignore[arg-type]
     name = f"fractal_punch-{part}"
-    return Chart(name, caption, panels, claims=(claim,), columns=4, height=6.4, sharey=True)
+    return Chart(name, claims=(claim,), columns=4, height=6.4, sharey=True).of(caption, *panels)
 
 
 at_each_hurst = partial(Claim, where={shown.H: float}, along=FORCE, printed=per_cent)
@@ -166,26 +166,19 @@ STUDY = Study(
             short="MDR's mean stiffness over boundary elements",
             quantity=MEAN,
         ),
-        Claim(
-            says="The stiffness of a rough punch grows with the force as F^(1 / (1 + H)).",
-            short="The exponent 1 / (1 + H)",
-            quantity=EXPONENT,
-            model=BEM,
+        Claim(quantity=EXPONENT, model=BEM).saying(
+            "The stiffness of a rough punch grows with the force as F^(1 / (1 + H)).", short="The exponent 1 / (1 + H)"
         ),
     ),
     charts=(
-        Chart(
-            "fractal_punch",
+        Chart("fractal_punch", width=9.0).of(
             "Relative standard deviation of the stiffness over Fbar = F / (E* h L); bands: 95 % of the sample. (a) "
             "Boundary elements, open where the mean contact has few cells. (b) {c.profiles} profiles of springs, L_1D "
             "= L; lines end where all springs touch.",
-            (
-                Panel(
-                    FORCE, "relative standard deviation of the stiffness", BEM_AT_H, "boundary elements", ylim=(0, 0.6)
-                ),
-                Panel(FORCE, "", (at_h(shown.SCATTER, MDR),), "MDR", ylim=(0, 0.6)),
+            Panel(FORCE, "relative standard deviation of the stiffness", title="boundary elements", ylim=(0, 0.6)).of(
+                *BEM_AT_H
             ),
-            width=9.0,
+            Panel(FORCE, "", title="MDR", ylim=(0, 0.6)).of(at_h(shown.SCATTER, MDR)),
         ),
         _by_hurst(
             "overlay",

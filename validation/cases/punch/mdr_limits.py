@@ -214,7 +214,7 @@ def _work(result: Outcomes) -> tuple[Table]:
 def _panel(quantity: str, title: str, *more: Curve, ylim: Bounds | None = None) -> Panel:
     of = partial(Curve, quantity, by=("model", ROLL_OFF))
     bem = of(BEM, "marks", bars=True), of(FEW, "open marks", "_", bars=True)
-    return Panel(FORCE, quantity, (*bem, of(MDR, "lines", band=True), *more), title, log="xy", ylim=ylim)
+    return Panel(FORCE, quantity, title=title, log="xy", ylim=ylim).of(*bem, of(MDR, "lines", band=True), *more)
 
 
 of_ratios = partial(Claim, printed=times)
@@ -246,29 +246,22 @@ STUDY = Study(
         ),
         of_ratios(says="MDR has the relative deviation of the stiffness.", quantity=DEVIATION),
         *(
-            Claim(
-                says=f"With a roll-off the stiffness of the rough interface is proportional to the load, by {method}.",
-                quantity=EXPONENT,
-                model=method,
+            Claim(quantity=EXPONENT, model=method).saying(
+                f"With a roll-off the stiffness of the rough interface is proportional to the load, by {method}."
             )
             for method in METHODS
         ),
     ),
     charts=(
-        Chart(
-            "mdr_limits",
+        Chart("mdr_limits", columns=2, height=7.0).of(
             "Symbols: boundary elements, 95 % of the sample, open where the mean contact has few cells; lines in "
             "bands: MDR, L_1D = L; dark to light: q_r L / 2π = {c.roll_offs}. (a) Contact fraction; dotted: Persson's "
             "erf(√2 p / (E* g)), g the rms gradient. (b) Mean gap over h. (c) Stiffness of the interface alone over "
             "the force. (d) Relative deviation of the stiffness.",
-            (
-                _panel(FRACTION, "contact fraction", Curve(FRACTION, PERSSON, "dotted", PERSSON, by=(ROLL_OFF,))),
-                _panel(GAP_OVER_H, "mean gap", ylim=(0.02, None)),
-                _panel(INTERFACE, "interface: constant if k ~ F"),
-                _panel(SCATTER, "fluctuation of the punch"),
-            ),
-            columns=2,
-            height=7.0,
+            _panel(FRACTION, "contact fraction", Curve(FRACTION, PERSSON, "dotted", PERSSON, by=(ROLL_OFF,))),
+            _panel(GAP_OVER_H, "mean gap", ylim=(0.02, None)),
+            _panel(INTERFACE, "interface: constant if k ~ F"),
+            _panel(SCATTER, "fluctuation of the punch"),
         ),
     ),
     tables=_work,

@@ -157,7 +157,7 @@ def _heights(result: Outcomes) -> Iterator[Series]:
 def _panel(way: str) -> Panel:
     of = partial(Curve, DEVIATION, of={WAY: way})
     both = of(BEM, "bem", "boundary elements", bars=True), of(MDR, "mdr line", "MDR, L_1D = L", band=True)
-    return Panel(FORCE, f"{way}\n{DEVIATION}", both, facet="H", ylim=(0, None))
+    return Panel(FORCE, f"{way}\n{DEVIATION}", facet="H", ylim=(0, None)).of(*both)
 
 
 of_ratios = partial(Claim, printed=per_cent)
@@ -187,15 +187,10 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart(
-            "normalisation",
+        Chart("normalisation", claims=(0, 1), columns=3, sharey=True, height=8.0).of(
             "Relative standard deviation of the stiffness, a row for each way to draw; 95 % intervals. Circles: "
             "boundary elements; line in a band: MDR. The first row is drawn like Fig. 14.1.",
-            tuple(map(_panel, VARIANTS)),
-            claims=(0, 1),
-            columns=3,
-            sharey=True,
-            height=8.0,
+            *tuple(map(_panel, VARIANTS)),
         ),
     ),
     printed=(OF_MDR, SPREAD),

@@ -301,36 +301,32 @@ STUDY = Study(
     series=series,
     tables=tables,
     claims=(
-        Claim(
-            says="The cheapest model that a scene needs can be chosen beforehand, with an error estimate that holds.",
+        Claim(quantity=COVERAGE, printed=lambda n: f"{n.value:.1%} ± {n.uncertainty:.1%}").saying(
+            "The cheapest model that a scene needs can be chosen beforehand, with an error estimate that holds.",
             short="Share of true errors within their estimates, beside one",
-            quantity=COVERAGE,
-            printed=lambda n: f"{n.value:.1%} ± {n.uncertainty:.1%}",
         ),
         Claim(says="Estimated errors are no more than three times the true ones, in the median.", quantity=TIGHTNESS),
         Claim(
-            says="Selection takes less than half of the time of fine boundary elements on every scene, in all scenes "
+            quantity=SAVING, printed=lambda n: f"{SAVED / 10**n.value:.3g} times{' or more' if n.value == 0 else ''}"
+        ).saying(
+            "Selection takes less than half of the time of fine boundary elements on every scene, in all scenes "
             "together.",
             short="saving in all scenes together, beside a factor 2",
-            quantity=SAVING,
-            printed=lambda n: f"{SAVED / 10**n.value:.3g} times{' or more' if n.value == 0 else ''}",
         ),
-        Claim(
-            says="Errors of cheap models that were calibrated cover 94 to 98 % of scenes that were not.",
-            quantity=CALIBRATED,
+        Claim(quantity=CALIBRATED).saying(
+            "Errors of cheap models that were calibrated cover 94 to 98 % of scenes that were not."
         ),
-        Claim(
-            says="At the edges of the ranges, too, an answer holds or is refused.", quantity=(HELD, REFUSED, FAR_OFF)
+        Claim(quantity=(HELD, REFUSED, FAR_OFF)).saying(
+            "At the edges of the ranges, too, an answer holds or is refused."
         ),
         Claim(says="There, on each kind of scene all answers hold on 97 % of the scenes and more.", quantity=KIND_HELD),
     ),
     charts=(
-        Chart(
-            "ladder",
+        Chart("ladder").of(
             "(a) True error, beside fine boundary elements, against the error that the selected model estimates; "
             "below the line the estimate holds. (b) Cost of fine boundary elements over that of the selection. (c) "
             "Estimates of every model below boundary elements on every scene, selected or not. Filled: the first "
-            "tolerance; open: others.",
+            "tolerance; open: others."
         ),
     ),
     printed=(BY_KIND, BY_MODEL, AT_EDGES),

@@ -46,14 +46,13 @@ SCHEMES = (
     Panel(
         shown.OMEGA_DT,
         "growth in one step",
-        of_all_schemes(shown.STEP),
-        "near the limits",
+        title="near the limits",
         log="y",
         xlim=(0.4, 3.3),
         ylim=(0.2, 10),
         at=(2.0, math.sqrt(8)),
         legend="upper left",
-    ),
+    ).of(*of_all_schemes(shown.STEP)),
     LOG(
         shown.OMEGA_DT,
         "relative error",
@@ -83,12 +82,14 @@ GROWTH = (
     ),
 )
 LONGER = (
-    Panel("steps", "|change of energy|", ENERGY, "very long runs", log="y", ylim=(1e-15, 1e4), legend="center right"),
-    Panel(shown.WIDTH, "error [dB]", LAST_OCTAVE, "last one-third octave", at=WAVES, legend="upper left"),
+    Panel("steps", "|change of energy|", title="very long runs", log="y", ylim=(1e-15, 1e4), legend="center right").of(
+        *ENERGY
+    ),
+    Panel(shown.WIDTH, "error [dB]", title="last one-third octave", at=WAVES, legend="upper left").of(*LAST_OCTAVE),
     LOG(shown.WIDTH, "error over fluctuation", (OF_HEIGHTS(shown.SPACED),), "force against spacing", at=WAVES),
     in_the_air(shown.AIRBORNE, "in the air"),
     in_the_air(shown.HIGHEST, "impacts"),
-    Panel("laps", "over the first tenth", GROWTH, "springs, rough track", log="", legend="upper left"),
+    Panel("laps", "over the first tenth", title="springs, rough track", log="", legend="upper left").of(*GROWTH),
 )
 OF_SCHEMES = (
     "Free vibration; thin lines: theory. (a) Error of the period, each scheme up to its limit. (b) Largest change of "
@@ -115,32 +116,27 @@ STUDY = Study(
     ),
     series=shown.series,
     claims=(
-        Claim(
-            says="Time stepping becomes unstable where theory says, and the software rejects steps past that limit.",
+        Claim(quantity=(shown.GROWTH, shown.REFUSED)).saying(
+            "Time stepping becomes unstable where theory says, and the software rejects steps past that limit.",
             short="Growth of a step and the refusals past its limit, beside theory",
-            quantity=(shown.GROWTH, shown.REFUSED),
         ),
         Claim(
-            says="Velocity Verlet keeps the energy over {c.long_steps} steps.",
+            quantity=(shown.DRIFT, shown.LAPS.format(shown.SQUARE), shown.LAPS.format(shown.FREE)), model=shown.VERLET
+        ).saying(
+            "Velocity Verlet keeps the energy over {c.long_steps} steps.",
             short="the energy of velocity Verlet beside its first value",
-            quantity=(shown.DRIFT, shown.LAPS.format(shown.SQUARE), shown.LAPS.format(shown.FREE)),
-            model=shown.VERLET,
         ),
-        Claim(
-            says="On low roughness springs a quarter of the shortest wave apart have the last one-third octave within "
-            "1 dB.",
+        Claim(quantity=shown.OCTAVE).saying(
+            "On low roughness springs a quarter of the shortest wave apart have the last one-third octave within 1 dB.",
             short="the last one-third octave on springs a quarter wave apart",
-            quantity=shown.OCTAVE,
         ),
-        Claim(
-            says="Wheels lift off where linear theory pulls.",
-            short="the first lift-off beside the first linear tension",
-            quantity=shown.LIFTED,
+        Claim(quantity=shown.LIFTED).saying(
+            "Wheels lift off where linear theory pulls.", short="the first lift-off beside the first linear tension"
         ),
     ),
     charts=(
-        Chart("wheel_stability", OF_SCHEMES, SCHEMES, columns=2, width=9.0, height=6.6),
-        Chart("wheel_stability-rough", OF_LONGER, LONGER, claims=(1, 2, 3), columns=2, width=9.0, height=9.2),
+        Chart("wheel_stability", columns=2, width=9.0, height=6.6).of(OF_SCHEMES, *SCHEMES),
+        Chart("wheel_stability-rough", claims=(1, 2, 3), columns=2, width=9.0, height=9.2).of(OF_LONGER, *LONGER),
     ),
     tables=refused,
     printed=("refusals",),
