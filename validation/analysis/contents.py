@@ -13,6 +13,7 @@ LEVELS = 4
 """Of a JSON file, that are written a line a part: results, cases, what a case has, its numbers."""
 BOOLEAN = {"True": True, "False": False}
 INTEGER = re.compile(r"-?\d+")
+INTERVAL = ("low", "high")
 NO_NAME = re.compile(r"[^\w.+'-]+")
 """What a file name is better without."""
 
@@ -38,26 +39,38 @@ def csv_name(case: str, table: str) -> str:
 
 
 def as_csv(table: Table) -> bytes:
-    """Numbers to ten digits, more than any curve shows; what is not finite is left empty."""
+    """Numbers to seven digits, more than any curve shows; what is not finite is left empty, and the interval of a value
+    that does not scatter.
+    """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(table.columns)
-    for row in zip(*table.columns.values(), strict=True):
-        writer.writerow(_cell(value) for value in row)
+    columns = {name: [_cell(value) for value in values] for name, values in table.columns.items()}
+    if columns.keys() >= {*INTERVAL, "value"}:
+        ends = zip(*(columns[name] for name in INTERVAL), columns["value"], strict=True)
+        exact = [low == high == value for low, high, value in ends]
+        columns |= {n: ["" if e else c for c, e in zip(columns[n], exact, strict=True)] for n in INTERVAL}
+    writer.writerows(zip(*columns.values(), strict=True))
     return text.getvalue().encode()
 
 
 def _cell(value: object) -> object:
     if not isinstance(value, float):
         return value
-    return f"{value:.10g}" if math.isfinite(value) else ""
+    return f"{value:.7g}" if math.isfinite(value) else ""
 
 
 def from_csv(name: str, text: str) -> Table:
     """What `as_csv` wrote: numbers, NaN where a column of numbers is empty, True and False, else text."""
     names, *rows = csv.reader(io.StringIO(text))
-    found = list(zip(*rows, strict=True)) or [()] * len(names)
-    return Table(name, {column: _values(cells) for column, cells in zip(names, found, strict=True)})
+    found = dict(zip(names, zip(*rows, strict=True) if rows else [()] * len(names), strict=True))
+    if found.keys() >= {*INTERVAL, "value"}:
+        found |= {n: tuple(map(_first, found[n], found["value"])) for n in INTERVAL}
+    return Table(name, {column: _values(cells) for column, cells in found.items()})
+
+
+def _first(cell: str, value: str) -> str:
+    return cell or value
 
 
 def as_written(table: Table) -> Table:
