@@ -34,7 +34,7 @@ def test_a_figure_is_drawn_from_what_its_files_hold(monkeypatch):
     monkeypatch.setattr(pictures, "drawing", lambda name: lambda evidence: seen.append(evidence) or Figure())
     pictures.draw_figure("a", evidence, "full")
     (off,) = (found.table("levels")["off"] for found in seen)
-    assert math.isnan(off[0]) and off[1] == 0.3333333333
+    assert math.isnan(off[0]) and off[1] == 0.3333333
 
 
 def test_the_table_of_durations_names_cases_and_others_are_like_their_mean():

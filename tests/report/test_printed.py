@@ -2,6 +2,7 @@
 
 import csv
 import io
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from validation.analysis.contents import as_csv
+from validation.analysis.contents import as_csv, as_written
 from validation.analysis.evidence import (
     Evidence,
     Number,
@@ -99,12 +100,19 @@ def test_every_verdict_has_its_word_and_sign():
 
 @given(st.lists(st.floats(-1e12, 1e12), min_size=1, max_size=5), st.integers(1, 4))
 def test_files_hold_their_columns(values, width):
-    """To ten digits; columns in their order, under their names."""
+    """To seven digits; columns in their order, under their names."""
     columns = {f"c{j} [m]": [(j + 1) * value for value in values] for j in range(width)}
     rows = list(csv.reader(io.StringIO(as_csv(Table("t", columns)).decode())))
     assert rows[0] == list(columns)
     for j, name in enumerate(columns):
-        np.testing.assert_allclose([float(row[j]) for row in rows[1:]], columns[name], rtol=1e-9)
+        np.testing.assert_allclose([float(row[j]) for row in rows[1:]], columns[name], rtol=5e-7)
+
+
+def test_an_interval_is_empty_where_nothing_scatters_and_comes_back():
+    table = Table("t", {"low": [1.0, 2.5, math.nan], "value": [2.0, 2.5, math.nan], "high": [3.0, 2.5, math.nan]})
+    assert as_csv(table).decode().splitlines() == ["low,value,high", "1,2,3", ",2.5,", ",,"]
+    for name, column in as_written(table).columns.items():
+        np.testing.assert_array_equal(column, table[name])
 
 
 # --- words ---

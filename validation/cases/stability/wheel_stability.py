@@ -147,7 +147,7 @@ def linear_vibration(name: str, x: FloatArray, found: Outcome) -> Iterator[Serie
     below, limited = x < (SCHEMES[name].limit or x[-1]), x < (SCHEMES[name].limit or 2.0)
     turned = np.abs(found["angle"] / np.angle(exact) - 1)
     period = np.abs(x / np.where(found["angle"], found["angle"], x / 2) - 1)
-    # ten digits of an angle hold no smaller difference
+    # rounding hides smaller differences
     of_theory = np.abs(x / np.angle(exact) - 1)
     for quantity, steps, theory, kept in (
         (PERIOD, period, np.where(of_theory > 1e-8, of_theory, math.nan), limited),
