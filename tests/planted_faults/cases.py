@@ -96,6 +96,7 @@ def gap_of_the_rigid_surface(surface):
     return {**outcome, "gap": -outcome["approach"]}
 
 
+DRAWN = PunchRoughness._drawn
 FAULTS = {
     "a weighting of amplitudes taken twice": (
         (rail_sound, "a_weighting", lambda f: 2 * REAL_WEIGHTING(f)),
@@ -178,7 +179,7 @@ FAULTS = {
         test_fractal_punch.test_the_order_of_the_curves_is_found_or_shown_to_be_absent,
     ),
     "other phases for every Hurst exponent": (
-        (PunchRoughness, "_generator", lambda mine, *key: random_generator(mine.seed, round(1000 * mine.hurst), *key)),
+        (PunchRoughness, "_drawn", lambda mine, *of, **grid: DRAWN(replace(mine, common=False), *of, **grid)),
         test_fractal_punch.test_hurst_exponents_have_common_phases,
     ),
     "mean gap of a half-space that does not yield": (

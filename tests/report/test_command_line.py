@@ -162,7 +162,9 @@ def read_back_whole(folder):
     (section,) = kept
     assert section.files == contents(folder, "data/*.csv", "sounds/*.wav")
     tables = [*section.evidence.tables, numbers_table(section.numbers)]
-    assert {f"data/{csv_name(section.name, t.name)}": as_csv(t) for t in tables} == contents(folder, "data/*.csv")
+    assert {f"data/{csv_name(section.name, t.name)}": as_csv(t, drawn=True) for t in tables} == contents(
+        folder, "data/*.csv"
+    )
 
 
 NUMBERS = ("results.json", "data/*.csv", "sounds/*.wav")

@@ -38,15 +38,17 @@ def csv_name(case: str, table: str) -> str:
     return f"{case}-{NO_NAME.sub('_', table).strip('_')}.csv"
 
 
-def as_csv(table: Table) -> bytes:
-    """Numbers to seven digits, more than any curve shows; what is not finite is left empty, and the interval of a value
-    that does not scatter.
+def as_csv(table: Table, *, drawn: bool = False) -> bytes:
+    """Numbers to ten digits; what is not finite is left empty.
+
+    drawn: of a figure, to seven digits, more than a curve shows, without the interval of a value that does not scatter.
     """
+    digits = 7 if drawn else 10
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(table.columns)
-    columns = {name: [_cell(value) for value in values] for name, values in table.columns.items()}
-    if columns.keys() >= {*INTERVAL, "value"}:
+    columns = {name: [_cell(value, digits) for value in values] for name, values in table.columns.items()}
+    if drawn and columns.keys() >= {*INTERVAL, "value"}:
         ends = zip(*(columns[name] for name in INTERVAL), columns["value"], strict=True)
         exact = [low == high == value for low, high, value in ends]
         columns |= {n: ["" if e else c for c, e in zip(columns[n], exact, strict=True)] for n in INTERVAL}
@@ -54,10 +56,10 @@ def as_csv(table: Table) -> bytes:
     return text.getvalue().encode()
 
 
-def _cell(value: object) -> object:
+def _cell(value: object, digits: int) -> object:
     if not isinstance(value, float):
         return value
-    return f"{value:.7g}" if math.isfinite(value) else ""
+    return f"{value:.{digits}g}" if math.isfinite(value) else ""
 
 
 def from_csv(name: str, text: str) -> Table:
@@ -75,7 +77,7 @@ def _first(cell: str, value: str) -> str:
 
 def as_written(table: Table) -> Table:
     """What a reader of its CSV file has."""
-    return from_csv(table.name, as_csv(table).decode())
+    return from_csv(table.name, as_csv(table, drawn=True).decode())
 
 
 def _values(cells: Sequence[str]) -> Sequence[object]:

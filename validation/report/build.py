@@ -162,4 +162,4 @@ def _files(
 
 def _data_files(name: str, evidence: Evidence) -> dict[str, bytes]:
     tables = [*written_tables(evidence), numbers_table(evidence.numbers)]
-    return {f"{DATA}/{csv_name(name, table.name)}": as_csv(table) for table in tables}
+    return {f"{DATA}/{csv_name(name, table.name)}": as_csv(table, drawn=True) for table in tables}
