@@ -31,7 +31,7 @@ from validation.analysis.evidence import Verdict
 from validation.analysis.multilevel import Resolved
 from validation.analysis.spectra import waves
 from validation.analysis.statistics import mean_estimate
-from validation.cases.exact import geike, square_punch
+from validation.cases.exact import geike, hertz
 from validation.cases.limits import sweeps as limits
 from validation.cases.punch import bandwidth, ensembles, fractal_punch, work
 from validation.cases.rail import filters as rail_filters
@@ -123,12 +123,16 @@ FAULTS = {
         partial(test_bandwidth.test_intervals_of_a_change_hold_it_as_often_as_they_say, "mean stiffness"),
     ),
     "the stiffness of the square is that of the finest grid": (
-        (square_punch, "first_order_limit", lambda values: values[-1]),
-        test_exact_cases.test_the_square_the_model_of_its_length_and_the_quoted_factor,
+        (hertz, "first_order_limit", lambda values: values[-1]),
+        partial(test_exact_cases.test_a_contact_that_is_off_contradicts_its_claim, "square"),
+    ),
+    "the spectrum of a line in Geike's place": (
+        (mdr.SelfAffine, "line", mdr.SelfAffine.c1d),
+        test_exact_cases.test_lines_of_a_drawn_surface_have_the_line_trace,
     ),
     "a line trace with the moments of Geike's spectrum": (
         (geike, "mean_power_of_cosine", lambda n: 1.0),
-        test_exact_cases.test_the_line_is_not_geikes_spectrum_and_would_be_told_if_it_were,
+        test_exact_cases.test_a_profile_keeps_the_moments_and_a_line_the_share_of_its_direction,
     ),
     "line trace for Geike in Fig. 14.1": (
         (PunchRoughness, "spectrum", property(line_for_geike)),
@@ -272,7 +276,7 @@ FAULTS = {
     ),
     "one of two elastic bodies taken for rigid": (
         (PublishedContact, "modulus", property(lambda problem: 2 * 82e9 / (1 - 0.28))),
-        test_rail_cases.test_contact_of_the_program_contact_is_reproduced,
+        partial(test_exact_cases.test_a_contact_that_is_off_contradicts_its_claim, "ellipse"),
     ),
     "the load of an axle for that of a wheel": (
         (rail_filters, "scene_of", lambda wheel: REAL_SCENE(wheel._replace(load=2 * wheel.load))),

@@ -47,8 +47,10 @@ PUNCHES = {"cells": 16, "profiles": 40, "points": 64, "decades": (-1, 0)}
 STRIPS = {"lowest": 0.5, "length": 32.0, "width": 12.0, "cells": 4, "strips": 3}
 TRACKS = {"tracks": 5, "springs": 8}
 SMALL = {
-    "hertz": hertz.Hertz(cells_per_radius=(4, 6, 8), load_steps=2),
-    "geike": geike.Geike(cells=128, surfaces=2, longest=4),
+    "hertz": hertz.Hertz(
+        cells_per_radius=(4, 6, 8), load_steps=2, wave_cells=(32, 64, 128), loads=(0.5,), ellipse_cells=(16, 32)
+    ),
+    "geike": geike.Geike(cells=256, longest=16),
     "fractal_punch": FractalPunch(
         hursts=(0.4, 1.0),
         surfaces=((0, 12, 6, 4, 0),) * 2,
@@ -277,7 +279,7 @@ def test_a_failed_criterion_is_exit_1(small, tmp_path, monkeypatch, capsys):
     symbol = bem3d.kernel.free_space_symbol
     monkeypatch.setattr(bem3d.kernel, "free_space_symbol", lambda *args: 1.1 * symbol(*args))
     assert report("--only", "hertz", "--out", str(tmp_path), "--workers", "1") == command.Exit.CRITERION_FAILED
-    assert "missed: bem3d: force" in capsys.readouterr().out
+    assert "missed: sphere, boundary elements: force" in capsys.readouterr().out
     assert "differ" in text_of(tmp_path)
 
 
