@@ -20,11 +20,10 @@ from validation.cases.exact import geike, hertz
 from validation.cases.limits import limits
 from validation.cases.punch import bandwidth, mdr_limits, normalisation
 from validation.cases.punch.fractal_punch import FractalPunch
-from validation.cases.rail.line_convention import LineConvention
 from validation.cases.rail.rail_dynamic import RailDynamic
 from validation.cases.rail.rail_sound import RailSound, shipped_rail
 from validation.cases.rail.rolled_filters import RolledFilters
-from validation.cases.rail.rough_rail import GROUND
+from validation.cases.rail.rough_rail import GROUND, RoughRail
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import input_spectrum as rolling_input
 from validation.cases.rolling import reduced_models, ridges, roughness_from_force, track_stiffness, validity
@@ -100,8 +99,7 @@ SMALL = {
         turns=3, hertz_turns=2, long_steps=2000, heights=(0.1, 1.0), loads=(0.05, 0.1), spacing_heights=(1e-3,)
     ),
     "contact_filter": RolledFilters(across=(GROUND,), strips=3, cells=(4, 5)),
-    "rough_rail": RolledFilters(offsets=(20.0,), across=(GROUND,), strips=3, cells=(4, 5)),
-    "line_convention": LineConvention(strips=6),
+    "rough_rail": RoughRail(offsets=(20.0,), strips=3, cells=(4, 5)),
     "rail_dynamic": RailDynamic(offsets=(0.0,), longest=0.05, periods=2, strips=3, compared=2),
     "rail_sound": RailSound(rail=shipped_rail(), seconds=0.02, repeats=2, cells=(4, 5), parts=2, blocks=5),
     "ladder": ladder.CalibrationTest(punches=3, spheres=1, rolling=0, tolerances=(0.3,)),

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.nominal_bands import NominalBands
-from validation.analysis.spectra import Bands, levels, waves
-from validation.engine.engine import FloatArray, Outcome
+from validation.analysis.spectra import Bands
+from validation.engine.engine import FloatArray
 from validation.engine.random_numbers import random_generator
 from validation.scenes.rail import RailScene
 from validation.simulation.surface import draw_surface
@@ -210,36 +210,9 @@ def lost_contact_number(scene: RailScene) -> float:
     return slope_along * scene.contact.along / scene.contact.approach
 
 
-@dataclass(frozen=True, kw_only=True)
-class ParallelLines:
-    """strip; lines: how many, about the middle; spacings: of them [m]; bands: of the levels."""
-
-    strip: RailStrip
-    lines: int
-    spacings: tuple[float, ...]
-    bands: Bands
-
-
-def measure_lines(problem: ParallelLines) -> Outcome:
-    """Band powers of one line, "line", and their mean over parallel lines, by the spacing of these [m^2]."""
-    strip, places = problem.strip, {spacing: lines_across(problem.lines, spacing) for spacing in problem.spacings}
-
-    def powers(place: float) -> FloatArray:
-        return levels(waves(strip.along_middle(line_at(place)), spacing=strip.spacing), problem.bands)
-
-    along = {place: powers(place) for place in {0.0}.union(*places.values())}
-    means = {f"{spacing:g}": np.mean([along[y] for y in mine], axis=0) for spacing, mine in places.items()}
-    return {"line": along[0.0], **means}
-
-
 def lines_across(count: int, spacing: float) -> tuple[float, ...]:
     """Their places about the middle [m]."""
     return tuple((i - (count - 1) / 2) * spacing for i in range(count))
-
-
-def line_at(place: float) -> Transfer:
-    """H = exp(i k_y y): the line at y in place of the middle one."""
-    return lambda along, across: np.exp(1j * across * place)
 
 
 def mean_of_lines(places: tuple[float, ...]) -> Transfer:
