@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.nominal_bands import NominalBands
-from validation.analysis.spectra import Bands
 from validation.engine.engine import FloatArray
 from validation.engine.random_numbers import random_generator
 from validation.scenes.rail import RailScene
@@ -150,15 +149,6 @@ class RailStrip:
         filtered = transfer(along, across) * self._waves
         track = np.fft.ifft(filtered @ np.exp(0.5j * (ny - 1) * self.spacing * across[0]) / ny).real
         return np.asarray(track - track.mean())
-
-    def expected_power(self, transfer: Transfer, bands: Bands) -> FloatArray:
-        """Band powers of `along_middle` in the mean of all realisations [m^2].
-
-        Of positive k_x alone, as `analysis.spectra.levels`.
-        """
-        along, across = wavenumbers(self.shape, self.spacing)
-        power = np.sum(transfer(along, across) ** 2 * self.variance, axis=1)
-        return np.asarray(bands.sums(along[:, 0], power).real)
 
 
 def wavenumbers(shape: tuple[int, int], spacing: float) -> tuple[FloatArray, FloatArray]:
