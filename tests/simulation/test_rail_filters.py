@@ -29,7 +29,6 @@ from validation.simulation.rail_models import COARSE, FINE, RailModel
 from validation.simulation.rail_quantity import RAIL_QUANTITIES, RailQuantity
 from validation.simulation.rail_strip import strip_of
 from validation.theory.elliptic_contact import elliptic_contact
-from validation.theory.line_spectrum import LineSpectrum
 from validation.theory.transverse_structure import IsotropicGround
 
 RAIL = load_scene("rail")
@@ -218,7 +217,7 @@ def test_measured_lines_of_isotropic_ground_have_its_filter(lines, across):
     found = RailQuantity(replace(RAIL, roughness=measured, across=across), "contact-filter")
     assert found.no_answer == "" and (found.smoothing_error > 0).all()
     with pytest.raises(ValueError, match="no isotropic surface has this line"):
-        IsotropicGround(LineSpectrum(*(tuple(each.tolist()) for each in measured.levels.nodes)))
+        IsotropicGround(measured.levels.c_line)
     own = RailQuantity(replace(RAIL, across=across), "contact-filter").linear.mean(axis=0)
     own = own[np.isin(RAIL.levels.bands.numbers, found.bands.numbers)]
     off, claimed = np.abs(found.linear.mean(axis=0) - own), found.left_by_ground + rail_models.linear_error(found)

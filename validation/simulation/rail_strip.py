@@ -45,7 +45,7 @@ def structure_of(across: StatedAcross, line: LineSpectrum) -> TransverseStructur
 
 def line_of(scene: RailScene) -> LineSpectrum:
     """C_line of the levels of a scene; where its ground may be isotropic, the nearest that isotropic ground has."""
-    return scene.isotropic.line if scene.isotropic is not None else LineSpectrum.through(*scene.levels.nodes)
+    return scene.isotropic.line if scene.isotropic is not None else scene.levels.c_line
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -195,7 +195,7 @@ def strip_of(scene: RailScene, across: StatedAcross, cells: int, realisation: in
 
 def lost_contact_number(scene: RailScene) -> float:
     """h' a_x / d [-], h' the rms slope along the track of the waves that a strip has, `strip_bands`."""
-    as_given = LineSpectrum.through(*scene.levels.nodes)
+    as_given = scene.levels.c_line
     slope_along = strip_bands(scene).slope_of_spectrum(as_given)
     return slope_along * scene.contact.along / scene.contact.approach
 
