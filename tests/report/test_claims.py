@@ -134,6 +134,11 @@ def test_a_case_without_a_result_has_no_status():
     assert {name for name, _ in badges(html_of(failed))} == {"no-result"}
 
 
+def test_a_case_that_is_played_alone_has_neither_status_nor_numbers():
+    text = html_of(Section("rail_sound", CASES["rail_sound"], "none", {}, evidence_with([])))
+    assert badges(text) == [] and "Claim under test" not in text and "0 numbers" not in text
+
+
 # --- the book ---
 
 

@@ -187,7 +187,7 @@ def test_a_case_gives_equal_bytes(name, small, tmp_path, monkeypatch, request):
     assert set(contents(one, *NUMBERS, *FIGURES)) == files_of(name, evidences[0])
     whole_page(one, [name])
     players_of_all_sounds(one)
-    assert evidences[0].claims[0].claim == CASES[name].claim
+    assert "".join(claim.claim for claim in evidences[0].claims[:1]) == CASES[name].claim
     names_no_machine(one)
     in_the_book(name, evidences[0])
     no_identity_is_a_finding(evidences[0])
