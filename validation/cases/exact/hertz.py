@@ -263,7 +263,7 @@ def in_per_cent(number: Number) -> str:
 
 EXACT = (
     *("force over Hertz", "approach over Hertz", "stiffness over 2 E* a", "contact radius over Hertz"),
-    *(PRESSURE_ERROR, ORDER, LIMIT, CIRCLE, WIDTH),
+    *(PRESSURE_ERROR, LIMIT, CIRCLE, WIDTH),
 )
 OF_BOTH = (Curve(FORCE, BEM, "bem", BEM), Curve(FORCE, MDR, "mdr around", "springs (MDR)"))
 STUDY = Study(
@@ -284,7 +284,7 @@ STUDY = Study(
     claims=(
         Claim(quantity=EXACT, printed=off_by).saying(
             "Boundary elements have the contacts of Hertz, of flat punches and of Westergaard, and springs that of "
-            "Hertz.",
+            "Hertz, within what their grids leave.",
             short="Both methods beside closed forms",
         ),
         Claim(quantity=tuple(CONTACT)).saying(
@@ -314,8 +314,8 @@ STUDY = Study(
             ),
             Panel(CELLS, SQUARE, ticked=True).of(
                 Curve(SQUARE, "closed form", "exact", "closed form"),
-                Curve(SQUARE, LENGTHS[0], "mdr line", "MDR, L_1D = L"),
-                Curve(SQUARE, LENGTHS[1], "other", "MDR, L_1D = 1.1523 L"),
+                Curve(SQUARE, LENGTHS[0], "mdr line", "springs, L_1D = L"),
+                Curve(SQUARE, LENGTHS[1], "other", "springs, L_1D = 1.1523 L"),
                 Curve(SQUARE, BEM, "bem", BEM),
             ),
             Panel(CELLS, ERROR, log="xy").of(
