@@ -177,7 +177,14 @@ def test_a_statement_has_the_status_of_its_numbers(verdicts):
 
 
 @pytest.mark.parametrize(
-    "test", [{"quantity": "y9"}, {"claim": "no such words"}, {"quantity": "identity"}, {"quantity": "y0", "model": "m"}]
+    "test",
+    [
+        {"quantity": "y9"},
+        {"claim": "no such words"},
+        {"quantity": "identity"},
+        {"quantity": "y0", "model": "m"},
+        {"quantity": "y0", "where": {"h/d": 0.01}},
+    ],
 )
 def test_a_key_that_no_number_has_leaves_no_status(test):
     some = claim([AGREE])
