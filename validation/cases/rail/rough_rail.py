@@ -125,8 +125,8 @@ STUDY = Study(
     series=series,
     claims=(
         Claim(quantity=rolled.OVER_BEM, along=OFFSET, model=LINEAR, printed=decibels).saying(
-            "Linear theory of the ellipse follows boundary elements within 1 dB up to 20 dB over the limit of "
-            "ISO 3095.",
+            "On a rail that is rougher than the limit of ISO 3095, linear theory of the ellipse has the contact filter "
+            "of boundary elements within 1 dB.",
             short="Linear theory of the ellipse",
         ),
         Claim(quantity=HEIGHTS, printed=decibels).saying(
