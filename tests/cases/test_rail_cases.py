@@ -6,16 +6,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.cases.planted import judged
 from tests.simulation.power_law_ground import power_law_ground
-from validation.analysis.evidence import Verdict
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL
-from validation.cases.rail import ellipse, filters, line_convention, rolled_filters
-from validation.engine.engine import SERIAL
+from validation.cases.rail import filters, rolled_filters, rough_rail
 from validation.simulation import equivalent_displacement as displacement
 from validation.simulation.model_names import BEM, LINEAR, LINEAR_ON_LINE, SPRINGS_THAT_READ
-from validation.simulation.rail_strip import RailStrip, strip_bands
+from validation.simulation.rail_strip import RailStrip, line_of, strip_bands
+from validation.theory.transverse_structure import IsotropicGround
 
 WHEEL = filters.RailWheel(50, 920)
 SMALL = {"length": 0.12, "width": 0.04, "spacing": 1e-3, "realisation": 0, "seed": 3}
@@ -24,21 +22,6 @@ SMALL = {"length": 0.12, "width": 0.04, "spacing": 1e-3, "realisation": 0, "seed
 def strip_of(across, rms=1e-9):
     ground = power_law_ground(rms, 2 * math.pi / 0.06, 2 * math.pi / 4e-3, across)
     return RailStrip(ground=ground, radii=(0.46, 0.3), force=5e4, modulus=filters.STEEL, **SMALL)
-
-
-def test_contact_of_the_program_contact_is_reproduced():
-    result = ellipse.run(ellipse.Ellipse(cells=(16, 32), crowns=(0.3, 0.46)), SERIAL)
-    for quantity in ellipse.CONTACT:
-        found = [number.verdict for number in judged(ellipse.STUDY, result, quantity)]
-        assert found == [Verdict.AGREE, Verdict.AGREE]
-
-
-def test_circle_is_right_where_both_radii_are_equal_and_wrong_by_two_decibels_on_a_crown_of_300_mm():
-    case = ellipse.Ellipse()
-    wave = filters.scene_of(WHEEL).levels.bands.nominal == 0.016
-    for crown, excess in ((0.46, 0.0), (0.3, 2.3)):
-        mine, circle = ellipse.circle_excess(case, crown, "isotropic")
-        assert float((circle - mine)[wave][0]) == pytest.approx(excess, abs=0.1)
 
 
 def test_published_table_has_five_columns_of_all_bands_and_one_masked_value():
@@ -73,13 +56,21 @@ def test_line_of_a_drawn_strip_has_the_rms_of_its_ground():
 
 
 def test_mean_of_heights_over_ridges_is_one_line_and_over_isotropic_ground_less():
-    result = line_convention.run(line_convention.LineConvention(strips=3), SERIAL)
-    ridges, isotropic = (
-        judged(line_convention.STUDY, result, line_convention.HEIGHTS, across=ground)
-        for ground in (line_convention.RIDGES, line_convention.ISOTROPIC)
-    )
-    assert len(ridges) == 2 and all(number.verdict is Verdict.AGREE for number in ridges)
-    assert len(isotropic) == 2 and all(number.value < -3 for number in isotropic)
+    """Of three lines 10 mm apart, at 16 mm, by the mean of cos(k_y y) over isotropic waves: a plain sum over k_y."""
+    case = rough_rail.RoughRail()
+    found = {tuple(one.where.values()): one for one in rough_rail.means_of_lines(case) if one.where}
+    np.testing.assert_allclose(found[rough_rail.RIDGES, 10.0].found, 0.0, atol=1e-9)
+    mine, scene = found[rough_rail.GROUND, 10.0], case.scene(case.keys[0])
+    c2d = IsotropicGround(line_of(scene)).c2d
+    at = mine.at.tolist().index(16.0)
+    edges = 2 * math.pi / 0.016 * 10 ** np.array([-0.05, 0.05])
+    k_x = np.linspace(*edges, 40)[:, np.newaxis]
+    k_y = np.linspace(0, 40, 8001)[1:] * k_x
+    density = c2d(np.hypot(k_x, k_y)) * k_x
+    mean = (1 + 2 * np.cos(0.01 * k_y)) / 3
+    expected = 10 * np.log10(np.sum(density * mean**2) / np.sum(density))
+    assert mine.found[at] == pytest.approx(expected, abs=0.1)
+    assert expected < -3
 
 
 @pytest.mark.slow

@@ -31,11 +31,11 @@ from validation.analysis.evidence import Verdict
 from validation.analysis.multilevel import Resolved
 from validation.analysis.spectra import waves
 from validation.analysis.statistics import mean_estimate
-from validation.cases.exact import geike, square_punch
+from validation.cases.exact import geike, hertz
 from validation.cases.limits import sweeps as limits
 from validation.cases.punch import bandwidth, ensembles, fractal_punch, work
 from validation.cases.rail import filters as rail_filters
-from validation.cases.rail import line_convention, rail_sound
+from validation.cases.rail import rail_sound, rough_rail
 from validation.cases.rolling import roughness_from_force, validity
 from validation.cases.selection import model_selection as calibration
 from validation.cases.wheel import features, regions
@@ -102,9 +102,9 @@ FAULTS = {
         (rail_sound, "a_weighting", lambda f: 2 * REAL_WEIGHTING(f)),
         partial(test_rail_sound.test_a_level_has_the_weight_of_the_standard, 100, -19.1),
     ),
-    "levels of all frequencies in each range": (
+    "a sound without its weighting": (
         (rail_sound, "filtered", lambda signal, gain: signal),
-        test_rail_sound.test_each_range_is_compared_alone,
+        partial(test_rail_sound.test_a_level_has_the_weight_of_the_standard, 10000, -2.5),
     ),
     "a window of a measured sphere that ends at its contact": (
         (indentation, "MARGIN", 2),
@@ -123,12 +123,16 @@ FAULTS = {
         partial(test_bandwidth.test_intervals_of_a_change_hold_it_as_often_as_they_say, "mean stiffness"),
     ),
     "the stiffness of the square is that of the finest grid": (
-        (square_punch, "first_order_limit", lambda values: values[-1]),
-        test_exact_cases.test_the_square_the_model_of_its_length_and_the_quoted_factor,
+        (hertz, "first_order_limit", lambda values: values[-1]),
+        partial(test_exact_cases.test_a_contact_that_is_off_contradicts_its_claim, "square"),
+    ),
+    "the spectrum of a line in Geike's place": (
+        (mdr.SelfAffine, "line", mdr.SelfAffine.c1d),
+        test_exact_cases.test_lines_of_a_drawn_surface_have_the_line_trace,
     ),
     "a line trace with the moments of Geike's spectrum": (
         (geike, "mean_power_of_cosine", lambda n: 1.0),
-        test_exact_cases.test_the_line_is_not_geikes_spectrum_and_would_be_told_if_it_were,
+        test_exact_cases.test_a_profile_keeps_the_moments_and_a_line_the_share_of_its_direction,
     ),
     "line trace for Geike in Fig. 14.1": (
         (PunchRoughness, "spectrum", property(line_for_geike)),
@@ -272,7 +276,7 @@ FAULTS = {
     ),
     "one of two elastic bodies taken for rigid": (
         (PublishedContact, "modulus", property(lambda problem: 2 * 82e9 / (1 - 0.28))),
-        test_rail_cases.test_contact_of_the_program_contact_is_reproduced,
+        partial(test_exact_cases.test_a_contact_that_is_off_contradicts_its_claim, "ellipse"),
     ),
     "the load of an axle for that of a wheel": (
         (rail_filters, "scene_of", lambda wheel: REAL_SCENE(wheel._replace(load=2 * wheel.load))),
@@ -295,7 +299,7 @@ FAULTS = {
         test_rail_cases.test_line_of_a_drawn_strip_has_the_rms_of_its_ground,
     ),
     "one line for the mean of heights": (
-        (line_convention, "mean_of_lines", lambda places: lambda along, across: np.ones_like(along + across)),
+        (rough_rail, "mean_of_lines", lambda places: lambda along, across: np.ones_like(along + across)),
         test_rail_cases.test_mean_of_heights_over_ridges_is_one_line_and_over_isotropic_ground_less,
     ),
 }

@@ -147,8 +147,12 @@ FAULTS = {
         partial(test_claims.test_a_status_has_its_word_and_sign, [AGREE, DIFFER], {}, "✗ contradicted"),
     ),
     "a statement of the book answered by numbers of another model": (
-        (chapter, "Claim", lambda says, quantity, model: Claim(says=says, quantity=quantity)),
+        (chapter, "Claim", lambda model, **more: Claim(**more)),
         partial(test_claims.test_a_key_that_no_number_has_leaves_no_status, {"quantity": "y0", "model": "m"}),
+    ),
+    "a statement of the book answered outside of its assumptions": (
+        (chapter, "Claim", lambda where, **more: Claim(**more)),
+        partial(test_claims.test_a_key_that_no_number_has_leaves_no_status, {"quantity": "y0", "where": {"h/d": 0.01}}),
     ),
     "two signs of verdicts exchanged": (
         (formats, "SYMBOL", {"agree": "≠", "differ": "✓", "undecided": "?"}),

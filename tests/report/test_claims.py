@@ -1,11 +1,9 @@
 """A claim has the colour, words and counts of the numbers that test it; a run answers the statements of the book."""
 
-import math
 import re
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -14,7 +12,7 @@ from tests.report.test_printed import evidence_with, html_of, number
 from validation import benchmarks, cases
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Role, Verdict, Whose
 from validation.report import formats
-from validation.report.chapter import ENTRIES, ERRATA, ChapterEntry, ChapterTest, answers, chapter_results
+from validation.report.chapter import ENTRIES, ERRATA, REMARKS, ChapterEntry, ChapterTest, answers, chapter_results
 from validation.report.commands.report import lines_of
 from validation.report.contents import CASES, TIMED
 from validation.report.section import Section, case_results, total_of
@@ -136,6 +134,11 @@ def test_a_case_without_a_result_has_no_status():
     assert {name for name, _ in badges(html_of(failed))} == {"no-result"}
 
 
+def test_a_case_that_is_played_alone_has_neither_status_nor_numbers():
+    text = html_of(Section("rail_sound", CASES["rail_sound"], "none", {}, evidence_with([])))
+    assert badges(text) == [] and "Claim under test" not in text and "0 numbers" not in text
+
+
 # --- the book ---
 
 
@@ -174,7 +177,14 @@ def test_a_statement_has_the_status_of_its_numbers(verdicts):
 
 
 @pytest.mark.parametrize(
-    "test", [{"quantity": "y9"}, {"claim": "no such words"}, {"quantity": "identity"}, {"quantity": "y0", "model": "m"}]
+    "test",
+    [
+        {"quantity": "y9"},
+        {"claim": "no such words"},
+        {"quantity": "identity"},
+        {"quantity": "y0", "model": "m"},
+        {"quantity": "y0", "where": {"h/d": 0.01}},
+    ],
 )
 def test_a_key_that_no_number_has_leaves_no_status(test):
     some = claim([AGREE])
@@ -194,76 +204,8 @@ def test_the_page_and_the_results_answer_the_book():
     text = html_of(section)
     book = text[text.index('id="book"') : text.index("<footer")]
     assert book.count('<a href="exact.html#geike">geike</a>') == sum(len(row["answers"]) for row in rows)
-    assert all(erratum["place"] in book for erratum in ERRATA)
-    assert chapter_results([section_of(claim([AGREE]), name="westergaard")]) == []
-
-
-# --- errata, each by a derivation of its own ---
-
-A, R, E, V = 2e-3, 0.5, 2e11, 20.0
-X = np.linspace(-A, A, 20_001)
-
-
-def erratum(place):
-    (row,) = (row for row in ERRATA if row["place"].startswith(place))
-    return row
-
-
-def test_14_5_pulls_without_the_approach():
-    d = A**2 / R
-    hertz = 4 / 3 * E * math.sqrt(R) * d**1.5
-    assert E * np.trapezoid(-(X**2) / R, X) == pytest.approx(-2 / 3 * E * A * d, rel=1e-6)
-    assert E * np.trapezoid(d - X**2 / R, X) == pytest.approx(hertz, rel=1e-6)
-    assert "-2/3 E* a d" in erratum("(14.5)")["why"] and "(d + h - Z0)" in erratum("(14.5)")["correct"]
-
-
-def test_14_9_has_the_spectrum_under_the_root():
-    """The sum of B^2 over the waves of both signs is the integral of the spectrum, whatever the length."""
-    q_min, q_max = 2 * np.pi / 0.01, 2 * np.pi / 2e-4
-
-    def c1d(q):
-        return np.where((q >= q_min) & (q <= q_max), q**-2.4, 0.0)
-
-    sums = []
-    for length in (1.0, 2.0):
-        q = 2 * np.pi / length * np.arange(1, int(1.01 * q_max * length / (2 * np.pi)))
-        sums.append((2 * np.sum(2 * np.pi * c1d(q) / length), 2 * np.sum(2 * np.pi / length * c1d(q) ** 2)))
-    exact = 2 * (q_min**-1.4 - q_max**-1.4) / 1.4
-    assert [corrected for corrected, _ in sums] == pytest.approx([exact, exact], rel=0.01)
-    # as printed, a profile has another height by far, in another unit
-    assert sums[0][1] < 1e-3 * exact
-    assert erratum("(14.9)")["correct"] == "B_1D = sqrt(2π C_1D / L)"
-
-
-def test_14_10_has_a_wavenumber_q():
-    q = 1.3 / A
-    assert np.exp(1j * q * (X + A)) - np.exp(1j * q * (X - A)) == pytest.approx(2j * np.sin(q * A) * np.exp(1j * q * X))
-    assert "2i sin(qa)" in erratum("(14.10)")["why"]
-
-
-def test_14_7_leaves_the_mean_force_open():
-    """Its integrand is the same for any constant force; (14.11) is its change by a wave."""
-    q = 1.3 / A
-    change = 2 / q * np.sin(q * A) * np.cos(q * X)
-    assert np.gradient(change + 7.0, X)[1:-1] == pytest.approx(
-        (np.cos(q * (X + A)) - np.cos(q * (X - A)))[1:-1], abs=1e-5
-    )
-    assert "F_0" in erratum("(14.7)")["correct"]
-
-
-def test_14_15_has_the_other_sign_of_h():
-    """A bump under the wheel raises the force of (14.5), and lowers that of springs under (14.15) as printed."""
-    d = A**2 / R
-    bump = 0.1 * d * np.exp(-((X / A) ** 2))
-    smooth, with_bump, as_printed = (np.trapezoid(np.maximum(d - X**2 / R + s * bump, 0), X) for s in (0, 1, -1))
-    assert as_printed < smooth < with_bump
-    assert "- h(x)" in erratum("(14.15)")["correct"]
-
-
-def test_the_period_of_region_3_is_a_frequency():
-    omega = np.linspace(0, 6 * np.pi * V / A, 1001)
-    assert np.sin((omega + np.pi * V / A) / V * A) ** 2 == pytest.approx(np.sin(omega / V * A) ** 2, abs=1e-9)
-    assert erratum("After (14.19)")["correct"] == "Δω3 = π v0/a"
+    assert all(row["place"] in book for row in (*ERRATA, *REMARKS))
+    assert chapter_results([section_of(claim([AGREE]), name="rail_sound")]) == []
 
 
 def test_every_answer_of_a_case_is_that_of_its_claim():

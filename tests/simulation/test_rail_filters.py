@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,12 +13,11 @@ from validation.scenes.rail import RailScene
 from validation.scenes.roughness_levels import RoughnessLevels
 from validation.selection.quantities import QUANTITIES
 from validation.selection.rail_model import RailSceneModel
-from validation.simulation import equivalent_displacement, rail_models
-from validation.simulation.equivalent_displacement import AREA, ONE_SIDED, RolledRail, linear_displacement, roll_rail
+from validation.simulation import rail_models
+from validation.simulation.equivalent_displacement import ONE_SIDED, RolledRail, linear_displacement, roll_rail
 from validation.simulation.model import Target, models_serving
 from validation.simulation.model_names import (
     BED,
-    BEM,
     LINEAR,
     LINEAR_ON_LINE,
     ONE_SIDED_BED,
@@ -31,7 +29,6 @@ from validation.simulation.rail_models import COARSE, FINE, RailModel
 from validation.simulation.rail_quantity import RAIL_QUANTITIES, RailQuantity
 from validation.simulation.rail_strip import strip_of
 from validation.theory.elliptic_contact import elliptic_contact
-from validation.theory.line_spectrum import LineSpectrum
 from validation.theory.transverse_structure import IsotropicGround
 
 RAIL = load_scene("rail")
@@ -138,17 +135,6 @@ def test_an_unknown_model_on_a_strip_is_refused():
         RolledRail(strip=strip_of(RAIL, "isotropic", 6, 0, 3), models=("moon",))
 
 
-def test_the_area_in_contact_is_over_that_of_the_ellipse(monkeypatch):
-    """Of boundary elements that touch on pi a_x a_y everywhere: one; by Hertz's ellipse of the rail and its wheel."""
-    contact = elliptic_contact(RAIL.radii, modulus=RAIL.modulus, force=RAIL.load)
-    area = np.full(9, math.pi * contact.along * contact.across)
-    made_up = SimpleNamespace(approach=np.zeros(9), area=area, converged=np.ones(9, dtype=bool))
-    monkeypatch.setattr(equivalent_displacement, "roll_boundary_elements", lambda *_: made_up)
-    found = roll_rail(RolledRail(strip=strip_of(RAIL, "ridges", 4, 0, 3), models=(BEM,)))
-    np.testing.assert_allclose(found[AREA], 1.0, rtol=1e-9)
-    assert abs(contact.along / contact.across - 1) > 0.1
-
-
 def test_over_ridges_models_are_sinc_squared_above_the_first_zero():
     """The band mean of (sin(k a_x) / (k a_x))^2 by a sum over many wavenumbers of the line's own power."""
     quantity, filters = closed(RAIL, "ridges")
@@ -231,7 +217,7 @@ def test_measured_lines_of_isotropic_ground_have_its_filter(lines, across):
     found = RailQuantity(replace(RAIL, roughness=measured, across=across), "contact-filter")
     assert found.no_answer == "" and (found.smoothing_error > 0).all()
     with pytest.raises(ValueError, match="no isotropic surface has this line"):
-        IsotropicGround(LineSpectrum(*(tuple(each.tolist()) for each in measured.levels.nodes)))
+        IsotropicGround(measured.levels.c_line)
     own = RailQuantity(replace(RAIL, across=across), "contact-filter").linear.mean(axis=0)
     own = own[np.isin(RAIL.levels.bands.numbers, found.bands.numbers)]
     off, claimed = np.abs(found.linear.mean(axis=0) - own), found.left_by_ground + rail_models.linear_error(found)

@@ -52,8 +52,8 @@ class Case:
 
     @property
     def claim(self) -> str:
-        """The first of the study."""
-        return self.study.claims[0].says
+        """The first of the study, empty where it has none."""
+        return self.study.claims[0].says if self.study.claims else ""
 
     def settings(self, profile: Profile, seed: int | None, scene: Any = None) -> Any:
         """Of that size, with the seed where it draws anything, and the scene where it has one."""

@@ -41,15 +41,15 @@ class Study:
     """What a case declares beside its settings and solves.
 
     title, method: with settings in braces; series: of a result, all that it shows; claims: with settings too, the first
-    is that of the case; charts; matrices: verdicts on the page; printed: names of tables on the page; tables: that are
-    no series; once_more: numbers that are judged by another margin too; notes: sentences that no pattern has; sounds:
-    played on the page.
+    is that of the case, none of a case that is played alone; charts; matrices: verdicts on the page; printed: names of
+    tables on the page; tables: that are no series; once_more: numbers that are judged by another margin too; notes:
+    sentences that no pattern has; sounds: played on the page.
     """
 
     title: str
     method: str
     series: Callable[[Any], Sequence[Series]]
-    claims: Sequence[Claim]
+    claims: Sequence[Claim] = ()
     charts: Sequence[Chart] = ()
     matrices: Sequence[Matrix] = ()
     printed: Sequence[str] = ()
@@ -82,7 +82,7 @@ class Study:
                 chart.name: _title(said[filled[i].says] for i in chart.claims if filled[i].says in said)
                 for chart in self.charts
             },
-            finding=f"{'; '.join(list(said.values())[:2])}.",
+            finding=f"{'; '.join(list(said.values())[:2])}." if said else "",
             unconverged=result.unconverged,
             sounds=self.sounds(result),
         )

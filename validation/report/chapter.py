@@ -3,14 +3,20 @@
 Status and answer come from the claims and numbers of the evidence; the file holds neither.
 """
 
+import math
 import tomllib
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
-from validation.analysis.claims import Claim
+from validation.analysis.claims import NO, Claim
 from validation.analysis.evidence import Evidence, JudgedClaim
+from validation.analysis.statistics import POWER_DECIBEL
+from validation.analysis.study import Settings
+from validation.cases.exact.hertz import CAPACITANCE
 from validation.report.section import Section
+from validation.scenes.dynamic_wheel import load_wheel_scene
 
 BOOK = Path(__file__).with_suffix(".toml")
 Answer = dict[str, str | None]
@@ -21,18 +27,21 @@ Answer = dict[str, str | None]
 class ChapterTest:
     """What tests a statement: numbers of a case by quantity and model, or a claim of the case.
 
-    claim: words that the claim has and no other, by default its first.
+    claim: words that the claim has and no other, by default its first; where: conditions of the numbers; no: the words
+    of a contradiction.
     """
 
     case: str
     claim: str = ""
     quantity: str = ""
     model: str = ""
+    where: Mapping[str, float] = field(default_factory=dict)
+    no: str = NO
 
     def judged(self, statement: str, evidence: Evidence) -> JudgedClaim | None:
         """The claim of this evidence, or the statement with its numbers; None where it has none, or no such claim."""
         if self.quantity:
-            claim = Claim(says=statement, quantity=self.quantity, model=self.model)
+            claim = Claim(quantity=self.quantity, model=self.model, where=self.where, no=self.no).saying(statement)
             return claim.judged(evidence.numbers) if claim.numbers(evidence.numbers) else None
         claims = [claim for claim in evidence.claims if self.claim in claim.claim]
         return claims[0] if len(claims) == 1 or (claims and not self.claim) else None
@@ -48,14 +57,39 @@ class ChapterEntry:
     untested: str = ""
 
 
-def _entry(*, tests: Sequence[dict[str, str]] = (), **told: str) -> ChapterEntry:
+def _entry(*, tests: Sequence[dict[str, Any]] = (), **told: str) -> ChapterEntry:
     return ChapterEntry(**told, tests=tuple(ChapterTest(**test) for test in tests))
 
 
-_BOOK = tomllib.loads(BOOK.read_text(encoding="utf-8"))
+def figures() -> dict[str, Any]:
+    """What errata and remarks print, from closed forms and the scene of Table 14.1."""
+    rigid = load_wheel_scene("table_14_1")
+    steel = replace(rigid, material=replace(rigid.material, counterface="same"))
+    rail = rigid.rail
+    assert rail is not None
+    quoted, jump = 1.012 * 2 / math.sqrt(math.pi), rigid.jump / rigid.eigenfrequency
+    return {
+        "rigid": rigid.body,
+        "steel": steel.body,
+        "turn": 2 * math.pi * rigid.radius,
+        "hurst": rail.hurst,
+        "excess": 100 * rail.hurst * rail.longest / rigid.distance,
+        "near": -2 * POWER_DECIBEL * math.log(1 - 1 / 4),
+        "far": -2 * POWER_DECIBEL * math.log(1 - 1 / jump**2),
+        "below": POWER_DECIBEL * math.log(2 / (math.pi * (2 * rail.hurst + 1))),
+        "square": CAPACITANCE,
+        "quoted": quoted,
+        "short": 100 * (1 - quoted / CAPACITANCE),
+    }
+
+
+_BOOK, _FIGURES = tomllib.loads(BOOK.read_text(encoding="utf-8")), figures()
 ENTRIES = tuple(_entry(**entry) for entry in _BOOK["entry"])
-ERRATA: tuple[dict[str, str], ...] = tuple(_BOOK["erratum"])
-"""place; what is printed in the chapter, and what is correct; why: how one sees it."""
+ERRATA, REMARKS = (
+    tuple({name: Settings().format(text, **_FIGURES) for name, text in row.items()} for row in _BOOK[kind])
+    for kind in ("erratum", "remark")
+)
+"""place; what is printed in the chapter, and what is correct, or under which condition; why: how one sees it."""
 
 
 def answers(entry: ChapterEntry, sections: Sequence[Section]) -> list[Answer]:

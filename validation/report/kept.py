@@ -49,7 +49,7 @@ def _read(path: Path) -> dict[str, Any]:
 
 def _section(folder: Path, name: str, case: Mapping[str, Any]) -> Section:
     try:
-        evidence = _evidence(folder, name, case) if case["numbers"] else None
+        evidence = _evidence(folder, name, case) if "tables" in case else None
     except KeyError as missing:
         raise ValueError(f"--keep cannot keep {name}: {missing} is not among its results; make it anew") from None
     failure = () if evidence else tuple(case["unconverged"])

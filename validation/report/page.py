@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from validation.analysis.case import Chapter, Profile
 from validation.report.answers.first_screen import MAP, answered_questions
-from validation.report.chapter import ERRATA, chapter_of
+from validation.report.chapter import ERRATA, REMARKS, chapter_of
 from validation.report.formats import templates
 from validation.report.page_figure import figures_of
 from validation.report.provenance import kept_from
@@ -44,6 +44,7 @@ def pages(
         "sections": sections,
         "book": [] if scene else chapter_of(sections),
         "errata": ERRATA,
+        "remarks": REMARKS,
         "answers": [] if scene else answered_questions(sections),
         "total": "" if unsteady else total_of(sections),
         "asked": claims_of(in_order),

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from validation.analysis.graduation import graduated, scatter_of
 from validation.analysis.statistics import FloatArray
-from validation.scenes.roughness_levels import MICROMETRE, RoughnessLevels, nodes_of
+from validation.scenes.roughness_levels import MICROMETRE, RoughnessLevels, line_of_powers
 from validation.theory.line_spectrum import LineSpectrum
 from validation.theory.transverse_structure import has_isotropic_surface
 
@@ -55,12 +55,12 @@ def isotropic_line(levels: RoughnessLevels, weights: ArrayLike) -> IsotropicLine
     isotropic ground, or stands out of its neighbours, is no part of the line.
     """
     bands, given = levels.bands, np.array(levels.levels)
-    line, none = LineSpectrum.through(*levels.nodes), np.zeros(len(bands))
+    line, none = levels.c_line, np.zeros(len(bands))
     if has_isotropic_surface(line) and scatter_of(given) <= WHOLE_DECIBELS:
         return IsotropicLine(line, line, line, none, 0.0, none, none > 0)
 
     def of(some: FloatArray) -> LineSpectrum:
-        return LineSpectrum.through(*nodes_of(bands, MICROMETRE**2 * 10 ** (some / 10)))
+        return line_of_powers(bands, MICROMETRE**2 * 10 ** (some / 10))
 
     smooth = graduated(given, weights, least=LEAST_SCATTER)
     line, smoother = (_falling(of(some)) for some in (smooth.values, smooth.hat @ smooth.hat @ smooth.values))

@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from mdr.checks import finite
 from validation.analysis.nominal_bands import NominalBands
 from validation.analysis.statistics import FloatArray
+from validation.theory.line_spectrum import LineSpectrum
 
 MICROMETRE = 1e-6
 LEAST, MOST = -100.0, 50.0
@@ -89,40 +90,25 @@ class RoughnessLevels:
         powers = self.powers + [more.get(number, 0.0) for number in self.bands.numbers]
         return RoughnessLevels.of_powers(self.bands, powers, source=f"{self.source} and {other.source}")
 
-    def c_line(self, q: ArrayLike) -> FloatArray:
-        """C_line of one line, two-sided [m^3]: powers of q between `nodes`, zero beyond the outer edges.
-
-        Its integral over each band is the power of that band.
-        """
-        return power_laws(q, *self.nodes)
-
     @cached_property
-    def nodes(self) -> tuple[FloatArray, FloatArray]:
-        """Wavenumbers [rad/m] between which C_line is a power of q, and C_line there [m^3].
+    def c_line(self) -> LineSpectrum:
+        """C_line of one line [m^3], whose integral over each band is the power of that band.
 
-        They are the centres of the bands and both outer edges; beyond the last centres the power goes on.
+        A power of q between the centres of the bands, and up to both outer edges.
         """
-        return nodes_of(self.bands, self.powers)
+        return line_of_powers(self.bands, self.powers)
 
 
-def power_laws(at: ArrayLike, q: FloatArray, density: FloatArray) -> FloatArray:
-    """The density between its values at q, linear in the logarithms of both; zero outside."""
-    wavenumber = np.abs(np.asarray(at, dtype=np.float64))
-    inside = (wavenumber >= q[0]) & (wavenumber <= q[-1])
-    logarithm = np.interp(np.log(np.where(inside, wavenumber, q[0])), np.log(q), np.log(density))
-    return np.asarray(np.where(inside, np.exp(logarithm), 0.0))
-
-
-def nodes_of(bands: NominalBands, powers: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """`RoughnessLevels.nodes` of mean squares of the heights in each band [m^2]."""
+def line_of_powers(bands: NominalBands, powers: FloatArray) -> LineSpectrum:
+    """`RoughnessLevels.c_line` of mean squares of the heights in each band [m^2]."""
     density = powers / (2 * np.diff(bands.edges))
     for _ in range(STEPS):
-        nodes = _with_outer_edges(bands, density)
-        excess = bands.powers_of_spectrum(partial(power_laws, q=nodes[0], density=nodes[1])) / powers
+        line = LineSpectrum.through(*_with_outer_edges(bands, density))
+        excess = bands.powers_of_spectrum(line) / powers
         if np.abs(excess - 1).max() < CLOSE:
             break
         density = density / excess
-    return nodes
+    return line
 
 
 def _with_outer_edges(bands: NominalBands, density: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -46,11 +46,6 @@ def sphere(case: Any) -> str:
     return of_each(PRESSED, partial(model_for, scene))
 
 
-def square_punch(case: Any) -> str:
-    scene = IndentationScene(name="punch", shape="punch", size=case.side, load=1.0, modulus=case.modulus)
-    return of_each(PRESSED, partial(model_for, scene))
-
-
 def punches(case: Any, hurst: float = 0.7, first: int = 1) -> str:
     """Those of Fig. 14.1, for H = 0.7."""
     roughness = PunchRoughness(hurst=hurst, waves=(first, case.cells // 4), seed=0)

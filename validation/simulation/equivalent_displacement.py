@@ -35,7 +35,6 @@ from validation.theory.line_spectrum import LineSpectrum
 from validation.theory.spring_input import geike_over_line, rolling_input_filter
 from validation.theory.transverse_structure import IsotropicGround, Ridges
 
-AREA = "area in contact"
 FINER = 3
 """Springs to a cell, an odd number. The ends of a contact lie between springs: near its zeros the filter of few springs
 moves to and fro by up to a decibel, where boundary elements with as few cells stay."""
@@ -220,16 +219,16 @@ class RolledRail:
 def roll_rail(problem: RolledRail) -> Outcome:
     """Equivalent displacement along the strip of each model and of its linear twin, by their names [m].
 
-    area in contact: of boundary elements, over that of the smooth wheel; failed: positions at which they did not
-    converge: the displacement counts from its mean, which then is not known.
+    failed: positions at which boundary elements did not converge: the displacement counts from its mean, which then is
+    not known.
     """
-    strip, contact = problem.strip, problem.strip.contact
+    strip = problem.strip
     found = {twin: linear_displacement(strip, twin) for twin in map(twin_of, problem.models)}
     found |= {name: ONE_SIDED[name](strip) for name in problem.models if name != BEM}
     failed = 0
     if BEM in problem.models:
         rolled = roll_boundary_elements(strip, problem.tolerance, problem.profile)
-        found |= {BEM: lifted(rolled.approach), AREA: rolled.area / (math.pi * contact.along * contact.across)}
+        found[BEM] = lifted(rolled.approach)
         failed = int(np.count_nonzero(~rolled.converged))
     return {**found, "failed": np.array(float(failed))}
 

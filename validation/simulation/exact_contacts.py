@@ -81,9 +81,9 @@ class CosineWave:
     """wavelength, amplitude [m]; modulus: E* [Pa]; load: mean pressure over that of full contact; cells: in a
     wavelength; tolerance: residual of the solver."""
 
-    wavelength: float
-    amplitude: float
-    modulus: float
+    wavelength: float = 1e-3
+    amplitude: float = 1e-6
+    modulus: float = 1e9
     load: float
     cells: int
     tolerance: float
@@ -130,30 +130,22 @@ def press_wave(wave: CosineWave) -> Outcome:
 
 @dataclass(frozen=True, kw_only=True)
 class FlatPunches:
-    """side: L of the square and diameter of the circle [m]; modulus: E* [Pa]; cells: on a side; tolerance: of the
-    linear solve."""
+    """Of side L or diameter L, E* = L = 1. cells: on a side; tolerance: of the linear solve."""
 
-    side: float
-    modulus: float
     cells: int
     tolerance: float
 
 
 def press_flat_punches(punches: FlatPunches) -> Outcome:
-    """Both pressed by a unit approach: k / (E* L), k / (2 E* a), and the pressure over its mean."""
-    side, modulus, cells = punches.side, punches.modulus, punches.cells
-    half_space = bem3d.HalfSpace(shape=(cells, cells), spacing=side / cells, modulus=modulus)
+    """Both pressed by a unit approach: k / (E* L), and k / (2 E* a) with the area of the cells."""
+    cells = punches.cells
+    half_space = bem3d.HalfSpace(shape=(cells, cells), spacing=1 / cells, modulus=1.0)
     x = (np.arange(cells) + 0.5) / cells - 0.5
     disc = np.hypot(x[:, np.newaxis], x) < 0.5
     square = bem3d.solve_fixed_area(half_space, np.ones((cells, cells), dtype=bool), tolerance=punches.tolerance)
     circle = bem3d.solve_fixed_area(half_space, disc, tolerance=punches.tolerance)
-    radius = np.sqrt(np.count_nonzero(disc) / np.pi) / cells * side
-    return {
-        "square": np.array(square.stiffness / (modulus * side)),
-        "circle": np.array(circle.stiffness / radius / (2 * modulus)),
-        "x": x,
-        "pressure": square.pressure[cells // 2] / (square.stiffness / side**2),
-    }
+    radius = np.sqrt(np.count_nonzero(disc) / np.pi) / cells
+    return {"square": np.array(square.stiffness), "circle": np.array(circle.stiffness / radius / 2)}
 
 
 APPROACH, PRESSURE = "approach", "largest pressure"

@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.nominal_bands import NominalBands
-from validation.analysis.spectra import Bands, levels, waves
-from validation.engine.engine import FloatArray, Outcome
+from validation.engine.engine import FloatArray
 from validation.engine.random_numbers import random_generator
 from validation.scenes.rail import RailScene
 from validation.simulation.surface import draw_surface
@@ -46,7 +45,7 @@ def structure_of(across: StatedAcross, line: LineSpectrum) -> TransverseStructur
 
 def line_of(scene: RailScene) -> LineSpectrum:
     """C_line of the levels of a scene; where its ground may be isotropic, the nearest that isotropic ground has."""
-    return scene.isotropic.line if scene.isotropic is not None else LineSpectrum.through(*scene.levels.nodes)
+    return scene.isotropic.line if scene.isotropic is not None else scene.levels.c_line
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -151,15 +150,6 @@ class RailStrip:
         track = np.fft.ifft(filtered @ np.exp(0.5j * (ny - 1) * self.spacing * across[0]) / ny).real
         return np.asarray(track - track.mean())
 
-    def expected_power(self, transfer: Transfer, bands: Bands) -> FloatArray:
-        """Band powers of `along_middle` in the mean of all realisations [m^2].
-
-        Of positive k_x alone, as `analysis.spectra.levels`.
-        """
-        along, across = wavenumbers(self.shape, self.spacing)
-        power = np.sum(transfer(along, across) ** 2 * self.variance, axis=1)
-        return np.asarray(bands.sums(along[:, 0], power).real)
-
 
 def wavenumbers(shape: tuple[int, int], spacing: float) -> tuple[FloatArray, FloatArray]:
     """k_x (nx, 1) and k_y (1, ny) of the waves of a grid."""
@@ -205,41 +195,14 @@ def strip_of(scene: RailScene, across: StatedAcross, cells: int, realisation: in
 
 def lost_contact_number(scene: RailScene) -> float:
     """h' a_x / d [-], h' the rms slope along the track of the waves that a strip has, `strip_bands`."""
-    as_given = LineSpectrum.through(*scene.levels.nodes)
+    as_given = scene.levels.c_line
     slope_along = strip_bands(scene).slope_of_spectrum(as_given)
     return slope_along * scene.contact.along / scene.contact.approach
-
-
-@dataclass(frozen=True, kw_only=True)
-class ParallelLines:
-    """strip; lines: how many, about the middle; spacings: of them [m]; bands: of the levels."""
-
-    strip: RailStrip
-    lines: int
-    spacings: tuple[float, ...]
-    bands: Bands
-
-
-def measure_lines(problem: ParallelLines) -> Outcome:
-    """Band powers of one line, "line", and their mean over parallel lines, by the spacing of these [m^2]."""
-    strip, places = problem.strip, {spacing: lines_across(problem.lines, spacing) for spacing in problem.spacings}
-
-    def powers(place: float) -> FloatArray:
-        return levels(waves(strip.along_middle(line_at(place)), spacing=strip.spacing), problem.bands)
-
-    along = {place: powers(place) for place in {0.0}.union(*places.values())}
-    means = {f"{spacing:g}": np.mean([along[y] for y in mine], axis=0) for spacing, mine in places.items()}
-    return {"line": along[0.0], **means}
 
 
 def lines_across(count: int, spacing: float) -> tuple[float, ...]:
     """Their places about the middle [m]."""
     return tuple((i - (count - 1) / 2) * spacing for i in range(count))
-
-
-def line_at(place: float) -> Transfer:
-    """H = exp(i k_y y): the line at y in place of the middle one."""
-    return lambda along, across: np.exp(1j * across * place)
 
 
 def mean_of_lines(places: tuple[float, ...]) -> Transfer:

@@ -22,7 +22,6 @@ from validation.scenes.level_files import curve
 from validation.simulation.rail_strip import RailGround, RailStrip
 from validation.simulation.wheel_on_rail import BEM, SPRINGS, WheelOnRail, roll_and_move
 from validation.theory.elliptic_contact import EllipticContact, elliptic_contact
-from validation.theory.line_spectrum import LineSpectrum
 
 MODELS = (BEM, SPRINGS)
 FINE, COARSE = "fine", "coarse"
@@ -108,10 +107,10 @@ class RailDynamic:
     def problem(self, key: Key, realisation: int) -> WheelOnRail:
         offset, model, grid = key
         unit, cells = self.contact.along, self.cells if grid == FINE else self.coarse
-        q, density = curve(self.curve).raised(offset).nodes
+        line = curve(self.curve).raised(offset).c_line
         first, last = float(self.bands.edges[0]), float(self.bands.edges[-1])
         strip = RailStrip(
-            ground=RailGround(line=LineSpectrum(tuple(q), tuple(density)), across="isotropic", first=first, last=last),
+            ground=RailGround(line=line, across="isotropic", first=first, last=last),
             radii=self.radii,
             force=self.load,
             modulus=self.modulus,

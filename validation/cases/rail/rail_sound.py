@@ -1,6 +1,6 @@
 """The contact force of a wheel on a rail as a sound, by four models on the same surface, and its levels.
 
-Levels are A-weighted, in three ranges and in one-third octaves, and over boundary elements.
+Levels are A-weighted and in one-third octaves, and over boundary elements.
 """
 
 import math
@@ -30,10 +30,6 @@ SOUNDING = {"bem": BEM, "linear": LINEAR, "springs": SPRINGS_THAT_READ, "geike":
 SHORTEST = 0.9
 """Largest wavenumber over that of two cells a wave."""
 LABELS = {model: model for model in SOUNDING.values()} | {LINEAR: "linear theory in 3D"}
-WEIGHTED, LOW = "A-weighted", "below the band"
-LONG, SHORT = "in waves longer than the contact", "in waves shorter than the contact"
-SILENT = -30.0
-"""dB over boundary elements; a model that is quieter still counts as this."""
 LOWEST, FEWEST_WAVES = 20.0, 5
 """First frequency of one-third octaves [Hz], and waves of a period below it."""
 LEAST = -40.0
@@ -156,34 +152,32 @@ class RailSoundResult(Outcomes):
         return common_full_scale(self.signal(model) for model in self.case.sounding)
 
     @cached_property
-    def gains(self) -> dict[str, FloatArray]:
-        """A-weighting, and the three ranges: 1 inside, 0 outside; of the waves of a period."""
-        f, (first, last) = np.fft.rfftfreq(self.case.samples, 1 / self.case.rate), self.case.band
-        ranges = {LOW: (0.0, first), LONG: (first, self.case.of_contact), SHORT: (self.case.of_contact, last)}
-        inside = {name: ((f > low) & (f < high)).astype(np.float64) for name, (low, high) in ranges.items()}
-        weight = 10 ** (a_weighting(np.maximum(f, f[1])) / 20)
-        return {WEIGHTED: weight, **{name: gain for name, gain in inside.items() if gain.any()}}
+    def weight(self) -> FloatArray:
+        """A-weighting of the waves of a period, as a gain."""
+        f = np.fft.rfftfreq(self.case.samples, 1 / self.case.rate)
+        return np.asarray(10 ** (a_weighting(np.maximum(f, f[1])) / 20))
 
-    def level(self, model: str, part: str | None = None) -> float:
-        """dB re 1 N; of all frequencies where no part is named."""
-        signal = self.signal(model)
-        return decibels(float(np.mean((signal if part is None else filtered(signal, self.gains[part])) ** 2)))
+    def level(self, model: str) -> float:
+        """dB re 1 N."""
+        return decibels(float(np.mean(self.signal(model) ** 2)))
 
-    def over(self, model: str, part: str) -> tuple[Estimate, float]:
-        """Level over boundary elements on the same strip, and what the grid leaves of it, to first order [dB]."""
+    def weighted(self, model: str) -> float:
+        """dB(A) re 1 N."""
+        return decibels(float(np.mean(filtered(self.signal(model), self.weight) ** 2)))
+
+    def over(self, model: str) -> tuple[Estimate, float]:
+        """A-weighted level over boundary elements on the same strip, and what the grid leaves, to first order [dB]."""
         coarse, fine = self.case.cells
-        found, before = (self._over_bem(model, part, cells) for cells in (fine, coarse))
+        found, before = (self._over_bem(model, cells) for cells in (fine, coarse))
         return found, abs(found.value - before.value) * coarse / (fine - coarse)
 
-    def _over_bem(self, model: str, part: str, cells: int) -> Estimate:
+    def _over_bem(self, model: str, cells: int) -> Estimate:
         """By the jackknife over pieces of the strip."""
-        powers = [
-            powers_of_blocks(filtered(self[name, cells], self.gains[part]), self.case.blocks) for name in (model, BEM)
-        ]
+        powers = [powers_of_blocks(filtered(self[name, cells], self.weight), self.case.blocks) for name in (model, BEM)]
 
         def ratio(rows: FloatArray) -> FloatArray:
             mine, other = rows.sum(axis=0)
-            return np.atleast_1d(max(decibels(mine / other), SILENT))
+            return np.atleast_1d(decibels(mine / other))
 
         return jackknifed(ratio, np.stack(powers, axis=1))[0]
 
@@ -210,13 +204,13 @@ class RailSoundResult(Outcomes):
             row: dict[str, object] = {
                 "model": LABELS[model],
                 "level [dB re 1 N]": round(self.level(model), 2),
-                "A-weighted [dB re 1 N]": round(self.level(model, WEIGHTED), 2),
+                "A-weighted [dB re 1 N]": round(self.weighted(model), 2),
                 "largest [N]": round(float(np.abs(self.signal(model)).max()), 1),
                 "full scale [N]": self.full_scale,
                 "samples a second": self.case.rate,
             }
             if BEM in self.case.sounding:
-                found, grid = self.over(model, WEIGHTED)
+                found, grid = self.over(model)
                 row |= {
                     "A-weighted over boundary elements [dB]": round(found.value, 2),
                     "± [dB]": round(found.half_width + grid, 2),

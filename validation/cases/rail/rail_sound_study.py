@@ -6,19 +6,15 @@ import numpy as np
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, Matrix, beside
-from validation.analysis.evidence import Number
-from validation.analysis.margins import FIELD
-from validation.analysis.series import Series, Where
+from validation.analysis.series import Series
 from validation.analysis.sound import Sound, Sounds
 from validation.analysis.study import Study
 from validation.cases.rail import rail_sound
-from validation.cases.rail.rail_sound import LABELS, LOW, SILENT, SOUNDING, WEIGHTED, RailSound, RailSoundResult
+from validation.cases.rail.rail_sound import LABELS, SOUNDING, RailSound, RailSoundResult
 from validation.simulation.model_names import BEM, LINEAR, SPRINGS_THAT_READ
 from validation.simulation.rail_sound import GEIKE, ISOTROPIC
 
-LEVEL, IN_BANDS, FORCE = "level of the contact force", "level in one-third octaves", "contact force less its mean"
-BELOW, PLACES = "per cent of the mean square below the band", "places in frequency"
+IN_BANDS, FORCE, PLACES = "level in one-third octaves", "contact force less its mean", "places in frequency"
 FREQUENCY, TIME = "f [Hz]", "t [ms]"
 ENDS, OF_CONTACT = "an end of the band", "the wave as long as the contact"
 TONE = 20.0
@@ -28,27 +24,17 @@ SHOWN = 0.02
 
 
 def series(result: RailSoundResult) -> list[Series]:
-    """Levels over boundary elements on the same strip, -30 dB where a model is silent, and what is drawn."""
+    """What is drawn: the waveforms, their levels, and places in frequency."""
     case, found = result.case, list[Series]()
-    margin = FIELD.beside(f"boundary elements on the same {case.metres:.3g} m of rail")
     f, time = result.bands.centres / (2 * math.pi), 1000 * np.arange(round(SHOWN * case.rate)) / case.rate
     for model in case.sounding:
         name, force = LABELS[model], np.round(result.signal(model), 1)[: time.size]
-        for part in result.gains if model != BEM else ():
-            level, grid = result.over(model, part)
-            where: Where = {"part": part}
-            found.append(Series(LEVEL, name, (level,), where=where, grid=(grid,), unit="dB", margin=margin))
         found += [
             Series(IN_BANDS, name, result.in_bands(model), along=FREQUENCY, at=f, unit="dB re 1 N"),
             Series(FORCE, name, force, along=TIME, at=time[: force.size], unit="N"),
-            Series(BELOW, name, (100 * 10 ** ((result.level(model, LOW) - result.level(model)) / 10),), unit="%"),
         ]
     places = ((ENDS, case.band), (OF_CONTACT, (case.of_contact,)))
     return found + [Series(PLACES, name, at, along=FREQUENCY, at=at, unit="Hz") for name, at in places]
-
-
-def or_less(number: Number) -> str:
-    return f"{SILENT:g} dB or less" if number.value <= SILENT else beside(number)
 
 
 def signed(value: float) -> str:
@@ -69,7 +55,7 @@ def sounds_of(result: RailSoundResult) -> Sounds:
                 name=name,
                 label=LABELS[model][0].upper() + LABELS[model][1:],
                 column=rail_sound.column_of(model),
-                says=f"{result.level(model, WEIGHTED):.1f} dB(A) re 1 N{_beside(result, model)}.",
+                says=f"{result.weighted(model):.1f} dB(A) re 1 N{_beside(result, model)}.",
             )
             for name, model in SOUNDING.items()
             if model in case.sounding
@@ -80,7 +66,7 @@ def sounds_of(result: RailSoundResult) -> Sounds:
 def _beside(result: RailSoundResult, model: str) -> str:
     if model == BEM or BEM not in result.case.sounding:
         return ""
-    return f", {signed(result.over(model, WEIGHTED)[0].value)} dB over boundary elements"
+    return f", {signed(result.over(model)[0].value)} dB over boundary elements"
 
 
 def what_is_heard(result: RailSoundResult) -> list[str]:
@@ -123,23 +109,12 @@ STUDY = Study(
         "that is too heavy to follow; the force along the track is the signal in time. All models roll over the same "
         "surface. Springs of Geike's spectrum have no surface: their profile is the middle line of this one with each "
         "wave scaled to that spectrum, so that it keeps its phase. Sample: jackknife over {c.blocks} pieces of the "
-        "strip. Grid: {c.cells} cells to the smaller semi-axis, to first order. A model that is "
-        f"{-SILENT:g} dB quieter than boundary elements or more counts as {SILENT:g} dB. The A-weighting "
+        "strip. Grid: {c.cells} cells to the smaller semi-axis, to first order. The A-weighting "
         "of IEC 61672-1 is meant for sound pressure; here it weights a force, for comparison alone."
     ),
     series=series,
-    claims=[
-        Claim(quantity=LEVEL, model=LABELS[model], printed=or_less).saying(
-            f"{name} as boundary elements do, within 1 dB, A-weighted and in each range.", short=short
-        )
-        for model, name, short in (
-            (GEIKE, "Springs of Geike's spectrum sound", "Springs of Geike's spectrum over boundary elements"),
-            (LINEAR, "Linear theory in 3D sounds", "linear theory in 3D"),
-            (SPRINGS_THAT_READ, "Springs that read the surface sound", "springs that read the surface"),
-        )
-    ],
     charts=(
-        Chart("rail_sound", claims=(0, 1, 2), height=5.0).of(
+        Chart("rail_sound", claims=(), height=5.0).of(
             "(a) The contact force less its mean over the first 20 ms, model by model, each 10 kN below the one "
             "before. (b) Its levels in one-third octaves. Dashed: the ends of the band in which the rail is rough "
             "along the track, {c.band[0]:.0f} and {c.band[1]:.0f} Hz; dotted: the wave as long as the contact, "
@@ -158,8 +133,7 @@ STUDY = Study(
             ),
         ),
     ),
-    matrices=(Matrix(name=LEVEL, quantity=LEVEL, rows=("model",), columns="part", printed=or_less),),
-    printed=("sounds", BELOW),
+    printed=("sounds",),
     tables=lambda result: (result.sounds_table(), result.samples_table()),
     sounds=sounds_of,
 )

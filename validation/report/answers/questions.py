@@ -121,7 +121,6 @@ of_rail = partial(
     Source,
     case="rough_rail",
     quantity=rolled_filters.OVER_BEM,
-    where={"waves": rough_rail.LONG},
     axis=rough_rail.OFFSET,
     over="h' a_x/d",
     read=(CONTACT, "h' a_x / d"),
