@@ -15,6 +15,7 @@ from validation.cases.punch.interface import (
     GAP,
     OF_HALF,
     OF_SERIES,
+    OVER_LOAD,
     PUNCH,
     Interface,
 )
@@ -65,6 +66,9 @@ def test_a_power_of_the_load_is_found_and_judged(exponent, status):
     assert [n.value for n in numbers] == pytest.approx(10 * [exponent], abs=1e-9)
     assert found.claims[0].status is status
     assert ("We do not get this curve" in found.claims[0].answer) is (exponent < 1)
+    lightest = numbers_with(found.numbers, OVER_LOAD)[0]
+    p = CASE.pressures((4, 0.7))
+    assert lightest.value == pytest.approx(20 * (exponent - 1) * np.log10(p[0] / p[5]), abs=1e-3)
     # K h / p at equal contact does not depend on the number of waves
     assert [n.value for n in numbers_with(found.numbers, OF_HALF)] == pytest.approx(7 * [0.0], abs=1e-3)
 

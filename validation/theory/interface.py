@@ -44,7 +44,7 @@ def persson_stiffness(
     positive(modulus=modulus, gamma=gamma)
     p = np.asarray(pressure, dtype=np.float64)
     if not (np.isfinite(p).all() and (p > 0).all()):
-        raise ValueError(f"pressure must be finite and positive, got {pressure}")
+        raise ValueError(f"pressure must be finite and positive, got {p}")
     if gamma > 1:
         raise ValueError(f"gamma must be in (0, 1], got {gamma}")
     q, s = _slopes(c2d, edges)

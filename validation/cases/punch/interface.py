@@ -1,10 +1,11 @@
 """The stiffness of a rough interface without edges, beside Persson's theory; the same roughness on a punch and MDR."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from itertools import pairwise
+from itertools import pairwise, repeat
+from typing import Any
 
 import numpy as np
 from scipy.special import erfinv
@@ -12,7 +13,7 @@ from scipy.special import erfinv
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel, by_model
 from validation.analysis.claims import NOT_THIS_CURVE, Claim, Matrix, per_cent, times
-from validation.analysis.evidence import Table, Whose
+from validation.analysis.evidence import Place, Table, Whose
 from validation.analysis.series import Estimates, Margin, Series, Where, masked, single
 from validation.analysis.statistics import DECIBEL, Estimate, FloatArray, Statistic, jackknifed, log_mean
 from validation.analysis.study import Outcomes, Study
@@ -53,9 +54,9 @@ class Interface:
     seed: int = 142
 
     def roughness(self, ground: Ground) -> RolledOffRoughness:
-        roll_off, hurst = ground
-        waves = (1, self.band * roll_off)
-        return RolledOffRoughness(hurst=hurst, waves=waves, roll_off=roll_off, height=self.height, seed=self.seed)
+        first, hurst = ground
+        waves = (1, self.band * first)
+        return RolledOffRoughness(hurst=hurst, waves=waves, roll_off=first, height=self.height, seed=self.seed)
 
     def spectrum(self, ground: Ground) -> PiecewisePowerLaw:
         """Of unit height."""
@@ -71,6 +72,11 @@ class Interface:
         """d ln K / d ln p from each load to the next."""
         steps = np.diff(np.log(self.pressures(ground)))
         return lambda mean, deviation: np.asarray(np.diff(np.log(mean)) / steps)
+
+    def beside_heavier(self, ground: Ground) -> Statistic:
+        """ln of K / p over that of the contact LIGHT."""
+        pressures, heavier = self.pressures(ground), self.contacts.index(LIGHT)
+        return lambda mean, deviation: np.asarray(np.log(mean / pressures) - np.log(mean / pressures)[heavier])
 
     @property
     def forces(self) -> tuple[float, ...]:
@@ -112,28 +118,32 @@ def run(case: Interface, engine: Engine = SERIAL) -> Outcomes:
     return Outcomes(case, {**interfaces, **punched, **mdr}, (*lost, *lost_too))
 
 
-PUNCH, PERSSON, BARBER = "punch", "Persson", "at the least (Barber)"
-GAMMAS = {f"{PERSSON}, γ = {gamma:g}": gamma for gamma in (YANG_AND_PERSSON, 1.0)}
+LIGHT = 0.1
+"""Contact up to which the stiffness is proportional in theory; one of the contacts."""
+PUNCH, BARBER = "punch", "at the least (Barber)"
+GAMMAS = {f"Persson, γ = {gamma:g}": gamma for gamma in (YANG_AND_PERSSON, 1.0)}
 FITTED, UNFITTED = GAMMAS
 EDGELESS, ON_PUNCH, SERIES = "bem3d, interface", "bem3d, punch", "interface and flat punch in series"
-ROLL_OFF, CONTACT = "q_r L / 2π", "contact"
+ROLL_OFF, CONTACT = "q_r L / 2π", "nominal contact"
 STIFFNESS, AREA, GAP = "stiffness", "contact fraction", "mean gap"
 SCALED, SCALED_PUNCH = "K h over p", "k h over F"
 FRACTION, GAP_OVER_H = "contact fraction A over L²", "mean gap over h"
 EXPONENT, BESIDE_BEM = "exponent of K over p", "K over that of boundary elements"
+OVER_LOAD = f"K over p beside that at {100 * LIGHT:g} % contact"
 OF_SERIES, OF_HALF = "k over that of interface and flat punch in series", "K h over p beside that of half as many waves"
 BOUNDED = "share of loads above Barber's least K"
 ENOUGH_WAVES = 8
 """A period: fewer leave more of the lightest loads to the highest summit alone."""
-LIGHT = 0.1
-"""Contact up to which the stiffness is proportional in theory."""
 ZERO_GAP = 1e-12
-TENTH = DECIBEL * math.log(1.1)
-NEAR = Margin(TENTH, "10 %: 0.8 dB, finer than one-third octave levels of rolling are known", source="bem3d")
+DECIBELS: Mapping[str, Any] = {"scale": DECIBEL, "unit": "dB"}
+ONE: Mapping[str, Any] = {"reference": 1.0}
+NEAR = Margin(
+    DECIBEL * math.log(1.1), "10 %: 0.8 dB, finer than one-third octave levels of rolling are known", source="bem3d"
+)
 PROPORTIONAL = Margin(
     math.log10(1.1),
     "0.04: K over p changes by 10 % in a decade of load",
-    source="K proportional to p: Persson (2007); Akarapu, Sharp and Robbins (2011); Campana, Persson and Müser (2011)",
+    source="K ~ p: Persson (2007); Akarapu, Sharp and Robbins (2011); Campana, Persson and Müser (2011)",
 )
 
 
@@ -166,13 +176,14 @@ def series(result: Outcomes) -> list[Series]:
     shares = [np.mean(k > case.height * case.pressures(g)) for k, g in zip(inside, case.grounds, strict=True)]
     exact = "no load path leaves those of the smooth faces shifted by the extreme heights: Barber (2003)"
     found.append(single(BOUNDED, BEM, float(np.mean(shares)), 1e-9, exact, "a theorem", 1.0))
-    for (waves, hurst), more in grounds.items():
-        if half := grounds.get((waves // 2, hurst)):
-            loads = Estimates.exact(np.log(case.pressures((waves, hurst)) / case.pressures((waves // 2, hurst))))
+    for ground, more in grounds.items():
+        fewer = ground[0] // 2, ground[1]
+        if half := grounds.get(fewer):
+            loads = Estimates.exact(np.log(case.pressures(ground) / case.pressures(fewer)))
             apart, finer = more.found() - half.found() - loads, more.finer() - half.finer()
-            found += _by_load(case, (waves, hurst), OF_HALF, BEM, apart, finer)
-    punch, springs = Measured(result[PUNCH, 1], result[PUNCH, 2]), result[MDR]
-    return found + list(_of_punch(case, grounds[case.pressed], punch, springs))
+            found += _each(case, ground, OF_HALF, BEM, apart, finer)
+    punch = Measured(result[PUNCH, 1], result[PUNCH, 2])
+    return found + list(_of_punch(case, grounds[case.pressed], punch, result[MDR]))
 
 
 def _of_interface(case: Interface, ground: Ground, mine: Measured) -> Iterator[Series]:
@@ -186,11 +197,14 @@ def _of_interface(case: Interface, ground: Ground, mine: Measured) -> Iterator[S
     for model, gamma in GAMMAS.items():
         known = persson_stiffness(over_h, c2d=spectrum.c2d, edges=spectrum.edges, modulus=1.0, gamma=gamma)
         yield shown(model, np.log(known / over_h))
-        yield from _by_load(case, ground, BESIDE_BEM, model, Estimates.exact(np.log(known)) - stiffness, finer)
-        yield from _exponents(case, ground, model, case.slopes(ground)(known, known))
+        yield from _each(case, ground, BESIDE_BEM, model, Estimates.exact(np.log(known)) - stiffness, finer)
+        yield from _each(case, ground, EXPONENT, model, case.slopes(ground)(known, known), margin=None)
     slope = case.slopes(ground)
     found, left = mine.found(statistic=slope), mine.finer(statistic=slope)
-    yield from _exponents(case, ground, BEM, found, left, PROPORTIONAL)
+    yield from _each(case, ground, EXPONENT, BEM, found, left, PROPORTIONAL)
+    beside, lighter = case.beside_heavier(ground), np.array(case.contacts) < LIGHT
+    flat = masked(mine.found(statistic=beside), lighter)
+    yield from _each(case, ground, OVER_LOAD, BEM, flat, mine.finer(statistic=beside))
 
 
 def _of_punch(case: Interface, interface: Measured, punch: Measured, springs: Outcome) -> Iterator[Series]:
@@ -211,16 +225,18 @@ def _of_punch(case: Interface, interface: Measured, punch: Measured, springs: Ou
         yield shown(quantity, MDR, masked(logs - over, there))
         if name != "stiffness":
             yield shown(quantity, EDGELESS, interface.found(name) - over, grid=interface.finer(name))
-        yield from _by_load(case, ground, judged, OVER, masked(logs - punch.found(name), there), finer)
-    yield from _exponents(case, ground, ON_PUNCH, punch.found(statistic=slope), punch.finer(statistic=slope))
-    yield from _exponents(case, ground, MDR, jackknifed(partial(of_rows, slope), springs["stiffness"]))
+        yield from _each(case, ground, judged, OVER, masked(logs - punch.found(name), there), finer)
+    slopes, left = punch.found(statistic=slope), punch.finer(statistic=slope)
+    yield from _each(case, ground, EXPONENT, ON_PUNCH, slopes, left, margin=None)
+    slopes = Estimates(jackknifed(partial(of_rows, slope), springs["stiffness"]))
+    yield from _each(case, ground, EXPONENT, MDR, slopes, margin=None)
     alone = np.exp(interface.found().values)
     yield shown(SCALED_PUNCH, SERIES, -np.log(forces * (1 / alone + 1 / SQUARE_PUNCH)))
     coarse, fine = (np.stack([p["stiffness"], i["stiffness"]], axis=1) for p, i in zip(punch, interface, strict=True))
     both = np.stack([coarse[: len(fine)], fine], axis=1)
     finer = Estimates(jackknifed(lambda rows: _over_series(rows[:, 1]) - _over_series(rows[:, 0]), both))
     found = Estimates(jackknifed(_over_series, coarse)).on_no_size(finer)
-    yield from _by_load(case, ground, OF_SERIES, BEM, found, finer)
+    yield from _each(case, ground, OF_SERIES, BEM, found, finer)
 
 
 def _over_series(rows: FloatArray) -> FloatArray:
@@ -229,30 +245,22 @@ def _over_series(rows: FloatArray) -> FloatArray:
     return np.asarray(np.log(k * (1 / alone + 1 / SQUARE_PUNCH)))
 
 
-def _by_load(
-    case: Interface, ground: Ground, quantity: str, model: str, found: Sequence[Estimate], finer: Sequence[Estimate]
-) -> Iterator[Series]:
-    """A number at each load."""
-    judged = partial(Series, quantity, model, scale=DECIBEL, unit="dB", margin=NEAR)
-    for contact, one, left in zip(case.contacts, found, finer, strict=True):
-        family = len(case.contacts) * len(case.grounds)
-        yield judged((one,), where={**_where(ground), CONTACT: contact}, grid=(left,), family=family)
-
-
-def _exponents(
+def _each(
     case: Interface,
     ground: Ground,
+    quantity: str,
     model: str,
-    found: Sequence[Estimate | float] | FloatArray,
-    finer: Sequence[Estimate] = (),
-    margin: Margin | None = None,
+    found: Iterable[Estimate | float],
+    finer: Iterable[Estimate | float] = repeat(0.0),
+    margin: Margin | None = NEAR,
 ) -> Iterator[Series]:
-    """d ln K / d ln p from each load to the next, as far as they are light."""
-    steps = [step for step in pairwise(case.contacts) if step[1] <= LIGHT]
-    for i, step in enumerate(steps):
-        where = {**_where(ground), CONTACT: step}
-        one, grid, family = found[i : i + 1], finer[i : i + 1] or 0.0, len(steps) * len(case.grounds)
-        yield Series(EXPONENT, model, one, where=where, reference=1.0, grid=grid, margin=margin, family=family)
+    """A number at each load; of exponents for each step between light loads."""
+    places: Sequence[Place] = [step for step in pairwise(case.contacts) if step[1] <= LIGHT]
+    places, unit = (places, ONE) if quantity == EXPONENT else (case.contacts, DECIBELS)
+    for place, one, left in zip(places, found, finer, strict=False):
+        where: Where = {**_where(ground), CONTACT: place}
+        family = len(places) * len(case.grounds)
+        yield Series(quantity, model, (one,), where=where, grid=(left,), margin=margin, family=family, **unit)
 
 
 def _where(ground: Ground) -> Where:
@@ -267,14 +275,13 @@ def _work(result: Outcomes) -> tuple[Table]:
 of_interface = partial(
     Claim, where={ROLL_OFF: lambda waves: waves >= ENOUGH_WAVES}, along="-" + CONTACT, whose=Whose.FIELD
 )
-of_loads = partial(Matrix, columns=CONTACT, printed=per_cent)
 EIGHT = {ROLL_OFF: 8.0, "H": 0.7}
 LINES = {FITTED: "exact", UNFITTED: "dashed", BARBER: "guide"}
 STYLES = {EDGELESS: "crosses", ON_PUNCH: "bem", SERIES: "bem line", MDR: "mdr line"}
 STUDY = Study(
     title="The stiffness of a rough interface without edges, and of the same roughness under a punch",
     method=(
-        "A rough face of period L is pressed on a periodic half-space: nothing has an edge, and the approach is that "
+        "A rough face of period L is pressed on a periodic half-space: there is no edge, and the approach is that "
         "of the mean planes. Its spectrum is level up to q_r and a power law of H to {c.band} q_r. K = dp / "
         "d(approach) at constant contact area; {c.surfaces} surfaces of each, on four cells to the shortest wave. "
         "Loads are named by the contact fraction that Persson's theory has under them, erf(√2 p / (E* g)), g the rms "
@@ -286,12 +293,12 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        of_interface(quantity=EXPONENT, model=BEM, no=NOT_THIS_CURVE).saying(
-            "The normal stiffness of a rough interface is proportional to the load.",
-            short="Stiffness of an interface over the load, from load to load",
+        of_interface(quantity=OVER_LOAD, no=NOT_THIS_CURVE, printed=per_cent).saying(
+            "Up to 10 % nominal contact the normal stiffness of a rough interface is proportional to the load.",
+            short="Stiffness of an interface over the load, at lighter loads",
         ),
         of_interface(quantity=BESIDE_BEM, model=FITTED, printed=per_cent).saying(
-            "Persson's theory, with γ = 0.45, has the stiffness of a rough interface.",
+            "Up to 20 % nominal contact Persson's theory, with γ = 0.45, has the stiffness of a rough interface.",
             short="Persson's stiffness beside boundary elements",
         ),
         Claim(quantity=(AREA, GAP), differ=True, printed=times).saying(
@@ -302,12 +309,12 @@ STUDY = Study(
     charts=(
         Chart("interface", columns=2, height=7.5, claims=(0, 1)).of(
             "(a) Stiffness K of the interface times h over the load, level where K is proportional to the load. "
-            "Symbols: periodic boundary elements; lines: Persson's theory for q_r L / 2π = 8, H = 0.7; grey: p / (0.48"
-            " h), the fit for punches; dotted: the least that is possible, p over the largest height (Barber). (b) The"
-            " same of a punch of this roughness, of its interface in series with the flat punch, and of MDR. (c) "
+            "Symbols: periodic boundary elements; lines: Persson's theory for q_r L / 2π = 8, H = 0.7; level line: K = "
+            "p / (0.48 h), the fit for punches; dotted: the least that is possible, p over the largest height "
+            "(Barber). (b) The same of a punch, of its interface in series with the flat punch, and of MDR. (c) "
             "Contact fraction, (d) mean gap over h. Bars: 95 % of sample and grid.",
             Panel(CONTACT, SCALED, title="interface", log="xy", lines=(1 / INTERFACE,)).of(
-                Curve(SCALED, BEM, "marks", by=(ROLL_OFF, "H"), bars=True),
+                Curve(SCALED, BEM, "marks", by=(ROLL_OFF, "H"), bars=True, beside=1.06),
                 *(Curve(SCALED, model, style, model, of=EIGHT) for model, style in LINES.items()),
             ),
             Panel(CONTACT, SCALED_PUNCH, title="punch", log="xy").of(*by_model(SCALED_PUNCH, STYLES, bars=True)),
@@ -317,9 +324,13 @@ STUDY = Study(
     ),
     matrices=(
         Matrix(name=EXPONENT, quantity=EXPONENT, rows=(ROLL_OFF, "H"), columns=CONTACT),
-        of_loads(name=BESIDE_BEM, quantity=BESIDE_BEM, rows=("model", ROLL_OFF, "H")),
-        of_loads(name=OF_HALF, quantity=OF_HALF, rows=(ROLL_OFF, "H")),
-        of_loads(name=OF_SERIES, quantity=OF_SERIES, rows=(ROLL_OFF, "H")),
+        Matrix(
+            name="load by load",
+            quantity=(OVER_LOAD, BESIDE_BEM, OF_HALF, OF_SERIES),
+            rows=("quantity", "model", ROLL_OFF, "H"),
+            columns=CONTACT,
+            printed=per_cent,
+        ),
     ),
     tables=_work,
 )
