@@ -149,7 +149,7 @@ PROPORTIONAL = Margin(
 
 @dataclass(frozen=True)
 class Measured:
-    """One ground on cells of two sizes. found: on cells of no size; finer: the changes that leave its grid error."""
+    """One ground on cells of two sizes."""
 
     coarse: Outcome
     fine: Outcome
@@ -157,13 +157,10 @@ class Measured:
     def __iter__(self) -> Iterator[Outcome]:
         return iter((self.coarse, self.fine))
 
-    def finer(self, name: str = "stiffness", statistic: Statistic = log_mean) -> Estimates:
-        return change(statistic, self.coarse[name], self.fine[name])
-
-    def found(self, name: str = "stiffness", statistic: Statistic = log_mean) -> Estimates:
-        """ln of the mean, by default, at each load."""
-        on_cells = Estimates(jackknifed(partial(of_rows, statistic), self.coarse[name]))
-        return on_cells.on_no_size(self.finer(name, statistic))
+    def of(self, name: str = "stiffness", statistic: Statistic = log_mean) -> tuple[Estimates, Estimates]:
+        """ln of the mean, by default, on cells of no size at each load, and the changes that leave its grid error."""
+        finer = change(statistic, self.coarse[name], self.fine[name])
+        return Estimates(jackknifed(partial(of_rows, statistic), self.coarse[name])).on_no_size(finer), finer
 
 
 def series(result: Outcomes) -> list[Series]:
@@ -180,8 +177,8 @@ def series(result: Outcomes) -> list[Series]:
         fewer = ground[0] // 2, ground[1]
         if half := grounds.get(fewer):
             loads = Estimates.exact(np.log(case.pressures(ground) / case.pressures(fewer)))
-            apart, finer = more.found() - half.found() - loads, more.finer() - half.finer()
-            found += _each(case, ground, OF_HALF, BEM, apart, finer)
+            apart, finer = (one - other for one, other in zip(more.of(), half.of(), strict=True))
+            found += _each(case, ground, OF_HALF, BEM, apart - loads, finer)
     punch = Measured(result[PUNCH, 1], result[PUNCH, 2])
     return found + list(_of_punch(case, grounds[case.pressed], punch, result[MDR]))
 
@@ -189,7 +186,7 @@ def series(result: Outcomes) -> list[Series]:
 def _of_interface(case: Interface, ground: Ground, mine: Measured) -> Iterator[Series]:
     """K h / p along the loads, theory beside it load by load, and the exponents of both from load to load."""
     over_h, where = case.pressures(ground), _where(ground)
-    stiffness, finer = mine.found(), mine.finer()
+    stiffness, finer = mine.of()
     shown = partial(Series, SCALED, where=where, along=CONTACT, at=case.contacts, shown=math.exp)
     yield shown(BEM, stiffness - Estimates.exact(np.log(over_h)), grid=finer)
     yield shown(BARBER, np.full(over_h.size, math.log(case.height / float(mine.coarse["highest"].mean()))))
@@ -199,12 +196,9 @@ def _of_interface(case: Interface, ground: Ground, mine: Measured) -> Iterator[S
         yield shown(model, np.log(known / over_h))
         yield from _each(case, ground, BESIDE_BEM, model, Estimates.exact(np.log(known)) - stiffness, finer)
         yield from _each(case, ground, EXPONENT, model, case.slopes(ground)(known, known), margin=None)
-    slope = case.slopes(ground)
-    found, left = mine.found(statistic=slope), mine.finer(statistic=slope)
-    yield from _each(case, ground, EXPONENT, BEM, found, left, PROPORTIONAL)
-    beside, lighter = case.beside_heavier(ground), np.array(case.contacts) < LIGHT
-    flat = masked(mine.found(statistic=beside), lighter)
-    yield from _each(case, ground, OVER_LOAD, BEM, flat, mine.finer(statistic=beside))
+    yield from _each(case, ground, EXPONENT, BEM, *mine.of(statistic=case.slopes(ground)), PROPORTIONAL)
+    found, finer = mine.of(statistic=case.beside_heavier(ground))
+    yield from _each(case, ground, OVER_LOAD, BEM, masked(found, np.array(case.contacts) < LIGHT), finer)
 
 
 def _of_punch(case: Interface, interface: Measured, punch: Measured, springs: Outcome) -> Iterator[Series]:
@@ -219,18 +213,18 @@ def _of_punch(case: Interface, interface: Measured, punch: Measured, springs: Ou
     for (name, (quantity, unit)), judged in zip(drawn.items(), (STIFFNESS, AREA, GAP), strict=True):
         # the gap of full contact is rounding
         logs = Estimates(jackknifed(partial(of_rows, log_mean), np.maximum(springs[name], ZERO_GAP)))
-        there, finer = logs.values > math.log(2 * ZERO_GAP), punch.finer(name)
+        there = logs.values > math.log(2 * ZERO_GAP)
+        (found, finer), (edgeless, left) = punch.of(name), interface.of(name)
         over = Estimates.exact(np.log(unit * np.ones(forces.size)))
-        yield shown(quantity, ON_PUNCH, punch.found(name) - over, grid=finer)
+        yield shown(quantity, ON_PUNCH, found - over, grid=finer)
         yield shown(quantity, MDR, masked(logs - over, there))
         if name != "stiffness":
-            yield shown(quantity, EDGELESS, interface.found(name) - over, grid=interface.finer(name))
-        yield from _each(case, ground, judged, OVER, masked(logs - punch.found(name), there), finer)
-    slopes, left = punch.found(statistic=slope), punch.finer(statistic=slope)
-    yield from _each(case, ground, EXPONENT, ON_PUNCH, slopes, left, margin=None)
+            yield shown(quantity, EDGELESS, edgeless - over, grid=left)
+        yield from _each(case, ground, judged, OVER, masked(logs - found, there), finer)
+    yield from _each(case, ground, EXPONENT, ON_PUNCH, *punch.of(statistic=slope), None)
     slopes = Estimates(jackknifed(partial(of_rows, slope), springs["stiffness"]))
     yield from _each(case, ground, EXPONENT, MDR, slopes, margin=None)
-    alone = np.exp(interface.found().values)
+    alone = np.exp(interface.of()[0].values)
     yield shown(SCALED_PUNCH, SERIES, -np.log(forces * (1 / alone + 1 / SQUARE_PUNCH)))
     coarse, fine = (np.stack([p["stiffness"], i["stiffness"]], axis=1) for p, i in zip(punch, interface, strict=True))
     both = np.stack([coarse[: len(fine)], fine], axis=1)
