@@ -60,7 +60,7 @@ SMALL = {
         cells=16, surfaces=4, pairs=(3, 3), refined=3, rolled_off=3, profiles=5, points=64, per_decade=1, seed=1
     ),
     "interface": interface.Interface(
-        grounds=((2, 0.7), (4, 0.7)), pressed=(4, 0.7), band=2, surfaces=6, refined=3, profiles=40, points=64
+        grounds=((8, 0.7), (4, 0.7)), pressed=(4, 0.7), band=2, surfaces=6, refined=3, profiles=40, points=64
     ),
     "ridges": ridges.RollingOverRidges(length=20, shortest=6.0, cells=(4, 6), springs=(8.5, 16.5)),
     "rolling": rolling.ForceSpectrum(heights=(0.01, 0.3), last=6.0, rough_strips=3, refined=3, **STRIPS, **TRACKS),

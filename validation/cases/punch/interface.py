@@ -41,7 +41,7 @@ class Interface:
     seed: zero or positive.
     """
 
-    grounds: tuple[Ground, ...] = ((4, 0.7), (8, 0.7))
+    grounds: tuple[Ground, ...] = ((8, 0.7), (4, 0.7))
     pressed: Ground = (4, 0.7)
     band: int = 4
     contacts: tuple[float, ...] = (3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.2)
@@ -269,7 +269,7 @@ def _work(result: Outcomes) -> tuple[Table]:
 of_interface = partial(
     Claim, where={ROLL_OFF: lambda waves: waves >= ENOUGH_WAVES}, along="-" + CONTACT, whose=Whose.FIELD
 )
-EIGHT = {ROLL_OFF: 8.0, "H": 0.7}
+FIRST = {ROLL_OFF: "first", "H": "first"}
 LINES = {FITTED: "exact", UNFITTED: "dashed", BARBER: "guide"}
 STYLES = {EDGELESS: "crosses", ON_PUNCH: "bem", SERIES: "bem line", MDR: "mdr line"}
 STUDY = Study(
@@ -303,13 +303,13 @@ STUDY = Study(
     charts=(
         Chart("interface", columns=2, height=7.5, claims=(0, 1)).of(
             "(a) Stiffness K of the interface times h over the load, level where K is proportional to the load. "
-            "Symbols: periodic boundary elements; lines: Persson's theory for q_r L / 2π = 8, H = 0.7; level line: K = "
+            "Symbols: periodic boundary elements; lines: Persson's theory of the first face; level line: K = "
             "p / (0.48 h), the fit for punches; dotted: the least that is possible, p over the largest height "
             "(Barber). (b) The same of a punch, of its interface in series with the flat punch, and of MDR. (c) "
             "Contact fraction, (d) mean gap over h. Bars: 95 % of sample and grid.",
             Panel(CONTACT, SCALED, title="interface", log="xy", lines=(1 / INTERFACE,)).of(
                 Curve(SCALED, BEM, "marks", by=(ROLL_OFF, "H"), bars=True, beside=1.06),
-                *(Curve(SCALED, model, style, model, of=EIGHT) for model, style in LINES.items()),
+                *(Curve(SCALED, model, style, model, of=FIRST) for model, style in LINES.items()),
             ),
             Panel(CONTACT, SCALED_PUNCH, title="punch", log="xy").of(*by_model(SCALED_PUNCH, STYLES, bars=True)),
             Panel(CONTACT, FRACTION, log="xy").of(*by_model(FRACTION, STYLES, bars=True)),
@@ -335,7 +335,7 @@ CASE = Case(
     answers="Stiffness of a rough interface over the load, beside Persson's theory; contact area and mean gap of MDR",
     quick=Interface(),
     full=Interface(
-        grounds=((4, 0.7), (8, 0.7), (16, 0.7), (8, 0.4), (8, 1.0)),
+        grounds=((8, 0.7), (4, 0.7), (16, 0.7), (8, 0.4), (8, 1.0)),
         pressed=(8, 0.7),
         band=8,
         surfaces=48,
