@@ -15,7 +15,6 @@ from validation.analysis.statistics import (
     at_level,
     difference_of_halves,
     extrapolated,
-    jackknife_error,
     log_mean,
     paired_samples,
     sample,
@@ -27,8 +26,7 @@ from validation.benchmarks.work_precision.problem import Quantity, mean_of
 from validation.cases.punch import fractal_punch_study as study
 from validation.cases.punch.ensembles import MEAN as MEAN_STIFFNESS
 from validation.cases.punch.fractal_punch import FractalPunch, PunchStatistics
-from validation.cases.punch.mdr_limits import GAP, MdrLimits, RollOffSamples, over_bem
-from validation.simulation.rough_punch import BEM, MDR
+from validation.simulation.rough_punch import MDR
 
 
 def test_what_extrapolation_leaves_open_is_half_of_its_way_and_the_interval_of_all_of_it():
@@ -135,26 +133,6 @@ def test_the_sample_interval_of_fig_14_1():
     freedom = Linearised(0.0, np.array([0.02, 0.02, 0.01, 0.01])).freedom
     assert one.sample == pytest.approx(DECIBEL * student(freedom) * math.hypot(0.01, 0.02))
     assert four.sample / one.sample == pytest.approx(student(freedom, 1 - 0.05 / 4) / student(freedom))
-
-
-def test_intervals_of_where_mdr_must_fail():
-    """In decibels, at once for both forces of the decade, and for the area too."""
-    rng = np.random.default_rng(1)
-    coarse, fine = (np.repeat(values, 2, axis=1) for values in on_grids(rng, 12))
-    other = np.repeat(2.0 + 0.2 * rng.standard_normal((40, 1)), 2, axis=1)
-    mine = RollOffSamples(
-        1,
-        {(BEM, "gap"): sample(coarse, rng), (MDR, "gap"): sample(other, rng)},
-        {"gap": (coarse, fine[:4])},
-    )
-    (number,) = over_bem(MdrLimits(roll_offs=(1,), decades=(-1, 0), per_decade=1), mine, GAP).numbers
-    fine, coarse = fine[:4, 0], coarse[:4, 0]
-    change = np.log([np.delete(fine, i).mean() / np.delete(coarse, i).mean() for i in range(4)])
-    finer = Estimate(float(np.log(fine.mean() / coarse.mean())), float(jackknife_error(change)), 4)
-    bem, springs = (mine.by_method[method, "gap"].by_level(log_mean)[0] for method in (BEM, MDR))
-    assert number.grid == pytest.approx(DECIBEL * (abs(finer.value) + 2 * finer.half_width))
-    assert number.sample == pytest.approx(DECIBEL * springs.minus(bem).half_width_among(2 * 2))
-    assert number.value == pytest.approx(DECIBEL * (springs.value - bem.value - 2 * finer.value))
 
 
 MEAN = mean_of("mean", "k")

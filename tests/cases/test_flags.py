@@ -16,7 +16,7 @@ from validation.benchmarks.timing import FAILED, FINISHED, OUT_OF_RANGE
 from validation.benchmarks.work_precision.case import lost
 from validation.benchmarks.work_precision.problem import BEM, LOOSE, MDR, POLONSKY_KEER
 from validation.cases.limits import limits
-from validation.cases.punch import bandwidth, fractal_punch, mdr_limits, normalisation
+from validation.cases.punch import bandwidth, fractal_punch, interface, normalisation
 from validation.cases.rolling import force_spectrum, input_spectrum, ridges
 from validation.cases.selection import model_selection
 from validation.cases.wheel import distance, half_space, spectrum
@@ -47,7 +47,8 @@ def solved(problem, lost):
         ones = np.ones(len(problem.forces))
         values = np.where(np.arange(ones.size) == 1, np.nan, 1.0) if lost else ones
         found = dict.fromkeys(("stiffness", "area", "approach", "gap"), values)
-        return {**found, "residual": 0.5 * ones, "failed": np.array(float(lost)), "gradient": np.array(1.0)}
+        lengths = dict.fromkeys(("gradient", "highest"), np.array(1.0))
+        return {**found, "residual": 0.5 * ones, "failed": np.array(float(lost)), **lengths}
     if isinstance(problem, rolling_strip.Strip):
         force = np.random.default_rng(problem.realisation).standard_normal(round(problem.scene.length * problem.cells))
         return {"force": np.nan * force if lost else force, "linear": force, "failed": np.array(7.0 * lost)}
@@ -92,11 +93,11 @@ LOST = {
     "fractal punch, middle grid": (fractal_punch, PUNCH, one_surface(2, cells=8), "surface 2, H = 0.7, 8² cells"),
     "fractal punch, finer grid": (fractal_punch, PUNCH, one_surface(1, cells=16), "surface 1, H = 0.7, 16² cells"),
     "fractal punch, coarser": (fractal_punch, PUNCH, one_surface(0, cells=4), "surface 0, H = 0.7, 4² cells"),
-    "mdr limits, refined": (
-        mdr_limits,
-        mdr_limits.MdrLimits(roll_offs=(1,), cells=16, surfaces=4, refined=3),
-        one_surface(1, cells=32),
-        "surface 1, H = 0.7, 32² cells",
+    "interface, refined": (
+        interface,
+        interface.Interface(grounds=((4, 0.7),), pressed=(2, 0.7), surfaces=4, refined=3),
+        one_surface(1, cells=128),
+        "surface 1, H = 0.7, 128² cells",
     ),
     "bandwidth, wider": (
         bandwidth,

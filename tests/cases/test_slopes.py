@@ -16,7 +16,7 @@ import validation
 from validation.analysis.statistics import Estimate
 from validation.analysis.study import Outcomes
 from validation.cases.limits.sweeps import LIMITS, Sweep
-from validation.cases.punch import mdr_limits
+from validation.cases.punch.interface import Interface
 from validation.cases.rail import rough_rail
 from validation.cases.rolling import reduced_models as reduced_case
 from validation.cases.rolling import roughness_from_force, validity
@@ -260,10 +260,12 @@ def test_springs_are_right_where_persson_has_a_share_in_contact(title, share):
     assert special.erf(math.sqrt(2) * pressure / gradient) == pytest.approx(share, abs=1e-4)
 
 
-def test_the_contact_fraction_of_persson_is_that_of_the_gradient():
-    case = SimpleNamespace(height=1e-3, forces=(0.5, 2.0))
-    found = mdr_limits.persson_fractions(case, np.array([0.01, 0.03]))[1]
-    assert found == pytest.approx(special.erf(math.sqrt(2) * 2e-3 / 0.02), rel=1e-9)
+def test_loads_of_an_interface_have_the_contact_of_their_name():
+    """erf(sqrt(2) p / (E* g)), g of a surface as it is drawn, whose waves are whole numbers a period: some per cent."""
+    case = Interface()
+    gradient = math.hypot(*periodic_slopes(case.roughness((8, 0.7)).surface(128, 0), 1 / 128))
+    found = special.erf(math.sqrt(2) * case.height * case.pressures((8, 0.7)) / gradient)
+    np.testing.assert_allclose(found, case.contacts, rtol=0.03)
 
 
 def test_the_gradient_of_an_oblique_wave_under_two_scales():

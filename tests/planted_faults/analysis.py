@@ -21,6 +21,7 @@ from tests.analysis import (
     test_series,
 )
 from tests.analysis import test_spectra as test_wheel_spectra
+from tests.cases import test_interface
 from tests.planted_faults.wrong import with_math
 from validation.analysis import claims, multilevel, nominal_bands, over_range, spectra, statistics
 from validation.analysis import series as declared
@@ -268,7 +269,7 @@ FAULTS = {
     ),
     "sample and grid exchanged": (
         (declared, "Number", lambda grid, sample, **settings: Number(grid=sample, sample=grid, **settings)),
-        test_error_bars_of_grids.test_intervals_of_where_mdr_must_fail,
+        test_interface.test_what_finer_cells_change_is_extrapolated_and_half_of_it_left_open,
     ),
     "decibels of an amplitude for those of a power, in rolling": (
         (force_spectrum, "POWER_DECIBEL", statistics.DECIBEL),

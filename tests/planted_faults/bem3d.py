@@ -31,6 +31,7 @@ from tests.bem3d import test_contact_properties as properties
 from tests.bem3d import test_convergence_rates as rates
 from tests.bem3d import test_elliptic_wheels as ellipses
 from tests.bem3d import test_few_cells as of_few_cells
+from tests.bem3d import test_interfaces as interfaces
 from tests.bem3d import test_load_paths as paths
 from tests.bem3d import test_operator_against_dense_twin as dense_twin
 from tests.bem3d import test_rolling_contact as rolled
@@ -41,6 +42,8 @@ from tests.bem3d import test_windows_and_starts as windows
 from tests.planted_faults.wrong import E_FOR_E_STAR, scaled
 from validation.theory import closed_forms
 from validation.theory import rolling as rolling_theory
+
+periodic_symbol = kernel.periodic_symbol
 
 
 def shifted_table(cells, aspect):
@@ -97,7 +100,27 @@ UNIT_OF_FORCE = partial(of_few_cells.test_the_modulus_is_the_unit_of_force, 3.0)
 CUT_SHORT = partial(accepted.test_a_solve_that_is_cut_short_says_so, "solve", 3)
 WORN_PROFILE = profiles.test_a_worn_profile_against_a_fine_solve_of_the_plain_contact
 
+
+def yielding_mean_plane(shape, spacing, modulus):
+    """The longest wave's for the zero mode, which belongs to no interface."""
+    symbol = periodic_symbol(shape, spacing, modulus)
+    symbol[0, 0] = symbol.max()
+    return symbol
+
+
 FAULTS = {
+    "a mean plane of a periodic half-space that yields": (
+        (kernel, "periodic_symbol", yielding_mean_plane),
+        partial(interfaces.test_a_wave_has_the_stiffness_and_the_approach_of_westergaard, 0.3),
+    ),
+    "a mean gap that the stiffness does not close": (
+        (kernel, "periodic_symbol", yielding_mean_plane),
+        partial(interfaces.test_the_stiffness_of_an_interface_is_what_closes_its_mean_gap, 5e-3),
+    ),
+    "half of the stiffness along a load path": (
+        (contact.Contact, "stiffness", lambda contact: contact.frozen.stiffness / 2),
+        partial(interfaces.test_a_load_path_lies_between_those_of_the_smooth_bodies_at_the_extreme_heights, "sphere"),
+    ),
     "a gap that the caller may still write to": (
         (problem, "kept", lambda values: values),
         test_read_only_results.test_an_older_view_of_the_gap_changes_no_problem,

@@ -15,6 +15,7 @@ from tests.cases import (
     test_exact_cases,
     test_flags,
     test_fractal_punch,
+    test_interface,
     test_limits,
     test_rail_cases,
     test_rail_sound,
@@ -27,13 +28,13 @@ from tests.cases import test_from_force_to_roughness_and_stiffness as test_force
 from tests.planted_faults.wrong import scaled
 from validation.analysis import multilevel, statistics
 from validation.analysis import series as analysis_series
-from validation.analysis.evidence import Verdict
+from validation.analysis.evidence import ClaimStatus, Verdict
 from validation.analysis.multilevel import Resolved
 from validation.analysis.spectra import waves
 from validation.analysis.statistics import mean_estimate
 from validation.cases.exact import geike, hertz
 from validation.cases.limits import sweeps as limits
-from validation.cases.punch import bandwidth, ensembles, fractal_punch, work
+from validation.cases.punch import bandwidth, ensembles, fractal_punch, interface, work
 from validation.cases.rail import filters as rail_filters
 from validation.cases.rail import rail_sound, rough_rail
 from validation.cases.rolling import roughness_from_force, validity
@@ -97,6 +98,7 @@ def gap_of_the_rigid_surface(surface):
 
 
 DRAWN = PunchRoughness._drawn
+SERIES = 1.1523, Verdict.AGREE
 FAULTS = {
     "a weighting of amplitudes taken twice": (
         (rail_sound, "a_weighting", lambda f: 2 * REAL_WEIGHTING(f)),
@@ -109,6 +111,14 @@ FAULTS = {
     "a window of a measured sphere that ends at its contact": (
         (indentation, "MARGIN", 2),
         partial(test_edge_scenes.test_claims_hold_on_measured_faces_and_few_of_them_are_refused, "sphere"),
+    ),
+    "exponents of an interface over equal steps of the load": (
+        (interface.Interface, "slopes", lambda case, ground: lambda mean, _: np.diff(np.log(mean)) / np.log(3)),
+        partial(test_interface.test_a_power_of_the_load_is_found_and_judged, 1.0, ClaimStatus.HOLDS),
+    ),
+    "an interface and a punch side by side": (
+        (interface, "_over_series", lambda rows: np.log(rows.mean(axis=0)[0] / (rows.mean(axis=0)[1] + 1.1523))),
+        partial(test_interface.test_a_punch_is_put_beside_its_interface_in_series_with_the_flat_punch, *SERIES),
     ),
     "no plateau below the roll-off": (
         (rough_punch.PlateauSpectrum, "c2d", mdr.SelfAffine.c2d),

@@ -25,7 +25,6 @@ from tests.simulation import (
     test_wheel_on_rail,
 )
 from validation.analysis import series
-from validation.cases.punch.rough_interface import Layer
 from validation.simulation import (
     contact_laws,
     equivalent_displacement,
@@ -260,14 +259,6 @@ FAULTS = {
     "rms of each for that of the ensemble": (
         (PunchRoughness, "_normalised", lambda roughness, height: height * roughness.height / height.std()),
         partial(test_rough_punches.test_heights_are_normalised_as_they_say, "mdr", 1.0),
-    ),
-    "interface and half-space in series": (
-        (Layer, "log_kappa", lambda layer, stiffness: -np.log(1 / stiffness - 1 / layer.flat)),
-        partial(test_rough_punches.test_the_exponent_of_the_interface_is_found_behind_the_punch, 1.0),
-    ),
-    "the punch taken for its interface": (
-        (Layer, "log_kappa", lambda layer, stiffness: np.log(stiffness)),
-        partial(test_rough_punches.test_the_exponent_of_the_interface_is_found_behind_the_punch, 1.0),
     ),
     "half of the displacement under the mean contact": (
         (mean_contact, "ring_operator", scaled(mean_contact.ring_operator, 0.5)),

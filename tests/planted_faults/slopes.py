@@ -10,7 +10,7 @@ from tests.scenes import test_materials
 from tests.theory import test_rolling_theory
 from validation.analysis.nominal_bands import NominalBands
 from validation.cases.limits import sweeps
-from validation.cases.punch import mdr_limits
+from validation.cases.punch.interface import Interface
 from validation.cases.rail import rough_rail
 from validation.cases.rolling import reduced_models as reduced_case
 from validation.cases.rolling import settings, validity
@@ -103,10 +103,10 @@ PLACES = {
     ),
     "p over E* g of nine tenths in contact": (sweeps, "FULL", AREA),
     "p over E* g of one half in contact": (sweeps, "HALF", GAP),
-    "Persson's fraction of a case": (
-        mdr_limits,
-        "persson_fractions",
-        own.test_the_contact_fraction_of_persson_is_that_of_the_gradient,
+    "loads of an interface by their contact": (
+        Interface,
+        "pressures",
+        own.test_loads_of_an_interface_have_the_contact_of_their_name,
     ),
     "the gradient of two scales": (
         reduced_models,

@@ -2,18 +2,21 @@
 
 import importlib
 import math
+import types
 from functools import partial
 
 import numpy as np
+from scipy import special
 
 import mdr
 from tests.planted_faults.wrong import one_sided_spectrum, scaled
 from tests.theory import test_closed_forms as forms
+from tests.theory import test_interface as of_interface
 from tests.theory import test_rolling_theory as of_rolling
 from tests.theory import test_spring_input as of_input
 from tests.theory import test_transverse_structure as across
 from validation.analysis import spectra
-from validation.theory import closed_forms, spring_input, transverse_structure
+from validation.theory import closed_forms, interface, spring_input, transverse_structure
 from validation.theory import rolling as rolling_theory
 from validation.theory.line_spectrum import LineSpectrum
 
@@ -21,6 +24,11 @@ from validation.theory.line_spectrum import LineSpectrum
 def half_of_the_slope(pressure, *, gradient):
     """erf(p / (E* h')), without the root of two."""
     return math.erf(pressure / gradient)
+
+
+def slopes_in_one_direction(c2d, edges):
+    q, s = SLOPES(c2d, edges)
+    return q, s / math.sqrt(2)
 
 
 def half_of_a_period(ends, period):
@@ -39,6 +47,7 @@ def with_half_of_the_contact(q, c1d, *, contact_radius, radius, **settings):
 
 
 FAR_WAVES = across.test_far_waves_are_all_there_once_and_a_fast_filter_has_its_mean
+SLOPES = interface._slopes
 periods, panels_across = transverse_structure._periods, transverse_structure._panels_across
 
 
@@ -61,6 +70,18 @@ def circle_for_the_ellipse(along, across, *, semi_axes):
 ellipse_of_springs = spring_input.rolling_input_filter
 
 FAULTS = {
+    "waves of an interface by their slope in one direction": (
+        (interface, "_slopes", slopes_in_one_direction),
+        partial(of_interface.test_the_stiffness_is_the_slope_of_the_gap_that_the_energy_leaves, 0.45),
+    ),
+    "the contact of an interface without the root of two": (
+        (interface, "special", types.SimpleNamespace(erf=lambda x: special.erf(x / math.sqrt(2)))),
+        partial(of_interface.test_the_stiffness_is_the_slope_of_the_gap_that_the_energy_leaves, 0.45),
+    ),
+    "pressures that diffuse half as fast": (
+        (closed_forms, "persson_contact_fraction", half_of_the_slope),
+        of_interface.test_the_area_is_that_of_pressures_that_diffuse,
+    ),
     "a circle for the ellipse in the rolling spectrum of a rail": (
         (spring_input, "rolling_input_filter", circle_for_the_ellipse),
         partial(of_input.test_on_a_circle_it_is_the_rolling_spectrum_of_a_wheel, 700.0),

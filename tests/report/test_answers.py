@@ -6,8 +6,7 @@ import pytest
 
 from tests.report.test_printed import html_of, number
 from validation.analysis.evidence import Evidence, Role, Table, Verdict
-from validation.cases.punch import fractal_punch_study, work
-from validation.cases.punch import mdr_limits as rolled_off
+from validation.cases.punch import fractal_punch_study, interface, work
 from validation.cases.punch.ensembles import DEVIATION, MEAN, OVER
 from validation.cases.rail import rolled_filters, rough_rail
 from validation.cases.rail.rail_dynamic import BESIDE, RMS
@@ -206,29 +205,28 @@ def test_numbers_of_another_model_are_no_answer():
     assert row_of("rolling-spectrum", rolling(LEVEL, LINEAR_3D, 0.0)).word == "Not measured"
 
 
-def limits(quantity, value, decade=(0.1, 1.0), roll_off=1.0):
-    return at(decade, value, where={rolled_off.ROLL_OFF: roll_off, "Fbar": decade}, quantity=quantity)
+def limits(quantity, value, contact=0.1):
+    return at((0.1, 1.0), value, where={interface.ROLL_OFF: 8.0, interface.CONTACT: contact}, quantity=quantity)
 
 
 def row_of_limits(name, *numbers):
-    return row_of(name, section_of("mdr_limits", numbers, WORKED, hurst=0.7))
+    return row_of(name, section_of("interface", numbers, WORKED))
 
 
 def test_area_and_gap_are_both_needed_and_told_apart():
-    row = row_of_limits("area-and-gap", limits(rolled_off.AREA, 20.0), limits(rolled_off.GAP, -6.0))
+    row = row_of_limits("area-and-gap", limits(interface.AREA, 20.0), limits(interface.GAP, -6.0))
     assert "contact fraction 10 times, mean gap 0.5 times" in row.answer
-    assert row_of_limits("area-and-gap", limits(rolled_off.AREA, 0.0), limits(rolled_off.GAP, -6.0)).word == "No"
+    assert row_of_limits("area-and-gap", limits(interface.AREA, 0.0), limits(interface.GAP, -6.0)).word == "No"
 
 
 def test_ranges_that_overlap_are_one_cell():
-    """The area was measured less far than the gap: both are numbers of the same cell."""
+    """One H was measured less far than the other: both are numbers of the same cell."""
     numbers = [
-        limits(quantity, value, decade)
-        for quantity, last, value in ((rolled_off.AREA, 2.15, 20.0), (rolled_off.GAP, 10.0, -6.0))
+        at(decade, value, hurst=hurst)
+        for hurst, last, value in ((0.4, 2.15, 20.0), (0.7, 10.0, -6.0))
         for decade in ((0.1, 1.0), (1.0, last))
     ]
-    row = row_of_limits("area-and-gap", *numbers)
-    assert [place for place, _ in row.strip] == ["< 0.1", "0.1 to 1", "1 to 10", "> 10"]
+    assert [place for place, _ in mean_stiffness(*numbers).strip] == ["< 0.1", "0.1 to 1", "1 to 10", "> 10"]
 
 
 def test_differences_below_and_above_are_told_apart():
@@ -258,11 +256,6 @@ def test_the_scatter_has_numbers_of_its_own():
     found = punch(at((0.1, 1.0), 0.0), at((0.1, 1.0), -30.0, quantity=DEVIATION))
     assert words_of(row_of("scatter", found))[1:-1] == ["no"]
     assert words_of(row_of("mean-stiffness", found))[1:-1] == ["yes"]
-
-
-def test_a_roll_off_is_judged_by_roughness_that_has_one():
-    numbers = [limits(rolled_off.STIFFNESS, value, roll_off=place) for place, value in ((1.0, 9.0), (4.0, 0.0))]
-    assert row_of_limits("roll-off", *numbers).word == "Yes"
 
 
 @pytest.mark.parametrize(("times", "said"), [((3.04, 3.0, 99.0), "3"), ((12000.0, 300.4, 99.0), "300 to 12,000")])

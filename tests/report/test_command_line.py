@@ -18,7 +18,7 @@ from validation.analysis.contents import as_csv, as_json, csv_name, from_csv
 from validation.analysis.evidence import Role
 from validation.cases.exact import geike, hertz
 from validation.cases.limits import limits
-from validation.cases.punch import bandwidth, mdr_limits, normalisation
+from validation.cases.punch import bandwidth, interface, normalisation
 from validation.cases.punch.fractal_punch import FractalPunch
 from validation.cases.rail.rail_dynamic import RailDynamic
 from validation.cases.rail.rail_sound import RailSound, shipped_rail
@@ -60,7 +60,9 @@ SMALL = {
     "bandwidth": bandwidth.Bandwidth(
         cells=16, surfaces=4, pairs=(3, 3), refined=3, rolled_off=3, profiles=5, points=64, per_decade=1, seed=1
     ),
-    "mdr_limits": mdr_limits.MdrLimits(roll_offs=(1, 2), surfaces=6, refined=3, **PUNCHES),
+    "interface": interface.Interface(
+        grounds=((8, 0.7), (4, 0.7)), pressed=(4, 0.7), band=2, surfaces=6, refined=3, profiles=40, points=64
+    ),
     "ridges": ridges.RollingOverRidges(length=20, shortest=6.0, cells=(4, 6), springs=(8.5, 16.5)),
     "rolling": rolling.ForceSpectrum(heights=(0.01, 0.3), last=6.0, rough_strips=3, refined=3, **STRIPS, **TRACKS),
     "rolling_input": rolling_input.RollingInput(

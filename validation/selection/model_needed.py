@@ -54,8 +54,9 @@ def punches(case: Any, hurst: float = 0.7, first: int = 1) -> str:
 
 
 def rolled_off(case: Any) -> str:
-    """With the longest of all roll-offs."""
-    return punches(case, case.hurst, max(case.roll_offs))
+    """With a roll-off."""
+    roll_off, hurst = case.pressed
+    return punches(case, hurst, roll_off)
 
 
 def rolling(case: Any) -> str:

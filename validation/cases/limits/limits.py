@@ -266,7 +266,7 @@ STUDY = Study(
         "everywhere past it and nowhere before it, but for the factor stated. A user counts as warned if every call "
         "past the threshold warns or raises an error, and no call before it does. Rough punches have {c.cells}² cells, "
         "{c.surfaces} surfaces and {c.profiles} profiles. The case wheel_stability shows time stepping and the spacing "
-        "of springs at length, rolling shows rolling in three dimensions, mdr_limits shows contact area and gap."
+        "of springs at length, rolling shows rolling in three dimensions, interface shows contact area and gap."
     ),
     series=series,
     claims=(

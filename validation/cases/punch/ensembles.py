@@ -71,9 +71,9 @@ class PunchEnsembles:
         """Numbers of a claim at most, whose intervals hold at once: decades of so many others, of two quantities."""
         return 2 * len(self.first_forces) * others
 
-    def band(self, hurst: float, first: int = 1) -> PunchRoughness:
-        """Self-affine from `first` waves on a side to four cells a wave, the same on every grid and by both methods."""
-        return PunchRoughness(hurst=hurst, waves=(first, self.cells // 4), height=self.height, seed=self.seed)
+    def band(self, hurst: float) -> PunchRoughness:
+        """Self-affine from one wave on a side to four cells a wave, the same on every grid and by both methods."""
+        return PunchRoughness(hurst=hurst, waves=(1, self.cells // 4), height=self.height, seed=self.seed)
 
     def surface_of(self, roughness: PunchRoughness, realisation: int, cells: int, forces: tuple[float, ...]) -> Surface:
         return Surface(

@@ -7,9 +7,8 @@ from functools import partial
 
 from validation.analysis.evidence import Evidence
 from validation.analysis.statistics import DECIBEL
-from validation.cases.punch import bandwidth, work
+from validation.cases.punch import bandwidth, interface, work
 from validation.cases.punch import ensembles as punch
-from validation.cases.punch import mdr_limits as limits
 from validation.cases.rail import rail_dynamic, rolled_filters, rough_rail
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import reduced_models as reduced
@@ -102,7 +101,14 @@ FIT = partial(Alternative, "the fit 1/kbar = 1/1.1523 + 0.48/Fbar", cost=BY_FORM
 PRESSED = partial(Alternative, BEM, None, worked)
 over_force = partial(Source, axis=punch.FORCE, over=punch.FORCE)
 of_punch = partial(over_force, case="fractal_punch", model=punch.OVER, where={"H": float}, series=("H",))
-of_limits = partial(over_force, case="mdr_limits", model=punch.OVER, series=(limits.ROLL_OFF,))
+of_rolled_off = partial(
+    Source,
+    case="interface",
+    model=punch.OVER,
+    axis=interface.CONTACT,
+    over=interface.CONTACT,
+    series=(interface.ROLL_OFF, "H"),
+)
 of_fit = partial(
     over_force, case="bandwidth", series=bandwidth.KINDS, quantity=punch.MEAN + bandwidth.OF_BEM, model=bandwidth.FIT
 )
@@ -157,16 +163,16 @@ QUESTIONS = (
     Question(
         "area-and-gap",
         "True contact area and mean gap of a rough punch",
-        of_limits(quantity=(limits.AREA, limits.GAP)),
+        of_rolled_off(quantity=(interface.AREA, interface.GAP)),
         times,
-        (PRESSED("mdr_limits"),),
+        (PRESSED("interface"),),
     ),
     Question(
         "roll-off",
         "Stiffness of roughness with a roll-off",
-        of_limits(quantity=limits.STIFFNESS, where={limits.ROLL_OFF: lambda place: place != 1}),
+        of_rolled_off(quantity=interface.STIFFNESS),
         per_cent,
-        (FIT(of_fit(where={bandwidth.ROLL_OFF: ...})), PRESSED("mdr_limits")),
+        (FIT(of_fit(where={bandwidth.ROLL_OFF: ...})), PRESSED("interface")),
     ),
     Question(
         "rolling-rms",

@@ -1,0 +1,348 @@
+"""The stiffness of a rough interface without edges, beside Persson's theory; the same roughness on a punch and MDR."""
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise, repeat
+from typing import Any
+
+import numpy as np
+from scipy.special import erfinv
+
+from validation.analysis.case import Case, Chapter
+from validation.analysis.chart import Chart, Curve, Panel, by_model
+from validation.analysis.claims import NOT_THIS_CURVE, Claim, Matrix, per_cent, times
+from validation.analysis.evidence import Place, Table, Whose
+from validation.analysis.series import Estimates, Margin, Series, Where, masked, single
+from validation.analysis.statistics import DECIBEL, Estimate, FloatArray, Statistic, jackknifed, log_mean
+from validation.analysis.study import Outcomes, Study
+from validation.cases.punch.ensembles import OVER, change, of_rows, press
+from validation.cases.punch.work import worked
+from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.selection import model_needed
+from validation.simulation.interface import press_interface
+from validation.simulation.rough_punch import BEM, MDR, Profiles, RolledOffRoughness, Surface, require_converged
+from validation.simulation.track_spectrum import PiecewisePowerLaw
+from validation.theory.closed_forms import INTERFACE, SQUARE_PUNCH
+from validation.theory.interface import YANG_AND_PERSSON, persson_stiffness
+
+Ground = tuple[int, float]
+"""Waves of the roll-off on a side, and H."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Interface:
+    """Roughness with a plateau from the longest wave, L, to the roll-off, self-affine beyond; in units of L = E* = 1.
+
+    grounds: q_r L / 2 pi and H; pressed: the one that is on a punch and on springs too; band: q_max / q_r; contacts:
+    the contact fraction that Persson's theory has under each load, ascending; surfaces: of each; refined: the first of
+    them, on twice as many cells a side; profiles, points: of springs; height: h / L; tolerance: residual of the solver;
+    seed: zero or positive.
+    """
+
+    grounds: tuple[Ground, ...] = ((8, 0.7), (4, 0.7))
+    pressed: Ground = (4, 0.7)
+    band: int = 4
+    contacts: tuple[float, ...] = (3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.2)
+    surfaces: int = 24
+    refined: int = 12
+    profiles: int = 200
+    points: int = 2048
+    height: float = 1e-3
+    tolerance: float = 1e-4
+    seed: int = 142
+
+    def roughness(self, ground: Ground) -> RolledOffRoughness:
+        first, hurst = ground
+        waves = (1, self.band * first)
+        return RolledOffRoughness(hurst=hurst, waves=waves, roll_off=first, height=self.height, seed=self.seed)
+
+    def spectrum(self, ground: Ground) -> PiecewisePowerLaw:
+        """Of unit height."""
+        roll_off, hurst = ground
+        edges = tuple(2 * math.pi * waves for waves in (1, roll_off, self.band * roll_off))
+        return PiecewisePowerLaw(edges=edges, exponents=(0.0, 2 * hurst + 2))
+
+    def pressures(self, ground: Ground) -> FloatArray:
+        """p / E* at which Persson's contact fraction is erf(sqrt(2) p / (E* g)), over h: Fbar of the punch."""
+        return np.asarray(self.spectrum(ground).gradient * erfinv(self.contacts) / math.sqrt(2))
+
+    def slopes(self, ground: Ground) -> Statistic:
+        """d ln K / d ln p from each load to the next."""
+        steps = np.diff(np.log(self.pressures(ground)))
+        return lambda mean, deviation: np.asarray(np.diff(np.log(mean)) / steps)
+
+    def beside_heavier(self, ground: Ground) -> Statistic:
+        """ln of K / p over that of the contact LIGHT."""
+        pressures, heavier = self.pressures(ground), self.contacts.index(LIGHT)
+        return lambda mean, deviation: np.asarray(np.log(mean / pressures) - np.log(mean / pressures)[heavier])
+
+    @property
+    def forces(self) -> tuple[float, ...]:
+        """Fbar of the punch."""
+        return tuple(self.pressures(self.pressed).tolist())
+
+    @property
+    def cells(self) -> int:
+        """On a side of the punch, four to the shortest wave."""
+        return 4 * self.band * self.pressed[0]
+
+    def surfaces_of(self, ground: Ground) -> dict[tuple[Ground, int], list[Surface]]:
+        """On four cells to the shortest wave, and the first of them on eight."""
+        of_ground = partial(
+            Surface,
+            roughness=self.roughness(ground),
+            forces=tuple(self.pressures(ground).tolist()),
+            tolerance=self.tolerance,
+        )
+        return {
+            (ground, finer): [of_ground(realisation=i, cells=4 * finer * self.band * ground[0]) for i in range(count)]
+            for finer, count in ((1, self.surfaces), (2, self.refined))
+        }
+
+
+def run(case: Interface, engine: Engine = SERIAL) -> Outcomes:
+    """Outcomes by ground and how many times finer the grid is, for the punch by "punch" and for the springs by MDR."""
+    grounds = {key: some for ground in case.grounds for key, some in case.surfaces_of(ground).items()}
+    punches = {(PUNCH, finer): some for (_, finer), some in case.surfaces_of(case.pressed).items()}
+    springs = Profiles(
+        roughness=case.roughness(case.pressed),
+        realisations=case.profiles,
+        points=case.points,
+        length=1.0,
+        forces=case.forces,
+    )
+    interfaces, _, lost = press(engine, grounds, {}, press_interface)
+    punched, mdr, lost_too = press(engine, punches, {MDR: springs})
+    return Outcomes(case, {**interfaces, **punched, **mdr}, (*lost, *lost_too))
+
+
+LIGHT = 0.1
+"""Contact up to which the stiffness is proportional in theory; one of the contacts."""
+PUNCH, BARBER = "punch", "at the least (Barber)"
+GAMMAS = {f"Persson, γ = {gamma:g}": gamma for gamma in (YANG_AND_PERSSON, 1.0)}
+FITTED, UNFITTED = GAMMAS
+EDGELESS, ON_PUNCH, SERIES = "bem3d, interface", "bem3d, punch", "interface and flat punch in series"
+ROLL_OFF, CONTACT = "q_r L / 2π", "nominal contact"
+STIFFNESS, AREA, GAP = "stiffness", "contact fraction", "mean gap"
+SCALED, SCALED_PUNCH = "K h over p", "k h over F"
+FRACTION, GAP_OVER_H = "contact fraction A over L²", "mean gap over h"
+EXPONENT, BESIDE_BEM = "exponent of K over p", "K over that of boundary elements"
+OVER_LOAD = f"K over p beside that at {100 * LIGHT:g} % contact"
+OF_SERIES, OF_HALF = "k over that of interface and flat punch in series", "K h over p beside that of half as many waves"
+BOUNDED = "share of loads above Barber's least K"
+ENOUGH_WAVES = 8
+"""A period: fewer leave more of the lightest loads to the highest summit alone."""
+ZERO_GAP = 1e-12
+DECIBELS: Mapping[str, Any] = {"scale": DECIBEL, "unit": "dB"}
+ONE: Mapping[str, Any] = {"reference": 1.0}
+NEAR = Margin(
+    DECIBEL * math.log(1.1), "10 %: 0.8 dB, finer than one-third octave levels of rolling are known", source="bem3d"
+)
+PROPORTIONAL = Margin(
+    math.log10(1.1),
+    "0.04: K over p changes by 10 % in a decade of load",
+    source="K ~ p: Persson (2007); Akarapu, Sharp and Robbins (2011); Campana, Persson and Müser (2011)",
+)
+
+
+@dataclass(frozen=True)
+class Measured:
+    """One ground on cells of two sizes."""
+
+    coarse: Outcome
+    fine: Outcome
+
+    def __iter__(self) -> Iterator[Outcome]:
+        return iter((self.coarse, self.fine))
+
+    def of(self, name: str = "stiffness", statistic: Statistic = log_mean) -> tuple[Estimates, Estimates]:
+        """ln of the mean, by default, on cells of no size at each load, and the changes that leave its grid error."""
+        finer = change(statistic, self.coarse[name], self.fine[name])
+        return Estimates(jackknifed(partial(of_rows, statistic), self.coarse[name])).on_no_size(finer), finer
+
+
+def series(result: Outcomes) -> list[Series]:
+    """Raises NotConvergedError where too few surfaces have converged under one of the loads."""
+    case = result.case
+    require_converged([o for key, o in result.found.items() if key != MDR], result.unconverged)
+    grounds = {g: Measured(result[g, 1], result[g, 2]) for g in case.grounds}
+    found = [one for ground, mine in grounds.items() for one in _of_interface(case, ground, mine)]
+    inside = [result[g, 1]["stiffness"] * result[g, 1]["highest"][:, np.newaxis] for g in case.grounds]
+    shares = [np.mean(k > case.height * case.pressures(g)) for k, g in zip(inside, case.grounds, strict=True)]
+    exact = "no load path leaves those of the smooth faces shifted by the extreme heights: Barber (2003)"
+    found.append(single(BOUNDED, BEM, float(np.mean(shares)), 1e-9, exact, "a theorem", 1.0))
+    for ground, more in grounds.items():
+        fewer = ground[0] // 2, ground[1]
+        if half := grounds.get(fewer):
+            loads = Estimates.exact(np.log(case.pressures(ground) / case.pressures(fewer)))
+            apart, finer = (one - other for one, other in zip(more.of(), half.of(), strict=True))
+            found += _each(case, ground, OF_HALF, BEM, apart - loads, finer)
+    punch = Measured(result[PUNCH, 1], result[PUNCH, 2])
+    return found + list(_of_punch(case, grounds[case.pressed], punch, result[MDR]))
+
+
+def _of_interface(case: Interface, ground: Ground, mine: Measured) -> Iterator[Series]:
+    """K h / p along the loads, theory beside it load by load, and the exponents of both from load to load."""
+    over_h, where = case.pressures(ground), _where(ground)
+    stiffness, finer = mine.of()
+    shown = partial(Series, SCALED, where=where, along=CONTACT, at=case.contacts, shown=math.exp)
+    yield shown(BEM, stiffness - Estimates.exact(np.log(over_h)), grid=finer)
+    yield shown(BARBER, np.full(over_h.size, math.log(case.height / float(mine.coarse["highest"].mean()))))
+    spectrum = case.spectrum(ground)
+    for model, gamma in GAMMAS.items():
+        known = persson_stiffness(over_h, c2d=spectrum.c2d, edges=spectrum.edges, modulus=1.0, gamma=gamma)
+        yield shown(model, np.log(known / over_h))
+        yield from _each(case, ground, BESIDE_BEM, model, Estimates.exact(np.log(known)) - stiffness, finer)
+        yield from _each(case, ground, EXPONENT, model, case.slopes(ground)(known, known), margin=None)
+    yield from _each(case, ground, EXPONENT, BEM, *mine.of(statistic=case.slopes(ground)), PROPORTIONAL)
+    found, finer = mine.of(statistic=case.beside_heavier(ground))
+    yield from _each(case, ground, OVER_LOAD, BEM, masked(found, np.array(case.contacts) < LIGHT), finer)
+
+
+def _of_punch(case: Interface, interface: Measured, punch: Measured, springs: Outcome) -> Iterator[Series]:
+    """The punch, its interface in series with the flat punch, and springs, load by load."""
+    ground, forces, slope = case.pressed, np.array(case.forces), case.slopes(case.pressed)
+    shown = partial(Series, where=_where(ground), along=CONTACT, at=case.contacts, shown=math.exp)
+    drawn: dict[str, tuple[str, FloatArray | float]] = {
+        "stiffness": (SCALED_PUNCH, forces),
+        "area": (FRACTION, 1.0),
+        "gap": (GAP_OVER_H, case.height),
+    }
+    for (name, (quantity, unit)), judged in zip(drawn.items(), (STIFFNESS, AREA, GAP), strict=True):
+        # the gap of full contact is rounding
+        logs = Estimates(jackknifed(partial(of_rows, log_mean), np.maximum(springs[name], ZERO_GAP)))
+        there = logs.values > math.log(2 * ZERO_GAP)
+        (found, finer), (edgeless, left) = punch.of(name), interface.of(name)
+        over = Estimates.exact(np.log(unit * np.ones(forces.size)))
+        yield shown(quantity, ON_PUNCH, found - over, grid=finer)
+        yield shown(quantity, MDR, masked(logs - over, there))
+        if name != "stiffness":
+            yield shown(quantity, EDGELESS, edgeless - over, grid=left)
+        yield from _each(case, ground, judged, OVER, masked(logs - found, there), finer)
+    yield from _each(case, ground, EXPONENT, ON_PUNCH, *punch.of(statistic=slope), None)
+    slopes = Estimates(jackknifed(partial(of_rows, slope), springs["stiffness"]))
+    yield from _each(case, ground, EXPONENT, MDR, slopes, margin=None)
+    alone = np.exp(interface.of()[0].values)
+    yield shown(SCALED_PUNCH, SERIES, -np.log(forces * (1 / alone + 1 / SQUARE_PUNCH)))
+    coarse, fine = (np.stack([p["stiffness"], i["stiffness"]], axis=1) for p, i in zip(punch, interface, strict=True))
+    both = np.stack([coarse[: len(fine)], fine], axis=1)
+    finer = Estimates(jackknifed(lambda rows: _over_series(rows[:, 1]) - _over_series(rows[:, 0]), both))
+    found = Estimates(jackknifed(_over_series, coarse)).on_no_size(finer)
+    yield from _each(case, ground, OF_SERIES, BEM, found, finer)
+
+
+def _over_series(rows: FloatArray) -> FloatArray:
+    """ln of the mean k over that of the mean K in series with the flat punch; rows: k and K of each surface."""
+    k, alone = rows.mean(axis=0)
+    return np.asarray(np.log(k * (1 / alone + 1 / SQUARE_PUNCH)))
+
+
+def _each(
+    case: Interface,
+    ground: Ground,
+    quantity: str,
+    model: str,
+    found: Iterable[Estimate | float],
+    finer: Iterable[Estimate | float] = repeat(0.0),
+    margin: Margin | None = NEAR,
+) -> Iterator[Series]:
+    """A number at each load; of exponents for each step between light loads."""
+    places: Sequence[Place] = [step for step in pairwise(case.contacts) if step[1] <= LIGHT]
+    places, unit = (places, ONE) if quantity == EXPONENT else (case.contacts, DECIBELS)
+    for place, one, left in zip(places, found, finer, strict=False):
+        where: Where = {**_where(ground), CONTACT: place}
+        family = len(places) * len(case.grounds)
+        yield Series(quantity, model, (one,), where=where, grid=(left,), margin=margin, family=family, **unit)
+
+
+def _where(ground: Ground) -> Where:
+    return dict(zip((ROLL_OFF, "H"), map(float, ground), strict=True))
+
+
+def _work(result: Outcomes) -> tuple[Table]:
+    case = result.case
+    return (worked(case.cells, case.points, [result[PUNCH, 1]]),)
+
+
+of_interface = partial(
+    Claim, where={ROLL_OFF: lambda waves: waves >= ENOUGH_WAVES}, along="-" + CONTACT, whose=Whose.FIELD
+)
+FIRST = {ROLL_OFF: "first", "H": "first"}
+LINES = {FITTED: "exact", UNFITTED: "dashed", BARBER: "guide"}
+STYLES = {EDGELESS: "crosses", ON_PUNCH: "bem", SERIES: "bem line", MDR: "mdr line"}
+STUDY = Study(
+    title="The stiffness of a rough interface without edges, and of the same roughness under a punch",
+    method=(
+        "A rough face of period L is pressed on a periodic half-space: there is no edge, and the approach is that "
+        "of the mean planes. Its spectrum is level up to q_r and a power law of H to {c.band} q_r. K = dp / "
+        "d(approach) at constant contact area; {c.surfaces} surfaces of each, on four cells to the shortest wave. "
+        "Loads are named by the contact fraction that Persson's theory has under them, erf(√2 p / (E* g)), g the rms "
+        "gradient. The face of (q_r L / 2π, H) = ({c.pressed:g}) is that of a square punch of side L too, under equal "
+        "forces, beside {c.profiles} profiles of {c.points} springs. Values are extrapolated to first order from "
+        "{c.refined} surfaces on twice as many cells a side; ± grid is half of that correction, with its 95 % "
+        "interval. Persson's elastic energy of waves in full contact has a factor γ + (1 - γ) P², P the contact "
+        "fraction: γ = 1 in 2007, 0.45 by simulations (Yang and Persson 2008)."
+    ),
+    series=series,
+    claims=(
+        of_interface(quantity=OVER_LOAD, no=NOT_THIS_CURVE, printed=per_cent).saying(
+            "Up to 10 % nominal contact the normal stiffness of a rough interface is proportional to the load.",
+            short="Stiffness of an interface over the load, at lighter loads",
+        ),
+        of_interface(quantity=BESIDE_BEM, model=FITTED, printed=per_cent).saying(
+            "Up to 20 % nominal contact Persson's theory, with γ = 0.45, has the stiffness of a rough interface.",
+            short="Persson's stiffness beside boundary elements",
+        ),
+        Claim(quantity=(AREA, GAP), differ=True, printed=times).saying(
+            "MDR has neither the true contact area nor the mean gap of a rough punch.",
+            short="MDR's contact area and mean gap beside those of boundary elements",
+        ),
+    ),
+    charts=(
+        Chart("interface", columns=2, height=7.5, claims=(0, 1)).of(
+            "(a) Stiffness K of the interface times h over the load, level where K is proportional to the load. "
+            "Symbols: periodic boundary elements; lines: Persson's theory of the first face; level line: K = "
+            "p / (0.48 h), the fit for punches; dotted: the least that is possible, p over the largest height "
+            "(Barber). (b) The same of a punch, of its interface in series with the flat punch, and of MDR. (c) "
+            "Contact fraction, (d) mean gap over h. Bars: 95 % of sample and grid.",
+            Panel(CONTACT, SCALED, title="interface", log="xy", lines=(1 / INTERFACE,)).of(
+                Curve(SCALED, BEM, "marks", by=(ROLL_OFF, "H"), bars=True, beside=1.06),
+                *(Curve(SCALED, model, style, model, of=FIRST) for model, style in LINES.items()),
+            ),
+            Panel(CONTACT, SCALED_PUNCH, title="punch", log="xy").of(*by_model(SCALED_PUNCH, STYLES, bars=True)),
+            Panel(CONTACT, FRACTION, log="xy").of(*by_model(FRACTION, STYLES, bars=True)),
+            Panel(CONTACT, GAP_OVER_H).of(*by_model(GAP_OVER_H, STYLES, bars=True)),
+        ),
+    ),
+    matrices=(
+        Matrix(name=EXPONENT, quantity=EXPONENT, rows=(ROLL_OFF, "H"), columns=CONTACT),
+        Matrix(
+            name="load by load",
+            quantity=(OVER_LOAD, BESIDE_BEM, OF_HALF, OF_SERIES),
+            rows=("quantity", "model", ROLL_OFF, "H"),
+            columns=CONTACT,
+            printed=per_cent,
+        ),
+    ),
+    tables=_work,
+)
+CASE = Case(
+    name="interface",
+    chapter=Chapter.PRESSED,
+    place=3,
+    answers="Stiffness of a rough interface over the load, beside Persson's theory; contact area and mean gap of MDR",
+    quick=Interface(),
+    full=Interface(
+        grounds=((8, 0.7), (4, 0.7), (16, 0.7), (8, 0.4), (8, 1.0)),
+        pressed=(8, 0.7),
+        band=8,
+        surfaces=48,
+        refined=16,
+        profiles=500,
+    ),
+    run=run,
+    study=STUDY,
+    needs=model_needed.rolled_off,
+)
