@@ -270,6 +270,13 @@ FAULTS = {
         (calibration, "OTHER_SEED", 0),
         test_edge_scenes.test_the_reference_of_the_calibration_test_has_surfaces_of_its_own,
     ),
+    "a contact at the edge that did not converge taken for a refusal": (
+        (calibration, "NotConvergedError", KeyError),
+        partial(
+            test_edge_scenes.test_a_scene_that_is_refused_is_no_failure_and_one_that_did_not_converge_is,
+            *test_edge_scenes.LOST,
+        ),
+    ),
     "one of two elastic bodies taken for rigid": (
         (PublishedContact, "modulus", property(lambda problem: 2 * 82e9 / (1 - 0.28))),
         test_rail_cases.test_contact_of_the_program_contact_is_reproduced,

@@ -24,6 +24,7 @@ from validation.selection.scene_model import SceneModel
 from validation.simulation.calibrated_range import CONDITIONS
 from validation.simulation.calibration import TABLE, Key, code_behind, conditions_by_kind, kind_of, provenance, table
 from validation.simulation.model import GridModel, Model, Target, models_serving
+from validation.simulation.model_names import DOMINATED
 from validation.simulation.sampling import distance
 from validation.theory.closed_forms import hertz_force
 
@@ -241,8 +242,9 @@ def _names(some: Sequence[Key], every: Iterable[Key], target: Target | None) -> 
 
 
 def cheap_models(target: Target) -> tuple[Model, ...]:
-    """Those that claim errors."""
-    return tuple(m for m in models_serving(target.scene, target.quantity) if not isinstance(m, GridModel))
+    """Those that claim errors, and are selected among."""
+    serving = models_serving(target.scene, target.quantity)
+    return tuple(m for m in serving if not isinstance(m, GridModel) and m.name not in DOMINATED)
 
 
 def today() -> date:
