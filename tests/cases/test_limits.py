@@ -88,7 +88,7 @@ def test_each_limit_fails_on_its_side(result, title):
 @pytest.mark.slow
 def test_an_outcome_elsewhere_changes_the_claims(result):
     elsewhere = [replace(sweep, predicted_threshold=100 * sweep.predicted_threshold) for sweep in result["sweeps"]]
-    _, predicted, _ = case.CASE.evidence(changed(result, sweeps=elsewhere)).claims
+    predicted, _ = case.CASE.evidence(changed(result, sweeps=elsewhere)).claims
     assert (predicted.count(Verdict.AGREE), len(predicted.numbers)) == (0, 20)
 
 
@@ -141,35 +141,46 @@ def planted(error, side="above", messages=("", "", "no", "no"), derived=False):
 
 
 @pytest.mark.parametrize(
-    ("error", "side", "octaves", "half"),
+    ("error", "side", "octaves"),
     [
-        ([1.0, 2.0, 8.0, 9.0], "above", 0.5, 0.5),
-        ([8.0, 2.0, 1.0, 1.0], "below", 0.5, 0.5),
-        ([9.0, 9.0, 8.0, 2.0], "below", -1.5, 0.5),
-        # none is crossed: it fails nowhere, or everywhere
-        ([1.0, 1.0, 1.0, 1.0], "above", 2.0, 0.0),
-        ([9.0, 9.0, 9.0, 9.0], "above", -1.0, 0.0),
-        ([1.0, 1.0, 1.0, 1.0], "below", 1.0, 0.0),
-        ([9.0, 9.0, 9.0, 9.0], "below", -2.0, 0.0),
-        # it fails where it should not, and not where it should
-        ([9.0, 1.0, 1.0, 1.0], "above", -1.0, 0.0),
-        ([1.0, 1.0, 1.0, 9.0], "below", -2.0, 0.0),
+        ([1.0, 2.0, 8.0, 9.0], "above", 0.5),
+        ([8.0, 2.0, 1.0, 1.0], "below", 0.5),
+        ([9.0, 9.0, 8.0, 2.0], "below", -1.5),
     ],
 )
-def test_a_threshold_is_positive_where_it_fails_later(error, side, octaves, half):
+def test_a_threshold_is_positive_where_it_fails_later(error, side, octaves):
     (number,) = case.threshold(planted(error, side)).numbers
-    assert (number.value, number.grid) == pytest.approx((octaves, half))
+    assert (number.value, number.grid) == pytest.approx((octaves, 0.5))
     assert number.tolerance == pytest.approx(math.log2(1.5)) and number.role is Role.FINDING
+
+
+@pytest.mark.parametrize("at", [0.5, 1.0, 2.0, 20.0])
+@pytest.mark.parametrize(
+    ("error", "side"),
+    [
+        # it fails nowhere, or everywhere
+        *(([error] * 4, side) for error in (1.0, 9.0) for side in ("above", "below")),
+        # it fails where it should not, and not where it should
+        ([9.0, 1.0, 1.0, 1.0], "above"),
+        ([1.0, 1.0, 1.0, 9.0], "below"),
+    ],
+)
+def test_a_sweep_that_passes_no_threshold_decides_nothing(error, side, at):
+    """Wherever it is predicted: it ended within the factor, and agreed without an error bar."""
+    sweep = replace(planted(error, side), predicted_threshold=at * X[-1 if side == "above" else 0])
+    (number,) = case.threshold(sweep).numbers
+    assert number.verdict is Verdict.UNDECIDED
+    assert case.said(number) == "no threshold in the sweep"
 
 
 def test_what_follows_from_theory_alone_must_hold_and_all_warnings_count():
     right = planted([1.0, 2.0, 8.0, 9.0], derived=True)
     assert case.threshold(right).numbers[0].role is Role.CRITERION
     (warned,) = case.warnings(right).numbers
-    assert (warned.value, warned.reference, warned.verdict) == (1.0, 1.0, Verdict.AGREE)
-    assert (warned.role, warned.tolerance) == (Role.CRITERION, 0.0)
+    assert (warned.value, warned.reference, warned.verdict) == (0.0, 0.0, Verdict.AGREE)
+    assert warned.role is Role.CRITERION and warned.tolerance < 100 / max(len(one.probe.values) for one in LIMITS)
     (silent,) = case.warnings(replace(right, messages=("", "", "", "no"))).numbers
-    assert silent.value == pytest.approx(2 / 3) and silent.verdict is Verdict.DIFFER
+    assert silent.value == pytest.approx(100 / 3) and silent.verdict is Verdict.DIFFER
     assert case.warnings(planted([1.0, 2.0, 8.0, 9.0])).numbers[0].role is Role.FINDING
 
 

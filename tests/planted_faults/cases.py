@@ -62,6 +62,7 @@ from validation.theory import wheel as wheel_theory
 REAL_SCENE, REAL_WEIGHTING, combined = rail_filters.scene_of, rail_filters.a_weighting, multilevel.combined
 zeros_of, amplification = features.zeros_of, free_vibration.amplification
 linear_response = rough_springs.linear_response
+REAL_CROSSING = limits.Sweep.crossing.fget
 places_of, heights_of = wheel_ensemble.WheelEnsemble.places.fget, wheel_ensemble.WheelEnsemble.heights
 
 
@@ -253,6 +254,14 @@ FAULTS = {
     "a limit read on its good side": (
         (limits.Sweep, "past_threshold", limits.Sweep.before_threshold),
         partial(test_limits.test_crossings_of_a_power_law, "above"),
+    ),
+    "a sweep that passes no threshold agrees at its end": (
+        (
+            limits.Sweep,
+            "crossing",
+            property(lambda sweep: REAL_CROSSING(sweep) or (sweep.values[:: sweep.sign][-1], 0.0)),
+        ),
+        partial(test_limits.test_a_sweep_that_passes_no_threshold_decides_nothing, [1.0] * 4, "above", 1.0),
     ),
     "factor 4 lost over a stretched surface": (
         (limits_of_springs, "response", scaled(rolling_theory.response, 0.5)),

@@ -94,9 +94,7 @@ SMALL = {
     "wheel_regions": wheel_regions.WheelRegions(
         distance=0.1, springs=40, wheels=4, groups=4, ratios=(3.0, 2.0, 1.0), periods=10
     ),
-    "wheel_stability": wheel_stability.WheelStability(
-        turns=3, hertz_turns=2, long_steps=2000, heights=(0.1, 1.0), loads=(0.05, 0.1), spacing_heights=(1e-3,)
-    ),
+    "wheel_stability": wheel_stability.WheelStability(turns=3, long_steps=2000, heights=(1e-3,)),
     "contact_filter": RolledFilters(across=(GROUND,), strips=3, cells=(4, 5)),
     "rough_rail": RolledFilters(offsets=(20.0,), across=(GROUND,), strips=3, cells=(4, 5)),
     "line_convention": LineConvention(strips=6),

@@ -85,8 +85,8 @@ EXPECTED_EXPONENTS = {
     "solve": (0.0, "a number of iterations that does not grow with n"),
     "solve_polonsky_keer": (0.5, "square root of the condition number, which grows as n"),
 }
-THRESHOLD = "observed threshold over the predicted one, octaves"
-WARNED = "share of sweep points where warnings are correct (issued past the threshold, absent before it)"
+THRESHOLD = "observed threshold over the predicted one"
+WARNED = "part of a sweep without the right message: none past the threshold, or one before it"
 IMBALANCE = "imbalance of impulse and momentum over F_N T, largest"
 SUMMARY, UNANSWERED = "where each method fails, and its messages", "input without an answer"
 ITERATIONS, APPLICATIONS, CELLS = "iterations", "applications", "cells on a side"
@@ -111,26 +111,33 @@ def series(result: Outcomes) -> list[Series]:
 
 
 def threshold(sweep: Sweep) -> Series:
-    """Where the error passes its tolerance, over the predicted threshold, in octaves; positive where it fails later."""
+    """Where the error passes its tolerance, over the predicted threshold, in octaves; positive where it fails later.
+
+    A sweep that does not pass it has no threshold: its end has the interval of what decides nothing.
+    """
     (method, title, parameter), (factor, derived, _) = sweep.limit.named, sweep.limit.judged
-    above, (at, half) = sweep.limit.fails.side == "above", sweep.crossing or (math.nan, 0.0)
-    if sweep.crossing is None:
-        fails = bool(sweep.error[0 if above else -1] > sweep.limit.fails.tolerance)
-        at = float(sweep.values[0 if fails == above else -1])
-    octaves = (1 if above else -1) * math.log2(at / sweep.predicted_threshold)
-    within, reason = math.log2(factor), f"within a factor {factor:g}, in octaves"
+    within, reason = math.log2(factor), f"within a factor {factor:g}"
+    at, half = sweep.crossing or (float(sweep.values[:: sweep.sign][-1]), math.nan)
+    octaves = sweep.sign * math.log2(at / sweep.predicted_threshold)
+    half = half if sweep.crossing else abs(octaves) + 2 * within
     where: Where = {"limit": title, "parameter": parameter}
     role = Role.CRITERION if derived else Role.FINDING
-    return single(THRESHOLD, method, octaves, within, sweep.limit.condition, reason, where=where, role=role, grid=half)
+    condition = sweep.limit.condition
+    return single(
+        THRESHOLD, method, octaves, within, condition, reason, where=where, role=role, unit="octaves", grid=half
+    )
 
 
 def warnings(sweep: Sweep) -> Series:
     """Whether the software warns or refuses past the threshold, and nowhere before it."""
     source = "warnings or errors past the threshold, none before it"
-    reason = "exact: every value of the sweep counts that is farther from the threshold than the stated factor"
-    (method, title, _), share = sweep.limit.named, sweep.share_of_correct_warnings
+    reason = (
+        "5 %: less than one value of a sweep; every value counts that is farther from the threshold than the stated "
+        "factor"
+    )
+    (method, title, _), wrong = sweep.limit.named, 100 * (1 - sweep.share_of_correct_warnings)
     role = Role.CRITERION if sweep.limit.judged.warned else Role.FINDING
-    return single(WARNED, method, share, 0.0, source, reason, 1.0, {"limit": title}, role=role)
+    return single(WARNED, method, wrong, 5.0, source, reason, where={"limit": title}, role=role, unit="%")
 
 
 def shown(sweep: Sweep) -> Iterator[Series]:
@@ -214,10 +221,11 @@ def summarised(sweep: Sweep) -> dict[str, object]:
 
 
 def said(number: Number) -> str:
-    if number.quantity == THRESHOLD:
-        side = "past" if number.value > 0 else "before"
-        return f"fails a factor {2 ** abs(number.value):.2g} {side} the predicted threshold"
-    return f"{100 * number.value:.0f} % of its values"
+    if number.quantity == WARNED:
+        return f"{number.value:.0f} % of the values without the right message"
+    if number.grid > abs(number.value) + number.tolerance:
+        return "no threshold in the sweep"
+    return f"fails {abs(number.value):.2g} octaves {'after' if number.value > 0 else 'before'} the predicted threshold"
 
 
 def panel(limit: Limit) -> Panel:
@@ -255,8 +263,7 @@ SOLVER = (
     "True error against residual, of the load (force at an approach, approach at a force), of the stiffness (none "
     "where the contact is the same cell by cell), of the pressure in L2; dotted: error = residual."
 )
-counted = partial(Claim, printed=said)
-figure = partial(Chart, claims=(1, 2), columns=4, width=13.0)
+figure = partial(Chart, claims=(0, 1), columns=4, width=13.0)
 STUDY = Study(
     title="Where each method fails, and whether the software warns",
     method=(
@@ -270,18 +277,11 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        counted(
-            says="Each limit of each method is predicted, and the software warns past it.", quantity=(THRESHOLD, WARNED)
+        Claim(quantity=THRESHOLD, printed=said).saying(
+            "Each method fails where its condition says.", short="Failures beside their conditions"
         ),
-        counted(
-            says="Each method fails where its condition says.",
-            short="Limits that lie where predicted",
-            quantity=THRESHOLD,
-        ),
-        counted(
-            says="The software warns past each limit, and never before it.",
-            short="limits past which, and only there, the software warns",
-            quantity=WARNED,
+        Claim(quantity=WARNED, printed=said).saying(
+            "The software warns past each limit, and never before it.", short="warnings of the software"
         ),
     ),
     charts=(
