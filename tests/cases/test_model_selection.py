@@ -49,7 +49,7 @@ def test_answers_at_the_edges_are_a_claim_and_scenes_that_are_refused_are_named(
     edges.append({**edge, "true": np.array([math.nan]), "refused": np.array("too narrow")})
     found = calibration.STUDY.evidence(Outcomes(case, {"random": [outcome(0.1, 0.05, 5.0, 10.0)], "edges": edges}))
     held, far_off, refused = found.claims[-1].numbers
-    assert (held.value, refused.value, far_off.value) == (0.5, 0.0, pytest.approx(2.0))
+    assert (held.value, refused.value, far_off.value) == (50.0, 0.0, pytest.approx(200.0))
     assert found.table(calibration.AT_EDGES)["held"].tolist() == [1]
     (row,) = zip(*found.table(calibration.UNTESTED).columns.values(), strict=True)
     assert row == ("punch", case.edge_trials[2].number, "too narrow")
@@ -67,10 +67,10 @@ def test_the_calibration_test_has_the_numbers_it_is_given():
     case = ladder.CalibrationTest(punches=5, spheres=0, rolling=0, wheels=0, tolerances=(0.1,))
     found = calibration.STUDY.evidence(Outcomes(case, {"random": outcomes, "edges": []}))
     covered, spent = found.numbers
-    assert covered.value == pytest.approx(0.75)
+    assert covered.value == pytest.approx(75)
     # Clopper and Pearson, three of four
-    assert covered.sample == pytest.approx(0.75 - stats.beta.ppf(0.025, 3, 2))
-    assert spent.value == pytest.approx(29.25 / 140) and 0 < spent.sample < 0.5
+    assert covered.sample == pytest.approx(75 - 100 * stats.beta.ppf(0.025, 3, 2))
+    assert spent.value == pytest.approx(2925 / 140) and 0 < spent.sample < 50
     assert [claim.numbers for claim in found.claims] == [(covered,), (spent,)]
 
 
