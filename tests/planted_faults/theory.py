@@ -60,7 +60,17 @@ def circle_for_the_ellipse(along, across, *, semi_axes):
 
 ellipse_of_springs = spring_input.rolling_input_filter
 
+
+def without_its_logarithm(*, mean_pressure, amplitude, wavelength, modulus):
+    """d = h s."""
+    return mean_pressure * wavelength / (np.pi * modulus)
+
+
 FAULTS = {
+    "an approach under a wave without its logarithm": (
+        (closed_forms, "westergaard_approach", without_its_logarithm),
+        partial(forms.test_the_westergaard_approach_is_the_integral_of_the_compliance_of_strips, 0.2),
+    ),
     "a circle for the ellipse in the rolling spectrum of a rail": (
         (spring_input, "rolling_input_filter", circle_for_the_ellipse),
         partial(of_input.test_on_a_circle_it_is_the_rolling_spectrum_of_a_wheel, 700.0),

@@ -39,12 +39,7 @@ ROOM = 3.0
 
 def draw(points: Table) -> Figure:
     """Error against seconds."""
-    return _charts(points, "median [s]", "front", "seconds of one realisation")
-
-
-def draw_work(points: Table) -> Figure:
-    """Error against work, which is the same on every machine."""
-    return _charts(points, "work", "front by work", "cell applications, springs or points")
+    return _charts(points)
 
 
 def _style(method: str) -> Style:
@@ -58,14 +53,16 @@ def _methods(points: Table) -> list[str]:
     return sorted(names, key=lambda name: known.index(name) if name in known else len(known))
 
 
-def _charts(points: Table, cost: str, front: str, label: str) -> Figure:
+def _charts(points: Table) -> Figure:
     charts = list(dict.fromkeys(zip(points["scene"].tolist(), points["quantity"].tolist(), strict=True)))
     figure, axes = panels(3, 4, width=14.0, height=10.0, within=PLACES)
     for i, (axis, (scene, quantity)) in enumerate(zip(axes, charts, strict=False)):
         mine = points.where(scene=scene, quantity=quantity)
-        _chart(axis, mine, cost, front)
+        _chart(axis, mine)
         axis.set_title(f"{axis.get_title(loc='left')} {scene}: {quantity} [{mine['unit'][0]}]", loc="left")
-        axis.set(xlabel=label if i >= len(charts) - 4 else "", ylabel="error" if i % 4 == 0 else "")
+        axis.set(
+            xlabel="seconds of one realisation" if i >= len(charts) - 4 else "", ylabel="error" if i % 4 == 0 else ""
+        )
     for axis in axes[len(charts) :]:
         axis.set_axis_off()
         axis.set_title("", loc="left")
@@ -74,17 +71,17 @@ def _charts(points: Table, cost: str, front: str, label: str) -> Figure:
     return figure
 
 
-def _chart(axis: Axes, points: Table, cost: str, front: str) -> None:
+def _chart(axis: Axes, points: Table) -> None:
     scale, done = 100.0 if points["unit"][0] == "%" else 1.0, points["status"] == "finished"
     error, half, band = (scale * points[name] for name in ("error", "± sample", "band"))
-    x, others = points[cost], done & ~points["reference itself"]
+    x, others = points["median [s]"], done & ~points["reference itself"]
     floor, top = _limits(error[others], half[others], float(band[0]))
     known = x[np.isfinite(x) & (x > 0)]
     axis.set(xscale="log", yscale="log", ylim=(floor / ROOM, top), xlim=(known.min() / ROOM, known.max() * ROOM))
     axis.xaxis.set_major_locator(LogLocator(numticks=6))
     axis.minorticks_off()
     axis.axhspan(floor / ROOM, floor, color="#000000", alpha=0.12, linewidth=0)
-    ahead = np.flatnonzero(points[front])[np.argsort(x[points[front]])]
+    ahead = np.flatnonzero(points["front"])[np.argsort(x[points["front"]])]
     rank = np.maximum(error + half, floor)[ahead]
     axis.step(x[ahead], rank, where="post", color="#bbbbbb", linewidth=4.0, zorder=0.5, solid_capstyle="round")
     quartiles = points["lower quartile [s]"], points["upper quartile [s]"]
@@ -92,7 +89,7 @@ def _chart(axis: Axes, points: Table, cost: str, front: str) -> None:
         mine, style = points["method"] == method, _style(method)
         some = mine & done & np.isfinite(x)
         if some.any():
-            across = [np.abs(end - x)[some] for end in quartiles] if cost == "median [s]" else None
+            across = [np.abs(end - x)[some] for end in quartiles]
             _curve(axis, x[some], error[some], half[some], floor, across, style)
         for place in x[mine & ~done]:
             # along the top; on the left who has no cost
