@@ -11,9 +11,8 @@ from validation.scenes.load import load_varied
 from validation.selection.compare import SceneProblem
 from validation.selection.hierarchy import select_model
 from validation.selection.named_models import models_named
-from validation.selection.quantities import models_of
+from validation.selection.quantities import DOMINATED, models_of
 from validation.selection.summary import WIDTH, summary
-from validation.simulation.model_names import DOMINATED
 
 SPECTRUM = "rolling_wheel --quantity force-spectrum"
 

@@ -19,12 +19,11 @@ from validation.scenes.load import Scene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.selection.hierarchy import try_to_solve
-from validation.selection.quantities import MOVING, PRESSED, ROLLING
+from validation.selection.quantities import DOMINATED, MOVING, PRESSED, ROLLING
 from validation.selection.scene_model import SceneModel
 from validation.simulation.calibrated_range import CONDITIONS
 from validation.simulation.calibration import TABLE, Key, code_behind, conditions_by_kind, kind_of, provenance, table
 from validation.simulation.model import GridModel, Model, Target, models_serving
-from validation.simulation.model_names import DOMINATED
 from validation.simulation.sampling import distance
 from validation.theory.closed_forms import hertz_force
 

@@ -18,11 +18,10 @@ from validation.scenes.rail import RailScene
 from validation.scenes.rolling import RollingScene
 from validation.selection.hierarchy import Candidate, Selection, select_model
 from validation.selection.named_models import ComparedModels, models_named
-from validation.selection.quantities import LEVELS, REFERENCES, UNITS, models_of, quantities_of
+from validation.selection.quantities import DOMINATED, LEVELS, REFERENCES, UNITS, models_of, quantities_of
 from validation.selection.scene_model import SceneModel, Shared
 from validation.selection.swept import Swept
 from validation.selection.tolerance import Tolerance, decibels, tolerance_of
-from validation.simulation.model_names import DOMINATED
 from validation.simulation.rolling_quantity import RollingQuantity
 
 LONGEST_BEYOND_RANGE = 60.0

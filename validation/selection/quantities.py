@@ -7,7 +7,7 @@ from validation.scenes.roughness_levels import MICROMETRE
 from validation.selection.rail_model import RailSceneModel
 from validation.selection.scene_model import SceneModel, Shared
 from validation.simulation.model import Target, models_serving
-from validation.simulation.model_names import DOMINATED
+from validation.simulation.model_names import PRESSED_LAYER, SPRINGS_THAT_READ
 from validation.simulation.rail_quantity import RAIL_QUANTITIES
 
 PRESSED = ("stiffness",)
@@ -25,6 +25,9 @@ UNITS = {
     "contact-filter": "1",
     "equivalent-roughness": "µm",
 }
+DOMINATED = (PRESSED_LAYER, SPRINGS_THAT_READ)
+"""Models that are offered by name alone, since one that costs no more is closer: boundary elements on coarse cells to a
+pressed layer, linear theory in three dimensions to springs that read the surface, which pay in the time loop alone."""
 REFERENCES = {"equivalent-roughness": MICROMETRE}
 """Of levels, in SI units; one of those that are not named."""
 

@@ -17,9 +17,6 @@ MODELS = (
     *(BEM, CLOSED_FORM, FIT, FILTER_1D, FILTER_3D, PRESSED_LAYER, LINEAR, LINEAR_ON_LINE, REMINGTON, BED),
     *(ONE_SIDED_BED, SPRINGS_GEIKE, SPRINGS_ON_LINE, SPRINGS_ON_MEAN, SPRINGS_ROLLING, SPRINGS, SPRINGS_THAT_READ),
 )
-DOMINATED = (PRESSED_LAYER, SPRINGS_THAT_READ)
-"""Offered by name alone, since a model that costs no more is closer: boundary elements on coarse cells to a pressed
-layer, linear theory in three dimensions to springs that read the surface, which pay in the time loop alone."""
 LINE, LINEAR_ON_MEAN = "line roughness", "linear, on the mean across"
 LINEAR_ROLLING, LINEAR_GEIKE = "linear, rolling spectrum", "linear, Geike's rule"
 """What is beside models of a rail and no model of `compare`: the roughness itself, and springs that all touch."""

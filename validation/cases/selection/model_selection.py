@@ -21,10 +21,9 @@ from validation.scenes.load import Scene
 from validation.scenes.measured import MeasuredHeights
 from validation.selection.calibrate import OTHER_SEED, QUANTITIES
 from validation.selection.hierarchy import REFUSALS, select_model, try_to_solve, unsolved
-from validation.selection.quantities import models_of
+from validation.selection.quantities import DOMINATED, models_of
 from validation.selection.scene_model import Answer, SceneModel, Shared
 from validation.simulation.model import GridModel, all_models
-from validation.simulation.model_names import DOMINATED
 from validation.simulation.rail_models import RailModel, relative
 from validation.simulation.rail_quantity import COUNTED
 from validation.simulation.sampling import distance
