@@ -9,7 +9,7 @@ from scipy import stats
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim
-from validation.analysis.evidence import Columns, Table, grouped, table_of
+from validation.analysis.evidence import Columns, Table, grouped, plus_minus, table_of
 from validation.analysis.series import Margin, Series
 from validation.analysis.statistics import Interval
 from validation.analysis.study import Outcomes, Study
@@ -256,7 +256,7 @@ STUDY = Study(
             "The error that is estimated for the cheapest sufficient model holds.",
             short="Share of true errors within their estimates, beside one",
         ),
-        Claim(quantity=SPENT).saying(
+        Claim(quantity=SPENT, printed=lambda n: f"{plus_minus(n.value, n.uncertainty)} % of the time").saying(
             "Selection takes less time than fine boundary elements on every scene.",
             short="time of selection beside that of fine boundary elements",
         ),

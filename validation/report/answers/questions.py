@@ -97,7 +97,7 @@ def counted(name: str, model: str, source: Source | None = None, by: str = "") -
 
 
 INTEGRAL, BY_FORMULA, OF_SPRINGS = "an integral over the spectrum", "a formula", "the work of springs"
-LINEAR_3D, EQUIVALENT = "linear theory in 3D", "springs, rolling-equivalent spectrum"
+LINEAR_3D, EQUIVALENT = "linear theory in 3D", "springs, rolling spectrum"
 FIT = partial(Alternative, "the fit 1/kbar = 1/1.1523 + 0.48/Fbar", cost=BY_FORMULA)
 PRESSED = partial(Alternative, BEM, None, worked)
 over_force = partial(Source, axis=punch.FORCE, over=punch.FORCE)

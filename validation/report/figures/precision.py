@@ -14,17 +14,14 @@ STYLES: dict[str, Style] = {
     "closed form": {"color": "#000000", "marker": "*", "linestyle": "none", "markersize": 8},
     "fit": {"color": "#000000", "marker": "x", "linestyle": "none", "markersize": 6},
     "linear filter, 1D": {"color": "#E69F00", "marker": "P", "linestyle": "-."},
-    "linear filter, 3D": {"color": "#CC79A7", "marker": "X", "linestyle": ":"},
-    "MDR": {"color": "#D55E00", "marker": "s", "markerfacecolor": "white", "linestyle": "-"},
-    "MDR, rolling spectrum": {"color": "#009E73", "marker": "^", "markerfacecolor": "white", "linestyle": "--"},
-    "springs that read the surface": {"color": "#D55E00", "marker": "v", "linestyle": "--"},
-    "pressed layer": {"color": "#009E73", "marker": "D", "linestyle": "-."},
+    "linear filter, 3D": {"color": "#000000", "marker": "X", "linestyle": "none", "markersize": 7},
+    "linear filter, 3D, on strips": {"color": "#CC79A7", "marker": "X", "linestyle": ":"},
+    "springs": {"color": "#D55E00", "marker": "s", "markerfacecolor": "white", "linestyle": "-"},
+    "springs, rolling spectrum": {"color": "#009E73", "marker": "^", "markerfacecolor": "white", "linestyle": "--"},
     "Polonsky-Keer": {"color": "#56B4E9", "marker": "D", "markerfacecolor": "white", "linestyle": ":"},
     "BEM, finer cells": {"color": "#0072B2", "marker": "o", "linestyle": "-"},
     "BEM, looser residual": {"color": "#0072B2", "marker": "d", "markerfacecolor": "white", "linestyle": "--"},
     "BEM, extrapolated": {"color": "#332288", "marker": "h", "linestyle": "-."},
-    "tamaas": {"color": "#882255", "marker": "<", "markerfacecolor": "white", "linestyle": ":"},
-    "ContactMechanics": {"color": "#777777", "marker": ">", "markerfacecolor": "white", "linestyle": ":"},
 }
 NEW: Style = {"color": "#AA4499", "marker": "p", "markerfacecolor": "white", "linestyle": "-"}
 """Of a model that has no style of its own."""
