@@ -245,7 +245,7 @@ def test_command_line(result, tmp_path, monkeypatch, capsys):
     results = run_command(CASE, result, tmp_path, monkeypatch)
     assert "scene: fractal punch; quantity: mean stiffness; within 30 %: " in capsys.readouterr().out
     assert results["settings"]["sphere"]["grids"]["cells"] == [4, 8, 16]
-    for file in (*(f"figures/precision{part}.svg" for part in ("", "-summary")), "data/precision-points.csv"):
+    for file in ("figures/precision.svg", "data/precision-points.csv"):
         assert (tmp_path / file).exists()
     page = (tmp_path / "index.html").read_text()
     assert "Speed against accuracy" in page and 'href="precision.json"' in page

@@ -69,14 +69,7 @@ STUDY = Study(
             "The contact of the wheel is too costly for boundary elements or finite elements in three dimensions."
         ),
     ),
-    charts=(
-        Chart("precision-summary").of(
-            "The cheapest method within each tolerance, closed forms left out where they are the reference; levels "
-            "within 20 lg (1 + tolerance) dB. Seconds of one realisation, one thread; costs within a factor 1.5 share "
-            "a mark."
-        ),
-        Chart("precision", claims=(0,)).of(f"Error against seconds, a chart a quantity. {MARKS}"),
-    ),
+    charts=(Chart("precision", claims=(0,)).of(f"Error against seconds, a chart a quantity. {MARKS}"),),
 )
 CASE = Case(
     name="precision",

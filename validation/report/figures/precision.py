@@ -28,8 +28,6 @@ NEW: Style = {"color": "#AA4499", "marker": "p", "markerfacecolor": "white", "li
 COMMON: Style = {"markersize": 4.5, "linewidth": 0.9}
 BARS: Style = {"capsize": 1.5, "elinewidth": 0.7}
 PLACES = {"left": 0.055, "right": 0.985, "bottom": 0.06, "top": 0.965, "wspace": 0.22, "hspace": 0.27}
-SHARED = 1.5
-"""Costs within this factor of one method share a mark of the summary."""
 ROOM = 3.0
 """How far a chart goes on, as a factor, below what is drawn and above."""
 
@@ -113,49 +111,3 @@ def _curve(
     if within.any():
         pointing = {**style, "marker": "v", "linestyle": "none", "markersize": 7, "markerfacecolor": style["color"]}
         axis.plot(x[within], y[within], **pointing)
-
-
-def draw_summary(summary: Table, points: Table) -> Figure:
-    """For each quantity the cost of the cheapest method within each tolerance."""
-    rows = list(dict.fromkeys(zip(summary["scene"].tolist(), summary["quantity"].tolist(), strict=True)))
-    within = {"left": 0.22, "right": 0.75, "bottom": 0.1, "top": 0.88}
-    figure, (axis,) = panels(1, 1, width=12.5, height=1.6 + 0.5 * len(rows), within=within)
-    axis.set_title("")
-    axis.set_title("", loc="left")
-    for place, (scene, quantity) in enumerate(rows):
-        _stairs(axis, place, summary.where(scene=scene, quantity=quantity))
-    known = summary["median [s]"][np.isfinite(summary["median [s]"])]
-    axis.set(xscale="log", xlabel="seconds of one realisation", ylim=(len(rows) - 0.4, -0.7))
-    axis.set_xlim(known.min() / ROOM, known.max() * ROOM)
-    axis.set_yticks(range(len(rows)), [f"{scene}: {quantity}" for scene, quantity in rows])
-    used = [method for method in _methods(points) if method in summary["method"]]
-    handles = [axis.plot([], [], label=method, **{**_style(method), "linestyle": "none"})[0] for method in used]
-    figure.legend(handles=handles, loc="upper center", ncols=5, fontsize=8)
-    return figure
-
-
-def _stairs(axis: Axes, place: int, row: Table) -> None:
-    """Marks from cheap to dear, each with the tolerances that it is the cheapest for; at the least of its costs."""
-    steps: dict[tuple[str, float], list[float]] = {}
-    none: dict[str, list[float]] = {}
-    for tolerance, method, seconds in zip(row["tolerance"], row["method"], row["median [s]"], strict=True):
-        if np.isfinite(seconds):
-            near = [step for step in steps if step[0] == method and seconds < SHARED * step[1]]
-            steps.setdefault(near[-1] if near else (str(method), float(seconds)), []).append(float(tolerance))
-        else:
-            none.setdefault(str(method), []).append(float(tolerance))
-    x = [seconds for _, seconds in steps]
-    axis.plot(x, [place] * len(x), color="#bbbbbb", linewidth=1.2, zorder=0.5)
-    for i, ((method, seconds), tolerances) in enumerate(steps.items()):
-        axis.plot([seconds], [place], **{**_style(method), "markersize": 8, "linestyle": "none"})
-        beside = (0, -14) if i % 2 else (0, 7)
-        axis.annotate(_span(tolerances), (seconds, place), beside, textcoords="offset points", ha="center", fontsize=7)
-    without = "; ".join(f"{_span(tolerances)}: {why}" for why, tolerances in none.items())
-    if without:
-        beyond: Style = {"transform": axis.get_yaxis_transform(), "ha": "left", "va": "center"}
-        axis.text(1.01, place, without, fontsize=7.5, color="#555555", **beyond)
-
-
-def _span(tolerances: list[float]) -> str:
-    first, last = (f"{100 * tolerance:g}" for tolerance in (max(tolerances), min(tolerances)))
-    return f"{first} %" if first == last else f"{first} to {last} %"
