@@ -5,22 +5,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-import numpy as np
-
 from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel
+from validation.analysis.chart import Chart
 from validation.analysis.claims import Claim, Matrix, off_by, times_source
 from validation.analysis.evidence import Table, table_of
 from validation.analysis.series import Margin, Series, single
 from validation.analysis.statistics import Interval
 from validation.analysis.study import Outcomes, Study
-from validation.benchmarks.isolation import measure_alone
 from validation.benchmarks.peers import OUR_SOLVER, OURS, SOLVERS, all_methods
 from validation.benchmarks.solvers import problems
 from validation.benchmarks.solvers.problems import (
-    MEMORY,
     ROUGH,
-    SOLVE,
     SPHERE,
     SPHERE_LOAD,
     SurfaceProblem,
@@ -37,14 +32,13 @@ class SolverComparison:
     """All problems.
 
     cells: grids; loads: of the rough surfaces; residual: that each solver reaches; slow: a solve that takes longer is
-    timed once [s]; scaling: grids on which our solver alone is measured.
+    timed once [s].
     """
 
     cells: tuple[int, ...] = (64, 128)
     loads: tuple[float, ...] = (0.001, 0.008)
     residual: float = 1e-8
     slow: float = 5.0
-    scaling: tuple[int, ...] = (64, 128, 256)
     seed: int = 20261121
 
     def problems(self) -> list[SurfaceProblem]:
@@ -52,11 +46,6 @@ class SolverComparison:
         surfaces = [(SPHERE, SPHERE_LOAD), *((ROUGH, load) for load in self.loads)]
         kinds = itertools.product((True, False), surfaces, self.cells)
         return [self._problem(*surface, n, periodic) for periodic, surface, n in kinds]
-
-    def scalings(self) -> list[SurfaceProblem]:
-        """For our solver alone, along the cells of three problems."""
-        chosen = ((SPHERE, SPHERE_LOAD, False), (ROUGH, self.loads[-1], False), (ROUGH, self.loads[-1], True))
-        return [self._problem(kind, load, n, periodic) for kind, load, periodic in chosen for n in self.scaling]
 
     def _problem(self, surface: str, load: float, cells: int, periodic: bool) -> SurfaceProblem:
         return SurfaceProblem(surface, load, cells, periodic, self.seed, self.residual)
@@ -70,20 +59,14 @@ Rows = Sequence[Sequence[Row]]
 def run(case: SolverComparison, engine: Engine = SERIAL) -> Outcomes:
     """Time all problems, one at a time whatever the engine's workers, so that nothing else disturbs them."""
 
-    def solved(some: Sequence[SurfaceProblem]) -> Rows:
-        given = [TimedProblem(problem=p, slow=case.slow, enough=SETTLED, methods=all_methods()) for p in some]
-        return [rows_of(outcome) for outcome in alone.map(problems.time_problem, given)]
-
+    given = [TimedProblem(problem=p, slow=case.slow, enough=SETTLED, methods=all_methods()) for p in case.problems()]
     # a run that was interrupted goes on; one that is over is timed anew the next time
     with engine.timed() as alone:
-        rows, scalings = solved(case.problems()), case.scalings()
-        found = {
-            "problems": rows,
-            "scalings": list(zip(scalings, alone.map(measure_alone, scalings), strict=True)),
-        }
+        rows = [rows_of(outcome) for outcome in alone.map(problems.time_problem, given)]
     ours = [solver.name for solver in SOLVERS if solver.package == OURS]
-    lost = (row for each in rows for row in each if row["solver"] in ours and row["status"] != FINISHED)
-    return Outcomes(case, found, tuple(f"{row['problem']}: {row['solver']} {row['status']}" for row in lost))
+    lost = [row for each in rows for row in each if row["solver"] in ours and row["status"] != FINISHED]
+    said = tuple(f"{row['problem']}: {row['solver']} {row['status']}" for row in lost)
+    return Outcomes(case, {"problems": rows}, said)
 
 
 def rows_of(outcome: Outcome) -> list[Row]:
@@ -104,14 +87,12 @@ AGREEMENT = (
     ("contact area, relative", problems.AREA, 1e-3, AREAS),
 )
 """The residual weighs gaps; pressures follow with the condition of the contact, areas by whole cells."""
-CELLS, GUIDE, LARGE = "cells along a side, n", "n² log n", 512
-EXPONENT = f"exponent of n from {LARGE} cells on"
 
 
 def series(result: Outcomes) -> list[Series]:
-    """Criteria for what must agree; times, none right or wrong; how time and memory grow."""
+    """Criteria for what must agree; times, none right or wrong."""
     finished = [_finished(rows) for rows in result["problems"]]
-    return [*_agreement(finished), *_speed(finished), *_growth(result["scalings"])]
+    return [*_agreement(finished), *_speed(finished)]
 
 
 def _finished(rows: Sequence[Row]) -> dict[str, Row]:
@@ -143,25 +124,6 @@ def _speed(finished: Sequence[Mapping[str, Row]]) -> Iterator[Series]:
             yield Series(SPEED, OUR_SOLVER, (Interval(ratio, half),), where=at, margin=margin)
 
 
-def _measured(outcomes: Sequence[Outcome], model: str, **settings: Any) -> list[Series]:
-    """A series of each value that they have."""
-    return [Series(name, model, np.array([float(o[name]) for o in outcomes]), **settings) for name in outcomes[0]]
-
-
-def _growth(scalings: Sequence[tuple[SurfaceProblem, Outcome]]) -> Iterator[Series]:
-    """Of our solver alone; exponents where there are grids enough to fit them."""
-    for problem, group in itertools.groupby(scalings, key=lambda pair: f"{pair[0].surface}, {pair[0].half_space}"):
-        pairs, at = list(group), {"problem": problem}
-        n = np.array([each.cells for each, _ in pairs], dtype=float)
-        ours = _measured([outcome for _, outcome in pairs], OUR_SOLVER, where=at, along=CELLS, at=n)
-        known = {one.quantity: np.asarray(one.found) for one in ours}
-        guide, large = n**2 * np.log(n), n >= LARGE
-        yield from (*ours, Series(SOLVE, GUIDE, known[SOLVE][-1] * guide / guide[-1], where=at, along=CELLS, at=n))
-        if np.count_nonzero(large) > 2:
-            for name, y in ((SOLVE, known[SOLVE]), (MEMORY, known[MEMORY]), (GUIDE, guide)):
-                yield Series(EXPONENT, name, np.polyfit(np.log(n[large]), np.log(y[large]), 1)[:1], where=at)
-
-
 SECONDS = "seconds: median (from the fastest to the slowest run)"
 PEERS = "solvers"
 
@@ -190,14 +152,6 @@ def _said(row: Row) -> str:
     return f"{median:.3g} s ({fastest:.3g} to {slowest:.3g}); set-up {setup:.2g} s"
 
 
-LINE = Curve(SOLVE, GUIDE, "guide", GUIDE, of={"problem": "rough, free"})
-
-
-def panel(along: str, quantity: str, legend: str, *curves: Curve) -> Panel:
-    return Panel(along, quantity, log="xy", ticked=True, legend=legend).of(*curves)
-
-
-SOLVED, REMEMBERED = (Curve(quantity, OUR_SOLVER, by=("problem",)) for quantity in (SOLVE, MEMORY))
 STUDY = Study(
     title="Solver comparison: time to the same residual, one thread each",
     method=(
@@ -212,7 +166,7 @@ STUDY = Study(
     ),
     series=series,
     tables=tables,
-    printed=(SECONDS, EXPONENT, PEERS),
+    printed=(SECONDS, PEERS),
     matrices=(Matrix(name=SPEED, quantity=SPEED, rows=("problem",), columns="cells", printed=times_source),),
     claims=(
         Claim(quantity=SPEED, along="-cells", printed=times_source).saying(
@@ -228,12 +182,6 @@ STUDY = Study(
             "Grids of {c.cells} cells a side. (a) Median time to the residual, bars from the fastest to the slowest "
             "run. (b) The same over the median of bem3d.solve."
         ),
-        Chart("race-growth", claims=(), width=11.0).of(
-            "Our solver alone against the cells along a side. (a) Time of a solve, and n² log n through the largest "
-            "rough one in free space. (b) Peak memory of its process, less that of an idle one.",
-            panel(CELLS, SOLVE, "upper left", SOLVED, LINE),
-            panel(CELLS, MEMORY, "upper left", REMEMBERED),
-        ),
     ),
 )
 CASE = Case(
@@ -242,7 +190,7 @@ CASE = Case(
     place=2,
     answers="Our solver beside other packages that are installed, same problems, same residual",
     quick=SolverComparison(),
-    full=SolverComparison(cells=(128, 256, 512), scaling=(128, 256, 512, 1024, 2048)),
+    full=SolverComparison(cells=(128, 256, 512)),
     run=run,
     study=STUDY,
     needs="–",

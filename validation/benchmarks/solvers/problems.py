@@ -1,7 +1,6 @@
 """Problems on which solvers are compared: a surface that is pressed onto a free or a periodic half-space; the times."""
 
 import math
-import warnings
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -9,7 +8,6 @@ import numpy as np
 
 import bem3d
 import mdr
-from validation.benchmarks.isolation import peak_memory, timed
 from validation.benchmarks.peers import OUR_SOLVER, SOLVERS, DiscreteProblem, solvers_on_grids
 from validation.benchmarks.timing import (
     FINISHED,
@@ -101,35 +99,8 @@ class SurfaceProblem:
         """Each solver that is installed, in a process of its own."""
         return solvers_on_grids(SOLVERS, self, (self.cells,), "a side", self.residual)
 
-    def measure(self) -> Outcome:
-        """Our solver alone: seconds and peak memory of a solve, and the seconds of one application."""
-        idle, height = peak_memory(), self.height()
-        half_space = bem3d.HalfSpace(shape=height.shape, spacing=1 / self.cells, modulus=1.0, periodic=self.periodic)
 
-        def solve() -> bem3d.Contact:
-            return bem3d.solve(half_space, -height, force=self.load, tolerance=self.residual)
-
-        warnings.simplefilter("ignore", bem3d.EdgeWarning)  # this process has nothing else to say
-        contact, first = timed(solve)
-        peak = peak_memory()
-        # what the plans cost is nothing beside a solve that takes so long
-        seconds = float(np.median([timed(solve)[1] for _ in range(3)])) if first < 5 else first
-        half_space.displacement(contact.pressure)
-        application = float(np.median([timed(lambda: half_space.displacement(contact.pressure))[1] for _ in range(5)]))
-        found = {
-            SOLVE: seconds,
-            "first solve, with plans [s]": first,
-            "one application on the whole grid [s]": application,
-            "operator applications": contact.operator_applications,
-            "operator applications on coarser grids": sum(n for _, n in contact.coarse_applications),
-            "solve over as many applications on the whole grid": seconds / contact.operator_applications / application,
-            MEMORY: (peak - idle) / 2**20,
-            "peak memory [MiB]": peak / 2**20,
-        }
-        return {name: np.array(value, dtype=float) for name, value in found.items()}
-
-
-SOLVE, MEMORY, NOT_INSTALLED = "time of a solve [s]", "memory [MiB]", "not installed"
+NOT_INSTALLED = "not installed"
 PRESSURE, FORCE, AREA, STIFFNESS = (f"{what} difference to ours" for what in ("pressure", "force", "area", "stiffness"))
 """Relative, of the pressure field in L2."""
 

@@ -220,7 +220,7 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart("wheel_stability", claims=(0, 1), columns=2, width=9.0, height=9.2).of(
+        Chart("wheel_stability", claims=(0, 1), columns=3, width=12.5, height=6.6).of(
             "Free vibration on a linear contact; thin lines: theory. (a) Error of the period, each scheme up to its "
             "limit. (b) Largest change of the energy within one period. (c) Growth in one step near the limits, "
             "dotted. (d) Change of the energy on a Hertz contact over {c.long_steps} steps: full, velocity Verlet; "
