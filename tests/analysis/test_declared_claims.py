@@ -151,7 +151,7 @@ def test_an_identity_tests_no_claim_and_stands_in_a_matrix():
         ((DIFFER,), {"no": NOT_THIS_CURVE}, "We do not get this curve: +3.00 ± 0.10 dB at h/d = 0.1, beyond 1 dB."),
         ((AGREE, UNDECIDED), {}, "Not decided within 1 dB: +1.00 ± 0.30 dB at h/d = 1."),
         ((DIFFER, DIFFER), {"differ": True}, "Yes, by more than 1 dB: at least +3.00 ± 0.10 dB at h/d = 0.1."),
-        ((DIFFER, AGREE), {"differ": True}, "No: +0.20 ± 0.10 dB at h/d = 1, the same within 1 dB."),
+        ((DIFFER, AGREE), {"differ": True}, "No: +0.20 ± 0.10 dB at h/d = 1, no more than 1 dB."),
     ],
 )
 def test_the_answer_is_one_sentence_of_the_number_that_decides(verdicts, changes, answer):

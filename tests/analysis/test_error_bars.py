@@ -21,7 +21,7 @@ from validation.analysis.statistics import (
     ratio_of_means,
     sample,
 )
-from validation.cases.limits.limits import fit_exponent, threshold
+from validation.cases.limits.limits import threshold
 from validation.cases.limits.sweeps import Sweep
 from validation.cases.selection.model_selection_study import clopper_pearson
 from validation.simulation.free_vibration import fit_drift
@@ -139,15 +139,6 @@ def test_leaving_out_one_is_the_standard_error_of_a_mean():
 
 
 # --- straight lines, shares, borders ---
-
-
-def test_the_exponent_of_iterations_covers_its_truth():
-    rng, cells = np.random.default_rng(0), np.array([32.0, 64.0, 128.0, 256.0])
-
-    def drawn():
-        return ends(fit_exponent(cells, 10 * cells**0.5 * np.exp(0.05 * rng.standard_normal(4))))
-
-    assert holds(covered(drawn, 0.5))
 
 
 def test_the_drift_of_an_energy_covers_its_truth():

@@ -1,7 +1,6 @@
 """The solver comparison: the same for all solvers, a row for each, and true where other packages are installed."""
 
 import dataclasses
-import itertools
 import multiprocessing
 import os
 import time
@@ -17,9 +16,8 @@ from validation.benchmarks import peers, timing
 from validation.benchmarks.peers import OURS, SOLVERS, PeerSolver
 from validation.benchmarks.solvers import case as comparison
 from validation.benchmarks.solvers import problems
+from validation.benchmarks.solvers.case import CASE
 from validation.benchmarks.solvers.problems import FORCE, PRESSURE, SurfaceProblem
-from validation.benchmarks.solvers.study import CASE
-from validation.benchmarks.solvers.throughput import STEPS, RollingThroughput, SteppingThroughput
 from validation.benchmarks.timing import TimedProblem
 from validation.simulation.method import Result
 
@@ -120,13 +118,7 @@ def test_threads_of_the_solvers_are_one(monkeypatch):
     assert "MKL_NUM_THREADS" not in os.environ
 
 
-SMALL = comparison.SolverComparison(
-    cells=(32,),
-    loads=(0.004,),
-    scaling=(32, 64),
-    rolling=RollingThroughput(cells=8, positions=60),
-    wheel=SteppingThroughput(springs=(12, 25), heights=(0.1,), wheels=20, steps=40),
-)
+SMALL = comparison.SolverComparison(cells=(32,), loads=(0.004,))
 
 
 @pytest.fixture(scope="module")
@@ -141,13 +133,11 @@ def evidence(result):
 
 @pytest.mark.slow
 def test_evidence(evidence):
-    heats, seconds, loads = (evidence.table(name) for name in ("heats", comparison.SECONDS, comparison.LOADS))
+    heats, seconds = (evidence.table(name) for name in ("heats", comparison.SECONDS))
     # a contact model beside the solvers where the half-space is free
     assert len(heats["problem"]) == 4 * len(SOLVERS) + 2
-    assert [len(table["problem"]) for table in (seconds, loads)] == [4, 3]
+    assert len(seconds["problem"]) == 4
     assert not evidence.unconverged and all(number.met for number in evidence.numbers)
-    assert len(evidence.table("peak memory [MiB]")["value"]) == 6
-    assert (evidence.table("peak memory [MiB]")["value"] > 1).all()
     for name in ("bem3d", "bem3d, Polonsky-Keer"):
         mine = heats.where(solver=name)
         assert (mine["median [s]"] > 0).all()
@@ -159,19 +149,6 @@ def test_evidence(evidence):
         assert found["surface"].tolist() == [surface]
         assert found["stiffness difference to ours"] < most
         assert np.isnan(found["residual"]) and found["median [s]"] > 0
-
-
-@pytest.mark.slow
-def test_a_wheel_is_beside_its_floor(evidence):
-    """The plain sum over all springs is the same force, and slower where only some are in doubt."""
-    assert (evidence.table("difference to the plain sum, over the load")["value"] < 1e-12).all()
-    examined = evidence.table("springs examined")
-    assert (examined["value"] < 2 * 1.5 * examined[comparison.SPRINGS]).all()
-    assert (evidence.table(STEPS)["value"] > 0).all()
-    rolled = evidence.table(comparison.ROLLED)
-    assert rolled["h/d"].tolist() == [0.01, 0.3]
-    assert (rolled["applications a position"] >= 2).all()
-    assert all((rolled[name] > 0).all() for name in rolled.columns)
 
 
 def with_rows(result, *changes):
@@ -198,7 +175,7 @@ def test_fastest_is_claimed_of_times(result):
 
     assert claim(0.5, 0.1, 0.5, 0.5).status == "holds"
     limited = claim(0.5, 2.0, 0.5, 0.5)
-    assert (limited.status, limited.limits) == ("holds within limits", "cells from 128 on")
+    assert (limited.status, limited.limits) == ("holds within limits", "from cells = 128 on")
     assert claim(0.5, 2.0, 0.5, 1.5).status == "contradicted"
     # intervals that overlap decide nothing
     assert claim(0.5, 0.5, 0.98, 0.5).status == "open"
@@ -269,18 +246,6 @@ def test_command_line(result, tmp_path, monkeypatch, capsys):
     results = run_command(CASE, result, tmp_path, monkeypatch)
     assert "problem: rough, F = 0.004 E* L², free, 32²" in capsys.readouterr().out
     assert results["settings"]["cells"] == [32]
-    for file in ("figures/race.svg", "figures/race-growth.svg", "figures/race-wheel.svg", "data/race-heats.csv"):
+    for file in ("figures/race.svg", "data/race-heats.csv"):
         assert (tmp_path / file).exists()
     assert "Solver comparison" in (tmp_path / "speed.html").read_text()
-
-
-@pytest.mark.slow
-def test_exponents_are_those_of_the_measurements(result):
-    """Time n^2.5, memory n^2 planted on grids of 512 and more."""
-    scalings = [
-        (dataclasses.replace(problem, cells=n), {**outcome, problems.SOLVE: n**2.5, problems.MEMORY: 8.0 * n**2})
-        for (problem, outcome), n in itertools.product(result["scalings"][::2], (512, 1024, 2048))
-    ]
-    planted = dataclasses.replace(result, found={**result.found, "scalings": scalings})
-    exponents = CASE.evidence(planted).table(comparison.EXPONENT)["value"].reshape(3, 3)
-    np.testing.assert_allclose(exponents, np.tile([2.5, 2.0, 2.145], (3, 1)), atol=1e-3)

@@ -8,15 +8,13 @@ import pytest
 
 import validation.__main__ as command
 from tests.benchmarks.made_up import named, run_command, timed_problem, use_a_clock_of_its_own
-from validation.analysis.evidence import Table, Verdict
-from validation.benchmarks import peers
-from validation.benchmarks.peers import SOLVERS, all_methods
+from validation.analysis.evidence import Table
+from validation.benchmarks.peers import all_methods
 from validation.benchmarks.timing import FINISHED, TimedProblem
 from validation.benchmarks.work_precision import exact_problems, figure_cost
 from validation.benchmarks.work_precision import problem as precision
 from validation.benchmarks.work_precision.case import WITHIN, WITHOUT, Precision, run
 from validation.benchmarks.work_precision.dynamic_wheel import WheelProblem, steady_acceleration
-from validation.benchmarks.work_precision.errors import points
 from validation.benchmarks.work_precision.pareto import TOLERANCES
 from validation.benchmarks.work_precision.problem import BEM, CLOSED, EXTRAPOLATED, LOOSE, MDR, POLONSKY_KEER, Grids
 from validation.benchmarks.work_precision.rolling import RollingProblem
@@ -28,16 +26,6 @@ from validation.report.contents import TIMED
 from validation.simulation.motion import simulate
 from validation.simulation.rolling_strip import HERTZ
 from validation.simulation.wheel_on_half_space import linear_law_3d
-from validation.theory.closed_forms import westergaard_approach, westergaard_full_pressure, westergaard_half_width
-
-
-@pytest.fixture(scope="module", autouse=True)
-def no_peers():
-    """Whichever are installed."""
-    with pytest.MonkeyPatch.context() as monkeypatch:
-        monkeypatch.setattr(peers, "SOLVERS", SOLVERS[:2])
-        yield
-
 
 # --- every scene, small ---
 
@@ -48,11 +36,8 @@ def exact_grids(cells, per):
 
 
 SMALL = Precision(
-    sphere=exact_problems.SphereProblem(
-        grids=exact_grids((4, 8, 16), "to a radius"), peers=(4, 8), springs=(2.4, 4.4, 8.4, 16.4)
-    ),
+    sphere=exact_problems.SphereProblem(grids=exact_grids((4, 8, 16), "to a radius"), springs=(2.4, 4.4, 8.4, 16.4)),
     punch=exact_problems.PunchProblem(grids=exact_grids((8, 16, 32), "a side"), springs=(4,)),
-    wave=exact_problems.WaveProblem(grids=exact_grids((16, 32, 64), "to a wavelength"), peers=(16, 32)),
     fractal=RoughPunchProblem(
         waves=7,
         realisations=4,
@@ -96,7 +81,7 @@ def charts(found):
 
 
 EXACT = {CLOSED, POLONSKY_KEER, BEM, LOOSE, EXTRAPOLATED}
-ROUGH = {CLOSED, MDR, BEM, LOOSE, precision.MDR_ROLLING, precision.FILTER_1D, precision.FILTER_3D}
+ROUGH = {precision.FILTER_3D, precision.FILTER_ON_STRIPS, MDR, BEM, LOOSE, precision.MDR_ROLLING, precision.FILTER_1D}
 
 
 @pytest.mark.slow
@@ -105,7 +90,6 @@ ROUGH = {CLOSED, MDR, BEM, LOOSE, precision.MDR_ROLLING, precision.FILTER_1D, pr
     [
         ("sphere", {*EXACT, MDR}),
         ("square punch", {*EXACT, MDR}),
-        ("Westergaard's wave", EXACT),
         ("fractal punch", {"fit", MDR, BEM, LOOSE, POLONSKY_KEER, EXTRAPOLATED}),
         ("rolling force", {*ROUGH, POLONSKY_KEER}),
         ("dynamic wheel", ROUGH),
@@ -147,7 +131,6 @@ def test_of_the_finest_grid_the_reference_leaves_open_as_much_as_it_lies_from_it
 def test_what_cannot_be_done_is_refused_with_a_reason(charts, found):
     refused = charts["status"][[s.startswith("out of range") for s in charts["status"]]]
     reasons = " ".join(refused.tolist())
-    assert "no one-dimensional image of independent springs" in reasons
     assert "c2d must vanish beyond the Nyquist wavenumber" in reasons
     assert "c1d must vanish beyond the Nyquist wavenumber" in reasons
     assert not any(s.startswith("failed") for s in charts["status"])
@@ -156,13 +139,28 @@ def test_what_cannot_be_done_is_refused_with_a_reason(charts, found):
 
 
 @pytest.mark.slow
-def test_criteria_hold_where_theory_predicts(found):
-    criteria = [number for number in found.numbers if number.role == "criterion"]
-    assert len(criteria) == 6
-    assert [number.label for number in criteria if number.verdict is not Verdict.AGREE] == []
-    assert found.unconverged == ()
-    assert len(found.table("summary")["tolerance"]) == 11 * len(TOLERANCES)
-    assert len(found.table(WITHIN)["scene"]) == 11
+def test_every_quantity_has_a_cheapest_method_of_each_tolerance(found):
+    assert found.unconverged == () and {number.role for number in found.numbers} == {"finding"}
+    assert len(found.table("summary")["tolerance"]) == 9 * len(TOLERANCES)
+    assert len(found.table(WITHIN)["scene"]) == 9
+
+
+@pytest.mark.slow
+def test_errors_fall_with_the_order_of_theory_and_the_published_iteration_has_the_same_values(charts):
+    for scene, quantity, method, order, within in (
+        # second order; the staircase edge scatters the error from grid to grid
+        ("sphere", "force", BEM, 2.0, 0.5),
+        ("sphere", "force", MDR, 2.0, 0.1),
+        # the pressure is singular at the edge
+        ("square punch", "stiffness", BEM, 1.0, 0.15),
+    ):
+        mine = line(charts, scene, quantity, method)
+        assert -np.polyfit(np.log(mine["value"]), np.log(mine["error"]), 1)[0] == pytest.approx(order, abs=within)
+    for scene, quantity in (("sphere", "force"), ("square punch", "stiffness")):
+        fast, plain = (line(charts, scene, quantity, method) for method in (BEM, POLONSKY_KEER))
+        count = plain["value"].size
+        assert count > 1 and fast["value"][:count].tolist() == plain["value"].tolist()
+        assert plain["over the reference"] == pytest.approx(fast["over the reference"][:count], rel=1e-6)
 
 
 @pytest.mark.slow
@@ -205,43 +203,7 @@ def test_finished_scenes_are_kept_until_all_are(tmp_path, by_hand, monkeypatch):
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize("solver", SOLVERS[2:], ids=lambda solver: solver.name)
-def test_peers_are_as_close_as_we_are(solver, monkeypatch):
-    """The same discrete problems: equal answers, whichever load they prescribe, within what carrying it over leaves."""
-    if solver.version is None:
-        pytest.skip(f"{solver.name} is not installed")
-    monkeypatch.setattr(peers, "SOLVERS", (*SOLVERS[:2], solver))
-    for scene in (SMALL.sphere, SMALL.wave):
-        found = points(scene, precision.measure(TimedProblem(problem=scene, slow=0.0, enough=0.0)))
-        mine = {(p.quantity, p.value): p for p in found if p.method == BEM}
-        theirs = [p for p in found if p.method == solver.name and (scene.name != "sphere" or p.quantity != "stiffness")]
-        assert theirs
-        for p in theirs:
-            assert p.finished, p.status
-            ours = mine[p.quantity, p.value]
-            assert p.over == pytest.approx(ours.over, abs=0.2 * ours.error + 1e-6)
-
-
 # --- what linear theory is used for ---
-
-
-def test_the_approach_under_a_wave_is_the_sum_of_its_compliances():
-    """dd / dp = -(2 lambda / (pi E*)) ln sin(pi a / lambda), integrated from the first touch."""
-    scene = {"amplitude": 2e-6, "wavelength": 1e-3, "modulus": 1e9}
-    full = westergaard_full_pressure(**scene)
-    p = np.linspace(0, 0.4, 4001)[1:] * full
-    a = np.array([westergaard_half_width(mean_pressure=float(one), **scene) for one in p])
-    compliance = -2 * 1e-3 / (np.pi * 1e9) * np.log(np.sin(np.pi * a / 1e-3))
-    d = np.array([westergaard_approach(mean_pressure=float(one), **scene) for one in (p[0], p[-1])])
-    assert np.trapezoid(compliance, p) == pytest.approx(d[1] - d[0], rel=1e-3)
-    assert westergaard_approach(mean_pressure=full, **scene) == pytest.approx(2e-6)
-
-
-@pytest.mark.slow
-def test_boundary_elements_find_the_approach_under_a_wave(charts):
-    """On grids the error falls at least at first order."""
-    mine = line(charts, "Westergaard's wave", "approach", BEM)
-    assert mine["error"][-1] < mine["error"][0] * mine["value"][0] / mine["value"][-1]
 
 
 STRIP = WheelProblem(realisations=3, wheels=6)
@@ -261,7 +223,7 @@ def test_the_filtered_acceleration_is_the_motion_that_repeats_itself():
 @pytest.mark.slow
 @pytest.mark.parametrize("scene", [SMALL.rolling, STRIP], ids=lambda scene: scene.name)
 def test_means_over_phases_are_those_of_many_linear_realisations(scene):
-    draw = next(each for each in scene.configurations() if each.label == precision.FILTER_3D).prepare()
+    draw = next(each for each in scene.configurations() if each.label == precision.FILTER_ON_STRIPS).prepare()
     solves = [draw(i) for i in range(60)]
     values = [solve().values for solve in solves]
     found = {"level": np.array([one["level"] for one in values])}
@@ -283,7 +245,7 @@ def test_command_line(result, tmp_path, monkeypatch, capsys):
     results = run_command(CASE, result, tmp_path, monkeypatch)
     assert "scene: fractal punch; quantity: mean stiffness; within 30 %: " in capsys.readouterr().out
     assert results["settings"]["sphere"]["grids"]["cells"] == [4, 8, 16]
-    for file in (*(f"figures/precision{part}.svg" for part in ("", "-summary", "-work")), "data/precision-points.csv"):
+    for file in ("figures/precision.svg", "data/precision-points.csv"):
         assert (tmp_path / file).exists()
     page = (tmp_path / "index.html").read_text()
     assert "Speed against accuracy" in page and 'href="precision.json"' in page
@@ -300,4 +262,4 @@ def test_report_times_last_of_all_and_before_the_race(installed, tmp_path, monke
 
 def test_a_seed_is_that_of_all_roughness():
     case = TIMED["precision"].settings("quick", 7)
-    assert [scene.seed for scene in case.problems()[3:]] == [7, 7, 7]
+    assert [scene.seed for scene in case.problems()[2:]] == [7, 7, 7]

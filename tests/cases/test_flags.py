@@ -22,7 +22,6 @@ from validation.cases.selection import model_selection
 from validation.cases.wheel import distance, half_space, spectrum
 from validation.engine.convergence import NotConvergedError
 from validation.simulation import rolling_strip, rough_punch, wheel_on_springs
-from validation.simulation.limits_of_half_space import Grid, press_grid
 from validation.simulation.probing import swept
 from validation.simulation.ridges import RidgesTrack
 
@@ -54,9 +53,6 @@ def solved(problem, lost):
         return {"force": np.nan * force if lost else force, "linear": force, "failed": np.array(7.0 * lost)}
     if isinstance(problem, RidgesTrack):
         return {"response": np.ones((2, 3)), "failed": np.array(3.0 * lost)}
-    if isinstance(problem, Grid):
-        failed = np.array([0.0] * (len(problem.tolerances) - 1) + [lost])
-        return {"failed": failed, "iterations": np.ones(2), "applications": np.ones(2)}
     if type(problem) in {type(limit.problem(SWEPT)) for limit in limits.LIMITS}:
         return swept(np.ones(3), np.ones((2, 3)), [""] * 3, measured=[1.0, 1.0], imbalance=0.0, failed=2.0 * lost)
     return {"height": np.array(1.0), "stiffness": np.ones((3, 3)), "failed": np.array(float(lost))}
@@ -85,9 +81,9 @@ PUNCH = fractal_punch.FractalPunch(
 )
 INPUT = input_spectrum.RollingInput(heights=(0.03,), strips=4, cells=4, surfaces=4)
 FORCE = force_spectrum.ForceSpectrum(heights=(0.1, 0.3), strips=4, rough_strips=4, refined=4, cells=4)
-SWEPT = limits.Limits(grids=(32, 64), tolerances=(1e-2, 1e-4))
+SWEPT = limits.Limits()
 STRIPS_3D = half_space.Wheel3D(strips=4)
-GRID = next(grid for grid in SWEPT.on_grids()["judged"] if grid.solver == "solve_polonsky_keer")
+
 TRIALS = model_selection.CalibrationTest(punches=2, spheres=1, rolling=0, wheels=0)
 LOST = {
     "fractal punch, middle grid": (fractal_punch, PUNCH, one_surface(2, cells=8), "surface 2, H = 0.7, 8² cells"),
@@ -139,12 +135,6 @@ LOST = {
         "strip 3, 12 cells to a radius, residual 0.0001",
     ),
     "limits, a sweep": (limits, SWEPT, the(limits.LIMITS[0].problem(SWEPT)), "rough strips: 2"),
-    "limits, a grid": (
-        limits,
-        SWEPT,
-        the(GRID),
-        f"{GRID.scene}, {GRID.cells}² cells, solve_polonsky_keer to {GRID.tolerances[-1]:g}",
-    ),
     "calibration": (
         model_selection,
         TRIALS,
@@ -256,10 +246,3 @@ def test_wheels_that_do_not_repeat_themselves_are_counted(monkeypatch):
     monkeypatch.setattr(wheel_on_springs, "periodic_motion", lambda *_, start, **__: (*start, left))
     assert wheel_on_springs.simulate_ensemble(rides)["failed"] == 2
     assert wheel_on_springs.STEADY_TOLERANCE < 1e-3
-
-
-@pytest.mark.parametrize("solver", ["solve", "solve_polonsky_keer"])
-def test_a_grid_that_does_not_converge_is_flagged_at_each_residual(solver):
-    grid = Grid(scene="sphere", solver=solver, cells=12, tolerances=(1e-3, 1e-30), seed=1, true=False)
-    with np.errstate(all="ignore"):
-        assert press_grid(grid)["failed"].tolist() == [0.0, 1.0]

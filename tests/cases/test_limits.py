@@ -9,7 +9,7 @@ from scipy import special
 
 import bem3d
 import mdr
-from tests.cases.planted import changed, judged, verdicts, whole
+from tests.cases.planted import changed, whole
 from tests.oracles import dense_operator
 from validation.analysis.evidence import Role, Verdict
 from validation.cases.limits import limits as case
@@ -28,9 +28,6 @@ SMALL = case.Limits(
     strip_cells=6,
     track=64.0,
     resolved=1,
-    grids=(32, 64, 128),
-    judged=32,
-    tolerances=(1e-2, 1e-4, 1e-6),
 )
 TITLES = [limit.named.title for limit in LIMITS]
 STEEP = Limit(
@@ -88,7 +85,7 @@ def test_each_limit_fails_on_its_side(result, title):
 @pytest.mark.slow
 def test_an_outcome_elsewhere_changes_the_claims(result):
     elsewhere = [replace(sweep, predicted_threshold=100 * sweep.predicted_threshold) for sweep in result["sweeps"]]
-    _, predicted, _ = case.CASE.evidence(changed(result, sweeps=elsewhere)).claims
+    predicted, _ = case.CASE.evidence(changed(result, sweeps=elsewhere)).claims
     assert (predicted.count(Verdict.AGREE), len(predicted.numbers)) == (0, 20)
 
 
@@ -141,35 +138,46 @@ def planted(error, side="above", messages=("", "", "no", "no"), derived=False):
 
 
 @pytest.mark.parametrize(
-    ("error", "side", "octaves", "half"),
+    ("error", "side", "octaves"),
     [
-        ([1.0, 2.0, 8.0, 9.0], "above", 0.5, 0.5),
-        ([8.0, 2.0, 1.0, 1.0], "below", 0.5, 0.5),
-        ([9.0, 9.0, 8.0, 2.0], "below", -1.5, 0.5),
-        # none is crossed: it fails nowhere, or everywhere
-        ([1.0, 1.0, 1.0, 1.0], "above", 2.0, 0.0),
-        ([9.0, 9.0, 9.0, 9.0], "above", -1.0, 0.0),
-        ([1.0, 1.0, 1.0, 1.0], "below", 1.0, 0.0),
-        ([9.0, 9.0, 9.0, 9.0], "below", -2.0, 0.0),
-        # it fails where it should not, and not where it should
-        ([9.0, 1.0, 1.0, 1.0], "above", -1.0, 0.0),
-        ([1.0, 1.0, 1.0, 9.0], "below", -2.0, 0.0),
+        ([1.0, 2.0, 8.0, 9.0], "above", 0.5),
+        ([8.0, 2.0, 1.0, 1.0], "below", 0.5),
+        ([9.0, 9.0, 8.0, 2.0], "below", -1.5),
     ],
 )
-def test_a_threshold_is_positive_where_it_fails_later(error, side, octaves, half):
+def test_a_threshold_is_positive_where_it_fails_later(error, side, octaves):
     (number,) = case.threshold(planted(error, side)).numbers
-    assert (number.value, number.grid) == pytest.approx((octaves, half))
+    assert (number.value, number.grid) == pytest.approx((octaves, 0.5))
     assert number.tolerance == pytest.approx(math.log2(1.5)) and number.role is Role.FINDING
+
+
+@pytest.mark.parametrize("at", [0.5, 1.0, 2.0, 20.0])
+@pytest.mark.parametrize(
+    ("error", "side"),
+    [
+        # it fails nowhere, or everywhere
+        *(([error] * 4, side) for error in (1.0, 9.0) for side in ("above", "below")),
+        # it fails where it should not, and not where it should
+        ([9.0, 1.0, 1.0, 1.0], "above"),
+        ([1.0, 1.0, 1.0, 9.0], "below"),
+    ],
+)
+def test_a_sweep_that_passes_no_threshold_decides_nothing(error, side, at):
+    """Wherever it is predicted: it ended within the factor, and agreed without an error bar."""
+    sweep = replace(planted(error, side), predicted_threshold=at * X[-1 if side == "above" else 0])
+    (number,) = case.threshold(sweep).numbers
+    assert number.verdict is Verdict.UNDECIDED
+    assert case.said(number) == "no threshold in the sweep"
 
 
 def test_what_follows_from_theory_alone_must_hold_and_all_warnings_count():
     right = planted([1.0, 2.0, 8.0, 9.0], derived=True)
     assert case.threshold(right).numbers[0].role is Role.CRITERION
     (warned,) = case.warnings(right).numbers
-    assert (warned.value, warned.reference, warned.verdict) == (1.0, 1.0, Verdict.AGREE)
-    assert (warned.role, warned.tolerance) == (Role.CRITERION, 0.0)
+    assert (warned.value, warned.reference, warned.verdict) == (0.0, 0.0, Verdict.AGREE)
+    assert warned.role is Role.CRITERION and warned.tolerance < 100 / max(len(one.probe.values) for one in LIMITS)
     (silent,) = case.warnings(replace(right, messages=("", "", "", "no"))).numbers
-    assert silent.value == pytest.approx(2 / 3) and silent.verdict is Verdict.DIFFER
+    assert silent.value == pytest.approx(100 / 3) and silent.verdict is Verdict.DIFFER
     assert case.warnings(planted([1.0, 2.0, 8.0, 9.0])).numbers[0].role is Role.FINDING
 
 
@@ -249,26 +257,3 @@ def test_theory_of_small_changes_of_energy():
     assert (1 + x**2) ** (2 * np.pi / x) - 1 == pytest.approx(euler.fails.tolerance, rel=2 * x)
     x = kutta.threshold(kutta.fails.tolerance, 1.0)
     assert 1 - (1 - x**6 / 72) ** (2 * np.pi / x) == pytest.approx(kutta.fails.tolerance, rel=x**6 / 72)
-
-
-@pytest.mark.slow
-def test_a_residual_that_forgives_and_iterations_that_grow_are_noticed(result):
-    forgiving = [(grid, {**found, "residual": 1e-3 * found["residual"]}) for grid, found in result["judged"]]
-    growing = [(grid, {**found, "iterations": found["iterations"] * grid.cells}) for grid, found in result["iterated"]]
-    planted = changed(result, judged=forgiving, iterated=growing)
-    assert verdicts(case.CASE, planted, "largest ratio of the true error to the residual") == {Verdict.DIFFER}
-    grown = [n for solver in case.EXPECTED_EXPONENTS for n in judged(case.CASE, planted, model=solver)]
-    assert len(grown) == 6 and Verdict.AGREE not in {n.verdict for n in grown}
-
-
-@pytest.mark.slow
-def test_input_without_an_answer_is_refused(result):
-    expected = {
-        "bem3d.solve, zero force": "force 0, stiffness 0",
-        "bem3d.solve, infinite force": "ValueError: force must be finite, got inf",
-        "bem3d.solve, one NaN cell": "ValueError: gap must be finite, got 1 NaN or infinite",
-        "bem3d.solve, one infinite cell": "ValueError: gap must be finite",
-        "bem3d.solve, periodic, full contact under a force": "force 1000, stiffness inf",
-        "mdr.load_curve, one NaN height": "ValueError: height must be finite",
-    }
-    assert {name: result["unanswered"][name][: len(said)] for name, said in expected.items()} == expected

@@ -9,7 +9,6 @@ from tests.cases import planted
 from tests.cases.planted import changed, whole
 from validation.analysis.evidence import Role, Verdict
 from validation.cases.stability import wheel_stability as case
-from validation.cases.stability.wheel_stability_study import CASE
 from validation.simulation import free_vibration as free
 from validation.simulation import spring_tracks as rough
 from validation.simulation.contact_laws import HertzLaw
@@ -17,30 +16,16 @@ from validation.simulation.integrators import (
     EXPLICIT_EULER,
     INTEGRATORS,
     RUNGE_KUTTA,
-    SYMPLECTIC_EULER,
     VELOCITY_VERLET,
 )
 from validation.simulation.motion import simulate
-from validation.theory import wheel as wheel_theory
 
 SMALL = case.WheelStability(
-    steps=(0.02, 0.04, 0.5, 1.9, 2.1, 2.8, 2.9),
-    turns=6,
-    hertz_steps=(0.04, 0.08, 0.16),
-    hertz_turns=4,
-    highest=(1.5, 3.0),
-    long_steps=40_000,
-    long_highest=(1.06, 3.0),
-    heights=(0.1, 1.0, 3.0),
-    loads=(0.01, 1.0),
-    lift_laps=1,
-    wheels=4,
-    spacing_heights=(1e-3, 0.3),
-    spacing_tracks=1,
+    steps=(0.02, 0.04, 0.5, 1.9, 2.1, 2.8, 2.9), long_steps=40_000, highest=(1.06, 3.0), heights=(1e-3, 0.3)
 )
 EULER, VERLET, KUTTA = EXPLICIT_EULER.name, VELOCITY_VERLET.name, RUNGE_KUTTA.name
 BY_NAME = pytest.mark.parametrize("scheme", INTEGRATORS, ids=lambda scheme: scheme.name)
-verdicts = partial(planted.verdicts, CASE)
+verdicts = partial(planted.verdicts, case.CASE)
 
 
 @pytest.fixture(scope="module")
@@ -50,14 +35,8 @@ def result():
 
 @pytest.mark.slow
 def test_all_criteria_are_met(result):
-    evidence = whole(CASE.evidence(result))
-    assert {number.role for number in evidence.numbers} == {Role.CRITERION, Role.FINDING, Role.IDENTITY}
-    flying = [outcome for problem, outcome in result["lift"] if problem.track.rms > 2 * free.WHEEL.approach]
-    assert flying
-    for outcome in flying:
-        # very rough tracks leave room for their sums
-        assert (outcome["airborne"] > 0).all() and (outcome["airborne"] < 1).all()
-        assert outcome["failed"] == 0
+    evidence = whole(case.CASE.evidence(result))
+    assert {number.role for number in evidence.numbers} == {Role.CRITERION, Role.FINDING}
 
 
 @BY_NAME
@@ -85,8 +64,26 @@ def test_vibrations_are_those_that_simulate_finds():
     np.testing.assert_array_equal(motion.path / free.WHEEL.approach, u)
 
 
-def test_the_period_of_a_cosine():
-    assert free.period(1 + np.cos(2 * np.pi * np.arange(300) / 37.3)) == pytest.approx(37.3, rel=1e-7)
+@BY_NAME
+def test_small_steps_grow_turn_and_change_the_energy_as_the_eigenvalue_of_one_step_says(scheme):
+    """But for extremes that lie between steps, (omega dt)^2, and for Runge-Kutta rounding of a small change."""
+    x = np.array([0.02, 0.04])
+    found = free.vibrate(free.Vibrations(scheme=scheme.name, steps=(0.02, 0.04), natural_periods=6))
+    factor = free.amplification(scheme.name, x)
+    assert found["growth"] == pytest.approx(np.abs(factor), rel=1e-9)
+    assert found["angle"] == pytest.approx(np.angle(factor), rel=1e-9)
+    assert found["change"] == pytest.approx(free.first_period(scheme.name, x), rel=10 * x[1] ** 2)
+
+
+@pytest.mark.parametrize("height", [1.0, 3.0])
+def test_wheels_that_lift_off_are_pushed_alone_and_keep_the_balance_of_momentum(height):
+    """F T - F_N T = M (v_0 - v_end), in contact and in the air, but for rounding of the highest force."""
+    track = rough.RoughTrack(rms=height * free.WHEEL.approach, seed=144)
+    found = rough.lift_off(rough.LiftOff(track=track, wheels=4))
+    assert (found["airborne"] > 0).any() and (found["airborne"] < 1).all()
+    assert (found["lowest"] > -1e-15).all() and np.abs(found["imbalance"]).max() < 1e-10
+    # linear theory pulls harder than the load where wheels lift off
+    assert (found["pull"] > 1).all()
 
 
 def test_verlet_keeps_its_energy_to_the_fourth_order():
@@ -97,13 +94,11 @@ def test_verlet_keeps_its_energy_to_the_fourth_order():
 
 
 @pytest.mark.slow
-def test_a_wrong_limit_or_period_is_noticed(result, monkeypatch):
-    """Every scheme growing from half its limit on; a period that is a thousandth longer."""
-    amplification, period = free.amplification, wheel_theory.hertz_period
+def test_a_wrong_limit_is_noticed(result, monkeypatch):
+    """Every scheme growing from half its limit on."""
+    amplification = free.amplification
     monkeypatch.setattr(free, "amplification", lambda name, x: amplification(name, 2 * np.asarray(x)))
     assert verdicts(result, case.GROWTH) == {Verdict.DIFFER}
-    monkeypatch.setattr(wheel_theory, "hertz_period", lambda highest: 1.001 * period(highest))
-    assert verdicts(result, case.LIMIT) == {Verdict.DIFFER}
 
 
 def exchanged(found, name, other):
@@ -117,27 +112,12 @@ def drifting(found):
     return {**found, VERLET: {**found[VERLET], "kept": found[VERLET]["kept"] + more}}
 
 
-def first_of(name, more):
-    """Something added to the first flight."""
-    return lambda found: [(found[0][0], {**found[0][1], name: found[0][1][name] + more}), *found[1:]]
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "change", "quantity", "model"),
     [
-        (
-            "linear",
-            lambda found: exchanged(found, VERLET, SYMPLECTIC_EULER.name),
-            "change of the energy in one period, over theory",
-            VERLET,
-        ),
         ("linear", lambda found: exchanged(found, VERLET, KUTTA), case.GROWTH, VERLET),
         ("long", drifting, case.DRIFT, VERLET),
-        ("laps", lambda found: exchanged(found, VERLET, EULER), case.LAPS.format(case.FREE), VERLET),
-        ("laps", lambda found: exchanged(found, EULER, VERLET), case.LAPS.format(case.FREE), EULER),
-        ("lift", first_of("lowest", -2), case.LOWEST, "springs"),
-        ("lift", first_of("mean", 1e-9), case.IMBALANCE, "springs"),
         ("refusals", lambda found: {**found, "a step of nothing": rough.refusal(lambda: None)}, case.REFUSED, ""),
     ],
 )
@@ -147,9 +127,9 @@ def test_a_planted_change_is_noticed(result, name, change, quantity, model):
 
 @pytest.mark.slow
 def test_springs_taken_for_a_continuum_are_noticed(result, monkeypatch):
-    exact, lowest = rough.linear_response, SMALL.spacing_heights[0]
+    exact, lowest = rough.linear_response, SMALL.heights[0]
     monkeypatch.setattr(rough, "linear_response", lambda track, stride: exact(track, 1))
-    (problem,) = case.spacing_problems(SMALL, lowest)
+    (problem,) = case.coarser(SMALL, lowest)
     coarse = changed(result, spacing={**result["spacing"], lowest: [rough.coarsen(problem)]})
     assert verdicts(coarse, case.SUM) == {Verdict.DIFFER}
 

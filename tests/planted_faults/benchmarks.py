@@ -23,11 +23,6 @@ def at_first_order(answer, quantity, rows):
     return log_of_answer(answer, dataclasses.replace(quantity, order=1.0), rows)
 
 
-def without_its_logarithm(*, mean_pressure, amplitude, wavelength, modulus):
-    """d = h s."""
-    return amplitude * mean_pressure * wavelength / (np.pi * modulus * amplitude)
-
-
 log_of_answer = precision_error.MethodValues.log
 
 
@@ -41,7 +36,7 @@ FAULTS = {
         functools.partial(
             test_fronts.test_the_cheapest_is_claimed_of_times,
             test_fronts.timed_point(test_fronts.FILTER_1D, 0.3, 1e-6),
-            ("holds", "holds"),
+            "holds",
             (test_fronts.BEM, test_fronts.BEM),
         ),
     ),
@@ -78,10 +73,6 @@ FAULTS = {
     "decibels of an amplitude for those of a power": (
         (precision.Quantity, "distance", scaled(precision.Quantity.distance, 2.0)),
         test_points.test_levels_differ_by_the_root_mean_square_of_decibels,
-    ),
-    "an approach under a wave without its logarithm": (
-        (test_precision, "westergaard_approach", without_its_logarithm),
-        test_precision.test_the_approach_under_a_wave_is_the_sum_of_its_compliances,
     ),
     "a filtered acceleration in continuous time": (
         (precision_wheel, "transfer", lambda wheel, omega, _: -(omega**2) / (wheel.stiffness - wheel.mass * omega**2)),

@@ -63,6 +63,7 @@ from validation.theory import wheel as wheel_theory
 REAL_SCENE, REAL_WEIGHTING, combined = rail_filters.scene_of, rail_filters.a_weighting, multilevel.combined
 zeros_of, amplification = features.zeros_of, free_vibration.amplification
 linear_response = rough_springs.linear_response
+REAL_CROSSING = limits.Sweep.crossing.fget
 places_of, heights_of = wheel_ensemble.WheelEnsemble.places.fget, wheel_ensemble.WheelEnsemble.heights
 
 
@@ -268,6 +269,14 @@ FAULTS = {
         (limits.Sweep, "past_threshold", limits.Sweep.before_threshold),
         partial(test_limits.test_crossings_of_a_power_law, "above"),
     ),
+    "a sweep that passes no threshold agrees at its end": (
+        (
+            limits.Sweep,
+            "crossing",
+            property(lambda sweep: REAL_CROSSING(sweep) or (sweep.values[:: sweep.sign][-1], 0.0)),
+        ),
+        partial(test_limits.test_a_sweep_that_passes_no_threshold_decides_nothing, [1.0] * 4, "above", 1.0),
+    ),
     "factor 4 lost over a stretched surface": (
         (limits_of_springs, "response", scaled(rolling_theory.response, 0.5)),
         test_limits.test_a_stretched_surface_by_another_quadrature,
@@ -283,6 +292,13 @@ FAULTS = {
     "the reference on the surfaces of the tested models": (
         (calibration, "OTHER_SEED", 0),
         test_edge_scenes.test_the_reference_of_the_calibration_test_has_surfaces_of_its_own,
+    ),
+    "a contact at the edge that did not converge taken for a refusal": (
+        (calibration, "NotConvergedError", KeyError),
+        partial(
+            test_edge_scenes.test_a_scene_that_is_refused_is_no_failure_and_one_that_did_not_converge_is,
+            *test_edge_scenes.LOST,
+        ),
     ),
     "one of two elastic bodies taken for rigid": (
         (PublishedContact, "modulus", property(lambda problem: 2 * 82e9 / (1 - 0.28))),

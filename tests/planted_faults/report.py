@@ -8,7 +8,6 @@ from markupsafe import Markup
 from tests.cases import test_flags_on_the_page
 from tests.report import (
     test_answers,
-    test_calibration_figure,
     test_claims,
     test_colours,
     test_kept,
@@ -22,7 +21,6 @@ from validation.analysis.claims import Claim
 from validation.analysis.evidence import Verdict
 from validation.report import build, chapter, formats, provenance, sounds, style
 from validation.report.answers import questions, strip
-from validation.report.figures import ladder
 from validation.report.page_figure import PageFigure
 
 AGREE, DIFFER = Verdict.AGREE, Verdict.DIFFER
@@ -63,16 +61,6 @@ def exchanged(one, other):
 CITATION = PageFigure.citation
 
 
-def with_labels_of_the_other_axis(*tables):
-    figure = calibration_figure(*tables)
-    for axis in figure.axes:
-        axis.set(xlabel=axis.get_ylabel(), ylabel=axis.get_xlabel())
-    return figure
-
-
-calibration_figure = ladder.draw
-
-
 FAULTS = {
     "a case that is kept has today's commit": (
         (provenance, "with_kept", as_of_today),
@@ -110,16 +98,6 @@ FAULTS = {
             test_answers.test_a_cell_says_yes_only_where_all_agree_and_nothing_lacks,
             [test_answers.AGREES, test_answers.UNDECIDED],
             Verdict.UNDECIDED,
-        ),
-    ),
-    "labels of the calibration figure on the other axes": (
-        (ladder, "draw", with_labels_of_the_other_axis),
-        partial(
-            test_calibration_figure.test_axes_are_labelled_as_their_columns,
-            0,
-            test_calibration_figure.TRUE,
-            "true error",
-            "selected models",
         ),
     ),
     "texts of users as mathematics": (

@@ -17,6 +17,7 @@ from tests.selection import (
     test_calibrate_command,
     test_claims,
     test_contact_force,
+    test_named_models,
     test_own_scene,
     test_what_compare_says,
 )
@@ -33,6 +34,7 @@ from validation.selection import (
     compare,
     contact_force,
     hierarchy,
+    quantities,
     scene_model,
     side_by_side,
     swept,
@@ -156,7 +158,7 @@ FAULTS = {
         test_contact_force.test_text_json_and_csv_have_the_same_table,
     ),
     "a rail solved anew for each quantity": (
-        (compare, "models_of", lambda *given: real_models_of(*given[:4])),
+        (compare, "models_of", lambda *given, **named: real_models_of(*given[:4], **named)),
         test_own_scene.test_both_quantities_of_a_rail_are_solved_once,
     ),
     "seconds without those of the grids that tell the error": (
@@ -354,6 +356,13 @@ FAULTS = {
     "an answer at the edge that always holds": (
         (model_selection_study, "over_estimate", lambda table: 0 * table["true error"]),
         test_edge_scenes.test_answers_at_the_edges_are_counted_with_those_that_are_none,
+    ),
+    "dominated models among those that are offered": (
+        ((quantities, compare), "DOMINATED", ()),
+        functools.partial(
+            test_named_models.test_dominated_models_are_there_by_name_alone,
+            *("rail", "contact-filter", "springs that read the surface"),
+        ),
     ),
     "a punch without the error at its edge": (
         (boundary_elements_pressed, "edge_error", lambda scene, cells: 0.0),

@@ -69,6 +69,12 @@ def circle_for_the_ellipse(along, across, *, semi_axes):
 
 ellipse_of_springs = spring_input.rolling_input_filter
 
+
+def without_its_logarithm(*, mean_pressure, amplitude, wavelength, modulus):
+    """d = h s."""
+    return mean_pressure * wavelength / (np.pi * modulus)
+
+
 FAULTS = {
     "waves of an interface by their slope in one direction": (
         (interface, "_slopes", slopes_in_one_direction),
@@ -81,6 +87,10 @@ FAULTS = {
     "pressures that diffuse half as fast": (
         (closed_forms, "persson_contact_fraction", half_of_the_slope),
         of_interface.test_the_area_is_that_of_pressures_that_diffuse,
+    ),
+    "an approach under a wave without its logarithm": (
+        (closed_forms, "westergaard_approach", without_its_logarithm),
+        partial(forms.test_the_westergaard_approach_is_the_integral_of_the_compliance_of_strips, 0.2),
     ),
     "a circle for the ellipse in the rolling spectrum of a rail": (
         (spring_input, "rolling_input_filter", circle_for_the_ellipse),

@@ -8,9 +8,10 @@ import validation
 from tests.selection.planted_answers import Fake
 from validation.__main__ import main
 from validation.scenes.load import load_varied
+from validation.selection.compare import SceneProblem
 from validation.selection.hierarchy import select_model
 from validation.selection.named_models import models_named
-from validation.selection.quantities import models_of
+from validation.selection.quantities import DOMINATED, models_of
 from validation.selection.summary import WIDTH, summary
 
 SPECTRUM = "rolling_wheel --quantity force-spectrum"
@@ -27,6 +28,22 @@ def test_short_names_are_mdr_and_the_grid_that_claims_the_tolerance():
     assert names == ["springs", "boundary elements 64²"]
     assert [one.status for one in found.models if one.name not in names] == ["not asked"] * 3
     assert "side by side; differences from boundary elements 64²" in summary(found)
+
+
+@pytest.mark.parametrize(
+    ("scene", "quantity", "name"),
+    [
+        ("rolling_wheel", "force-rms", "pressed layer"),
+        ("rolling_wheel", "force-spectrum", "springs that read the surface"),
+        ("rail", "contact-filter", "springs that read the surface"),
+    ],
+)
+def test_dominated_models_are_there_by_name_alone(scene, quantity, name):
+    rolled = validation.load_scene(scene)
+    listed, _ = SceneProblem(rolled, (quantity,), 0.3).offered(quantity)
+    assert name not in {one.kind for one in listed}
+    listed, asked = SceneProblem(rolled, (quantity,), 0.3, models=(name,)).offered(quantity)
+    assert [one.kind for one in asked] == [name] and set(DOMINATED) & {one.kind for one in listed} == {name}
 
 
 def test_a_model_that_was_not_asked_may_help():
@@ -52,7 +69,7 @@ def test_a_model_that_was_not_asked_may_help():
     ],
 )
 def test_models_have_their_names_and_beginnings(scene, quantity, names, expected):
-    models = models_of(validation.load_scene(scene), quantity, 0.4, 0)
+    models = models_of(validation.load_scene(scene), quantity, 0.4, 0, by_name=True)
     assert [model.name for model in models_named(models, names, 0.4)] == expected
 
 

@@ -52,7 +52,7 @@ def test_mdr_is_named_where_it_is_enough_and_where_not():
     claimed = "for this scene ({} % claimed before a solve, 12 % wanted)"
     kinds = {
         Finding(is_mdr=True, parts=(0.1, 0, 0)): "MDR: enough (10 % found, 12 % wanted).",
-        Fake(is_mdr=True, claimed=0.62): f"MDR: not enough {claimed.format(62)}.",
+        Fake(is_mdr=True, claimed=0.62): f"MDR: not sure to be enough {claimed.format(62)}.",
         Fake(is_mdr=True, claimed=math.inf): "MDR: not known to be enough.",
         Fake(is_mdr=True, failed="it was lost"): "MDR: not known to be enough.",
     }
@@ -69,7 +69,7 @@ def test_a_claim_of_measured_heights_says_that_one_surface_scatters():
     scene = punch(ground=validation.MeasuredHeights(height=height, spacing=(1 / 64, 1 / 64)))
     told = " ".join(summary(validation.compare(scene, tolerance=0.2)).split())
     assert "one surface scatters 44% about the mean of its spectrum" in told
-    assert "MDR: not enough for this surface (" in told
+    assert "MDR: not sure to be enough for this surface (" in told
 
 
 @pytest.mark.parametrize(

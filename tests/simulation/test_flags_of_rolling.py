@@ -12,7 +12,6 @@ import pytest
 import bem3d
 from tests.simulation.power_law_ground import isotropic_strip
 from tests.simulation.test_calibration import wheel
-from validation.benchmarks.solvers.throughput import RolledStrip
 from validation.benchmarks.work_precision import rolling as rolling_chart
 from validation.cases.rolling.ridges import RollingOverRidges
 from validation.engine.convergence import NotConvergedError, as_not_converged
@@ -83,7 +82,6 @@ PATHS = {
     "validation.benchmarks.work_precision.rolling:_roll": lambda: without_a_flag(
         force=rolling_chart._roll(STRIP.surface(), 6, 1e-6)()[0]
     ),
-    "validation.benchmarks.solvers.throughput:RolledStrip": lambda: RolledStrip(strip=STRIP, positions=48)._rolled(),
     "validation.simulation.exact_contacts:press_ellipse": lambda: press_ellipse(
         PublishedContact(cells=6, tolerance=1e-6)
     ),

@@ -1,14 +1,12 @@
-"""A process with one thread, isolated for what is to be timed; its time and its memory."""
+"""A process with one thread, isolated for what is to be timed, and its time."""
 
 import multiprocessing
 import os
-import resource
 import signal
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
-from pathlib import Path
 from types import TracebackType
 from typing import Protocol, TypeVar
 
@@ -41,16 +39,6 @@ def timed(function: Callable[[], T]) -> tuple[T, float]:
     begin = time.perf_counter()
     result = function()
     return result, time.perf_counter() - begin
-
-
-def peak_memory() -> float:
-    """Largest memory of this process so far [bytes]."""
-    status = Path("/proc/self/status")
-    if status.exists():
-        # the figure of getrusage is inherited from the parent
-        line = next(line for line in status.read_text().splitlines() if line.startswith("VmHWM"))
-        return 1024.0 * float(line.split()[1])
-    return 1024.0 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 
 
 @contextmanager

@@ -131,7 +131,11 @@ def try_to_solve(model: SceneModel) -> Answer:
         with as_not_converged():
             return model.solve()
     except REFUSALS as problem:
-        return Answer(value=np.array([np.nan]), cost=model.cost(), failed=str(problem) or type(problem).__name__)
+        return unsolved(model, problem)
+
+
+def unsolved(model: SceneModel, problem: Exception) -> Answer:
+    return Answer(value=np.array([np.nan]), cost=model.cost(), failed=str(problem) or type(problem).__name__)
 
 
 def _expected(model: SceneModel, met: bool, asked: bool) -> Candidate:

@@ -10,7 +10,6 @@ import numpy as np
 from validation.engine.engine import Engine, Outcome
 from validation.selection.compare import Comparison, SceneProblem
 from validation.selection.hierarchy import Candidate, Selection
-from validation.selection.quantities import models_of
 from validation.selection.scene_model import Answer
 from validation.simulation.model import Cost, ErrorEstimate
 
@@ -40,7 +39,7 @@ def compare_scene(problem: SceneProblem) -> Outcome:
 
 def _comparison(problem: SceneProblem, quantity: str, outcome: Outcome) -> Comparison:
     rows = json.loads(outcome[quantity].astype(np.uint8).tobytes(), object_hook=_read)
-    models = models_of(problem.scene, quantity, problem.wanted.relative, problem.seed)
+    models, _ = problem.offered(quantity)
     candidates = tuple(Candidate(model, *row) for model, row in zip(models, rows, strict=True))
     selection = Selection(problem.wanted.relative, candidates)
     return Comparison(problem.scene, quantity, selection, problem.wanted.in_decibels, timed=problem.solve_all)

@@ -144,7 +144,8 @@ def _on_mdr(comparison: Comparison, springs: Candidate) -> str:
     else:
         errors = f"({shown} found, {tolerance} wanted)"
     if springs.error > selection.tolerance:
-        return f"not enough {errors}"
+        # what is claimed before a solve is an upper bound
+        return f"not {'enough' if springs.answer else 'sure to be enough'} {errors}"
     cheaper = selection.best
     others = f"; {cheaper.name} is cheaper" if cheaper is not None and cheaper.model is not springs.model else ""
     return f"enough {errors}{others}"

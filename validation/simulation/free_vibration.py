@@ -20,7 +20,6 @@ from validation.simulation.integrators import (
     VELOCITY_VERLET,
     Integrator,
 )
-from validation.theory import wheel as wheel_theory
 
 WHEEL = Wheel(radius=0.5, mass=500.0, modulus=236.25e9, load=4905.0)
 """Table 14.1, and the load M g."""
@@ -37,16 +36,6 @@ class Vibrations:
 
     scheme: str
     steps: tuple[float, ...]
-    natural_periods: int
-
-
-@dataclass(frozen=True, kw_only=True)
-class HertzVibrations:
-    """Free vibration on a Hertz contact by one scheme with one step."""
-
-    scheme: str
-    step: float
-    highest: tuple[float, ...]
     natural_periods: int
 
 
@@ -130,33 +119,6 @@ def first_period(scheme: str, x: FloatArray) -> FloatArray:
         RUNGE_KUTTA.name: -np.expm1(n * np.log1p(-(x**6) / 72 + x**8 / 576)),
     }
     return np.asarray(found[scheme])
-
-
-def vibrate_hertz(problem: HertzVibrations) -> Outcome:
-    """Period over 2 pi / omega_eigen, and the largest change of the energy in either half, of each release."""
-    scheme, highest = SCHEMES[problem.scheme], np.array(problem.highest)
-    law = HertzLaw(WHEEL, highest.size)
-    longest = max(wheel_theory.hertz_period(u) for u in problem.highest)
-    steps = math.ceil(problem.natural_periods * longest * 2 * math.pi / problem.step)
-    u, v = march(scheme, law, problem.step, WHEEL.approach * highest, steps)
-    energy = hertz_energy(u, v)
-    change = np.abs(energy / energy[0] - 1)
-    periods = np.array([period(one) for one in u.T]) * problem.step / (2 * math.pi)
-    return {"period": periods, "early": change[: steps // 2].max(axis=0), "late": change[steps // 2 :].max(axis=0)}
-
-
-def period(u: FloatArray) -> float:
-    """Steps of a period, between the first and the last fall through one; from the third step to the fourth last."""
-    falls = [int(i) for i in np.flatnonzero((u[:-1] >= 1) & (u[1:] < 1)) if 2 <= i < len(u) - 4]
-    return (crossing(u, falls[-1]) - crossing(u, falls[0])) / (len(falls) - 1)
-
-
-def crossing(u: FloatArray, after: int) -> float:
-    """Where u falls through one, between two steps: by the polynomial through six of them."""
-    near = np.arange(-2, 4)
-    waves = np.roots(np.polyfit(near, u[after + near] - 1, 5))
-    real = waves[np.abs(waves.imag) < 1e-6].real
-    return float(after + real[np.argmin(np.abs(real - 0.5))])
 
 
 def long_run(problem: LongRun) -> Outcome:

@@ -179,10 +179,10 @@ def higher_tracks(heights: Values, *, wheels: int, seed: int, waves: int = 6) ->
     def rolled(height: float) -> tuple[Outcome, str]:
         track = RoughTrack(rms=height * WHEEL.approach, seed=seed, waves=waves)
         # a linear contact in motion has its force from the filter, which is what warns
-        message = message_of(partial(filtered, WHEEL, track, track.heights(1)[:, 0]))
-        return lift_off(LiftOff(sweep="height", load=WHEEL.load, track=track, wheels=wheels, laps=1)), message
+        message = message_of(partial(filtered, track, track.heights(1)[:, 0]))
+        return lift_off(LiftOff(track=track, wheels=wheels)), message
 
     found, messages = zip(*map(rolled, heights), strict=True)
-    imbalance = [float(np.abs(one["mean"] - 1 + one["momentum"]).max()) for one in found]
+    imbalance = [float(np.abs(one["imbalance"]).max()) for one in found]
     airborne = [float(one["airborne"].mean()) for one in found]
     return swept(heights, airborne, messages, measured=heights[0] / found[0]["pull"].max(), imbalance=imbalance)

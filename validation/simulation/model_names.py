@@ -25,8 +25,6 @@ TWINS = {
     **{ONE_SIDED_BED: BED, SPRINGS_ROLLING: LINEAR_ROLLING, SPRINGS_GEIKE: LINEAR_GEIKE},
 }
 """On a rail the linear model of each one-sided one: the same where all touches."""
-MDR, MDR_ROLLING = "MDR", "MDR, rolling spectrum"
-"""Springs on charts of accuracy over time, where their number is varied, in place of `SPRINGS`."""
 SHORT = {"bem": BEM}
 """Other names that users may give; "mdr" are all springs by the method of dimensionality reduction."""
 

@@ -1,9 +1,9 @@
-"""Wheels on springs over rough tracks: many laps, lift-off, and springs too far apart."""
+"""Wheels on springs over rough tracks: lift-off, and springs too far apart."""
 
 import math
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -13,9 +13,8 @@ import mdr
 from validation.engine.engine import FloatArray, Outcome
 from validation.engine.random_numbers import random_generator
 from validation.scenes.roughness import Roughness
-from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import HertzLaw, SpringsLaw
-from validation.simulation.free_vibration import SCHEMES, SPEED, TENTHS, WHEEL
+from validation.simulation.free_vibration import SPEED, WHEEL
 from validation.simulation.integrators import INTEGRATORS
 from validation.simulation.motion import simulate
 from validation.simulation.surface import draw_track
@@ -62,105 +61,35 @@ class RoughTrack:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Laps:
-    """Many laps over rough tracks, from a release at rest `lift` d_N below equilibrium."""
-
-    scheme: str
-    track: RoughTrack
-    wheels: int
-    laps: int
-    lift: float = 0.2
-
-    @property
-    def omega_dt(self) -> float:
-        return WHEEL.eigenfrequency * self.track.spacing / SPEED
-
-
-@dataclass(frozen=True, kw_only=True)
 class LiftOff:
-    """Wheels under a load [N] over rough tracks, from static equilibrium."""
+    """Wheels over rough tracks, once around, from static equilibrium."""
 
-    sweep: str
-    load: float
     track: RoughTrack
     wheels: int
-    laps: int
-
-    @property
-    def wheel(self) -> Wheel:
-        return replace(WHEEL, load=self.load)
-
-
-def run_laps(problem: Laps) -> Outcome:
-    """Weighted mean square acceleration, and the square of the amplitude at the resonance, of each tenth and wheel."""
-    track = problem.track
-    law = SpringsLaw(WHEEL, track.heights(problem.wheels), track.spacing)
-    d = law.at_rest(0) + problem.lift * WHEEL.approach
-    motion = simulate(
-        WHEEL,
-        law,
-        time_step=track.spacing / SPEED,
-        steps=problem.laps * track.points,
-        approach=d,
-        velocity=np.zeros_like(d),
-        integrator=SCHEMES[problem.scheme],
-        path=True,
-    )
-    assert motion.path is not None
-    shape = (TENTHS, -1, problem.wheels)
-    return {
-        "square": windowed_mean((motion.acceleration**2).reshape(shape)),
-        "free": np.array([resonance(tenth, problem.omega_dt) for tenth in motion.path.reshape(shape)]),
-    }
-
-
-def windowed_mean(tenths: FloatArray) -> FloatArray:
-    """Mean of each tenth with a Hann weight: a plain mean of tenths that end within a natural period oscillates."""
-    n = tenths.shape[1]
-    weight = np.sin(np.pi * (np.arange(n) + 0.5) / n) ** 2
-    return np.asarray(np.einsum("j,ijk->ik", weight / weight.sum(), tenths))
-
-
-def resonance(d: FloatArray, omega_dt: float) -> FloatArray:
-    """A^2 of the least squares of A cos(omega_eigen t + phi) and a constant, of each wheel [m^2]."""
-    t = omega_dt * np.arange(len(d))
-    design = np.stack([np.cos(t), np.sin(t), np.ones_like(t)], axis=1)
-    found = np.linalg.lstsq(design, d, rcond=None)[0]
-    return np.asarray(found[0] ** 2 + found[1] ** 2)
 
 
 def lift_off(problem: LiftOff) -> Outcome:
-    """Time airborne, forces and the balance of momentum, of each wheel, and what linear theory has on its track."""
-    wheel, track = problem.wheel, problem.track
+    """Time airborne, forces and the imbalance of momentum, of each wheel; the largest tension of linear theory."""
+    track = problem.track
     height = track.heights(problem.wheels)
-    motion = simulate(
-        wheel,
-        SpringsLaw(wheel, height, track.spacing),
-        time_step=track.spacing / SPEED,
-        steps=problem.laps * track.points,
-    )
-    force = 1 + wheel.mass / wheel.load * motion.acceleration
-    momentum = wheel.mass * (motion.velocity + motion.time_step / 2 * motion.jump) / motion.duration
+    law = SpringsLaw(WHEEL, height, track.spacing)
+    motion = simulate(WHEEL, law, time_step=track.spacing / SPEED, steps=track.points)
+    force = 1 + WHEEL.mass / WHEEL.load * motion.acceleration
+    momentum = WHEEL.mass * (motion.velocity + motion.time_step / 2 * motion.jump) / motion.duration
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", mdr.LinearityWarning)
         # dF / F_N of (14.11)
-        linear = np.stack([filtered(wheel, track, one).force / wheel.load - 1 for one in height.T], axis=1)
+        linear = np.stack([filtered(track, one).force / WHEEL.load - 1 for one in height.T], axis=1)
     return {
         "airborne": motion.airborne / len(force),
-        "highest": force.max(axis=0),
         "lowest": force.min(axis=0),
-        "mean": force.mean(axis=0),
-        "momentum": momentum / wheel.load,
-        "hop": np.maximum(-motion.lowest - height.max(axis=0), 0.0),
-        "rms": linear.std(axis=0),
+        "imbalance": force.mean(axis=0) - 1 + momentum / WHEEL.load,
         "pull": -linear.min(axis=0),
-        "negative": (linear < -1).mean(axis=0),
-        "failed": np.array(float(not np.isfinite(force).all())),
     }
 
 
-def filtered(wheel: Wheel, track: RoughTrack, height: FloatArray) -> mdr.RollingTrack:
-    return mdr.roll(height, spacing=track.spacing, contact="linear", **wheel.smooth)
+def filtered(track: RoughTrack, height: FloatArray) -> mdr.RollingTrack:
+    return mdr.roll(height, spacing=track.spacing, contact="linear", **WHEEL.smooth)
 
 
 def coarsen(track: RoughTrack) -> Outcome:
@@ -222,15 +151,6 @@ def highest_band(track: RoughTrack) -> slice:
     """Waves of the track in the last one-third octave."""
     last = round(track.waves * track.longest / track.shortest)
     return slice(math.ceil(last * 2 ** (-1 / 3)), last + 1)
-
-
-def pulls_from(height: FloatArray, pull: FloatArray) -> float:
-    """h / d at which the deepest linear pull is F_N: interpolated, both logarithmic, where the load changes too."""
-    order = np.argsort(height)
-    x, y = np.log(height[order]), np.log(pull[order])
-    if y[0] <= 0 <= y[-1]:
-        return float(np.exp(np.interp(0.0, y, x)))
-    return float(np.exp(x[0] - (x[-1] - x[0]) / (y[-1] - y[0]) * y[0]))
 
 
 def refusals() -> dict[str, str]:

@@ -1,7 +1,6 @@
 """Problems on which solvers are compared: a surface that is pressed onto a free or a periodic half-space; the times."""
 
 import math
-import warnings
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -9,7 +8,6 @@ import numpy as np
 
 import bem3d
 import mdr
-from validation.benchmarks.isolation import peak_memory, timed
 from validation.benchmarks.peers import OUR_SOLVER, SOLVERS, DiscreteProblem, solvers_on_grids
 from validation.benchmarks.timing import (
     FINISHED,
@@ -25,10 +23,9 @@ from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.roughness import Roughness
 from validation.simulation.method import Values
-from validation.simulation.rough_punch import PunchRoughness, Surface, press_surface
 from validation.simulation.surface import draw_surface
 
-SPHERE, ROUGH, PUNCH = "sphere", "rough", "punch of Fig. 14.1"
+SPHERE, ROUGH = "sphere", "rough"
 SPHERE_LOAD = 4 / 3 / 4**3
 """The force of Hertz for a = L/4 and R = L, over E* L^2."""
 ROUGH_HEIGHT = 0.01
@@ -38,8 +35,8 @@ ROUGH_HEIGHT = 0.01
 class SurfaceProblem:
     """A surface pressed on an n x n grid of unit side: a sphere with a = n/4 cells, or a self-affine surface.
 
-    Rough: H = 0.7, from 2 pi/L to four cells a wave, rms height 0.01 L; the punch of Fig. 14.1 alike, with its own
-    height; load: F / (E* L^2); residual: that each solver reaches, see `bem3d.residual`.
+    Rough: H = 0.7, from 2 pi/L to four cells a wave, rms height 0.01 L; load: F / (E* L^2); residual: that each solver
+    reaches, see `bem3d.residual`.
     """
 
     surface: str
@@ -70,8 +67,7 @@ class SurfaceProblem:
             return None
         ground = None
         if self.surface != SPHERE:
-            height = ROUGH_HEIGHT if self.surface == ROUGH else punch(self.cells, self.seed).height
-            ground = Roughness(rms=height, hurst=0.7, longest=1.0, shortest=4 / self.cells)
+            ground = Roughness(rms=ROUGH_HEIGHT, hurst=0.7, longest=1.0, shortest=4 / self.cells)
         shape: Literal["sphere", "punch"] = "punch" if ground else "sphere"
         return IndentationScene(name=self.label, shape=shape, size=1.0, load=self.load, modulus=1.0, ground=ground)
 
@@ -85,8 +81,6 @@ class SurfaceProblem:
         if self.surface == SPHERE:
             x = (np.arange(n) + 0.5) / n - 0.5
             return np.asarray(-(x[:, np.newaxis] ** 2 + x**2) / 2)
-        if self.surface == PUNCH:
-            return punch(n, self.seed).surface(n, 0)
         band = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi, q_max=2 * np.pi * n / 4, rms=ROUGH_HEIGHT)
         rng = random_generator(self.seed)
         return draw_surface(band.c2d, shape=(n, n), spacing=1 / n, rng=rng, rms=ROUGH_HEIGHT)
@@ -105,40 +99,8 @@ class SurfaceProblem:
         """Each solver that is installed, in a process of its own."""
         return solvers_on_grids(SOLVERS, self, (self.cells,), "a side", self.residual)
 
-    def measure(self) -> Outcome:
-        """Our solver alone: seconds and peak memory of a solve, and the seconds of one application."""
-        idle, height = peak_memory(), self.height()
-        half_space = bem3d.HalfSpace(shape=height.shape, spacing=1 / self.cells, modulus=1.0, periodic=self.periodic)
 
-        def solve() -> bem3d.Contact:
-            return bem3d.solve(half_space, -height, force=self.load, tolerance=self.residual)
-
-        warnings.simplefilter("ignore", bem3d.EdgeWarning)  # this process has nothing else to say
-        contact, first = timed(solve)
-        peak = peak_memory()
-        # what the plans cost is nothing beside a solve that takes so long
-        seconds = float(np.median([timed(solve)[1] for _ in range(3)])) if first < 5 else first
-        half_space.displacement(contact.pressure)
-        application = float(np.median([timed(lambda: half_space.displacement(contact.pressure))[1] for _ in range(5)]))
-        found = {
-            SOLVE: seconds,
-            "first solve, with plans [s]": first,
-            "one application on the whole grid [s]": application,
-            "operator applications": contact.operator_applications,
-            "operator applications on coarser grids": sum(n for _, n in contact.coarse_applications),
-            "solve over as many applications on the whole grid": seconds / contact.operator_applications / application,
-            MEMORY: (peak - idle) / 2**20,
-            "peak memory [MiB]": peak / 2**20,
-        }
-        return {name: np.array(value, dtype=float) for name, value in found.items()}
-
-
-def punch(cells: int, seed: int) -> PunchRoughness:
-    """One of those of Fig. 14.1, with four cells to its shortest wave."""
-    return PunchRoughness(hurst=0.7, waves=(1, cells // 4), seed=seed)
-
-
-SOLVE, MEMORY, NOT_INSTALLED = "time of a solve [s]", "memory [MiB]", "not installed"
+NOT_INSTALLED = "not installed"
 PRESSURE, FORCE, AREA, STIFFNESS = (f"{what} difference to ours" for what in ("pressure", "force", "area", "stiffness"))
 """Relative, of the pressure field in L2."""
 
@@ -202,16 +164,3 @@ def _differences(row: Timing, ours: FloatArray, whole: Values) -> dict[str, floa
         FORCE: abs(float(pressure.sum() / ours.sum()) - 1),
         AREA: abs(cells - 1),
     }
-
-
-@dataclass(frozen=True)
-class LoadPath:
-    """A whole load path with its stiffnesses."""
-
-    surface: Surface
-
-    def measure(self) -> Outcome:
-        """Its seconds, and the operator applications of each contact."""
-        outcome, seconds = timed(lambda: press_surface(self.surface))
-        applications = outcome["applications"] + outcome["frozen applications"]
-        return {"seconds": np.array(seconds), "applications": applications, "failed": outcome["failed"]}

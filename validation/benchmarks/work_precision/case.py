@@ -6,25 +6,21 @@ from dataclasses import dataclass, field, replace
 from itertools import groupby
 from typing import Any
 
-import numpy as np
-
-from validation.analysis.evidence import Place, Role, Table, table_of
+from validation.analysis.evidence import Role, Table, table_of
 from validation.analysis.series import Margin, Series, single
 from validation.analysis.statistics import Interval
 from validation.analysis.study import Outcomes, Settings
-from validation.benchmarks.peers import SOLVERS, all_methods
+from validation.benchmarks.peers import all_methods
 from validation.benchmarks.timing import ALONE, FAILED, FINISHED, TimedProblem
 from validation.benchmarks.work_precision import exact_problems as exact
 from validation.benchmarks.work_precision import pareto
 from validation.benchmarks.work_precision.dynamic_wheel import WheelProblem
 from validation.benchmarks.work_precision.errors import points
-from validation.benchmarks.work_precision.exact_problems import PunchProblem, SphereProblem, WaveProblem
+from validation.benchmarks.work_precision.exact_problems import PunchProblem, SphereProblem
 from validation.benchmarks.work_precision.figure_cost import HOURS, FigureCost, figure_cost
-from validation.benchmarks.work_precision.pareto import Point, cheapest, front, seconds, work
+from validation.benchmarks.work_precision.pareto import Point, cheapest, front, seconds
 from validation.benchmarks.work_precision.problem import (
-    BEM,
     ELEMENTS,
-    MDR,
     POLONSKY_KEER,
     SPRINGS,
     ChartProblem,
@@ -40,14 +36,13 @@ from validation.engine.engine import SERIAL, Engine
 class Precision:
     """Everything that is timed.
 
-    sphere, punch, wave, fractal, rolling, wheel: the problems; cost: of Fig. 14.4; slow: a solve of the same problem
+    sphere, punch, fractal, rolling, wheel: the problems; cost: of Fig. 14.4; slow: a solve of the same problem
     that takes longer is timed once [s]; enough: after so many seconds five runs are enough; seed: of all roughness,
     zero or positive.
     """
 
     sphere: SphereProblem = field(default_factory=SphereProblem)
     punch: PunchProblem = field(default_factory=PunchProblem)
-    wave: WaveProblem = field(default_factory=WaveProblem)
     fractal: RoughPunchProblem = field(default_factory=RoughPunchProblem)
     rolling: RollingProblem = field(default_factory=RollingProblem)
     wheel: WheelProblem = field(default_factory=WheelProblem)
@@ -59,7 +54,7 @@ class Precision:
     def problems(self) -> tuple[ChartProblem, ...]:
         """First those with a closed form, then those without."""
         rough = (replace(problem, seed=self.seed) for problem in (self.fractal, self.rolling, self.wheel))
-        return (self.sphere, self.punch, self.wave, *rough)
+        return (self.sphere, self.punch, *rough)
 
 
 QUICK = Precision(
@@ -76,18 +71,10 @@ QUICK = Precision(
 FULL = Precision(
     sphere=SphereProblem(
         grids=replace(exact.SPHERE_GRIDS, cells=(4, 8, 16, 32, 64), polonsky_keer=(4, 8, 16, 32)),
-        peers=(4, 8, 16, 32),
         springs=(2.4, 4.4, 8.4, 16.4, 32.4, 64.4, 128.4, 256.4),
     ),
     punch=PunchProblem(
         grids=replace(exact.PUNCH_GRIDS, cells=(8, 16, 32, 64, 128, 256), polonsky_keer=(8, 16, 32, 64), fixed=64),
-        peers=(8, 16),
-    ),
-    wave=WaveProblem(
-        grids=replace(
-            exact.WAVE_GRIDS, cells=(16, 32, 64, 128, 256, 512, 1024), polonsky_keer=(16, 64, 256, 1024), fixed=256
-        ),
-        peers=(16, 64, 256, 1024),
     ),
     fractal=RoughPunchProblem(
         realisations=100,
@@ -113,9 +100,8 @@ FULL = Precision(
 )
 
 
-PEERS = tuple(solver.name for solver in SOLVERS)
-MAY_FAIL = (POLONSKY_KEER, *PEERS)
-"""Of the published iteration and of other solvers a failure is a row; all others must finish, or be out of range."""
+MAY_FAIL = (POLONSKY_KEER,)
+"""Of the published iteration a failure is a row; all others must finish, or be out of range."""
 
 
 def run(case: Precision, engine: Engine = SERIAL) -> Outcomes:
@@ -140,14 +126,7 @@ def lost(found: Sequence[Point]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(f"{p.scene}: {p.method}, {p.setting}: {p.status}" for p in failed))
 
 
-ORDER, EQUAL, COST = "order of the error of the {}", "{}, over that of bem3d.solve", "time of Fig. 14.4 on one core"
-ORDERS = (
-    ("sphere", "force", BEM, 2.0, 0.5, "second order; the staircase edge scatters the error from grid to grid"),
-    ("sphere", "force", MDR, 2.0, 0.1, "second order: the contact ends at the same part of a spring on each grid"),
-    ("square punch", "stiffness", BEM, 1.0, 0.15, "the pressure is singular at the edge: first order"),
-)
-"""Scene, quantity, method, and the power that theory has, with a tolerance and its reason."""
-SAME = ("sphere", "force"), ("square punch", "stiffness"), ("Westergaard's wave", "approach")
+COST = "time of Fig. 14.4 on one core"
 AGREEMENT = "10 %, or 1 dB: tolerance of agreement"
 TIME, UP_TO, FROM = "time over that of the cheapest other method as close", "springs", "boundary elements"
 CHEAPEST = Margin(1.0, "above one another method is cheaper")
@@ -160,43 +139,12 @@ Source: McGill, Tukey, Larsen, Am. Stat. 32 (1978) 12.
 
 
 def series(result: Outcomes) -> list[Series]:
-    """Criteria where something is predicted exactly; what is left of models; times, none right or wrong."""
-    charts = result["charts"]
-    found = [*_orders(charts), *_equal(charts)]
-    for chart in charts:
-        found += [*_models(chart), *times(chart)]
+    """What is left of models; times, none right or wrong."""
+    found = [one for chart in result["charts"] for one in (*_models(chart), *times(chart))]
     hours, low, high = (float(result["cost"][name][1]) for name in HOURS)
     at, time = {"a/dx": float(result["cost"]["a/dx"][1])}, Interval(hours, max(high - hours, hours - low))
     cost = single(COST, FROM, time, 24.0, "no cost", A_DAY, 0.0, at, role=Role.FINDING, unit="h")
     return [*found, cost]
-
-
-def _finished(charts: Sequence[Sequence[Point]], scene: str, quantity: str, method: str) -> list[Point]:
-    key = scene, quantity, method
-    return [p for chart in charts for p in chart if (p.scene, p.quantity, p.method) == key and p.finished]
-
-
-def _orders(charts: Sequence[Sequence[Point]]) -> Iterator[Series]:
-    """Slopes of ln error against ln of the cell size."""
-    for scene, quantity, method, order, tolerance, reason in ORDERS:
-        mine = _finished(charts, scene, quantity, method)
-        if len(mine) > 2:
-            n, off = np.array([p.value for p in mine]), np.array([p.error for p in mine])
-            slope = -np.polynomial.polynomial.polyfit(np.log(n), np.log(off), 1)[1]
-            at = {"scene": scene}
-            yield single(ORDER.format(quantity), method, float(slope), tolerance, "error model", reason, order, at)
-
-
-def _equal(charts: Sequence[Sequence[Point]]) -> Iterator[Series]:
-    """The published iteration and ours at the same residual on the same grids have the same values."""
-    reason, source = "a hundred times the residual of both solvers", "the same discrete problem has one solution"
-    for scene, quantity in SAME:
-        fast = {p.value: p.over for p in _finished(charts, scene, quantity, BEM)}
-        plain = [p for p in _finished(charts, scene, quantity, POLONSKY_KEER) if p.value in fast]
-        if plain:
-            ratio = max((p.over / fast[p.value] for p in plain), key=lambda ratio: abs(ratio - 1))
-            at: dict[str, Place] = {"scene": scene, "grids": len(plain)}
-            yield single(EQUAL.format(quantity), POLONSKY_KEER, ratio, 1e-6, source, reason, 1.0, at)
 
 
 def _models(chart: Sequence[Point]) -> Iterator[Series]:
@@ -224,7 +172,7 @@ def times(chart: Sequence[Point]) -> Iterator[Series]:
     if springs:
         rivals = [point for point in known if point.method not in SPRINGS]
         yield _times(UP_TO, springs, [(point, _cheapest_as_close(point, rivals)) for point in springs])
-        elements = [point for point in known if point.method in ELEMENTS + PEERS]
+        elements = [point for point in known if point.method in ELEMENTS]
         beyond = [point for point in front(known) if point.rank < springs[-1].rank]
         pairs = [(mine, point) for point in beyond if (mine := _cheapest_as_close(point, elements))]
         if pairs:
@@ -278,14 +226,14 @@ def tables(result: Outcomes) -> tuple[Table, ...]:
 
 
 def _rows(chart: Sequence[Point]) -> Iterator[dict[str, object]]:
-    by_time, by_work = front(chart), front(chart, work)
+    by_time = front(chart)
     for p in chart:
         row = {name: getattr(p, mine) for name, mine in COLUMNS.items()} | dict(zip(QUARTILES, p.seconds, strict=True))
-        yield row | {"front": p in by_time, "front by work": p in by_work}
+        yield row | {"front": p in by_time}
 
 
 def _best(chart: Sequence[Point], tolerance: float) -> dict[str, Any]:
-    best, by_work = cheapest(chart, tolerance), cheapest(chart, tolerance, work)
+    best = cheapest(chart, tolerance)
     return {
         "scene": chart[0].scene,
         "quantity": chart[0].quantity,
@@ -293,7 +241,6 @@ def _best(chart: Sequence[Point], tolerance: float) -> dict[str, Any]:
         "method": best.method if best else pareto.reason_if_none(chart, tolerance),
         "setting": best.setting if best else "",
         "median [s]": seconds(best) if best else math.nan,
-        "by work": by_work.method if by_work else "",
     }
 
 

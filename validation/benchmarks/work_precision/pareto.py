@@ -1,7 +1,7 @@
 """Which method is the cheapest for an error: the Pareto front, and the cheapest within a tolerance."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from validation.benchmarks.timing import FINISHED
@@ -63,26 +63,19 @@ def monotone_envelope(points: Sequence[Point]) -> list[Point]:
     return [replace(point, finer=max(ranks, default=0.0)) for point, ranks in zip(points, beyond, strict=True)]
 
 
-Cost = Callable[[Point], float]
-
-
 def seconds(point: Point) -> float:
     return point.seconds[1]
 
 
-def work(point: Point) -> float:
-    return point.work
-
-
-def front(points: Sequence[Point], cost: Cost = seconds) -> list[Point]:
+def front(points: Sequence[Point]) -> list[Point]:
     """Those that nothing beats in both error and cost, from cheap to dear; of equals the first.
 
     Ranked by the upper ends of errors; what lies below the band of the reference is as good as its edge. The reference
-    itself, and who has not finished or has no such cost, takes no part.
+    itself, and who has not finished, takes no part.
     """
-    known = [p for p in points if p.finished and not p.is_reference and math.isfinite(cost(p))]
+    known = [p for p in points if p.finished and not p.is_reference]
     found: list[Point] = []
-    for point in sorted(known, key=lambda p: (cost(p), p.rank)):
+    for point in sorted(known, key=lambda p: (seconds(p), p.rank)):
         if not found or point.rank < found[-1].rank:
             found.append(point)
     return found
@@ -93,9 +86,9 @@ def in_unit_of_error(tolerance: float, unit: str) -> float:
     return 20 * math.log10(1 + tolerance) if unit == "dB" else tolerance
 
 
-def cheapest(points: Sequence[Point], tolerance: float, cost: Cost = seconds) -> Point | None:
+def cheapest(points: Sequence[Point], tolerance: float) -> Point | None:
     """The cheapest point within a relative tolerance; None where there is none, or the reference is too uncertain."""
-    within = [point for point in front(points, cost) if point.rank <= in_unit_of_error(tolerance, point.unit)]
+    within = [point for point in front(points) if point.rank <= in_unit_of_error(tolerance, point.unit)]
     return within[0] if within else None
 
 

@@ -26,7 +26,7 @@ from validation.simulation.pressed import FIXED_AREA_RESIDUAL, MOST_ITERATIONS, 
 from validation.theory.rolling import response
 
 CLOSED, FILTER_1D, FILTER_3D = model_names.CLOSED_FORM, model_names.FILTER_1D, model_names.FILTER_3D
-MDR, MDR_ROLLING = model_names.MDR, model_names.MDR_ROLLING
+MDR, MDR_ROLLING, FILTER_ON_STRIPS = model_names.SPRINGS, model_names.SPRINGS_ROLLING, f"{FILTER_3D}, on strips"
 POLONSKY_KEER, BEM, LOOSE = "Polonsky-Keer", "BEM, finer cells", "BEM, looser residual"
 EXTRAPOLATED = "BEM, extrapolated"
 SPRINGS, ELEMENTS = (MDR, MDR_ROLLING), (BEM, LOOSE, EXTRAPOLATED, POLONSKY_KEER)
@@ -213,9 +213,9 @@ def along_a_track(
     by, without, one_sided = springs
     kinds = (FILTER_1D, "geike", without), (MDR, "geike", one_sided), (MDR_ROLLING, "rolling", one_sided)
     on_springs = [NamedMethod(name, by, tuple(options)) for name, *options in kinds]
-    by_filter = NamedMethod(FILTER_3D, filtered[0], filtered[1:])
+    by_filter = NamedMethod(FILTER_ON_STRIPS, filtered[0], filtered[1:])
     return (
-        *along(NamedMethod(CLOSED, linear), problem, (1.0,), "linear theory", paired=False),
+        *along(NamedMethod(FILTER_3D, linear), problem, (1.0,), "linear theory", paired=False),
         *(each for m in on_springs for each in along(m, problem, problem.springs, "# springs to a radius", **own)),
         *along(by_filter, problem, problem.filtered, "# cells to a radius", realisations=problem.realisations),
         *problem.boundary_elements(),

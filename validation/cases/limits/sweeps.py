@@ -276,18 +276,18 @@ class Sweep:
         return cls(limit, outcome["values"], outcome["error"][part], threshold, tuple(map(str, outcome["messages"])))
 
     @property
-    def _sign(self) -> int:
+    def sign(self) -> int:
         return 1 if self.limit.fails.side == "above" else -1
 
     @property
     def past_threshold(self) -> NDArray[np.bool_]:
         """Values on the failing side, further from the threshold than the factor."""
-        return np.asarray((self.values / self.predicted_threshold) ** self._sign > self.limit.judged.factor)
+        return np.asarray((self.values / self.predicted_threshold) ** self.sign > self.limit.judged.factor)
 
     @property
     def before_threshold(self) -> NDArray[np.bool_]:
         """Values on the other side, further from the threshold than the factor."""
-        return np.asarray((self.predicted_threshold / self.values) ** self._sign > self.limit.judged.factor)
+        return np.asarray((self.predicted_threshold / self.values) ** self.sign > self.limit.judged.factor)
 
     @property
     def warned(self) -> NDArray[np.bool_]:
@@ -311,7 +311,7 @@ class Sweep:
 
         From the good side on, for the last time; None where it does not.
         """
-        values, error = np.log2(self.values[:: self._sign]), self.error[:: self._sign]
+        values, error = np.log2(self.values[:: self.sign]), self.error[:: self.sign]
         tolerance = self.limit.fails.tolerance
         good = np.flatnonzero(error <= tolerance)
         if not good.size or good[-1] == error.size - 1:
@@ -325,4 +325,4 @@ class Sweep:
     def first_message(self) -> str:
         """The message nearest to the threshold on its failing side, empty where there is none."""
         given = [m for m, past in zip(self.messages, self.past_threshold, strict=True) if m and past]
-        return given[:: self._sign][0] if given else ""
+        return given[:: self.sign][0] if given else ""

@@ -14,16 +14,15 @@ import numpy as np
 from validation.analysis.study import Outcomes
 from validation.cases.selection.edge_scenes import MEASURED, PUNCH, RAIL, ROLLING, SPHERE, WHEEL, edge_scene
 from validation.cases.selection.random_scenes import KINDS, random_scene
-from validation.engine.convergence import NotConvergedError
+from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.measured import MeasuredHeights
-from validation.scenes.rail import RailScene
 from validation.selection.calibrate import OTHER_SEED, QUANTITIES
-from validation.selection.hierarchy import select_model, try_to_solve
-from validation.selection.quantities import models_of
-from validation.selection.scene_model import SceneModel, Shared
+from validation.selection.hierarchy import REFUSALS, select_model, try_to_solve, unsolved
+from validation.selection.quantities import DOMINATED, models_of
+from validation.selection.scene_model import Answer, SceneModel, Shared
 from validation.simulation.model import GridModel, all_models
 from validation.simulation.rail_models import RailModel, relative
 from validation.simulation.rail_quantity import COUNTED
@@ -39,20 +38,23 @@ ROLLED = (ROLLING, WHEEL, *TRACKS, RAIL)
 """Asked for nothing finer than the tolerance of their references: that would cost several times as much."""
 CHEAP_EDGES = tuple((kind, 1) for kind in (PUNCH, SPHERE, ROLLING, MEASURED + PUNCH, MEASURED + SPHERE))
 """Kinds of scenes at the edges whose references take seconds."""
-MANY, ENOUGH, SOME, FEW = 210, 110, 20, 6
-"""Scenes of a kind at the edges. 210 decide that 97 % hold where two do not, 100 where all do, and of some no answer is
-tested. Moving wheels on measured tracks take 20 s each, so that there are fewer; rails have cases of their own: a few
-are to find a false claim."""
+MANY, ENOUGH, SOME, FEW = 110, 60, 12, 6
+"""Scenes of a kind at the edges: all together decide that 97 % of the answers hold. Moving wheels on measured tracks
+take 20 s each, so that there are fewer; rails have cases of their own: a few are to find a false claim."""
 EDGE_SCENES = (
     *((kind, MANY) for kind in (PUNCH, SPHERE, ROLLING, MEASURED + PUNCH, MEASURED + SPHERE)),
     *((kind, ENOUGH) for kind in (WHEEL, MEASURED + ROLLING)),
     (MEASURED + WHEEL, SOME),
     (RAIL, FEW),
 )
-EVERY_TOLERANCE = 0.1
-"""Of the models that are solved whatever error they expect."""
 COARSE, FINE = "coarse boundary elements", "fine boundary elements"
-CHEAP = tuple(dict.fromkeys(model.name for model in all_models() if not isinstance(model, GridModel | RailModel)))
+CHEAP = tuple(
+    dict.fromkeys(
+        model.name
+        for model in all_models()
+        if not isinstance(model, GridModel | RailModel) and model.name not in DOMINATED
+    )
+)
 MODELS = (*CHEAP, COARSE, FINE)
 """What selection may end on: the models below boundary elements by their kind, and those on two kinds of grid."""
 
@@ -125,10 +127,15 @@ def run(case: CalibrationTest, engine: Engine = SERIAL) -> Outcomes:
     """Solve all scenes, "random" ones and those at the "edges". Raises NotConvergedError where no reference has an
     answer."""
     outcomes = engine.map(calibrate, case.trials)
-    failed = tuple(f"{t.kind} {t.number}" for t, o in zip(case.trials, outcomes, strict=True) if o["failed"])
+    failed = lost(case.trials, outcomes)
     if len(failed) == len(outcomes):
         raise NotConvergedError("boundary elements converged on no scene", failed)
-    return Outcomes(case, {"random": outcomes, "edges": engine.map(solve_edge, case.edge_trials)}, failed)
+    edges = engine.map(solve_edge, case.edge_trials)
+    return Outcomes(case, {"random": outcomes, "edges": edges}, (*failed, *lost(case.edge_trials, edges, "edge, ")))
+
+
+def lost(trials: Sequence["CalibrationTrial"], outcomes: Sequence[Outcome], where: str = "") -> tuple[str, ...]:
+    return tuple(f"{where}{t.kind} {t.number}" for t, o in zip(trials, outcomes, strict=True) if o["failed"])
 
 
 def calibrate(trial: CalibrationTrial) -> Outcome:
@@ -136,9 +143,8 @@ def calibrate(trial: CalibrationTrial) -> Outcome:
 
     One value a tolerance: model, index of the selected model in MODELS, -1 for none; estimated, true: error of its
     answer, by itself and beside the reference; spent, fine: seconds of the selection, and of fine boundary elements
-    with as many surfaces as the tolerance needs; met: one where the tolerance was met. One value for each of CHEAP,
-    solved whatever error it estimates: every estimated, every true. Of the scene: height, load: h/d and F / (E* h L);
-    reference: the error that the reference itself leaves; failed: one where the reference did not converge.
+    with as many surfaces as the tolerance needs; met: one where the tolerance was met. Of the scene: reference: the
+    error that the reference itself leaves; failed: one where the reference did not converge.
     """
     finest = trial.models(REFERENCE_TOLERANCE, OTHER_SEED)[-1]
     reference = try_to_solve(finest)
@@ -146,20 +152,9 @@ def calibrate(trial: CalibrationTrial) -> Outcome:
     finished = reference.error <= REFERENCE_TOLERANCE
     slower = reference.cost.seconds / finest.cost().seconds if finished else 1.0
     rows = np.array([_selected(trial, tolerance, reference.value, slower) for tolerance in trial.tolerances])
-    models = trial.models(EVERY_TOLERANCE)
-    every = np.array([_solved(models, kind, reference.value) for kind in CHEAP])
-    scene, height, load = trial.scene, math.nan, math.nan
-    if isinstance(scene, IndentationScene) and scene.shape == "punch":
-        load = scene.reduced_load
-    elif not isinstance(scene, RailScene):
-        height = scene.roughness_ratio
     return {
         "reference": np.array(math.nan if reference.failed else reference.error),
         **dict(zip(("model", "estimated", "true", "spent", "fine", "met"), rows.T, strict=True)),
-        "every estimated": every[:, 0],
-        "every true": every[:, 1],
-        "height": np.array(height),
-        "load": np.array(load),
         "failed": np.array(float(bool(reference.failed))),
     }
 
@@ -182,15 +177,6 @@ def name_in_models(model: SceneModel, models: Sequence[SceneModel]) -> str:
     if name not in MODELS:
         raise ValueError(f"the kind of a model must be one of {', '.join((*CHEAP, GridModel.name))}, got {name}")
     return name
-
-
-def _solved(models: Sequence[SceneModel], kind: str, truth: np.ndarray) -> tuple[float, float]:
-    """Estimated and true error of a model below boundary elements; NaN where the scene has none, or out of range."""
-    model = {name_in_models(model, models): model for model in reversed(models)}.get(kind)
-    if model is None or not model.estimate().in_range:
-        return math.nan, math.nan
-    answer = try_to_solve(model)
-    return (math.nan, math.nan) if answer.failed else (answer.error, distance(answer.value, truth))
 
 
 # --- at the edges ---
@@ -262,19 +248,35 @@ def solve_edge(trial: EdgeTrial) -> Outcome:
     offered: the error of the finest boundary elements that the scene is offered, infinite where these have no answer;
     estimated, true: error of its answer, by itself and beside the reference, NaN where it has none; true is NaN, too,
     of measured tracks on the grid of the reference; met: one where the tolerance was met; reference: the error that
-    the reference itself leaves; failed: one where it has no answer.
+    the reference itself leaves; refused: why the reference has no answer to a scene that tests nothing then, empty
+    where it has one; failed: one where a contact of it did not converge.
     """
     solved: Shared = {}
     judge = replace(trial.reference, shared=solved) if trial.is_own_reference else trial.reference
-    reference = try_to_solve(judge)
+    reference, refused = reference_at_edge(judge)
     truth = np.array([math.nan]) if reference.failed else reference.value
     rows = np.array([_at_edge(trial, tolerance, solved, truth) for tolerance in trial.tolerances])
     return {
         **dict(zip(("estimated", "true", "met"), rows.T, strict=True)),
         "reference": np.array(math.nan if reference.failed else reference.error),
         "offered": np.array(try_to_solve(trial.offered).error if trial.kind in FACES else reference.error),
-        "failed": np.array(float(bool(reference.failed))),
+        "refused": np.array(refused),
+        "failed": np.array(float(bool(reference.failed) and not refused)),
     }
+
+
+def reference_at_edge(judge: SceneModel) -> tuple[Answer, str]:
+    """Its answer, and why it refuses the scene, empty where it does not.
+
+    A scene beyond the ranges may be refused: by an exception that is no lack of convergence, or since the answer, which
+    is there, has no error estimate. A scene on which a contact did not converge is not refused: it is lost.
+    """
+    try:
+        with as_not_converged():
+            answer = judge.solve()
+    except REFUSALS as problem:
+        return unsolved(judge, problem), "" if isinstance(problem, NotConvergedError) else str(problem)
+    return answer, answer.failed if np.isfinite(answer.value).all() else ""
 
 
 def true_error(trial: EdgeTrial, value: np.ndarray, truth: np.ndarray) -> float:

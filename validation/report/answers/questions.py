@@ -96,7 +96,7 @@ def counted(name: str, model: str, source: Source | None = None, by: str = "") -
 
 
 INTEGRAL, BY_FORMULA, OF_SPRINGS = "an integral over the spectrum", "a formula", "the work of springs"
-LINEAR_3D, EQUIVALENT = "linear theory in 3D", "springs, rolling-equivalent spectrum"
+LINEAR_3D, EQUIVALENT = "linear theory in 3D", "springs, rolling spectrum"
 FIT = partial(Alternative, "the fit 1/kbar = 1/1.1523 + 0.48/Fbar", cost=BY_FORMULA)
 PRESSED = partial(Alternative, BEM, None, worked)
 over_force = partial(Source, axis=punch.FORCE, over=punch.FORCE)
@@ -114,14 +114,6 @@ of_fit = partial(
 )
 of_rolling = partial(
     Source, case="rolling", axis="h/d", over=reduced.SLOPE, read=(reduced.SLOPE, "value"), series=("q a",)
-)
-of_strips = partial(
-    Source,
-    case="reduced_models",
-    quantity=reduced.OFF,
-    axis=reduced.SLOPE,
-    over=reduced.SLOPE,
-    series=("H", reduced.Q),
 )
 of_rail = partial(
     Source,
@@ -143,8 +135,7 @@ MOVING = Source(
 GEIKE, LINEAR, ROLLING = (
     model + rolling.OVER for model in (rolling.SPRINGS, rolling.LINEAR_3D, rolling.ROLLING_SPRINGS)
 )
-READ, ON_LINE = rolled_filters.RIVALS[:2]
-JUDGE, OCTAVES = counted(BEM, reduced.JUDGE), "rms over octaves"
+ON_LINE, JUDGE = rolled_filters.RIVALS[1], counted(BEM, reduced.JUDGE)
 QUESTIONS = (
     Question(
         "mean-stiffness",
@@ -189,8 +180,6 @@ QUESTIONS = (
         (
             Alternative(LINEAR_3D, of_rolling(quantity=rolling.LEVEL, model=LINEAR), INTEGRAL),
             Alternative(EQUIVALENT, of_rolling(quantity=rolling.LEVEL, model=ROLLING), OF_SPRINGS),
-            counted(reduced.READ, reduced.READ, of_strips(model=reduced.READ), OCTAVES),
-            counted(reduced.LAYER, reduced.COARSE_LAYER, of_strips(model=reduced.COARSE_LAYER), OCTAVES),
             JUDGE,
         ),
     ),
@@ -199,11 +188,7 @@ QUESTIONS = (
         "Contact filter of a wheel on a rail",
         of_rail(model=ON_LINE),
         in_decibels,
-        (
-            Alternative("linear theory of the ellipse", of_rail(model=rolled_filters.FILTERS[0]), INTEGRAL),
-            counted(reduced.READ, reduced.READ, of_rail(model=READ)),
-            JUDGE,
-        ),
+        (Alternative("linear theory of the ellipse", of_rail(model=rolled_filters.FILTERS[0]), INTEGRAL), JUDGE),
         "springs on the measured line, isotropic ground",
         (CONTACT, rough_rail.WAVES),
     ),

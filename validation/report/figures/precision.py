@@ -14,37 +14,27 @@ STYLES: dict[str, Style] = {
     "closed form": {"color": "#000000", "marker": "*", "linestyle": "none", "markersize": 8},
     "fit": {"color": "#000000", "marker": "x", "linestyle": "none", "markersize": 6},
     "linear filter, 1D": {"color": "#E69F00", "marker": "P", "linestyle": "-."},
-    "linear filter, 3D": {"color": "#CC79A7", "marker": "X", "linestyle": ":"},
-    "MDR": {"color": "#D55E00", "marker": "s", "markerfacecolor": "white", "linestyle": "-"},
-    "MDR, rolling spectrum": {"color": "#009E73", "marker": "^", "markerfacecolor": "white", "linestyle": "--"},
-    "springs that read the surface": {"color": "#D55E00", "marker": "v", "linestyle": "--"},
-    "pressed layer": {"color": "#009E73", "marker": "D", "linestyle": "-."},
+    "linear filter, 3D": {"color": "#000000", "marker": "X", "linestyle": "none", "markersize": 7},
+    "linear filter, 3D, on strips": {"color": "#CC79A7", "marker": "X", "linestyle": ":"},
+    "springs": {"color": "#D55E00", "marker": "s", "markerfacecolor": "white", "linestyle": "-"},
+    "springs, rolling spectrum": {"color": "#009E73", "marker": "^", "markerfacecolor": "white", "linestyle": "--"},
     "Polonsky-Keer": {"color": "#56B4E9", "marker": "D", "markerfacecolor": "white", "linestyle": ":"},
     "BEM, finer cells": {"color": "#0072B2", "marker": "o", "linestyle": "-"},
     "BEM, looser residual": {"color": "#0072B2", "marker": "d", "markerfacecolor": "white", "linestyle": "--"},
     "BEM, extrapolated": {"color": "#332288", "marker": "h", "linestyle": "-."},
-    "tamaas": {"color": "#882255", "marker": "<", "markerfacecolor": "white", "linestyle": ":"},
-    "ContactMechanics": {"color": "#777777", "marker": ">", "markerfacecolor": "white", "linestyle": ":"},
 }
 NEW: Style = {"color": "#AA4499", "marker": "p", "markerfacecolor": "white", "linestyle": "-"}
 """Of a model that has no style of its own."""
 COMMON: Style = {"markersize": 4.5, "linewidth": 0.9}
 BARS: Style = {"capsize": 1.5, "elinewidth": 0.7}
 PLACES = {"left": 0.055, "right": 0.985, "bottom": 0.06, "top": 0.965, "wspace": 0.22, "hspace": 0.27}
-SHARED = 1.5
-"""Costs within this factor of one method share a mark of the summary."""
 ROOM = 3.0
 """How far a chart goes on, as a factor, below what is drawn and above."""
 
 
 def draw(points: Table) -> Figure:
     """Error against seconds."""
-    return _charts(points, "median [s]", "front", "seconds of one realisation")
-
-
-def draw_work(points: Table) -> Figure:
-    """Error against work, which is the same on every machine."""
-    return _charts(points, "work", "front by work", "cell applications, springs or points")
+    return _charts(points)
 
 
 def _style(method: str) -> Style:
@@ -58,14 +48,16 @@ def _methods(points: Table) -> list[str]:
     return sorted(names, key=lambda name: known.index(name) if name in known else len(known))
 
 
-def _charts(points: Table, cost: str, front: str, label: str) -> Figure:
+def _charts(points: Table) -> Figure:
     charts = list(dict.fromkeys(zip(points["scene"].tolist(), points["quantity"].tolist(), strict=True)))
     figure, axes = panels(3, 4, width=14.0, height=10.0, within=PLACES)
     for i, (axis, (scene, quantity)) in enumerate(zip(axes, charts, strict=False)):
         mine = points.where(scene=scene, quantity=quantity)
-        _chart(axis, mine, cost, front)
+        _chart(axis, mine)
         axis.set_title(f"{axis.get_title(loc='left')} {scene}: {quantity} [{mine['unit'][0]}]", loc="left")
-        axis.set(xlabel=label if i >= len(charts) - 4 else "", ylabel="error" if i % 4 == 0 else "")
+        axis.set(
+            xlabel="seconds of one realisation" if i >= len(charts) - 4 else "", ylabel="error" if i % 4 == 0 else ""
+        )
     for axis in axes[len(charts) :]:
         axis.set_axis_off()
         axis.set_title("", loc="left")
@@ -74,17 +66,17 @@ def _charts(points: Table, cost: str, front: str, label: str) -> Figure:
     return figure
 
 
-def _chart(axis: Axes, points: Table, cost: str, front: str) -> None:
+def _chart(axis: Axes, points: Table) -> None:
     scale, done = 100.0 if points["unit"][0] == "%" else 1.0, points["status"] == "finished"
     error, half, band = (scale * points[name] for name in ("error", "± sample", "band"))
-    x, others = points[cost], done & ~points["reference itself"]
+    x, others = points["median [s]"], done & ~points["reference itself"]
     floor, top = _limits(error[others], half[others], float(band[0]))
     known = x[np.isfinite(x) & (x > 0)]
     axis.set(xscale="log", yscale="log", ylim=(floor / ROOM, top), xlim=(known.min() / ROOM, known.max() * ROOM))
     axis.xaxis.set_major_locator(LogLocator(numticks=6))
     axis.minorticks_off()
     axis.axhspan(floor / ROOM, floor, color="#000000", alpha=0.12, linewidth=0)
-    ahead = np.flatnonzero(points[front])[np.argsort(x[points[front]])]
+    ahead = np.flatnonzero(points["front"])[np.argsort(x[points["front"]])]
     rank = np.maximum(error + half, floor)[ahead]
     axis.step(x[ahead], rank, where="post", color="#bbbbbb", linewidth=4.0, zorder=0.5, solid_capstyle="round")
     quartiles = points["lower quartile [s]"], points["upper quartile [s]"]
@@ -92,7 +84,7 @@ def _chart(axis: Axes, points: Table, cost: str, front: str) -> None:
         mine, style = points["method"] == method, _style(method)
         some = mine & done & np.isfinite(x)
         if some.any():
-            across = [np.abs(end - x)[some] for end in quartiles] if cost == "median [s]" else None
+            across = [np.abs(end - x)[some] for end in quartiles]
             _curve(axis, x[some], error[some], half[some], floor, across, style)
         for place in x[mine & ~done]:
             # along the top; on the left who has no cost
@@ -119,49 +111,3 @@ def _curve(
     if within.any():
         pointing = {**style, "marker": "v", "linestyle": "none", "markersize": 7, "markerfacecolor": style["color"]}
         axis.plot(x[within], y[within], **pointing)
-
-
-def draw_summary(summary: Table, points: Table) -> Figure:
-    """For each quantity the cost of the cheapest method within each tolerance."""
-    rows = list(dict.fromkeys(zip(summary["scene"].tolist(), summary["quantity"].tolist(), strict=True)))
-    within = {"left": 0.22, "right": 0.75, "bottom": 0.1, "top": 0.88}
-    figure, (axis,) = panels(1, 1, width=12.5, height=1.6 + 0.5 * len(rows), within=within)
-    axis.set_title("")
-    axis.set_title("", loc="left")
-    for place, (scene, quantity) in enumerate(rows):
-        _stairs(axis, place, summary.where(scene=scene, quantity=quantity))
-    known = summary["median [s]"][np.isfinite(summary["median [s]"])]
-    axis.set(xscale="log", xlabel="seconds of one realisation", ylim=(len(rows) - 0.4, -0.7))
-    axis.set_xlim(known.min() / ROOM, known.max() * ROOM)
-    axis.set_yticks(range(len(rows)), [f"{scene}: {quantity}" for scene, quantity in rows])
-    used = [method for method in _methods(points) if method in summary["method"]]
-    handles = [axis.plot([], [], label=method, **{**_style(method), "linestyle": "none"})[0] for method in used]
-    figure.legend(handles=handles, loc="upper center", ncols=5, fontsize=8)
-    return figure
-
-
-def _stairs(axis: Axes, place: int, row: Table) -> None:
-    """Marks from cheap to dear, each with the tolerances that it is the cheapest for; at the least of its costs."""
-    steps: dict[tuple[str, float], list[float]] = {}
-    none: dict[str, list[float]] = {}
-    for tolerance, method, seconds in zip(row["tolerance"], row["method"], row["median [s]"], strict=True):
-        if np.isfinite(seconds):
-            near = [step for step in steps if step[0] == method and seconds < SHARED * step[1]]
-            steps.setdefault(near[-1] if near else (str(method), float(seconds)), []).append(float(tolerance))
-        else:
-            none.setdefault(str(method), []).append(float(tolerance))
-    x = [seconds for _, seconds in steps]
-    axis.plot(x, [place] * len(x), color="#bbbbbb", linewidth=1.2, zorder=0.5)
-    for i, ((method, seconds), tolerances) in enumerate(steps.items()):
-        axis.plot([seconds], [place], **{**_style(method), "markersize": 8, "linestyle": "none"})
-        beside = (0, -14) if i % 2 else (0, 7)
-        axis.annotate(_span(tolerances), (seconds, place), beside, textcoords="offset points", ha="center", fontsize=7)
-    without = "; ".join(f"{_span(tolerances)}: {why}" for why, tolerances in none.items())
-    if without:
-        beyond: Style = {"transform": axis.get_yaxis_transform(), "ha": "left", "va": "center"}
-        axis.text(1.01, place, without, fontsize=7.5, color="#555555", **beyond)
-
-
-def _span(tolerances: list[float]) -> str:
-    first, last = (f"{100 * tolerance:g}" for tolerance in (max(tolerances), min(tolerances)))
-    return f"{first} %" if first == last else f"{first} to {last} %"
