@@ -15,9 +15,11 @@ from validation.scenes import damping
 from validation.scenes.damping import DampedWheel
 from validation.simulation import wheel_on_rail, wheel_on_springs
 from validation.simulation.contact_laws import BoundaryElementsLaw, HertzLaw, LinearLaw
+from validation.simulation.model_names import BEM
+from validation.simulation.model_names import SPRINGS_THAT_READ as SPRINGS
 from validation.simulation.motion import periodic_motion, simulate
 from validation.simulation.wheel_on_half_space import WheelStrip, simulate_strip
-from validation.simulation.wheel_on_rail import BEM, SPRINGS, WheelOnRail
+from validation.simulation.wheel_on_rail import WheelOnRail
 from validation.simulation.wheel_on_springs import WheelEnsemble
 
 ZETA = 0.05
