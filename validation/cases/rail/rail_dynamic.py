@@ -235,7 +235,7 @@ CASE = Case(
     answers="A contact filter is measured and computed at constant load; the wheel of rolling noise moves",
     quick=RailDynamic(),
     full=RailDynamic(
-        offsets=(-10.0, 0.0, 5.0, 10.0),
+        offsets=(-5.0, 0.0, 5.0, 10.0),
         others=(0.0, 0.1),
         longest=0.4,
         shortest=0.0025,
@@ -244,7 +244,7 @@ CASE = Case(
         rounds=(1, 2),
         cells=8,
         coarse=6,
-        strips=10,
+        strips=16,
         compared=4,
     ),
     run=run,
