@@ -100,7 +100,9 @@ SMALL = {
     "wheel_stability": wheel_stability.WheelStability(turns=3, long_steps=2000, heights=(1e-3,)),
     "contact_filter": RolledFilters(across=(GROUND,), strips=3, cells=(4, 5)),
     "rough_rail": RoughRail(offsets=(20.0,), strips=3, cells=(4, 5)),
-    "rail_dynamic": RailDynamic(offsets=(0.0,), longest=0.05, periods=2, strips=3, compared=2),
+    "rail_dynamic": RailDynamic(
+        offsets=(0.0,), others=(), longest=0.05, periods=2, rounds=(0, 1), strips=3, compared=2
+    ),
     "rail_sound": RailSound(rail=shipped_rail(), seconds=0.02, repeats=2, cells=(4, 5), parts=2, blocks=5),
     "ladder": ladder.CalibrationTest(punches=3, spheres=1, rolling=0, tolerances=(0.3,)),
     "limits": limits.Limits(cells=16, surfaces=2, profiles=10, resolved=1, length=8.0, strip_cells=6, track=32.0),

@@ -41,7 +41,7 @@ ROOT = Path(bem3d.__file__).parents[1]
 RAIL = isotropic_strip(3e-6, 0.06, 1.5e-3)
 ON_A_RAIL = "validation.simulation.equivalent_displacement:roll_boundary_elements"
 RIDGES = ridges.RidgesTrack(ridges=RollingOverRidges(length=8, shortest=4.0).ridges, method="bem3d", cells=4)
-MOVING = WheelOnRail(strip=RAIL, mass=500.0, speed=22.0, model=wheel_on_rail.BEM, tolerance=1e-6)
+MOVING = WheelOnRail(strip=RAIL, mass=500.0, speed=22.0, model=BEM, tolerance=1e-6)
 HELD = HeldWheel(strip=RAIL, model=BEM, first=0, last=4, tolerance=1e-6)
 ROLLERS = ("bem3d.roll", "bem3d.rolling_force", "bem3d.RollingContact")
 ONE_POSITION = ("validation.simulation.exact_contacts:press_ellipse",)

@@ -11,23 +11,25 @@ import mdr
 from mdr.elliptic_wheel import spring_wheel
 from mdr.rolling_surface import weights_across
 from validation.engine.engine import FloatArray, Outcome
+from validation.scenes.damping import DampedWheel
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import BoundaryElementsLaw, ContactLaw, LinearLaw
 from validation.simulation.equivalent_displacement import linear_displacement, roll_boundary_elements, roll_springs
-from validation.simulation.model_names import LINE, LINEAR, SPRINGS_THAT_READ
+from validation.simulation.model_names import BEM, LINE, LINEAR
 from validation.simulation.motion import simulate_from_linear_motion
 from validation.simulation.rail_strip import RailStrip
+from validation.theory.damped_wheel import dynamic_stiffness
 
-BEM, SPRINGS = "bem3d", SPRINGS_THAT_READ
-DEEPER = 2.0
+DEEPER = 6.0
 """Largest approach of the springs in motion, over that of the smooth wheel."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class WheelOnRail:
-    """A wheel of a mass that rolls along a periodic strip at a speed, once round.
+    """A wheel of a mass that rolls along a periodic strip at a speed, some rounds.
 
-    strip: with the static load; mass [kg]; speed [m/s]; model: of the contact; tolerance: residual of each contact.
+    strip: with the static load; mass [kg]; speed [m/s]; damping: ratio zeta; model: of the contact; tolerance: residual
+    of each contact; rounds: that are not kept, and that are.
     """
 
     strip: RailStrip
@@ -35,12 +37,15 @@ class WheelOnRail:
     speed: float
     model: str
     tolerance: float
+    damping: float = 0.0
+    rounds: tuple[int, int] = (0, 1)
 
     @cached_property
-    def wheel(self) -> Wheel:
+    def wheel(self) -> DampedWheel:
         """A sphere with the load curve and the contact length of the ellipse."""
         springs = spring_wheel(self.strip.radii, self.strip.modulus)
-        return Wheel(radius=springs.radius, modulus=springs.modulus, mass=self.mass, load=self.strip.force)
+        moving = {"mass": self.mass, "load": self.strip.force, "damping": self.damping}
+        return DampedWheel(radius=springs.radius, modulus=springs.modulus, **moving)
 
     @property
     def time_step(self) -> float:
@@ -92,26 +97,50 @@ class SurfaceSpringsLaw:
 
 
 def roll_and_move(case: WheelOnRail) -> Outcome:
-    """What lifts the wheel at constant load and in motion, and the force in motion.
+    """What lifts the wheel at constant load and in motion, all about their means and through Hann's window.
 
-    failed: whether a contact has not converged, without which all three are NaN. Motion begins in the steady state of
-    linear theory.
+    All have the length of the rounds that are kept. inferred: by the force in motion, `over_dynamic_stiffness`; linear,
+    line: of linear theory at constant load, and the line itself; airborne: share of steps without contact;
+    failed: whether a contact has not converged, without which only linear and line are numbers. Motion begins in the
+    steady state of linear theory.
     """
-    failed = 0.0
+    rounds, failed = case.rounds[1], 0.0
     try:
         still = at_constant_load(case)
         approach, force = in_motion(case)
     except bem3d.ConvergenceError:
-        failed = 1.0
-        still, approach, force = np.full((3, case.strip.shape[0]), np.nan)
-    return {
-        "constant": still,
+        failed, steps = 1.0, case.strip.shape[0]
+        still, (approach, force) = np.full(steps, np.nan), np.full((2, rounds * steps), np.nan)
+    tracks = {
+        "constant": np.tile(still, rounds),
         "moving": lift(case.wheel, force, approach),
         "force": force,
-        "linear": case.linear.change[:, 0] / case.wheel.stiffness,
-        "line": linear_displacement(case.strip, LINE),
+        "linear": np.tile(case.linear.change[:, 0] / case.wheel.stiffness, rounds),
+        "line": np.tile(linear_displacement(case.strip, LINE), rounds),
+    }
+    seen = {name: hann(track.size) * (track - track.mean()) for name, track in tracks.items()}
+    return {
+        **seen,
+        "inferred": over_dynamic_stiffness(case, seen["force"]),
+        "airborne": np.mean(np.where(np.isnan(force), np.nan, force <= 0)),
         "failed": np.array(failed),
     }
+
+
+def hann(points: int) -> FloatArray:
+    """Hann's window, of mean square one."""
+    return np.asarray(np.sin(np.pi * (np.arange(points) + 0.5) / points) ** 2 * math.sqrt(8 / 3))
+
+
+def over_dynamic_stiffness(case: WheelOnRail, force: FloatArray) -> FloatArray:
+    """F (1/k - 1/(M w^2 - i c w)) in steps of velocity Verlet: what lifts a wheel on a linear contact."""
+    wheel, omega = case.wheel, 2 * math.pi * np.fft.rfftfreq(force.size, case.time_step)[1:]
+    given = {"stiffness": wheel.stiffness, "mass": wheel.mass, "damping": wheel.damping}
+    body = dynamic_stiffness(omega, time_step=case.time_step, **given) - wheel.stiffness
+    waves = np.fft.rfft(force)
+    waves[0] = 0.0
+    waves[1:] *= 1 / wheel.stiffness + 1 / body
+    return np.fft.irfft(waves, force.size)
 
 
 def lift(wheel: Wheel, force: FloatArray, approach: FloatArray) -> FloatArray:
@@ -132,7 +161,9 @@ def at_constant_load(case: WheelOnRail) -> FloatArray:
 
 
 def in_motion(case: WheelOnRail) -> tuple[FloatArray, FloatArray]:
-    """Approach and force at the beginning of each step of one round."""
-    motion = simulate_from_linear_motion(case.law(), case.linear, case.time_step, case.strip.shape[0], path=True)
+    """Approach and force at the beginning of each step of the rounds that are kept."""
+    before, kept = (rounds * case.strip.shape[0] for rounds in case.rounds)
+    motion = simulate_from_linear_motion(case.law(), case.linear, case.time_step, before + kept, path=True)
     assert motion.path is not None
-    return motion.path[:, 0], np.asarray(case.mass * motion.acceleration[:, 0] + case.wheel.load)
+    assert motion.force is not None
+    return motion.path[before:, 0], motion.force[before:, 0]

@@ -124,11 +124,10 @@ of_rail = partial(
     read=(CONTACT, "h' a_x / d"),
 )
 of_wheel = partial(Source, case="wheel_3d", quantity=LEVEL, axis="range", over="the spectrum")
-BEM_IN_MOTION, SPRINGS_IN_MOTION = rail_dynamic.MODELS
 MOVING = Source(
     case="rail_dynamic",
     quantity=rail_dynamic.RMS + rail_dynamic.BESIDE,
-    model=f"{SPRINGS_IN_MOTION} over {BEM_IN_MOTION}",
+    model=rail_dynamic.SPRINGS_OVER_BEM,
     axis=rail_dynamic.OFFSET,
     over=rail_dynamic.OFFSET,
 )
