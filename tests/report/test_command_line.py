@@ -20,6 +20,7 @@ from validation.cases.exact import geike, hertz
 from validation.cases.limits import limits
 from validation.cases.punch import bandwidth, mdr_limits, normalisation
 from validation.cases.punch.fractal_punch import FractalPunch
+from validation.cases.rail.across import Across
 from validation.cases.rail.line_convention import LineConvention
 from validation.cases.rail.rail_dynamic import RailDynamic
 from validation.cases.rail.rail_sound import RailSound, shipped_rail
@@ -97,7 +98,7 @@ SMALL = {
     "wheel_stability": wheel_stability.WheelStability(
         turns=3, hertz_turns=2, long_steps=2000, heights=(0.1, 1.0), loads=(0.05, 0.1), spacing_heights=(1e-3,)
     ),
-    "contact_filter": RolledFilters(across=(GROUND,), strips=3, cells=(4, 5)),
+    "across": Across(across=("alpha = 0.5", "isotropic ground"), cells=(4, 5)),
     "rough_rail": RolledFilters(offsets=(20.0,), across=(GROUND,), strips=3, cells=(4, 5)),
     "line_convention": LineConvention(strips=6),
     "rail_dynamic": RailDynamic(offsets=(0.0,), longest=0.05, periods=2, strips=3, compared=2),

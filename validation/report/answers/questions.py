@@ -10,7 +10,7 @@ from validation.analysis.statistics import DECIBEL
 from validation.cases.punch import bandwidth, work
 from validation.cases.punch import ensembles as punch
 from validation.cases.punch import mdr_limits as limits
-from validation.cases.rail import rail_dynamic, rolled_filters, rough_rail
+from validation.cases.rail import across, filters, rail_dynamic
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import reduced_models as reduced
 from validation.cases.wheel import half_space as wheel
@@ -119,12 +119,12 @@ of_strips = partial(
 )
 of_rail = partial(
     Source,
-    case="rough_rail",
-    quantity=rolled_filters.OVER_BEM,
-    where={"waves": rough_rail.LONG},
-    axis=rough_rail.OFFSET,
-    over="h' a_x/d",
-    read=(CONTACT, "h' a_x / d"),
+    case="across",
+    quantity=across.OVER_BEM,
+    where={across.OFFSET: 0.0},
+    axis=across.GROUND,
+    over=across.GROUND,
+    series=(across.WHEEL,),
 )
 of_wheel = partial(Source, case="wheel_3d", quantity=LEVEL, axis="range", over="the spectrum")
 BEM_IN_MOTION, SPRINGS_IN_MOTION = rail_dynamic.MODELS
@@ -138,7 +138,6 @@ MOVING = Source(
 GEIKE, LINEAR, ROLLING = (
     model + rolling.OVER for model in (rolling.SPRINGS, rolling.LINEAR_3D, rolling.ROLLING_SPRINGS)
 )
-READ, ON_LINE = rolled_filters.RIVALS[:2]
 JUDGE, OCTAVES = counted(BEM, reduced.JUDGE), "rms over octaves"
 QUESTIONS = (
     Question(
@@ -192,15 +191,14 @@ QUESTIONS = (
     Question(
         "contact-filter",
         "Contact filter of a wheel on a rail",
-        of_rail(model=ON_LINE),
+        of_rail(model=across.LINES[0]),
         in_decibels,
         (
-            Alternative("linear theory of the ellipse", of_rail(model=rolled_filters.FILTERS[0]), INTEGRAL),
-            counted(reduced.READ, reduced.READ, of_rail(model=READ)),
+            Alternative("linear theory of the ellipse", of_rail(model=across.MODELS[0]), INTEGRAL),
+            Alternative(filters.BED_WIDER, of_rail(model=filters.BED_WIDER), INTEGRAL),
             JUDGE,
         ),
-        "springs on the measured line, isotropic ground",
-        (CONTACT, rough_rail.WAVES),
+        "springs on one measured line",
     ),
     Question(
         "dynamic-wheel",
