@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from scipy import special
 
+import bem3d
 from validation.analysis.evidence import number_with, numbers_with
 from validation.analysis.series import numbers_of
 from validation.analysis.statistics import POWER_DECIBEL
 from validation.cases.rail import across, across_study, filters
 from validation.cases.rail.filters import GROUNDS, RailWheel, scene_of
-from validation.simulation import rail_across
 from validation.simulation.equivalent_displacement import transfer_of
 from validation.simulation.model_names import BED, BEM, LINE, LINEAR, LINEAR_ON_LINE
 from validation.simulation.rail_across import roll_both_ways, wide_rail
@@ -81,14 +81,15 @@ def test_a_wider_bed_and_three_lines_are_the_half_space_to_second_order():
 
 @pytest.mark.parametrize("ground", ["alpha = 0.25", "alpha = 8", "isotropic ground"])
 def test_strips_are_so_wide_that_their_line_has_the_power_of_the_ground(ground):
-    """Within 13 %: an eighth of the longest wave's band is a step across. Isotropic ground has a longest wave too."""
+    """As over ridges, whose waves along are the same: within 8 %, half of a step across in the longest band."""
     scene = scene_of(RailWheel(50, 920))
-    rail = wide_rail(scene, GROUNDS[ground], 4, 0, 1)
-    found = rail.strip.expected_power(transfer_of(LINE, rail.strip.contact), rail.bands)
-    expected = strip_bands(scene).powers_of_spectrum(line_of(scene)) / 2
-    first = 3 if ground == "isotropic ground" else 0
-    assert found[first:5] == pytest.approx(expected[first:5], rel=0.13)
-    assert rail.strip.shape[1] % 2 == round(rail.width / rail.strip.spacing) % 2
+
+    def power(across_line):
+        rail = wide_rail(scene, across_line, 4, 0, 1)
+        assert rail.strip.shape[1] % 2 == round(rail.width / rail.strip.spacing) % 2
+        return rail.strip.expected_power(transfer_of(LINE, rail.strip.contact), rail.bands)[:4]
+
+    assert power(GROUNDS[ground]) / power("ridges") == pytest.approx(np.ones(4), abs=0.08)
 
 
 @pytest.mark.slow
@@ -153,7 +154,7 @@ def test_the_border_of_one_line_is_where_linear_theory_passes_the_tolerance_less
             middle = (low + high) / 2
             low, high = (middle, high) if off(middle) < 1.0 + beyond else (low, middle)
         found = {one.model: one for one in across._of_wheel(rolled(beyond), WHEEL) if one.quantity == across.BORDER}
-        (alpha, *_) = found["worst band that counts"].found
+        (alpha, *_) = found[across.WAYS[0]].found
         assert alpha.value == pytest.approx(low, rel=0.01)
         # 0.4 dB of the grid and 0.07 of the sample
         assert 0.05 < alpha.half_width < 0.2
@@ -171,8 +172,8 @@ def test_the_nearest_alpha_and_factor_are_those_by_which_the_reference_was_made(
     def remington(alpha):
         return across.in_counted(scene, filters.REMINGTON_THERE, alpha, keep)
 
-    assert across._least_off(wider, wider(1.3))[0] == pytest.approx(1.3, rel=2e-3)
-    assert across._least_off(remington, remington(1.7))[0] == pytest.approx(1.7, rel=2e-3)
+    assert across._least_off(wider, wider(1.3))[0] == pytest.approx(1.3, rel=5e-3)
+    assert across._least_off(remington, remington(1.7))[0] == pytest.approx(1.7, rel=5e-3)
     assert np.allclose(across.in_counted(scene, BED, 0.5, keep, larger), wider(1.3))
 
 
@@ -193,19 +194,22 @@ def test_forces_in_decibel_a_are_beside_those_of_boundary_elements():
         assert found.half_width > 0
 
 
+@pytest.mark.slow
 def test_tables_and_sentences_name_what_was_found():
     evidence = across_study.STUDY.evidence(rolled())
     borders = evidence.table(across_study.BORDERS)
     assert list(borders[across.WHEEL]) == [WHEEL.label]
     lacking = evidence.table(across_study.LACKING)
     assert set(lacking["ridges"]) == {"+0.0"} and float(lacking["alpha = 0.5"][-1]) == pytest.approx(-1.7, abs=0.05)
-    assert sum("within 1 dB up to alpha" in one for one in evidence.conclusions) == 3
+    assert sum("is within 1 dB in" in one for one in evidence.conclusions) == 3
     assert len(evidence.claims) == 4
 
 
-def test_both_ways_are_the_heights_and_the_opposite_ones(monkeypatch):
+def test_both_ways_are_the_heights_and_the_opposite_ones():
     rail, seen = wide_rail(scene_of(WHEEL), "ridges", 6, 0, 1), []
-    rolled_once = rail_across._roll(rail, 1)
-    monkeypatch.setattr(rail_across.bem3d, "roll", lambda surface, **_: seen.append(surface) or rolled_once)
-    roll_both_ways(rail)
+    names = ("force", "approach", "area", "residual", "operator_applications", "converged")
+    found = bem3d.Rolling(**dict.fromkeys(names, np.ones(rail.strip.shape[0], dtype=bool)))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(bem3d, "roll", lambda surface, **_: seen.append(surface) or found)
+        roll_both_ways(rail)
     assert np.array_equal(seen[0], -seen[1]) and seen[0].shape[1] == round(rail.width / rail.strip.spacing)

@@ -63,6 +63,10 @@ def over_all_lines(model, contact):
     return filter_of("linear, on the line" if model.startswith("mean of") else model, contact)
 
 
+def on_a_circle_as_long(model, contact):
+    return filter_of(model, replace(contact, across=contact.along))
+
+
 slope_error, borne_by = graduation.Graduation.slope_error, equivalent_displacement.borne_by
 ground_of_strip = rail_strip.RailGround
 smoothing_error, stands_out = RailQuantity.smoothing_error.func, RailQuantity.stands_out.fget
@@ -81,7 +85,7 @@ FAULTS = {
     "three lines at the edges of the contact": ((filters, "NEAR", 1.0), SECOND_ORDER),
     "one line for the mean of three": ((filters, "filter_of", over_all_lines), SECOND_ORDER),
     "Remington's circle as long as the ellipse": (
-        (filters.math, "sqrt", lambda area: test_across.A_X),
+        (filters, "filter_of", on_a_circle_as_long),
         partial(SUMS, filters.REMINGTON_THERE),
     ),
     "contact that adds to one line and not to boundary elements": (

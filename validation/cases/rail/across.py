@@ -40,7 +40,7 @@ NEAREST, LEFT = "nearest to boundary elements", "worst band of the nearest [dB]"
 ALPHA_OF, FACTOR_OF, ALIKE = "alpha of Remington", "factor of the bed", "alpha that is alike"
 WHEEL, OFFSET, GROUND, WAVE, SPEED = "wheel", "offset [dB]", "across", "wavelength [mm]", "speed [km/h]"
 SPEEDS, TOLERANCES = (80.0, 200.0), (1.0, 2.0, 3.0)
-WAYS = ("worst band that counts", *(f"dB(A), {speed:g} km/h" for speed in SPEEDS))
+WAYS = ("in the worst band that counts", *(f"in dB(A) at {speed:g} km/h" for speed in SPEEDS))
 FINE_ALPHAS = np.geomspace(0.1, 8.0, 60)
 
 
@@ -231,10 +231,10 @@ def _least_off(filtered: Callable[[float], FloatArray], wanted: FloatArray) -> t
     def worst(log: float) -> float:
         return float(np.abs(filtered(float(np.exp(log))) - wanted).max())
 
-    grid = np.linspace(np.log(0.05), np.log(20), 25)
+    grid = np.linspace(np.log(0.05), np.log(20), 13)
     best = int(np.argmin([worst(one) for one in grid]))
     ends = grid[max(best - 1, 0)], grid[min(best + 1, grid.size - 1)]
-    found = scipy.optimize.minimize_scalar(worst, bounds=ends, method="bounded", options={"xatol": 1e-3})
+    found = scipy.optimize.minimize_scalar(worst, bounds=ends, method="bounded", options={"xatol": 3e-3})
     return float(np.exp(found.x)), float(found.fun)
 
 

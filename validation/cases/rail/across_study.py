@@ -8,7 +8,7 @@ import numpy as np
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, Matrix, decibels
-from validation.analysis.evidence import Table, Whose, plus_minus, table_of
+from validation.analysis.evidence import Table, Whose, table_of
 from validation.analysis.series import Series
 from validation.analysis.statistics import Interval
 from validation.analysis.study import Study
@@ -48,7 +48,7 @@ def _borders(result: AcrossResult) -> Iterator[Table]:
     for one in _smooth(result, across.BORDER):
         row = rows.setdefault(one.where[WHEEL], {WHEEL: one.where[WHEEL]})
         of_ways = zip(one.at, one.found, strict=True)
-        row.update({f"{tolerance:g} dB, {one.model}": _border(alpha) for tolerance, alpha in of_ways})
+        row.update({f"{tolerance:g} dB {one.model}": _border(alpha) for tolerance, alpha in of_ways})
     if rows:
         yield table_of(BORDERS, list(rows.values()))
 
@@ -56,7 +56,7 @@ def _borders(result: AcrossResult) -> Iterator[Table]:
 def _border(alpha: object) -> str:
     assert isinstance(alpha, Interval)
     last = across.FINE_ALPHAS[-1]
-    return f"above {last:g}" if alpha.value >= last else plus_minus(alpha.value, alpha.half_width)
+    return f"{last:g} and more" if alpha.value >= last else f"{alpha.value:.2f} ± {max(alpha.half_width, 0.01):.2f}"
 
 
 def _stands(result: AcrossResult) -> Table:
@@ -107,7 +107,7 @@ def notes(result: AcrossResult) -> list[str]:
     for way in across.WAYS:
         if mine := [one for one in _smooth(result, across.BORDER) if one.model == way]:
             near, far = (_by_wheel([one.found[i] for one in mine]) for i in (0, 1))
-            said.append(f"One line, {way}: within 1 dB up to alpha = {near}, within 2 dB up to {far}.")
+            said.append(f"One line is within 1 dB {way} up to alpha = {near}; within 2 dB up to {far}.")
     if alike := [one.found[0] for one in _smooth(result, across.NEAREST) if one.model == across.ALIKE]:
         said.append(f"The alpha whose contact filter is nearest to that of isotropic ground is {_by_wheel(alike)}.")
     return said
@@ -176,7 +176,15 @@ STUDY = Study(
             Panel("alpha", across.OFF, title="one line", shade=(-1, 1), ylim=(-1.2, 9), legend="upper left").of(
                 Curve(across.OFF, across.WAYS, "lines", by=("model",), of={WHEEL: "first"}, band=True),
             ),
-            Panel(WAVE, "over boundary elements [dB]", facet="model", shade=(-1, 1), ylim=(-4, 10), downward=True).of(
+            Panel(
+                WAVE,
+                "over boundary elements [dB]",
+                facet="model",
+                shade=(-1, 1),
+                ylim=(-4, 10),
+                downward=True,
+                ticked=True,
+            ).of(
                 Curve(across.OVER_BEM, across.SHOWN, by=(GROUND,), of=OF_FIRST),
             ),
         ),
