@@ -67,8 +67,8 @@ def _stands(result: AcrossResult) -> Table:
         [
             {
                 GROUND: ground,
-                "DPRS, 1 dB down to [mm]": f"{max(reach[BED, ground]):g}",
-                "wider by 2/√3, 1 dB down to [mm]": f"{max(reach[filters.BED_WIDER, ground]):g}",
+                "DPRS, 1 dB down to [mm]": max(reach[BED, ground]),
+                "wider by 2/√3, 1 dB down to [mm]": max(reach[filters.BED_WIDER, ground]),
                 "nearest factor": _ends(nearest[across.FACTOR_OF, ground], ".2f"),
                 "nearest alpha of Remington": _ends(nearest[across.ALPHA_OF, ground], ".1f"),
                 "which leaves [dB]": _ends(left[across.ALPHA_OF, ground], ".1f"),
@@ -86,7 +86,7 @@ def _of_wheels(result: AcrossResult, quantity: str) -> Found:
 
 
 def _ends(values: Sequence[float], digits: str) -> str:
-    return " to ".join(dict.fromkeys(f"{end:{digits}}" for end in (min(values), max(values))))
+    return f"{min(values):{digits}} to {max(values):{digits}}"
 
 
 def _lacking(result: AcrossResult) -> Table:
@@ -94,11 +94,11 @@ def _lacking(result: AcrossResult) -> Table:
     scene = result.case.scene(result.case.smooth[0])
     line, waves = linear_filter(scene, LINEAR_ON_LINE, "ridges"), filters.millimetres(scene.levels.bands)
     shown = np.flatnonzero(counted(line) & (line < -0.05))
-    columns = {WAVE: [f"{waves[i]:g}" for i in shown], "one line": [f"{line[i]:.1f}" for i in shown]}
+    columns = {WAVE: waves[shown], "one line": line[shown].round(1)}
     for name in result.case.across:
         a3 = linear_filter(scene, LINEAR, GROUNDS[name])
-        columns[name] = [f"{round(a3[i] - line[i], 1) + 0.0:+.1f}" if counted(a3)[i] else "–" for i in shown]
-    return Table(LACKING, columns)
+        columns[name] = np.where(counted(a3), a3 - line, np.nan)[shown].round(1) + 0.0
+    return Table(LACKING, {name: column.tolist() for name, column in columns.items()})
 
 
 def notes(result: AcrossResult) -> list[str]:
