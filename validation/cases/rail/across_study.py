@@ -119,7 +119,7 @@ def _by_wheel(found: Sequence[object]) -> str:
 
 
 OF_FIRST = {WHEEL: "first", OFFSET: 0.0}
-one_line = Claim(model=LINEAR_ON_LINE, along=GROUND, printed=decibels)
+from_ridges = Claim(quantity=across.OVER_BEM, model=LINEAR_ON_LINE, along=GROUND, printed=decibels)
 STUDY = Study(
     title="What lies across a rail decides its contact filter",
     method=(
@@ -143,15 +143,13 @@ STUDY = Study(
             "Linear theory of the ellipse is the contact filter of boundary elements, whatever lies across.",
             short="Linear theory of the ellipse",
         ),
-        replace(one_line, quantity=across.ONE_LINE, whose=Whose.FIELD).saying(
+        replace(from_ridges, quantity=across.ONE_LINE, whose=Whose.FIELD).saying(
             "Springs on one line agree with a three-dimensional elastic analysis within 3 dB in one-third octaves "
             "(Ford and Thompson 2006).",
             short="Springs on one line and boundary elements",
         ),
-        replace(one_line, quantity=across.OVER_BEM).saying(
-            "One measured line is enough for the contact filter.", short="One line"
-        ),
-        Claim(quantity=across.OVER_BEM, model=filters.BED_WIDER, printed=decibels).saying(
+        from_ridges.saying("One measured line is enough for the contact filter.", short="One line"),
+        replace(from_ridges, model=filters.BED_WIDER).saying(
             "A bed of springs (DPRS) on a patch wider by 2/√3 has the contact filter of boundary elements.",
             short="DPRS on a wider patch",
         ),
