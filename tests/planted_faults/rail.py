@@ -13,7 +13,7 @@ from tests.selection import test_no_band_counts as silent
 from tests.simulation import test_calibration, test_rail_error_bars, test_rail_filters, test_scattered_levels
 from validation.analysis import graduation
 from validation.analysis.nominal_bands import NominalBands
-from validation.cases.rail import across, filters
+from validation.cases.rail import across, filters, rolled_filters
 from validation.scenes import isotropic_line
 from validation.selection import calibrate, contact_force, exported, rail_model, side_by_side
 from validation.selection.scene_model import Answer
@@ -48,14 +48,14 @@ def by_smooth_levels(scene):
     return slope * scene.contact.along / scene.contact.approach
 
 
-left_by_grid, beyond_linear = across.AcrossResult.left_by_grid, across.AcrossResult.beyond_linear
+left_by_grid, beyond_linear = rolled_filters.RolledFiltersResult.left_by_grid, across.AcrossResult.beyond_linear
 roll_one_way, filter_of = rail_across._roll, filters.filter_of
 
 
-def of_the_fine_cells(result, key):
+def of_the_fine_cells(result, key, model, other):
     """The change from coarse cells to fine ones for what is left behind them."""
     coarse, fine = result.case.cells
-    return left_by_grid(result, key) * (fine - coarse) / coarse
+    return left_by_grid(result, key, model, other) * (fine - coarse) / coarse
 
 
 def over_all_lines(model, contact):
@@ -77,7 +77,7 @@ SECOND_ORDER = test_across.test_a_wider_bed_and_three_lines_are_the_half_space_t
 SUMS = test_across.test_linear_filters_are_double_sums_over_the_waves_of_a_band
 FAULTS = {
     "a change of the cells for what they leave, in contact filters": (
-        (across.AcrossResult, "left_by_grid", of_the_fine_cells),
+        (rolled_filters.RolledFiltersResult, "left_by_grid", of_the_fine_cells),
         ERRORS,
     ),
     "bands that do not count, in contact filters": ((across, "counted", lambda a3: a3 < 1.0), ERRORS),

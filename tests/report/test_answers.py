@@ -9,7 +9,7 @@ from validation.analysis.evidence import Evidence, Role, Table, Verdict
 from validation.cases.punch import fractal_punch_study, work
 from validation.cases.punch import mdr_limits as rolled_off
 from validation.cases.punch.ensembles import DEVIATION, MEAN, OVER
-from validation.cases.rail import across
+from validation.cases.rail import across, rolled_filters
 from validation.cases.rail.rail_dynamic import BESIDE, RMS
 from validation.cases.rolling import reduced_models
 from validation.cases.rolling.force_spectrum import LEVEL, LINEAR_3D, RMS_FORCE, SPRINGS
@@ -243,7 +243,7 @@ def test_differences_below_and_above_are_told_apart():
 def test_a_rail_is_judged_by_what_lies_across_from_ridges_to_isotropic_ground():
     def off(ground, value, offset=0.0):
         where = {"wheel": "50 kN, 920 mm", "offset [dB]": offset, "across": ground, "wavelength [mm]": (8.0, 100.0)}
-        model, quantity = across.LINES[0], across.OVER_BEM
+        model, quantity = across.LINES[0], rolled_filters.OVER_BEM
         return at((0.1, 1.0), value, where=where, quantity=quantity, model=model, tolerance=1.0)
 
     numbers = [off("ridges", 0.1), off("alpha = 1", 2.0), off("isotropic ground", 3.0), off("ridges", 9.0, offset=10.0)]

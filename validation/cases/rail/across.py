@@ -12,10 +12,18 @@ from numpy.typing import NDArray
 from validation.analysis.margins import FIELD, THREE_DECIBELS
 from validation.analysis.series import Estimates, Series, Where, masked, only
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray, Interval, jackknifed
-from validation.analysis.study import Outcomes
 from validation.cases.rail import filters
 from validation.cases.rail.filters import GROUNDS, RailWheel, counted, decibel, linear_filter, on_strips
-from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
+from validation.cases.rail.rolled_filters import (
+    A3,
+    OVER_BEM,
+    WAVE,
+    Key,
+    RolledFilters,
+    RolledFiltersResult,
+    in_bands,
+    solved,
+)
 from validation.engine.engine import SERIAL, Engine
 from validation.scenes.rail import RailScene
 from validation.simulation.model_names import BED, BEM, LINEAR, LINEAR_ON_LINE
@@ -23,91 +31,69 @@ from validation.simulation.rail_across import WideRail, roll_both_ways, wide_rai
 from validation.simulation.rail_strip import StatedAcross, line_of, strip_bands, structure_of
 from validation.theory.elliptic_contact import EllipticContact
 
-Key = tuple[RailWheel, float, str]
-"""Wheel, dB over the levels, and what lies across, by its name."""
 LINES = (LINEAR_ON_LINE, filters.LINES_APART, filters.LINES_NEAR)
 BEDS = (BED, filters.BED_WIDER, filters.REMINGTON, filters.REMINGTON_THERE)
 MODELS = (LINEAR, *LINES, *BEDS)
 SHOWN = MODELS[:-1]
 ON_ROUGHER = (LINEAR, LINEAR_ON_LINE, filters.BED_WIDER)
 """Judged over rougher rails too; a linear filter is the same there, and boundary elements are nearly so."""
-TABLE, A3, OVER_BEM = "published table", "A3", "A3 over that of boundary elements"
+TABLE = "published table"
 WEIGHTED = "rms force over that of boundary elements [dB(A)]"
 ONE_LINE = "A3 of one line over that of boundary elements"
 REACH = "shortest wave within 1 dB of boundary elements [mm]"
 BORDER, OFF, WITHIN = "largest alpha for one line", "one line over boundary elements [dB]", "within [dB]"
 NEAREST, LEFT = "nearest to boundary elements", "worst band of the nearest [dB]"
 ALPHA_OF, FACTOR_OF, ALIKE = "alpha of Remington", "factor of the bed", "alpha that is alike"
-WHEEL, OFFSET, GROUND, WAVE, SPEED = "wheel", "offset [dB]", "across", "wavelength [mm]", "speed [km/h]"
+WHEEL, OFFSET, GROUND, SPEED = "wheel", "offset [dB]", "across", "speed [km/h]"
 SPEEDS, TOLERANCES = (80.0, 200.0), (1.0, 2.0, 3.0)
 WAYS = ("in the worst band that counts", *(f"in dB(A) at {speed:g} km/h" for speed in SPEEDS))
 FINE_ALPHAS = np.geomspace(0.1, 8.0, 60)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Across:
-    """Wheels of constant load on ground that crosses the rail from ridges to isotropic.
+class Across(RolledFilters):
+    """Ground that crosses the rail from ridges to isotropic; each strip is rolled over with both signs.
 
-    wheels: load of one wheel [kN] and diameter [mm]; rougher: dB over ISO 3095:2013 under the first wheels, and so many
-    of them; crown: of the rail [m]; across: names of `GROUNDS`; strips: realisations, each with both signs; cells: to
-    the smaller semi-axis, two grids.
+    rougher: dB over ISO 3095:2013 under the first wheels, and so many of these; across: names of `GROUNDS`.
     """
 
-    wheels: tuple[tuple[float, float], ...] = ((50.0, 920.0),)
     rougher: tuple[float, int] = (10.0, 0)
-    crown: float = 0.3
     across: tuple[str, ...] = tuple(GROUNDS)
     strips: int = 3
-    cells: tuple[int, int] = (6, 9)
     seed: int = 34
-
-    def __post_init__(self) -> None:
-        require_realisations(strips=self.strips)
 
     @property
     def smooth(self) -> list[Key]:
         """At the level of ISO 3095."""
-        return list(product(starmap(RailWheel, self.wheels), (0.0,), self.across))
+        return super().keys
 
     @property
     def keys(self) -> list[Key]:
         offset, wheels = self.rougher
         return [*self.smooth, *product(starmap(RailWheel, self.wheels[:wheels]), (offset,), self.across)]
 
-    def scene(self, key: Key) -> RailScene:
-        return filters.scene_of(key[0], crown=self.crown, offset=key[1])
-
     def problems(self, key: Key, cells: int) -> list[WideRail]:
         return [wide_rail(self.scene(key), GROUNDS[key[2]], cells, i, self.seed) for i in range(self.strips)]
 
 
 @dataclass(frozen=True)
-class AcrossResult(Outcomes):
+class AcrossResult(RolledFiltersResult):
     """Band powers on all strips, by kind of strip and by cells."""
 
     case: Across
 
-    def over_linear(self, key: Key, cells: int | None = None) -> Estimates:
-        """ln of the power of boundary elements over that of linear theory on the same strips, on the finer grid."""
+    def over(self, key: Key, model: str, other: str, cells: int | None = None) -> Estimates:
+        """ln of the power of boundary elements over that of linear theory; linear models have no strips."""
+        if model == other:
+            return super().over(key, model, other)
         found = [one for one in self[key, cells or self.case.cells[1]] if not one["failed"]]
-        rows = np.array([[one[BEM], one[LINEAR]] for one in found])
+        rows = np.array([[one[model], one[other]] for one in found])
         return Estimates(jackknifed(lambda some: np.log(np.divide(*some.sum(axis=0))), rows))
-
-    def left_by_grid(self, key: Key) -> FloatArray:
-        """Half-width that cells leave, to first order: what is left of the way from the coarse grid to the fine one."""
-        coarse, fine = self.case.cells
-        change = self.over_linear(key, fine).values - self.over_linear(key, coarse).values
-        return np.abs(change) * coarse / (fine - coarse)
-
-    def linear(self, key: Key, model: str = LINEAR) -> FloatArray:
-        """A3 of a linear model in the bands of the strips [dB]."""
-        scene = self.case.scene(key)
-        return on_strips(scene, linear_filter(scene, model, GROUNDS[key[2]]))
 
     def beyond_linear(self, key: Key, sign: int = 0) -> FloatArray:
         """Of boundary elements over linear theory, or an end of its interval; zero where strips have no waves [dB]."""
-        scene, over = self.case.scene(key), self.over_linear(key)
-        half = np.array([one.half_width for one in over]) + self.left_by_grid(key)
+        scene, over = self.case.scene(key), self.over_twin(key, BEM)
+        half = np.array([one.half_width for one in over]) + self.left_by_grid(key, BEM, LINEAR)
         found = np.zeros(len(scene.levels.bands))
         on_strips(scene, found)[:] = POWER_DECIBEL * (over.values + sign * half)
         return found
@@ -123,21 +109,7 @@ class AcrossResult(Outcomes):
 
 
 def run(case: Across, engine: Engine = SERIAL) -> AcrossResult:
-    """Roll on both grids. Raises NotConvergedError where fewer than three strips of a kind converge."""
-    groups: dict[tuple[Key, int], Sequence[WideRail]] = {
-        (key, cells): case.problems(key, cells) for key in case.keys for cells in case.cells
-    }
-    outcomes = engine.map_groups(roll_both_ways, groups)
-    lost = tuple(
-        f"strip {i}, {wheel.label}, {offset:+g} dB, {name}, {cells} cells to an axis: {int(one['failed'])} positions"
-        for ((wheel, offset, name), cells), found in outcomes.items()
-        for i, one in enumerate(found)
-        if one["failed"]
-    )
-    for ((wheel, offset, name), _), found in outcomes.items():
-        if sum(not one["failed"] for one in found) < FEWEST:
-            raise NotConvergedError(f"fewer than {FEWEST} strips of {wheel.label}, {offset:+g} dB, {name}", lost)
-    return AcrossResult(case, outcomes, lost)
+    return solved(case, engine, roll_both_ways, AcrossResult)
 
 
 def _series(result: AcrossResult) -> list[Series]:
@@ -157,28 +129,27 @@ def where_of(key: Key) -> Where:
 
 def _filters(result: AcrossResult, key: Key) -> Iterator[Series]:
     """A3 of linear theory in all bands, and of boundary elements in those of the strips."""
-    scene = result.case.scene(key)
-    in_bands = partial(Series, A3, where=where_of(key), along=WAVE, unit="dB")
-    yield in_bands(LINEAR, linear_filter(scene, LINEAR, GROUNDS[key[2]]), at=filters.millimetres(scene.levels.bands))
-    found = Estimates.exact(result.linear(key) / POWER_DECIBEL) + result.over_linear(key)
-    at, grid = filters.millimetres(strip_bands(scene)), result.left_by_grid(key)
-    yield in_bands(BEM, found, at=at, grid=grid, scale=POWER_DECIBEL)
+    scene, in_strips = result.case.scene(key), in_bands(result.case, key)
+    at = filters.millimetres(scene.levels.bands)
+    linear = linear_filter(scene, LINEAR, GROUNDS[key[2]])
+    yield Series(A3, LINEAR, linear, where=where_of(key), along=WAVE, at=at, unit="dB")
+    found = Estimates.exact(result.linear(key) / POWER_DECIBEL) + result.over_linear(key, BEM)
+    yield in_strips(A3, BEM, found, grid=result.left_by_grid(key, BEM, LINEAR))
 
 
 def _over_bem(result: AcrossResult, key: Key) -> Iterator[Series]:
     """In the bands that count, and how far down each filter holds."""
-    case, over, keep = result.case, result.over_linear(key), counted(result.linear(key))
-    at = filters.millimetres(strip_bands(case.scene(key)))
-    source = f"boundary elements, {case.strips} strips of both signs, {key[0].label}"
-    grid = result.left_by_grid(key)
-    judged = partial(
-        Series, where=where_of(key), along=WAVE, at=at, scale=POWER_DECIBEL, unit="dB", grid=grid, ranges=only(at, keep)
+    case, bem, keep = result.case, result.over_linear(key, BEM), counted(result.linear(key))
+    at, grid = filters.millimetres(strip_bands(case.scene(key))), result.left_by_grid(key, BEM, LINEAR)
+    near, three = (
+        margin.beside(f"boundary elements, {case.strips} strips of both signs, {key[0].label}")
+        for margin in (FIELD, replace(THREE_DECIBELS, rms=None))
     )
+    judged = partial(in_bands(case, key), grid=grid, ranges=only(at, keep))
     for model in MODELS if key in case.smooth else ON_ROUGHER:
-        off = Estimates.exact((result.linear(key, model) - result.linear(key)) / POWER_DECIBEL) - over
-        yield judged(OVER_BEM, model, masked(off, keep), margin=FIELD.beside(source))
+        off = result.over_linear(key, model) - bem
+        yield judged(OVER_BEM, model, masked(off, keep), margin=near)
         if model == LINEAR_ON_LINE:
-            three = replace(THREE_DECIBELS.beside(source), rms=None)
             yield judged(ONE_LINE, model, masked(off, keep), margin=three)
         within = np.logical_and.accumulate(POWER_DECIBEL * np.abs(off.values) <= FIELD.tolerance)
         yield Series(REACH, model, (float(at[within].min(initial=at[0])),), where=where_of(key), unit="mm")

@@ -13,8 +13,9 @@ from validation.analysis.series import Series
 from validation.analysis.statistics import Interval
 from validation.analysis.study import Study
 from validation.cases.rail import across, filters
-from validation.cases.rail.across import GROUND, OFFSET, WAVE, WHEEL, AcrossResult
+from validation.cases.rail.across import GROUND, OFFSET, WHEEL, AcrossResult
 from validation.cases.rail.filters import COUNTED, GROUNDS, counted, linear_filter
+from validation.cases.rail.rolled_filters import A3, OVER_BEM, WAVE
 from validation.simulation.model_names import BED, BEM, LINEAR, LINEAR_ON_LINE
 from validation.simulation.rail_strip import SHORTEST
 
@@ -119,7 +120,7 @@ def _by_wheel(found: Sequence[object]) -> str:
 
 
 OF_FIRST = {WHEEL: "first", OFFSET: 0.0}
-from_ridges = Claim(quantity=across.OVER_BEM, model=LINEAR_ON_LINE, along=GROUND, printed=decibels)
+from_ridges = Claim(quantity=OVER_BEM, model=LINEAR_ON_LINE, along=GROUND, printed=decibels)
 STUDY = Study(
     title="What lies across a rail decides its contact filter",
     method=(
@@ -134,12 +135,13 @@ STUDY = Study(
         f"Bands count down to the first in which A3 of linear theory is below {COUNTED:g} dB: near the zeros beyond it "
         "one-third octaves move by decibels. In dB(A): the rms force of a constant spring that follows the equivalent "
         "roughness, 2000 to 0.8 mm, A-weighted at f = v / lambda; no mobility of wheel or track, so of use for "
-        "differences between filters alone. The table of CNOSSOS-EU is an overlay: it tells no ground, and as far as "
+        "differences between filters alone. The table of CNOSSOS-EU, in the edition of "
+        "(EU) 2021/1226, is an overlay: it tells no ground, and as far as "
         "we recall it came from runs of DPRS. Its -1.3 dB at 40 mm, between -1.1 and -3.5 dB, may be a misprint."
     ),
     series=lambda result: result.series,
     claims=(
-        Claim(quantity=across.OVER_BEM, model=LINEAR, printed=decibels).saying(
+        Claim(quantity=OVER_BEM, model=LINEAR, printed=decibels).saying(
             "Linear theory of the ellipse is the contact filter of boundary elements, whatever lies across.",
             short="Linear theory of the ellipse",
         ),
@@ -167,9 +169,9 @@ STUDY = Study(
                 downward=True,
                 legend="lower left",
             ).of(
-                Curve(across.A3, LINEAR, "lines", "_", by=(GROUND,), of=OF_FIRST),
-                Curve(across.A3, BEM, "marks", "_", by=(GROUND,), of=OF_FIRST, bars=True, beside=1.0),
-                Curve(across.A3, across.TABLE, "crosses", "CNOSSOS-EU", of={WHEEL: "first"}),
+                Curve(A3, LINEAR, "lines", "_", by=(GROUND,), of=OF_FIRST),
+                Curve(A3, BEM, "marks", "_", by=(GROUND,), of=OF_FIRST, bars=True, beside=1.0),
+                Curve(A3, across.TABLE, "crosses", "CNOSSOS-EU", of={WHEEL: "first"}),
             ),
             Panel("alpha", across.OFF, title="one line", shade=(-1, 1), ylim=(-1.2, 9), legend="upper left").of(
                 Curve(across.OFF, across.WAYS, "lines", by=("model",), of={WHEEL: "first"}, band=True),
@@ -183,14 +185,14 @@ STUDY = Study(
                 downward=True,
                 ticked=True,
             ).of(
-                Curve(across.OVER_BEM, across.SHOWN, by=(GROUND,), of=OF_FIRST),
+                Curve(OVER_BEM, across.SHOWN, by=(GROUND,), of=OF_FIRST),
             ),
         ),
     ),
     matrices=(
         Matrix(
             name="A3 over that of boundary elements, 50 kN, 920 mm",
-            quantity=across.OVER_BEM,
+            quantity=OVER_BEM,
             where={WHEEL: "50 kN, 920 mm", OFFSET: 0.0},
             rows=("model",),
             columns=GROUND,

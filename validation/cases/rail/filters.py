@@ -33,7 +33,6 @@ from validation.simulation.rail_strip import (
 from validation.theory.elliptic_contact import EllipticContact
 
 TABLE, HEADER = Path(__file__).with_name("cnossos_a3_2021.csv"), 3
-SOURCE = "CNOSSOS-EU, Table G-2 in the edition of (EU) 2021/1226"
 T = TypeVar("T", bound=np.generic)
 STEEL = 210e9 / (2 * (1 - 0.3**2))
 """E* of steel on steel [Pa]."""
@@ -76,11 +75,6 @@ def columns_of_table() -> dict[RailWheel, dict[float, float]]:
     for load, diameter, wavelength, a3 in np.loadtxt(TABLE, delimiter=",", skiprows=HEADER).tolist():
         found.setdefault(RailWheel(load, diameter), {})[wavelength] = a3
     return found
-
-
-def a3_of_table(wheel: RailWheel) -> FloatArray:
-    """From 2000 to 0.8 mm [dB]."""
-    return np.array(list(columns_of_table()[wheel].values()))
 
 
 def scene_of(wheel: RailWheel, *, crown: float = 0.3, offset: float = 0.0, levels: str = "iso3095-2013") -> RailScene:

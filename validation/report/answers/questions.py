@@ -11,6 +11,7 @@ from validation.cases.punch import bandwidth, work
 from validation.cases.punch import ensembles as punch
 from validation.cases.punch import mdr_limits as limits
 from validation.cases.rail import across, filters, rail_dynamic
+from validation.cases.rail.rolled_filters import OVER_BEM
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import reduced_models as reduced
 from validation.cases.wheel import half_space as wheel
@@ -120,7 +121,7 @@ of_strips = partial(
 of_rail = partial(
     Source,
     case="across",
-    quantity=across.OVER_BEM,
+    quantity=OVER_BEM,
     where={across.OFFSET: 0.0},
     axis=across.GROUND,
     over=across.GROUND,
