@@ -54,13 +54,18 @@ FINE_ALPHAS = np.geomspace(0.1, 8.0, 60)
 class Across(RolledFilters):
     """Ground that crosses the rail from ridges to isotropic; each strip is rolled over with both signs.
 
-    rougher: dB over ISO 3095:2013 under the first wheels, and so many of these; across: names of `GROUNDS`.
+    rougher: dB over ISO 3095:2013 under the first wheels, how many these are, and strips there; across: names of
+    `GROUNDS`.
     """
 
-    rougher: tuple[float, int] = (10.0, 0)
+    rougher: tuple[float, int, int] = (10.0, 0, 3)
     across: tuple[str, ...] = tuple(GROUNDS)
     strips: int = 3
     seed: int = 34
+
+    @property
+    def labels(self) -> str:
+        return "; ".join(RailWheel(*wheel).label for wheel in self.wheels)
 
     @property
     def smooth(self) -> list[Key]:
@@ -69,11 +74,12 @@ class Across(RolledFilters):
 
     @property
     def keys(self) -> list[Key]:
-        offset, wheels = self.rougher
+        offset, wheels, _ = self.rougher
         return [*self.smooth, *product(starmap(RailWheel, self.wheels[:wheels]), (offset,), self.across)]
 
     def problems(self, key: Key, cells: int) -> list[WideRail]:
-        return [wide_rail(self.scene(key), GROUNDS[key[2]], cells, i, self.seed) for i in range(self.strips)]
+        strips = range(self.rougher[2] if key[1] else self.strips)
+        return [wide_rail(self.scene(key), GROUNDS[key[2]], cells, i, self.seed) for i in strips]
 
 
 @dataclass(frozen=True)
@@ -142,7 +148,7 @@ def _over_bem(result: AcrossResult, key: Key) -> Iterator[Series]:
     case, bem, keep = result.case, result.over_linear(key, BEM), counted(result.linear(key))
     at, grid = filters.millimetres(strip_bands(case.scene(key))), result.left_by_grid(key, BEM, LINEAR)
     near, three = (
-        margin.beside(f"boundary elements, {case.strips} strips of both signs, {key[0].label}")
+        margin.beside(f"boundary elements on strips of both signs, {key[0].label}")
         for margin in (FIELD, replace(THREE_DECIBELS, rms=None))
     )
     judged = partial(in_bands(case, key), grid=grid, ranges=only(at, keep))

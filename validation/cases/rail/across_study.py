@@ -125,9 +125,9 @@ STUDY = Study(
     title="What lies across a rail decides its contact filter",
     method=(
         "Lines have the levels of ISO 3095:2013; their waves cross the rail as ridges, with |k_y| < alpha k_x "
-        "uniformly, or as on isotropic ground. Wheels (load [kN], diameter [mm]: {c.wheels}) roll under constant load "
-        "on a crown of {c.crown:g} m, the first of them also on rougher rails ([dB], wheels: {c.rougher:g}). Boundary "
-        "elements have {c.cells} cells to the smaller semi-axis, on {c.strips} strips a ground, each upside down too. "
+        "uniformly, or as on isotropic ground. Wheels ({c.labels}) roll under constant load on a crown of {c.crown:g} "
+        "m, the first also on rougher rails (dB more, wheels, strips: {c.rougher:g}). Boundary elements have {c.cells} "
+        "cells to the smaller semi-axis, on {c.strips} strips a ground, each upside down too. "
         "Strips are drawn as wide as oblique long waves need, and rolled over along their middle; roughness ends at "
         f"{SHORTEST:g} a_x. Linear filters are integrals; A3 of boundary elements is that of linear theory of the "
         "ellipse and what they are over it on the same strips. One line: springs with R_1 = a_x²/d, "
@@ -211,7 +211,7 @@ CASE = Case(
     quick=across.Across(across=("ridges", "alpha = 0.5", "alpha = 2", "isotropic ground")),
     full=across.Across(
         wheels=((50.0, 920.0), (50.0, 360.0), (25.0, 920.0), (50.0, 680.0), (100.0, 920.0)),
-        rougher=(10.0, 2),
+        rougher=(10.0, 2, 8),
         strips=6,
         cells=(6, 9),
     ),
