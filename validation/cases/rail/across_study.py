@@ -183,7 +183,6 @@ STUDY = Study(
                 shade=(-1, 1),
                 ylim=(-4, 10),
                 downward=True,
-                ticked=True,
             ).of(
                 Curve(OVER_BEM, across.SHOWN, by=(GROUND,), of=OF_FIRST),
             ),
