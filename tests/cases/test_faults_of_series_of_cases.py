@@ -3,25 +3,19 @@
 import itertools
 import math
 from dataclasses import replace
-from functools import cache
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from tests.analysis.test_judged_claims import point
-from validation.analysis.evidence import Role, Verdict, number_with, numbers_with
+from validation.analysis.evidence import Role, Verdict, numbers_with
 from validation.analysis.series import Estimates, numbers_of
 from validation.analysis.statistics import DECIBEL, POWER_DECIBEL, Estimate, mean_estimate, ratio_of_means, student
 from validation.analysis.study import Outcomes
 from validation.cases.punch import bandwidth, fractal_punch, fractal_punch_study
-from validation.cases.rail import contact_filter, filters, rolled_filters
-from validation.cases.rail.filters import linear_filter, scene_of
-from validation.cases.rail.rolled_filters import OVER_BEM, RolledFilters, RolledFiltersResult
 from validation.cases.rolling import force_spectrum
 from validation.cases.rolling.force_spectrum import SPRINGS
-from validation.simulation.model_names import BEM, LINEAR, LINEAR_ON_LINE, SPRINGS_ON_LINE
-from validation.simulation.rail_strip import strip_bands
 from validation.theory.rolling import level_ratio
 
 # --- bandwidth of a punch ---------------------------------------------------------------------------------------------
@@ -164,63 +158,6 @@ def test_the_farthest_interval_is_judged_once_more_where_contacts_have_cells_eno
     mean, deviation = study.once_more(SimpleNamespace(case=PUNCH), numbers)
     assert (mean.value, mean.tolerance, mean.role) == (-1.5, 3.0, Role.CRITERION)
     assert (deviation.value, deviation.tolerance, deviation.role) == (9.0, 3.0, Role.FINDING)
-
-
-# --- contact filter ---------------------------------------------------------------------------------------------------
-
-
-@cache
-def rolled_rail():
-    """Boundary elements of other power on each strip, springs on the line 1 dB louder; few cells, 0.2 and 0.1."""
-    case = RolledFilters(across=("isotropic ground",), strips=3)
-    found = {}
-    for cells, more in zip(case.cells, (1, 0), strict=True):
-        found[case.keys[0], cells] = strips = []
-        points = case.problems(case.keys[0], cells)[0].strip.shape[0]
-        track = np.cos(2 * np.pi * np.outer(np.arange(points) / points, np.arange(1, 90))).sum(axis=1)
-        for gain in (0.9, 1.0, 1.2):
-            gains = {BEM: gain * 10 ** (0.2 * more / 20), SPRINGS_ON_LINE: 10 ** ((1 + 0.1 * more) / 20)}
-            gains |= dict.fromkeys((LINEAR, LINEAR_ON_LINE), 1.0)
-            strips.append({name: g * track for name, g in gains.items()} | {"failed": np.array(0.0)})
-    return RolledFiltersResult(case, found, ())
-
-
-def test_a_filter_over_boundary_elements_has_the_errors_of_both_in_the_bands_that_count():
-    rail = rolled_rail()
-    (key,) = rail.case.keys
-    coarse, fine = rail.case.cells
-    bem = rail.over_twin(key, BEM)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(rolled_filters, "models_of", lambda key: (BEM, LINEAR, LINEAR_ON_LINE, SPRINGS_ON_LINE))
-        numbers = numbers_of(contact_filter._of_strips(rail, key))
-    counts = np.flatnonzero(rail.linear(key) > contact_filter.COUNTED)
-    assert 3 < counts.size < len(bem) and (np.diff(counts) == 1).all() and counts[0] == 0
-    scene = rail.case.scene(key)
-    mine = np.isin(scene.levels.bands.nominal, strip_bands(scene).nominal)
-    for model, louder in ((LINEAR, 0.0), (LINEAR_ON_LINE, 0.0), (SPRINGS_ON_LINE, 1.0)):
-        number, line = number_with(numbers, OVER_BEM, model), LINEAR if model == LINEAR else LINEAR_ON_LINE
-        twin = (linear_filter(scene, line, "isotropic") - linear_filter(scene, LINEAR, "isotropic"))[mine]
-        off = twin[counts] + louder - POWER_DECIBEL * bem.values[counts]
-        each = [POWER_DECIBEL * bem[i].half_width_among(counts.size) for i in counts]
-        at = np.argmax(np.abs(off) + each)
-        assert (number.value, number.sample) == pytest.approx((off[at], each[at]), rel=1e-6)
-        assert number.grid == pytest.approx((0.2 + 0.1 * louder) * coarse / (fine - coarse))
-        assert number.reference == 0.0 and number.tolerance == 1.0
-
-
-def test_filters_beside_the_published_table_and_in_decibel_a():
-    rail = rolled_rail()
-    wheel = next(iter(filters.columns_of_table()))
-    keep, table = filters.compared(wheel), filters.a3_of_table(wheel)
-    found = numbers_of(contact_filter._of_table(wheel, rail.case.across))
-    for model in (LINEAR, LINEAR_ON_LINE):
-        off = (linear_filter(scene_of(wheel), model, "isotropic") - table)[keep]
-        (number,) = numbers_with(found, model=model)
-        assert number.value == pytest.approx(math.sqrt(np.mean(off**2))) and number.grid == pytest.approx(0.05)
-    (ridges,) = contact_filter._in_decibel_a(rail, LINEAR_ON_LINE, "ridges").numbers
-    (ground,) = contact_filter._in_decibel_a(rail, LINEAR_ON_LINE, "isotropic ground").numbers
-    assert (ridges.role, ground.role) == (Role.IDENTITY, Role.FINDING)
-    assert abs(ridges.value) < 1e-6 and ground.value > 0.1
 
 
 # --- rolling over isotropic roughness ---------------------------------------------------------------------------------

@@ -24,19 +24,19 @@ def strip_of(across, rms=1e-9):
     return RailStrip(ground=ground, radii=(0.46, 0.3), force=5e4, modulus=filters.STEEL, **SMALL)
 
 
-def test_published_table_has_five_columns_of_all_bands_and_one_masked_value():
+def test_published_table_has_five_columns_of_all_bands():
     table, nominal = filters.columns_of_table(), 1000 * filters.scene_of(WHEEL).levels.bands.nominal
     assert len(table) == 5
     for wheel, column in table.items():
         assert np.allclose(list(column), nominal, rtol=1e-12), wheel
-    assert table[WHEEL][40.0] == -1.3
-    assert filters.compared(WHEEL)[[list(table[WHEEL]).index(one) for one in (40.0, 50.0)]].tolist() == [False, True]
 
 
 def test_linear_theory_of_the_ellipse_over_isotropic_ground_is_the_published_table_within_a_decibel():
-    for wheel in filters.columns_of_table():
-        keep = filters.compared(wheel)
-        found = filters.linear_filter(filters.scene_of(wheel), LINEAR, "isotropic") - filters.a3_of_table(wheel)
+    """Where the table follows a linear filter and is no rounded zero, without what may be a misprint at 40 mm."""
+    for wheel, column in filters.columns_of_table().items():
+        table = np.array(list(column.values()))
+        keep = (table >= -13) & (table <= -0.1) & ~((wheel == WHEEL) & (np.array(list(column)) == 40))
+        found = filters.linear_filter(filters.scene_of(wheel), LINEAR, "isotropic") - table
         assert np.sqrt(np.mean(found[keep] ** 2)) < 1.0, wheel
 
 

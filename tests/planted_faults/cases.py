@@ -312,10 +312,6 @@ FAULTS = {
         (rail_sound, "a_weighting", lambda frequency: REAL_WEIGHTING(frequency) - 2),
         partial(test_rail_sound.test_a_level_has_the_weight_of_the_standard, 1000, 0.0),
     ),
-    "the masked value of the published table compared": (
-        (rail_filters, "MASKED", set()),
-        test_rail_cases.test_published_table_has_five_columns_of_all_bands_and_one_masked_value,
-    ),
     "a wheel that bumps let down": (
         (equivalent_displacement, "lifted", lambda approach: approach - np.mean(approach)),
         test_rail_cases.test_a_strip_of_ridges_has_the_filter_of_a_row_of_springs_in_boundary_elements,

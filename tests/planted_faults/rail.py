@@ -6,16 +6,18 @@ from functools import partial
 import numpy as np
 
 from tests.analysis import test_graduation
+from tests.cases import test_across
 from tests.scenes import test_isotropic_line
 from tests.selection import test_contact_force, test_filter_table, test_own_scene
 from tests.selection import test_no_band_counts as silent
 from tests.simulation import test_calibration, test_rail_error_bars, test_rail_filters, test_scattered_levels
 from validation.analysis import graduation
 from validation.analysis.nominal_bands import NominalBands
+from validation.cases.rail import across, filters, rolled_filters
 from validation.scenes import isotropic_line
 from validation.selection import calibrate, contact_force, exported, rail_model, side_by_side
 from validation.selection.scene_model import Answer
-from validation.simulation import equivalent_displacement, rail_models, rail_quantity, rail_strip
+from validation.simulation import equivalent_displacement, rail_across, rail_models, rail_quantity, rail_strip
 from validation.simulation.model_names import ONE_SIDED_BED
 from validation.simulation.rail_models import ContactFilter
 from validation.simulation.rail_quantity import RailQuantity
@@ -46,12 +48,62 @@ def by_smooth_levels(scene):
     return slope * scene.contact.along / scene.contact.approach
 
 
+left_by_grid, beyond_linear = rolled_filters.RolledFiltersResult.left_by_grid, across.AcrossResult.beyond_linear
+roll_one_way, filter_of = rail_across._roll, filters.filter_of
+
+
+def of_the_fine_cells(result, key, model, other):
+    """The change from coarse cells to fine ones for what is left behind them."""
+    coarse, fine = result.case.cells
+    return left_by_grid(result, key, model, other) * (fine - coarse) / coarse
+
+
+def over_all_lines(model, contact):
+    """Springs read each line, and the mean of three lines is one."""
+    return filter_of("linear, on the line" if model.startswith("mean of") else model, contact)
+
+
+def on_a_circle_as_long(model, contact):
+    return filter_of(model, replace(contact, across=contact.along))
+
+
 slope_error, borne_by = graduation.Graduation.slope_error, equivalent_displacement.borne_by
 ground_of_strip = rail_strip.RailGround
 smoothing_error, stands_out = RailQuantity.smoothing_error.func, RailQuantity.stands_out.fget
 BARS, SCATTERED, FORCE = test_rail_error_bars, test_scattered_levels, test_contact_force
 UNHEARD = silent.test_no_model_is_enough_where_no_band_counts
+ERRORS = test_across.test_a_filter_over_boundary_elements_has_their_errors_in_the_bands_that_count
+SECOND_ORDER = test_across.test_a_wider_bed_and_three_lines_are_the_half_space_to_second_order
+SUMS = test_across.test_linear_filters_are_double_sums_over_the_waves_of_a_band
 FAULTS = {
+    "a change of the cells for what they leave, in contact filters": (
+        (rolled_filters.RolledFiltersResult, "left_by_grid", of_the_fine_cells),
+        ERRORS,
+    ),
+    "bands that do not count, in contact filters": ((across, "counted", lambda a3: a3 < 1.0), ERRORS),
+    "a bed that is narrower by 2/√3": ((filters, "WIDER", 3**0.5 / 2), SECOND_ORDER),
+    "three lines at the edges of the contact": ((filters, "NEAR", 1.0), SECOND_ORDER),
+    "one line for the mean of three": ((filters, "filter_of", over_all_lines), SECOND_ORDER),
+    "Remington's circle as long as the ellipse": (
+        (filters, "filter_of", on_a_circle_as_long),
+        partial(SUMS, filters.REMINGTON_THERE),
+    ),
+    "contact that adds to one line and not to boundary elements": (
+        (across.AcrossResult, "beyond_linear", lambda result, key, sign=0: -beyond_linear(result, key, sign)),
+        test_across.test_the_border_of_one_line_is_where_linear_theory_passes_the_tolerance_less_what_contact_adds,
+    ),
+    "forces that are not A-weighted": (
+        (filters, "a_weighting", lambda frequency: 0 * frequency),
+        test_across.test_forces_in_decibel_a_are_beside_those_of_boundary_elements,
+    ),
+    "strips too narrow for oblique long waves": (
+        (rail_across, "LINES", 0.05),
+        partial(test_across.test_strips_are_so_wide_that_their_line_has_the_power_of_the_ground, "alpha = 0.25"),
+    ),
+    "strips rolled over one way alone": (
+        (rail_across, "_roll", lambda rail, sign: roll_one_way(rail, 1)),
+        test_across.test_both_ways_are_the_heights_and_the_opposite_ones,
+    ),
     "boundary elements on a rail without their sample error": (
         (ContactFilter, "over_twin", without_sample_error),
         BARS.test_the_sample_leaves_students_interval_of_the_strips,

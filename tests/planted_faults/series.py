@@ -6,18 +6,8 @@ from tests.cases import test_faults_of_series_of_wheels as test_wheels
 from validation.analysis import series
 from validation.analysis.statistics import DECIBEL, Estimate
 from validation.cases.punch import bandwidth, ensembles
-from validation.cases.rail import contact_filter, rolled_filters
 from validation.cases.rolling import force_spectrum
 from validation.cases.wheel import half_space_study
-
-left_by_grid = rolled_filters.RolledFiltersResult.left_by_grid
-
-
-def of_the_fine_cells(result, key, model, other):
-    """The change from coarse cells to fine ones for what is left behind them."""
-    coarse, fine = result.case.cells
-    return left_by_grid(result, key, model, other) * (fine - coarse) / coarse
-
 
 FAULTS = {
     "a series without the error of its reference": (
@@ -39,14 +29,6 @@ FAULTS = {
     "decibels of a power for those of an amplitude, in Fig. 14.1": (
         (ensembles, "DECIBEL", DECIBEL / 2),
         test_cases.test_each_length_of_springs_has_its_own_level_and_exponents_their_grid,
-    ),
-    "a change of the cells for what they leave, in contact filters": (
-        (rolled_filters.RolledFiltersResult, "left_by_grid", of_the_fine_cells),
-        test_cases.test_a_filter_over_boundary_elements_has_the_errors_of_both_in_the_bands_that_count,
-    ),
-    "bands that do not count, in contact filters": (
-        (contact_filter, "counted", lambda a3: a3 < 1.0),
-        test_cases.test_a_filter_over_boundary_elements_has_the_errors_of_both_in_the_bands_that_count,
     ),
     "decibels of an amplitude for those of a power, in the limit of Geike's spectrum": (
         (force_spectrum, "POWER_DECIBEL", DECIBEL),

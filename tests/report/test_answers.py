@@ -8,7 +8,7 @@ from tests.report.test_printed import html_of, number
 from validation.analysis.evidence import Evidence, Role, Table, Verdict
 from validation.cases.punch import fractal_punch_study, interface, work
 from validation.cases.punch.ensembles import DEVIATION, MEAN, OVER
-from validation.cases.rail import rolled_filters, rough_rail
+from validation.cases.rail import across, rolled_filters
 from validation.cases.rail.rail_dynamic import BESIDE, RMS, SPRINGS_OVER_BEM
 from validation.cases.rolling import reduced_models
 from validation.cases.rolling.force_spectrum import LEVEL, LINEAR_3D, RMS_FORCE, SPRINGS
@@ -20,7 +20,6 @@ from validation.report.answers.questions import in_decibels, per_cent, times
 from validation.report.answers.strip import Cell, span
 from validation.report.contents import CASES
 from validation.report.section import Section
-from validation.simulation import model_names
 
 TEN = fractal_punch_study.LEVEL.tolerance
 WORKED = Table(work.WORK, {work.CELLS: [128], work.SPRINGS: [2048], work.APPLICATIONS: [15.2]})
@@ -167,7 +166,7 @@ def test_an_alternative_on_an_axis_of_its_own_says_which():
 def test_a_case_that_was_not_run_or_has_no_number_says_so():
     found = {row.question.name: row for row in answered_questions([punch(at((0.1, 1.0), 0.0))])}
     assert found["contact-filter"].word == "Not run"
-    assert "rough_rail" in found["contact-filter"].answer
+    assert "across" in found["contact-filter"].answer
     assert found["scatter"].word == "Not measured"
     assert not found["contact-filter"].strip
     lost = Section("fractal_punch", CASES["fractal_punch"], "none", {}, None, ("surface 1",))
@@ -238,18 +237,15 @@ def test_differences_below_and_above_are_told_apart():
     assert "1 of 2 numbers differ: -29 %" in both.answer
 
 
-def test_a_rail_is_judged_over_its_slope_in_the_bands_that_count():
-    def off(offset, value):
-        where = {"offset [dB]": offset, "wavelength [mm]": (8.0, 100.0)}
-        model, quantity = model_names.SPRINGS_ON_LINE, rolled_filters.OVER_BEM
+def test_a_rail_is_judged_by_what_lies_across_from_ridges_to_isotropic_ground():
+    def off(ground, value, offset=0.0):
+        where = {"wheel": "50 kN, 920 mm", "offset [dB]": offset, "across": ground, "wavelength [mm]": (8.0, 100.0)}
+        model, quantity = across.LINES[0], rolled_filters.OVER_BEM
         return at((0.1, 1.0), value, where=where, quantity=quantity, model=model, tolerance=1.0)
 
-    numbers = [off(0.0, 0.5), off(20.0, -4.0)]
-    found = {"offset [dB]": [0.0, 20.0], rough_rail.WAVES: ["50 to 2.5 mm"] * 2, "h' a_x / d": [0.092, 0.92]}
-    roughness = Table("roughness and contact", found)
-    row = row_of("contact-filter", section_of("rough_rail", numbers, roughness))
-    assert list(row.strip)[1:-1] == [("0.092", "yes"), ("0.92", "no")]
-    assert row.measured == "h' a_x/d = 0.092 to 0.92, offset [dB] = 0 to 20, waves of h' = 50 to 2.5 mm"
+    numbers = [off("ridges", 0.1), off("alpha = 1", 2.0), off("isotropic ground", 3.0), off("ridges", 9.0, offset=10.0)]
+    row = row_of("contact-filter", section_of("across", numbers))
+    assert list(row.strip) == [("ridges", "yes"), ("alpha = 1", "no"), ("isotropic ground", "no")]
 
 
 def test_the_scatter_has_numbers_of_its_own():

@@ -20,10 +20,10 @@ from validation.cases.exact import geike, hertz
 from validation.cases.limits import limits
 from validation.cases.punch import bandwidth, interface, normalisation
 from validation.cases.punch.fractal_punch import FractalPunch
+from validation.cases.rail.across import Across
 from validation.cases.rail.rail_dynamic import RailDynamic
 from validation.cases.rail.rail_sound import RailSound, shipped_rail
-from validation.cases.rail.rolled_filters import RolledFilters
-from validation.cases.rail.rough_rail import GROUND, RoughRail
+from validation.cases.rail.rough_rail import RoughRail
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import input_spectrum as rolling_input
 from validation.cases.rolling import reduced_models, ridges, roughness_from_force, track_stiffness, validity
@@ -98,7 +98,7 @@ SMALL = {
         distance=0.1, springs=40, wheels=4, groups=4, ratios=(3.0, 2.0, 1.0), periods=10
     ),
     "wheel_stability": wheel_stability.WheelStability(turns=3, long_steps=2000, heights=(1e-3,)),
-    "contact_filter": RolledFilters(across=(GROUND,), strips=3, cells=(4, 5)),
+    "across": Across(across=("alpha = 0.5", "isotropic ground"), cells=(4, 5)),
     "rough_rail": RoughRail(offsets=(20.0,), strips=3, cells=(4, 5)),
     "rail_dynamic": RailDynamic(
         offsets=(0.0,), others=(), longest=0.05, periods=2, rounds=(0, 1), strips=3, compared=2

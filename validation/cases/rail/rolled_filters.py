@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import product, starmap
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -12,9 +13,9 @@ from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray
 from validation.analysis.study import Outcomes
 from validation.cases.rail import filters
-from validation.cases.rail.filters import ACROSS, REMINGTON, RailWheel
+from validation.cases.rail.filters import GROUNDS, REMINGTON, RailWheel
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
-from validation.engine.engine import SERIAL, Engine
+from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.rail import RailScene
 from validation.simulation import equivalent_displacement as tracks
 from validation.simulation import model_names as named
@@ -40,7 +41,7 @@ class RolledFilters:
     wheels: tuple[tuple[float, float], ...] = ((50.0, 920.0),)
     crown: float = 0.3
     offsets: tuple[float, ...] = (0.0,)
-    across: tuple[str, ...] = tuple(ACROSS)
+    across: tuple[str, ...] = ("ridges", "isotropic ground")
     strips: int = 4
     cells: tuple[int, int] = (6, 9)
     seed: int = 20
@@ -56,8 +57,8 @@ class RolledFilters:
         wheel, offset, _ = key
         return filters.scene_of(wheel, crown=self.crown, offset=offset)
 
-    def problems(self, key: Key, cells: int) -> list[tracks.RolledRail]:
-        scene, across, models = self.scene(key), ACROSS[key[2]], (BEM, *RIVALS, *spectral_models(key))
+    def problems(self, key: Key, cells: int) -> list[Any]:
+        scene, across, models = self.scene(key), GROUNDS[key[2]], (BEM, *RIVALS, *spectral_models(key))
         return [
             tracks.RolledRail(strip=strip_of(scene, across, cells, i, self.seed), models=models)
             for i in range(self.strips)
@@ -66,7 +67,7 @@ class RolledFilters:
 
 def spectral_models(key: Key) -> tuple[str, ...]:
     """Springs of input spectra on a kind of strip: Geike's rule is for isotropic ground alone."""
-    return (named.SPRINGS_ROLLING, named.SPRINGS_GEIKE)[: 2 if ACROSS[key[2]] == "isotropic" else 1]
+    return (named.SPRINGS_ROLLING, named.SPRINGS_GEIKE)[: 2 if GROUNDS[key[2]] == "isotropic" else 1]
 
 
 def models_of(key: Key) -> tuple[str, ...]:
@@ -100,7 +101,7 @@ class RolledFiltersResult(Outcomes):
     def linear(self, key: Key, model: str = named.LINEAR) -> FloatArray:
         """A3 of the linear twin of a model in the bands of the strips [dB]."""
         scene = self.case.scene(key)
-        return filters.on_strips(scene, filters.linear_filter(scene, twin_of(model), ACROSS[key[2]]))
+        return filters.on_strips(scene, filters.linear_filter(scene, twin_of(model), GROUNDS[key[2]]))
 
     def over_linear(self, key: Key, model: str) -> Estimates:
         """ln of the filter of a model over that of linear theory of the ellipse: that of its twin is exact."""
@@ -123,12 +124,19 @@ def in_bands(case: RolledFilters, key: Key) -> Callable[..., Series]:
     return partial(Series, where=where, along=WAVE, at=at, scale=POWER_DECIBEL, unit="dB")
 
 
+R = TypeVar("R", bound=RolledFiltersResult)
+
+
 def run_filters(case: RolledFilters, engine: Engine = SERIAL) -> RolledFiltersResult:
+    return solved(case, engine, tracks.roll_rail, RolledFiltersResult)
+
+
+def solved(case: RolledFilters, engine: Engine, solve: Callable[[Any], Outcome], result: type[R]) -> R:
     """Roll on both grids. Raises NotConvergedError where fewer than three strips of a kind converge."""
-    groups: dict[tuple[Key, int], Sequence[tracks.RolledRail]] = {
+    groups: dict[tuple[Key, int], Sequence[Any]] = {
         (key, cells): case.problems(key, cells) for key in case.keys for cells in case.cells
     }
-    outcomes = engine.map_groups(tracks.roll_rail, groups)
+    outcomes = engine.map_groups(solve, groups)
     lost = tuple(
         f"strip {i}, {wheel.label}, {offset:+g} dB, {name}, {cells} cells to an axis: {int(one['failed'])} positions"
         for ((wheel, offset, name), cells), found in outcomes.items()
@@ -138,4 +146,4 @@ def run_filters(case: RolledFilters, engine: Engine = SERIAL) -> RolledFiltersRe
     for ((wheel, offset, name), _), found in outcomes.items():
         if sum(not one["failed"] for one in found) < FEWEST:
             raise NotConvergedError(f"fewer than {FEWEST} strips of {wheel.label}, {offset:+g} dB, {name}", lost)
-    return RolledFiltersResult(case, outcomes, lost)
+    return result(case, outcomes, lost)

@@ -9,7 +9,8 @@ from validation.analysis.evidence import Evidence
 from validation.analysis.statistics import DECIBEL
 from validation.cases.punch import bandwidth, interface, work
 from validation.cases.punch import ensembles as punch
-from validation.cases.rail import rail_dynamic, rolled_filters, rough_rail
+from validation.cases.rail import across, filters, rail_dynamic
+from validation.cases.rail.rolled_filters import OVER_BEM
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import reduced_models as reduced
 from validation.cases.wheel import half_space as wheel
@@ -117,11 +118,12 @@ of_rolling = partial(
 )
 of_rail = partial(
     Source,
-    case="rough_rail",
-    quantity=rolled_filters.OVER_BEM,
-    axis=rough_rail.OFFSET,
-    over="h' a_x/d",
-    read=(CONTACT, "h' a_x / d"),
+    case="across",
+    quantity=OVER_BEM,
+    where={across.OFFSET: 0.0},
+    axis=across.GROUND,
+    over=across.GROUND,
+    series=(across.WHEEL,),
 )
 of_wheel = partial(Source, case="wheel_3d", quantity=LEVEL, axis="range", over="the spectrum")
 MOVING = Source(
@@ -134,7 +136,7 @@ MOVING = Source(
 GEIKE, LINEAR, ROLLING = (
     model + rolling.OVER for model in (rolling.SPRINGS, rolling.LINEAR_3D, rolling.ROLLING_SPRINGS)
 )
-ON_LINE, JUDGE = rolled_filters.RIVALS[1], counted(BEM, reduced.JUDGE)
+JUDGE = counted(BEM, reduced.JUDGE)
 QUESTIONS = (
     Question(
         "mean-stiffness",
@@ -185,11 +187,14 @@ QUESTIONS = (
     Question(
         "contact-filter",
         "Contact filter of a wheel on a rail",
-        of_rail(model=ON_LINE),
+        of_rail(model=across.LINES[0]),
         in_decibels,
-        (Alternative("linear theory of the ellipse", of_rail(model=rolled_filters.FILTERS[0]), INTEGRAL), JUDGE),
-        "springs on the measured line, isotropic ground",
-        (CONTACT, rough_rail.WAVES),
+        (
+            Alternative("linear theory of the ellipse", of_rail(model=across.MODELS[0]), INTEGRAL),
+            Alternative(filters.BED_WIDER, of_rail(model=filters.BED_WIDER), INTEGRAL),
+            JUDGE,
+        ),
+        "springs on one measured line",
     ),
     Question(
         "dynamic-wheel",
