@@ -7,9 +7,10 @@ from functools import partial
 
 from validation.analysis.evidence import Evidence
 from validation.analysis.statistics import DECIBEL
-from validation.cases.punch import bandwidth, work
 from validation.cases.punch import ensembles as punch
+from validation.cases.punch import fractal_punch_study as fig_14_1
 from validation.cases.punch import mdr_limits as limits
+from validation.cases.punch import work
 from validation.cases.rail import rail_dynamic, rolled_filters, rough_rail
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import reduced_models as reduced
@@ -103,9 +104,7 @@ PRESSED = partial(Alternative, BEM, None, worked)
 over_force = partial(Source, axis=punch.FORCE, over=punch.FORCE)
 of_punch = partial(over_force, case="fractal_punch", model=punch.OVER, where={"H": float}, series=("H",))
 of_limits = partial(over_force, case="mdr_limits", model=punch.OVER, series=(limits.ROLL_OFF,))
-of_fit = partial(
-    over_force, case="bandwidth", series=bandwidth.KINDS, quantity=punch.MEAN + bandwidth.OF_BEM, model=bandwidth.FIT
-)
+of_fit = partial(over_force, case="fractal_punch", quantity=punch.MEAN, model=fig_14_1.FIT, series=("H",))
 of_rolling = partial(
     Source, case="rolling", axis="h/d", over=reduced.SLOPE, read=(reduced.SLOPE, "value"), series=("q a",)
 )
@@ -146,7 +145,7 @@ QUESTIONS = (
         "Stiffness of a rough punch, its mean over surfaces",
         of_punch(quantity=punch.MEAN),
         per_cent,
-        (FIT(of_fit(where={bandwidth.BANDWIDTH: ...})), PRESSED("fractal_punch")),
+        (FIT(of_fit()), PRESSED("fractal_punch")),
     ),
     Question(
         "scatter",
@@ -167,7 +166,7 @@ QUESTIONS = (
         "Stiffness of roughness with a roll-off",
         of_limits(quantity=limits.STIFFNESS, where={limits.ROLL_OFF: lambda place: place != 1}),
         per_cent,
-        (FIT(of_fit(where={bandwidth.ROLL_OFF: ...})), PRESSED("mdr_limits")),
+        (PRESSED("mdr_limits"),),
     ),
     Question(
         "rolling-rms",

@@ -1,0 +1,152 @@
+"""The ratio of the deviations of both methods by bandwidth, beside springs without elastic coupling."""
+
+import math
+from collections.abc import Iterator
+from functools import partial
+
+from validation.analysis.case import Case, Chapter
+from validation.analysis.chart import Chart, Curve, Panel
+from validation.analysis.claims import Claim, Matrix, per_cent
+from validation.analysis.series import Margin, Series
+from validation.analysis.statistics import DECIBEL
+from validation.analysis.study import Outcomes, Study
+from validation.cases.punch.bandwidth import AREA, ROLL_OFF, Band, Bandwidth, Deviations, run
+from validation.cases.punch.ensembles import DEVIATION, FORCE, OVER
+from validation.simulation.rough_punch import BEM, MDR, require_converged
+
+BANDWIDTH, H = "q_max / q_min", "H"
+RATIO = "relative deviation, MDR over boundary elements"
+DRIFT, ROLLED = "change of that ratio by decade of q_max / q_min", "change of that ratio by a roll-off"
+ALIKE = Margin(DECIBEL * math.log(1.1), "10 %, the margin at which MDR is said to predict it", source="no change")
+
+
+def series(result: Outcomes) -> list[Series]:
+    """Raises NotConvergedError where too few surfaces have converged at one of the forces."""
+    pressed = [{"stiffness": rows} for (method, *_), rows in result.found.items() if method == BEM]
+    require_converged(pressed, result.unconverged)
+    found = Deviations(result)
+    return [*(one for hurst in result.case.hursts for one in _of(found, hurst)), *_changes(found)]
+
+
+def _of(found: Deviations, hurst: float) -> Iterator[Series]:
+    """Under each force by band."""
+    waves = [float(band.waves) for band in found.result.case.bands]
+
+    for level, force in enumerate(found.result.case.forces):
+        one = partial(Series, where={H: hurst, FORCE: force}, along=BANDWIDTH, shown=math.exp)
+        for quantity, model, values in (
+            (RATIO, OVER, found.ratio(hurst, level)),
+            (DEVIATION, BEM, found.resolved(BEM, hurst, level)),
+            (DEVIATION, MDR, found.resolved(MDR, hurst, level)),
+        ):
+            at, found_there = [waves[i] for i in values], list(values.values())
+            yield one(quantity, model, [v.value for v in found_there], at=at, grid=[v.grid for v in found_there])
+        alone = found.without_coupling(hurst, level)
+        yield one(RATIO, AREA, list(alone.values()), at=[waves[i] for i in alone])
+
+
+def _changes(found: Deviations) -> Iterator[Series]:
+    """Of the ratio by decade of bandwidth, under all forces, and by a roll-off."""
+    case, levels = found.result.case, range(len(found.result.case.forces))
+    judged = partial(case.in_decibels, shown=lambda x: math.exp(x / DECIBEL), margin=ALIKE)
+    for hurst in case.hursts:
+        slopes = [found.slope(hurst, level) for level in levels]
+        yield judged(DRIFT, OVER, [s.value for s in slopes], grid=[s.grid for s in slopes], where={H: hurst})
+    rolled = [found.of_roll_off(level) for level in levels]
+    yield judged(ROLLED, OVER, rolled, where={H: case.rolled.hurst, ROLL_OFF: float(case.roll_off[0])})
+
+
+def notes(result: Outcomes) -> list[str]:
+    """What the constant is, and what springs without coupling say of it."""
+    case, found = result.case, Deviations(result)
+    pairs = [(hurst, level) for hurst in case.hursts for level in range(len(case.forces))]
+    widest = [found.ratio(*pair)[max(found.ratio(*pair))].value.value for pair in pairs]
+    uncoupled = [value.value for pair in pairs for value in found.without_coupling(*pair).values()]
+    (least, most), (low, high) = (
+        [f"{math.exp(x):.2f}" for x in (min(some), max(some))] for some in (widest, uncoupled)
+    )
+    return [
+        f"In the widest band under each force, MDR's relative deviation is {least} to {most} times that of boundary "
+        "elements.",
+        f"Without elastic coupling, springs along a line have {low} to {high} times the relative deviation of springs "
+        "over an area.",
+    ]
+
+
+STUDY = Study(
+    title="Bandwidth: is MDR noisier than the half-space however wide the band is?",
+    method=(
+        "Punches as in Fig. 14.1, whose longest wave is the side, without a roll-off, H = {c.hursts:g}. Boundary "
+        "elements press {c.counts}; the first number of surfaces is that of the first decade of Fbar, the second that "
+        "of both. Phases are common to all bands and H, so that most of the scatter drops out of a change from band to "
+        "band: each deviation is that of the narrowest band and the changes, on the surfaces that both bands have "
+        "(multilevel Monte Carlo). {c.profiles} profiles, 16 springs to the shortest wave. With a roll-off: "
+        "{c.rolled_off} surfaces whose spectrum is constant up to q_r = {c.roll_off[0]} · 2π/L. Errors: the sample, 95 "
+        "%; cells, extrapolated to no size, with half of the way there; twice as many springs. A band whose cells are "
+        "not halved takes the error of the one before. "
+        "Theory: waves beyond q_max are as high as h (q_min/q_max)^H, and shift both load curves by no more than "
+        "their highest point (Barber 2003). So at one Fbar both stiffnesses have a limit for wide bands, and the "
+        "ratio of their deviations tends to a constant. It holds where these waves are low beside the depth of the "
+        "contact, q_max/q_min > (kbar/Fbar)^(1/H). The constant is that of the highest ground of a line beside that of "
+        "an area: dotted, springs along a line over springs over an area, without elastic coupling, whose contact is "
+        "k/E* long or wide, k that of boundary elements."
+    ),
+    series=series,
+    claims=(
+        Claim(quantity=DRIFT, printed=per_cent).saying(
+            "The ratio of the deviations of MDR and of boundary elements does not change with bandwidth.",
+            short="Ratio of the deviations, by decade of bandwidth",
+        ),
+    ),
+    charts=(
+        Chart("bandwidth", claims=(0,), columns=3, sharey=True, height=3.8).of(
+            "Relative deviation of the stiffness, MDR over boundary elements, under forces Fbar. Bars: 95 % of sample "
+            "and grid. Dotted: springs along a line over springs over an area, without elastic coupling. Grey: 10 %.",
+            Panel(BANDWIDTH, "MDR over boundary elements", facet=H, ylim=(0.8, 1.6), lines=(1.0,), ticked=True).of(
+                Curve(RATIO, OVER, by=(FORCE,), bars=True, beside=1.04), Curve(RATIO, AREA, "dotted", "_", by=(FORCE,))
+            ),
+        ),
+        Chart("bandwidth-deviation", claims=(0,), columns=3, sharey=True, height=3.8).of(
+            "The relative deviations themselves. Symbols: boundary elements; lines: MDR. Bars: 95 % of sample and grid.",
+            Panel(BANDWIDTH, "relative deviation", facet=H, ylim=(0.1, 0.4), ticked=True).of(
+                Curve(DEVIATION, BEM, "marks", by=(FORCE,), bars=True, beside=1.04),
+                Curve(DEVIATION, MDR, "lines", "_", by=(FORCE,)),
+            ),
+        ),
+    ),
+    matrices=(
+        Matrix(
+            name="change of MDR over boundary elements by decade of q_max / q_min, or by a roll-off",
+            quantity=(DRIFT, ROLLED),
+            rows=("quantity", H),
+            columns=FORCE,
+            printed=per_cent,
+        ),
+    ),
+    notes=notes,
+)
+CASE = Case(
+    name="bandwidth",
+    chapter=Chapter.PRESSED,
+    place=4,
+    answers="Fig. 14.1 at bandwidths of 16 to 1024: is MDR noisier however wide the band is",
+    quick=Bandwidth(
+        hursts=(0.7,),
+        bands=(Band(8, 32, 60, 40, (16, 8), 60), Band(16, 64, 40, 20, (12, 6), 40), Band(32, 128, 12, 6)),
+        rolled_off=20,
+        profiles=300,
+    ),
+    full=Bandwidth(
+        bands=(
+            Band(16, 256, 3000, 1500, (400, 130), 1000),
+            Band(64, 256, 3000, 1000, (400, 130), 1000),
+            Band(256, 1024, 1500, 200, (100, 24), 200),
+            Band(1024, 4096, 40, 0),
+        ),
+        rolled_off=600,
+        profiles=30000,
+    ),
+    run=run,
+    study=STUDY,
+    needs="boundary elements, whatever the bandwidth",
+)
