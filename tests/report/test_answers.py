@@ -130,9 +130,7 @@ def test_neighbours_of_one_side_are_one_range_and_others_are_not():
 
 def test_an_alternative_is_offered_where_its_own_numbers_agree():
     def fit(value, half=0.0):
-        where = {"q_max / q_min": 8.0, "Fbar": (0.3, 10.0)}
-        key = {"quantity": "mean stiffness over bem3d", "model": "fit", "tolerance": 0.5, "where": where}
-        return section_of("bandwidth", [at((0.3, 10.0), value, half, **key)])
+        return at((0.3, 10.0), value, half, model="fit", tolerance=0.5)
 
     failing, agreeing = at((1.0, 10.0), -1.2), at((0.1, 1.0), 0.1)
     (formula, _), (bem, case) = row_of("mean-stiffness", punch(failing), fit(0.2)).instead

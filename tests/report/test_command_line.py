@@ -18,7 +18,7 @@ from validation.analysis.contents import as_csv, as_json, csv_name, from_csv
 from validation.analysis.evidence import Role
 from validation.cases.exact import geike, hertz
 from validation.cases.limits import limits
-from validation.cases.punch import bandwidth, mdr_limits, normalisation
+from validation.cases.punch import bandwidth, mdr_limits
 from validation.cases.punch.fractal_punch import FractalPunch
 from validation.cases.rail.line_convention import LineConvention
 from validation.cases.rail.rail_dynamic import RailDynamic
@@ -55,9 +55,13 @@ SMALL = {
         fine_profiles=10,
         **PUNCHES | {"profiles": 30, "decades": (-1, 1)},
     ),
-    "normalisation": normalisation.Normalisation(hursts=(0.7,), surfaces=8, **PUNCHES),
     "bandwidth": bandwidth.Bandwidth(
-        cells=16, surfaces=4, pairs=(3, 3), refined=3, rolled_off=3, profiles=5, points=64, per_decade=1, seed=1
+        hursts=(0.7,),
+        bands=(bandwidth.Band(4, 16, 8, 6, (4, 4), 4), bandwidth.Band(8, 32, 6, 4)),
+        roll_off=(2, 0),
+        rolled_off=4,
+        profiles=30,
+        per_decade=1,
     ),
     "mdr_limits": mdr_limits.MdrLimits(roll_offs=(1, 2), surfaces=6, refined=3, **PUNCHES),
     "ridges": ridges.RollingOverRidges(length=20, shortest=6.0, cells=(4, 6), springs=(8.5, 16.5)),

@@ -20,11 +20,11 @@ class RoughAreas:
 
 
 def press_areas(areas: RoughAreas) -> Outcome:
-    """Contact fraction of each realisation at each load, F = E* sum (d + h)+ dA: one sort a surface."""
+    """Stiffness of each realisation at each load, E* = 1 a length, so the contact fraction: one sort a surface."""
     load = areas.roughness.height * np.array(areas.loads)
     last = areas.first + areas.realisations
     surfaces = (areas.roughness.surface(areas.cells, i) for i in range(areas.first, last))
-    return {"fraction": np.array([_fraction(surface.ravel(), load) for surface in surfaces])}
+    return {"stiffness": np.array([_fraction(surface.ravel(), load) for surface in surfaces])}
 
 
 def _fraction(height: FloatArray, load: FloatArray) -> FloatArray:

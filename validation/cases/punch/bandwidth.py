@@ -11,7 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
-from validation.analysis.multilevel import Linearised, Resolved, combined, moments, multilevel_moments
+from validation.analysis.multilevel import Linearised, Resolved, moments, multilevel_moments, weighted_sum
 from validation.analysis.statistics import FloatArray, nearest
 from validation.analysis.study import Outcomes
 from validation.cases.punch.ensembles import PunchEnsembles, press
@@ -32,20 +32,21 @@ ROLL_OFF = "q_r L / 2π"
 FINER, DOUBLED, AREA = "finer cells", "twice the springs", "springs over an area"
 SAMPLE_OF = {FINER: BEM, DOUBLED: MDR}
 """Whose realisations they press again."""
+LITTLE = 1e-9
 A_WAVE = 16
 """Springs of a profile to the shortest wave."""
 
 
 @dataclass(frozen=True)
 class Band:
-    """waves: q_max / q_min, q_min = 2 pi / L; cells: on a side; light, all: surfaces under the first decade of forces,
-    and how many of these under all forces; finer: the same two numbers on twice as many cells; areas: surfaces under
-    springs."""
+    """waves: q_max / q_min, q_min = 2 pi / L; cells: on a side; light: surfaces under the first decade of forces, for
+    each Hurst exponent, or one number for all; heavy: how many of these under all forces; finer: the same two numbers
+    on twice as many cells; areas: surfaces under springs."""
 
     waves: int
     cells: int
-    light: int
-    all: int
+    light: int | tuple[int, ...]
+    heavy: int
     finer: tuple[int, int] = (0, 0)
     areas: int = 0
 
@@ -73,14 +74,22 @@ class Bandwidth(PunchEnsembles):
     seed: int = 14
 
     def __post_init__(self) -> None:
-        counts = np.array([(band.light, band.all) for band in self.bands])
-        if len(counts) < 2 or (np.diff(counts, axis=0) > 0).any() or (counts[:, 1] > counts[:, 0]).any():
+        counts = np.array([(*self.light(i), band.heavy) for i, band in enumerate(self.bands)])
+        if len(counts) < 2 or (np.diff(counts, axis=0) > 0).any() or (counts.min(axis=1) < counts[:, -1]).any():
             raise ValueError(f"bands must be two at least, with fewer surfaces in wider ones, got {self.bands}")
+
+    def light(self, band: int) -> tuple[int, ...]:
+        """Surfaces under the first decade of forces, for each Hurst exponent."""
+        return tuple(np.broadcast_to(self.bands[band].light, len(self.hursts)).tolist())
 
     @property
     def counts(self) -> str:
         """How many surfaces in each band, in words."""
-        return "; ".join(f"{b.light} and {b.all} of q_max / q_min = {b.waves} on {b.cells}² cells" for b in self.bands)
+        light = [" or ".join(dict.fromkeys(map(str, self.light(i)))) for i in range(len(self.bands))]
+        return "; ".join(
+            f"{most} and {band.heavy} of q_max / q_min = {band.waves} on {band.cells}² cells"
+            for most, band in zip(light, self.bands, strict=True)
+        )
 
     def roughness(self, hurst: float, waves: int) -> PunchRoughness:
         return PunchRoughness(hurst=hurst, waves=(1, waves), height=self.height, seed=self.seed, common=True)
@@ -93,10 +102,10 @@ class Bandwidth(PunchEnsembles):
         plain = self.roughness(hurst, self.bands[band].waves)
         return RolledOffRoughness(**vars(plain), roll_off=roll_off)
 
-    def pressed(self, roughness: PunchRoughness, cells: int, light: int, at_all: int) -> list[Surface]:
+    def pressed(self, roughness: PunchRoughness, cells: int, light: int, heavy: int) -> list[Surface]:
         """The first ones at all forces, the others at those of the first decade."""
         few = force_levels((self.decades[0], self.decades[0] + 1), self.per_decade)
-        forces = [self.forces if i < at_all else few for i in range(light)]
+        forces = [self.forces if i < heavy else few for i in range(light)]
         return [self.surface_of(roughness, self.first + i, cells, mine) for i, mine in enumerate(forces)]
 
     def springs(self, roughness: PunchRoughness, points: int, count: int) -> Profiles:
@@ -109,8 +118,8 @@ Key = tuple[str, float | str, int]
 
 
 def run(case: Bandwidth, engine: Engine = SERIAL) -> Outcomes:
-    """Stiffness by method, Hurst exponent or roll-off, and band: a row a realisation, a column a force; of springs over
-    an area the contact fraction, a column a load."""
+    """Stiffness by method, Hurst exponent or roll-off, and band: a row a realisation, a column a force, or a load of
+    springs over an area."""
     plain = {
         (hurst, i): case.roughness(hurst, band.waves) for hurst in case.hursts for i, band in enumerate(case.bands)
     }
@@ -118,8 +127,8 @@ def run(case: Bandwidth, engine: Engine = SERIAL) -> Outcomes:
     profiles: dict[Key, Profiles] = {}
     areas: dict[Key, RoughAreas] = {}
     for (hurst, i), ground in plain.items():
-        band = case.bands[i]
-        surfaces[BEM, hurst, i] = case.pressed(ground, band.cells, band.light, band.all)
+        band, light = case.bands[i], case.light(i)[case.hursts.index(hurst)]
+        surfaces[BEM, hurst, i] = case.pressed(ground, band.cells, light, band.heavy)
         surfaces[FINER, hurst, i] = case.pressed(ground, 2 * band.cells, *band.finer)
         profiles[MDR, hurst, i] = case.springs(ground, A_WAVE * band.waves, case.profiles)
         profiles[DOUBLED, hurst, i] = case.springs(ground, 2 * A_WAVE * band.waves, case.profiles // 10)
@@ -132,9 +141,9 @@ def run(case: Bandwidth, engine: Engine = SERIAL) -> Outcomes:
     surfaces = {key: some for key, some in surfaces.items() if some}
     areas = {key: some for key, some in areas.items() if some.realisations}
     bem, springs, unconverged = press(engine, surfaces, profiles, press_lightly)
-    stiffness = {key: found["stiffness"] for key, found in {**bem, **springs}.items()}
-    pressed = zip(areas, engine.map(press_areas, list(areas.values())), strict=True)
-    return Outcomes(case, stiffness | {key: found["fraction"] for key, found in pressed}, unconverged)
+    uncoupled = dict(zip(areas, engine.map(press_areas, list(areas.values())), strict=True))
+    found = {**bem, **springs, **uncoupled}
+    return Outcomes(case, {key: outcome["stiffness"] for key, outcome in found.items()}, unconverged)
 
 
 @dataclass(frozen=True)
@@ -171,21 +180,42 @@ class Deviations:
         one, other = (moments(column, both).log_relative_deviation for column in columns)
         return other - one
 
-    def resolved(self, method: str, hurst: float, level: int) -> dict[int, Resolved]:
-        """Boundary elements to first order on cells of no size, and half of the way there; springs as they are, and
-        what twice as many change. What is not measured in a band is that of the one before."""
-        other, factor = {BEM: (FINER, 2.0), MDR: (DOUBLED, 0.0)}[method]
-        found, step = {}, Linearised(0.0, np.zeros(self.most[method]))
-        for i, value in self.by_band(method, hurst, level).items():
+    def steps(self, method: str, hurst: float, level: int) -> dict[int, Linearised]:
+        """What cells half as long, or twice the springs, change; where that is not measured, as in the band before."""
+        other, found = {BEM: FINER, MDR: DOUBLED}[method], {}
+        step = Linearised(0.0, np.zeros(self.most[method]))
+        for i in self.by_band(method, hurst, level):
             if np.isfinite(self.column(other, hurst, i, level)).any():
                 step = self.change((hurst, i, level), method, other)
-            found[i] = Resolved(value + factor * step, abs(step.value))
+            found[i] = step
         return found
+
+    def resolved(self, method: str, hurst: float, level: int) -> dict[int, Resolved]:
+        """Boundary elements to first order on cells of no size, and half of the way there; springs as they are, and
+        what twice as many change."""
+        values, steps = (of(method, hurst, level) for of in (self.by_band, self.steps))
+        taken = {BEM: 2.0, MDR: 0.0}[method]
+        return {i: Resolved(values[i] + taken * step, abs(step.value)) for i, step in steps.items()}
 
     def ratio(self, hurst: float, level: int) -> dict[int, Resolved]:
         """MDR over boundary elements."""
         springs, bem = (self.resolved(method, hurst, level) for method in (MDR, BEM))
         return {i: springs[i].beside(one) for i, one in bem.items()}
+
+    def slope(self, hurst: float, level: int) -> Resolved:
+        """d ln ratio / d log10(q_max / q_min) by generalised least squares: a change that few surfaces tell counts
+        little. Cells err alike in all bands, so that what they leave of a slope is the slope of what they leave."""
+        ratio = {i: one.value for i, one in self.ratio(hurst, level).items()}
+        shifts = np.array([one.influence for one in ratio.values()])
+        waves = [self.result.case.bands[i].waves for i in ratio]
+        line = np.stack([np.ones(len(waves)), np.log10(waves)], axis=1)
+        covariance = shifts @ shifts.T
+        # bands that go together exactly have no inverse
+        inverse = np.linalg.inv(covariance + LITTLE * np.trace(covariance) * np.eye(len(waves)))
+        weights = np.linalg.solve(line.T @ inverse @ line, line.T @ inverse)[1]
+        both = (self.steps(method, hurst, level) for method in (BEM, MDR))
+        left = [abs(float(weights @ [steps[i].value for i in ratio])) for steps in both]
+        return Resolved(weighted_sum(weights, list(ratio.values())), sum(left))
 
     def without_coupling(self, hurst: float, level: int) -> dict[int, Linearised]:
         """Springs along a line over springs over an area, whose contact is k / E* wide, k that of boundary elements."""
@@ -197,13 +227,6 @@ class Deviations:
                 load = nearest(fractions.mean(axis=0).tolist(), wide)
                 found[i] = line[i].beside(self.by_band(AREA, hurst, load)[i])
         return found
-
-    def slope(self, hurst: float, level: int) -> Resolved:
-        """d ln ratio / d log10(q_max / q_min) by least squares."""
-        ratio, waves = self.ratio(hurst, level), [band.waves for band in self.result.case.bands]
-        apart = np.log10([waves[i] for i in ratio])
-        apart -= apart.mean()
-        return combined(apart / (apart**2).sum(), list(ratio.values()))
 
     def of_roll_off(self, level: int) -> Linearised:
         """Change of MDR over boundary elements on equal cells."""

@@ -107,7 +107,7 @@ STUDY = Study(
             ),
         ),
         Chart("bandwidth-deviation", claims=(0,), columns=3, sharey=True, height=3.8).of(
-            "The relative deviations themselves. Symbols: boundary elements; lines: MDR. Bars: 95 % of sample and grid.",
+            "The relative deviations. Symbols: boundary elements; lines: MDR. Bars: 95 % of sample and grid.",
             Panel(BANDWIDTH, "relative deviation", facet=H, ylim=(0.1, 0.4), ticked=True).of(
                 Curve(DEVIATION, BEM, "marks", by=(FORCE,), bars=True, beside=1.04),
                 Curve(DEVIATION, MDR, "lines", "_", by=(FORCE,)),
@@ -138,13 +138,13 @@ CASE = Case(
     ),
     full=Bandwidth(
         bands=(
-            Band(16, 256, 3000, 1500, (400, 130), 1000),
-            Band(64, 256, 3000, 1000, (400, 130), 1000),
-            Band(256, 1024, 1500, 200, (100, 24), 200),
-            Band(1024, 4096, 40, 0),
+            Band(16, 256, 2000, 1500, (200, 40), 500),
+            Band(64, 256, 2000, 670, (200, 40), 500),
+            Band(256, 1024, (1500, 1000, 600), 120, (24, 8), 80),
+            Band(1024, 4096, (24, 10, 8), 0),
         ),
-        rolled_off=600,
-        profiles=30000,
+        rolled_off=300,
+        profiles=10000,
     ),
     run=run,
     study=STUDY,
