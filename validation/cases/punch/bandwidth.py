@@ -218,13 +218,18 @@ class Deviations:
         return Resolved(weighted_sum(weights, list(ratio.values())), sum(left))
 
     def without_coupling(self, hurst: float, level: int) -> dict[int, Linearised]:
-        """Springs along a line over springs over an area, whose contact is k / E* wide, k that of boundary elements."""
-        line, found = self.by_band(MDR, hurst, level), {}
-        for i in line:
-            wide = float(np.nanmean(self.column(BEM, hurst, i, level))) ** 2
+        """Springs along a line over springs over an area, whose contact is k / E* wide, k that of boundary elements.
+
+        In bands wider than (kbar / Fbar)^(1/H), whose shorter waves are low beside the depth F / k of the contact.
+        """
+        case, line, found = self.result.case, self.by_band(MDR, hurst, level), {}
+        for i, band in enumerate(case.bands):
             fractions = self.result.found.get((AREA, hurst, i))
-            if fractions is not None:
-                load = nearest(fractions.mean(axis=0).tolist(), wide)
+            if fractions is None:
+                continue
+            wide = float(np.nanmean(self.column(BEM, hurst, i, level)))
+            if band.waves > (wide / case.forces[level]) ** (1 / hurst):
+                load = nearest(fractions.mean(axis=0).tolist(), wide**2)
                 found[i] = line[i].beside(self.by_band(AREA, hurst, load)[i])
         return found
 

@@ -60,17 +60,18 @@ def notes(result: Outcomes) -> list[str]:
     """What the constant is, and what springs without coupling say of it."""
     case, found = result.case, Deviations(result)
     pairs = [(hurst, level) for hurst in case.hursts for level in range(len(case.forces))]
-    widest = [found.ratio(*pair)[max(found.ratio(*pair))].value.value for pair in pairs]
-    uncoupled = [value.value for pair in pairs for value in found.without_coupling(*pair).values()]
-    (least, most), (low, high) = (
-        [f"{math.exp(x):.2f}" for x in (min(some), max(some))] for some in (widest, uncoupled)
-    )
-    return [
-        f"In the widest band under each force, MDR's relative deviation is {least} to {most} times that of boundary "
-        "elements.",
-        f"Without elastic coupling, springs along a line have {low} to {high} times the relative deviation of springs "
-        "over an area.",
-    ]
+    widest = max(i for i, band in enumerate(case.bands) if band.heavy)
+    waves, ratios = case.bands[widest].waves, [found.ratio(*pair)[widest].value.value for pair in pairs]
+    said = [f"At q_max/q_min = {waves} MDR's relative deviation is {_from_to(ratios)} times that of boundary elements."]
+    uncoupled = [ratio.value for pair in pairs for ratio in found.without_coupling(*pair).values()]
+    if uncoupled:
+        times = _from_to(uncoupled)
+        said += [f"Without elastic coupling it along a line is {times} times that over an area."]
+    return said
+
+
+def _from_to(logarithms: list[float]) -> str:
+    return " to ".join(f"{math.exp(end):.2f}" for end in (min(logarithms), max(logarithms)))
 
 
 STUDY = Study(
@@ -101,7 +102,8 @@ STUDY = Study(
     charts=(
         Chart("bandwidth", claims=(0,), columns=3, sharey=True, height=3.8).of(
             "Relative deviation of the stiffness, MDR over boundary elements, under forces Fbar. Bars: 95 % of sample "
-            "and grid. Dotted: springs along a line over springs over an area, without elastic coupling. Grey: 10 %.",
+            "and grid. Dotted: springs along a line over springs over an area, without elastic coupling, where the waves "
+            "that a band lacks are low beside the depth of the contact.",
             Panel(BANDWIDTH, "MDR over boundary elements", facet=H, ylim=(0.8, 1.6), lines=(1.0,), ticked=True).of(
                 Curve(RATIO, OVER, by=(FORCE,), bars=True, beside=1.04), Curve(RATIO, AREA, "dotted", "_", by=(FORCE,))
             ),
