@@ -102,8 +102,8 @@ STUDY = Study(
     charts=(
         Chart("bandwidth", claims=(0,), columns=3, sharey=True, height=3.8).of(
             "Relative deviation of the stiffness, MDR over boundary elements, under forces Fbar. Bars: 95 % of sample "
-            "and grid. Dotted: springs along a line over springs over an area, without elastic coupling, where the waves "
-            "that a band lacks are low beside the depth of the contact.",
+            "and grid. Dotted: springs along a line over springs over an area, without elastic coupling, where waves "
+            "that the band lacks are low beside the depth of the contact.",
             Panel(BANDWIDTH, "MDR over boundary elements", facet=H, ylim=(0.8, 1.6), lines=(1.0,), ticked=True).of(
                 Curve(RATIO, OVER, by=(FORCE,), bars=True, beside=1.04), Curve(RATIO, AREA, "dotted", "_", by=(FORCE,))
             ),
