@@ -20,6 +20,7 @@ from validation.simulation.light_punch import press_lightly
 from validation.simulation.rough_punch import (
     BEM,
     MDR,
+    METHODS,
     Profiles,
     PunchRoughness,
     RolledOffRoughness,
@@ -207,15 +208,16 @@ class Deviations:
         little. Cells err alike in all bands, so that what they leave of a slope is the slope of what they leave."""
         ratio = {i: one.value for i, one in self.ratio(hurst, level).items()}
         shifts = np.array([one.influence for one in ratio.values()])
+        left = np.array([[steps[i].value for i in ratio] for steps in (self.steps(of, hurst, level) for of in METHODS)])
+        if not np.isfinite([*left.sum(axis=0), *(one.value for one in ratio.values())]).all():
+            return Resolved(Linearised(math.nan, shifts[0]), 0.0)
         waves = [self.result.case.bands[i].waves for i in ratio]
         line = np.stack([np.ones(len(waves)), np.log10(waves)], axis=1)
         covariance = shifts @ shifts.T
         # bands that go together exactly have no inverse
         inverse = np.linalg.inv(covariance + LITTLE * np.trace(covariance) * np.eye(len(waves)))
         weights = np.linalg.solve(line.T @ inverse @ line, line.T @ inverse)[1]
-        both = (self.steps(method, hurst, level) for method in (BEM, MDR))
-        left = [abs(float(weights @ [steps[i].value for i in ratio])) for steps in both]
-        return Resolved(weighted_sum(weights, list(ratio.values())), sum(left))
+        return Resolved(weighted_sum(weights, list(ratio.values())), float(np.abs(left @ weights).sum()))
 
     def without_coupling(self, hurst: float, level: int) -> dict[int, Linearised]:
         """Springs along a line over springs over an area, whose contact is k / E* wide, k that of boundary elements.
