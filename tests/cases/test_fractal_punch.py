@@ -188,17 +188,6 @@ def test_the_order_of_the_curves_is_found_or_shown_to_be_absent():
         assert (np.where(ends[0] == ends[1], ends[0], 0) == [order] * 5).all()
 
 
-def test_the_work_beside_plain_sampling():
-    """As many surfaces on 8², 16² and 32² cells, alike on each: the coarsest are work for nothing. Grids that agree
-    leave no variance to their steps."""
-    found = synthetic(surfaces=60).table("estimator")
-    assert found["cells"].tolist() == [8, 16, 32] * 2
-    for name in (MEAN, DEVIATION):
-        np.testing.assert_allclose(found[f"plain over multilevel, {name}"], (16**2 + 32**2) / (8**2 + 16**2 + 32**2))
-    np.testing.assert_allclose(found["work"], [1 / 16, 1 / 4, 1] * 2)
-    assert (found["variance"][:3] > 0.3).tolist() == [True, False, False] and found["variance"][1] < 1e-9
-
-
 def test_exponents_of_a_power_law():
     """Ensembles with k ~ F^0.5 on both sides: the exponent in each decade, and no difference."""
     evidence = synthetic(surfaces=60)

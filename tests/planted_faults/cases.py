@@ -33,7 +33,7 @@ from validation.analysis.spectra import waves
 from validation.analysis.statistics import mean_estimate, nearest
 from validation.cases.exact import geike, square_punch
 from validation.cases.limits import sweeps as limits
-from validation.cases.punch import bandwidth, ensembles, fractal_punch, work
+from validation.cases.punch import bandwidth, ensembles, fractal_punch
 from validation.cases.rail import filters as rail_filters
 from validation.cases.rail import line_convention, rail_sound
 from validation.cases.rolling import roughness_from_force, validity
@@ -183,10 +183,6 @@ FAULTS = {
             lambda points: replace(points[0], value=float(np.mean([p.difference for p in points]))),
         ),
         test_fractal_punch.test_a_decade_is_judged_by_its_worst_force,
-    ),
-    "a fine application as cheap as a coarse one": (
-        (work, "_cost", lambda applications, cells: 1.0),
-        test_fractal_punch.test_the_work_beside_plain_sampling,
     ),
     "the order of the curves turned round": (
         (fractal_punch, "combined", lambda weights, parts: combined(-np.abs(weights), parts)),

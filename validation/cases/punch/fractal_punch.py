@@ -5,10 +5,11 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import pairwise
+from operator import attrgetter
 
 import numpy as np
 
-from validation.analysis.evidence import Table, table_of
+from validation.analysis.evidence import Table
 from validation.analysis.multilevel import (
     Linearised,
     Moments,
@@ -22,7 +23,7 @@ from validation.analysis.series import Series, masked, single
 from validation.analysis.statistics import FloatArray, nearest
 from validation.analysis.study import Outcomes
 from validation.cases.punch.ensembles import DEVIATION, FEW, FORCE, MEAN, PunchEnsembles, press
-from validation.cases.punch.work import LOGARITHMS, estimator, worked
+from validation.cases.punch.work import worked
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.simulation.light_punch import press_lightly
 from validation.simulation.rough_punch import BEM, FEW_CELLS, MDR, Profiles, PunchRoughness, Surface, require_converged
@@ -204,7 +205,8 @@ class PunchStatistics:
     def steps(self, hurst: float, method: str, statistic: str, level: int) -> dict[int, Linearised]:
         """ln of the mean stiffness, or of the relative deviation, under one force, on each grid."""
         found = self._moments[hurst, method, level]
-        return {n: LOGARITHMS[statistic](mine) for n, mine in found.items()}
+        logarithm = {MEAN: attrgetter("log_mean"), DEVIATION: attrgetter("log_relative_deviation")}[statistic]
+        return {n: logarithm(mine) for n, mine in found.items()}
 
     def at(self, hurst: float, method: str, statistic: str, level: int) -> Resolved:
         """On cells of no size, or on twice the springs."""
@@ -317,17 +319,6 @@ def trends(found: PunchStatistics) -> Iterator[Series]:
 
 
 def tables(result: Outcomes) -> tuple[Table, ...]:
-    """What the plan of surfaces costs beside the best one; counted work."""
-    case, found = result.case, PunchStatistics(result)
-    rows = []
-    for part, (first, last) in enumerate(case.parts):
-        pairs = [(h, i) for h in case.hursts for i, force in enumerate(case.forces) if case.part_of(force) == part]
-        stiffness, *works = (
-            [found.on_grids(name, h, BEM, i) for h, i in pairs]
-            for name in ("stiffness", "applications", "frozen applications")
-        )
-        work = [{n: a[n] + b[n] for n in a} for a, b in zip(*works, strict=True)]
-        costs = estimator(case.counts(last), stiffness, work)
-        rows += [{"Fbar from": first, "Fbar to": last, **row} for row in costs]
-    pressed = [result[h, BEM, case.cells] for h in case.hursts]
-    return table_of("estimator", rows), worked(case.cells, case.points, pressed)
+    """Counted work."""
+    case = result.case
+    return (worked(case.cells, case.points, [result[hurst, BEM, case.cells] for hurst in case.hursts]),)

@@ -261,7 +261,7 @@ STUDY = Study(
         of_hursts(name="exponent: MDR less boundary elements", quantity=EXPONENT, model=LESS),
         of_hursts(name="exponent of the mean stiffness beside what is published", quantity=EXPONENT, model=BEM),
     ),
-    printed=("estimator", shown.TREND),
+    printed=(shown.TREND,),
 )
 CASE = Case(
     name="fractal_punch",
