@@ -74,6 +74,7 @@ def _from_to(logarithms: list[float]) -> str:
     return " to ".join(f"{math.exp(end):.2f}" for end in (min(logarithms), max(logarithms)))
 
 
+at_bandwidth = partial(Curve, by=(BANDWIDTH,), beside=1.06)
 STUDY = Study(
     title="Bandwidth: is MDR noisier than the half-space however wide the band is?",
     method=(
@@ -101,18 +102,17 @@ STUDY = Study(
     ),
     charts=(
         Chart("bandwidth", claims=(0,), columns=3, sharey=True, height=3.8).of(
-            "Relative deviation of the stiffness, MDR over boundary elements, under forces Fbar. Bars: 95 % of sample "
+            "Relative deviation of the stiffness, MDR over boundary elements, at each bandwidth. Bars: 95 % of sample "
             "and grid. Dotted: springs along a line over springs over an area, without elastic coupling, where waves "
             "that the band lacks are low beside the depth of the contact.",
-            Panel(BANDWIDTH, "MDR over boundary elements", facet=H, ylim=(0.8, 1.6), lines=(1.0,), ticked=True).of(
-                Curve(RATIO, OVER, by=(FORCE,), bars=True, beside=1.04), Curve(RATIO, AREA, "dotted", "_", by=(FORCE,))
+            Panel(FORCE, "deviation, MDR over boundary elements", facet=H, ylim=(0.8, 1.6), lines=(1.0,)).of(
+                at_bandwidth(RATIO, OVER, bars=True), at_bandwidth(RATIO, AREA, "dotted", "_")
             ),
         ),
         Chart("bandwidth-deviation", claims=(0,), columns=3, sharey=True, height=3.8).of(
             "The relative deviations. Symbols: boundary elements; lines: MDR. Bars: 95 % of sample and grid.",
-            Panel(BANDWIDTH, "relative deviation", facet=H, ylim=(0.1, 0.4), ticked=True).of(
-                Curve(DEVIATION, BEM, "marks", by=(FORCE,), bars=True, beside=1.04),
-                Curve(DEVIATION, MDR, "lines", "_", by=(FORCE,)),
+            Panel(FORCE, "relative deviation", facet=H, ylim=(0.1, 0.4)).of(
+                at_bandwidth(DEVIATION, BEM, "marks", bars=True), at_bandwidth(DEVIATION, MDR, "lines", "_")
             ),
         ),
     ),
