@@ -22,6 +22,7 @@ from validation.simulation.rough_punch import BEM, FEW_CELLS, MDR
 from validation.theory import closed_forms
 
 EXPONENT, LESS, OF_LONG = "exponent", "mdr less bem3d", ", L_1D = 1.1523 L"
+OF_LAW = f"{BEM} beside {shown.LAW}"
 PRINTED, FIT = ", as Fig. 14.1 shows it", "fit"
 LEVEL = Margin(
     tolerance=DECIBEL * math.log(1.1),
@@ -89,10 +90,12 @@ def exponents(found: shown.PunchStatistics, hurst: float) -> Iterator[Series]:
         place: dict[str, Place] = {shown.H: hurst, FORCE: (first, 10 * first)}
         yield Series(EXPONENT, LESS, (apart.value,), where=place, grid=[apart.grid], margin=DIGITS)
         if first == tested:
-            margin = replace(DIGITS, source="Pohrt and Popov (2012), linear between H = 0 and 1")
-            reference = steep + (flat - steep) * hurst
-            law = partial(Series, EXPONENT, where=place, family=len(case.hursts), margin=margin, reference=reference)
-            yield law(BEM, (bem.value,), grid=[bem.grid])
+            law = partial(Series, EXPONENT, where=place, family=len(case.hursts), grid=[bem.grid])
+            for model, source, reference in (
+                (BEM, "Pohrt and Popov (2012), linear between H = 0 and 1", steep + (flat - steep) * hurst),
+                (OF_LAW, "an unbounded spectrum", 1 / (1 + hurst)),
+            ):
+                yield law(model, (bem.value,), margin=replace(DIGITS, source=source), reference=reference)
 
 
 def fitted(case: shown.FractalPunch, force: float) -> float:
@@ -259,7 +262,12 @@ STUDY = Study(
         ),
         of_hursts(name="mean stiffness: the fit over boundary elements", quantity=MEAN, model=FIT, printed=per_cent),
         of_hursts(name="exponent: MDR less boundary elements", quantity=EXPONENT, model=LESS),
-        of_hursts(name="exponent of the mean stiffness beside what is published", quantity=EXPONENT, model=BEM),
+        of_hursts(
+            name="exponent of the mean stiffness beside what is published, and beside 1 / (1 + H)",
+            quantity=EXPONENT,
+            model=(BEM, OF_LAW),
+            columns="model",
+        ),
     ),
     printed=(shown.TREND,),
 )
