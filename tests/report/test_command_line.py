@@ -57,10 +57,11 @@ SMALL = {
     ),
     "bandwidth": bandwidth.Bandwidth(
         hursts=(0.7,),
-        bands=(bandwidth.Band(4, 16, 8, 6, (4, 4), 4), bandwidth.Band(8, 32, 6, 4)),
+        bands=(bandwidth.Band(4, 16, 8, 8, (8, 8), 4), bandwidth.Band(8, 32, 8, 8)),
         roll_off=(2, 0),
         rolled_off=4,
         profiles=30,
+        decades=(-2, 0),
         per_decade=1,
     ),
     "mdr_limits": mdr_limits.MdrLimits(roll_offs=(1, 2), surfaces=6, refined=3, **PUNCHES),

@@ -75,6 +75,8 @@ def notes(result: Outcomes) -> list[str]:
     waves, ratios = case.bands[widest].waves, [found.ratio(*pair)[widest].value.value for pair in pairs]
     slopes = [found.slope(*pair) for pair in pairs]
     mean = combined([1 / len(slopes)] * len(slopes), slopes)
+    if not math.isfinite(mean.value.value):
+        return []
     said = [
         f"Over all loads and H, the ratio changes by {100 * mean.value.value:+.1f} ± "
         f"{100 * (mean.value.half_width + mean.grid):.1f} % by decade of bandwidth.",
@@ -104,7 +106,8 @@ STUDY = Study(
         "{c.rolled_off} surfaces whose spectrum is constant up to q_r = {c.roll_off[0]} · 2π/L. Errors: the sample, 95 "
         "%; cells, extrapolated to no size, with half of the way there; twice as many springs. A band whose cells are "
         "not halved takes the error of the one before. What the ratio changes by decade of bandwidth is found by least "
-        "squares in ln(q_max/q_min), weighted by what the surfaces tell, under each force; its mean over forces is judged. "
+        "squares in ln(q_max/q_min), weighted by what the surfaces tell, under each force. Its mean over forces is "
+        "judged. "
         "Theory: waves beyond q_max are as high as h (q_min/q_max)^H, and shift both load curves by no more than "
         "their highest point (Barber 2003). So at one Fbar both stiffnesses have a limit for wide bands, and the "
         "ratio of their deviations tends to a constant. It holds where these waves are low beside the depth of the "
