@@ -1,27 +1,24 @@
-"""The bands of one punch: common long waves, a plateau, changes from band to band, and claims on planted answers."""
+"""Bands of one punch: common long waves, a plateau, deviations that add up over bands, and springs without coupling."""
 
-from types import SimpleNamespace
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from tests.cases.planted import statuses
-from validation.analysis.evidence import ClaimStatus
-from validation.analysis.statistics import student
+from tests.oracles import spring_sum
+from validation.analysis.evidence import ClaimStatus, numbers_with
 from validation.analysis.study import Outcomes
-from validation.cases.punch import bandwidth
-from validation.cases.punch.bandwidth import (
-    BANDWIDTH,
-    MEAN,
-    ROLL_OFF,
-    STATISTICS,
-    STUDY,
-    Bandwidth,
-    series,
-)
-from validation.cases.punch.ensembles import change
+from validation.cases.punch import fractal_punch_study
+from validation.cases.punch.bandwidth import AREA, DOUBLED, FINER, LOADS, ROLL_OFF, Band, Bandwidth, Deviations
+from validation.cases.punch.bandwidth_study import CASE, DRIFT, ROLLED, STUDY
+from validation.simulation.rough_punch import BEM, MDR, PunchRoughness
+from validation.simulation.springs_over_area import RoughAreas, press_areas
 
-CASE = Bandwidth(cells=16, surfaces=12, pairs=(4, 3), refined=3, rolled_off=4, profiles=20, points=256)
+MANY = 4000
+WIDE = Bandwidth(
+    hursts=(0.7,), bands=(Band(8, 32, MANY, MANY, (MANY, MANY), MANY), Band(80, 320, 400, 400)), profiles=MANY
+)
 
 
 def modes(height):
@@ -30,7 +27,7 @@ def modes(height):
 
 def test_a_wider_band_has_the_long_waves_of_the_one_before():
     """The same phases; amplitudes are smaller by one factor, since each surface has the same rms height."""
-    narrow, wide = (modes(CASE.ground[BANDWIDTH, float(band)].surface(4 * band, 7)) for band in (4, 8))
+    narrow, wide = (modes(WIDE.roughness(0.7, band).surface(4 * band, 7)) for band in (4, 8))
     waves = np.rint(np.fft.fftfreq(16) * 16).astype(int)
     inside = (np.hypot(waves[:, np.newaxis], waves) < 4.01) & (np.hypot(waves[:, np.newaxis], waves) > 0)
     # half of a cell moves a wave: heights stand in the middle of cells
@@ -42,7 +39,8 @@ def test_a_wider_band_has_the_long_waves_of_the_one_before():
 
 def test_the_plateau_is_flat_and_the_band_beyond_is_self_affine():
     """Four waves on a side at the roll-off: equal power in each below, (q_r / q)^(2 H + 2) above, none beyond."""
-    power = np.abs(modes(CASE.ground[ROLL_OFF, 4.0].surface(64, 0))) ** 2
+    case = replace(WIDE, bands=(Band(16, 64, 3, 3), Band(32, 128, 3, 3)), roll_off=(4, 0))
+    power = np.abs(modes(case.rolled.surface(64, 0))) ** 2
     waves = np.rint(np.fft.fftfreq(64) * 64)
     q = np.hypot(waves[:, np.newaxis], waves)
     level = power[0, 1]
@@ -50,103 +48,103 @@ def test_the_plateau_is_flat_and_the_band_beyond_is_self_affine():
     beyond = (q > 4.01) & (q < 15.99)
     np.testing.assert_allclose(power[beyond], level * (4 / q[beyond]) ** 3.4, rtol=1e-9)
     assert power[q > 16.01].max() < 1e-20 * level
-    assert power.sum() == pytest.approx(CASE.height**2, rel=1e-12, abs=0)
+    assert power.sum() == pytest.approx(case.height**2, rel=1e-12, abs=0)
 
 
-def test_every_pair_has_realisations_of_its_own_and_finer_cells_the_first_ones():
-    """Else the changes would not be independent of the narrowest band."""
-
-    def drawn(solve, groups):
-        raise InterruptedError(groups)
-
-    with pytest.raises(InterruptedError) as caught:
-        bandwidth.run(CASE, SimpleNamespace(map_groups=drawn))
-    (groups,) = caught.value.args
-    numbers = {key: [surface.realisation for surface in group] for key, group in groups.items()}
-    assert numbers["before 0"] == numbers["wider 0"] and numbers["before 1"] == numbers["wider 1"]
-    independent = [number for key in ("narrow", "wider 0", "wider 1") for number in numbers[key]]
-    assert len(set(independent)) == len(independent)
-    assert numbers["refined"] == numbers["narrow"][:3]
-    assert [groups[key][0].cells for key in ("narrow", "refined", "wider 0", "wider 1")] == [16, 32, 32, 64]
+def test_surfaces_are_those_of_fig_14_1():
+    """So a report that has both cases solves them once; the band has 64 waves on 256 cells."""
+    case, figure = CASE.full, fractal_punch_study.CASE.full
+    (band,) = (band for band in case.bands if band.waves == 64)
+    mine = case.pressed(case.roughness(0.7, 64), band.cells, case.light(1)[1], band.heavy)
+    both = [one == figure.surface(0.7, one.realisation, band.cells) for one in mine]
+    assert band.waves == figure.roughness(0.7).waves[1] and sum(both) >= band.heavy
 
 
-def lognormal(rng, count, *, mean, deviation, common=None):
-    """Of these statistics at each of the levels of force; common: normal draws that share nine tenths with these."""
-    own = rng.standard_normal((count, mean.size))
-    drawn = own if common is None else 0.9 * common + np.sqrt(0.19) * own
-    s = np.sqrt(np.log1p(deviation**2))
-    return mean * np.exp(s * drawn - s**2 / 2), drawn
+@pytest.mark.parametrize("overlap", [1e-3, 0.1])
+def test_springs_over_an_area_carry_the_load(overlap):
+    """Spring by spring at the height where as many touch: their force is the load, to one spring."""
+    rough = PunchRoughness(hurst=0.7, waves=(1, 8), seed=3)
+    areas = RoughAreas(roughness=rough, first=2, realisations=2, cells=32, loads=(overlap,))
+    for i, (stiffness,) in enumerate(press_areas(areas)["stiffness"]):
+        height = np.sort(rough.surface(32, 2 + i).ravel())[::-1]
+        touching = stiffness * height.size
+        around = [spring_sum(height, 1.0, 1.0, -height[n])[0] for n in (int(touching) - 1, int(touching))]
+        assert around[0] <= overlap * rough.height <= around[1]
+        np.testing.assert_allclose(np.interp(touching, [int(touching), int(touching) + 1], around), overlap * 1e-3)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("quantity", STATISTICS)
-def test_intervals_of_a_change_hold_it_as_often_as_they_say(quantity):
-    """Pairs of twelve with a correlation of 0.9: 95 % of 400 intervals, within four standard errors of that share."""
-    rng = np.random.default_rng(2)
-    one, held = np.ones(1), []
-    truth = {"mean stiffness": np.log(1.1), "relative deviation": np.log(0.8)}[quantity]
-    for _ in range(400):
-        before, common = lognormal(rng, 12, mean=one, deviation=0.25 * one)
-        after, _ = lognormal(rng, 12, mean=1.1 * one, deviation=0.2 * one, common=common)
-        (found,) = change(STATISTICS[quantity], before, after)
-        assert found.half_width == pytest.approx(student(11) * found.error)
-        held.append(abs(found.value - truth) <= found.half_width)
-    assert np.mean(held) == pytest.approx(0.95, abs=4 * np.sqrt(0.95 * 0.05 / 400))
+def planted(*, wide=0.1, springs=(0.12, 0.12), finer=0.1, rolled=1.0, pairs=400):
+    """Stiffnesses around one. Boundary elements: deviation 0.1 in the narrow band, `wide` in the wide one on the same
+    draws, of which few are pressed; springs: of their own, in both; finer: on half as long cells; rolled: a factor of
+    the springs' deviation with a roll-off."""
+    rng, columns = np.random.default_rng(3), len(WIDE.forces)
+    one, own = rng.standard_normal((2, MANY, 1))
+
+    def of(draws, deviation, count=MANY):
+        return np.repeat(1 + deviation * draws[:count], columns, axis=1)
+
+    narrow, broad = springs
+    found = {(BEM, 0.7, 0): of(one, 0.1), (FINER, 0.7, 0): of(one, finer), (BEM, 0.7, 1): of(one, wide, pairs)}
+    found |= {(MDR, 0.7, 0): of(own, narrow), (MDR, 0.7, 1): of(own, broad)}
+    found |= {(DOUBLED, 0.7, i): of(own, springs[i]) for i in range(2)}
+    found |= {(BEM, ROLL_OFF, 1): of(one, wide), (MDR, ROLL_OFF, 1): of(own, broad * rolled)}
+    loads = np.array(LOADS) / max(LOADS)
+    found[AREA, 0.7, 1] = loads * (1 + 0.05 * rng.standard_normal((MANY, 1)))
+    return Outcomes(WIDE, found)
 
 
-def planted(*, wide=1.0, rolled_off=1.0, size=0.5, mdr=1.0, surfaces=16000):
-    """Boundary elements with the stiffness of the fit and MDR `mdr` times as stiff; in the widest band MDR `wide` times
-    more, with a roll-off `rolled_off` times more, and there with `size` times the deviation."""
-    case = Bandwidth(surfaces=surfaces, pairs=(40, 40), refined=surfaces, rolled_off=surfaces, profiles=surfaces)
-    rng, mean = np.random.default_rng(3), np.array(bandwidth.fitted(case))
-
-    def outcome(factor=1.0, deviation=0.1, count=surfaces):
-        return {"stiffness": lognormal(rng, count, mean=factor * mean, deviation=np.full(mean.size, deviation))[0]}
-
-    narrow, pair, springs = outcome(), outcome(count=40), outcome(mdr)
-    rolled = outcome(deviation=0.1 * size)
-    wider = {"stiffness": wide * springs["stiffness"]}
-    return result_of(case, narrow, pair, pair, rolled, [springs, springs, wider, outcome(mdr * rolled_off, 0.1 * size)])
+def test_deviations_add_up_over_bands():
+    """A tenth of the surfaces tells the change of the deviation, whose level all of them tell: half of the error."""
+    found = Deviations(planted(wide=0.11))
+    all_of_them, few = found.resolved(BEM, 0.7, 2)[1].value, found.column(BEM, 0.7, 1, 2)
+    assert all_of_them.value == pytest.approx(np.log(0.11), abs=0.03)
+    assert all_of_them.value - found.resolved(BEM, 0.7, 2)[0].value.value == pytest.approx(np.log(1.1), abs=0.01)
+    assert all_of_them.half_width < 0.5 * 1.96 / np.sqrt(2 * np.isfinite(few).sum())
 
 
-def result_of(case, narrow, before, wider, rolled_off, springs):
-    found = {"narrow": narrow, "refined": narrow, "rolled off": rolled_off}
-    found |= {f"before {i}": before for i in range(2)} | {f"wider {i}": wider for i in range(2)}
-    return Outcomes(case, found | dict(zip(case.ground, springs, strict=True)))
+def test_a_change_to_finer_cells_is_doubled_and_left_open_also_in_wider_bands():
+    found = Deviations(planted(finer=0.105)).resolved(BEM, 0.7, 0)
+    for value in found.values():
+        assert value.value.value == pytest.approx(np.log(0.1 * 1.05**2), abs=0.015)
+        assert value.grid == pytest.approx(np.log(1.05), rel=0.05)
 
 
-HOLDS, LIMITED, CONTRADICTED = ClaimStatus.HOLDS, ClaimStatus.LIMITED, ClaimStatus.CONTRADICTED
+def test_a_change_by_decade_is_that_of_the_ratio():
+    """A decade of bandwidth: springs 20 % more, boundary elements 5 %; with a roll-off springs 30 % more."""
+    evidence = STUDY.evidence(planted(wide=0.105, springs=(0.1, 0.12), rolled=1.3))
+    for quantity, change, count in ((DRIFT, 1.2 / 1.05, 1), (ROLLED, 1.3, 2)):
+        values = [n.value for n in numbers_with(evidence.numbers, quantity)]
+        assert values == pytest.approx([20 * np.log10(change)] * count, abs=0.05)
 
 
-@pytest.mark.slow
+def test_springs_without_coupling_stand_beside():
+    """Deviation 0.12 along a line, 0.05 over an area at every load; under a light force the band is too narrow."""
+    (alone,) = Deviations(planted()).without_coupling(0.7, 6).values()
+    assert Deviations(planted()).without_coupling(0.7, 0) == {}
+    assert alone.value == pytest.approx(np.log(0.12 / 0.05), abs=0.03)
+
+
 @pytest.mark.parametrize(
-    ("planting", "expected"),
+    ("planting", "status"),
     [
-        ({"size": 1.0}, [HOLDS, HOLDS, HOLDS, HOLDS, HOLDS]),
-        ({}, [HOLDS, HOLDS, CONTRADICTED, HOLDS, HOLDS]),
-        ({"wide": 1.2}, [CONTRADICTED, HOLDS, CONTRADICTED, HOLDS, CONTRADICTED]),
-        ({"rolled_off": 0.85}, [HOLDS, CONTRADICTED, CONTRADICTED, HOLDS, LIMITED]),
-        ({"mdr": 1.2}, [HOLDS, HOLDS, CONTRADICTED, HOLDS, CONTRADICTED]),
+        ({}, ClaimStatus.HOLDS),
+        ({"springs": (0.12, 0.15)}, ClaimStatus.CONTRADICTED),
+        ({"wide": 0.12}, ClaimStatus.CONTRADICTED),
+        ({"rolled": 2.0}, ClaimStatus.HOLDS),
+        ({"finer": 0.12}, ClaimStatus.HOLDS),
+        ({"wide": 0.11}, ClaimStatus.OPEN),
     ],
 )
-def test_claims_follow_a_planted_answer(planting, expected):
-    assert statuses(STUDY.evidence(planted(**planting))) == expected
+def test_the_claim_follows_a_planted_answer(planting, status):
+    assert statuses(STUDY.evidence(planted(**planting))) == [status]
 
 
-def of_bem(result, quantity):
-    return [one.found for one in series(result) if (one.quantity, one.model) == (quantity, "bem3d")]
+@pytest.mark.parametrize("bands", [(Band(8, 32, 9, 5),), (Band(8, 32, 9, 5), Band(16, 64, 10, 5))])
+def test_bands_that_are_not_nested_are_refused(bands):
+    with pytest.raises(ValueError, match="two at least"):
+        Bandwidth(bands=bands)
 
 
-def test_a_planted_change_of_boundary_elements_adds_up():
-    """Pairs that are 10 % stiffer in each wider band: the widest is 1.1^2 times as stiff as the narrowest."""
-    one = np.random.default_rng(0).uniform(1, 2, (8, 7))
-    stiff = {"stiffness": one}
-    bem = of_bem(result_of(CASE, stiff, stiff, {"stiffness": 1.1 * one}, stiff, [stiff] * 4), MEAN)
-    for narrow, wide in zip(bem[0], bem[2], strict=True):
-        assert wide.value - narrow.value == pytest.approx(2 * np.log(1.1), rel=1e-9)
-
-
-@pytest.mark.parametrize("wrong", [{"pairs": (4,)}, {"pairs": (4, 2)}, {"refined": 2}, {"surfaces": 1}])
-def test_too_few_surfaces_are_refused(wrong):
-    with pytest.raises(ValueError, match="three at least"):
-        Bandwidth(**wrong)
+def test_more_surfaces_under_all_forces_than_there_are_are_refused():
+    with pytest.raises(ValueError, match="bands"):
+        Bandwidth(bands=(Band(8, 32, 4, 5), Band(16, 64, 4, 4)))

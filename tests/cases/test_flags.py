@@ -16,7 +16,7 @@ from validation.benchmarks.timing import FAILED, FINISHED, OUT_OF_RANGE
 from validation.benchmarks.work_precision.case import lost
 from validation.benchmarks.work_precision.problem import BEM, LOOSE, MDR, POLONSKY_KEER
 from validation.cases.limits import limits
-from validation.cases.punch import bandwidth, fractal_punch, interface, normalisation
+from validation.cases.punch import bandwidth, bandwidth_study, fractal_punch, interface
 from validation.cases.rolling import force_spectrum, input_spectrum, ridges
 from validation.cases.selection import model_selection
 from validation.cases.wheel import distance, half_space, spectrum
@@ -97,15 +97,9 @@ LOST = {
     ),
     "bandwidth, wider": (
         bandwidth,
-        bandwidth.Bandwidth(cells=16, surfaces=4, pairs=(3, 3), refined=3, rolled_off=3),
-        one_surface(5, cells=32),
-        "surface 5, H = 0.7, 32² cells",
-    ),
-    "normalisation": (
-        normalisation,
-        replace(normalisation.Normalisation(), hursts=(0.7,), surfaces=4),
-        lambda p: one_surface(3)(p) and p.roughness.amplitudes == "gaussian" and p.roughness.normalised == "each",
-        "surface 3, H = 0.7",
+        bandwidth_study.CASE.quick,
+        one_surface(110, cells=64),
+        "surface 110, H = 0.7, 64² cells",
     ),
     "ridges": (
         ridges,

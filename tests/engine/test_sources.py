@@ -75,7 +75,7 @@ def test_every_import_of_the_running_code_is_found():
         ("validation.engine.random_numbers", b"return ", b"return 2 * ", True),
         ("validation.analysis.spectra", b"def ", b"def other_", True),
         ("validation.analysis.spectra", b"def ", b"def  ", False),
-        ("validation.cases.punch.normalisation", b"def ", b"def other_", False),
+        ("validation.cases.punch.bandwidth_study", b"def ", b"def other_", False),
         ("validation.simulation.rough_punch", b"def ", b"def other_", True),
         ("validation.simulation.rough_punch", b'"""A rigid', b'"""Another word: a rigid', False),
         ("validation.simulation.rough_punch", b"\n\n", b"\n# a comment\n\n", False),

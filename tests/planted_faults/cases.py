@@ -26,15 +26,15 @@ from tests.cases import (
 )
 from tests.cases import test_from_force_to_roughness_and_stiffness as test_force
 from tests.planted_faults.wrong import scaled
-from validation.analysis import multilevel, statistics
+from validation.analysis import multilevel
 from validation.analysis import series as analysis_series
 from validation.analysis.evidence import ClaimStatus, Verdict
 from validation.analysis.multilevel import Resolved
 from validation.analysis.spectra import waves
-from validation.analysis.statistics import mean_estimate
+from validation.analysis.statistics import mean_estimate, nearest
 from validation.cases.exact import geike, hertz
 from validation.cases.limits import sweeps as limits
-from validation.cases.punch import bandwidth, ensembles, fractal_punch, interface, work
+from validation.cases.punch import bandwidth, ensembles, fractal_punch, interface
 from validation.cases.rail import filters as rail_filters
 from validation.cases.rail import rail_sound, rough_rail
 from validation.cases.rolling import roughness_from_force, validity
@@ -51,6 +51,7 @@ from validation.simulation import (
     reduced_strip,
     rolling_strip,
     rough_punch,
+    springs_over_area,
 )
 from validation.simulation import spring_tracks as rough_springs
 from validation.simulation import wheel_on_springs as wheel_ensemble
@@ -100,6 +101,7 @@ def gap_of_the_rigid_surface(surface):
 
 DRAWN = PunchRoughness._drawn
 SERIES = 1.1523, Verdict.AGREE
+STEPS, FRACTION = bandwidth.Deviations.steps, springs_over_area._fraction
 FAULTS = {
     "a weighting of amplitudes taken twice": (
         (rail_sound, "a_weighting", lambda f: 2 * REAL_WEIGHTING(f)),
@@ -126,12 +128,24 @@ FAULTS = {
         test_bandwidth.test_the_plateau_is_flat_and_the_band_beyond_is_self_affine,
     ),
     "a wide band without the change from the narrow one": (
-        (bandwidth, "accumulate", lambda steps, initial: [initial] * (1 + len(steps))),
-        test_bandwidth.test_a_planted_change_of_boundary_elements_adds_up,
+        (bandwidth, "multilevel_moments", lambda columns: multilevel.multilevel_moments(columns[:1]) * len(columns)),
+        test_bandwidth.test_deviations_add_up_over_bands,
     ),
-    "half of the jackknife's error in a change": (
-        (statistics, "jackknife_error", scaled(statistics.jackknife_error, 0.5)),
-        partial(test_bandwidth.test_intervals_of_a_change_hold_it_as_often_as_they_say, "mean stiffness"),
+    "a change to finer cells that is taken once": (
+        (bandwidth.Deviations, "steps", lambda found, *key: {i: 0.5 * one for i, one in STEPS(found, *key).items()}),
+        test_bandwidth.test_a_change_to_finer_cells_is_doubled_and_left_open_also_in_wider_bands,
+    ),
+    "a change by factor e of bandwidth for that by decade": (
+        (np, "log10", np.log),
+        test_bandwidth.test_a_change_by_decade_is_that_of_the_ratio,
+    ),
+    "as many springs over an area as boundary elements have cells in contact": (
+        (bandwidth, "nearest", lambda fractions, wide: nearest(fractions, 0.01 * wide)),
+        test_bandwidth.test_springs_without_coupling_stand_beside,
+    ),
+    "overlap of springs over an area without their own height": (
+        (springs_over_area, "_fraction", lambda height, load: FRACTION(height, 2 * load)),
+        partial(test_bandwidth.test_springs_over_an_area_carry_the_load, 0.1),
     ),
     "the stiffness of the square is that of the finest grid": (
         (hertz, "first_order_limit", lambda values: values[-1]),
@@ -184,10 +198,6 @@ FAULTS = {
             lambda points: replace(points[0], value=float(np.mean([p.difference for p in points]))),
         ),
         test_fractal_punch.test_a_decade_is_judged_by_its_worst_force,
-    ),
-    "a fine application as cheap as a coarse one": (
-        (work, "_cost", lambda applications, cells: 1.0),
-        test_fractal_punch.test_the_work_beside_plain_sampling,
     ),
     "the order of the curves turned round": (
         (fractal_punch, "combined", lambda weights, parts: combined(-np.abs(weights), parts)),

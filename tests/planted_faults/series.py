@@ -1,11 +1,13 @@
 """Faults planted in series, in claims and in what cases declare of both: where, what is wrong, who must catch it."""
 
+from functools import partial
+
 from tests.analysis import test_series
 from tests.cases import test_faults_of_series_of_cases as test_cases
 from tests.cases import test_faults_of_series_of_wheels as test_wheels
 from validation.analysis import series
 from validation.analysis.statistics import DECIBEL, Estimate
-from validation.cases.punch import bandwidth, ensembles
+from validation.cases.punch import ensembles, fractal_punch, fractal_punch_study
 from validation.cases.rolling import force_spectrum
 from validation.cases.wheel import half_space_study
 
@@ -18,17 +20,21 @@ FAULTS = {
         (series.Estimates, "on_no_size", lambda mine, finer: mine),
         test_cases.test_the_rms_force_is_that_on_cells_of_no_size_and_both_models_hold_at_once,
     ),
-    "decibels of a power for those of an amplitude, in stiffness": (
-        (ensembles, "DECIBEL", DECIBEL / 2),
-        test_cases.test_changes_are_of_springs_less_of_boundary_elements_and_all_decades_hold_at_once,
-    ),
-    "one decade of a claim on bandwidth for all of them": (
-        (bandwidth.Bandwidth, "family", lambda case, others: 1),
-        test_cases.test_changes_are_of_springs_less_of_boundary_elements_and_all_decades_hold_at_once,
-    ),
     "decibels of a power for those of an amplitude, in Fig. 14.1": (
         (ensembles, "DECIBEL", DECIBEL / 2),
         test_cases.test_each_length_of_springs_has_its_own_level_and_exponents_their_grid,
+    ),
+    "a deviation of nothing that is infinitely far from a small one": (
+        (fractal_punch, "LEAST", -1e9),
+        partial(test_cases.test_a_deviation_below_a_hundredth_counts_as_one, 0.001, 0.01, 0.0),
+    ),
+    "published exponents turned round": (
+        (fractal_punch_study, "PUBLISHED", (0.49, 0.75)),
+        test_cases.test_published_exponents_are_those_of_their_hurst_exponent,
+    ),
+    "a fit without the flat punch": (
+        (fractal_punch_study, "fitted", lambda case, force: force / 0.48),
+        test_cases.test_the_fit_is_judged_by_its_formula_where_most_of_the_face_carries,
     ),
     "decibels of an amplitude for those of a power, in the limit of Geike's spectrum": (
         (force_spectrum, "POWER_DECIBEL", DECIBEL),

@@ -25,7 +25,6 @@ from tests.simulation import (
     test_wheel_motion,
     test_wheel_on_rail,
 )
-from validation.analysis import series
 from validation.scenes import dynamic_wheel
 from validation.scenes.damping import damping_rate
 from validation.scenes.wheel_body import Wheel
@@ -257,10 +256,6 @@ FAULTS = {
     "springs that read one line of the surface": (
         (mdr, "roll_surface", springs_on_middle_line),
         test_rail_sound.test_springs_that_read_a_smoother_rail_are_linear_theory,
-    ),
-    "the first force of a decade for the worst": (
-        (series, "worst", lambda points: points[0]),
-        test_rough_punches.test_a_way_to_draw_is_judged_by_its_worst_force,
     ),
     "rms of the ensemble for that of each": (
         (PunchRoughness, "_normalised", lambda roughness, height: height),

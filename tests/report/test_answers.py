@@ -128,18 +128,16 @@ def test_neighbours_of_one_side_are_one_range_and_others_are_not():
 
 def test_an_alternative_is_offered_where_its_own_numbers_agree():
     def fit(value, half=0.0):
-        where = {"q_max / q_min": 8.0, "Fbar": (0.3, 10.0)}
-        key = {"quantity": "mean stiffness over bem3d", "model": "fit", "tolerance": 0.5, "where": where}
-        return section_of("bandwidth", [at((0.3, 10.0), value, half, **key)])
+        return at((0.3, 10.0), value, half, model="fit", tolerance=0.5)
 
     failing, agreeing = at((1.0, 10.0), -1.2), at((0.1, 1.0), 0.1)
-    (formula, _), (bem, case) = row_of("mean-stiffness", punch(failing), fit(0.2)).instead
+    (formula, _), (bem, case) = mean_stiffness(failing, fit(0.2)).instead
     assert formula == "the fit 1/kbar = 1/1.1523 + 0.48/Fbar from Fbar = 0.3 to 10, within 6 % (a formula)"
     assert bem.startswith("boundary elements (15 applications of the operator to 128² cells a surface and load")
-    for row in (row_of("mean-stiffness", punch(failing), fit(0.2, 0.4)), row_of("mean-stiffness", punch(failing))):
+    for row in (mean_stiffness(failing, fit(0.2, 0.4)), mean_stiffness(failing)):
         assert row.instead == ((bem, case),) == ((bem, "fractal_punch"),)
-    assert row_of("mean-stiffness", punch(agreeing), fit(0.2)).instead == ()
-    assert len(row_of("mean-stiffness", punch(agreeing, failing), fit(0.2)).instead) == 2
+    assert mean_stiffness(agreeing, fit(0.2)).instead == ()
+    assert len(mean_stiffness(agreeing, failing, fit(0.2)).instead) == 2
 
 
 def test_an_alternative_on_an_axis_of_its_own_says_which():

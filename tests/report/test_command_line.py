@@ -18,7 +18,7 @@ from validation.analysis.contents import as_csv, as_json, csv_name, from_csv
 from validation.analysis.evidence import Role
 from validation.cases.exact import geike, hertz
 from validation.cases.limits import limits
-from validation.cases.punch import bandwidth, interface, normalisation
+from validation.cases.punch import bandwidth, interface
 from validation.cases.punch.fractal_punch import FractalPunch
 from validation.cases.rail.across import Across
 from validation.cases.rail.rail_dynamic import RailDynamic
@@ -56,9 +56,14 @@ SMALL = {
         fine_profiles=10,
         **PUNCHES | {"profiles": 30, "decades": (-1, 1)},
     ),
-    "normalisation": normalisation.Normalisation(hursts=(0.7,), surfaces=8, **PUNCHES),
     "bandwidth": bandwidth.Bandwidth(
-        cells=16, surfaces=4, pairs=(3, 3), refined=3, rolled_off=3, profiles=5, points=64, per_decade=1, seed=1
+        hursts=(0.7,),
+        bands=(bandwidth.Band(4, 16, 8, 8, (8, 8), 4), bandwidth.Band(8, 32, 8, 8)),
+        roll_off=(2, 0),
+        rolled_off=4,
+        profiles=30,
+        decades=(-2, 0),
+        per_decade=1,
     ),
     "interface": interface.Interface(
         grounds=((8, 0.7), (4, 0.7)), pressed=(4, 0.7), band=2, surfaces=6, refined=3, profiles=40, points=64

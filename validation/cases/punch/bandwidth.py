@@ -1,238 +1,246 @@
-"""Whether the answer of Fig. 14.1 depends on bandwidth, on a roll-off and on the size; a fit for the mean stiffness.
+"""Whether springs are noisier than a half-space however wide the band of the roughness is.
 
-Boundary elements of a wide band are those of the narrowest, on many surfaces, and the changes from band to band, on few
-that have the same long waves. The sum is unbiased, and what these waves scatter drops out of each change.
+Long waves and phases are common to all bands, so that most of the scatter drops out of a change from band to band: the
+deviation of a wide band is that of a narrower one on many surfaces, and the change on few (multilevel Monte Carlo).
 """
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
-from functools import partial
-from itertools import accumulate, pairwise
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
-from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, Matrix, per_cent
-from validation.analysis.series import Estimates, Margin, Series, Where, spans
-from validation.analysis.statistics import DECIBEL, FIVE_PER_CENT, jackknifed, log_mean, log_relative_deviation
-from validation.analysis.study import Outcomes, Study
-from validation.cases.punch.ensembles import DEVIATION, FORCE, MEAN, OVER, PunchEnsembles, change, of_rows, press
+from validation.analysis.multilevel import Linearised, Resolved, moments, multilevel_moments, weighted_sum
+from validation.analysis.statistics import FloatArray, nearest
+from validation.analysis.study import Outcomes
+from validation.cases.punch.ensembles import PunchEnsembles, press
 from validation.engine.engine import SERIAL, Engine
-from validation.selection import model_needed
-from validation.simulation.rough_punch import PunchRoughness, RolledOffRoughness, Surface, require_converged
-from validation.theory import closed_forms
+from validation.simulation.light_punch import press_lightly
+from validation.simulation.rough_punch import (
+    BEM,
+    MDR,
+    METHODS,
+    Profiles,
+    PunchRoughness,
+    RolledOffRoughness,
+    Surface,
+    force_levels,
+)
+from validation.simulation.springs_over_area import RoughAreas, press_areas
 
-BANDWIDTH, ROLL_OFF = "q_max / q_min", "q_r L / 2π"
-KINDS = (BANDWIDTH, ROLL_OFF)
-Kind = tuple[str, float]
+ROLL_OFF = "q_r L / 2π"
+FINER, DOUBLED, AREA = "finer cells", "twice the springs", "springs over an area"
+SAMPLE_OF = {FINER: BEM, DOUBLED: MDR}
+"""Whose realisations they press again."""
+LITTLE = 1e-9
+A_WAVE = 16
+"""Springs of a profile to the shortest wave."""
+
+
+@dataclass(frozen=True)
+class Band:
+    """waves: q_max / q_min, q_min = 2 pi / L; cells: on a side; light: surfaces under the first decade of forces, for
+    each Hurst exponent, or one number for all; heavy: how many of these under all forces; finer: the same two numbers
+    on twice as many cells; areas: surfaces under springs."""
+
+    waves: int
+    cells: int
+    light: int | tuple[int, ...]
+    heavy: int
+    finer: tuple[int, int] = (0, 0)
+    areas: int = 0
 
 
 @dataclass(frozen=True, kw_only=True)
 class Bandwidth(PunchEnsembles):
-    """Punches whose longest wave is the side, of several bandwidths, and with a roll-off.
+    """Punches whose longest wave is the side, of several bandwidths, and one with a roll-off.
 
-    cells: on a side in the narrowest band, four to its shortest wave, as in all others; wider: how many times wider the
-    other bands are; pairs: surfaces pressed in such a band and in the one before, the same long waves in both;
-    refined: surfaces of the narrowest band pressed on twice as many cells; roll_off: q_r L / 2 pi of surfaces that have
-    a plateau below, and the narrowest band above; rolled_off: as many surfaces.
+    bands: ascending, realisations in each are the first ones of the band before; first: realisation; the surfaces of
+    the case fractal_punch from there on are the same ones. roll_off: q_r L / 2 pi of as many surfaces, rolled_off, in
+    the band that the number stands in.
     """
 
-    hurst: float = 0.7
-    cells: int = 32
-    wider: tuple[int, ...] = (2, 4)
-    surfaces: int = 120
-    pairs: tuple[int, ...] = (20, 12)
-    refined: int = 30
-    roll_off: int = 4
-    rolled_off: int = 20
-    profiles: int = 200
-    decades: tuple[int, int] = (-2, 1)
-    per_decade: int = 2
-    points: int = 1024
-    seed: int = 143
+    hursts: tuple[float, ...] = (0.4, 0.7, 1.0)
+    bands: tuple[Band, ...] = (
+        Band(8, 32, 200, 100, (60, 40), 200),
+        Band(16, 64, 100, 60, (40, 20), 100),
+        Band(32, 128, 40, 16, (16, 8), 40),
+    )
+    first: int = 80
+    roll_off: tuple[int, int] = (4, 1)
+    rolled_off: int = 40
+    profiles: int = 1000
+    decades: tuple[int, int] = (-3, -1)
+    seed: int = 14
 
     def __post_init__(self) -> None:
-        if not len(self.pairs) == len(self.wider) or min(self.surfaces, self.refined, self.rolled_off, *self.pairs) < 3:
-            raise ValueError(f"pairs must be three at least for each wider band, got {self.pairs} for {self.wider}")
+        counts = np.array([(*self.light(i), band.heavy) for i, band in enumerate(self.bands)])
+        if len(counts) < 2 or (np.diff(counts, axis=0) > 0).any() or (counts.min(axis=1) < counts[:, -1]).any():
+            raise ValueError(f"bands must be two at least, with fewer surfaces in wider ones, got {self.bands}")
+
+    def light(self, band: int) -> tuple[int, ...]:
+        """Surfaces under the first decade of forces, for each Hurst exponent."""
+        return tuple(np.broadcast_to(self.bands[band].light, len(self.hursts)).tolist())
 
     @property
-    def bandwidths(self) -> tuple[int, ...]:
-        """q_max / q_min without a roll-off, ascending."""
-        return tuple(self.cells // 4 * width for width in (1, *self.wider))
+    def counts(self) -> str:
+        """How many surfaces in each band, in words."""
+        light = [" or ".join(dict.fromkeys(map(str, self.light(i)))) for i in range(len(self.bands))]
+        return "; ".join(
+            f"{most} and {band.heavy} of q_max / q_min = {band.waves} on {band.cells}² cells"
+            for most, band in zip(light, self.bands, strict=True)
+        )
+
+    def roughness(self, hurst: float, waves: int) -> PunchRoughness:
+        return PunchRoughness(hurst=hurst, waves=(1, waves), height=self.height, seed=self.seed, common=True)
 
     @property
-    def ground(self) -> dict[Kind, PunchRoughness]:
-        """Of each bandwidth from one wave on a side; and with a roll-off, the narrowest band beyond it."""
-        plain = partial(PunchRoughness, hurst=self.hurst, height=self.height, seed=self.seed)
-        rolled = partial(RolledOffRoughness, hurst=self.hurst, height=self.height, seed=self.seed)
-        waves = (1, self.roll_off * self.bandwidths[0])
-        return {
-            **{(BANDWIDTH, float(b)): plain(waves=(1, b)) for b in self.bandwidths},
-            (ROLL_OFF, float(self.roll_off)): rolled(waves=waves, roll_off=self.roll_off),
-        }
+    def rolled(self) -> RolledOffRoughness:
+        """Constant spectrum up to the roll-off, at the middle of the Hurst exponents."""
+        roll_off, band = self.roll_off
+        hurst = self.hursts[len(self.hursts) // 2]
+        plain = self.roughness(hurst, self.bands[band].waves)
+        return RolledOffRoughness(**vars(plain), roll_off=roll_off)
 
-    def pressed(self, roughness: PunchRoughness, first: int, count: int, finer: int = 1) -> list[Surface]:
-        """Realisations from the first on, four cells to the shortest wave, or so many times more."""
-        return self.surfaces_of(roughness, 4 * roughness.waves[1] * finer, count, first)
+    def pressed(self, roughness: PunchRoughness, cells: int, light: int, heavy: int) -> list[Surface]:
+        """The first ones at all forces, the others at those of the first decade."""
+        few = force_levels((self.decades[0], self.decades[0] + 1), self.per_decade)
+        forces = [self.forces if i < heavy else few for i in range(light)]
+        return [self.surface_of(roughness, self.first + i, cells, mine) for i, mine in enumerate(forces)]
+
+    def springs(self, roughness: PunchRoughness, points: int, count: int) -> Profiles:
+        return replace(self.profiles_of(roughness, points), realisations=count)
+
+
+LOADS = force_levels((-6, 0), 8)
+"""Overlaps of springs over an area, mean over all of it, in rms heights."""
+Key = tuple[str, float | str, int]
 
 
 def run(case: Bandwidth, engine: Engine = SERIAL) -> Outcomes:
-    """Press surfaces of each band, "before" and "wider" the same ones, and profiles of all."""
-    *bands, rolled_off = case.ground.values()
-    surfaces = {
-        "narrow": case.pressed(bands[0], 0, case.surfaces),
-        "refined": case.pressed(bands[0], 0, case.refined, finer=2),
-        "rolled off": case.pressed(rolled_off, 0, case.rolled_off),
+    """Stiffness by method, Hurst exponent or roll-off, and band: a row a realisation, a column a force, or a load of
+    springs over an area."""
+    plain = {
+        (hurst, i): case.roughness(hurst, band.waves) for hurst in case.hursts for i, band in enumerate(case.bands)
     }
-    starts = np.cumsum([case.surfaces, *case.pairs]).tolist()
-    for i, (first, count) in enumerate(zip(starts, case.pairs, strict=False)):
-        surfaces |= {f"before {i}": case.pressed(bands[i], first, count)}
-        surfaces |= {f"wider {i}": case.pressed(bands[i + 1], first, count)}
-    profiles = {kind: case.profiles_of(ground, case.points) for kind, ground in case.ground.items()}
-    bem, springs, unconverged = press(engine, surfaces, profiles)
-    return Outcomes(case, {**bem, **springs}, unconverged)
+    surfaces: dict[Key, list[Surface]] = {}
+    profiles: dict[Key, Profiles] = {}
+    areas: dict[Key, RoughAreas] = {}
+    for (hurst, i), ground in plain.items():
+        band, light = case.bands[i], case.light(i)[case.hursts.index(hurst)]
+        surfaces[BEM, hurst, i] = case.pressed(ground, band.cells, light, band.heavy)
+        surfaces[FINER, hurst, i] = case.pressed(ground, 2 * band.cells, *band.finer)
+        profiles[MDR, hurst, i] = case.springs(ground, A_WAVE * band.waves, case.profiles)
+        profiles[DOUBLED, hurst, i] = case.springs(ground, 2 * A_WAVE * band.waves, case.profiles // 10)
+        areas[AREA, hurst, i] = RoughAreas(
+            roughness=ground, first=case.first, realisations=band.areas, cells=band.cells, loads=LOADS
+        )
+    band, key = case.bands[case.roll_off[1]], (ROLL_OFF, case.roll_off[1])
+    surfaces[BEM, *key] = case.pressed(case.rolled, band.cells, case.rolled_off, case.rolled_off)
+    profiles[MDR, *key] = case.springs(case.rolled, A_WAVE * band.waves, case.profiles)
+    surfaces = {key: some for key, some in surfaces.items() if some}
+    areas = {key: some for key, some in areas.items() if some.realisations}
+    bem, springs, unconverged = press(engine, surfaces, profiles, press_lightly)
+    uncoupled = dict(zip(areas, engine.map(press_areas, list(areas.values())), strict=True))
+    found = {**bem, **springs, **uncoupled}
+    return Outcomes(case, {key: outcome["stiffness"] for key, outcome in found.items()}, unconverged)
 
 
-CHANGE, SIZE, OF_BEM = "change of MDR over bem3d, ", "with the roll-off over without, ", " over bem3d"
-NO_CHANGE = partial(Margin, source="no change")
-MARGINS = {
-    MEAN: NO_CHANGE(FIVE_PER_CENT, "5 %, less than half of what MDR is off by in full contact, 13 %"),
-    DEVIATION: NO_CHANGE(DECIBEL * math.log(1.1), "10 %, the margin at which Fig. 14.1 is decided"),
-}
-SIX_PER_CENT = DECIBEL * math.log(1.06)
-OF_FIT = Margin(SIX_PER_CENT, "6 %, less than half of what MDR is off by in full contact, 13 %", source="bem3d")
-FIT, FIT_RANGE = "fit", (0.3, 10.0)
-STATISTICS = {MEAN: log_mean, DEVIATION: log_relative_deviation}
+@dataclass(frozen=True)
+class Deviations:
+    """ln of the relative deviation by band, with what each realisation contributes to it."""
 
+    result: Outcomes
 
-def series(result: Outcomes) -> list[Series]:
-    """Raises NotConvergedError where too few surfaces have converged at one of the forces."""
-    bem = [outcome for key, outcome in result.found.items() if isinstance(key, str)]
-    require_converged(bem, result.unconverged)
-    return [one for quantity in STATISTICS for one in _of(result, quantity)]
+    @cached_property
+    def most(self) -> Mapping[str, int]:
+        """Realisations of each method, in any band."""
+        counts = [(SAMPLE_OF.get(key[0], key[0]), len(found)) for key, found in self.result.found.items()]
+        return {method: max(n for m, n in counts if m == method) for method, _ in counts}
 
+    def column(self, method: str, name: float | str, band: int, level: int) -> FloatArray:
+        """Under one force, or at one load of springs over an area; NaN for realisations that were not pressed."""
+        column = np.full(self.most[SAMPLE_OF.get(method, method)], math.nan)
+        found = self.result.found.get((method, name, band))
+        if found is not None and level < found.shape[1]:
+            column[: len(found)] = found[:, level]
+        return column
 
-def _of(result: Outcomes, quantity: str) -> Iterator[Series]:
-    """Of one statistic: both methods, MDR and the fit over boundary elements, and what bands and a roll-off change."""
-    case, statistic = result.case, STATISTICS[quantity]
+    def by_band(self, method: str, name: float | str, level: int) -> dict[int, Linearised]:
+        """From the narrowest band to the widest that has this level."""
+        columns = {i: self.column(method, name, i, level) for i in range(len(self.result.case.bands))}
+        known = {i: column for i, column in columns.items() if np.isfinite(column).any()}
+        found = multilevel_moments(list(known.values()))
+        return {i: one.log_relative_deviation for i, one in zip(known, found, strict=True)}
 
-    def found(key: object) -> Estimates:
-        return Estimates(jackknifed(partial(of_rows, statistic), result[key]["stiffness"]))
+    def change(self, key: tuple[float, int, int], before: str, after: str) -> Linearised:
+        """On the realisations that both have, by Hurst exponent, band and level."""
+        columns = [self.column(method, *key) for method in (before, after)]
+        both = np.asarray(np.isfinite(columns).all(axis=0))
+        one, other = (moments(column, both).log_relative_deviation for column in columns)
+        return other - one
 
-    def changed(before: object, after: object) -> Estimates:
-        return change(statistic, result[before]["stiffness"], result[after]["stiffness"])
+    def steps(self, method: str, hurst: float, level: int) -> dict[int, Linearised]:
+        """What cells half as long, or twice the springs, change; where that is not measured, as in the band before."""
+        other, found = {BEM: FINER, MDR: DOUBLED}[method], {}
+        step = Linearised(0.0, np.zeros(self.most[method]))
+        for i in self.by_band(method, hurst, level):
+            if np.isfinite(self.column(other, hurst, i, level)).any():
+                step = self.change((hurst, i, level), method, other)
+            found[i] = step
+        return found
 
-    steps = [changed(f"before {i}", f"wider {i}") for i in range(len(case.pairs))]
-    springs = {kind: found(kind) for kind in case.ground}
-    bem = dict(zip(springs, [*accumulate(steps, initial=found("narrow")), found("rolled off")], strict=True))
-    left = np.array([abs(e.value) + e.half_width for e in changed("narrow", "refined")])
-    shown = partial(Series, along=FORCE, at=case.forces, shown=math.exp)
-    family = case.family(max(len(case.bandwidths) - 1, 1))
-    # to first order cells of no size are twice as far away as cells of half the size
-    over = partial(case.in_decibels, grid=2 * left, shown=lambda x: math.exp(x / DECIBEL), fewest=2, family=family)
-    for kind, mine in springs.items():
-        where: Where = dict([kind])
-        yield shown(quantity, "bem3d", bem[kind], where=where)
-        yield shown(quantity, "mdr", mine, where=where)
-        judged = {"ranges": spans(case.forces, FIT_RANGE), "margin": OF_FIT if quantity == MEAN else None}
-        yield over(quantity + OF_BEM, "mdr", mine - bem[kind], where=where, **judged)
-        if quantity == MEAN:
-            fit = Estimates.exact(np.log(fitted(case)), 10**9)
-            yield over(quantity + OF_BEM, FIT, fit - bem[kind], where=where, **judged)
-    by_decade = partial(over, grid=left, margin=MARGINS[quantity])
-    for (a, b), step in zip(pairwise(springs), steps, strict=False):
-        yield by_decade(CHANGE + quantity, OVER, changed(a, b) - step, where={BANDWIDTH: (a[1], b[1])})
-    (first, *_, rolled), where = springs, {ROLL_OFF: float(case.roll_off)}
-    apart = (springs[rolled] - bem[rolled]) - (springs[first] - bem[first])
-    yield by_decade(CHANGE + quantity, OVER, apart, where=where)
-    if quantity == DEVIATION:
-        for model, of in (("bem3d", bem), ("mdr", springs)):
-            yield by_decade(SIZE + quantity, model, of[rolled] - of[first], where=where)
+    def resolved(self, method: str, hurst: float, level: int) -> dict[int, Resolved]:
+        """Boundary elements to first order on cells of no size, and half of the way there; springs as they are, and
+        what twice as many change."""
+        values, steps = (of(method, hurst, level) for of in (self.by_band, self.steps))
+        taken = {BEM: 2.0, MDR: 0.0}[method]
+        return {i: Resolved(values[i] + taken * step, abs(step.value)) for i, step in steps.items()}
 
+    def ratio(self, hurst: float, level: int) -> dict[int, Resolved]:
+        """MDR over boundary elements."""
+        springs, bem = (self.resolved(method, hurst, level) for method in (MDR, BEM))
+        return {i: springs[i].beside(one) for i, one in bem.items()}
 
-def fitted(case: Bandwidth) -> list[float]:
-    """k / (E* L) of the fit, the flat punch in series with its rough face, at each force."""
-    h = case.height
-    return [
-        closed_forms.rough_punch_stiffness(side=1.0, modulus=1.0, force=force * h, height=h) for force in case.forces
-    ]
+    def slope(self, hurst: float, level: int) -> Resolved:
+        """d ln ratio / d log10(q_max / q_min) by generalised least squares: a change that few surfaces tell counts
+        little. Cells err alike in all bands, so that what they leave of a slope is the slope of what they leave."""
+        ratio = {i: one.value for i, one in self.ratio(hurst, level).items()}
+        shifts = np.array([one.influence for one in ratio.values()])
+        left = np.array([[steps[i].value for i in ratio] for steps in (self.steps(of, hurst, level) for of in METHODS)])
+        if not np.isfinite([*left.sum(axis=0), *(one.value for one in ratio.values())]).all():
+            return Resolved(Linearised(math.nan, shifts[0]), 0.0)
+        waves = [self.result.case.bands[i].waves for i in ratio]
+        line = np.stack([np.ones(len(waves)), np.log10(waves)], axis=1)
+        covariance = shifts @ shifts.T
+        # bands that go together exactly have no inverse
+        inverse = np.linalg.inv(covariance + LITTLE * np.trace(covariance) * np.eye(len(waves)))
+        weights = np.linalg.solve(line.T @ inverse @ line, line.T @ inverse)[1]
+        return Resolved(weighted_sum(weights, list(ratio.values())), float(np.abs(left @ weights).sum()))
 
+    def without_coupling(self, hurst: float, level: int) -> dict[int, Linearised]:
+        """Springs along a line over springs over an area, whose contact is k / E* wide, k that of boundary elements.
 
-of_change = partial(Claim, quantity=(CHANGE + MEAN, CHANGE + DEVIATION), along="-Fbar", printed=per_cent)
-of_mean = partial(Claim, quantity=MEAN + OF_BEM, along=ROLL_OFF, printed=per_cent)
-of_kinds = partial(Curve, by=KINDS)
-against_force = partial(Panel, FORCE, "")
-STIFFER = (of_kinds(MEAN + OF_BEM, "mdr", bars=True), of_kinds(MEAN + OF_BEM, FIT, "dotted", "_"))
-SCATTERED = (of_kinds(DEVIATION, "bem3d", "marks", bars=True), of_kinds(DEVIATION, "mdr", "lines"))
-WIDER = (of_kinds(DEVIATION + OF_BEM, bars=True),)
-PANELS = (
-    against_force(STIFFER, "mean stiffness, over bem3d", ylim=(0.75, 1.25), lines=(1.0,)),
-    against_force(WIDER, "relative deviation, MDR over bem3d", log="xy", ylim=(0.3, 3), lines=(1.0,)),
-    against_force(SCATTERED, "relative deviation", log="xy", ylim=(5e-4, 1)),
-)
-STUDY = Study(
-    title="Bandwidth, roll-off and size: does the answer of Fig. 14.1 depend on them?",
-    method=(
-        "Punches as in Fig. 14.1, H = {c.hurst:g}, longest wave L, q_max / q_min = {c.bandwidths}, each on four cells "
-        "to its shortest wave. Boundary elements press {c.surfaces} surfaces of the narrowest band, and {c.pairs} of "
-        "the wider ones both in that band and in the one before, with the same long waves. The narrowest band and "
-        "these changes add up to the widest. With a roll-off: {c.rolled_off} surfaces whose spectrum is constant up to "
-        "q_r = {c.roll_off} · 2π/L and the narrowest band beyond. {c.profiles} profiles of {c.points} springs in each "
-        "band, all with the same long waves. Intervals by the jackknife and Student's t. Grid: {c.refined} surfaces of "
-        "the narrowest band on twice as many cells a side; wider bands have as many cells to a wave and more to a "
-        "contact, and are taken to err by no more."
-    ),
-    series=series,
-    claims=(
-        of_change(
-            says="What Fig. 14.1 says of MDR beside boundary elements does not depend on bandwidth.",
-            short="Change of MDR over boundary elements by bandwidth",
-            where={BANDWIDTH: ...},
-        ),
-        of_change(
-            says="What Fig. 14.1 says of MDR beside boundary elements does not depend on a roll-off.",
-            short="by a roll-off",
-            where={ROLL_OFF: ...},
-        ),
-        Claim(quantity=SIZE + DEVIATION, printed=per_cent).saying(
-            "The fluctuation of Fig. 14.1 does not depend on how many of its longest waves the punch holds."
-        ),
-        of_mean(
-            says="The fit 1/kbar = 1/1.1523 + 0.48/Fbar has the mean stiffness within 6 % for Fbar from 0.32 to 10.",
-            model=FIT,
-        ),
-        of_mean(says="MDR has the mean stiffness within 6 % for Fbar from 0.32 to 10.", model="mdr"),
-    ),
-    charts=(
-        Chart("bandwidth", claims=(0, 1)).of(
-            "H = {c.hurst:g}. (a) Mean stiffness over that of boundary elements: MDR at each bandwidth, with and "
-            "without a roll-off; dotted, the fit. (b) Relative deviation, MDR over bem3d. (c) Relative deviation "
-            "itself: symbols, boundary elements; lines, MDR. Bars: 95 % of the sample, in (a) and (b) with the grid.",
-            *PANELS,
-        ),
-    ),
-    matrices=(
-        Matrix(
-            name="mean stiffness over boundary elements, Fbar from 0.32 to 10",
-            quantity=MEAN + OF_BEM,
-            rows=KINDS,
-            columns="model",
-            printed=per_cent,
-        ),
-    ),
-)
-CASE = Case(
-    name="bandwidth",
-    chapter=Chapter.PRESSED,
-    place=4,
-    answers="Fig. 14.1 at other bandwidths, with a roll-off, and on larger punches; a fit for the mean stiffness",
-    quick=Bandwidth(surfaces=60, pairs=(10, 6), refined=15, rolled_off=10),
-    full=Bandwidth(
-        cells=64, wider=(4, 16), surfaces=900, pairs=(80, 8), refined=150, rolled_off=50, profiles=2000, points=4096
-    ),
-    run=run,
-    study=STUDY,
-    needs=model_needed.punches,
-)
+        In bands wider than (kbar / Fbar)^(1/H), whose shorter waves are low beside the depth F / k of the contact.
+        """
+        case, line, found = self.result.case, self.by_band(MDR, hurst, level), {}
+        for i, band in enumerate(case.bands):
+            fractions = self.result.found.get((AREA, hurst, i))
+            if fractions is None:
+                continue
+            wide = float(np.nanmean(self.column(BEM, hurst, i, level)))
+            if band.waves > (wide / case.forces[level]) ** (1 / hurst):
+                load = nearest(fractions.mean(axis=0).tolist(), wide**2)
+                found[i] = line[i].beside(self.by_band(AREA, hurst, load)[i])
+        return found
+
+    def of_roll_off(self, level: int) -> Linearised:
+        """Change of MDR over boundary elements on equal cells."""
+        case = self.result.case
+        hurst, band = case.rolled.hurst, case.roll_off[1]
+        plain, rolled = (
+            self.by_band(MDR, name, level)[band].beside(self.by_band(BEM, name, level)[band])
+            for name in (hurst, ROLL_OFF)
+        )
+        return rolled - plain

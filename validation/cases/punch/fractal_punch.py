@@ -5,10 +5,11 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import pairwise
+from operator import attrgetter
 
 import numpy as np
 
-from validation.analysis.evidence import Table, table_of
+from validation.analysis.evidence import Table
 from validation.analysis.multilevel import (
     Linearised,
     Moments,
@@ -22,7 +23,7 @@ from validation.analysis.series import Series, masked, single
 from validation.analysis.statistics import FloatArray, nearest
 from validation.analysis.study import Outcomes
 from validation.cases.punch.ensembles import DEVIATION, FEW, FORCE, MEAN, PunchEnsembles, press
-from validation.cases.punch.work import LOGARITHMS, estimator, worked
+from validation.cases.punch.work import worked
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.simulation.light_punch import press_lightly
 from validation.simulation.rough_punch import BEM, FEW_CELLS, MDR, Profiles, PunchRoughness, Surface, require_converged
@@ -32,8 +33,8 @@ LONG = "mdr 1.1523 L"
 """The 1D model whose stiffness in full contact is that of the square punch."""
 PAIRS = 4
 """Fewer surfaces on a grid have no error bar worth its name."""
-NOTHING_LEFT = math.log(0.01)
-"""A deviation below 1 % of the other one counts as 1 % of it: springs all in contact have none."""
+LEAST = math.log(0.01)
+"""A deviation below 1 % counts as 1 %: such ones are alike if they differ by less than that."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -167,7 +168,7 @@ def at_all_forces(case: FractalPunch, surfaces: Sequence[Surface], found: Outcom
 
 @dataclass(frozen=True)
 class PunchStatistics:
-    """Statistics at each force, in natural logarithms; None for the mean over Hurst exponents, whose phases are one."""
+    """Statistics at each force, in natural logarithms."""
 
     result: Outcomes
 
@@ -204,23 +205,20 @@ class PunchStatistics:
     def steps(self, hurst: float, method: str, statistic: str, level: int) -> dict[int, Linearised]:
         """ln of the mean stiffness, or of the relative deviation, under one force, on each grid."""
         found = self._moments[hurst, method, level]
-        return {n: LOGARITHMS[statistic](mine) for n, mine in found.items()}
+        logarithm = {MEAN: attrgetter("log_mean"), DEVIATION: attrgetter("log_relative_deviation")}[statistic]
+        return {n: logarithm(mine) for n, mine in found.items()}
 
-    def at(self, hurst: float | None, method: str, statistic: str, level: int) -> Resolved:
+    def at(self, hurst: float, method: str, statistic: str, level: int) -> Resolved:
         """On cells of no size, or on twice the springs."""
-        if hurst is None:
-            every = [self.at(h, method, statistic, level) for h in self.case.hursts]
-            return combined([1 / len(every)] * len(every), every)
         steps = list(self.steps(hurst, method, statistic, level).values())
         return on_no_size(steps) if method == BEM else on_finest(steps)
 
-    def ratio(self, hurst: float | None, method: str, statistic: str, level: int) -> Resolved:
+    def ratio(self, hurst: float, method: str, statistic: str, level: int) -> Resolved:
         """Springs over boundary elements; surfaces and profiles are independent."""
-        ratio = self.at(hurst, method, statistic, level).beside(self.at(hurst, BEM, statistic, level))
-        nothing = statistic == DEVIATION and ratio.value.value < NOTHING_LEFT
-        return replace(ratio, value=Linearised(NOTHING_LEFT, np.zeros(1))) if nothing else ratio
+        springs, bem = (self.at(hurst, one, statistic, level) for one in (method, BEM))
+        return seen(springs).beside(seen(bem)) if statistic == DEVIATION else springs.beside(bem)
 
-    def exponent(self, hurst: float | None, method: str, before: int, after: int) -> Resolved:
+    def exponent(self, hurst: float, method: str, before: int, after: int) -> Resolved:
         """d ln k / d ln F of the mean stiffness from one level of force to another."""
         slope = 1 / math.log(self.case.forces[after] / self.case.forces[before])
         return combined([-slope, slope], [self.at(hurst, method, MEAN, level) for level in (before, after)])
@@ -240,6 +238,14 @@ class PunchStatistics:
     def contact(self, hurst: float, level: int, cells: int) -> float:
         """Mean area of the contacts on a grid, in cells."""
         return cells**2 * float(np.nanmean(self.result[hurst, BEM, cells]["area"][:, level]))
+
+
+def seen(deviation: Resolved) -> Resolved:
+    """The logarithm of a deviation as large as LEAST at least; by how much it may be larger."""
+    value, half = deviation.value, deviation.value.half_width + deviation.grid
+    if not value.value < LEAST:
+        return deviation
+    return Resolved(Linearised(LEAST, np.zeros(1)), max(value.value + half - LEAST, 0.0))
 
 
 H, STIFFNESS, SCATTER, SLOPE = "H", "k / (E* L)", "relative deviation of k", "d ln k / d ln F"
@@ -313,17 +319,6 @@ def trends(found: PunchStatistics) -> Iterator[Series]:
 
 
 def tables(result: Outcomes) -> tuple[Table, ...]:
-    """What the plan of surfaces costs beside the best one; counted work."""
-    case, found = result.case, PunchStatistics(result)
-    rows = []
-    for part, (first, last) in enumerate(case.parts):
-        pairs = [(h, i) for h in case.hursts for i, force in enumerate(case.forces) if case.part_of(force) == part]
-        stiffness, *works = (
-            [found.on_grids(name, h, BEM, i) for h, i in pairs]
-            for name in ("stiffness", "applications", "frozen applications")
-        )
-        work = [{n: a[n] + b[n] for n in a} for a, b in zip(*works, strict=True)]
-        costs = estimator(case.counts(last), stiffness, work)
-        rows += [{"Fbar from": first, "Fbar to": last, **row} for row in costs]
-    pressed = [result[h, BEM, case.cells] for h in case.hursts]
-    return table_of("estimator", rows), worked(case.cells, case.points, pressed)
+    """Counted work."""
+    case = result.case
+    return (worked(case.cells, case.points, [result[hurst, BEM, case.cells] for hurst in case.hursts]),)
