@@ -106,16 +106,14 @@ of_limits = partial(over_force, case="mdr_limits", model=punch.OVER, series=(lim
 of_fit = partial(
     over_force, case="bandwidth", series=bandwidth.KINDS, quantity=punch.MEAN + bandwidth.OF_BEM, model=bandwidth.FIT
 )
-of_rolling = partial(
-    Source, case="rolling", axis="h/d", over=reduced.SLOPE, read=(reduced.SLOPE, "value"), series=("q a",)
-)
+of_rolling = partial(Source, case="rolling", axis=rolling.SLOPE, over=rolling.SLOPE)
 of_strips = partial(
     Source,
     case="reduced_models",
     quantity=reduced.OFF,
-    axis=reduced.SLOPE,
-    over=reduced.SLOPE,
-    series=("H", reduced.Q),
+    axis=rolling.SLOPE,
+    over=rolling.SLOPE,
+    series=("H", rolling.Q),
 )
 of_rail = partial(
     Source,
@@ -135,11 +133,9 @@ MOVING = Source(
     axis=rail_dynamic.OFFSET,
     over=rail_dynamic.OFFSET,
 )
-GEIKE, LINEAR, ROLLING = (
-    model + rolling.OVER for model in (rolling.SPRINGS, rolling.LINEAR_3D, rolling.ROLLING_SPRINGS)
-)
+GEIKE, LINEAR = (model + rolling.OVER for model in (rolling.SPRINGS, rolling.LINEAR_3D))
 READ, ON_LINE = rolled_filters.RIVALS[:2]
-JUDGE, OCTAVES = counted(BEM, reduced.JUDGE), "rms over octaves"
+JUDGE = counted(BEM, reduced.JUDGE)
 QUESTIONS = (
     Question(
         "mean-stiffness",
@@ -178,14 +174,12 @@ QUESTIONS = (
     ),
     Question(
         "rolling-spectrum",
-        "Force spectrum of a rolling wheel, band by band",
-        of_rolling(quantity=rolling.LEVEL, model=GEIKE),
+        "Force spectrum of a rolling wheel, rms over octaves",
+        of_rolling(quantity=rolling.RMS_LEVEL, model=GEIKE),
         in_decibels,
         (
-            Alternative(LINEAR_3D, of_rolling(quantity=rolling.LEVEL, model=LINEAR), INTEGRAL),
-            Alternative(EQUIVALENT, of_rolling(quantity=rolling.LEVEL, model=ROLLING), OF_SPRINGS),
-            counted(reduced.READ, reduced.READ, of_strips(model=reduced.READ), OCTAVES),
-            counted(reduced.LAYER, reduced.COARSE_LAYER, of_strips(model=reduced.COARSE_LAYER), OCTAVES),
+            Alternative(LINEAR_3D, of_strips(model=reduced.LINEAR), INTEGRAL),
+            counted(reduced.COARSEST, reduced.COARSEST, of_strips(model=reduced.COARSEST)),
             JUDGE,
         ),
     ),
@@ -213,6 +207,6 @@ QUESTIONS = (
             counted(f"on a rail, {reduced.READ} in the time loop", reduced.READ, MOVING, "rms over bands"),
             Alternative(f"{BEM} in the time loop", None, steps, "wheel_3d"),
         ),
-        of_scene=(WHEEL, reduced.SLOPE),
+        of_scene=(WHEEL, rolling.SLOPE),
     ),
 )
