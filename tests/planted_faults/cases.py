@@ -1,5 +1,6 @@
 """Faults planted in what `tests/cases` looks at: where, what is wrong there, and the test that must catch it."""
 
+import math
 import types
 from dataclasses import replace
 from functools import partial
@@ -29,14 +30,11 @@ from validation.analysis import multilevel, statistics
 from validation.analysis import series as analysis_series
 from validation.analysis.evidence import Verdict
 from validation.analysis.multilevel import Resolved
-from validation.analysis.spectra import waves
-from validation.analysis.statistics import mean_estimate
 from validation.cases.exact import geike, square_punch
 from validation.cases.limits import sweeps as limits
 from validation.cases.punch import bandwidth, ensembles, fractal_punch, work
 from validation.cases.rail import filters as rail_filters
 from validation.cases.rail import line_convention, rail_sound
-from validation.cases.rolling import roughness_from_force, validity
 from validation.cases.selection import model_selection as calibration
 from validation.cases.wheel import features, regions
 from validation.engine.random_numbers import random_generator
@@ -47,9 +45,10 @@ from validation.simulation import (
     indentation,
     integrators,
     limits_of_springs,
-    reduced_strip,
+    reduced_models,
     rolling_strip,
     rough_punch,
+    roughness_from_force,
 )
 from validation.simulation import spring_tracks as rough_springs
 from validation.simulation import wheel_on_springs as wheel_ensemble
@@ -202,21 +201,21 @@ FAULTS = {
         (wheel_ensemble.WheelEnsemble, "places", property(lambda rides: places_of(replace(rides, track="open")))),
         partial(test_wheel_ensembles.test_periodic_tracks_take_whole_natural_periods, "steady-state", 0.5, 0.16),
     ),
-    "factor 4 lost in the filter of one dimension, read backwards": (
-        (roughness_from_force, "force_spectrum_1d", scaled(rolling_theory.force_spectrum_1d, 0.25)),
-        test_force.test_the_filter_in_one_dimension_finds_the_roughness_of_ridges,
+    "factor 2 lost in the mean filter, read backwards": (
+        (roughness_from_force, "mean_force_spectrum_1d", scaled(rolling_theory.mean_force_spectrum_1d, 0.5)),
+        test_force.test_the_mean_filter_finds_the_roughness_of_the_mean_force,
     ),
     "half of the height in the filter of three dimensions, read backwards": (
         (roughness_from_force, "level_3d", scaled(roughness_from_force.level_3d, 0.5)),
         test_force.test_the_filter_in_three_dimensions_finds_isotropic_roughness,
     ),
-    "contact kept beside a wheel of another force": (
-        (validity, "contact_kept", lambda strips: mean_estimate(np.array([one["area"].mean() for one in strips]))),
-        test_force.test_a_smooth_wheel_keeps_its_contact_whatever_its_force,
+    "half of the force of linear theory beside boundary elements": (
+        (reduced_models, "linear_force", scaled(rolling_theory.linear_force, 0.5)),
+        test_force.test_models_on_a_strip_have_its_level_where_it_is_low,
     ),
-    "amplitudes of a reduced model twice as large": (
-        (reduced_strip, "waves", lambda force, spacing: waves(2 * force, spacing=spacing)),
-        test_force.test_a_reduced_model_stands_beside_boundary_elements_on_the_surface_itself,
+    "contact kept beside a square wheel": (
+        (reduced_models, "math", types.SimpleNamespace(**{**vars(math), "pi": 4.0})),
+        test_force.test_models_on_a_strip_have_its_level_where_it_is_low,
     ),
     "stiffness of the frame for that of the contact": (
         (rolling_strip, "tangent_stiffness", whole_frame_in_contact),

@@ -192,10 +192,13 @@ def _curve(result: Outcomes, height: float) -> Iterator[Series]:
     edges = np.array(case.bands.edges)
     inside, short = ((edges[:-1] > q * (1 - 1e-9)) & (edges[1:] < case.last) for q in (case.first, SHORT_WAVES))
     decibels = partial(Series, where=where, scale=POWER_DECIBEL, unit="dB")
-    book, mean = level_1d(case.spectrum, "geike", case.bands), mean_level(case)
+    filters = partial(force_spectrum_1d, contact_radius=1.0, modulus=1.0), partial(mean_force_spectrum_1d, modulus=1.0)
+    book, mean = (levels_on_track(case, one) for one in filters)
     curve = Estimates.ratios(springs[:, inside], book[inside])
-    margin = REPEATABLE.beside("(14.12), (14.14), by quadrature") if height <= LOW else None
+    margin = REPEATABLE.beside("(14.12), (14.14), on the waves of a track") if height <= LOW else None
     yield decibels(CURVE, SPRINGS, curve, along=Q, at=case.bands.centres[inside], margin=margin)
+    if np.count_nonzero(short) < 3:
+        return  # no octave, which holds a period of sin^2(q a)
     weights = short / short.sum()
     over = Estimates.ratio(np.maximum(springs, rolling_strip.ROUNDING), mean, weights)
     yield decibels(MEAN_LEVEL, f"{SPRINGS} over {MEAN_1D}", over, margin=margin)
@@ -203,16 +206,19 @@ def _curve(result: Outcomes, height: float) -> Iterator[Series]:
     finer = Estimates.ratio(fine["level"], bem["level"][: len(fine["level"])], weights)
     linear = Estimates.ratio(bem["level"], bem["linear level"], weights).on_no_size(finer)
     yield decibels(MEAN_LEVEL, UNBOUNDED, (-math.log(level_ratio(case.hurst)),))
-    exact = np.log((mean / level_3d(case.spectrum, case.bands))[short]).mean()
+    of_band = over_bands(lambda q: filters[1](q, TrackSpectrum(case.spectrum, "geike")), case.bands) / HERTZ**2
+    exact = np.log((of_band / level_3d(case.spectrum, case.bands))[short]).mean()
     yield decibels(
         MEAN_LEVEL, MEAN_1D + OVER, Estimates.exact(exact) - linear, grid=finer, margin=margin and BESIDE_BEM
     )
 
 
-def mean_level(case: ForceSpectrum) -> FloatArray:
-    """Of (14.14) in each one-third octave, for h_rms = d."""
-    geike = TrackSpectrum(case.spectrum, "geike")
-    return over_bands(lambda q: mean_force_spectrum_1d(q, geike, modulus=1.0), case.bands) / HERTZ**2
+def levels_on_track(case: ForceSpectrum, spectrum: Callable[..., FloatArray]) -> FloatArray:
+    """Of (14.12) or (14.14) in each one-third octave, on the waves of a track with Geike's spectrum, h_rms = d."""
+    geike, apart = TrackSpectrum(case.spectrum, "geike"), 2 * math.pi / case.length
+    q = apart * np.arange(1, math.floor(case.last * (1 + 1e-9) / apart) + 1)
+    square = 2 * apart * geike(q).sum()
+    return np.asarray(case.bands.sums(q, apart * spectrum(q, geike)).real / square / HERTZ**2)
 
 
 def _levels(result: Outcomes, height: float) -> Iterator[Series]:
@@ -239,7 +245,7 @@ def _levels(result: Outcomes, height: float) -> Iterator[Series]:
             level - bem,
             at=case.bands.centres[octaves[:, 1]],
             grid=finer,
-            margin=replace(IN_OCTAVES, role=Role.CRITERION) if must else IN_OCTAVES,
+            margin=replace(IN_OCTAVES, worst=True, role=Role.CRITERION) if must else IN_OCTAVES,
         )
     shown = partial(in_decibels, SHOWN, at=case.bands.centres)
     over_linear, finer = of_bem(result, height)

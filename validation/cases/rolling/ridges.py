@@ -9,7 +9,7 @@ import numpy as np
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim
-from validation.analysis.evidence import Role
+from validation.analysis.evidence import Role, Whose
 from validation.analysis.series import Margin, Series
 from validation.analysis.study import Outcomes, Study
 from validation.engine.engine import SERIAL, Engine, FloatArray
@@ -145,6 +145,7 @@ STUDY = Study(
     series=series,
     claims=(
         Claim(
+            whose=Whose.BOOK,
             quantity=NEAREST,
             model=(BEM, FULL, SPRINGS),
             printed=lambda error: f"{error.value:.2g} of {error.tolerance:.2g} that the grid leaves",
