@@ -107,7 +107,11 @@ def test_a_strip_no_longer_than_the_contact_is_refused():
 
 
 def test_a_layer_without_a_solution_is_refused():
+    refused = False
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(bem3d, "solve", partial(bem3d.solve, max_iterations=1))
-        with pytest.raises(bem3d.ConvergenceError):
+        try:
             roll_on_layer(rough_strip(0.5), DX)
+        except bem3d.ConvergenceError:
+            refused = True
+    assert refused
