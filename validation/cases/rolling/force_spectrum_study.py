@@ -4,7 +4,7 @@ from functools import partial
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import THREE_D_DIFFER, Claim, Matrix, per_cent
+from validation.analysis.claims import THREE_D_DIFFER, Claim, Matrix, beside, per_cent
 from validation.analysis.evidence import Whose
 from validation.analysis.study import Study
 from validation.cases.rolling.force_spectrum import (
@@ -75,6 +75,7 @@ STUDY = Study(
         ),
         of_book(
             no=THREE_D_DIFFER,
+            printed=lambda number: (root_mean_square if number.quantity == RMS_LEVEL else beside)(number),
             either=(
                 {"quantity": MEAN_LEVEL, "model": MEAN_1D + OVER},
                 {"quantity": RMS_LEVEL, "model": LINEAR_1D + OVER},
