@@ -81,8 +81,8 @@ STUDY = Study(
                 {"quantity": RMS_LEVEL, "model": LINEAR_1D + OVER},
             ),
         ).saying(
-            "Where h is much smaller than d, a wheel on isotropic roughness has that spectrum in three dimensions "
-            "(Fig. 14.3).",
+            "Where h is much smaller than d, a wheel on isotropic roughness has the spectrum (14.12) and its mean "
+            "(14.14) in three dimensions (Fig. 14.3).",
             short="(14.12) and (14.14) over boundary elements",
         ),
         of_input(model=INPUT_NAMES["line"]).saying(
