@@ -1,7 +1,8 @@
 """The cases of rolling: what they draw and roll, and verdicts on planted changes."""
 
 import math
-from dataclasses import asdict
+from dataclasses import asdict, replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -18,7 +19,7 @@ from validation.report.section import Section
 from validation.simulation import rolling_strip
 from validation.simulation.rolling_strip import RoughStrip, Tracks, crop_to_reach, roll_tracks
 from validation.simulation.track_spectrum import INPUT_SPECTRA, PiecewisePowerLaw, TrackSpectrum, self_affine
-from validation.theory.rolling import force_variance
+from validation.theory.rolling import force_spectrum_1d, force_variance
 
 SMALL = rolling.ForceSpectrum(
     heights=(0.01,), last=9.0, lowest=0.5, length=32.0, width=12.0, cells=6, strips=4, refined=3, tracks=40
@@ -77,6 +78,15 @@ def test_tracks_have_the_variance_of_linear_theory():
     exact = 1e-6 * force_variance(SMALL.spectrum.c2d, edges=SMALL.spectrum.edges, contact_radius=1.0, modulus=1.0)
     assert outcome["variance"].mean() == pytest.approx(exact / rolling_strip.HERTZ**2, rel=2 * np.pi / 256)
     assert outcome["level"].sum(axis=1).mean() * 2 <= outcome["variance"].mean() * (1 + 1e-9)
+
+
+def test_the_curve_on_a_track_is_that_of_its_waves_through_the_filter():
+    """(14.12) on the waves that a drawn track has, beside (14.11) over the track itself."""
+    tracks = replace(SMALL, tracks=2).tracks_of(1e-3)
+    curve = partial(force_spectrum_1d, contact_radius=1.0, modulus=1.0)
+    book = 1e-6 * rolling.levels_on_track(SMALL, curve)
+    for level in roll_tracks(tracks)["linear level"]:
+        assert level == pytest.approx(book, rel=1e-6, abs=1e-20)
 
 
 @pytest.mark.parametrize("name", INPUT_SPECTRA)

@@ -19,6 +19,7 @@ from tests.cases import (
     test_limits,
     test_rail_cases,
     test_rail_sound,
+    test_rolling_cases,
     test_wheel_cases,
     test_wheel_ensembles,
     test_wheel_regions,
@@ -35,6 +36,7 @@ from validation.cases.limits import sweeps as limits
 from validation.cases.punch import bandwidth, ensembles, fractal_punch, work
 from validation.cases.rail import filters as rail_filters
 from validation.cases.rail import line_convention, rail_sound
+from validation.cases.rolling import force_spectrum
 from validation.cases.selection import model_selection as calibration
 from validation.cases.wheel import features, regions
 from validation.engine.random_numbers import random_generator
@@ -54,9 +56,16 @@ from validation.simulation import spring_tracks as rough_springs
 from validation.simulation import wheel_on_springs as wheel_ensemble
 from validation.simulation.exact_contacts import PublishedContact
 from validation.simulation.rail_strip import RailStrip
+from validation.simulation.rolling_strip import level_1d
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
+
+
+def with_the_integral_for_the_sum(case, spectrum):
+    """The level of a band of all waves for that of the waves of a track."""
+    return level_1d(case.spectrum, "geike", case.bands)
+
 
 REAL_SCENE, REAL_WEIGHTING, combined = rail_filters.scene_of, rail_filters.a_weighting, multilevel.combined
 zeros_of, amplification = features.zeros_of, free_vibration.amplification
@@ -200,6 +209,10 @@ FAULTS = {
     "a periodic track taken as open": (
         (wheel_ensemble.WheelEnsemble, "places", property(lambda rides: places_of(replace(rides, track="open")))),
         partial(test_wheel_ensembles.test_periodic_tracks_take_whole_natural_periods, "steady-state", 0.5, 0.16),
+    ),
+    "a band of all waves for the waves of a track, in the curve of the book": (
+        (force_spectrum, "levels_on_track", with_the_integral_for_the_sum),
+        test_rolling_cases.test_the_curve_on_a_track_is_that_of_its_waves_through_the_filter,
     ),
     "factor 2 lost in the mean filter, read backwards": (
         (roughness_from_force, "mean_force_spectrum_1d", scaled(rolling_theory.mean_force_spectrum_1d, 0.5)),
