@@ -193,7 +193,7 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart("reduced_models-map", claims=(0, 1), width=9.0, height=4.6).of(
+        Chart("reduced_models-map", claims=(0, 1), height=4.6).of(
             "Root mean square over octaves of the level of the force over boundary elements, over h' a/d. Points: "
             "strips of all spectra, with 95 % intervals; lines: the largest up to there. Shaded: within 1 dB.",
             Panel(SLOPE, "rms over octaves [dB]", log="xy", shade=(1e-9, 1), ylim=(0.01, 20)).of(
