@@ -68,7 +68,7 @@ def run(case: RollingOverRidges, engine: Engine = SERIAL) -> Outcomes:
 RESPONSE, IMAGINARY = "response of the force times q a", "imaginary part of the response times q a"
 ERROR, BOUND, LARGEST = "error over the envelope", "bound of the error", "largest error over the envelope"
 NEAREST, ORDER, STIFFNESS = "error nearest to its bound", "order of the error", "k dd + dF at a prescribed force"
-CELLS, Q, EXACT = "to a radius", "q a", "sin(q a), (14.11)"
+CELLS, Q, EXACT = "points on a radius", "q a", "sin(q a), (14.11)"
 FIRST_ORDER = Margin(
     0.7,
     "the place of the edge within its cell changes irregularly from grid to grid",
