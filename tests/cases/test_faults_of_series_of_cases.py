@@ -1,6 +1,5 @@
 """Faults that once lived in the series that cases declare: reference, grid, family, model and range of each."""
 
-import itertools
 import math
 from dataclasses import replace
 from types import SimpleNamespace
@@ -12,7 +11,7 @@ from tests.analysis.test_judged_claims import point
 from validation.analysis.evidence import Role, Verdict, numbers_with
 from validation.analysis.multilevel import Linearised, Resolved
 from validation.analysis.series import Estimates, numbers_of
-from validation.analysis.statistics import DECIBEL, POWER_DECIBEL, Estimate, mean_estimate, ratio_of_means, student
+from validation.analysis.statistics import DECIBEL, POWER_DECIBEL, Estimate, student
 from validation.analysis.study import Outcomes
 from validation.cases.punch import fractal_punch, fractal_punch_study
 from validation.cases.rolling import force_spectrum
@@ -118,101 +117,72 @@ def test_the_farthest_mean_is_judged_once_more_where_contacts_have_cells_enough_
 
 # --- rolling over isotropic roughness ---------------------------------------------------------------------------------
 
-ROLLING = force_spectrum.ForceSpectrum(heights=(0.1, 0.3), last=8.0, lowest=0.5, length=32.0, strips=4, refined=3)
+ROLLING = force_spectrum.ForceSpectrum(heights=(0.01, 0.1), last=8.0, lowest=0.5, length=32.0, strips=4, refined=3)
 
 
-def of_strips(level, size):
-    """Strips and tracks whose variance and level are so many times those of linear theory."""
-    linear = np.random.default_rng(0).lognormal(0, 0.3, (size, len(ROLLING.bands.centres)))
+def of_strips(level, size, case=ROLLING):
+    """Strips and tracks whose variance and level are so many times those of linear theory, and the mean force."""
+    linear = np.random.default_rng(0).lognormal(0, 0.3, (size, len(case.bands.centres)))
     noise = 1 + 0.01 * np.random.default_rng(size).standard_normal(size)
     both = {"linear variance": linear.mean(axis=1), "variance": level * linear.mean(axis=1) * noise}
-    return both | {"level": level * linear, "linear level": linear}
+    return both | {"level": level * linear, "linear level": linear, "mean": level * noise}
 
 
-def test_the_rms_force_is_that_on_cells_of_no_size_and_both_models_hold_at_once():
+def result_of(bem, finer, springs, height=0.1, case=ROLLING):
+    fine = {name: (1.0 if name.startswith("linear") else finer) * values[:3] for name, values in bem.items()}
+    found = {(force_spectrum.BEM, height): bem, (force_spectrum.REFINED, height): fine, (SPRINGS, height): springs}
+    return Outcomes(case, found)
+
+
+def test_the_rms_and_the_mean_force_are_those_on_cells_of_no_size():
     """Boundary elements 10 % over linear theory in power, 2 % less on finer cells; springs 30 % over it."""
     bem, springs = of_strips(1.1, 4), of_strips(1.3, 60)
-    fine = {name: values[:3] for name, values in bem.items()}
-    fine["variance"] = 0.98 * fine["variance"]
-    found = {("bem3d", 0.1): bem, ("refined", 0.1): fine, (SPRINGS, 0.1): springs}
-    models = itertools.islice(force_spectrum._whole(Outcomes(ROLLING, found), 0.1), 2)
-    over = ratio_of_logs(bem)
-    for number, mine in zip(numbers_of(models), (ratio_of_logs(springs), Estimate(0.0, 0.0, 4)), strict=True):
-        apart = mine.minus(over)
-        assert number.value == pytest.approx(POWER_DECIBEL * (apart.value - 2 * math.log(0.98)))
-        assert number.sample == pytest.approx(POWER_DECIBEL * apart.half_width_among(4))
-        assert number.grid == pytest.approx(-POWER_DECIBEL * math.log(0.98))
+    numbers = numbers_of(force_spectrum._force(result_of(bem, 0.98, springs), 0.1))
+    ones = np.ones(1)
+    expected = [(one, ratio_of_logs(bem), POWER_DECIBEL) for one in (ratio_of_logs(springs), Estimate(0.0, 0.0, 4))]
+    mean, other = (Estimates.ratios(one["mean"], ones)[0] for one in (springs, bem))
+    for number, (mine, reference, scale) in zip(numbers, [*expected, (mean, other, DECIBEL)], strict=True):
+        apart = mine.minus(reference)
+        assert number.value == pytest.approx(scale * (apart.value - 2 * math.log(0.98)))
+        assert number.sample == pytest.approx(scale * apart.half_width)
+        assert number.grid == pytest.approx(-scale * math.log(0.98))
+        assert number.tolerance == pytest.approx(20 * math.log10(1.1))
+    assert [number.where["h' a/d"] for number in numbers] == [float(f"{0.1 * ROLLING.spectrum.slope_along:.3g}")] * 3
 
 
 def ratio_of_logs(one):
     return Estimates.ratios(one["variance"], one["linear variance"])[0]
 
 
-def test_geikes_spectrum_is_too_loud_by_its_limit_where_boundary_elements_are_linear_theory():
+def test_the_mean_curve_is_too_loud_by_its_limit_where_boundary_elements_are_linear_theory():
     """Within half a decibel at q a of 4 and more; 1 % less power on finer cells raises it by two of them."""
-    bem = of_strips(1.0, 4)
-    for finer in (1.0, 0.99):
-        fine = {name: finer * values[:3] for name, values in bem.items()}
-        one = force_spectrum._excess(Outcomes(ROLLING, {("bem3d", 0.1): bem, ("refined", 0.1): fine}), 0.1)
-        (number,) = one.numbers
-        if finer == 1.0:
-            before = number
-    assert before.verdict is Verdict.AGREE and before.value > 1 and before.grid == pytest.approx(0.0, abs=1e-12)
-    assert before.reference == pytest.approx(-10 * math.log10(level_ratio(ROLLING.hurst)))
+    case, name = replace(ROLLING, last=20.0), force_spectrum.MEAN_1D + force_spectrum.OVER
+    bem, springs = (of_strips(1.0, size, case) for size in (4, 60))
+    results = (result_of(bem, finer, springs, 0.01, case) for finer in (1.0, 0.99))
+    judged = [numbers_of(force_spectrum._curve(result, 0.01)) for result in results]
+    before, number = (numbers_with(some, force_spectrum.MEAN_LEVEL, name)[0] for some in judged)
+    assert before.verdict is Verdict.DIFFER and before.grid == pytest.approx(0.0, abs=1e-12)
+    assert before.value == pytest.approx(-10 * math.log10(level_ratio(ROLLING.hurst)), abs=0.5)
     assert number.value - before.value == pytest.approx(-20 * math.log10(0.99))
     assert number.grid == pytest.approx(-10 * math.log10(0.99))
-    assert number.where["q a"] == (4.0, 8.0)
 
 
-def test_levels_are_judged_in_both_ranges_and_linear_theory_must_hold_over_low_roughness():
-    """Linear theory is 2 in each band, nothing in 1D below the roughness; springs 1.3, and 1.5 with the other rule."""
-    bands, inside, low = len(ROLLING.bands.centres), ROLLING.bands_in(1.0, 8.0), ROLLING.bands_in(0.5, 1.0)
-    scatter = np.exp(0.05 * np.random.default_rng(1).standard_normal((4, 1))) * np.ones(bands)
-    bem = {"level": 1.1 * scatter, "linear level": np.ones((4, bands)), "cross": np.zeros((2, 4, bands))}
-    fine = {"level": 0.98 * bem["level"][:3]}
-    for height, role, family in ((0.1, Role.FINDING, 8), (0.01, Role.CRITERION, 1)):
-        springs = {
-            rule: bem | {"level": factor * height**2 * 2 * scatter, "linear level": height**2 * 2 * scatter / 2}
-            for rule, factor in ((SPRINGS, 1.3), (force_spectrum.ROLLING_SPRINGS, 1.5))
-        }
-        found = {("bem3d", height): bem, ("refined", height): fine} | {(r, height): one for r, one in springs.items()}
-        case = replace(ROLLING, heights=(0.01, 0.1))
-        with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(force_spectrum, "level_3d", lambda *_: np.full(bands, 2.0))
-            patch.setattr(force_spectrum, "level_1d", lambda *_: np.where(inside, 2.6, 0.0))
-            numbers = numbers_of(force_spectrum.levels_at(Outcomes(case, found), height))
-        over, grid = Estimates.ratios(bem["level"], bem["linear level"]), -POWER_DECIBEL * math.log(0.98)
-        for model, level, error in (
-            (force_spectrum.LINEAR_3D, 1.0, 0.0),
-            (SPRINGS, 1.3 * scatter[:, 0].mean(), 1.0),
-            (force_spectrum.ROLLING_SPRINGS, 1.5 * scatter[:, 0].mean(), 1.0),
-        ):
-            judged = numbers_with(numbers, force_spectrum.LEVEL, model + force_spectrum.OVER)
-            assert [n.where["q a"] for n in judged] == [(0.5, 1.0), (1.0, 8.0)]
-            for n, among in zip(judged, (low, inside), strict=True):
-                assert n.value == pytest.approx(POWER_DECIBEL * (math.log(level / 0.98**2) - over[0].value))
-                assert n.grid == pytest.approx(grid)
-                mine = Estimates.ratios(scatter, np.ones(bands))[0]
-                apart = replace(mine, error=error * mine.error).minus(over[0])
-                hold = among.sum() * (family if model == force_spectrum.LINEAR_3D else 8)
-                assert n.sample == pytest.approx(POWER_DECIBEL * apart.half_width_among(hold))
-                assert n.role is (role if model == force_spectrum.LINEAR_3D else Role.FINDING)
-        (in_1d,) = numbers_with(numbers, force_spectrum.LEVEL, force_spectrum.LINEAR_1D + force_spectrum.OVER)
-        assert in_1d.where["q a"] == (1.0, 8.0)
-        (nonlinear,) = numbers_with(numbers, force_spectrum.NONLINEAR)
-        assert nonlinear.where["q a"] == (1.0, 8.0) and nonlinear.grid == pytest.approx(grid)
-        assert nonlinear.value == pytest.approx(POWER_DECIBEL * math.log(2.6))
-        assert nonlinear.reference == pytest.approx(POWER_DECIBEL * (over[0].value + 2 * math.log(0.98)))
-
-
-def test_moments_of_the_force_at_all_heights_hold_at_once():
-    """Variances of two models and a mean force at each of two heights."""
-    rng = np.random.default_rng(0)
-    bem, springs = (of_strips(1.1, n) | {"mean": f + 0.01 * rng.standard_normal(n)} for n, f in ((4, 1.0), (60, 1.2)))
-    found = Outcomes(ROLLING, {("bem3d", 0.1): bem, (SPRINGS, 0.1): springs})
-    *variances, mean = numbers_of(force_spectrum.moments_at(found, 0.1))
-    for n, one in zip(variances, (bem, springs), strict=True):
-        ratio = ratio_of_means(one["variance"], one["linear variance"])
-        assert (n.value, n.reference, n.sample) == pytest.approx((ratio.value, 1.0, ratio.half_width_among(4)))
-    apart = mean_estimate(springs["mean"]).minus(mean_estimate(bem["mean"]))
-    assert (mean.difference, mean.sample) == pytest.approx((apart.value, apart.half_width_among(2)))
+@pytest.mark.parametrize("height", [0.01, 0.1])
+def test_the_curve_is_judged_over_low_roughness_where_linear_theory_must_hold(height):
+    """Linear theory is 2 in each band, (14.12) 2.6; the worst octave of linear theory is a criterion."""
+    bem, springs = of_strips(1.0, 4), {"level": height**2 * np.full((60, len(ROLLING.bands.centres)), 3.0)}
+    result = result_of(bem, 1.0, springs, height)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(force_spectrum, "level_3d", lambda *_: np.full(len(ROLLING.bands.centres), 2.0))
+        for name in ("level_1d", "levels_on_track"):
+            patch.setattr(force_spectrum, name, lambda *_: np.full(len(ROLLING.bands.centres), 2.6))
+        levels, curves = (numbers_of(of(result, height)) for of in (force_spectrum._levels, force_spectrum._curve))
+    of_rms = numbers_with(levels, force_spectrum.RMS_LEVEL)
+    rms = {n.model.removesuffix(force_spectrum.OVER): n.value for n in of_rms}
+    ratios = {force_spectrum.LINEAR_1D: 1.3, SPRINGS: 1.5, force_spectrum.LINEAR_3D: 1.0}
+    assert rms == pytest.approx({name: 10 * math.log10(ratio) for name, ratio in ratios.items()}, abs=1e-9)
+    must = [(n.model, n.tolerance) for n in levels if n.role is Role.CRITERION]
+    assert must == ([(force_spectrum.LINEAR_3D + force_spectrum.OVER, 1.0)] if height == 0.01 else [])
+    curve = numbers_with(curves, force_spectrum.CURVE)
+    assert bool(curve) is (height == 0.01)
+    assert [n.value for n in curve] == pytest.approx([10 * math.log10(3.0 / 2.6)] * len(curve))

@@ -17,7 +17,7 @@ from validation.benchmarks.work_precision.case import lost
 from validation.benchmarks.work_precision.problem import BEM, LOOSE, MDR, POLONSKY_KEER
 from validation.cases.limits import limits
 from validation.cases.punch import bandwidth, bandwidth_study, fractal_punch, interface
-from validation.cases.rolling import force_spectrum, input_spectrum, ridges
+from validation.cases.rolling import force_spectrum, ridges
 from validation.cases.selection import model_selection
 from validation.cases.wheel import distance, half_space, spectrum
 from validation.engine.convergence import NotConvergedError
@@ -79,7 +79,6 @@ def the(problem):
 PUNCH = fractal_punch.FractalPunch(
     hursts=(0.7,), cells=8, surfaces=((0, 4, 4, 4, 0),), profiles=3, fine_profiles=2, decades=(-1, 0)
 )
-INPUT = input_spectrum.RollingInput(heights=(0.03,), strips=4, cells=4, surfaces=4)
 FORCE = force_spectrum.ForceSpectrum(heights=(0.1, 0.3), strips=4, rough_strips=4, refined=4, cells=4)
 SWEPT = limits.Limits()
 STRIPS_3D = half_space.Wheel3D(strips=4)
@@ -109,13 +108,6 @@ LOST = {
     ),
     "rolling, finer grid": (force_spectrum, FORCE, one_strip(3, 0.1, 8), "strip 3, h/d = 0.1, 8 cells to a radius: 7"),
     "rolling, all strips": (force_spectrum, FORCE, one_strip(0, 0.3, 4), "strip 0, h/d = 0.3, 4 cells to a radius: 7"),
-    "rolling input, strips": (
-        input_spectrum,
-        INPUT,
-        lambda p: one_strip(2, 0.03, 4)(p) and p.scene.spectrum == INPUT.spectra["H = 0.7"],
-        "strip 2, h/d = 0.03",
-    ),
-    "rolling input, punches": (input_spectrum, INPUT, one_surface(3), "surface 3, H = 0.7"),
     "wheel distance": (
         distance,
         distance.WheelDistance(),
@@ -154,8 +146,6 @@ def test_what_is_lost_is_a_line_of_the_result(name):
     [
         (force_spectrum, replace(FORCE, heights=(0.1,), strips=3, refined=3), one_strip(1, 0.1, 4)),
         (force_spectrum, replace(FORCE, heights=(0.1,), refined=3), one_strip(2, 0.1, 8)),
-        (input_spectrum, replace(INPUT, strips=3, surfaces=3), one_strip(1, 0.03, 4)),
-        (input_spectrum, replace(INPUT, strips=3, surfaces=3), one_surface(0)),
         (model_selection, TRIALS, lambda _: True),
         (spectrum, spectrum.WheelSpectrum(parameters=False), lambda p: hasattr(p, "release")),
         (distance, distance.WheelDistance(), lambda p: p.release > 0),

@@ -5,6 +5,7 @@ Expected values are integrals over the spectrum written out here, or derivatives
 
 import math
 from dataclasses import replace
+from itertools import product
 from types import SimpleNamespace
 from unittest.mock import patch
 
@@ -13,16 +14,12 @@ import pytest
 from scipy import integrate, special
 
 import validation
-from validation.analysis.statistics import Estimate
 from validation.analysis.study import Outcomes
 from validation.cases.limits.sweeps import LIMITS, Sweep
 from validation.cases.punch.interface import Interface
 from validation.cases.rail import rough_rail
 from validation.cases.rolling import reduced_models as reduced_case
-from validation.cases.rolling import roughness_from_force, validity
-from validation.cases.rolling.force_spectrum import ForceSpectrum
-from validation.cases.rolling.roughness_from_force import RoughnessFromForce
-from validation.cases.rolling.settings import slopes_of
+from validation.cases.rolling.force_spectrum import ForceSpectrum, at
 from validation.cases.wheel import half_space_study
 from validation.report.answers.questions import QUESTIONS
 from validation.scenes.description import describe
@@ -30,12 +27,12 @@ from validation.scenes.roughness_levels import RoughnessLevels
 from validation.selection.compare import models_of
 from validation.selection.summary import heading
 from validation.selection.tolerance import tolerance_of
-from validation.simulation import indentation, limits_of_springs, rail_strip, reduced_models
+from validation.simulation import indentation, limits_of_springs, rail_strip
 from validation.simulation.model import ErrorEstimate
 from validation.simulation.models.linear_filters import linear_filter_3d
 from validation.simulation.rail_models import linear_error
 from validation.simulation.rail_quantity import RailQuantity
-from validation.simulation.reduced_strip import MODELS, bands_of
+from validation.simulation.reduced_models import MODELS, bands_of
 from validation.simulation.rolling_claims import RollingClaim
 from validation.simulation.rolling_strip import RoughStrip
 from validation.simulation.rough_punch import PunchRoughness
@@ -63,11 +60,14 @@ def of_wheel(scene=WHEEL):
     return half_space_study.of_wheel(SimpleNamespace(scene=scene, cells=8), 1.0)
 
 
-def validity_evidence(case=validity.CASE.quick):
-    """Of what is found, the same for all surfaces."""
-    one = dict.fromkeys((validity.KEPT, validity.OFF, *validity.FOLLOWING), Estimate(1.0, 0.001, 4))
-    found = {(name, *level): one | {validity.CORRELATION: 1.0} for name in validity.SPECTRA for level in case.levels}
-    return validity.CASE.evidence(Outcomes(case, found))
+def models_evidence(case):
+    """Of what is found, the same for all strips."""
+    found = {}
+    for key in product(case.slopes, case.spectra):
+        octaves = len(bands_of(self_affine(*key[1])).centres)
+        one = {"level": RNG.lognormal(0, 0.1, (len(MODELS), octaves)), "work": np.ones(len(MODELS))}
+        found[key] = [one | {"kept": np.array(1.0)}] * 3
+    return reduced_case.STUDY.evidence(Outcomes(case, found))
 
 
 # --- one number for one wheel ---
@@ -80,7 +80,7 @@ def test_table_14_1_has_one_slope_everywhere():
     said = f"h' a/d = {expected:.3g}"
     assert said in dict(describe(WHEEL))["rms slope h'"]
     assert f"{said}\n" in heading(validation.load_scene("table_14_1"), "acceleration-rms", tolerance_of("10%"))
-    of_book = validity_evidence().table(validity.TABLE_14_1).where(model="h' a/d")
+    of_book = models_evidence(reduced_case.CASE.quick).table(reduced_case.TABLE_14_1).where(model="h' a/d")
     assert of_book["value"] == pytest.approx([expected], rel=1e-9)
     (question,) = (one for one in QUESTIONS if one.name == "dynamic-wheel")
     assert question.of_scene == (half_space_study.WHEEL, "h' a/d")
@@ -188,47 +188,22 @@ def test_a_strip_has_the_slope_of_its_spectrum_along_the_track():
 
 
 def test_cases_of_rolling_print_the_slope_along_the_track():
-    """h' a/d of H = 0.7 in each table; of their rms heights, over d."""
+    """h' a/d of H = 0.7, of the rms heights over d."""
     rolling = ForceSpectrum()
     expected = [h * power_law_slope(rolling.hurst, rolling.first, rolling.last) for h in rolling.heights]
-    assert slopes_of(rolling).found == pytest.approx(expected, rel=1e-6)
-
-    case = RoughnessFromForce()
-    linear = RNG.lognormal(0, 0.1, (6, len(case.bands.centres)))
-    outcome = {"level": linear, "linear level": linear}
-    found = roughness_from_force.CASE.evidence(Outcomes(case, dict.fromkeys(case.heights, outcome)))
-    slopes = [h * power_law_slope(case.hurst, case.first, case.last) for h in case.heights]
-    assert found.table("h' a/d")["value"] == pytest.approx(slopes, rel=1e-6)
-
-    models = reduced_case.ReducedModels(strips=3)
-    (spectrum,) = models.spectra
-    bands = len(bands_of(self_affine(*spectrum)).centres)
-    ones = {"cross": np.ones((2, len(MODELS), bands)), **dict.fromkeys(("mean", "work"), np.ones(len(MODELS)))}
-    rolled = {"level": RNG.lognormal(0, 0.1, (len(MODELS), bands)), **ones}
-    strips = {(spectrum, height): [rolled] * 3 for height in models.heights}
-    slopes = [height * power_law_slope(*spectrum) for height in models.heights]
-    assert [reduced_case.slope_of(key) for key in strips] == pytest.approx(slopes, rel=1e-6)
-    found = reduced_case.STUDY.evidence(Outcomes(models, strips))
-    assert np.unique(found.table(reduced_case.OFF)["h' a/d"]) == pytest.approx(slopes, rel=5e-3)
-    assert sorted({number.where["h' a/d"] for number in found.numbers}) == pytest.approx(slopes, rel=5e-3)
+    assert [at(rolling, h)["h' a/d"] for h in rolling.heights] == pytest.approx(expected, rel=5e-3)
 
 
 @pytest.mark.parametrize("gradient", [0.1, 0.3, 1.0])
 def test_strips_at_equal_slopes_have_them(gradient):
-    """Where h' a/d is 0.0707, 0.212 and 0.707, each spectrum has the rms gradient of 0.1, 0.3 and 1."""
-    case = validity.Validity(slopes=(gradient / math.sqrt(2),), heights=(0.3,))
-    table = validity_evidence(case).table("share of contact kept, all spectra")
-    for spectrum in ((0.7, 1, 10), (0.7, 0.3, 5), (0.4, 1, 10)):
-        slope, name = power_law_slope(*spectrum), "H = {:g}, q a = {:g} to {:g}".format(*spectrum)
-        strip = case.strips_of(name, validity.SLOPE, case.slopes[0])[0].scene
-        assert math.sqrt(2) * slope * strip.height == pytest.approx(gradient, rel=1e-6)
-        found = table.where(spectrum=name)["h' a/d"]
-        assert found == pytest.approx(sorted([gradient / math.sqrt(2), 0.3 * slope]), rel=1e-6)
-    assert set(validity.CASE.full.slopes) == {one / math.sqrt(2) for one in (0.1, 0.3, 1.0)}
-
-
-def test_limits_of_claims_are_where_the_gradient_is_1_and_0_3():
-    assert pytest.approx((math.sqrt(0.5), 0.3 * math.sqrt(0.5))) == (reduced_case.LIMIT, reduced_case.LIMIT_OF_READ)
+    """Each spectrum has the rms gradient that is sqrt 2 times h' a/d, and its h/d stands beside it."""
+    case = replace(reduced_case.CASE.full, slopes=(gradient / math.sqrt(2),))
+    kept = models_evidence(case).table(reduced_case.OWN_KEPT)
+    assert np.unique(kept["h' a/d"]) == pytest.approx(gradient / math.sqrt(2), rel=1e-9)
+    for spectrum, height in zip(case.spectra, kept["h/d"], strict=True):
+        strip = case.strips_of(case.slopes[0], spectrum)[0].scene
+        assert math.sqrt(2) * power_law_slope(*spectrum) * strip.height == pytest.approx(gradient, rel=1e-6)
+        assert height == pytest.approx(strip.height, rel=5e-3)
 
 
 # --- g, where formulas need it ---
@@ -266,14 +241,6 @@ def test_loads_of_an_interface_have_the_contact_of_their_name():
     gradient = math.hypot(*periodic_slopes(case.roughness((8, 0.7)).surface(128, 0), 1 / 128))
     found = special.erf(math.sqrt(2) * case.height * case.pressures((8, 0.7)) / gradient)
     np.testing.assert_allclose(found, case.contacts, rtol=0.03)
-
-
-def test_the_gradient_of_an_oblique_wave_under_two_scales():
-    """g = h q / sqrt(2) of h cos(q.x), q the length of the vector."""
-    x, y = (np.arange(n) * 0.25 for n in (32, 24))
-    q_x, q_y = 2 * np.pi * 3 / 8, 2 * np.pi * 2 / 6
-    height = 0.1 * np.cos(q_x * x[:, np.newaxis] + q_y * y)
-    assert reduced_models._gradient(height, 0.25) == pytest.approx(0.1 * math.hypot(q_x, q_y) / math.sqrt(2), rel=1e-9)
 
 
 @pytest.mark.parametrize(("more", "cells"), [(1.04, 256), (0.96, 128)])

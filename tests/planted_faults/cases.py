@@ -1,5 +1,6 @@
 """Faults planted in what `tests/cases` looks at: where, what is wrong there, and the test that must catch it."""
 
+import math
 import types
 from dataclasses import replace
 from functools import partial
@@ -19,6 +20,7 @@ from tests.cases import (
     test_limits,
     test_rail_cases,
     test_rail_sound,
+    test_rolling_cases,
     test_wheel_cases,
     test_wheel_ensembles,
     test_wheel_regions,
@@ -30,14 +32,13 @@ from validation.analysis import multilevel
 from validation.analysis import series as analysis_series
 from validation.analysis.evidence import ClaimStatus, Verdict
 from validation.analysis.multilevel import Resolved
-from validation.analysis.spectra import waves
-from validation.analysis.statistics import mean_estimate, nearest
+from validation.analysis.statistics import nearest
 from validation.cases.exact import geike, hertz
 from validation.cases.limits import sweeps as limits
 from validation.cases.punch import bandwidth, ensembles, fractal_punch, interface
 from validation.cases.rail import filters as rail_filters
 from validation.cases.rail import rail_sound, rough_rail
-from validation.cases.rolling import roughness_from_force, validity
+from validation.cases.rolling import force_spectrum
 from validation.cases.selection import model_selection as calibration
 from validation.cases.wheel import features, regions
 from validation.engine.random_numbers import random_generator
@@ -48,18 +49,26 @@ from validation.simulation import (
     indentation,
     integrators,
     limits_of_springs,
-    reduced_strip,
+    reduced_models,
     rolling_strip,
     rough_punch,
+    roughness_from_force,
     springs_over_area,
 )
 from validation.simulation import spring_tracks as rough_springs
 from validation.simulation import wheel_on_springs as wheel_ensemble
 from validation.simulation.exact_contacts import PublishedContact
 from validation.simulation.rail_strip import RailStrip
+from validation.simulation.rolling_strip import level_1d
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
+
+
+def with_the_integral_for_the_sum(case, spectrum):
+    """The level of a band of all waves for that of the waves of a track."""
+    return level_1d(case.spectrum, "geike", case.bands)
+
 
 REAL_SCENE, REAL_WEIGHTING, combined = rail_filters.scene_of, rail_filters.a_weighting, multilevel.combined
 zeros_of, amplification = features.zeros_of, free_vibration.amplification
@@ -227,21 +236,25 @@ FAULTS = {
         (wheel_ensemble.WheelEnsemble, "places", property(lambda rides: places_of(replace(rides, track="open")))),
         partial(test_wheel_ensembles.test_periodic_tracks_take_whole_natural_periods, "steady-state", 0.5, 0.16),
     ),
-    "factor 4 lost in the filter of one dimension, read backwards": (
-        (roughness_from_force, "force_spectrum_1d", scaled(rolling_theory.force_spectrum_1d, 0.25)),
-        test_force.test_the_filter_in_one_dimension_finds_the_roughness_of_ridges,
+    "a band of all waves for the waves of a track, in the curve of the book": (
+        (force_spectrum, "levels_on_track", with_the_integral_for_the_sum),
+        test_rolling_cases.test_the_curve_on_a_track_is_that_of_its_waves_through_the_filter,
+    ),
+    "factor 2 lost in the mean filter, read backwards": (
+        (roughness_from_force, "mean_force_spectrum_1d", scaled(rolling_theory.mean_force_spectrum_1d, 0.5)),
+        test_force.test_the_mean_filter_finds_the_roughness_of_the_mean_force,
     ),
     "half of the height in the filter of three dimensions, read backwards": (
         (roughness_from_force, "level_3d", scaled(roughness_from_force.level_3d, 0.5)),
         test_force.test_the_filter_in_three_dimensions_finds_isotropic_roughness,
     ),
-    "contact kept beside a wheel of another force": (
-        (validity, "contact_kept", lambda strips: mean_estimate(np.array([one["area"].mean() for one in strips]))),
-        test_force.test_a_smooth_wheel_keeps_its_contact_whatever_its_force,
+    "half of the force of linear theory beside boundary elements": (
+        (reduced_models, "linear_force", scaled(rolling_theory.linear_force, 0.5)),
+        test_force.test_models_on_a_strip_have_its_level_where_it_is_low,
     ),
-    "amplitudes of a reduced model twice as large": (
-        (reduced_strip, "waves", lambda force, spacing: waves(2 * force, spacing=spacing)),
-        test_force.test_a_reduced_model_stands_beside_boundary_elements_on_the_surface_itself,
+    "contact kept beside a square wheel": (
+        (reduced_models, "math", types.SimpleNamespace(**{**vars(math), "pi": 4.0})),
+        test_force.test_models_on_a_strip_have_its_level_where_it_is_low,
     ),
     "stiffness of the frame for that of the contact": (
         (rolling_strip, "tangent_stiffness", whole_frame_in_contact),

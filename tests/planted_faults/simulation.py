@@ -197,9 +197,9 @@ FAULTS = {
         (rolling_contact, "math", types.SimpleNamespace(nan=1.0)),
         test_flags_of_rolling.test_a_position_without_a_solution_has_no_number,
     ),
-    "a reduced model on a layer that has not converged": (
+    "a pressed layer that has not converged": (
         (bem3d, "solve", partial(bem3d.solve, raise_on_failure=False)),
-        partial(test_flags_of_rolling.test_a_reduced_model_on_a_contact_without_a_solution_has_no_force, "solve"),
+        test_reduced_models.test_a_layer_without_a_solution_is_refused,
     ),
     "a finer grid half a cell aside": (
         (light_punch, "refined", half_a_fine_cell_aside),

@@ -13,13 +13,12 @@ from validation.cases.limits import sweeps
 from validation.cases.punch.interface import Interface
 from validation.cases.rail import rough_rail
 from validation.cases.rolling import reduced_models as reduced_case
-from validation.cases.rolling import settings, validity
 from validation.cases.wheel import half_space_study
 from validation.scenes import description, roughness
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.roughness_levels import RoughnessLevels
-from validation.simulation import indentation, rail_quantity, reduced_models, rough_punch, track_spectrum
+from validation.simulation import indentation, rail_quantity, rough_punch, track_spectrum
 from validation.simulation.track_spectrum import PiecewisePowerLaw
 from validation.theory import rolling
 
@@ -58,7 +57,7 @@ PLACES = {
     ),
     "h' of a drawn surface": (roughness, "slope_in_one_direction", TABLE_14_1),
     "h' a/d of the wheel on the page": (half_space_study, "slope_ratio", TABLE_14_1),
-    "h' a/d of Table 14.1 beside spectra": (validity, "slope_ratio", TABLE_14_1),
+    "h' a/d of Table 14.1 beside spectra": (reduced_case, "slope_ratio", TABLE_14_1),
     "h' of power laws": (track_spectrum, "slope_in_one_direction", PIECES),
     "the gradient of power laws": (PiecewisePowerLaw, "gradient", PIECES),
     "h' of rail and wheel": (WheelScene, "slope_along", own.test_slopes_of_rail_and_wheel_add_by_squares),
@@ -82,15 +81,8 @@ PLACES = {
         "lost_contact_number",
         own.test_the_error_of_linear_theory_on_a_rail_goes_with_the_slope_along,
     ),
-    "h' a/d of the force": (settings.SelfAffineSettings, "slopes", IN_CASES),
     "h' a/d in the words of rolling": (PiecewisePowerLaw, "slope_along", IN_CASES),
-    "h' a/d of reduced models": (reduced_case, "slope_of", IN_CASES),
-    "heights at an h' a/d": (validity, "height_at", STRIPS_AT_A_SLOPE),
-    "h' a/d up to which a layer follows": (
-        reduced_case,
-        "LIMIT",
-        own.test_limits_of_claims_are_where_the_gradient_is_1_and_0_3,
-    ),
+    "heights at an h' a/d": (reduced_case, "height_at", STRIPS_AT_A_SLOPE),
     "the gradient of the linear filter's limit": (
         PiecewisePowerLaw,
         "gradient",
@@ -107,11 +99,6 @@ PLACES = {
         Interface,
         "pressures",
         own.test_loads_of_an_interface_have_the_contact_of_their_name,
-    ),
-    "the gradient of two scales": (
-        reduced_models,
-        "_gradient",
-        own.test_the_gradient_of_an_oblique_wave_under_two_scales,
     ),
 }
 FAULTS = {

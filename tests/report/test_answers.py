@@ -10,8 +10,8 @@ from validation.cases.punch import fractal_punch_study, interface, work
 from validation.cases.punch.ensembles import DEVIATION, MEAN, OVER
 from validation.cases.rail import across, rolled_filters
 from validation.cases.rail.rail_dynamic import BESIDE, RMS, SPRINGS_OVER_BEM
-from validation.cases.rolling import reduced_models
-from validation.cases.rolling.force_spectrum import LEVEL, LINEAR_3D, RMS_FORCE, SPRINGS
+from validation.cases.rolling.force_spectrum import LINEAR_3D, RMS_FORCE, RMS_LEVEL, SPRINGS
+from validation.cases.rolling.force_spectrum import OVER as OVER_ROLLED
 from validation.cases.wheel.features import LEVEL as LEVEL_OF_WHEEL
 from validation.cases.wheel.half_space import GEIKE, OVER_BEM
 from validation.report.answers import questions
@@ -180,14 +180,13 @@ def test_a_report_without_any_of_the_cases_has_no_rows():
 
 
 def rolling(quantity, model, value, half=0.1):
-    where = {"h/d": 0.1} | ({"q a": (1.0, 10.0)} if quantity == LEVEL else {})
+    where = {"h/d": 0.1, "h' a/d": 0.27} | ({"q a": (1.0, 10.0)} if quantity == RMS_LEVEL else {})
     settings = {"reference": 0.0, "tolerance": 3.0, "sample": half, "role": Role.FINDING}
-    planted = number(value, quantity=quantity, model=f"{model} over bem3d", where=where, **settings)
-    slopes = Table(reduced_models.SLOPE, {"h/d": [0.03, 0.1], "value": [0.081, 0.27]})
-    return section_of("rolling", [planted], slopes, hurst=0.7)
+    planted = number(value, quantity=quantity, model=model + OVER_ROLLED, where=where, **settings)
+    return section_of("rolling", [planted], hurst=0.7)
 
 
-@pytest.mark.parametrize(("name", "quantity"), [("rolling-rms", RMS_FORCE), ("rolling-spectrum", LEVEL)])
+@pytest.mark.parametrize(("name", "quantity"), [("rolling-rms", RMS_FORCE), ("rolling-spectrum", RMS_LEVEL)])
 @pytest.mark.parametrize(("value", "word"), [(0.5, "yes"), (-30.0, "no"), (3.0, "open")])
 def test_a_rolling_wheel_is_judged_over_its_slope(name, quantity, value, word):
     row = row_of(name, rolling(quantity, SPRINGS, value))
@@ -199,7 +198,7 @@ def test_a_rolling_wheel_is_judged_over_its_slope(name, quantity, value, word):
 
 
 def test_numbers_of_another_model_are_no_answer():
-    assert row_of("rolling-spectrum", rolling(LEVEL, LINEAR_3D, 0.0)).word == "Not measured"
+    assert row_of("rolling-spectrum", rolling(RMS_LEVEL, LINEAR_3D, 0.0)).word == "Not measured"
 
 
 def limits(quantity, value, contact=0.1):

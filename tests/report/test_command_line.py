@@ -25,8 +25,7 @@ from validation.cases.rail.rail_dynamic import RailDynamic
 from validation.cases.rail.rail_sound import RailSound, shipped_rail
 from validation.cases.rail.rough_rail import RoughRail
 from validation.cases.rolling import force_spectrum as rolling
-from validation.cases.rolling import input_spectrum as rolling_input
-from validation.cases.rolling import reduced_models, ridges, roughness_from_force, track_stiffness, validity
+from validation.cases.rolling import reduced_models, ridges, track_stiffness
 from validation.cases.selection import model_selection as ladder
 from validation.cases.stability import wheel_stability
 from validation.cases.wheel import distance as wheel_distance
@@ -69,15 +68,12 @@ SMALL = {
         grounds=((8, 0.7), (4, 0.7)), pressed=(4, 0.7), band=2, surfaces=6, refined=3, profiles=40, points=64
     ),
     "ridges": ridges.RollingOverRidges(length=20, shortest=6.0, cells=(4, 6), springs=(8.5, 16.5)),
-    "rolling": rolling.ForceSpectrum(heights=(0.01, 0.3), last=6.0, rough_strips=3, refined=3, **STRIPS, **TRACKS),
-    "rolling_input": rolling_input.RollingInput(
-        heights=(0.03,), last=8.0, punch_cells=16, surfaces=4, profiles=10, **STRIPS, **TRACKS
+    "rolling": rolling.ForceSpectrum(heights=(0.01, 0.3), last=9.0, rough_strips=3, refined=3, **STRIPS, **TRACKS),
+    "reduced_models": reduced_models.ReducedModels(
+        spectra=((0.7, 1.0, 6.0), (0.4, 2.0, 6.0)), strips=3, waves=3, width=6, cells=6
     ),
-    "reduced_models": reduced_models.ReducedModels(spectra=((0.7, 1.0, 6.0),), strips=3, width=6, cells=6),
-    "rolling_validity": validity.Validity(strips=3, waves=3, width=7, cells=4),
-    "roughness_from_force": roughness_from_force.RoughnessFromForce(heights=(0.1,), last=6.0, **STRIPS),
     "track_stiffness": track_stiffness.TrackStiffness(
-        forces=(1.0,), waves=2, width=6, cells=4, strips=3, tracks=5, springs=16, surfaces=4, profiles=10
+        forces=(1.0,), waves=2, width=6, cells=4, strips=3, tracks=5, springs=16
     ),
     "wheel": wheel.WheelSpectrum(
         scene=replace(wheel.TABLE, distance=0.15, springs=40),

@@ -15,7 +15,7 @@ import numpy as np
 
 import bem3d
 import mdr
-from validation.analysis.spectra import Bands, cross_levels, levels, waves
+from validation.analysis.spectra import Bands, levels, waves
 from validation.engine.convergence import FEWEST, NotConvergedError
 from validation.engine.engine import Engine, FloatArray, Outcome
 from validation.engine.random_numbers import random_generator
@@ -106,8 +106,7 @@ class Tracks:
 def roll_strip(strip: Strip) -> Outcome:
     """Force over that of Hertz at each cell: boundary elements, and linear theory on the same surface.
 
-    area: of contact, over that of the smooth wheel; applications: of the operator; failed: positions that did not
-    converge, whose force is NaN.
+    failed: positions that did not converge, whose force is NaN.
     """
     surface, spacing = strip.surface(), 1 / strip.cells
     linear = linear_force(surface, spacing=spacing, **SMOOTH)
@@ -117,8 +116,6 @@ def roll_strip(strip: Strip) -> Outcome:
     return {
         "force": found.force / HERTZ,
         "linear": linear / HERTZ,
-        "area": found.area / math.pi,
-        "applications": found.operator_applications.astype(np.float64),
         "failed": np.array(float(np.count_nonzero(~found.converged))),
     }
 
@@ -151,24 +148,20 @@ def crop_to_reach(surface: FloatArray, spacing: float) -> FloatArray:
 def roll_tracks(tracks: Tracks) -> Outcome:
     """One-sided springs and the linear filter on the same tracks: their `levels_beside_linear`.
 
-    examined: springs examined one by one at a position, mean of each track; wavenumber, spectrum: C_F itself of
-    one-sided springs, the mean of all tracks.
+    wavenumber, spectrum: C_F itself of one-sided springs, the mean of all tracks.
     """
-    spacing, examined = 1 / tracks.springs, []
+    spacing = 1 / tracks.springs
     force, linear = np.empty((2, tracks.realisations, round(tracks.scene.length * tracks.springs)))
     for i, height in enumerate(tracks.heights()):
         roll = partial(mdr.roll, height, spacing=spacing, **SMOOTH)
-        found = roll()
         with warnings.catch_warnings():
             # the range of the filter is under test
             warnings.simplefilter("ignore", mdr.LinearityWarning)
-            force[i], linear[i] = found.force / HERTZ, roll(contact="linear").force / HERTZ
-        examined.append(found.examined.mean())
+            force[i], linear[i] = roll().force / HERTZ, roll(contact="linear").force / HERTZ
     narrow = waves(force, spacing=spacing)
     known = narrow.q < tracks.bands.edges[-1]
     return {
         **levels_beside_linear(force, linear, spacing, tracks.bands),
-        "examined": np.array(examined),
         "wavenumber": narrow.q[known],
         "spectrum": narrow.spectrum.mean(axis=0)[known],
     }
@@ -183,15 +176,12 @@ def strip_levels(outcomes: list[Outcome], spacing: float, bands: Bands) -> Outco
 def levels_beside_linear(force: FloatArray, linear: FloatArray, spacing: float, bands: Bands) -> Outcome:
     """Forces beside those of linear theory on the same roughness, one row a realisation, over the force of Hertz.
 
-    level, linear level: int C_F dq over each band, (realisations, bands); cross: real and imaginary part of their cross
-    levels, (2, realisations, bands); mean, variance of the force, linear variance: (realisations,).
+    level, linear level: int C_F dq over each band, (realisations, bands); mean, variance of the force, linear variance:
+    (realisations,).
     """
-    mine, other = waves(force, spacing=spacing), waves(linear, spacing=spacing)
-    cross = cross_levels(mine, other, bands)
     return {
-        "level": levels(mine, bands),
-        "linear level": levels(other, bands),
-        "cross": np.stack([cross.real, cross.imag]),
+        "level": levels(waves(force, spacing=spacing), bands),
+        "linear level": levels(waves(linear, spacing=spacing), bands),
         "mean": force.mean(axis=1),
         "variance": force.var(axis=1),
         "linear variance": linear.var(axis=1),
@@ -233,16 +223,12 @@ def roll_loaded_tracks(tracks: Tracks) -> Outcome:
         # the smooth contact has springs enough, which is what the warning is about
         warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
         rolled = [mdr.roll(h, spacing=spacing, radius=1.0, modulus=1.0, force=HERTZ) for h in tracks.heights()]
-    return stiffness_moments(np.array([one.stiffness for one in rolled]) / STIFFNESS, spacing, tracks.bands)
+    return stiffness_moments(np.array([one.stiffness for one in rolled]) / STIFFNESS)
 
 
-def stiffness_moments(stiffness: FloatArray, spacing: float, bands: Bands) -> Outcome:
-    """Mean and variance along a track, and the level int C_k dq in each band; along the last axis."""
-    return {
-        "mean": np.asarray(stiffness.mean(axis=-1)),
-        "variance": np.asarray(stiffness.var(axis=-1)),
-        "level": levels(waves(stiffness, spacing=spacing), bands),
-    }
+def stiffness_moments(stiffness: FloatArray) -> Outcome:
+    """Mean and variance along each track, the last axis."""
+    return {"mean": np.asarray(stiffness.mean(axis=-1)), "variance": np.asarray(stiffness.var(axis=-1))}
 
 
 @cache
@@ -268,17 +254,3 @@ def over_bands(spectrum: Spectrum, bands: Bands) -> FloatArray:
     edges = np.array(bands.edges)
     q = edges[:-1, np.newaxis] + np.diff(edges)[:, np.newaxis] * ((np.arange(POINTS) + 0.5) / POINTS)
     return np.asarray(spectrum(q).mean(axis=1) * np.diff(edges))
-
-
-def coherence(outcome: Outcome) -> FloatArray:
-    """|<F F_lin*>|^2 / (<|F|^2> <|F_lin|^2>) in each band, over all waves and realisations."""
-    cross = np.nansum(outcome["cross"][0] + 1j * outcome["cross"][1], axis=0)
-    linear = np.where(np.isfinite(outcome["level"]), outcome["linear level"], 0.0).sum(axis=0)
-    return np.asarray(np.abs(cross) ** 2 / np.nansum(outcome["level"], axis=0) / np.maximum(linear, ROUNDING))
-
-
-def correlation(outcome: Outcome) -> tuple[float, float]:
-    """Correlation and slope of the force over linear theory, position by position, in all bands together."""
-    cross, known = float(np.nansum(outcome["cross"][0])), np.isfinite(outcome["level"])
-    linear, level = (float(outcome[name][known].sum()) for name in ("linear level", "level"))
-    return cross / math.sqrt(linear * level), cross / linear

@@ -1,7 +1,7 @@
-"""Reduced models of the wheel and boundary elements on the same strips: which one follows, and what it costs."""
+"""Models of the wheel and boundary elements on the same strips: how far each follows, and at what work."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
 from itertools import product
@@ -11,69 +11,78 @@ import numpy as np
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, Matrix
-from validation.analysis.evidence import Number, Place
+from validation.analysis.evidence import Place
 from validation.analysis.margins import REPEATABLE
-from validation.analysis.series import Series
-from validation.analysis.statistics import Estimate, FloatArray, jackknifed
+from validation.analysis.series import Margin, Series
+from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed, mean_estimate
 from validation.analysis.study import Outcomes, Study
-from validation.cases.rolling.settings import SLOPE, Q, decibels, rms_decibels
+from validation.cases.rolling.force_spectrum import HEIGHT, SLOPE, SLOPE_COUNTS, Q, root_mean_square
+from validation.engine.convergence import require_realisations
 from validation.engine.engine import SERIAL, Engine
-from validation.simulation import reduced_strip
-from validation.simulation.reduced_models import TOLERANCE
-from validation.simulation.reduced_strip import COARSE_LAYER, JUDGE, LAYER, LINE, LINEAR, MODELS, READ
+from validation.scenes.description import slope_ratio
+from validation.scenes.dynamic_wheel import load_wheel_scene
+from validation.simulation import reduced_models
+from validation.simulation.reduced_models import BED, COARSE, COARSEST, JUDGE, LINE, LINEAR, MODELS, READ, TOLERANCE
 from validation.simulation.rolling_strip import RoughStrip, Strip
 from validation.simulation.track_spectrum import self_affine
-from validation.theory.rolling import slope_in_one_direction
 
-__all__ = ["CASE", "COARSE_LAYER", "JUDGE", "LAYER", "OFF", "READ", "SLOPE", "WORK", "Q"]
+__all__ = ["CASE", "COARSEST", "JUDGE", "LINEAR", "OFF", "READ", "WORK", "ReducedModels", "run"]
+
+Spectrum = tuple[float, float, float]
+"""Hurst exponent, q a of the longest and of the shortest wave."""
+Key = tuple[float, Spectrum]
+"""h' a/d, and the spectrum."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ReducedModels:
-    """A wheel at the approach d, contact radius a, over strips of several spectra and heights.
+    """A wheel at the approach d, contact radius a, over strips of all spectra at the same slopes.
 
-    spectra: Hurst exponent, q a of the longest and of the shortest wave; heights: rms over d, ascending; strips:
-    realisations; waves: of the longest on the length of a strip; width: over a, in waves at least one; cells: to a
-    contact radius, divisible by six; seed: zero or positive.
+    spectra: Hurst exponent, q a of the longest and of the shortest wave; slopes: h' a/d, ascending, h' along the track,
+    of all waves; strips: realisations; waves: of the longest on a strip at least; length: over a at least; width: over
+    a, in waves at least one; cells: to a contact radius, divisible by six; seed: zero or positive.
     """
 
-    spectra: tuple[tuple[float, float, float], ...] = ((0.7, 1.0, 10.0),)
-    heights: tuple[float, ...] = (0.1, 0.3)
+    spectra: tuple[Spectrum, ...] = ((0.7, 1.0, 10.0), (0.4, 2.0, 10.0))
+    slopes: tuple[float, ...] = (0.2, 1.0)
     strips: int = 6
     waves: int = 4
+    length: int = 16
     width: int = 8
     cells: int = 12
     seed: int = 20
 
     def __post_init__(self) -> None:
-        slope = self_affine(*self.spectra[0]).slope_along
-        low, high = (height * slope for height in (self.heights[0], self.heights[-1]))
-        if low > 0.21 or not high > 0.35:
-            raise ValueError(f"heights must reach from h' a/d = 0.21 to 0.35 at the least, got {low:.3g} to {high:.3g}")
+        require_realisations(strips=self.strips)
         if self.cells % 6:
             raise ValueError(f"cells must be a multiple of 6, got {self.cells}")
 
-    def strips_of(self, spectrum: tuple[float, float, float], height: float) -> list[Strip]:
-        longest = 2 * math.pi / spectrum[1]
+    @property
+    def coarsest(self) -> int:
+        return self.cells // 3
+
+    def strips_of(self, slope: float, spectrum: Spectrum) -> list[Strip]:
+        longest, height = 2 * math.pi / spectrum[1], height_at(slope, spectrum)
         scene = RoughStrip(
             spectrum=self_affine(*spectrum),
             height=height,
-            length=math.ceil(self.waves * longest),
+            length=max(self.length, math.ceil(self.waves * longest)),
             width=max(self.width, math.ceil(longest)),
             seed=self.seed,
         )
         return scene.strips(self.cells, TOLERANCE * height, self.strips)
 
 
-Key = tuple[tuple[float, float, float], float]
-"""Spectrum, and h/d."""
+def height_at(slope: float, spectrum: Spectrum) -> float:
+    """h/d of a spectrum at an h' a/d."""
+    return slope / self_affine(*spectrum).slope_along
 
 
 def run(case: ReducedModels, engine: Engine = SERIAL) -> Outcomes:
-    groups = {key: case.strips_of(*key) for key in product(case.spectra, case.heights)}
-    found = engine.map_groups(reduced_strip.roll_by_all, groups)
+    groups = {key: case.strips_of(*key) for key in product(case.slopes, case.spectra)}
+    found = engine.map_groups(reduced_models.roll_by_all, groups)
     unconverged = tuple(
-        f"strip {i}, h/d = {key[1]:g}: {int(outcome['failed'])} models with a contact that did not converge"
+        f"strip {i}, h' a/d = {key[0]:g}: {int(outcome['failed'])} models with a contact that did not converge"
         for key, outcomes in found.items()
         for i, outcome in enumerate(outcomes)
         if outcome["failed"]
@@ -83,175 +92,143 @@ def run(case: ReducedModels, engine: Engine = SERIAL) -> Outcomes:
 
 OFF = "rms over octaves of the level over boundary elements"
 LARGEST = "largest rms over octaves of all strips as smooth"
-OCTAVES, LEVEL = "level of octaves over boundary elements", "level of one-third octaves over boundary elements"
-COHERENCE, SHARED = "coherence", "coherence, mean of one-third octaves"
-FORCE, WORK, AT_WORK = "mean force over bem3d", "work over springs on a line", "rms over octaves beside work"
-LIMIT, LIMIT_OF_READ = slope_in_one_direction(1.0), slope_in_one_direction(0.3)
-"""h' a/d up to which two models are claimed to follow, where the rms gradient g a/d is 1 and 0.3."""
-SLACK = 1.15
-"""By which h' a/d may lie above a limit."""
+KEPT, OWN_KEPT = "share of contact kept", "share of contact kept by each spectrum"
+WORK, AT_WORK = "work over springs on a line", "rms over octaves beside work"
+TABLE_14_1 = "wheel of Table 14.1"
 GRID = 1 / 3
 """Error of a grid over its change to half of the cells, of second order."""
+BESIDE = REPEATABLE.beside("boundary elements on the same strips, all cells")
+TENTH = Margin(0.1, "0.1: a tenth of the contact", source="the first spectrum at the same h' a/d")
 
 
 def series(result: Outcomes) -> list[Series]:
-    """Of each model over all strips, the smoothest first; in bands and over its work where h' a/d is nearest LIMIT."""
-    keys = sorted(result.found, key=slope_of)
-    nearest = min(keys, key=lambda key: abs(math.log(slope_of(key) / LIMIT)))
-    found: list[Series] = []
+    """Of each model over all strips, the smoothest first; over its work where these are roughest."""
+    case, found = result.case, []
     for model in MODELS:
-        for key in keys:
-            found += _of_strips(result, key, model)
-        rms = np.maximum.accumulate([off(result, key, model).value for key in keys])
-        found.append(Series(LARGEST, model, rms, along=SLOPE, at=list(map(slope_of, keys))))
-        found += _in_bands(result, nearest, model)
-    return found
+        largest = [max(off(result, key, model).value for key in result.found if key[0] <= s) for s in case.slopes]
+        found.append(Series(LARGEST, model, np.array(largest), along=SLOPE, at=case.slopes))
+        found += [one for key in result.found for one in _of_strips(result, key, model)]
+    found += [one for key in result.found for one in _contact(result, key)]
+    scene = load_wheel_scene("table_14_1")
+    found.append(Series(TABLE_14_1, HEIGHT, (scene.rms / scene.approach,)))
+    return [*found, Series(TABLE_14_1, SLOPE, (slope_ratio(scene.slope_along, scene),))]
+
+
+def _where(key: Key) -> dict[str, Place]:
+    slope, (hurst, *ends) = key
+    return {"H": hurst, Q: (ends[0], ends[1]), SLOPE: slope, HEIGHT: float(f"{height_at(*key):.3g}")}
 
 
 def _of_strips(result: Outcomes, key: Key, model: str) -> Iterator[Series]:
-    (hurst, *ends), height = key
-    where: dict[str, Place] = {"H": hurst, Q: (ends[0], ends[1]), "h/d": height, SLOPE: float(f"{slope_of(key):.3g}")}
-    in_octaves = decibels(octaves(_pairs(result, key, model)))
-    single = partial(Series, model=model, where=where)
-    yield single(
-        OFF,
-        found=(off(result, key, model),),
-        grid=GRID * off(result, key, reduced_strip.COARSE).value,
-        unit="dB",
-        margin=REPEATABLE.beside("boundary elements on the same strips") if model != JUDGE else None,
+    single, judge = partial(Series, model=model, where=_where(key)), model == JUDGE
+    grid, error = GRID * off(result, key, COARSE).value, off(result, key, model)
+    yield single(OFF, found=(error,), grid=grid, unit="dB", margin=None if judge else BESIDE)
+    yield single(WORK, found=(work(result, key, model),))
+    if not judge and key[0] == result.case.slopes[-1]:
+        yield Series(AT_WORK, model, (error,), where=_where(key), along=WORK, at=(work(result, key, model),), unit="dB")
+
+
+def _contact(result: Outcomes, key: Key) -> Iterator[Series]:
+    """Beside what the first spectrum keeps at the same h' a/d; intervals hold at once for all."""
+    slope, spectra = key[0], result.case.spectra
+    mine, first = (
+        mean_estimate(np.array([float(one["kept"]) for one in result[slope, s]])) for s in (key[1], spectra[0])
     )
-    yield single(OCTAVES, found=in_octaves, along=Q, at=[ends[0] * 2 ** (k + 0.5) for k in range(in_octaves.size)])
-    yield single(SHARED, found=(coherence(result, key, model).mean(),))
-    yield single(FORCE, found=(_mean_over(result, key, "mean", model, JUDGE),))
-    yield single(WORK, found=(_mean_over(result, key, "work", model, LINE),))
+    yield Series(OWN_KEPT, JUDGE, (mine,), where=_where(key))
+    if key[1] != spectra[0]:
+        family = (len(spectra) - 1) * len(result.case.slopes)
+        yield Series(KEPT, JUDGE, (mine,), where=_where(key), reference=(first,), margin=TENTH, family=family)
 
 
-def _in_bands(result: Outcomes, key: Key, model: str) -> Iterator[Series]:
-    where = {SLOPE: slope_of(key)}
-    along_q = partial(Series, where=where, along=Q, at=reduced_strip.bands_of(self_affine(*key[0])).centres)
-    yield along_q(LEVEL, model, jackknifed(decibels, _pairs(result, key, model)), unit="dB")
-    yield along_q(COHERENCE, model, coherence(result, key, model))
-    if model != JUDGE:
-        work = _mean_over(result, key, "work", model, LINE)
-        yield Series(AT_WORK, model, (off(result, key, model),), where=where, along=WORK, at=(work,), unit="dB")
-
-
-def slope_of(key: Key) -> float:
-    """h' a/d, along the track, of all waves."""
-    spectrum, height = key
-    return height * self_affine(*spectrum).slope_along
-
-
-def octaves(level: FloatArray) -> FloatArray:
-    return np.asarray(level.reshape(*level.shape[:-1], -1, 3).sum(axis=-1))
+def _kept(result: Outcomes, key: Key) -> Estimate:
+    return mean_estimate(np.array([float(one["kept"]) for one in result[key]]))
 
 
 def off(result: Outcomes, key: Key, model: str) -> Estimate:
-    return rms_decibels(octaves(_pairs(result, key, model)))
-
-
-def _pairs(result: Outcomes, key: Key, model: str) -> FloatArray:
-    """Levels in one-third octaves of a model and of boundary elements, (strips, 2, bands)."""
+    """Root mean square over octaves of the mean level over that of boundary elements [dB], with its jackknife."""
     names = list(MODELS)
-    return np.array([one["level"][[names.index(model), names.index(JUDGE)]] for one in result[key]])
+    pairs = np.array([one["level"][[names.index(model), names.index(JUDGE)]] for one in result[key]])
+
+    def rms(some: FloatArray) -> FloatArray:
+        mine, other = some.mean(axis=0)
+        return np.asarray(np.sqrt(np.mean((POWER_DECIBEL * np.log(mine / other)) ** 2)))
+
+    return jackknifed(rms, pairs)[0]
 
 
-def coherence(result: Outcomes, key: Key, model: str) -> FloatArray:
-    """|sum of cross levels|^2 over both levels, of all strips, in one-third octaves."""
-    place = list(MODELS).index(model)
-    real, imaginary = np.sum([one["cross"][:, place] for one in result[key]], axis=0)
-    mine, other = _pairs(result, key, model).sum(axis=0)
-    return np.asarray((real**2 + imaginary**2) / (mine * other))
+def work(result: Outcomes, key: Key, model: str) -> float:
+    mean, names = np.mean([one["work"] for one in result[key]], axis=0), list(MODELS)
+    return float(mean[names.index(model)] / mean[names.index(LINE)])
 
 
-def _mean_over(result: Outcomes, key: Key, name: str, model: str, other: str) -> float:
-    mean, names = np.mean([one[name] for one in result[key]], axis=0), list(MODELS)
-    return float(mean[names.index(model)] / mean[names.index(other)])
-
-
-class AtTheLimit(Claim):
-    """Of all strips about as rough as the roughest up to the limit: no strip is chosen."""
-
-    def numbers(self, numbers: Sequence[Number]) -> list[Number]:
-        mine = super().numbers(numbers)
-        slopes = [float(str(number.where[SLOPE])) for number in mine]
-        return [number for number, slope in zip(mine, slopes, strict=True) if slope >= max(slopes) / SLACK]
-
-
-def _up_to(limit: float) -> dict[str, object]:
-    return {SLOPE: lambda slope: slope <= SLACK * limit}
-
-
-SHOWN = (LINE, LINEAR, READ, reduced_strip.BED, LAYER, reduced_strip.COARSEST)
-"""As curves; all models have a point over their work."""
-TRIALS = tuple(model for model in MODELS if model not in (*SHOWN, JUDGE))
+SHOWN = (LINE, LINEAR, READ, BED, COARSEST)
 BY_MODEL = partial(Curve, by=("model",))
-in_octaves = partial(Claim, quantity=OFF)
+BY_SPECTRUM = partial(Curve, OWN_KEPT, by=("H", Q), bars=True)
+in_octaves = partial(Claim, quantity=OFF, along=SLOPE, printed=root_mean_square)
 STUDY = Study(
-    title="Reduced models of the wheel on a rough surface, beside boundary elements",
+    title="Models of the wheel on a rough surface, beside boundary elements",
     method=(
-        "A wheel rolls at a fixed approach over {c.strips} strips of each spectrum and height, {c.waves} of the "
-        "longest waves long, {c.cells} cells to a contact radius. Each model rolls over the same strips. Levels of the "
-        "force are taken in octaves from the longest wave on, over those of boundary elements. h' is the rms slope "
-        "along the track, in one direction, of all waves. Errors of the sample are by the jackknife, and those of the "
-        "grid a third of what half of the cells change. Work counts springs, cells read, and cells of every "
-        "application of an operator, over that of springs on a line; it is not a time."
+        "A wheel rolls at a fixed approach over {c.strips} strips of each spectrum and slope, {c.waves} of the longest "
+        "waves and {c.length:g} radii long at least, {c.cells} cells to a contact radius. Each model rolls over the "
+        "same strips, on all cells but where its name says otherwise. Levels of the force are taken in octaves from "
+        f"the longest wave on, over those of boundary elements. {SLOPE_COUNTS}. Errors of the sample are by the "
+        "jackknife, and those of the grid a third of what half of the cells change. The share of contact kept is the "
+        "mean area over that of a smooth wheel under the same force; cells at its edge may make it a little more than "
+        "one. Work counts springs, cells read, and cells of every application of an operator, over that of springs on "
+        "a line; it is not a time."
     ),
     series=series,
     claims=(
-        in_octaves(model=LAYER, where=_up_to(LIMIT)).saying(
-            "In octaves a rough layer that is pressed flat beforehand follows boundary elements within 1 dB up to "
-            f"h' a/d of {LIMIT:.2g}.",
-            short=f"Pressed layer beside boundary elements up to h' a/d = {LIMIT:.2g}",
+        in_octaves(model=LINEAR).saying(
+            "Linear theory in three dimensions has the levels of boundary elements in octaves.",
+            short="Linear theory in 3D beside boundary elements",
         ),
-        in_octaves(model=READ, where=_up_to(LIMIT_OF_READ)).saying(
-            "In octaves springs that read the surface follow boundary elements within 1 dB up to h' a/d of "
-            f"{LIMIT_OF_READ:.2g}.",
-            short=f"springs that read the surface up to {LIMIT_OF_READ:.2g}",
+        in_octaves(model=COARSEST).saying(
+            "Boundary elements on {c.coarsest} cells to a contact radius have the levels of those on {c.cells}.",
+            short="boundary elements on a third of the cells",
         ),
-        AtTheLimit(
-            quantity=OFF, model=(LINEAR, LINE, READ, reduced_strip.BED), where=_up_to(LIMIT), differ=True
-        ).saying(
-            f"At h' a/d of {LIMIT:.2g}, linear theory, springs and the bed of the field are more than 1 dB off "
-            "boundary elements in octaves.",
-            short=f"linear theory, springs and the bed at {LIMIT:.2g}",
-        ),
-        in_octaves(model=reduced_strip.COARSEST, where=_up_to(LIMIT)).saying(
-            "In octaves boundary elements on a third of the cells follow those on all within 1 dB up to h' a/d of "
-            f"{LIMIT:.2g}."
+        Claim(quantity=KEPT, along=SLOPE).saying(
+            "How much of the contact is lost is decided by h' a/d, not by h/d, the band or the Hurst exponent.",
+            short="Share of contact kept at the same h' a/d, over bands and Hurst exponents",
         ),
     ),
     charts=(
-        Chart("reduced_models-map", claims=(0, 1, 2), width=9.0, height=4.6).of(
+        Chart("reduced_models-map", claims=(0, 1), height=4.6).of(
             "Root mean square over octaves of the level of the force over boundary elements, over h' a/d. Points: "
             "strips of all spectra, with 95 % intervals; lines: the largest up to there. Shaded: within 1 dB.",
             Panel(SLOPE, "rms over octaves [dB]", log="xy", shade=(1e-9, 1), ylim=(0.01, 20)).of(
                 BY_MODEL(OFF, SHOWN, "marks", bars=True), BY_MODEL(LARGEST, SHOWN, "lines", "_")
             ),
         ),
-        Chart("reduced_models", claims=(0, 1), height=4.6).of(
-            f"At the h' a/d nearest to {LIMIT:.2g}: (a) level over boundary elements in one-third octaves, 95 %; (b) "
-            "coherence; (c) root mean square over octaves, over counted work; line: 1 dB; open: trials.",
-            Panel(Q, "level over boundary elements [dB]", title="in one-third octaves", lines=(0.0,)).of(
-                BY_MODEL(LEVEL, SHOWN, bars=True)
-            ),
-            Panel(Q, COHERENCE, title="position by position", ylim=(0, 1.02)).of(BY_MODEL(COHERENCE, SHOWN)),
+        Chart("reduced_models", claims=(2,), height=4.6).of(
+            "Share of contact kept on boundary elements, by Hurst exponent and q a of the roughness, 95 %: (a) over "
+            "h/d; (b) over h' a/d, where curves that lie on each other show that it decides. (c) Root mean square over "
+            "octaves at the largest h' a/d, over counted work; line: 1 dB.",
+            Panel(HEIGHT, KEPT, ylim=(0.4, 1.1)).of(BY_SPECTRUM()),
+            Panel(SLOPE, KEPT, ylim=(0.4, 1.1)).of(BY_SPECTRUM(label="_")),
             Panel(WORK, "rms over octaves [dB]", title="error over work", log="xy", lines=(1.0,)).of(
-                BY_MODEL(AT_WORK, SHOWN, "marks"), BY_MODEL(AT_WORK, TRIALS, "open marks")
+                BY_MODEL(AT_WORK, (*SHOWN, COARSE), "marks")
             ),
         ),
     ),
-    matrices=(Matrix(name=OFF, quantity=OFF, rows=("H", Q, "h/d", SLOPE), columns="model"),),
+    matrices=(
+        Matrix(name=OFF, quantity=OFF, rows=(SLOPE, "H", Q, HEIGHT), columns="model", printed=root_mean_square),
+        Matrix(name=KEPT, quantity=KEPT, rows=("H", Q), columns=SLOPE),
+    ),
+    printed=(TABLE_14_1,),
 )
 CASE = Case(
     name="reduced_models",
     chapter=Chapter.ROLLING,
-    place=7,
-    answers="Reduced models of the rolling wheel: which one follows boundary elements as contact is lost",
+    place=3,
+    answers="How far models of the rolling wheel follow boundary elements: h' a/d decides, not h/d",
     quick=ReducedModels(strips=3),
     full=ReducedModels(
-        spectra=((0.7, 1.0, 10.0), (0.4, 1.0, 10.0), (0.7, 0.3, 5.0), (0.4, 0.3, 5.0)),
-        heights=(0.03, 0.1, 0.3, 1.0),
+        spectra=((0.7, 1.0, 10.0), (0.4, 1.0, 10.0), (1.0, 1.0, 10.0), (0.7, 0.3, 5.0), (0.7, 2.0, 10.0)),
+        slopes=(0.1, 0.2, 0.3, 0.5, 1.0),
+        strips=10,
+        waves=6,
+        length=48,
         width=12,
     ),
     run=run,

@@ -9,7 +9,7 @@ import numpy as np
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim
-from validation.analysis.evidence import Role
+from validation.analysis.evidence import Role, Whose
 from validation.analysis.series import Margin, Series
 from validation.analysis.study import Outcomes, Study
 from validation.engine.engine import SERIAL, Engine, FloatArray
@@ -68,7 +68,7 @@ def run(case: RollingOverRidges, engine: Engine = SERIAL) -> Outcomes:
 RESPONSE, IMAGINARY = "response of the force times q a", "imaginary part of the response times q a"
 ERROR, BOUND, LARGEST = "error over the envelope", "bound of the error", "largest error over the envelope"
 NEAREST, ORDER, STIFFNESS = "error nearest to its bound", "order of the error", "k dd + dF at a prescribed force"
-CELLS, Q, EXACT = "to a radius", "q a", "sin(q a), (14.11)"
+CELLS, Q, EXACT = "points on a radius", "q a", "sin(q a), (14.11)"
 FIRST_ORDER = Margin(
     0.7,
     "the place of the edge within its cell changes irregularly from grid to grid",
@@ -145,6 +145,7 @@ STUDY = Study(
     series=series,
     claims=(
         Claim(
+            whose=Whose.BOOK,
             quantity=NEAREST,
             model=(BEM, FULL, SPRINGS),
             printed=lambda error: f"{error.value:.2g} of {error.tolerance:.2g} that the grid leaves",

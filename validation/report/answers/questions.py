@@ -112,8 +112,14 @@ of_rolled_off = partial(
     series=(interface.ROLL_OFF, "H"),
 )
 of_fit = partial(over_force, case="fractal_punch", quantity=punch.MEAN, model=fig_14_1.FIT, series=("H",))
-of_rolling = partial(
-    Source, case="rolling", axis="h/d", over=reduced.SLOPE, read=(reduced.SLOPE, "value"), series=("q a",)
+of_rolling = partial(Source, case="rolling", axis=rolling.SLOPE, over=rolling.SLOPE)
+of_strips = partial(
+    Source,
+    case="reduced_models",
+    quantity=reduced.OFF,
+    axis=rolling.SLOPE,
+    over=rolling.SLOPE,
+    series=("H", rolling.Q),
 )
 of_rail = partial(
     Source,
@@ -132,9 +138,7 @@ MOVING = Source(
     axis=rail_dynamic.OFFSET,
     over=rail_dynamic.OFFSET,
 )
-GEIKE, LINEAR, ROLLING = (
-    model + rolling.OVER for model in (rolling.SPRINGS, rolling.LINEAR_3D, rolling.ROLLING_SPRINGS)
-)
+GEIKE, LINEAR = (model + rolling.OVER for model in (rolling.SPRINGS, rolling.LINEAR_3D))
 JUDGE = counted(BEM, reduced.JUDGE)
 QUESTIONS = (
     Question(
@@ -174,12 +178,12 @@ QUESTIONS = (
     ),
     Question(
         "rolling-spectrum",
-        "Force spectrum of a rolling wheel, band by band",
-        of_rolling(quantity=rolling.LEVEL, model=GEIKE),
+        "Force spectrum of a rolling wheel, rms over octaves",
+        of_rolling(quantity=rolling.RMS_LEVEL, model=GEIKE),
         in_decibels,
         (
-            Alternative(LINEAR_3D, of_rolling(quantity=rolling.LEVEL, model=LINEAR), INTEGRAL),
-            Alternative(EQUIVALENT, of_rolling(quantity=rolling.LEVEL, model=ROLLING), OF_SPRINGS),
+            Alternative(LINEAR_3D, of_strips(model=reduced.LINEAR), INTEGRAL),
+            counted(reduced.COARSEST, reduced.COARSEST, of_strips(model=reduced.COARSEST)),
             JUDGE,
         ),
     ),
@@ -206,6 +210,6 @@ QUESTIONS = (
             counted(f"on a rail, {reduced.READ} in the time loop", reduced.READ, MOVING, "rms over bands"),
             Alternative(f"{BEM} in the time loop", None, steps, "wheel_3d"),
         ),
-        of_scene=(WHEEL, reduced.SLOPE),
+        of_scene=(WHEEL, rolling.SLOPE),
     ),
 )
