@@ -207,9 +207,17 @@ class ClaimStatus(StrEnum):
     OPEN = "open"
 
 
+class Whose(StrEnum):
+    """Who says so: a claim that its author would recognise, or what was found here."""
+
+    BOOK = "statements of the book"
+    FIELD = "statements of the field"
+    FINDING = "findings of ours"
+
+
 @dataclass(frozen=True, kw_only=True)
 class JudgedClaim:
-    """A claim, the numbers that test it, and the answer: one sentence with numbers.
+    """A claim, the numbers that test it, and the answer: one sentence with three numbers at most.
 
     confirmed_by: agree; or differ, where the claim says that two things are not the same. limits: the conditions under
     which alone it is said to hold, as text; inside: the numbers under these conditions.
@@ -222,6 +230,7 @@ class JudgedClaim:
     confirmed_by: Verdict = Verdict.AGREE
     limits: str = ""
     inside: tuple[Number, ...] = ()
+    whose: Whose = Whose.FINDING
 
     def __post_init__(self) -> None:
         if not self.numbers:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from validation.analysis.claims import Claim
 from validation.analysis.evidence import Evidence, JudgedClaim
-from validation.report.section import Section, answer_of
+from validation.report.section import Section
 
 BOOK = Path(__file__).with_suffix(".toml")
 Answer = dict[str, str | None]
@@ -69,7 +69,7 @@ def _answered(entry: ChapterEntry, test: ChapterTest, section: Section) -> Answe
     if judged is None:
         return {"case": section.name, "status": None, "answer": "This run has no number for it."}
     tested = "" if judged.claim == entry.statement else f"Tested as “{judged.claim}” "
-    return {"case": section.name, "status": judged.status, "answer": tested + answer_of(judged)}
+    return {"case": section.name, "status": judged.status, "answer": tested + judged.answer}
 
 
 def chapter_of(sections: Sequence[Section]) -> list[tuple[ChapterEntry, list[Answer]]]:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import jinja2
 from markupsafe import Markup, escape
 
-from validation.analysis.evidence import ClaimStatus, JudgedClaim, Table, Verdict, VerdictCell
+from validation.analysis.evidence import ClaimStatus, Table, Verdict, VerdictCell, Whose
 
 SYMBOL = {"agree": "✓", "differ": "≠", "undecided": "?"}
 LETTER = {Verdict.AGREE: "A", Verdict.DIFFER: "D", Verdict.UNDECIDED: "?"}
@@ -32,10 +32,10 @@ def templates(*, unsteady: bool = False) -> jinja2.Environment:
     environment.filters |= {
         "format_cell": partial(format_cell, unsteady=unsteady),
         "format_status": partial(format_status, unsteady=unsteady),
-        "format_counts": format_counts,
         "format_field": format_field,
         "map_of": map_of,
         "capitalized": capitalized,
+        "of_one": of_one,
     }
     environment.globals["zip"] = zip
     return environment
@@ -56,13 +56,6 @@ def format_status(status: ClaimStatus | None, *, unsteady: bool = False) -> Mark
     return Markup('<span class="verdict {}">{} {}</span>').format(
         name.replace(" ", "-"), STATUS_SYMBOL.get(name, "–"), name
     )
-
-
-def format_counts(claim: JudgedClaim) -> str:
-    """How many of the numbers that test a claim agree, differ, are undecided, without colour: that is the claim's."""
-    counts = ((verdict, claim.count(verdict)) for verdict in Verdict)
-    counted = ", ".join(f"{count} {verdict}" for verdict, count in counts if count)
-    return counted + ("; the claim is that they differ" if claim.confirmed_by is Verdict.DIFFER else "")
 
 
 def in_four_digits(cell: object) -> str:
@@ -116,3 +109,8 @@ def first_sentence(text: str) -> str:
 def capitalized(text: str) -> str:
     """With a capital first, the rest as it was."""
     return text[:1].upper() + text[1:]
+
+
+def of_one(whose: Whose) -> str:
+    """ "Statement of the book", "Finding"."""
+    return {Whose.BOOK: "Statement of the book", Whose.FIELD: "Statement of the field"}.get(whose, "Finding")

@@ -8,7 +8,7 @@ from typing import Any
 
 from validation.analysis.case import Profile
 from validation.analysis.contents import csv_name, from_csv
-from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, Verdict, VerdictCell
+from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, Verdict, VerdictCell, Whose
 from validation.analysis.sound import Sound, Sounds
 from validation.report.contents import CASES, TIMED
 from validation.report.folder import RESULTS, SOUNDS
@@ -87,7 +87,8 @@ def _number(told: Mapping[str, Any]) -> Number:
 def _claim(told: Mapping[str, Any], numbers: Mapping[str, Number]) -> JudgedClaim:
     tested, inside = (tuple(numbers[label] for label in told[of]) for of in ("numbers", "inside"))
     words = {name: told[name] for name in ("claim", "answer", "limits")}
-    return JudgedClaim(**words, numbers=tested, inside=inside, confirmed_by=Verdict(told["confirmed by"]))
+    whose, confirmed_by = Whose(told.get("whose", Whose.FINDING)), Verdict(told["confirmed by"])
+    return JudgedClaim(**words, numbers=tested, inside=inside, confirmed_by=confirmed_by, whose=whose)
 
 
 def _cell(cell: Any) -> object:

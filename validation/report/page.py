@@ -8,7 +8,7 @@ from validation.report.chapter import ERRATA, chapter_of
 from validation.report.formats import templates
 from validation.report.page_figure import figures_of
 from validation.report.provenance import kept_from
-from validation.report.section import Section, answer_of, total_of
+from validation.report.section import Section, claims_of, total_of
 from validation.report.sounds import sound_place
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import WheelScene
@@ -38,7 +38,7 @@ def pages(
     figures = figures_of(in_order, unsteady=unsteady)
     places = {section.name: section.place for section in sections}
     environment = templates(unsteady=unsteady)
-    environment.filters |= {"place_of": places.__getitem__, "answer_of": answer_of, "sound_place": sound_place}
+    environment.filters |= {"place_of": places.__getitem__, "sound_place": sound_place}
     environment.globals |= {
         "front": FRONT,
         "sections": sections,
@@ -46,6 +46,7 @@ def pages(
         "errata": ERRATA,
         "answers": [] if scene else answered_questions(sections),
         "total": "" if unsteady else total_of(sections),
+        "asked": claims_of(in_order),
         "chapters": chapters,
         "profile": profile,
         "figures": figures,

@@ -5,7 +5,17 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 
 from validation.analysis.case import Case, Profile
-from validation.analysis.evidence import ClaimStatus, Evidence, JudgedClaim, Number, Role, Table, Verdict, VerdictCell
+from validation.analysis.evidence import (
+    ClaimStatus,
+    Evidence,
+    JudgedClaim,
+    Number,
+    Role,
+    Table,
+    Verdict,
+    VerdictCell,
+    Whose,
+)
 
 
 @dataclass(frozen=True)
@@ -61,10 +71,11 @@ def numbers_table(numbers: Sequence[Number]) -> Table:
     return Table("numbers", {name: [_plain(getattr(number, name)) for number in numbers] for name in named.split()})
 
 
-def answer_of(claim: JudgedClaim) -> str:
-    """Its answer, with its limits where it holds within these alone and the answer does not name them."""
-    silent = claim.status is ClaimStatus.LIMITED and claim.limits not in claim.answer
-    return f"{claim.answer} Limits: {claim.limits}." if silent else claim.answer
+def claims_of(sections: Sequence[Section]) -> list[tuple[Whose, list[tuple[Section, JudgedClaim]]]]:
+    """Statements of the book, of the field, and findings, in the order of their sections."""
+    pairs = [(section, claim) for section in sections for claim in section.claims]
+    groups = [(whose, [pair for pair in pairs if pair[1].whose is whose]) for whose in Whose]
+    return [(whose, mine) for whose, mine in groups if mine]
 
 
 def total_of(sections: Sequence[Section]) -> str:
@@ -85,7 +96,7 @@ def case_results(section: Section) -> dict[str, object]:
         "claim": section.entry.claim,
         "claims": [
             {
-                **{name: getattr(claim, name) for name in ("claim", "status", "answer", "limits")},
+                **{name: getattr(claim, name) for name in ("claim", "whose", "status", "answer", "limits")},
                 "verdicts": {verdict: claim.count(verdict) for verdict in Verdict},
                 "numbers": [number.label for number in claim.numbers],
                 "confirmed by": claim.confirmed_by,

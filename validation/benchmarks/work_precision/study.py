@@ -51,11 +51,11 @@ STUDY = Study(
     tables=case.tables,
     printed=(case.WITHIN, case.WITHOUT, COST_OF_STEPS),
     claims=(
-        Claim(quantity=case.TIME, model=case.UP_TO, printed=times_source, counted=True).saying(
+        Claim(quantity=case.TIME, model=case.UP_TO, printed=times_source).saying(
             "Up to the error that springs reach, they are the cheapest method of every scene.",
             short="Charts on which springs are the cheapest, as close as they come",
         ),
-        Claim(quantity=case.TIME, model=case.FROM, printed=times_source, counted=True).saying(
+        Claim(quantity=case.TIME, model=case.FROM, printed=times_source).saying(
             "Beyond the error that springs reach, boundary elements are the cheapest method of every scene.",
             short="charts on which boundary elements are the cheapest, closer than springs",
         ),

@@ -255,7 +255,7 @@ SOLVER = (
     "True error against residual, of the load (force at an approach, approach at a force), of the stiffness (none "
     "where the contact is the same cell by cell), of the pressure in L2; dotted: error = residual."
 )
-counted = partial(Claim, counted=True, printed=said)
+counted = partial(Claim, printed=said)
 figure = partial(Chart, claims=(1, 2), columns=4, width=13.0)
 STUDY = Study(
     title="Where each method fails, and whether the software warns",

@@ -10,8 +10,8 @@ from validation.report.build import build
 from validation.report.commands.arguments import add_options, add_profile, add_workers, at_least
 from validation.report.commands.exit_status import Exit
 from validation.report.contents import CASES, TIMED, timed_here
-from validation.report.formats import format_counts, in_four_digits
-from validation.report.section import Section, answer_of, total_of
+from validation.report.formats import in_four_digits
+from validation.report.section import Section, total_of
 from validation.scenes.description import description_lines
 from validation.scenes.dynamic_wheel import WheelScene, bundled_wheels, load_wheel_scene
 from validation.scenes.printable import printable
@@ -110,7 +110,7 @@ def lines_of(section: Section, *, unsteady: bool = False) -> list[str]:
         met = "no steady answer, the results hold for this distance alone"
     details: list[str] = []
     if not unsteady:
-        details += [f"{c.status}: {c.claim} {answer_of(c)} ({format_counts(c)})" for c in section.claims]
+        details += [f"{c.status}: {c.claim} {c.answer}" for c in section.claims]
         details += section.evidence.conclusions if section.evidence else ()
     details += [f"missed: {number.sentence}" for number in section.missed]
     details += [f"not converged: {solve}" for solve in section.unconverged]
