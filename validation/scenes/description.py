@@ -3,6 +3,7 @@
 import math
 from functools import partial
 
+from validation.scenes.damping import in_per_cent
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.material import Material
@@ -66,7 +67,11 @@ def _of_motion(scene: RollingScene | WheelScene) -> tuple[str, str]:
     if scene.mass is None or scene.speed is None:
         return "motion", "none, the wheel keeps its approach"
     body = f"mass {MASS(scene.mass)}, speed {in_unit(scene.speed, 'speed')}"
-    return "motion", f"{body}, resonance at {scene.body.eigenfrequency:.4g} rad/s, undamped"
+    return "motion", f"{body}, resonance at {scene.body.eigenfrequency:.4g} rad/s, {_damping(scene) or 'undamped'}"
+
+
+def _damping(scene: RollingScene | WheelScene | RailScene) -> str:
+    return f"damping {in_per_cent(scene.damping)} of critical" if scene.damping else ""
 
 
 def _of_roughness(scene: WithSphere) -> Pairs:
@@ -114,8 +119,8 @@ def _of_rail(scene: RailScene) -> Pairs:
     slope, ratio = levels.slope_along, levels.slope_along * contact.along / contact.approach
     motion = "none: wavelengths have no frequencies"
     if scene.speed is not None:
-        mass = "" if scene.mass is None else f", mass {MASS(scene.mass)}"
-        motion = f"speed {3.6 * scene.speed:.5g} km/h{mass}"
+        mass = "" if scene.mass is None else f"mass {MASS(scene.mass)}"
+        motion = ", ".join(filter(None, (f"speed {3.6 * scene.speed:.5g} km/h", mass, _damping(scene))))
     return (
         *_of_bodies(scene),
         ("contact ellipse", f"{axes}, of the smooth bodies"),

@@ -11,6 +11,7 @@ from scipy.fft import next_fast_len
 
 from mdr.checks import count
 from validation.scenes.bundled import bundled, path_of
+from validation.scenes.damping import DampedWheel, check_damping, damping_of
 from validation.scenes.material import Material, check_scene, material_of
 from validation.scenes.rail_file import is_rail
 from validation.scenes.reader import (
@@ -27,7 +28,7 @@ from validation.scenes.reader import (
 )
 from validation.scenes.roughness import Roughness, check_band, roughness_of
 from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
-from validation.scenes.wheel_body import OnHalfSpace, Wheel
+from validation.scenes.wheel_body import OnHalfSpace
 
 KEYS = ("wheel.radius", "wheel.mass", "wheel.load", "wheel.speed", "simulation.distance")
 """Of what must be positive."""
@@ -66,6 +67,9 @@ class WheelScene(OnHalfSpace):
         Shortest distance to roll before the track begins again [m].
     springs : int
         Springs to a contact radius.
+    damping : float, optional
+        Damping ratio zeta, of critical, in [0, 1): a dashpot between wheel and inertial frame, c = 2 zeta M
+        omega_eigen, which acts while contact is lost, too. None by default.
 
     Raises
     ------
@@ -89,12 +93,14 @@ class WheelScene(OnHalfSpace):
     wheel: Roughness | None
     distance: float
     springs: int
+    damping: float = 0.0
 
     def __post_init__(self) -> None:
         if not isinstance(self.material, Material):
             raise TypeError(f"material must be a Material, got {self.material!r}")
         check_scene(self, KEYS)
         count("simulation.springs", self.springs, least=1)
+        check_damping(self.damping, self.mass)
         for key, rough in self._rough.items():
             check_band(key, rough)
         _check_lengths(self)
@@ -105,9 +111,10 @@ class WheelScene(OnHalfSpace):
         return self.material.modulus
 
     @property
-    def body(self) -> Wheel:
+    def body(self) -> DampedWheel:
         """The wheel without its roughness."""
-        return Wheel(radius=self.radius, mass=self.mass, modulus=self.modulus, load=self.load)
+        same = ("radius", "mass", "modulus", "load", "damping")
+        return DampedWheel(**{name: getattr(self, name) for name in same})
 
     @property
     def stiffness(self) -> float:
@@ -249,10 +256,13 @@ def wheel_of(tables: dict[str, Any]) -> WheelScene:
     )
 
 
-WHEEL: dict[str, Reader] = {"radius": LENGTH, "mass": MASS, "load": FORCE, "speed": SPEED, "roughness": roughness_of}
+WHEEL: dict[str, Reader] = {
+    **{"radius": LENGTH, "mass": MASS, "load": FORCE, "speed": SPEED},
+    **{"damping": damping_of, "roughness": roughness_of},
+}
 SCENE: dict[str, Reader] = {
     "name": nonblank_text,
-    "wheel": partial(table, WHEEL, ("roughness",)),
+    "wheel": partial(table, WHEEL, ("damping", "roughness")),
     "material": material_of,
     "rail": partial(table, {"roughness": roughness_of}, ("roughness",)),
     "simulation": partial(table, {"distance": LENGTH, "springs": WHOLE}, ()),

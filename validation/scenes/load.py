@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from validation.scenes.bundled import bundled, path_of
+from validation.scenes.damping import damping_of
 from validation.scenes.dynamic_wheel import wheel_of
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.material import material_of
@@ -178,7 +179,7 @@ def _rolling(tables: dict[str, Any], moving: bool, folder: Path) -> RollingScene
     motion: dict[str, Reader] = {"mass": MASS, "speed": SPEED} if moving else {}
     readers: dict[str, Reader] = {
         "name": nonblank_text,
-        "wheel": partial(table, {"radius": LENGTH, "load": FORCE, **motion}, ()),
+        "wheel": partial(table, {"radius": LENGTH, "load": FORCE, **motion, "damping": damping_of}, ("damping",)),
         "material": material_of,
         "rail": partial(table, _grounds(folder), GROUNDS),
     }

@@ -10,6 +10,7 @@ import numpy as np
 
 from mdr.checks import positive
 from validation.analysis.nominal_bands import NominalBands
+from validation.scenes.damping import check_damping
 from validation.scenes.isotropic_line import IsotropicLine, isotropic_line
 from validation.scenes.material import Material, check_scene
 from validation.scenes.measured import MeasuredHeights, check_covers
@@ -58,6 +59,8 @@ class RailScene:
         isotropic ground, as both ends.
     notes : tuple of str, optional
         What was assumed where the scene was made, in sentences.
+    damping : float, optional
+        Damping ratio of a wheel with a mass, as of `WheelScene`. None by default.
 
     Raises
     ------
@@ -83,10 +86,12 @@ class RailScene:
     material: Material | None = None
     across: Across = None
     notes: tuple[str, ...] = ()
+    damping: float = 0.0
 
     def __post_init__(self) -> None:
         optional = ("wheel.transverse_radius", "rail.crown_radius", "wheel.speed", "wheel.mass")
         check_scene(self, ("wheel.radius", "wheel.load"), optional)
+        check_damping(self.damping, self.mass)
         if self.transverse_radius is None and self.crown_radius is None:
             raise ValueError(
                 "rail.crown_radius or wheel.transverse_radius must be given, got none: the contact is no ellipse"

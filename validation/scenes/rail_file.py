@@ -4,6 +4,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from validation.scenes.damping import damping_of
 from validation.scenes.level_files import levels_in
 from validation.scenes.material import material_of
 from validation.scenes.measured import MeasuredHeights
@@ -74,7 +75,7 @@ def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
         "roughness": roughness,
         "across": one_of(rail, "rail", ("across", "alpha"), least=0),
         "notes": (*of_load, *of_roughness, *told),
-        **{key: wheel[key] for key in ("speed", "mass") if key in wheel},
+        **{key: wheel[key] for key in ("speed", "mass", "damping") if key in wheel},
     }
     of_rail = one_of(rail, "rail", ("crown_radius", "profile"), least=0)
     of_wheel = one_of(wheel, "wheel", ("transverse_radius", "profile"), least=0)
@@ -166,6 +167,7 @@ WHEEL: dict[str, Reader] = {
     "wheels_per_axle": WHOLE,
     "speed": SPEED,
     "mass": MASS,
+    "damping": damping_of,
     "offset": partial(quantity, dimension="length"),
 }
 RAIL: dict[str, Reader] = {"crown_radius": LENGTH, "across": _across, "alpha": POSITIVE}

@@ -3,12 +3,13 @@
 import math
 from dataclasses import dataclass
 
+from validation.scenes.damping import DampedWheel, check_damping
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.material import Material, check_scene
 from validation.scenes.measured import MeasuredHeights, check_covers
 from validation.scenes.roughness import RoughSurface, check_band
 from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
-from validation.scenes.wheel_body import OnHalfSpace, Wheel
+from validation.scenes.wheel_body import OnHalfSpace
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,6 +32,8 @@ class RollingScene(OnHalfSpace):
         Mass M [kg] and speed v0 [m/s], both or neither. Without them the wheel keeps its approach.
     material : Material or None, optional
         What E* is made of, None where only ``modulus`` is known.
+    damping : float, optional
+        Damping ratio of a wheel with a mass, as of `WheelScene`. None by default.
 
     Raises
     ------
@@ -52,11 +55,13 @@ class RollingScene(OnHalfSpace):
     mass: float | None = None
     speed: float | None = None
     material: Material | None = None
+    damping: float = 0.0
 
     def __post_init__(self) -> None:
         check_scene(self, ("wheel.radius", "wheel.load"), ("wheel.mass", "wheel.speed"))
         if (self.mass is None) != (self.speed is None):
             raise ValueError(f"wheel.mass and wheel.speed must both be given or neither, got {self.mass}, {self.speed}")
+        check_damping(self.damping, self.mass)
         if isinstance(self.ground, MeasuredHeights):
             a = self.contact_radius
             check_covers("rail.heights", self.ground, (4 * math.pi * a, 3 * a), a)
@@ -68,13 +73,14 @@ class RollingScene(OnHalfSpace):
         """Of a dynamic wheel whose rail alone is rough. Raises ValueError for another."""
         if scene.rail is None or scene.wheel is not None:
             raise ValueError(f"scene {scene.name!r} must have a rough rail and a smooth wheel to be compared")
-        same = ("name", "radius", "load", "modulus", "mass", "speed", "material")
+        same = ("name", "radius", "load", "modulus", "mass", "speed", "material", "damping")
         return cls(ground=scene.rail, **{name: getattr(scene, name) for name in same})
 
     @property
-    def body(self) -> Wheel:
+    def body(self) -> DampedWheel:
         """The wheel; of unit mass where it has none."""
-        return Wheel(radius=self.radius, mass=self.mass or 1.0, modulus=self.modulus, load=self.load)
+        same = {name: getattr(self, name) for name in ("radius", "modulus", "load", "damping")}
+        return DampedWheel(mass=self.mass or 1.0, **same)
 
     @property
     def roughness_ratio(self) -> float:

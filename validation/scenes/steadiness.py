@@ -1,6 +1,6 @@
 """Whether the level of the motion of a wheel over rough ground depends on the distance rolled.
 
-Nothing damps the wheel. Where roughness excites its resonance, or throws it off the track, the level grows with the
+Where nothing damps the wheel and roughness excites its resonance, or throws it off the track, the level grows with the
 distance, and there is no steady answer.
 """
 
@@ -10,8 +10,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from validation.analysis.statistics import FloatArray
+from validation.scenes.damping import DampedWheel, damping_rate
 from validation.scenes.roughness import RoughSurface
 from validation.scenes.wheel_body import Wheel
+from validation.theory.damped_wheel import contact_force_over_force
 from validation.theory.gauss_legendre import on_panels
 from validation.theory.rolling import force_spectrum_1d
 
@@ -29,7 +31,8 @@ def no_steady_answer(wheel: Wheel, speed: float, grounds: Sequence[RoughSurface]
     """Why the level of the motion depends on the distance, in a sentence; empty where it does not.
 
     The first of these conditions that holds:
-    q_min v_0 <= omega_eigen <= q_max v_0; h / d > 1/3; sigma > F_N / 4 of `force_on_the_way`.
+    q_min v_0 <= omega_eigen <= q_max v_0 without damping; h / d > 1/3; sigma > F_N / 4 of `force_on_the_way`. With
+    damping the level is steady beyond these last two also, but no model was measured there.
 
     speed: v_0 [m/s]; grounds: what is rough, rail and wheel.
 
@@ -48,7 +51,10 @@ def no_steady_answer(wheel: Wheel, speed: float, grounds: Sequence[RoughSurface]
     """
     slow, fast = min(g.q_min for g in grounds) * speed, max(g.q_max for g in grounds) * speed
     omega = wheel.eigenfrequency
-    if slow <= omega <= fast:
+    damped = damping_rate(wheel) > 0
+    then = "where no model was measured" if damped else "and the level depends on the distance"
+    leaves = f"the wheel leaves the track, {then}"
+    if slow <= omega <= fast and not damped:
         return (
             f"nothing damps the wheel, and its resonance, {omega:.4g} rad/s, lies among the waves that excite it, "
             f"{slow:.4g} to {fast:.4g} rad/s: the level grows with the distance"
@@ -57,13 +63,13 @@ def no_steady_answer(wheel: Wheel, speed: float, grounds: Sequence[RoughSurface]
     if height > MAX_HEIGHT * wheel.approach:
         return (
             f"the roughness is {height / wheel.approach:.3g} of the approach of {wheel.approach:.3g} m, more than a "
-            "third: the wheel leaves the track, and the level depends on the distance"
+            f"third: {leaves}"
         )
     force = force_on_the_way(wheel, speed, grounds)
     if force > MAX_FORCE * wheel.load:
         return (
             f"by linear theory the force changes by {force / wheel.load:.3g} of the load, root mean square, more than "
-            f"{MAX_FORCE:g}: the wheel leaves the track, and the level depends on the distance"
+            f"{MAX_FORCE:g}: {leaves}"
         )
     return ""
 
@@ -75,7 +81,7 @@ def diagnose_short_waves(wheel: Wheel, grounds: Sequence[RoughSurface]) -> tuple
     1.7, 2.3; of 1 to 0.25 mm by 1.6, 2.5, 2.8; of 10 to 0.5 mm by 1.04, 1.07, 1.09.
     """
     height, longest = math.hypot(*(g.rms for g in grounds)), min(g.q_min for g in grounds) * wheel.contact_radius
-    if longest < SHORT_WAVES or height < FEEDING_HEIGHT * wheel.approach:
+    if longest < SHORT_WAVES or height < FEEDING_HEIGHT * wheel.approach or damping_rate(wheel) > 0:
         return ()
     ratio = height / wheel.approach
     return (
@@ -87,27 +93,36 @@ def diagnose_short_waves(wheel: Wheel, grounds: Sequence[RoughSurface]) -> tuple
 def force_on_the_way(wheel: Wheel, speed: float, grounds: Sequence[RoughSurface]) -> float:
     """Root mean square change of the force on a wheel that moves, by linear theory [N].
 
-    sigma^2 = 2 int C_F(q) / (1 - (omega_eigen / (q v_0))^2)^2 dq, C_F of (14.12) with Geike's spectrum.
-    Infinite where the resonance is among the waves.
+    sigma^2 = 2 int C_F(q) `contact_force_over_force` dq, C_F of (14.12) with Geike's spectrum.
+    Infinite where the resonance is among the waves and nothing damps it.
     """
     return math.hypot(*(_of_one(wheel, wheel.eigenfrequency / speed, ground) for ground in grounds))
 
 
 def _of_one(wheel: Wheel, resonance: float, ground: RoughSurface) -> float:
-    if ground.q_min <= resonance <= ground.q_max:
+    damping = wheel.damping if isinstance(wheel, DampedWheel) else 0.0
+    if ground.q_min <= resonance <= ground.q_max and not damping:
         return math.inf
-    q, weight = _nodes(resonance, ground, math.pi / wheel.contact_radius)
+    q, weight = _nodes(resonance, ground, math.pi / wheel.contact_radius, damping * resonance)
     force = force_spectrum_1d(
         q, lambda s: np.pi * s * ground.c2d(s), contact_radius=wheel.contact_radius, modulus=wheel.modulus
     )
-    return math.sqrt(2 * float(np.sum(weight * force / (1 - (resonance / q) ** 2) ** 2)))
+    moved = contact_force_over_force(q, eigenfrequency=resonance, damping=damping)
+    return math.sqrt(2 * float(np.sum(weight * force * moved)))
 
 
-def _nodes(resonance: float, ground: RoughSurface, period: float) -> tuple[FloatArray, FloatArray]:
-    """Of a quadrature on panels that shrink towards the resonance, none longer than a period of sin^2."""
-    low, high = sorted(abs(q - resonance) for q in (ground.q_min, ground.q_max))
-    powers = np.geomspace(low, high, 2 + math.floor(math.log(high / low) / math.log(RATIO)))
-    waves = np.linspace(low, high, 2 + math.floor((high - low) / period))
-    inner = [abs(q - resonance) for q in ground.edges]
-    away, weight = on_panels(np.union1d(np.union1d(powers, waves), np.clip(inner, low, high)), NODES)
-    return resonance + (1 if resonance < ground.q_min else -1) * away, weight
+def _nodes(resonance: float, ground: RoughSurface, period: float, width: float) -> tuple[FloatArray, FloatArray]:
+    """Of a quadrature on panels that shrink towards the resonance and its width, none longer than a period of sin^2."""
+    found = []
+    for side in (-1, 1):
+        low, high = (max(side * (q - resonance), 0.0) for q in (ground.q_min, ground.q_max)[::side])
+        if high == 0:
+            continue
+        least = max(low, min(width, high))
+        powers = np.geomspace(least, high, 2 + math.floor(math.log(high / least) / math.log(RATIO)))
+        waves = np.linspace(low, high, 2 + math.floor((high - low) / period))
+        inner = [side * (q - resonance) for q in ground.edges]
+        away, weight = on_panels(np.union1d(np.union1d(powers, waves), np.clip(inner, low, high)), NODES)
+        found.append((resonance + side * away, weight))
+    q, weights = zip(*found, strict=True)
+    return np.concatenate(q), np.concatenate(weights)

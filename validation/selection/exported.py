@@ -158,8 +158,10 @@ def swept_of(comparison: Comparison) -> dict[str, object]:
 
 
 def assumed(scene: Scene) -> dict[str, float]:
-    """The contact of the smooth bodies, in SI units: a scene that was misread shows here."""
+    """The contact of the smooth bodies, in SI units, and a damping ratio: a scene that was misread shows here."""
     found = {"E_star_Pa": scene.modulus, "load_N": scene.load}
+    if not isinstance(scene, IndentationScene) and scene.mass is not None:
+        found["damping_ratio"] = scene.damping
     if isinstance(scene, RailScene):
         a_x, a_y, approach = scene.contact.along, scene.contact.across, scene.contact.approach
     elif isinstance(scene, IndentationScene) and scene.shape == "punch":

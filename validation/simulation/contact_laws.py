@@ -10,6 +10,7 @@ import numpy as np
 import bem3d
 import mdr
 from validation.engine.engine import FloatArray
+from validation.scenes.damping import damping_rate
 from validation.scenes.wheel_body import Wheel
 
 
@@ -59,14 +60,16 @@ class LinearLaw:
     def steady_state(self, time_step: float) -> tuple[FloatArray, FloatArray]:
         """Approach and velocity at place 0 of the motion that repeats itself with the track, exactly in leapfrog steps.
 
-        d = d_N + sum_j y_j exp(i omega_j t), y_j = -dF_j / (k - M (2 sin(omega_j dt / 2) / dt)^2); no free vibration.
+        d = d_N + sum_j y_j exp(i omega_j t), no free vibration; with s = 2 sin(omega_j dt / 2) / dt
+        y_j = -dF_j / (k - M s^2 + i c sin(omega_j dt) / dt).
         Raises ValueError for a track on which a wave resonates.
         """
         count = len(self.change)
         waves = np.fft.rfft(self.change, axis=0, norm="forward")
         omega = 2 * np.pi * np.fft.rfftfreq(count, time_step)[:, np.newaxis]
         stepped = (2 * np.sin(omega * time_step / 2) / time_step) ** 2
-        dynamic = self.wheel.stiffness - self.wheel.mass * stepped
+        dashpot = self.wheel.mass * damping_rate(self.wheel) * np.sin(omega * time_step) / time_step
+        dynamic = self.wheel.stiffness - self.wheel.mass * stepped + 1j * dashpot
         if np.abs(dynamic).min() < 1e-9 * self.wheel.stiffness:
             raise ValueError("the track must not have a wave at the resonance, whose motion does not repeat itself")
         # the velocity of leapfrog at whole steps is the central difference

@@ -1,6 +1,6 @@
 """Integrators of y'' = f(place, y): explicit and symplectic Euler, velocity Verlet, Runge and Kutta.
 
-Each is a generator of position, velocity and acceleration at the beginning of every step. Forces are known only
+Each is a generator of position, velocity and f at the beginning of every step. Forces are known only
 at whole cells of a track: one cell a step, or two cells where the scheme has half steps.
 """
 
@@ -45,16 +45,6 @@ def _symplectic_euler(f: Acceleration, y: FloatArray, v: FloatArray, dt: float) 
         y, place = y + dt * v, place + 1
 
 
-def _velocity_verlet(f: Acceleration, y: FloatArray, v: FloatArray, dt: float) -> Iterator[State]:
-    place, a = 0, f(0, y)
-    while True:
-        yield y, v, a
-        half = v + dt / 2 * a
-        y, place = y + dt * half, place + 1
-        a = f(place, y)
-        v = half + dt / 2 * a
-
-
 def _runge_kutta(f: Acceleration, y: FloatArray, v: FloatArray, dt: float) -> Iterator[State]:
     place, h = 0, 2 * dt
     while True:
@@ -69,8 +59,27 @@ def _runge_kutta(f: Acceleration, y: FloatArray, v: FloatArray, dt: float) -> It
         y, v, place = y + h / 6 * (v + 2 * v2 + 2 * v3 + v4), v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4), place + 2
 
 
+def velocity_verlet(rate: float = 0.0) -> Integrator:
+    """Of y'' = f - rate y', rate = c / M [1/s].
+
+    The new velocity is solved from its own damping: y_(n+1) - 2 y_n + y_(n-1) = dt^2 f_n - rate dt (y_(n+1) - y_(n-1))
+    / 2, of second order, with the limit of the wheel without a dashpot.
+    """
+
+    def march(f: Acceleration, y: FloatArray, v: FloatArray, dt: float) -> Iterator[State]:
+        place, a = 0, f(0, y)
+        while True:
+            yield y, v, a
+            half = v + dt / 2 * (a - rate * v)
+            y, place = y + dt * half, place + 1
+            a = f(place, y)
+            v = (half + dt / 2 * a) / (1 + rate * dt / 2)
+
+    return Integrator("velocity Verlet", march, limit=2.0)
+
+
 EXPLICIT_EULER = Integrator("explicit Euler", _explicit_euler, limit=0.0)
 SYMPLECTIC_EULER = Integrator("symplectic Euler", _symplectic_euler, limit=2.0)
-VELOCITY_VERLET = Integrator("velocity Verlet", _velocity_verlet, limit=2.0)
+VELOCITY_VERLET = velocity_verlet()
 RUNGE_KUTTA = Integrator("Runge-Kutta", _runge_kutta, limit=2 * math.sqrt(2), cells=2)
 INTEGRATORS = (EXPLICIT_EULER, SYMPLECTIC_EULER, VELOCITY_VERLET, RUNGE_KUTTA)

@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 
 from mdr.checks import positive
 from validation.engine.engine import FloatArray
+from validation.scenes.damping import damping_rate
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import ContactLaw, LinearLaw
-from validation.simulation.integrators import VELOCITY_VERLET, Integrator
+from validation.simulation.integrators import VELOCITY_VERLET, Integrator, velocity_verlet
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -20,8 +21,8 @@ class Motion:
 
     acceleration: z'' upward, shape (steps, wheels) [m/s^2]; time_step: of the record [s]; lowest, highest: approach of
     each wheel [m]; airborne: steps of each wheel without contact; initial_velocity: d' at first [m/s]; approach,
-    velocity, next_acceleration: d [m], d' [m/s] and z'' [m/s^2] after the last step; path: d at each step, shape
-    (steps, wheels), None unless it was asked for.
+    velocity, next_acceleration: d [m], d' [m/s] and z'' [m/s^2] after the last step; path, force: d and F at each
+    step, shape (steps, wheels), None unless they were asked for.
     """
 
     acceleration: FloatArray
@@ -34,6 +35,7 @@ class Motion:
     velocity: FloatArray
     next_acceleration: FloatArray
     path: FloatArray | None = None
+    force: FloatArray | None = None
 
     @property
     def duration(self) -> float:
@@ -57,12 +59,13 @@ def simulate(
     integrator: Integrator = VELOCITY_VERLET,
     path: bool = False,
 ) -> Motion:
-    """M z'' = F(x, d) - F_N, d'' = -z'', one cell of the track in each time step dx / v_0.
+    """M z'' = F(x, d) - F_N - c z', d'' = -z'', one cell of the track in each time step dx / v_0.
 
     law: the contact force of all wheels, which advance together; time_step: of one cell [s]; steps: that are recorded;
     approach, velocity: of each wheel at the beginning, by default static equilibrium over the first cell [m, m/s];
-    integrator: symplectic and of second order by default; path: whether to keep the approaches.
-    Wheels may lose contact, F = 0, and come back.
+    integrator: symplectic and of second order by default, the only one for a wheel with a dashpot; path: whether to
+    keep approaches and forces.
+    Wheels may lose contact, F = 0, and come back; the dashpot, between wheel and inertial frame, acts on.
     Raises ValueError for a step at or past the limit of the integrator, omega_eigen dt, before it begins.
     """
     step = integrator.cells * positive("time_step", time_step)
@@ -73,22 +76,28 @@ def simulate(
     v = np.zeros_like(d) if velocity is None else np.array(velocity, dtype=np.float64)
     if not (np.isfinite(d).all() and np.isfinite(v).all() and d.shape == v.shape):
         raise ValueError(f"approach and velocity must be finite and alike in shape, got {d} and {v}")
-    gravity = wheel.load / wheel.mass
+    gravity, rate = wheel.load / wheel.mass, damping_rate(wheel)
+    if rate:
+        if integrator is not VELOCITY_VERLET:
+            raise ValueError(
+                f"integrator must be {VELOCITY_VERLET.name} for a wheel with damping, got {integrator.name}"
+            )
+        integrator = velocity_verlet(rate)
 
     def acceleration(place: int, d: FloatArray) -> FloatArray:
         return np.asarray(gravity - law.force(place, d) / wheel.mass)
 
     states = integrator.march(acceleration, d, v, time_step)
     found, initial_velocity = np.empty((steps, d.size)), v
-    kept = np.empty((steps, d.size)) if path else None
-    lowest, highest = d, d
+    kept, forces = np.empty((2, steps, d.size)) if path else (None, None)
+    lowest, highest, airborne = d, d, np.zeros(d.size, dtype=np.int64)
     for n in range(steps):
         d, v, a = next(states)
-        np.negative(a, out=found[n])
+        np.negative(a - rate * v, out=found[n])
         lowest, highest = np.minimum(lowest, d), np.maximum(highest, d)
-        if kept is not None:
-            kept[n] = d
-    airborne = np.count_nonzero(found <= -gravity, axis=0)
+        airborne += a >= gravity
+        if kept is not None and forces is not None:
+            kept[n], forces[n] = d, wheel.load - wheel.mass * a
     d, v, a = next(states)
     return Motion(
         acceleration=found,
@@ -99,8 +108,9 @@ def simulate(
         initial_velocity=initial_velocity,
         approach=d,
         velocity=v,
-        next_acceleration=-a,
+        next_acceleration=-(a - rate * v),
         path=kept,
+        force=forces,
     )
 
 

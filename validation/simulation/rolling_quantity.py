@@ -12,6 +12,7 @@ from validation.analysis.spectra import Bands
 from validation.engine.engine import FloatArray
 from validation.scenes.rolling import RollingScene
 from validation.scenes.steadiness import force_on_the_way
+from validation.theory.damped_wheel import dynamic_stiffness
 from validation.theory.gauss_legendre import on_panels
 from validation.theory.rolling import force_spectrum_1d, force_spectrum_3d, force_variance
 
@@ -30,7 +31,7 @@ class RollingQuantity:
     """What is wanted of a wheel that rolls.
 
     Levels in one-third octaves from the longest to the shortest wave, root mean square in each, [N] or [m/s^2]; of the
-    acceleration only those an octave and more above the resonance, since nothing damps that; or one of all of these.
+    acceleration only those an octave and more above the resonance, since nothing need damp that; or one of all these.
     """
 
     scene: RollingScene
@@ -115,12 +116,13 @@ class RollingQuantity:
         )
 
     def transfer(self, q: FloatArray) -> FloatArray:
-        """From the force to what is wanted: one, or omega^2 / |k - M omega^2| with omega = q v0 [-, 1/kg]."""
+        """From the force to what is wanted: one, or omega^2 / |k - M omega^2 + i c omega|, omega = q v0 [-, 1/kg]."""
         if not self.dynamic:
             return np.ones_like(q)
         body = self.scene.body
         omega = q * (self.scene.speed or 0.0)
-        return np.asarray(omega**2 / np.abs(body.stiffness - body.mass * omega**2))
+        moved = dynamic_stiffness(omega, stiffness=body.stiffness, mass=body.mass, damping=body.damping)
+        return np.asarray(omega**2 / np.abs(moved))
 
     def expected(self, one_dimensional: bool) -> FloatArray:
         """Levels by linear theory, of the spectrum [N] or [m/s^2]; the variance of the force is the same in both."""

@@ -11,6 +11,7 @@ import mdr
 from mdr.elliptic_wheel import spring_wheel
 from mdr.rolling_surface import weights_across
 from validation.engine.engine import FloatArray, Outcome
+from validation.scenes.damping import DampedWheel
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import BoundaryElementsLaw, ContactLaw, LinearLaw
 from validation.simulation.equivalent_displacement import linear_displacement, roll_boundary_elements, roll_springs
@@ -27,7 +28,8 @@ DEEPER = 2.0
 class WheelOnRail:
     """A wheel of a mass that rolls along a periodic strip at a speed, once round.
 
-    strip: with the static load; mass [kg]; speed [m/s]; model: of the contact; tolerance: residual of each contact.
+    strip: with the static load; mass [kg]; speed [m/s]; damping: ratio zeta; model: of the contact; tolerance: residual
+    of each contact.
     """
 
     strip: RailStrip
@@ -35,12 +37,14 @@ class WheelOnRail:
     speed: float
     model: str
     tolerance: float
+    damping: float = 0.0
 
     @cached_property
-    def wheel(self) -> Wheel:
+    def wheel(self) -> DampedWheel:
         """A sphere with the load curve and the contact length of the ellipse."""
         springs = spring_wheel(self.strip.radii, self.strip.modulus)
-        return Wheel(radius=springs.radius, modulus=springs.modulus, mass=self.mass, load=self.strip.force)
+        moving = {"mass": self.mass, "load": self.strip.force, "damping": self.damping}
+        return DampedWheel(radius=springs.radius, modulus=springs.modulus, **moving)
 
     @property
     def time_step(self) -> float:
@@ -135,4 +139,5 @@ def in_motion(case: WheelOnRail) -> tuple[FloatArray, FloatArray]:
     """Approach and force at the beginning of each step of one round."""
     motion = simulate_from_linear_motion(case.law(), case.linear, case.time_step, case.strip.shape[0], path=True)
     assert motion.path is not None
-    return motion.path[:, 0], np.asarray(case.mass * motion.acceleration[:, 0] + case.wheel.load)
+    assert motion.force is not None
+    return motion.path[:, 0], motion.force[:, 0]
