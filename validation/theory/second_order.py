@@ -12,6 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from validation.theory.closed_forms import circular_punch_stiffness
+from validation.theory.damped_wheel import dynamic_stiffness
 from validation.theory.rolling import response
 from validation.theory.wheel import over_frequency
 
@@ -49,9 +51,8 @@ class RollingWheel:
         omega = np.asarray(q, dtype=np.float64) * self.speed
         if math.isinf(self.mass):
             return np.zeros(omega.shape, dtype=np.complex128)
-        stiffness = 2 * self.modulus * self.contact_radius
-        dashpot = 2 * self.damping * math.sqrt(stiffness * self.mass)
-        return np.asarray(1 / (stiffness - self.mass * omega**2 + 1j * dashpot * omega))
+        stiffness = circular_punch_stiffness(radius=self.contact_radius, modulus=self.modulus)
+        return 1 / dynamic_stiffness(omega, stiffness=stiffness, mass=self.mass, damping=self.damping)
 
     def motion(self, q: ArrayLike) -> ComplexArray:
         """d_1 / h of a wave h exp(i q x): the linear force 2 E* sin(q a) / q times minus the compliance [-]."""
