@@ -9,10 +9,8 @@ import numpy as np
 
 from validation.analysis.evidence import Role
 from validation.analysis.margins import MARGINS
-from validation.analysis.over_range import worst
 from validation.analysis.series import Estimates, Margin, Series, Where
 from validation.analysis.spectra import band_levels, band_means, one_third_octaves
-from validation.analysis.statistics import Estimate
 from validation.analysis.study import Outcomes
 from validation.cases.wheel import features
 from validation.cases.wheel.features import TABLE, decibels
@@ -83,7 +81,6 @@ def run(case: WheelSpectrum, engine: Engine = SERIAL) -> Outcomes:
 def _varied(scene: WheelScene) -> dict[str, WheelScene]:
     """One parameter at a time, down and up."""
     varied = {f"v₀ × {factor:g}": replace(scene, speed=factor * scene.speed) for factor in (0.25, 2.0)}
-    varied |= {f"F_N × {factor:g}": replace(scene, load=factor * scene.load) for factor in (0.25, 4.0)}
     rail = scene.rail
     if rail is None:
         return varied
@@ -103,11 +100,11 @@ SOURCES = {
     features.JUMP: "q_min v₀, (14.20)",
     features.SLOPE: "-2 H - 3, (14.13)",
     features.PERIOD: "π v₀ / a, (14.12)",
-    features.BREAK + features.PREDICTED: "where (14.14) through the resonator meets that floor",
 }
 """Of the features that are judged."""
-OF_FIGURE = 5
-"""Numbers of the claim of Fig. 14.4, whose intervals hold at once: four features, and the level of region 3."""
+OF_PARAMETERS = features.PEAK, features.JUMP
+"""Of these what the book says that no parameter changes."""
+CHANGED, NOTHING = "changed", "nothing"
 BANDS_PER_PERIOD = 12
 """Of the oscillation."""
 PARSEVAL = Margin(tolerance=1e-11, reason="rounding of the Fourier transforms", source="Parseval", role=Role.IDENTITY)
@@ -118,15 +115,13 @@ OVER_LINEAR = MARGINS["level"].beside("(14.12) through the resonator: a contact 
 
 
 def series(result: Outcomes) -> list[Series]:
-    """Features beside theory for the scene and for the worst variation; level and contrast of region 3; identities."""
-    spectra, (mine, *varied) = spectra_of(result), features_by_scene(result)
+    """Features beside theory for the scene and for each variation; level of region 3; identities."""
+    spectra, family = spectra_of(result), family_of(result.case)
     base, spectrum = next(iter(spectra.items()))
     return [
         *_identities([batch for name in spectra for batch in result[name]]),
-        *mine.values(),
-        *levels_over_linear(spectrum),
-        *_worst_scenes(varied),
-        *_contrasts(spectrum),
+        *features_by_scene(result),
+        *levels_over_linear(spectrum, family),
         *_drawn(spectrum, result[base]),
         *(_in_sixths(name, one) for name, one in spectra.items() if name != base),
     ]
@@ -137,46 +132,35 @@ def spectra_of(result: Outcomes) -> dict[str, features.Spectrum]:
     return {name: features.Spectrum.of(scene, result[name]) for name, scene in result.case.variations().items()}
 
 
-def features_by_scene(result: Outcomes) -> list[dict[str, Series]]:
-    """Of the scene itself first, whose intervals hold at once for the figure; those of the others, for all of them."""
-    (base, spectrum), *varied = spectra_of(result).items()
-    return [features_of(base, spectrum, OF_FIGURE), *(features_of(*one, len(varied)) for one in varied)]
+def family_of(case: WheelSpectrum) -> int:
+    """Numbers of the claim on Fig. 14.4, whose intervals hold at once: features and level of the scene itself, peak and
+    jump of the others."""
+    return len(SOURCES) + 1 + len(OF_PARAMETERS) * (len(case.variations()) - 1)
 
 
-def features_of(name: str, spectrum: features.Spectrum, family: int) -> dict[str, Series]:
-    """Those that the spectrum of a scene has, beside theory; family: whose intervals hold at once.
-
-    The floor is that of the jumps by construction, if the roughness ends at q_max: shown, and evidence of nothing.
-    """
-    values, theory = features.measured(spectrum), features.expected(spectrum)
-    return {
-        key: Series(
+def features_by_scene(result: Outcomes) -> list[Series]:
+    """Those that each spectrum has, beside theory; of the scene itself first."""
+    case, family = result.case, family_of(result.case)
+    return [
+        Series(
             quantity,
             "springs",
             (values[key],),
-            where={"scene": name},
-            reference=theory.get(key, 1.0),
+            where={"scene": case.scene.name, CHANGED: NOTHING if name == case.scene.name else name},
+            reference=theory[key],
             grid=float(spectrum.omega[0]) / 2 if key == features.JUMP else 0.0,
-            unit="rad/s" if key in (features.PEAK, features.JUMP, features.PERIOD) else "-",
-            margin=MARGINS[key.removesuffix(features.PREDICTED)].beside(SOURCES[key]) if key in SOURCES else None,
+            unit="-" if key == features.SLOPE else "rad/s",
+            margin=MARGINS[key].beside(SOURCES[key]),
             family=family,
         )
+        for name, spectrum in spectra_of(result).items()
+        for values, theory in [(features.measured(spectrum), features.expected(spectrum))]
         for key, quantity in features.QUANTITIES.items()
         if key in values
-    }
+    ]
 
 
-def _worst_scenes(varied: list[dict[str, Series]]) -> Iterator[Series]:
-    """Of each feature the scene, with one parameter changed, whose verdict is that of all."""
-    for key in SOURCES:
-        if of_key := [features[key] for features in varied if key in features]:
-            numbered = [replace(n, where={"scene": float(i)}) for i, one in enumerate(of_key) for n in one.numbers]
-            far = of_key[int(worst(numbered).where["scene"])]  # type: ignore[arg-type]
-            name = f"worst of {len(of_key)} with one parameter changed: {far.where['scene']}"
-            yield replace(far, where={"scenes": name})
-
-
-def levels_over_linear(spectrum: features.Spectrum) -> list[Series]:
+def levels_over_linear(spectrum: features.Spectrum, family: int) -> list[Series]:
     """One-third octaves of region 3 over (14.12) through the resonator, up to where the floor is far below."""
     scene, omega = spectrum.scene, spectrum.omega
     first = max(1.2 * scene.jump, features.FREE_MASS * scene.eigenfrequency)
@@ -186,22 +170,9 @@ def levels_over_linear(spectrum: features.Spectrum) -> list[Series]:
         return []
     found = Estimates.ratios(band_levels(omega, spectrum.hann.T, edges).T, band_levels(omega, spectrum.linear, edges))
     centres = np.sqrt(edges[1:] * edges[:-1])
-    over = partial(decibels, model="springs over linear theory", margin=OVER_LINEAR)
-    value, error = (math.sqrt(np.mean(np.square([getattr(one, name) for one in found]))) for name in ("value", "error"))
-    where: Where = {"region": "region 3"}
-    ends: Where = {features.OMEGA: (float(centres[0]), float(centres[-1]))}
-    rms = (Estimate(value, error, found[0].samples),)
-    return [
-        over(features.LEVEL, found=found, where=where, along=features.OMEGA, at=centres, family=OF_FIGURE),
-        over(f"rms of {features.LEVEL}", found=rms, where={**where, **ends}, family=OF_FIGURE * centres.size),
-    ]
-
-
-def _contrasts(spectrum: features.Spectrum) -> list[Series]:
-    """Of the oscillation of region 3, with Hann's window."""
-    scene, omega = spectrum.scene, spectrum.omega
-    linear, found = features.linear_contrasts(omega, scene), features.contrasts_of(omega, spectrum.hann, scene)
-    return [features.contrast_series(*one) for one in (("springs", found, scene, linear), (LINEAR, linear, scene))]
+    place: Where = {"region": features.THIRD}
+    over = partial(decibels, features.LEVEL, "springs over linear theory", where=place, along=features.OMEGA)
+    return [over(found=found, at=centres, margin=OVER_LINEAR, family=family)]
 
 
 def _identities(batches: list[Outcome]) -> Iterator[Series]:
