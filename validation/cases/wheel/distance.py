@@ -37,19 +37,9 @@ class Kind(NamedTuple):
     damped: bool
 
 
-class ShortWaves(NamedTuple):
-    """Waves so short that the second order has zeros in region 2. longest: [m]; rms: [m]."""
-
-    longest: float
-    rms: float
-
-
-KINDS = tuple(
-    Kind(model, track, damped)
-    for track, damped in (("steady-state", True), ("steady-state", False), ("part", True), ("open", False))
-    for model in (SPRINGS, LINEAR)
-)
-STEADY, UNDAMPED, PART, FROM_REST = KINDS[::2]
+STEADY, UNDAMPED = Kind(SPRINGS, "steady-state", True), Kind(SPRINGS, "steady-state", False)
+PART, FROM_REST = Kind(SPRINGS, "part", True), Kind(SPRINGS, "open", False)
+KINDS = tuple(kind._replace(model=model) for kind in (STEADY, UNDAMPED, PART, FROM_REST) for model in (SPRINGS, LINEAR))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,7 +49,8 @@ class WheelDistance:
     scene; periods: natural periods in the shortest distance, whole; doublings: of it; wheels: to a distance up to the
     middle one, half as many for each doubling beyond, fewest at least; damping: ratio zeta of steady states, beside
     none; steady: wheels of each kind; heights: factors on h_0, ascending, of so many wheels each, with one among them;
-    short: waves; groups: of wheels, for errors; seed: zero or more.
+    short: longest wave of a band whose second order has zeros in region 2 [m]; rms: its height [m]; groups: of wheels,
+    for errors; seed: zero or more.
     """
 
     scene: WheelScene = SHORT
@@ -70,7 +61,8 @@ class WheelDistance:
     damping: float = 0.02
     steady: int = 40
     heights: tuple[float, ...] = (0.5, 1.0, 2.0)
-    short: ShortWaves = ShortWaves(1e-3, 0.18e-6)
+    short: float = 1e-3
+    rms: float = 0.18e-6
     groups: int = 10
     seed: int = 147
 
@@ -92,7 +84,7 @@ class WheelDistance:
         assert rail is not None  # as checked
         rail = replace(rail, rms=height * rail.rms)
         if short:
-            rail = replace(rail, longest=self.short.longest, rms=self.short.rms)
+            rail = replace(rail, longest=self.short, rms=self.rms)
         damping = self.damping if kind.damped else 0.0
         distance = self.scene.distance * (2 if kind.track == "steady-state" else 1)
         return WheelEnsemble(

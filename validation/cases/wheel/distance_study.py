@@ -68,8 +68,8 @@ STUDY = Study(
         "the contact the heights over the wheel in its linear motion, u and v, lengthen the contact, F₂ = E* R / (4a) "
         "(u² + v²); for Gaussian heights its spectrum is a convolution of the band with itself, and the damped wheel "
         "is its resonator. It has no free parameter. Region 1 is measured from 0.5 to 2 ω_eigen, region 2 from there "
-        "to 0.8 q_min v₀, region 4 from 1.3 to 2.6 q_max v₀, where its floor stands alone. Short waves: {c.short[0]:g} "
-        "m and less, h₀ = {c.short[1]:g} m."
+        "to 0.8 q_min v₀, region 4 from 1.3 to 2.6 q_max v₀, where its floor stands alone. Short waves: {c.short:g} m "
+        "and less, h₀ = {c.rms:g} m."
     ),
     series=distance.series,
     claims=(
@@ -125,7 +125,7 @@ CASE = Case(
         fewest=40,
         steady=120,
         heights=(0.5, 1.0, 2.0, 4.0),
-        short=distance.ShortWaves(1e-3, 0.15e-6),
+        rms=0.15e-6,
     ),
     run=distance.run,
     study=STUDY,
