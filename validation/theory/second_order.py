@@ -20,7 +20,7 @@ from validation.theory.wheel import over_frequency
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-POINTS = 40_000
+POINTS = 16_000
 """Of the trapezoidal rule from -q_max to q_max."""
 
 

@@ -8,8 +8,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from validation.analysis.evidence import Place
 from validation.analysis.margins import MARGINS
-from validation.analysis.series import Estimates, Margin, Series, Where
+from validation.analysis.series import Estimates, Margin, Series
 from validation.analysis.spectra import band_levels, band_means, one_third_octaves
 from validation.analysis.statistics import Estimate, FloatArray, jackknifed, ratio_of_means
 from validation.analysis.study import Outcomes
@@ -178,7 +179,7 @@ WITHOUT_LEAKAGE = (PERIODIC, f"{PERIODIC}, undamped", HANN)
 
 
 def series(result: Outcomes) -> list[Series]:
-    return [*_breaks(result), *_regions(result), *_second_order(result), *_drawn(result)]
+    return [*_breaks(result), *_regions(result), *_second_order(result)]
 
 
 def _breaks(result: Outcomes) -> Iterator[Series]:
@@ -215,9 +216,15 @@ def law_of_break(t: FloatArray, breaks: Estimates) -> Estimate:
 
 
 def _regions(result: Outcomes) -> Iterator[Series]:
-    """Levels of every record; what a linear contact has of regions 1 and 2, and what is left of region 4."""
-    bands = features.regions_of(result.case.scene)
+    """Spectra and levels of every record; what a linear contact has of regions 1 and 2; what is left of region 4."""
+    scene = result.case.scene
+    bands = features.regions_of(scene)
+    edges = features.sixths_of_an_octave(0.5 * scene.eigenfrequency, 4 * scene.cutoff)
+    drawn = partial(Series, BY_KIND, along=features.OMEGA, at=np.sqrt(edges[1:] * edges[:-1]))
     for name, record in RECORDS.items():
+        for model in (SPRINGS, LINEAR):
+            outcome = result[record.kind._replace(model=model)]
+            yield drawn(f"{model}, {name}", band_means(outcome["omega"], outcome[record.window].mean(axis=0), edges))
         for region, band in bands.items():
             for model in (SPRINGS, LINEAR):
                 level = Estimates.ratios(record.of(result, band, model), np.ones(1))
@@ -247,84 +254,64 @@ def second_order(scene: WheelScene, omega: FloatArray) -> FloatArray:
 
 
 def _second_order(result: Outcomes) -> Iterator[Series]:
-    """Contrast of region 2 over short waves; regions 1 and 2 by height, and without damping."""
+    """Contrast of region 2 over short waves; regions 1 and 2 by height, and without damping; spectra up to the jump."""
     case = result.case
-    short = case.ensemble(STEADY, short=True).scene
-    yield from _contrasts(short, result["short waves"])
-    keys = {h: STEADY if h == 1 else (STEADY, h) for h in case.heights}
-    steady = [(case.ensemble(STEADY, height), result[key]) for height, key in keys.items()]
+    yield from _contrasts(case.ensemble(STEADY, short=True).scene, result["short waves"])
+    steady = [(case.ensemble(STEADY, h), result[STEADY if h == 1 else (STEADY, h)]) for h in case.heights]
     for ensemble, outcome in (*steady, (case.ensemble(UNDAMPED), result[UNDAMPED])):
         yield from _over_second_order(ensemble.scene, outcome, 2 * len(steady) + 3)
 
 
 def _over_second_order(scene: WheelScene, outcome: Outcome, family: int) -> Iterator[Series]:
     omega, bands = outcome["omega"], features.regions_of(scene)
-    theory, thirds = second_order(scene, omega), one_third_octaves(*bands[PLATEAU])
-    for region, edges in ((FIRST, np.array(bands[FIRST])), (PLATEAU, thirds)):
+    theory, place = second_order(scene, omega), at_height(scene)
+    damping = {DAMPING: f"{100 * scene.damping:g} % of critical" if scene.damping else "none"}
+    for region, edges in ((FIRST, np.array(bands[FIRST])), (PLATEAU, one_third_octaves(*bands[PLATEAU]))):
         mine, its = band_levels(omega, outcome["plain"].T, edges).T, band_levels(omega, theory, edges)
-        where: Where = {
-            "region": region,
-            DAMPING: f"{100 * scene.damping:g} % of critical" if scene.damping else "none",
-            H_OVER_D: round(scene.rms / scene.approach, 4),
-        }
         yield decibels(
             OVER,
             SPRINGS,
             Estimates.ratios(mine, its),
-            where=where,
+            where={"region": region, **damping, **place},
             along=features.OMEGA,
             at=np.sqrt(edges[1:] * edges[:-1]),
             family=family,
             margin=OF_SECOND_ORDER,
         )
+    lines = omega[omega < 0.99 * scene.jump]
+    drawn = partial(Series, UP_TO_JUMP, where={**damping, **place}, along=features.OMEGA, at=lines)
+    yield drawn(SPRINGS, outcome["plain"].mean(axis=0)[: lines.size])
+    yield drawn(SECOND_ORDER, theory[: lines.size])
+
+
+def at_height(scene: WheelScene) -> dict[str, Place]:
+    return {H_OVER_D: round(scene.rms / scene.approach, 4)}
 
 
 def _contrasts(scene: WheelScene, outcome: Outcome) -> Iterator[Series]:
-    """Maxima of cos²(q a) in region 2 over the zeros beside them."""
-    omega, at = outcome["omega"], maxima_of(scene)
+    """Maxima of cos²(q a) in region 2 over the zeros beside them, of A omega²: a power of the cosine."""
+    omega, at, theory = outcome["omega"], maxima_of(scene), second_order(scene, outcome["omega"])
 
     def contrasts(groups: FloatArray) -> FloatArray:
-        """Of A omega^2, which the second order makes a power of the cosine."""
-        flat = groups.mean(axis=0) * omega**2
-        return -features.log_beside_over_at(omega / scene.oscillation_period, flat, at)
+        return -features.log_beside_over_at(omega / scene.oscillation_period, groups.mean(axis=0) * omega**2, at)
 
-    theory = contrasts(second_order(scene, omega)[np.newaxis])
-    by_maximum = partial(decibels, CONTRAST, along=MAXIMUM, at=at)
-    yield by_maximum(
+    yield decibels(
+        CONTRAST,
         SPRINGS,
         jackknifed(contrasts, outcome["plain"]),
-        where={H_OVER_D: round(scene.rms / scene.approach, 4)},
-        reference=Estimates.exact(theory),
+        where=at_height(scene),
+        along=MAXIMUM,
+        at=at,
+        reference=Estimates.exact(contrasts(theory[np.newaxis])),
         margin=MARGINS["contrast"].beside("the closed second order in the same bands"),
     )
+    edges = np.arange(scene.eigenfrequency, 0.99 * scene.jump, scene.oscillation_period / 12)
+    for model, density in ((SPRINGS, outcome["plain"].mean(axis=0)), (SECOND_ORDER, theory)):
+        means = band_means(omega, density, edges)
+        yield Series(SHORT_WAVES, model, means, along=features.OMEGA, at=(edges[1:] + edges[:-1]) / 2)
 
 
 def maxima_of(scene: WheelScene) -> FloatArray:
     """The numbers n of the maxima q a = n pi of cos²(q a) that have both of their zeros in region 2."""
     last = features.regions_of(scene)[PLATEAU][1]
     return np.arange(1.0, math.floor(last / scene.oscillation_period - 0.5) + 1)
-
-
-def _drawn(result: Outcomes) -> Iterator[Series]:
-    """Spectra of all records in sixths of an octave; the steady states up to the jump beside the second order."""
-    case, scene = result.case, result.case.scene
-    edges = features.sixths_of_an_octave(0.5 * scene.eigenfrequency, 4 * scene.cutoff)
-    for name, (kind, window) in RECORDS.items():
-        for model in (SPRINGS, LINEAR):
-            outcome = result[kind._replace(model=model)]
-            means = band_means(outcome["omega"], outcome[window].mean(axis=0), edges)
-            at = np.sqrt(edges[1:] * edges[:-1])
-            yield Series(BY_KIND, f"{model}, {name}", means, along=features.OMEGA, at=at)
-    for quantity, key, ensemble, part in (
-        (UP_TO_JUMP, STEADY, case.ensemble(STEADY), 0.0),
-        (SHORT_WAVES, "short waves", case.ensemble(STEADY, short=True), 1 / 12),
-    ):
-        steady, omega = ensemble.scene, result[key]["omega"]
-        width = max(part * steady.oscillation_period, float(omega[0]))
-        edges = np.arange(0.3 * steady.eigenfrequency, 0.99 * steady.jump, width)
-        for model, density in (
-            (SPRINGS, result[key]["plain"].mean(axis=0)),
-            (SECOND_ORDER, second_order(steady, omega)),
-        ):
-            means = band_means(omega, density, edges)
-            yield Series(quantity, model, means, along=features.OMEGA, at=(edges[1:] + edges[:-1]) / 2)

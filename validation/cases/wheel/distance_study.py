@@ -39,8 +39,11 @@ RECORDS = Panel(OMEGA, DENSITY, log="xy", decades=11.0, legend="lower left").of(
 )
 
 
-def beside_theory(quantity: str, log: str, style: str) -> Panel:
-    return Panel(OMEGA, DENSITY, log=log).of(*by_model(quantity, {SECOND_ORDER: "exact", SPRINGS: style}))
+LOW = Panel(OMEGA, DENSITY, log="xy", legend="lower left").of(
+    Curve(distance.UP_TO_JUMP, SPRINGS, by=(distance.H_OVER_D,), of={distance.DAMPING: "first"}),
+    Curve(distance.UP_TO_JUMP, SECOND_ORDER, "exact", "_", by=(distance.H_OVER_D,), of={distance.DAMPING: "first"}),
+)
+SHORT = Panel(OMEGA, DENSITY, log="y").of(*by_model(distance.SHORT_WAVES, {SECOND_ORDER: "exact", SPRINGS: "mdr"}))
 
 
 def notes(result: Outcomes) -> Sequence[str]:
@@ -102,11 +105,11 @@ STUDY = Study(
         ),
         Chart("wheel_distance-steady", claims=(0, 2), width=13.5, height=4.2).of(
             "(a) From rest as in the book, and in a steady state damped by {c.damping:.0%}, with and without a window. "
-            "(b) Regions 1 and 2 of the periodic motion, line by line, beside the closed second order. (c) Region 2 "
-            "over short waves, and the zeros of cos²(q a).",
+            "(b) Regions 1 and 2 of the periodic motion, line by line, dark to light with the height; black: second "
+            "order in closed form. (c) The same of region 2 over short waves, and the zeros of cos²(q a).",
             RECORDS,
-            beside_theory(distance.UP_TO_JUMP, "xy", "mdr"),
-            beside_theory(distance.SHORT_WAVES, "y", "mdr"),
+            LOW,
+            SHORT,
         ),
     ),
     printed=(distance.OF_REGION,),
