@@ -1,12 +1,14 @@
 """Faults planted in what `tests/scenes` looks at: where, what is wrong there, and the test that must catch it."""
 
 import math
+from decimal import Decimal
 from functools import partial
 
 import numpy as np
 
 from tests.planted_faults.wrong import scaled, with_math
 from tests.scenes import (
+    test_damping_key,
     test_exported_tables,
     test_height_edits,
     test_materials,
@@ -16,6 +18,7 @@ from tests.scenes import (
     test_steadiness,
 )
 from validation.scenes import (
+    damping,
     height_edits,
     level_files,
     material,
@@ -157,6 +160,10 @@ FAULTS = {
     "a spectrum of the powers of its bands, without what their slopes take": (
         (roughness_levels, "STEPS", 1),
         partial(test_rail.test_the_spectrum_has_the_power_of_each_band, "cnossos-average"),
+    ),
+    "per cent of damping taken for the ratio": (
+        (damping, "Decimal", lambda text: Decimal(text).scaleb(2)),
+        test_damping_key.test_per_cent_is_a_hundredth,
     ),
     "the rougher of wheel and rail for both": (
         (steadiness, "math", with_math(hypot=lambda *heights: max(heights))),

@@ -12,6 +12,7 @@ from bem3d import few_cells, rolling_contact
 from tests.cases import test_wheel_ensembles, test_wheel_on_half_space
 from tests.planted_faults.wrong import E_FOR_E_STAR, force_in_step, scaled
 from tests.simulation import (
+    test_damping,
     test_flags_of_rolling,
     test_light_punch,
     test_periodic_motion,
@@ -26,6 +27,9 @@ from tests.simulation import (
 )
 from validation.analysis import series
 from validation.cases.punch.rough_interface import Layer
+from validation.scenes import dynamic_wheel
+from validation.scenes.damping import damping_rate
+from validation.scenes.wheel_body import Wheel
 from validation.simulation import (
     contact_laws,
     equivalent_displacement,
@@ -53,6 +57,12 @@ def without_load(wheel, law, **settings):
     """M z'' = F."""
     weightless = types.SimpleNamespace(load=0.0, mass=wheel.mass, eigenfrequency=wheel.eigenfrequency)
     return wheel_in_motion.simulate(weightless, law, **settings)
+
+
+def without_a_dashpot(case):
+    """The wheel on a rail, whatever damping it is given."""
+    springs = wheel_on_rail.spring_wheel(case.strip.radii, case.strip.modulus)
+    return Wheel(radius=springs.radius, modulus=springs.modulus, mass=case.mass, load=case.strip.force)
 
 
 def half_a_fine_cell_aside(height, cells):
@@ -288,6 +298,30 @@ FAULTS = {
             contact_laws.HertzLaw(test_wheel_motion.WHEEL, 2),
             4 * test_wheel_motion.ULP,
         ),
+    ),
+    "factor 2 in the constant of the dashpot": (
+        (wheel_in_motion, "damping_rate", scaled(damping_rate, 2.0)),
+        test_damping.test_free_vibration_decays_by_the_exact_law_of_a_dashpot_at_second_order,
+    ),
+    "a dashpot that drives the wheel": (
+        (wheel_in_motion, "damping_rate", scaled(damping_rate, -1.0)),
+        partial(test_damping.test_the_dashpot_takes_the_energy_that_its_work_says, 1.5),
+    ),
+    "factor 2 in the dashpot of the steady state": (
+        (contact_laws, "damping_rate", scaled(damping_rate, 2.0)),
+        partial(test_damping.test_a_sine_brings_the_wheel_into_its_steady_response, 0.5),
+    ),
+    "damping forgotten in the time loop": (
+        (wheel_in_motion, "damping_rate", scaled(damping_rate, 0.0)),
+        test_damping.test_a_wheel_in_flight_is_slowed_by_its_dashpot,
+    ),
+    "damping forgotten on a rail": (
+        (wheel_on_rail.WheelOnRail, "wheel", property(without_a_dashpot)),
+        partial(test_damping.test_a_wheel_on_a_rail_moves_by_its_equation_with_the_dashpot, test_damping.SPRINGS),
+    ),
+    "damping forgotten in a scene of springs": (
+        (dynamic_wheel, "DampedWheel", lambda damping, **given: Wheel(**given)),
+        partial(test_damping.test_a_scene_with_damping_damps_its_wheels_on_springs, True),
     ),
     "explicit Euler where nothing is asked for": (
         (wheel_in_motion.simulate, "__kwdefaults__", by_another(integrators.EXPLICIT_EULER)),

@@ -9,13 +9,19 @@ import numpy as np
 import mdr
 from tests.planted_faults.wrong import one_sided_spectrum, scaled
 from tests.theory import test_closed_forms as forms
+from tests.theory import test_damped_wheel
 from tests.theory import test_rolling_theory as of_rolling
 from tests.theory import test_spring_input as of_input
 from tests.theory import test_transverse_structure as across
 from validation.analysis import spectra
-from validation.theory import closed_forms, spring_input, transverse_structure
+from validation.theory import closed_forms, damped_wheel, spring_input, transverse_structure
 from validation.theory import rolling as rolling_theory
 from validation.theory.line_spectrum import LineSpectrum
+
+
+def damped_wheel_alone(omega, **given):
+    """M^2 times what the acceleration has."""
+    return damped_wheel.acceleration_over_force(omega, mass=1.0, **given)
 
 
 def half_of_the_slope(pressure, *, gradient):
@@ -128,6 +134,10 @@ FAULTS = {
     "near waves counted among the far, too": (
         (transverse_structure, "_panels_across", near_waves_among_the_far),
         partial(FAR_WAVES, transverse_structure.WaveBand(0.7)),
+    ),
+    "a dashpot without its own force on the wheel": (
+        (damped_wheel, "contact_force_over_force", damped_wheel_alone),
+        test_damped_wheel.test_acceleration_and_force_over_the_force_at_a_fixed_approach,
     ),
     "the second order of springs with zeros of a contact half as long": (
         (of_rolling, "second_order_force_spectrum", with_half_of_the_contact),

@@ -1,0 +1,123 @@
+"""The damping ratio in scene files: what is read, what is refused, where it is told."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tests.scenes.test_scene_files import TABLE, written
+from validation.scenes.bundled import SCENES
+from validation.scenes.damping import damping_of
+from validation.scenes.description import describe
+from validation.scenes.dynamic_wheel import load_wheel_scene
+from validation.scenes.load import load_scene, load_varied
+from validation.scenes.rolling import RollingScene
+from validation.scenes.steadiness import force_on_the_way
+from validation.selection.exported import assumed
+from validation.simulation.rolling_quantity import RollingQuantity
+
+RAIL, STILL = ((SCENES / f"{name}.toml").read_text(encoding="utf-8") for name in ("rail", "rolling_wheel"))
+MASS = '# mass = "500 kg"   # of a wheel that moves'
+
+
+def dynamic(tmp_path, value):
+    return written(tmp_path, ('mass = "500 kg"', f'mass = "500 kg"\ndamping = {value}'), text=TABLE)
+
+
+def rail(tmp_path, lines):
+    return written(tmp_path, (MASS, lines), text=RAIL)
+
+
+@pytest.mark.parametrize(
+    ("given", "found"), [('"2 %"', 0.02), ('"2%"', 0.02), ("0.02", 0.02), ('"0.3 %"', 0.003), ("0", 0)]
+)
+def test_a_ratio_is_read_in_per_cent_or_as_a_number(tmp_path, given, found):
+    path = dynamic(tmp_path, given)
+    assert load_wheel_scene(path).damping == load_scene(path).damping == found
+    assert load_scene(path).body.damping == load_wheel_scene(path).body.damping == found
+    assert load_scene(rail(tmp_path, f'mass = "500 kg"\ndamping = {given}')).damping == found
+
+
+def test_per_cent_is_a_hundredth():
+    assert [damping_of("wheel.damping", text) for text in ("2 %", "0.7 %", 0.02)] == [0.02, 0.007, 0.02]
+
+
+def test_there_is_no_damping_by_default():
+    assert load_wheel_scene("table_14_1").damping == load_scene("table_14_1").damping == load_scene("rail").damping == 0
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ('"-1 %"', "must be at least 0 and below 1, which is critical, got -0.01"),
+        ("2", 'must be at least 0 and below 1, which is critical, got 2, as: damping = "2 %"'),
+        ('"100 %"', "must be at least 0 and below 1, which is critical, got 1"),
+        ('"2 kg"', "must be a share of critical, as \"2 %\" or 0.02, got '2 kg'"),
+        ('"0.02"', 'must be a share of critical, as "2 %" or 0.02'),
+        ('"% 2"', "must be a share of critical"),
+        ('"nan %"', "must be finite"),
+        ("inf", "must be finite"),
+        ("true", "must be a real number, got True"),
+    ],
+)
+def test_other_values_are_refused_by_key_and_value(tmp_path, given, said):
+    for path in (dynamic(tmp_path, given), rail(tmp_path, f'mass = "500 kg"\ndamping = {given}')):
+        with pytest.raises(ValueError) as refused:
+            load_scene(path)
+        assert f": wheel.damping {said}" in str(refused.value)
+
+
+def test_damping_needs_a_mass(tmp_path):
+    still = written(tmp_path, ('load = "4905 N"', 'load = "4905 N"\ndamping = "2 %"'), text=STILL)
+    for path in (still, rail(tmp_path, 'damping = "2 %"')):
+        with pytest.raises(ValueError, match=r'wheel\.damping needs a mass: .* got 2 % alone, as: mass = "500 kg"'):
+            load_scene(path)
+
+
+def test_it_is_told_in_the_description_and_in_json(tmp_path):
+    scene = load_scene(dynamic(tmp_path, '"2 %"'))
+    assert dict(describe(scene))["motion"].endswith("resonance at 1369 rad/s, damping 2 % of critical")
+    assert assumed(scene)["damping_ratio"] == 0.02 and assumed(load_scene("table_14_1"))["damping_ratio"] == 0
+    assert "damping_ratio" not in assumed(load_scene("rolling_wheel"))
+    moving = load_scene(rail(tmp_path, 'mass = "500 kg"\ndamping = "1.5 %"'))
+    assert dict(describe(moving))["motion"] == "speed 80 km/h, mass 500 kg, damping 1.5 % of critical"
+
+
+def test_a_sweep_takes_it():
+    for value, found in (("0", 0.0), ("2%", 0.02), ("0.05", 0.05)):
+        assert load_varied("table_14_1", "wheel.damping", value).damping == found
+
+
+def test_linear_theory_of_compare_has_the_dashpot():
+    scene = replace(load_scene("table_14_1"), damping=0.3)
+    quantity, q = RollingQuantity(scene, "acceleration"), np.array([200.0, 3000.0])
+    omega, body = 20 * q, scene.body
+    c = 2 * 0.3 * math.sqrt(body.stiffness * body.mass)
+    expected = omega**2 / np.hypot(body.stiffness - body.mass * omega**2, c * omega)
+    assert quantity.transfer(q) == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize("speed", [1.0, 3.0, 20.0])
+@pytest.mark.parametrize("zeta", [0.01, 0.2])
+def test_the_force_on_the_way_of_a_damped_wheel_is_a_plain_integral(speed, zeta):
+    """Also with the resonance among the waves, where it is finite."""
+    wheel = replace(load_wheel_scene("table_14_1"), speed=speed, damping=zeta)
+    a, ground = wheel.contact_radius, wheel.rail
+    q = np.geomspace(ground.q_min, ground.q_max, 400_001)
+    r = wheel.eigenfrequency / (q * speed)
+    gain = (1 + (2 * zeta * r) ** 2) / ((1 - r**2) ** 2 + (2 * zeta * r) ** 2)
+    density = np.pi * q * ground.c2d(q) * (2 * wheel.modulus * np.sin(q * a) / q) ** 2 * gain
+    expected = math.sqrt(2 * np.trapezoid(density, q))
+    assert force_on_the_way(wheel.body, speed, [ground]) == pytest.approx(expected, rel=1e-4)
+
+
+def test_damping_gives_a_steady_answer_where_the_resonance_is_among_the_waves():
+    slow = replace(
+        load_wheel_scene("table_14_1"), speed=1.0, rail=replace(load_wheel_scene("table_14_1").rail, rms=2e-8)
+    )
+    assert "nothing damps the wheel" in slow.no_steady_answer()
+    assert replace(slow, damping=0.02).no_steady_answer() == ""
+    thrown = replace(slow, damping=0.02, rail=replace(slow.rail, rms=4e-6))
+    assert thrown.no_steady_answer().endswith("leaves the track, where no model was measured")
+    assert RollingScene.of_wheel(thrown).no_steady_answer() == thrown.no_steady_answer()
