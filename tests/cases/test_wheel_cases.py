@@ -151,7 +151,7 @@ def test_a_scene_without_the_roughness_of_its_case_is_refused(run, case, needed)
 # --- distances ---
 
 DISTANCE = by_distance.WheelDistance(
-    scene=SMALL, doublings=3, wheels=24, fewest=12, steady=12, heights=(0.5, 1.0), groups=4
+    scene=SMALL, doublings=3, wheels=24, fewest=12, steady=24, heights=(0.5, 1.0), groups=4
 )
 
 

@@ -28,6 +28,8 @@ MIN_JUMP, MIN_PERIODS = 4.0, 5.0
 """q_min v0 over the eigenfrequency, and periods of the oscillation behind it: with less, regions cannot be separated.
 """
 SPRINGS, LINEAR = "springs", "linear contact"
+PER_GROUP = 4
+"""Wheels of a steady state whose mean spectrum is kept."""
 
 
 class Kind(NamedTuple):
@@ -49,7 +51,7 @@ class WheelDistance:
 
     scene; periods: natural periods in the shortest distance, whole; doublings: of it; wheels: to a distance up to the
     middle one, half as many for each doubling beyond, fewest at least; damping: ratio zeta of steady states, beside
-    none; steady: wheels of each kind; heights: factors on h_0, ascending, of so many wheels each, with one among them;
+    none; steady: wheels of each kind, in groups of four; heights: factors on h_0, ascending, with one among them;
     short: longest wave of a band whose second order has zeros in region 2 [m]; rms: its height [m]; groups: of wheels,
     for errors; seed: zero or more.
     """
@@ -91,7 +93,7 @@ class WheelDistance:
         return WheelEnsemble(
             scene=replace(self.scene, rail=rail, damping=damping, distance=distance),
             count=self.steady,
-            groups=self.steady,
+            groups=self.steady // PER_GROUP,
             track=kind.track,
             linear=kind.model == LINEAR,
             seed=self.seed,
