@@ -10,7 +10,7 @@ from validation.analysis.evidence import Whose
 from validation.analysis.study import Outcomes, Study
 from validation.cases.wheel import distance
 from validation.cases.wheel.distance import BOOK, CUT, HANN, LINEAR, PERIODIC, SECOND_ORDER, SPRINGS
-from validation.cases.wheel.features import DENSITY, FOURTH, OMEGA, PLATEAU, TABLE, regions_of
+from validation.cases.wheel.features import DENSITY, FIRST, FOURTH, OMEGA, PLATEAU, TABLE, regions_of
 from validation.selection import model_needed
 from validation.simulation.wheel_on_springs import WAVES_APART
 
@@ -47,14 +47,19 @@ SHORT = Panel(OMEGA, DENSITY, log="y").of(*by_model(distance.SHORT_WAVES, {SECON
 
 
 def notes(result: Outcomes) -> Sequence[str]:
-    """What the record of the book adds to the plateau."""
-    band = regions_of(result.case.scene)[PLATEAU]
-    of_book, steady = (distance.RECORDS[name].of(result, band).mean() for name in (BOOK, PERIODIC))
-    leaks = distance.RECORDS[BOOK].of(result, band, LINEAR).mean()
+    """What the record of the book adds to regions 1 and 2."""
+    bands, book = regions_of(result.case.scene), distance.RECORDS[BOOK]
+    (first, plateau), steady, linear = (
+        [record.of(result, bands[region], model).mean() for region in (FIRST, PLATEAU)]
+        for record, model in ((book, SPRINGS), (distance.RECORDS[PERIODIC], SPRINGS), (book, LINEAR))
+    )
     return (
-        f"A wheel from rest without a window, as in the book, has {of_book / steady:.3g} times the region 2 of the "
-        f"periodic motion over {result.case.scene.length:.3g} m. The linear contact has {100 * leaks / of_book:.3g} % "
-        "of that level: it leaks from region 3 through the ends of the record.",
+        f"From rest, undamped and without a window, as in the book, region 1 has {first / steady[0]:.3g} times the "
+        f"power of the steady state, and the linear contact has {100 * linear[0] / first:.3g} % of that: free "
+        "vibration since the start, which nothing damps.",
+        f"Region 2 has {plateau / steady[1]:.3g} times the power of the steady state, and the linear contact has "
+        f"{100 * linear[1] / plateau:.3g} % of that: it leaks from region 3 through the ends of a record of "
+        f"{result.case.scene.length:.3g} m.",
     )
 
 

@@ -170,6 +170,9 @@ class WheelLevels:
         coarse, fine = zip(*(pair for pair in pairs if not pair[0]["failed"]), strict=True)
         return list(coarse), list(fine)
 
+    def on_grids(self, contact: str) -> list[tuple[FloatArray, FloatArray]]:
+        return [hann_spectra(strips, contact) for strips in self.grids]
+
     @cached_property
     def change(self) -> Estimates:
         """ln of the level on half as long cells over that with the cells, on the same strips."""

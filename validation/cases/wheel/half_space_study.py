@@ -91,7 +91,7 @@ def _slopes(levels: wheel.WheelLevels) -> Iterator[Series]:
         def of(some: FloatArray, omega: FloatArray = omega) -> FloatArray:
             return np.array(spectral_features.slope(omega, some.mean(axis=0), first, last, period))
 
-        coarse, fine = (float(of(wheel.hann_spectra(strips, contact)[1])) for strips in levels.grids)
+        coarse, fine = (float(of(some, lines)) for lines, some in levels.on_grids(contact))
         yield Series(
             QUANTITIES[SLOPE],
             model,

@@ -116,12 +116,12 @@ OVER_LINEAR = MARGINS["level"].beside("(14.12) through the resonator: a contact 
 
 def series(result: Outcomes) -> list[Series]:
     """Features beside theory for the scene and for each variation; level of region 3; identities."""
-    spectra, family = spectra_of(result), family_of(result.case)
+    spectra = spectra_of(result)
     base, spectrum = next(iter(spectra.items()))
     return [
         *_identities([batch for name in spectra for batch in result[name]]),
         *features_by_scene(result),
-        *levels_over_linear(spectrum, family),
+        *levels_over_linear(spectrum),
         *_drawn(spectrum, result[base]),
         *(_in_sixths(name, one) for name, one in spectra.items() if name != base),
     ]
@@ -133,9 +133,8 @@ def spectra_of(result: Outcomes) -> dict[str, features.Spectrum]:
 
 
 def family_of(case: WheelSpectrum) -> int:
-    """Numbers of the claim on Fig. 14.4, whose intervals hold at once: features and level of the scene itself, peak and
-    jump of the others."""
-    return len(SOURCES) + 1 + len(OF_PARAMETERS) * (len(case.variations()) - 1)
+    """Numbers of the claim on Fig. 14.4, whose intervals hold at once: of the scene itself, peak and jump of others."""
+    return len(SOURCES) + len(OF_PARAMETERS) * (len(case.variations()) - 1)
 
 
 def features_by_scene(result: Outcomes) -> list[Series]:
@@ -160,7 +159,7 @@ def features_by_scene(result: Outcomes) -> list[Series]:
     ]
 
 
-def levels_over_linear(spectrum: features.Spectrum, family: int) -> list[Series]:
+def levels_over_linear(spectrum: features.Spectrum) -> list[Series]:
     """One-third octaves of region 3 over (14.12) through the resonator, up to where the floor is far below."""
     scene, omega = spectrum.scene, spectrum.omega
     first = max(1.2 * scene.jump, features.FREE_MASS * scene.eigenfrequency)
@@ -172,7 +171,7 @@ def levels_over_linear(spectrum: features.Spectrum, family: int) -> list[Series]
     centres = np.sqrt(edges[1:] * edges[:-1])
     place: Where = {"region": features.THIRD}
     over = partial(decibels, features.LEVEL, "springs over linear theory", where=place, along=features.OMEGA)
-    return [over(found=found, at=centres, margin=OVER_LINEAR, family=family)]
+    return [over(found=found, at=centres, margin=OVER_LINEAR)]
 
 
 def _identities(batches: list[Outcome]) -> Iterator[Series]:

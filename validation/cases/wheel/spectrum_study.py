@@ -11,7 +11,7 @@ from validation.analysis.claims import NOT_THIS_CURVE, Claim, Matrix
 from validation.analysis.evidence import Table, Whose
 from validation.analysis.study import Outcomes, Study
 from validation.cases.wheel import features, spectrum
-from validation.cases.wheel.features import DENSITY, LEVEL, OMEGA, PEAK_LAST, QUANTITIES, TABLE
+from validation.cases.wheel.features import DENSITY, OMEGA, PEAK_LAST, QUANTITIES, TABLE
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.selection import model_needed
@@ -116,12 +116,11 @@ STUDY = Study(
                     "quantity": tuple(QUANTITIES[key] for key in (features.SLOPE, features.PERIOD)),
                     "where": {spectrum.CHANGED: spectrum.NOTHING},
                 },
-                {"quantity": LEVEL},
             ),
         ).saying(
             "The spectrum has its peak at ω_eigen and its jump at q_min v₀, whatever q_min, q_max, v₀ and H. Region 3 "
             "falls as ω^(-2H-3) and oscillates with the period π v₀ / a.",
-            short="Peak, jump, slope, period and level of Fig. 14.4 beside theory",
+            short="Peak, jump, slope and period of Fig. 14.4 beside theory",
         ),
     ),
     charts=(
