@@ -60,6 +60,8 @@ from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
 
 REAL_SCENE, REAL_WEIGHTING, combined = rail_filters.scene_of, rail_filters.a_weighting, multilevel.combined
+PERIODIC_TRACKS = test_wheel_ensembles.test_periodic_tracks_take_whole_natural_periods_and_a_half
+STEADY = {"track": "steady-state"}
 zeros_of, amplification = half_space_study.zeros_of, free_vibration.amplification
 linear_response = rough_springs.linear_response
 places_of, heights_of = wheel_ensemble.WheelEnsemble.places.fget, wheel_ensemble.WheelEnsemble.heights
@@ -200,9 +202,7 @@ FAULTS = {
     ),
     "a periodic track taken as open": (
         (wheel_ensemble.WheelEnsemble, "places", property(lambda rides: places_of(replace(rides, track="open")))),
-        partial(
-            test_wheel_ensembles.test_periodic_tracks_take_whole_natural_periods_and_a_half, "steady-state", 1, 0.16
-        ),
+        partial(PERIODIC_TRACKS, "steady-state", 1, 0.16),
     ),
     "factor 4 lost in the filter of one dimension, read backwards": (
         (roughness_from_force, "force_spectrum_1d", scaled(rolling_theory.force_spectrum_1d, 0.25)),
@@ -232,9 +232,9 @@ FAULTS = {
         (
             wheel_ensemble.WheelEnsemble,
             "places",
-            property(lambda rides: places_of(replace(rides, track="steady-state"))),
+            property(lambda rides: places_of(replace(rides, **STEADY))),
         ),
-        partial(test_wheel_ensembles.test_periodic_tracks_take_whole_natural_periods_and_a_half, "part", 2, 0.16),
+        partial(PERIODIC_TRACKS, "part", 2, 0.16),
     ),
     "no resonator in the linear spectrum": (
         (damped_wheel, "acceleration_over_force", lambda omega, mass, **_: np.full(np.shape(omega), mass**-2.0)),
