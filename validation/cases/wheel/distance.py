@@ -148,7 +148,8 @@ BREAK_LAW, SHARE, OF_REGION = "d ln ω_break / d ln T", "share of the mean squar
 BY_KIND, UP_TO_JUMP, SHORT_WAVES = "A by contact and record", "A of regions 1 and 2", "A over short waves"
 OVER, SECOND_ORDER, CONTRAST = "level over the second order", "second order, closed form", "contrast of region 2"
 H_OVER_D, RECORD, DAMPING, MAXIMUM = "h/d", "record", "damping", "maximum of cos²(q a)"
-PERIODIC, HANN, CUT, BOOK = "periodic motion", "Hann's window", "no window", "from rest, no window, undamped"
+PERIODIC, HANN, CUT = "periodic motion", "steady, Hann's window", "steady, no window"
+BOOK = "from rest, no window, undamped"
 OF_LAW = Margin(
     0.1,
     "0.1: separates this law from no dependence, 0, and from exponents of 1/2 and more",
@@ -221,12 +222,12 @@ def _regions(result: Outcomes) -> Iterator[Series]:
     """Spectra and levels of every record; what a linear contact has of regions 1 and 2; what is left of region 4."""
     scene = result.case.scene
     bands = features.regions_of(scene)
-    edges = features.sixths_of_an_octave(0.5 * scene.eigenfrequency, 4 * scene.cutoff)
-    drawn = partial(Series, BY_KIND, along=features.OMEGA, at=np.sqrt(edges[1:] * edges[:-1]))
     for name, record in RECORDS.items():
         for model in (SPRINGS, LINEAR):
             outcome = result[record.kind._replace(model=model)]
-            yield drawn(f"{model}, {name}", band_means(outcome["omega"], outcome[record.window].mean(axis=0), edges))
+            mean, ends = outcome[record.window].mean(axis=0), (0.5 * scene.eigenfrequency, 4 * scene.cutoff)
+            omega, density = features.in_sixths(outcome["omega"], mean, *ends)
+            yield Series(BY_KIND, f"{model}, {name}", density, along=features.OMEGA, at=omega)
         for region, band in bands.items():
             for model in (SPRINGS, LINEAR):
                 level = Estimates.ratios(record.of(result, band, model), np.ones(1))

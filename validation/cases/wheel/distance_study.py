@@ -39,7 +39,7 @@ RECORDS = Panel(OMEGA, DENSITY, log="xy", decades=11.0, legend="lower left").of(
 )
 
 
-LOW = Panel(OMEGA, DENSITY, log="xy", legend="lower left").of(
+LOW = Panel(OMEGA, DENSITY, log="xy", legend="lower right").of(
     Curve(distance.UP_TO_JUMP, SPRINGS, by=(distance.H_OVER_D,), of={distance.DAMPING: "first"}),
     Curve(distance.UP_TO_JUMP, SECOND_ORDER, "exact", "_", by=(distance.H_OVER_D,), of={distance.DAMPING: "first"}),
 )
