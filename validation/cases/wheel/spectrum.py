@@ -107,7 +107,6 @@ OF_PARAMETERS = features.PEAK, features.JUMP
 CHANGED, NOTHING = "changed", "nothing"
 BANDS_PER_PERIOD = 12
 """Of the oscillation."""
-PARSEVAL = Margin(tolerance=1e-11, reason="rounding of the Fourier transforms", source="Parseval", role=Role.IDENTITY)
 BALANCE = Margin(
     1e-11, "rounding of a sum over all steps", source="Newton: mean force and load balance", role=Role.IDENTITY
 )
@@ -177,28 +176,12 @@ def levels_over_linear(spectrum: features.Spectrum) -> list[Series]:
 def _identities(batches: list[Outcome]) -> Iterator[Series]:
     wheels = sum(batch["jump"].size for batch in batches)
     yield Series(
-        "integral of A over f, over the mean square acceleration, less one",
-        "",
-        (max(abs(_parseval(batch)) for batch in batches),),
-        where={"batches": f"worst of {len(batches)} batches"},
-        margin=PARSEVAL,
-    )
-    yield Series(
         "mean of F - F_N less M times the velocity change over T, over the rms of F - F_N",
         "",
         (max(float(np.abs(batch["balance"]).max()) for batch in batches),),
         where={"wheels": f"worst of {wheels} wheels"},
         margin=BALANCE,
     )
-
-
-def _parseval(batch: Outcome) -> float:
-    square = float(np.mean(batch["square"]))
-    density = batch["plain"].mean(axis=0)
-    steps = round(float(batch["duration"] / batch["time step"]))
-    weights = np.full(density.size, 2.0)
-    weights[-1] = 2.0 if steps % 2 else 1.0
-    return (float(weights @ density) / float(batch["duration"]) + float(np.mean(batch["mean"] ** 2))) / square - 1
 
 
 def _drawn(spectrum: features.Spectrum, batches: list[Outcome]) -> Iterator[Series]:
