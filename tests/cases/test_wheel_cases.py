@@ -27,8 +27,6 @@ LONG = spectrum.WheelSpectrum(
     groups=5,
     batch=10,
     parameters=False,
-    cells=6,
-    snapshot_steps=4,
 )
 FEW = replace(LONG, scene=SMALL, realisations=10)
 
@@ -187,9 +185,9 @@ def test_a_linear_contact_as_loud_as_springs_or_a_louder_second_order_is_noticed
     """Springs in the place of the linear contact; of regions 1 and 2 twice as much; a record with its leak for a
     periodic motion."""
     steady, part = by_distance.STEADY, by_distance.PART
-    linear = steady._replace(model=by_distance.LINEAR)
+    linear = part._replace(model=by_distance.LINEAR)
     louder = {key: times([distances[key]], 2.0, "plain")[0] for key in (steady, (steady, 0.5))}
-    planted = {linear: distances[steady]}, {steady: distances[part]}, louder
+    planted = {linear: distances[part]}, {steady: distances[part]}, louder
     found = [DISTANCE_CASE.evidence(changed(distances, one)) for one in planted]
     assert [statuses(one)[i] for i, one in enumerate(found)] == 3 * [ClaimStatus.CONTRADICTED]
 

@@ -75,8 +75,6 @@ SMALL = {
         realisations=6,
         groups=3,
         parameters=False,
-        cells=8,
-        snapshot_steps=8,
     ),
     "wheel_distance": wheel_distance.WheelDistance(
         scene=replace(wheel.TABLE, distance=0.1, springs=40),
@@ -87,7 +85,7 @@ SMALL = {
         heights=(0.5, 1.0),
         groups=4,
     ),
-    "wheel_3d": wheel_3d.Wheel3D(strips=3, cells=4, shared=2, finer=3, wheels=6, groups=3),
+    "wheel_3d": wheel_3d.Wheel3D(strips=3, cells=6, shared=2, finer=2, wheels=6, groups=3),
     "wheel_stability": wheel_stability.WheelStability(
         turns=3, hertz_turns=2, long_steps=2000, heights=(0.1, 1.0), loads=(0.05, 0.1), spacing_heights=(1e-3,)
     ),

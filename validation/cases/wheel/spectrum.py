@@ -17,11 +17,8 @@ from validation.cases.wheel.features import TABLE, decibels
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene
-from validation.simulation.wheel_on_half_space import Snapshot, contact_snapshot
 from validation.simulation.wheel_on_springs import WheelEnsemble, simulate_ensemble
 from validation.theory import wheel as wheel_theory
-
-SNAPSHOT = "contact at one moment"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,8 +26,7 @@ class WheelSpectrum:
     """An ensemble of wheels of a scene on springs, and the same with one parameter changed at a time.
 
     scene; realisations: of the scene itself; varied: of each variation; groups: into which both are divided for error
-    bars; batch: wheels that are simulated together, at most; parameters: whether to vary any; cells: to a contact
-    radius of boundary elements in the snapshot; snapshot_steps: before it; seed: zero or positive.
+    bars; batch: wheels that are simulated together, at most; parameters: whether to vary any; seed: zero or positive.
     """
 
     scene: WheelScene = TABLE
@@ -39,8 +35,6 @@ class WheelSpectrum:
     groups: int = 10
     batch: int = 150
     parameters: bool = True
-    cells: int = 16
-    snapshot_steps: int = 24
     seed: int = 146
 
     def variations(self) -> Mapping[str, WheelScene]:
@@ -68,14 +62,12 @@ class WheelSpectrum:
 
 def run(case: WheelSpectrum, engine: Engine = SERIAL) -> Outcomes:
     """Simulate all wheels of all variations."""
-    scene = case.scene
-    features.hurst(scene)  # which a smooth one has not
+    features.hurst(case.scene)  # which a smooth one has not
     batches = engine.map_groups(simulate_ensemble, case.batches())
     failed = [name for name, group in batches.items() if any(batch["failed"] for batch in group)]
     if failed:
         raise NotConvergedError("wheels flew higher than sums are exact for", failed)
-    snapshot = Snapshot(scene=scene, cells=case.cells, steps=case.snapshot_steps, seed=case.seed)
-    return Outcomes(case, {**batches, SNAPSHOT: engine.map(contact_snapshot, [snapshot])[0]})
+    return Outcomes(case, batches)
 
 
 def _varied(scene: WheelScene) -> dict[str, WheelScene]:

@@ -17,7 +17,6 @@ from validation.scenes.dynamic_wheel import WheelScene
 from validation.selection import model_needed
 from validation.simulation.wheel_on_springs import WAVES_APART
 
-SPRING_COLUMNS = ("x / a", "wheel / d", "track / d", "compression / d")
 PARAMETERS = Matrix(
     name="one parameter at a time: found ± 95 % beside theory",
     quantity=tuple(QUANTITIES.values()),
@@ -27,15 +26,8 @@ PARAMETERS = Matrix(
 
 
 def tables(result: Outcomes) -> list[Table]:
-    """The scene, and the contact at one moment."""
-    snapshot, pairs = result[spectrum.SNAPSHOT], describe(result.case.scene)
-    x, y = np.meshgrid(snapshot["x"], snapshot["y"], indexing="ij")
-    pressure = zip(("x / a", "y / a", "p / p0"), (x, y, snapshot["pressure"]), strict=True)
-    return [
-        Table("the scene", dict(zip(("quantity", "value"), map(list, zip(*pairs, strict=True)), strict=True))),
-        Table("springs", dict(zip(SPRING_COLUMNS, snapshot["springs"].tolist(), strict=True))),
-        Table("pressure", {name: values.ravel().tolist() for name, values in pressure}),
-    ]
+    pairs = zip(*describe(result.case.scene), strict=True)
+    return [Table("the scene", dict(zip(("quantity", "value"), map(list, pairs), strict=True)))]
 
 
 def notes(result: Outcomes) -> Sequence[str]:
@@ -124,11 +116,6 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart("wheel-contact", claims=()).of(
-            "The wheel in the simulation. (a) As in Fig. 14.2: the profile x²/R over springs at the height of the "
-            "track; dark springs are in contact, with their compression below. (b) Boundary elements in the time loop: "
-            "pressure over Hertz's largest; circle: Hertz."
-        ),
         Chart("wheel", height=4.2).of(
             "Fig. 14.4. (a) Spectrum of the acceleration, (14.17), mean of {c.realisations} wheels, with the tenth and "
             "the ninetieth percentile. Vertical lines: ω_eigen, q_min v₀, predicted break, q_max v₀. (b) Region 3 over "
@@ -154,7 +141,7 @@ CASE = Case(
         "Fig. 14.4: the acceleration of a rolling wheel on springs, its regions, and how they depend on the parameters"
     ),
     quick=spectrum.WheelSpectrum(scene=replace(TABLE, distance=0.4), realisations=30, varied=10),
-    full=spectrum.WheelSpectrum(realisations=300, varied=100, cells=24, snapshot_steps=64),
+    full=spectrum.WheelSpectrum(realisations=300, varied=100),
     run=spectrum.run,
     study=STUDY,
     needs=model_needed.wheel,
