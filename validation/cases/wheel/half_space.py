@@ -148,10 +148,10 @@ class WheelLevels:
             "region 3, upper half": (low > middle * 0.8) & (high > middle),
         }
 
-    def of_strips(self, strips: Sequence[Outcome], contact: str, edges: FloatArray | None = None) -> FloatArray:
+    def of_strips(self, strips: Sequence[Outcome], contact: str) -> FloatArray:
         """Levels of each strip, (strips, bands), with Hann's window; contact: "bem" or "linear"."""
         omega, density = hann_spectra(strips, contact)
-        return band_levels(omega, density.T, self.edges if edges is None else edges).T
+        return band_levels(omega, density.T, self.edges).T
 
     def spectra(self, contact: str) -> tuple[FloatArray, FloatArray]:
         """Of the strips that converged."""
