@@ -57,10 +57,8 @@ LITTLE = replace(SMALL, radius=0.02, rail=None, wheel=replace(SMALL.rail, shorte
 """A wheel that turns more than twice."""
 COARSE = replace(TABLE, springs=8, distance=0.16, rail=replace(TABLE.rail, longest=8e-3, shortest=2e-3))
 LOW = replace(COARSE, rail=replace(COARSE.rail, shortest=4e-3, rms=1e-3 * COARSE.approach))
-QUICK_3D = wheel_3d.Wheel3D(
-    scene=COARSE, strips=3, coarser=1, cells=4, coarse=3, shared=1, wheels=20, groups=5, tolerance=1e-4
-)
-TRACKS = ("open", "periodic", "steady-state")
+QUICK_3D = wheel_3d.Wheel3D(scene=COARSE, strips=3, finer=3, cells=4, shared=1, wheels=20, groups=5, tolerance=1e-4)
+TRACKS = ("open", "part", "steady-state")
 
 
 def rides(scene=SMALL, **settings):

@@ -6,13 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.cases.planted import DECIBEL, QUICK_3D, ROUNDING, SMALL, TABLE, changed, times, whole
-from validation.analysis.evidence import ClaimStatus, Verdict, number_with
-from validation.analysis.series import ENDS, spans
+from tests.cases.planted import DECIBEL, QUICK_3D, ROUNDING, SMALL, TABLE, changed, statuses, times, whole
+from validation.analysis.evidence import ClaimStatus, Verdict, number_with, numbers_with
+from validation.analysis.series import ENDS
 from validation.cases.wheel import distance as by_distance
-from validation.cases.wheel import features, half_space, regions, spectrum
+from validation.cases.wheel import half_space, half_space_study, spectrum
 from validation.cases.wheel.distance_study import CASE as DISTANCE_CASE
-from validation.cases.wheel.features import BREAK, FLOOR, JUMP, LEVEL, PEAK, PERIOD, PREDICTED, QUANTITIES, SLOPE
+from validation.cases.wheel.features import FIRST, FOURTH, JUMP, LEVEL, PEAK, PERIOD, PLATEAU, QUANTITIES, SLOPE
 from validation.cases.wheel.half_space_study import CASE as CASE_3D
 from validation.cases.wheel.half_space_study import LEVELS
 from validation.cases.wheel.spectrum_study import CASE
@@ -27,8 +27,6 @@ LONG = spectrum.WheelSpectrum(
     groups=5,
     batch=10,
     parameters=False,
-    cells=6,
-    snapshot_steps=4,
 )
 FEW = replace(LONG, scene=SMALL, realisations=10)
 
@@ -73,7 +71,6 @@ def test_a_fifth_more_acceleration_is_another_level(long_wheel):
     for one, other in zip(*levels, strict=False):
         assert other - one == pytest.approx(DECIBEL * math.log(1.44), abs=1e-9)
     assert number_with(after.numbers, LEVEL).verdict is Verdict.DIFFER
-    assert after.claims[0].status is ClaimStatus.CONTRADICTED
     for name in (PEAK, JUMP, SLOPE, PERIOD):
         assert feature(after, name).value == pytest.approx(feature(before, name).value, rel=1e-9)
     assert all(number.met for number in after.numbers)
@@ -88,16 +85,7 @@ def test_a_shifted_axis_is_another_peak_jump_and_period(long_wheel):
         # ranges stay, so that a line or two at their ends are others
         assert other.value / one.value == pytest.approx(1.04, rel=0.005), name
         assert other.verdict is Verdict.DIFFER, other.sentence
-
-
-@pytest.mark.slow
-def test_a_floor_without_its_leak_is_not_predicted(long_wheel):
-    leakless = altered(long_wheel, lambda one: {"plain": one["hann"]})
-    (found,) = spectrum.spectra_of(leakless).values()
-    floor = features.measured(found)[FLOOR + PREDICTED]
-    assert floor.value + floor.half_width < 0.9
-    # Hann's window keeps no mean square
-    assert not all(number.met for number in CASE.evidence(leakless).numbers)
+    assert after.claims[0].status is ClaimStatus.CONTRADICTED
 
 
 @pytest.mark.slow
@@ -108,24 +96,26 @@ def test_a_lost_force_is_a_missed_criterion(long_wheel):
 
 
 def test_what_does_not_stand_out_has_no_number():
-    """Waves of less than three periods of the oscillation: no slope, no period, no break."""
+    """Waves of less than three periods of the oscillation: no slope, no period."""
     case = replace(LONG, scene=replace(SMALL, rail=replace(SMALL.rail, shortest=2e-3)), realisations=10)
     found = whole(CASE.evidence(spectrum.run(case)))
     missing = {QUANTITIES[name] for name in spectrum.SOURCES} - {number.quantity for number in found.numbers}
-    assert missing == {QUANTITIES[name] for name in (SLOPE, PERIOD, BREAK + PREDICTED)}
+    assert missing == {QUANTITIES[name] for name in (SLOPE, PERIOD)}
 
 
 @pytest.mark.slow
 def test_one_parameter_at_a_time():
     case = replace(FEW, groups=2, parameters=True)
     names = list(case.variations())
-    assert len(names) == len(set(names)) == 13
-    result = spectrum.run(case)
-    whole(CASE.evidence(result))
-    jumps = {name: found[JUMP].reference for name, found in zip(names, spectrum.features_by_scene(result), strict=True)}
+    assert len(names) == len(set(names)) == 11
+    found = whole(CASE.evidence(spectrum.run(case)))
     factors = {"v₀ × 0.25": 0.25, "v₀ × 2": 2.0, "q_min × 0.5": 0.5, "q_min × 2": 2.0, "H = 1": 1.0}
     for name, factor in factors.items():
-        assert jumps[name] == pytest.approx(factor * SMALL.jump)
+        jump = number_with(found.numbers, QUANTITIES[JUMP], changed=name)
+        assert jump.reference == pytest.approx(factor * SMALL.jump)
+    # the height is not among the parameters that the book names
+    places = [number.where.get(spectrum.CHANGED) for number in found.claims[0].numbers]
+    assert {"nothing", "H = 0.4", "q_max × 2"} < set(places) and not {"h₀ × 0.25", "h₀ × 4"} & set(places)
 
 
 def test_a_rough_wheel_on_a_smooth_rail_is_a_scene_too():
@@ -138,8 +128,11 @@ def test_a_rough_wheel_on_a_smooth_rail_is_a_scene_too():
     ("run", "case", "needed"),
     [
         (spectrum.run, replace(LONG, scene=replace(SMALL, rail=None)), "a rough rail or a rough wheel, got both"),
-        (regions.run, regions.WheelRegions(scene=replace(TABLE, rail=None)), "a rough rail and a smooth wheel"),
-        (regions.run, regions.WheelRegions(scene=replace(TABLE, wheel=TABLE.rail)), "a rough rail and a smooth wheel"),
+        (
+            by_distance.run,
+            by_distance.WheelDistance(scene=replace(TABLE, rail=None)),
+            "a rough rail and a smooth wheel",
+        ),
     ],
 )
 def test_a_scene_without_the_roughness_of_its_case_is_refused(run, case, needed):
@@ -150,7 +143,7 @@ def test_a_scene_without_the_roughness_of_its_case_is_refused(run, case, needed)
 # --- distances ---
 
 DISTANCE = by_distance.WheelDistance(
-    scene=SMALL, doublings=3, wheels=24, fewest=12, causes=8, rough=8, groups=4, released=2
+    scene=SMALL, doublings=3, wheels=24, fewest=12, steady=24, heights=(0.5, 1.0), groups=4
 )
 
 
@@ -159,15 +152,9 @@ def distances():
     return by_distance.run(DISTANCE)
 
 
-def hann(evidence):
-    """Region 4 with Hann's window over that without."""
-    return number_with(evidence.numbers, LEVEL, f"{by_distance.HANN}, over {by_distance.OPEN}")
-
-
 @pytest.mark.slow
 def test_distance_evidence_is_whole(distances):
     found = whole(DISTANCE_CASE.evidence(distances))
-    assert hann(found).verdict is Verdict.DIFFER and hann(found).value < -6
     assert number_with(found.numbers, by_distance.BREAK_LAW).reference == pytest.approx(1 / 2.4, rel=ROUNDING)
     # the line has the slope of the law and goes through the middle of the breaks
     breaks = found.table(by_distance.BREAK_AT)
@@ -175,9 +162,34 @@ def test_distance_evidence_is_whole(distances):
     slope = np.diff(np.log(line["value"])) / np.diff(np.log(line[by_distance.DURATION]))
     assert slope == pytest.approx(np.full(slope.size, 1 / 2.4), rel=1e-9)
     assert np.mean(np.log(line["value"])) == pytest.approx(np.mean(np.log(points["value"])), rel=1e-12)
-    # to second order in the amplitude
-    hertz = found.table(by_distance.OVER_EIGEN).where(model="Hertz, quadrature")
-    assert hertz["value"][0] == pytest.approx(1 - hertz[by_distance.RELEASE][0] ** 2 / 24, abs=1e-6)
+
+
+@pytest.mark.slow
+def test_regions_1_and_2_are_second_order_and_region_4_is_leakage(distances):
+    """A dozen wheels: within three half-widths of the closed second order; of a linear contact nothing is there."""
+    numbers = DISTANCE_CASE.evidence(distances).numbers
+    over = numbers_with(numbers, by_distance.OVER)
+    assert len(over) == 6
+    for number in over:
+        assert abs(number.value) <= 1.0 + 2 * number.uncertainty, number.sentence
+    for region in (FIRST, PLATEAU):
+        for record, room in ((by_distance.PERIODIC, 1e-18), (by_distance.HANN, 0.05)):
+            share = number_with(numbers, by_distance.SHARE, by_distance.LINEAR, region=region, record=record)
+            assert 0 < share.value < room, share.sentence
+    for record in by_distance.WITHOUT_LEAKAGE:
+        assert number_with(numbers, by_distance.SHARE, region=FOURTH, record=record).value < 0.02
+
+
+@pytest.mark.slow
+def test_a_linear_contact_as_loud_as_springs_or_a_louder_second_order_is_noticed(distances):
+    """Springs in the place of the linear contact; of regions 1 and 2 twice as much; a record with its leak for a
+    periodic motion."""
+    steady, part = by_distance.STEADY, by_distance.PART
+    linear = part._replace(model=by_distance.LINEAR)
+    louder = {key: times([distances[key]], 2.0, "plain")[0] for key in (steady, (steady, 0.5))}
+    planted = {linear: distances[part]}, {steady: distances[part]}, louder
+    found = [DISTANCE_CASE.evidence(changed(distances, one)) for one in planted]
+    assert [statuses(one)[i] for i, one in enumerate(found)] == 3 * [ClaimStatus.CONTRADICTED]
 
 
 def test_distances_take_whole_natural_periods_and_double():
@@ -189,33 +201,6 @@ def test_distances_take_whole_natural_periods_and_double():
 
 
 @pytest.mark.slow
-def test_a_rectangular_window_in_place_of_hann_drops_nothing(distances):
-    opened = distances[by_distance.OPEN]
-    found = DISTANCE_CASE.evidence(changed(distances, {by_distance.OPEN: {**opened, "hann": opened["plain"]}}))
-    assert hann(found).value == pytest.approx(0, abs=1e-9)
-
-
-@pytest.mark.slow
-def test_floors_without_their_leak_are_not_predicted(distances):
-    """Half of the floor, as if its jumps were lower by the root of two, at every distance."""
-    halved = {key: times([distances[key]], math.sqrt(2), "jump")[0] for key in DISTANCE.distances()}
-    whole_ones, halves = (
-        DISTANCE_CASE.evidence(one).table(by_distance.FLOORS)["value"]
-        for one in (distances, changed(distances, halved))
-    )
-    assert whole_ones == pytest.approx(np.ones(4), abs=0.1)
-    assert halves == pytest.approx(whole_ones / 2, rel=1e-9)
-
-
-@pytest.mark.slow
-def test_a_linear_contact_with_a_floor_misses_its_identity(distances):
-    steady = distances[by_distance.LINEAR_STEADY]
-    leaking = {**steady, "plain": steady["plain"] + 1e-12 * steady["plain"].max()}
-    found = DISTANCE_CASE.evidence(changed(distances, {by_distance.LINEAR_STEADY: leaking}))
-    assert sum(not number.met for number in found.numbers) == 2
-
-
-@pytest.mark.slow
 def test_wheels_that_do_not_repeat_themselves_are_no_evidence(monkeypatch):
     monkeypatch.setattr(wheel_on_springs, "STEADY_TOLERANCE", -1.0)
     with pytest.raises(NotConvergedError, match="most wheels of an ensemble do not repeat their motion") as caught:
@@ -223,7 +208,7 @@ def test_wheels_that_do_not_repeat_themselves_are_no_evidence(monkeypatch):
     assert caught.value.unconverged[0].startswith("24 of 24 wheels do not repeat their motion, h₀ = 5e-07 m")
     with pytest.raises(NotConvergedError, match="wheels on springs do not repeat their motion") as caught:
         half_space.run(QUICK_3D)
-    assert caught.value.unconverged == ("geike", "rolling")
+    assert caught.value.unconverged == ("20 of 20",)
 
 
 # --- three dimensions ---
@@ -249,8 +234,8 @@ def test_evidence_in_three_dimensions_is_whole(in_3d):
 
 @pytest.mark.slow
 def test_a_strip_that_was_lost_counts_in_nothing(in_3d):
-    *others, last = in_3d["finest"]
-    found = changed(in_3d, finest=[*others, last | {"failed": np.array(1.0), "bem": np.nan * last["bem"]}])
+    *others, last = in_3d["strips"]
+    found = changed(in_3d, strips=[*others, last | {"failed": np.array(1.0), "bem": np.nan * last["bem"]}])
     whole(CASE_3D.evidence(found))
 
 
@@ -265,11 +250,14 @@ def test_a_fifth_more_acceleration_in_three_dimensions(in_3d):
 
 
 @pytest.mark.slow
-def test_grids_that_differ_leave_the_level_open(in_3d):
-    """A coarse grid 1 dB louder, with a quarter more cells on the fine one: three times as much is left open."""
-    louder = changed(in_3d, coarser=times(in_3d["coarser"], 10 ** (1 / 20), "bem"))
-    left = np.maximum(*(half_space.WheelLevels(result).grid for result in (in_3d, louder)))
-    assert (DECIBEL * left >= 1.5 - 1e-9).all()
+def test_grids_that_differ_move_the_level_and_leave_it_open(in_3d):
+    """A fine grid 1 dB louder: levels are 2 dB louder on cells of no size, of which one is left open."""
+    louder = changed(in_3d, finer=times(in_3d["finer"], 10 ** (1 / 20), "bem"))
+    (one, left), (other, more) = (
+        (w.ratio.values, w.change.values) for w in map(half_space.WheelLevels, (in_3d, louder))
+    )
+    assert DECIBEL * (more - left) == pytest.approx(np.ones(left.size), abs=1e-9)
+    assert DECIBEL * (other - one) == pytest.approx(2 * np.ones(left.size), abs=1e-9)
 
 
 # --- the contrast of the oscillation ---
@@ -287,27 +275,13 @@ def with_filled_zeros(share, lines=60):
 def test_the_contrast_is_that_of_filled_zeros(share):
     """(1 + e c) / (1 - e c), e = 1 - share; c = sin(pi / 12) / (pi / 12): the band is a twelfth of a period."""
     e = (1 - share) * math.sin(math.pi / 12) / (math.pi / 12)
-    found = np.exp(features.log_contrasts(*with_filled_zeros(share), TABLE))
+    found = np.exp(half_space_study.log_contrasts(*with_filled_zeros(share), TABLE))
     # five lines to a band in place of its integral
     assert found == pytest.approx(np.full(19, (1 + e) / (1 - e)), rel=0.1)
 
 
 def test_zeros_have_both_of_their_maxima_in_region_3():
-    period, zeros = TABLE.oscillation_period, features.zeros_of(TABLE)
+    period, zeros = TABLE.oscillation_period, half_space_study.zeros_of(TABLE)
     assert TABLE.jump < (zeros[0] - 0.5) * period and TABLE.cutoff > (zeros[-1] + 0.5) * period
     narrow = replace(TABLE, rail=replace(TABLE.rail, longest=2e-3, shortest=1.5e-3))
-    assert features.zeros_of(narrow).size == 0
-
-
-def test_an_oscillation_that_dies_is_noticed():
-    """Zeros that fill from the first to the last: the worst is the last, and differs; the first alone agrees."""
-    (omega, wave), (_, mean) = with_filled_zeros(0.0), with_filled_zeros(1.0)
-    zeros = features.zeros_of(TABLE)
-    share = np.interp(omega / TABLE.oscillation_period, zeros[[0, -1]], [0.0, 1.0])
-    groups = ((1 - share) * wave + share * mean) * np.random.default_rng(0).gamma(400, 1 / 400, (6, 1))
-    reference, found = features.log_contrasts(omega, wave, TABLE), features.contrasts_of(omega, groups, TABLE)
-    series = features.contrast_series("springs", found, TABLE, reference)
-    (first,) = replace(series, ranges=spans(zeros, zeros[[0, 0]])).numbers
-    (worst,) = series.numbers
-    assert (first.verdict, worst.verdict) == (Verdict.AGREE, Verdict.DIFFER)
-    assert worst.where["worst at"] == zeros[-1]
+    assert half_space_study.zeros_of(narrow).size == 0

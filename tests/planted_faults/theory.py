@@ -3,6 +3,7 @@
 import importlib
 import math
 import types
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -11,7 +12,7 @@ from scipy import special
 import mdr
 from tests.planted_faults.wrong import one_sided_spectrum, scaled
 from tests.theory import test_closed_forms as forms
-from tests.theory import test_damped_wheel
+from tests.theory import test_damped_wheel, test_second_order
 from tests.theory import test_interface as of_interface
 from tests.theory import test_rolling_theory as of_rolling
 from tests.theory import test_spring_input as of_input
@@ -20,11 +21,15 @@ from validation.analysis import spectra
 from validation.theory import closed_forms, damped_wheel, interface, spring_input, transverse_structure
 from validation.theory import rolling as rolling_theory
 from validation.theory.line_spectrum import LineSpectrum
+from validation.theory.second_order import RollingWheel
 
 
 def damped_wheel_alone(omega, **given):
     """M^2 times what the acceleration has."""
     return damped_wheel.acceleration_over_force(omega, mass=1.0, **given)
+
+
+pairs_of, compliance_of = RollingWheel._pairs, RollingWheel.compliance
 
 
 def half_of_the_slope(pressure, *, gradient):
@@ -169,6 +174,22 @@ FAULTS = {
     "a dashpot without its own force on the wheel": (
         (damped_wheel, "contact_force_over_force", damped_wheel_alone),
         test_damped_wheel.test_acceleration_and_force_over_the_force_at_a_fixed_approach,
+    ),
+    "half of the second-order force": (
+        (RollingWheel, "force_spectrum", scaled(RollingWheel.force_spectrum, 0.25)),
+        partial(test_second_order.test_the_second_order_force_is_that_of_drawn_profiles, test_second_order.FIXED),
+    ),
+    "pairs of waves without the motion of the wheel": (
+        (RollingWheel, "_pairs", lambda wheel, *waves: pairs_of(replace(wheel, mass=math.inf), *waves)),
+        partial(test_second_order.test_the_second_order_force_is_that_of_drawn_profiles, test_second_order.MOVING),
+    ),
+    "one end of the contact for both": (
+        (RollingWheel, "_pairs", lambda wheel, *waves: pairs_of(wheel, *waves) / 4),
+        test_second_order.test_two_waves_have_the_force_of_their_sum_and_difference,
+    ),
+    "twice the dashpot at the resonance": (
+        (RollingWheel, "compliance", lambda wheel, q: compliance_of(replace(wheel, damping=2 * wheel.damping), q)),
+        test_second_order.test_at_the_resonance_the_dashpot_alone_bears_the_force,
     ),
     "the second order of springs with zeros of a contact half as long": (
         (of_rolling, "second_order_force_spectrum", with_half_of_the_contact),

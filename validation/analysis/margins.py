@@ -28,8 +28,6 @@ MARGINS: Mapping[str, Margin] = {
         tolerance=3.0,
         reason="3 dB: maxima over zeros lower by a factor of two, hardly visible over decades",
     ),
-    "floor": Margin(tolerance=0.1, reason="10 %: 0.4 dB of a level, far below what a plot shows"),
-    "break": Margin(tolerance=0.1, reason="10 %: a floor 0.4 dB off alone moves the break by 3 to 6 %"),
     "lift-off": Margin(
         tolerance=0.2,
         relative=True,

@@ -20,7 +20,7 @@ from validation.simulation.surface import draw_track
 from validation.simulation.track_spectrum import InputSpectrum
 from validation.theory.rolling import response
 
-TrackKind = Literal["open", "periodic", "steady-state"]
+TrackKind = Literal["open", "steady-state", "part"]
 
 RAIL, WHEEL = 1, 2
 """Keys of the random numbers of either roughness."""
@@ -37,11 +37,10 @@ class WheelEnsemble:
     """Wheels of one scene, each on a track of its own.
 
     scene; first, count: the realisations; groups: of wheels, whose mean spectra are kept; seed: zero or positive;
-    release: approach at the beginning beyond that of equilibrium, over d; linear: whether the contact is the filter
-    (14.11) in place of springs; input_spectrum: of the tracks, by Geike's rule, or the one with which springs have the
-    force level of the half-space; track: "open": its end is far from its beginning; "periodic": its
-    end is its beginning, after a whole number of natural periods; "steady-state": periodic like its motion, after a
-    whole number of natural periods and a half.
+    linear: whether the contact is the filter (14.11) in place of springs; input_spectrum: of the tracks, by Geike's
+    rule, or the one with which springs have the force level of the half-space; track: "open": from static equilibrium,
+    its end is far from its beginning; "steady-state": periodic like its motion, after a whole number of natural periods
+    and a half; "part": a half of such a motion, whose end is not its beginning.
     """
 
     scene: WheelScene
@@ -51,7 +50,6 @@ class WheelEnsemble:
     track: TrackKind = "open"
     linear: bool = False
     input_spectrum: InputSpectrum = "geike"
-    release: float = 0.0
     seed: int = 0
 
     def __post_init__(self) -> None:
@@ -60,22 +58,18 @@ class WheelEnsemble:
 
     @property
     def steps(self) -> int:
-        """Cells that the wheels roll over, about the distance of the scene."""
-        if self.track == "open":
-            return self.scene.points
-        period = 2 * math.pi / (self.scene.eigenfrequency * self.scene.time_step)
-        periods = self.scene.points / period
-        if self.track == "periodic":
-            return round(max(round(periods), 1) * period)
-        return round((math.floor(periods) + 0.5) * period)
+        """Cells that are recorded, about the distance of the scene."""
+        return self.places if self.track == "steady-state" else self.scene.points
 
     @property
     def places(self) -> int:
         """Cells of the track."""
-        if self.track != "open":
-            return self.steps
-        longest = max((r.longest for r in (self.scene.rail, self.scene.wheel) if r), default=0.0)
-        return int(next_fast_len(self.steps + math.ceil(WAVES_APART * longest / self.scene.spacing)))
+        if self.track == "open":
+            longest = max((r.longest for r in (self.scene.rail, self.scene.wheel) if r), default=0.0)
+            return int(next_fast_len(self.steps + math.ceil(WAVES_APART * longest / self.scene.spacing)))
+        period = 2 * math.pi / (self.scene.eigenfrequency * self.scene.time_step)
+        rolled = self.scene.points * (2 if self.track == "part" else 1)
+        return round((math.floor(rolled / period) + 0.5) * period)
 
     def heights(self) -> FloatArray:
         """Roughness of rail and wheel together, shape (places, count)."""
@@ -152,16 +146,16 @@ def _motion(ensemble: WheelEnsemble) -> tuple[Motion, FloatArray]:
     """The motion, and what is left of a change from round to round where it should be periodic."""
     scene, wheel, height = ensemble.scene, ensemble.scene.body, ensemble.heights()
     law: ContactLaw = (linear_law_1d if ensemble.linear else SpringsLaw)(wheel, height, scene.spacing)
-    approach, velocity = law.at_rest(0) + ensemble.release * scene.approach, np.zeros(ensemble.count)
+    approach, velocity = law.at_rest(0), np.zeros(ensemble.count)
     residual = np.zeros(ensemble.count)
-    if ensemble.track == "steady-state" and isinstance(law, LinearLaw):
+    if ensemble.track != "open" and isinstance(law, LinearLaw):
         approach, velocity = law.steady_state(scene.time_step)
-    elif ensemble.track == "steady-state":
+    elif ensemble.track != "open":
         approach, velocity, residual = periodic_motion(
             wheel,
             lambda n: SpringsLaw(wheel, np.tile(height, (1, n)), scene.spacing),
             time_step=scene.time_step,
-            steps=ensemble.steps,
+            steps=ensemble.places,
             start=(approach, velocity),
         )
     motion = simulate(wheel, law, time_step=scene.time_step, steps=ensemble.steps, approach=approach, velocity=velocity)

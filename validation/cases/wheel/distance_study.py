@@ -1,17 +1,19 @@
-"""Fig. 14.5: what the ends of records do to a spectrum."""
+"""Fig. 14.5 and the steady state: what is claimed of regions 1, 2 and 4."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel, by_model
 from validation.analysis.claims import Claim
-from validation.analysis.study import Study
+from validation.analysis.evidence import Whose
+from validation.analysis.study import Outcomes, Study
 from validation.cases.wheel import distance
-from validation.cases.wheel.features import DENSITY, FOURTH, LEVEL, OMEGA, PEAK, QUANTITIES, TABLE
+from validation.cases.wheel.distance import BOOK, CUT, HANN, LINEAR, PERIODIC, SECOND_ORDER, SPRINGS
+from validation.cases.wheel.features import DENSITY, FIRST, FOURTH, OMEGA, PLATEAU, TABLE, regions_of
 from validation.selection import model_needed
 from validation.simulation.wheel_on_springs import WAVES_APART
 
-LINEAR_OVER = f"{distance.LINEAR_OPEN}, over {distance.OPEN}"
 BY_DISTANCE = Panel(OMEGA, DENSITY, log="xy", legend="lower left").of(
     Curve(distance.SPECTRA, "spectrum", by=(distance.DISTANCE,)),
     Curve(distance.SPECTRA, "break", "open marks", "_", by=(distance.DISTANCE,)),
@@ -23,89 +25,115 @@ BREAKS = Panel(distance.DURATION, distance.BREAK_AT, log="xy", legend="upper lef
         bars=True,
     )
 )
-CAUSES = Panel(OMEGA, DENSITY, log="xy", decades=11.0, legend="lower left").of(
+RECORDS = Panel(OMEGA, DENSITY, log="xy", decades=11.0, legend="lower left").of(
     *by_model(
-        distance.CAUSE,
+        distance.BY_KIND,
         {
-            distance.STEADY: "thick",
-            distance.OPEN: "mdr line",
-            distance.PERIODIC: "other",
-            distance.HANN: "exact",
-            distance.LINEAR_OPEN: "guide",
+            f"{SPRINGS}, {BOOK}": "mdr line",
+            f"{LINEAR}, {BOOK}": "guide",
+            f"{SPRINGS}, {CUT}": "other",
+            f"{SPRINGS}, {HANN}": "exact",
+            f"{SPRINGS}, {PERIODIC}": "thick",
         },
     )
 )
-HEIGHTS = Panel(distance.H_OVER_D, "mean of A in region 2 [dB over (m/s²)² s]", legend="lower right").of(
-    Curve(distance.BY_HEIGHT, distance.OPEN, "mdr", distance.OPEN, bars=True),
-    Curve(distance.BY_HEIGHT, distance.LINEAR_OPEN, "crosses", "linear, open: leakage", bars=True),
-    Curve(distance.BY_HEIGHT, distance.STEADY, "bem, few cells", "springs, steady: nonlinearity", bars=True),
-    *by_model(distance.BY_HEIGHT, {"h^2": "exact", "h^4": "guide"}),
+
+
+LOW = Panel(OMEGA, DENSITY, log="xy", legend="lower right").of(
+    Curve(distance.UP_TO_JUMP, SPRINGS, by=(distance.H_OVER_D,), of={distance.DAMPING: "first"}),
+    Curve(distance.UP_TO_JUMP, SECOND_ORDER, "exact", "_", by=(distance.H_OVER_D,), of={distance.DAMPING: "first"}),
 )
-AMPLITUDES = Panel(distance.RELEASE, distance.OVER_EIGEN, log="", legend="lower left").of(
-    *by_model(distance.OVER_EIGEN, {"Hertz, quadrature": "exact", "springs": "mdr"}, bars=True)
-)
+SHORT = Panel(OMEGA, DENSITY, log="y").of(*by_model(distance.SHORT_WAVES, {SECOND_ORDER: "exact", SPRINGS: "mdr"}))
+
+
+def notes(result: Outcomes) -> Sequence[str]:
+    """What the record of the book adds to regions 1 and 2."""
+    bands, book = regions_of(result.case.scene), distance.RECORDS[BOOK]
+    (first, plateau), steady, linear = (
+        [record.of(result, bands[region], model).mean() for region in (FIRST, PLATEAU)]
+        for record, model in ((book, SPRINGS), (distance.RECORDS[PERIODIC], SPRINGS), (book, LINEAR))
+    )
+    return (
+        f"From rest, undamped and without a window, as in the book, region 1 has {first / steady[0]:.3g} times the "
+        f"power of the steady state, and the linear contact has {100 * linear[0] / first:.3g} % of that: free "
+        "vibration since the start, which nothing damps.",
+        f"Region 2 has {plateau / steady[1]:.3g} times the power of the steady state, and the linear contact has "
+        f"{100 * linear[1] / plateau:.3g} % of that: it leaks from region 3 through the ends of a record of "
+        f"{result.case.scene.length:.3g} m.",
+    )
+
+
 STUDY = Study(
-    title="Fig. 14.5: the break, the plateau and the ends of a record",
+    title="Fig. 14.5 and the steady state: regions 1, 2 and 4",
     method=(
-        "Wheels of {c.scene.name}, {c.wheels} and fewer, over whole natural periods, from static equilibrium; and over "
-        "{c.scene.length:.3g} m with every contact and track. "
-        f"Open tracks: their end is {WAVES_APART} longest waves from their beginning. "
-        "Periodic tracks: their end is their beginning, after a whole number of natural periods. "
-        "Steady-state motion on a periodic track: shooting finds the approach and the velocity with which the motion "
-        "repeats itself; it has no free vibration, and nothing leaks. The linear contact of fixed radius, (14.11), "
-        "rolls on the same tracks as springs. Its waves end at q_min v₀ and q_max v₀, so its level in regions 2 and 4 "
-        "is leakage alone; that of springs in the steady state is nonlinearity alone. Region 1 is measured from 0.5 to "
-        "2 ω_eigen, region 2 from 2 ω_eigen to 0.8 q_min v₀, region 3 from 1.1 q_min v₀ over half a period of its "
-        "oscillation, region 4 from 1.3 to 2.6 q_max v₀."
+        "Fig. 14.5: {c.wheels} and fewer wheels of {c.scene.name} over whole natural periods, from static equilibrium; "
+        f"open tracks, whose end is {WAVES_APART} longest waves from their beginning. Steady states: {{c.steady}} "
+        "wheels on periodic tracks of {c.scene.length:.3g} m twice; shooting finds the approach and the velocity with "
+        "which the motion repeats itself, with a dashpot of {c.damping:.0%} of critical damping and without one. "
+        "Recorded are the whole round, in which nothing leaks, or half of it, with Hann's window or none. The linear "
+        "contact of fixed radius, (14.11), rolls on the same tracks: its waves end at q_min v₀ and q_max v₀, so that "
+        "all it has elsewhere leaks through the ends of the record. The second order in closed form: at the ends of "
+        "the contact the heights over the wheel in its linear motion, u and v, lengthen the contact, F₂ = E* R / (4a) "
+        "(u² + v²); for Gaussian heights its spectrum is a convolution of the band with itself, and the damped wheel "
+        "is its resonator. It has no free parameter. Region 1 is measured from 0.5 to 2 ω_eigen, region 2 from there "
+        "to 0.8 q_min v₀, region 4 from 1.3 to 2.6 q_max v₀, where its floor stands alone. Short waves: {c.short:g} m "
+        "and less, h₀ = {c.rms:g} m."
     ),
     series=distance.series,
     claims=(
-        Claim(either=({"quantity": distance.BREAK_LAW}, {"model": LINEAR_OVER, "where": {"region": FOURTH}})).saying(
-            "The break that moves with the distance is leakage (Fig. 14.5).", short="The break is that of leakage"
+        Claim(whose=Whose.BOOK, quantity=distance.SHARE, model=LINEAR).saying(
+            "Regions 1 and 2 arise from the non-linearity of the contact: in a steady state a linear contact has "
+            "neither.",
+            short="A linear contact without leakage, over springs in regions 1 and 2",
         ),
-        Claim(quantity=LEVEL, model=LINEAR_OVER, differ=True).saying(
-            "Regions 1, 2 and 4 arise from the non-linearity of the contact.",
-            short="Regions 1, 2 and 4 of a linear contact and of springs",
+        Claim(
+            whose=Whose.BOOK,
+            either=({"quantity": distance.BREAK_LAW}, {"quantity": distance.SHARE, "where": {"region": FOURTH}}),
+        ).saying(
+            "Region 4 is an artefact of the finite record: its break moves with the distance as leakage does, and it "
+            "vanishes in a periodic motion and under a window.",
+            short="Region 4 as leakage",
         ),
-        Claim(quantity=QUANTITIES[PEAK]).saying(
-            "The frequency of the peak depends on the amplitude as on a Hertz contact."
+        Claim(quantity=(distance.CONTRAST, distance.OVER), along=distance.H_OVER_D).saying(
+            "Regions 1 and 2 of springs are of second order in the roughness: a closed theory without a free parameter "
+            "has their levels, and the zeros of region 2 over short waves.",
+            short="Regions 1 and 2 of springs over the closed second order",
         ),
     ),
     charts=(
-        Chart("wheel_distance").of(
+        Chart("wheel_distance", claims=(1,)).of(
             "Fig. 14.5. (a) Spectra without window, dark to light from the shortest distance to the longest; open "
             "marks: the break. (b) The break against the duration with 95 % intervals; crosses: predicted by the jumps "
             "of the same records; line: T^(1/(2H+1)) through the middle.",
             BY_DISTANCE,
             BREAKS,
         ),
-        Chart("wheel_distance-cause", claims=(1,), width=12.5).of(
-            "(a) Wheels over {c.scene.length:.3g} m by contact and track. (b) Region 2 against the roughness, and h² "
-            "and h⁴. (c) The peak against the amplitude of free vibration; line: quadrature, Hertz.",
-            CAUSES,
-            HEIGHTS,
-            AMPLITUDES,
+        Chart("wheel_distance-steady", claims=(0, 2), width=13.5, height=4.2).of(
+            "(a) From rest as in the book, and in a steady state damped by {c.damping:.0%}, with and without a window. "
+            "(b) Regions 1 and 2 of the periodic motion, line by line, dark to light with the height; black: second "
+            "order in closed form. (c) The same of region 2 over short waves, and the zeros of cos²(q a).",
+            RECORDS,
+            LOW,
+            SHORT,
         ),
     ),
-    printed=(distance.OF_REGION, distance.BY_HEIGHT, distance.BY_PHASE),
+    printed=(distance.OF_REGION,),
+    notes=notes,
 )
 CASE = Case(
     name="wheel_distance",
     chapter=Chapter.WHEEL,
     place=2,
-    answers="Fig. 14.5: the break that moves with the distance, its cause, and the share of leakage in the plateau",
-    quick=distance.WheelDistance(scene=replace(distance.SHORT, springs=64), doublings=3, wheels=40, causes=10),
+    answers="Fig. 14.5 and the steady state: where regions 1 and 2 come from, and that region 4 is leakage",
+    quick=distance.WheelDistance(scene=replace(distance.SHORT, springs=64), doublings=3, wheels=40),
     full=distance.WheelDistance(
         scene=TABLE,
         doublings=6,
         wheels=300,
         fewest=40,
-        causes=60,
-        rough=20,
-        heights=(0.125, 0.25, 0.5, 1.0, 2.0, 4.0),
-        phases=(0.0, 0.25, 0.5),
-        releases=(0.0, 0.1, 0.2, 0.4),
-        released=5,
+        steady=120,
+        heights=(0.5, 1.0, 2.0, 4.0),
+        rms=0.15e-6,
     ),
     run=distance.run,
     study=STUDY,

@@ -8,13 +8,13 @@ from functools import partial
 import numpy as np
 
 from validation.analysis import spectral_features as regions
-from validation.analysis.margins import MARGINS
-from validation.analysis.series import Estimates, Series
+from validation.analysis.series import Series
 from validation.analysis.spectra import band_means
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed
 from validation.engine.engine import Outcome
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.scenes.roughness import Roughness
+from validation.theory import damped_wheel
 from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
 
@@ -22,21 +22,17 @@ TABLE = load_wheel_scene("table_14_1")
 decibels = partial(Series, scale=POWER_DECIBEL, unit="dB")
 
 PEAK, JUMP, SLOPE, PERIOD, FLOOR, BREAK = "peak", "jump", "slope", "period", "floor", "break"
-PREDICTED = " over predicted"
-"""Of floor and break, which the same records predict by their jumps: as ratios they err less."""
+FEATURES = (PEAK, JUMP, SLOPE, PERIOD, FLOOR, BREAK)
 QUANTITIES = {
     PEAK: "peak ω_eigen",
     JUMP: "jump",
     SLOPE: "slope of region 3",
     PERIOD: "period of the oscillation",
-    FLOOR + PREDICTED: "floor over predicted",
-    BREAK + PREDICTED: "break over predicted",
 }
+"""Of the features that are judged."""
 LEVEL, OMEGA, DENSITY = "level", "ω [rad/s]", "A [(m/s²)² s]"
-CONTRAST, ZERO = "contrast of the oscillation", "zero of sin²(q a)"
 HALF_BAND = 1 / 24
-"""Of a period of the oscillation: half of the band about a maximum or a zero."""
-FEATURES = (PEAK, JUMP, SLOPE, PERIOD, FLOOR, FLOOR + PREDICTED, BREAK, BREAK + PREDICTED)
+"""Of a period of an oscillation: half of the band about a maximum or a zero."""
 THIRD_FIRST, THIRD_LAST, OSCILLATION_LAST = 1.1, 0.9, 0.5
 """Region 3 begins at this multiple of the jump, and ends at this of q_max v_0; the oscillation ends earlier, since
 roughness at the edge of the contact smears it from the end."""
@@ -92,7 +88,8 @@ def linear_force_3d(scene: WheelScene, q: FloatArray) -> FloatArray:
 
 def accelerated_by(force: FloatArray, scene: WheelScene, omega: FloatArray) -> FloatArray:
     """A of the wheel on its contact spring under a force of that C_F."""
-    resonator = wheel_theory.acceleration_over_force(omega, eigenfrequency=scene.eigenfrequency, mass=scene.mass)
+    same = {name: getattr(scene, name) for name in ("eigenfrequency", "mass", "damping")}
+    resonator = damped_wheel.acceleration_over_force(omega, **same)
     return np.asarray(wheel_theory.over_frequency(force, speed=scene.speed) * resonator)
 
 
@@ -115,27 +112,21 @@ def in_sixths(omega: FloatArray, density: FloatArray, low: float, high: float) -
 
 def measured(spectrum: Spectrum) -> dict[str, Estimate]:
     """The features that stand out, with standard errors by the jackknife over groups of wheels."""
-    groups = len(spectrum.plain)
-    jumps = spectrum.jumps.reshape(groups, -1)
 
     def of(kept: FloatArray) -> FloatArray:
         some = kept.astype(int)
-        plain, hann = (s[some].mean(axis=0) for s in (spectrum.plain, spectrum.hann))
-        found = _features(spectrum, plain, hann, jumps[some].ravel())
+        found = _features(spectrum, *(s[some].mean(axis=0) for s in (spectrum.plain, spectrum.hann)))
         return np.array([found.get(name, math.nan) for name in FEATURES])
 
-    found = zip(FEATURES, jackknifed(of, np.arange(float(groups))), strict=True)
+    found = zip(FEATURES, jackknifed(of, np.arange(float(len(spectrum.plain)))), strict=True)
     return {name: one for name, one in found if math.isfinite(one.value) and math.isfinite(one.error)}
 
 
-def expected(spectrum: Spectrum, jumps: FloatArray | None = None) -> dict[str, float]:
-    """What theory has for each: sqrt(2 a E* / M), q_min v_0, -2 H - 3, pi v_0 / a, the jump at the end of records.
-
-    jumps: of some of the wheels, all by default.
-    """
+def expected(spectrum: Spectrum) -> dict[str, float]:
+    """What theory has for each: sqrt(2 a E* / M), q_min v_0, -2 H - 3, pi v_0 / a, the jump at the end of records."""
     scene = spectrum.scene
     exponent = -2 * hurst(scene) - 3
-    floor = float(np.mean((spectrum.jumps if jumps is None else jumps) ** 2)) / spectrum.duration
+    floor = float(np.mean(spectrum.jumps**2)) / spectrum.duration
     period = scene.oscillation_period
     # sin^2 in the mean: (14.14) through the resonator, far above the resonance
     power = wheel_theory.over_frequency(
@@ -177,7 +168,7 @@ def _shape(rough: Roughness) -> tuple[float, float, float]:
     return rough.hurst, rough.longest, rough.shortest
 
 
-def _features(spectrum: Spectrum, plain: FloatArray, hann: FloatArray, jumps: FloatArray) -> dict[str, float]:
+def _features(spectrum: Spectrum, plain: FloatArray, hann: FloatArray) -> dict[str, float]:
     """Those of one mean spectrum, as far as the scene has room for them: a jump apart from the peak, enough periods of
     the oscillation in region 3, frequencies beyond the roughness."""
     scene, omega = spectrum.scene, spectrum.omega
@@ -186,12 +177,11 @@ def _features(spectrum: Spectrum, plain: FloatArray, hann: FloatArray, jumps: Fl
     values = {PEAK: regions.peak(omega, hann, between if apart else PEAK_LAST * scene.eigenfrequency)}
     if apart:
         values[JUMP] = regions.jump(omega, hann, between, 0.5 * scene.cutoff)
-    expect = expected(spectrum, jumps)
+    expect = expected(spectrum)
     first, last = (beyond * scene.cutoff for beyond in FLOOR_BAND)
     last = min(last, THIRD_LAST * float(omega[-1]))
     if first < THIRD_LAST * last:
         values[FLOOR] = regions.floor_level(omega, plain, first, last, spectrum.time_step)
-        values[FLOOR + PREDICTED] = values[FLOOR] / expect[FLOOR]
     first, last = _third(scene, values.get(JUMP, scene.jump))
     period = expect[PERIOD]
     if last - first < MIN_PERIODS * period:
@@ -201,17 +191,7 @@ def _features(spectrum: Spectrum, plain: FloatArray, hann: FloatArray, jumps: Fl
     power = regions.power_level(omega, hann, first, last, period, expect[SLOPE])
     if FLOOR in values:
         values[BREAK] = regions.crossing(power, expect[SLOPE], values[FLOOR])
-        values[BREAK + PREDICTED] = values[BREAK] / expect[BREAK]
     return values
-
-
-# --- the contrast of an oscillation: how far its zeros are filled, one after the other ---
-
-
-def zeros_of(scene: WheelScene) -> FloatArray:
-    """The numbers n of the zeros q a = n pi that have both of their maxima in region 3."""
-    first, last = scene.jump / scene.oscillation_period, scene.cutoff / scene.oscillation_period
-    return np.arange(np.ceil(first + 0.5 + HALF_BAND), np.floor(last - 0.5 - HALF_BAND) + 1)
 
 
 def log_beside_over_at(periods: FloatArray, flat: FloatArray, places: FloatArray) -> FloatArray:
@@ -221,33 +201,6 @@ def log_beside_over_at(periods: FloatArray, flat: FloatArray, places: FloatArray
         return float(np.mean(flat[np.abs(periods - place) < HALF_BAND]))
 
     return np.log([(mean_about(n - 0.5) + mean_about(n + 0.5)) / 2 / mean_about(n) for n in places])
-
-
-def log_contrasts(omega: FloatArray, density: FloatArray, scene: WheelScene) -> FloatArray:
-    """ln of the mean of A omega^(2 H + 3) about the two maxima beside each zero, over that about the zero."""
-    flat = density * omega ** (2 * hurst(scene) + 3)
-    return log_beside_over_at(omega / scene.oscillation_period, flat, zeros_of(scene))
-
-
-def contrasts_of(omega: FloatArray, groups: FloatArray, scene: WheelScene) -> list[Estimate]:
-    """Of the mean of groups of wheels, (groups, frequencies), by the jackknife."""
-    return jackknifed(lambda some: log_contrasts(omega, some.mean(axis=0), scene), groups)
-
-
-def linear_contrasts(omega: FloatArray, scene: WheelScene) -> FloatArray:
-    """Of (14.12) through the resonator, at the lines of a record."""
-    return log_contrasts(omega, linear_spectrum(scene, omega), scene)
-
-
-def contrast_series(
-    model: str, found: list[Estimate] | FloatArray, scene: WheelScene, linear: FloatArray | None = None, family: int = 1
-) -> Series:
-    """By the number of the zero; judged beside linear theory, where that is given."""
-    contrast = partial(decibels, CONTRAST, model, found, along=ZERO, at=zeros_of(scene))
-    if linear is None:
-        return contrast()
-    margin = MARGINS["contrast"].beside("linear theory in the same bands")
-    return contrast(reference=Estimates.exact(linear), family=family, margin=margin)
 
 
 # --- levels of the regions ---
@@ -265,20 +218,7 @@ def regions_of(scene: WheelScene) -> dict[str, tuple[float, float]]:
     }
 
 
-def _of_groups(outcome: Outcome, band: tuple[float, float], window: str) -> FloatArray:
+def of_groups(outcome: Outcome, band: tuple[float, float], window: str) -> FloatArray:
     """The mean of A in a band, group by group."""
     inside = (outcome["omega"] >= band[0]) & (outcome["omega"] <= band[1])
     return np.asarray(outcome[window][:, inside].mean(axis=1))
-
-
-def level(outcome: Outcome, band: tuple[float, float], window: str = "plain") -> Estimate:
-    """ln of the mean of A in a band, with its standard error over groups of wheels."""
-    groups = _of_groups(outcome, band, window)
-    mean = float(groups.mean())
-    error = float(np.std(groups, ddof=1)) / math.sqrt(groups.size) / mean if groups.size > 1 else 0.0
-    return Estimate(math.log(max(mean, 1e-300)), error, max(groups.size, 2))
-
-
-def ratio(mine: Outcome, other: Outcome, band: tuple[float, float], window: str = "plain") -> Estimate:
-    """ln of a level over that of another ensemble without window, group by group."""
-    return Estimates.ratios(_of_groups(mine, band, window), _of_groups(other, band, "plain"))[0]

@@ -1,28 +1,26 @@
-"""Boundary elements inside the time loop: the wheel of Fig. 14.4 in three dimensions, beside everything cheaper."""
+"""Boundary elements inside the time loop: the wheel of Fig. 14.4 in three dimensions, linear theory and springs."""
 
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.series import Estimates
 from validation.analysis.spectra import band_levels, one_third_octaves, record_spectra
-from validation.analysis.statistics import Estimate, FloatArray
+from validation.analysis.statistics import FloatArray
 from validation.analysis.study import Outcomes
-from validation.cases.wheel.features import TABLE, accelerated_by, linear_force_3d, linear_spectrum
+from validation.cases.wheel.features import TABLE, accelerated_by, linear_force_3d
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene
-from validation.simulation.track_spectrum import InputSpectrum
 from validation.simulation.wheel_on_half_space import WheelStrip, simulate_strip
 from validation.simulation.wheel_on_springs import WheelEnsemble, simulate_ensemble
 
 QUICK = replace(TABLE, rail=replace(TABLE.rail, shortest=0.8e-3)) if TABLE.rail else TABLE
-INPUT_SPECTRA: tuple[InputSpectrum, ...] = ("geike", "rolling")
-FINEST, COARSER, LOOSE, TIGHT = "finest", "coarser", "loose", "tight"
+STRIPS, FINER, LOOSE, TIGHT, TRACKS = "strips", "finer", "loose", "tight", "tracks"
 TIGHTER = 10
 """Ratio of two residuals whose levels differ by the error of the solver."""
 
@@ -32,20 +30,18 @@ class Wheel3D:
     """Wheels over isotropic surfaces with boundary elements, and springs of the same spectrum.
 
     scene: only its rail is rough; strips: realisations on boundary elements; periods: natural periods on each, whole,
-    before a half; width: of surfaces over the longest wave; cells: to a contact radius; shared: their divisor on all
-    grids; coarse: cells of the coarser grid, for the error of the finer one, over `coarser` strips; tolerance: residual
-    of contacts; short: natural periods of the strip with a tighter residual; wheels: on springs; groups, batch: of
-    these; seed: zero or more.
+    before a half; width: of surfaces over the longest wave; cells: to a contact radius; shared: their divisor; finer:
+    strips that are rolled over on half as long cells, too; tolerance: residual of contacts; short: natural periods of
+    the strip with a tighter residual; wheels: on springs; groups, batch: of these; seed: zero or more.
     """
 
     scene: WheelScene = QUICK
     strips: int = 4
     periods: int = 1
     width: int = 2
-    cells: int = 12
-    shared: int = 3
-    coarse: int = 9
-    coarser: int = 3
+    cells: int = 8
+    shared: int = 4
+    finer: int = 3
     tolerance: float = 1e-4
     short: int = 0
     wheels: int = 60
@@ -74,20 +70,18 @@ class Wheel3D:
         """The ensemble, some of it on a coarser grid, and a short strip at two tolerances."""
         short = replace(self.strip, natural_periods=self.short)
         return {
-            FINEST: [replace(self.strip, realisation=i) for i in range(self.strips)],
-            COARSER: [replace(self.strip, realisation=i, cells=self.coarse) for i in range(self.coarser)],
+            STRIPS: [replace(self.strip, realisation=i) for i in range(self.strips)],
+            FINER: [replace(self.strip, realisation=i, cells=2 * self.cells) for i in range(self.finer)],
             LOOSE: [short],
             TIGHT: [replace(short, tolerance=self.tolerance / TIGHTER)],
         }
 
-    def ensembles(self, rule: InputSpectrum) -> list[WheelEnsemble]:
-        """Springs in the steady state, on tracks as long as the strips."""
+    def ensembles(self) -> list[WheelEnsemble]:
+        """Springs in the steady state, on tracks of Geike's spectrum as long as the strips."""
         scene = replace(self.scene, distance=self.strip.shape[0] * self.strip.spacing)
         batches = max(self.wheels // self.batch, 1)
         count = self.wheels // batches
-        one = WheelEnsemble(
-            scene=scene, count=count, groups=self.groups, track="steady-state", input_spectrum=rule, seed=self.seed
-        )
+        one = WheelEnsemble(scene=scene, count=count, groups=self.groups, track="steady-state", seed=self.seed)
         return [replace(one, first=i * count) for i in range(batches)]
 
 
@@ -101,22 +95,20 @@ def run(case: Wheel3D, engine: Engine = SERIAL) -> Outcomes:
         for strip, outcome in zip(some, strips[name], strict=True)
         if outcome["failed"]
     )
-    converged = sum(not outcome["failed"] for outcome in strips[FINEST])
-    if converged < FEWEST or any(outcome["failed"] for name in (COARSER, LOOSE, TIGHT) for outcome in strips[name]):
+    converged = sum(not outcome["failed"] for outcome in strips[STRIPS])
+    if converged < FEWEST or any(outcome["failed"] for name in (FINER, LOOSE, TIGHT) for outcome in strips[name]):
         raise NotConvergedError(
             f"{converged} strips converged on {case.cells} cells to a radius, {FEWEST} are needed", unconverged
         )
-    springs = engine.map_groups(simulate_ensemble, {name: case.ensembles(name) for name in INPUT_SPECTRA})
-    failed = [name for name, some in springs.items() if any(outcome["failed"] for outcome in some)]
-    if failed:
-        raise NotConvergedError("wheels on springs do not repeat their motion", failed)
+    springs = engine.map_groups(simulate_ensemble, {TRACKS: case.ensembles()})
+    if failed := sum(int(outcome["failed"]) for outcome in springs[TRACKS]):
+        raise NotConvergedError("wheels on springs do not repeat their motion", [f"{failed} of {case.wheels}"])
     return Outcomes(case, {**strips, **springs}, unconverged)
 
 
 LINEAR_3D, LINEAR_1D, BEM = "linear, 3D", "linear, 1D (14.12)", "bem3d"
-GEIKE, ROLLING = "springs, Geike spectrum", "springs, rolling spectrum"
-MODELS = (LINEAR_3D, LINEAR_1D, GEIKE, ROLLING)
-ON_SPRINGS: dict[str, InputSpectrum] = {GEIKE: "geike", ROLLING: "rolling"}
+GEIKE = "springs, Geike spectrum"
+MODELS = (LINEAR_3D, GEIKE)
 CONTACTS = {BEM: "bem", LINEAR_3D: "linear"}
 OVER_BEM = {model: f"{model}, over bem3d" for model in MODELS}
 POINTS = 40
@@ -131,12 +123,12 @@ class WheelLevels:
 
     @cached_property
     def converged(self) -> list[Outcome]:
-        return [strip for strip in self.result[FINEST] if not strip["failed"]]
+        return [strip for strip in self.result[STRIPS] if not strip["failed"]]
 
     @cached_property
     def edges(self) -> FloatArray:
         """Of bands that hold two lines of a strip and end with the roughness."""
-        scene, strip = self.result.case.scene, self.result[FINEST][0]
+        scene, strip = self.result.case.scene, self.result[STRIPS][0]
         line = 2 * math.pi / (strip["bem"].size * float(strip["time step"]))
         return one_third_octaves(max(2.0 * scene.eigenfrequency, 2 * line / (2 ** (1 / 3) - 1)), scene.cutoff)
 
@@ -156,10 +148,10 @@ class WheelLevels:
             "region 3, upper half": (low > middle * 0.8) & (high > middle),
         }
 
-    def of_strips(self, strips: Sequence[Outcome], contact: str, edges: FloatArray | None = None) -> FloatArray:
+    def of_strips(self, strips: Sequence[Outcome], contact: str) -> FloatArray:
         """Levels of each strip, (strips, bands), with Hann's window; contact: "bem" or "linear"."""
         omega, density = hann_spectra(strips, contact)
-        return band_levels(omega, density.T, self.edges if edges is None else edges).T
+        return band_levels(omega, density.T, self.edges).T
 
     def spectra(self, contact: str) -> tuple[FloatArray, FloatArray]:
         """Of the strips that converged."""
@@ -167,20 +159,31 @@ class WheelLevels:
 
     @cached_property
     def ratio(self) -> Estimates:
-        """ln of boundary elements over the linear contact on the same strips, band by band."""
-        return Estimates.ratios(*(self.of_strips(self.converged, contact) for contact in ("bem", "linear")))
+        """ln of boundary elements over the linear contact on the same strips, band by band, on cells of no size."""
+        found = Estimates.ratios(*(self.of_strips(self.converged, contact) for contact in ("bem", "linear")))
+        return found.on_no_size(self.change)
+
+    @property
+    def grids(self) -> tuple[list[Outcome], list[Outcome]]:
+        """Strips with their cells and with half as long ones."""
+        pairs = zip(self.result[STRIPS], self.result[FINER], strict=False)
+        coarse, fine = zip(*(pair for pair in pairs if not pair[0]["failed"]), strict=True)
+        return list(coarse), list(fine)
+
+    def on_grids(self, contact: str) -> list[tuple[FloatArray, FloatArray]]:
+        return [hann_spectra(strips, contact) for strips in self.grids]
 
     @cached_property
-    def grid(self) -> FloatArray:
-        """Error of the grid in that: to first order in the cells, three times the change from 3/4 as many."""
-        case = self.result.case
-        pairs = zip(self.result[FINEST], self.result[COARSER], strict=False)
-        grids = zip(*((fine, coarse) for fine, coarse in pairs if not fine["failed"]), strict=True)
-        fine, coarse = (
-            np.log(self.of_strips(grid, "bem").mean(axis=0)) - np.log(self.of_strips(grid, "linear").mean(axis=0))
-            for grid in grids
-        )
-        return np.asarray(np.abs(fine - coarse) / (case.cells / case.coarse - 1))
+    def change(self) -> Estimates:
+        """ln of the level on half as long cells over that with the cells, on the same strips."""
+        coarse, fine = (self.of_strips(strips, "bem") for strips in self.grids)
+        return Estimates.ratios(fine, coarse)
+
+    @property
+    def left(self) -> Estimates:
+        """What grid and solver leave of a level."""
+        pairs = zip(self.change, self.solver.tolist(), strict=True)
+        return Estimates(replace(one, value=abs(one.value) + solver) for one, solver in pairs)
 
     @cached_property
     def solver(self) -> FloatArray:
@@ -190,13 +193,10 @@ class WheelLevels:
         return np.where(np.isfinite(change), change, 0.0)
 
     @cached_property
-    def exact(self) -> dict[str, FloatArray]:
-        """ln of linear theory in three dimensions and in one; minus infinity where it has nothing."""
-        scene, bands = self.result.case.scene, list(zip(self.edges, self.edges[1:], strict=False))
-        in_3d = [_integral(self._density_3d, *band, POINTS) for band in bands]
-        in_1d = [_integral(partial(linear_spectrum, scene), *band, 50 * POINTS) for band in bands]
-        with np.errstate(divide="ignore"):
-            return {LINEAR_3D: np.log(in_3d), LINEAR_1D: np.log(in_1d)}
+    def exact(self) -> FloatArray:
+        """ln of linear theory in three dimensions."""
+        bands = zip(self.edges, self.edges[1:], strict=False)
+        return np.log([_integral(self._density_3d, *band) for band in bands])
 
     def _density_3d(self, omega: FloatArray) -> FloatArray:
         scene = self.result.case.scene
@@ -205,32 +205,29 @@ class WheelLevels:
     @cached_property
     def bem(self) -> FloatArray:
         """ln of the level of boundary elements: that of linear theory, and their ratio on the strips."""
-        return np.asarray(self.exact[LINEAR_3D] + self.ratio.values)
+        return np.asarray(self.exact + self.ratio.values)
 
-    def on_springs(self, model: str) -> tuple[FloatArray, FloatArray]:
+    @property
+    def on_springs(self) -> tuple[FloatArray, FloatArray]:
         """omega, and A with Hann's window, (groups, frequencies)."""
-        batches = self.result[ON_SPRINGS[model]]
+        batches = self.result[TRACKS]
         return batches[0]["omega"], np.concatenate([batch["hann"] for batch in batches])
 
     @cached_property
-    def springs(self) -> dict[str, FloatArray]:
-        spectra = {model: self.on_springs(model) for model in ON_SPRINGS}
-        return {model: band_levels(omega, groups.T, self.edges).T for model, (omega, groups) in spectra.items()}
+    def springs(self) -> Estimates:
+        """ln of their level."""
+        omega, groups = self.on_springs
+        return Estimates.ratios(band_levels(omega, groups.T, self.edges).T, np.ones(self.centres.size))
 
     def over_bem(self, model: str) -> Estimates:
         """ln of a model's level over boundary elements, band by band, with the error of both samples."""
-        errors = np.array([one.error for one in self.ratio])
-        if model in self.exact:
-            values = self.exact[model]
-        else:
-            own = Estimates.ratios(self.springs[model], np.ones(errors.size))
-            values, errors = own.values, np.hypot(errors, [one.error for one in own])
-        count = len(self.converged)
-        return Estimates(Estimate(float(v), float(e), count) for v, e in zip(values - self.bem, errors, strict=True))
+        found = self.springs if model == GEIKE else Estimates.exact(self.exact)
+        bem = zip(self.ratio, self.bem.tolist(), strict=True)
+        return found - Estimates(replace(one, value=value) for one, value in bem)
 
 
-def _integral(density: Callable[[FloatArray], FloatArray], low: float, high: float, points: int) -> float:
-    omega = np.linspace(low, high, points)
+def _integral(density: Callable[[FloatArray], FloatArray], low: float, high: float) -> float:
+    omega = np.linspace(low, high, POINTS)
     return float(np.trapezoid(density(omega), omega)) / (2 * math.pi)
 
 

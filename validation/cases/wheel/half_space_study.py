@@ -1,7 +1,6 @@
-"""The wheel in three dimensions: every model beside boundary elements in the time loop."""
+"""The wheel in three dimensions: linear theory and springs beside boundary elements in the time loop."""
 
-import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -10,50 +9,36 @@ import numpy as np
 from validation.analysis import spectral_features
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel, by_model
-from validation.analysis.claims import Claim
-from validation.analysis.evidence import Role, Table
+from validation.analysis.claims import THREE_D_DIFFER, Claim
+from validation.analysis.evidence import Table, Whose
 from validation.analysis.margins import MARGINS
-from validation.analysis.series import Estimates, Margin, Series
-from validation.analysis.spectra import band_means
+from validation.analysis.series import Estimates, Series
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray, jackknifed
 from validation.analysis.study import Outcomes, Study
 from validation.cases.wheel import features
 from validation.cases.wheel import half_space as wheel
-from validation.cases.wheel.features import CONTRAST, DENSITY, LEVEL, OMEGA, QUANTITIES, SLOPE, ZERO, decibels
+from validation.cases.wheel.features import LEVEL, OMEGA, QUANTITIES, SLOPE, decibels
 from validation.scenes.description import slope_ratio
+from validation.scenes.dynamic_wheel import WheelScene
 from validation.selection import model_needed
 
 LEVELS, OVER = "one-third octave level [dB over (m/s²)²]", "level over boundary elements"
-OSCILLATION, MARKS = "A of region 3", "marks [rad/s]"
+MARKS = "marks [rad/s]"
+CONTRAST, ZERO = "contrast of the oscillation", "zero of sin²(q a)"
 WHEEL, APPLICATIONS = "wheel", "applications a time step"
 OF_FIGURE = 5
 """Numbers of the claim of Fig. 14.4, whose intervals hold at once: levels of three ranges, slope, contrast."""
-REPEATED = Margin(
-    1e-9,
-    "rounding of a sum over all steps",
-    source="zero: a periodic motion has no mean acceleration",
-    role=Role.CRITERION,
-)
 
 
 def series(result: Outcomes) -> list[Series]:
     """Levels over boundary elements, the worst in the plateau and parts of region 3; slope, contrast."""
     levels = wheel.WheelLevels(result)
-    return [_mean(levels), *_of_bands(levels), *_slopes(levels), *_contrasts(levels), *_oscillation(levels)]
-
-
-def _mean(levels: wheel.WheelLevels) -> Series:
-    """A motion that repeats itself gains no velocity."""
-    records = [strip["linear"] for strip in levels.result[wheel.FINEST]]
-    worst = max(abs(float(one.mean())) / float(one.std()) for one in records)
-    where = {"strips": "worst strip"}
-    return Series("mean acceleration over its rms", "linear, steady-state", (worst,), where=where, margin=REPEATED)
+    return [*_of_bands(levels), *_slopes(levels), *_contrasts(levels)]
 
 
 def _of_bands(levels: wheel.WheelLevels) -> Iterator[Series]:
-    """Each one-third octave, and those of each range; none of a model that has nothing somewhere there."""
-    left = levels.grid + levels.solver
-    bands = partial(decibels, along=OMEGA, at=levels.centres, grid=left)
+    """Each one-third octave, and those of each range."""
+    bands = partial(decibels, along=OMEGA, at=levels.centres, grid=levels.left)
     bem = Estimates(replace(one, value=value) for one, value in zip(levels.ratio, levels.bem.tolist(), strict=True))
     yield bands(LEVELS, wheel.BEM, bem)
     yield bands(OVER, wheel.BEM, Estimates(replace(one, value=0.0) for one in levels.ratio))
@@ -63,17 +48,18 @@ def _of_bands(levels: wheel.WheelLevels) -> Iterator[Series]:
         yield decibels(LEVELS, model, over.values + levels.bem, along=OMEGA, at=levels.centres)
         yield bands(OVER, model, over)
         for name, inside in levels.ranges.items():
+            some = np.flatnonzero(inside)
             yield decibels(
                 LEVEL,
                 wheel.OVER_BEM[model],
-                [over[i] for i in np.flatnonzero(inside)],
+                [over[i] for i in some],
                 where={"range": name},
                 along=OMEGA,
                 at=levels.centres[inside],
-                grid=left[inside],
+                grid=[levels.left[i] for i in some],
                 margin=margin,
-                fewest=max(int(inside.sum()), 1),
-                family=OF_FIGURE,
+                fewest=max(some.size, 1),
+                family=OF_FIGURE if model == wheel.GEIKE else len(levels.ranges),
             )
     yield Series(MARKS, "q_min v₀", (levels.result.case.scene.jump,))
 
@@ -90,44 +76,57 @@ def _slopes(levels: wheel.WheelLevels) -> Iterator[Series]:
         def of(some: FloatArray, omega: FloatArray = omega) -> FloatArray:
             return np.array(spectral_features.slope(omega, some.mean(axis=0), first, last, period))
 
+        coarse, fine = (float(of(some, lines)) for lines, some in levels.on_grids(contact))
         yield Series(
             QUANTITIES[SLOPE],
             model,
             jackknifed(of, density),
             where={"region": "region 3"},
             reference=-2 * features.hurst(scene) - 3,
+            grid=2 * abs(fine - coarse),
             family=OF_FIGURE,
             margin=MARGINS[SLOPE].beside("-2 H - 3, (14.13); the same in linear theory in 3D"),
         )
+
+
+# --- the contrast of the oscillation: how far its zeros are filled, one after the other ---
 
 
 def _spectra(levels: wheel.WheelLevels) -> dict[str, tuple[FloatArray, FloatArray]]:
     """omega and A, (strips or groups, frequencies), of boundary elements, the linear contact and springs."""
     return {
         **{model: levels.spectra(contact) for model, contact in wheel.CONTACTS.items()},
-        wheel.GEIKE: levels.on_springs(wheel.GEIKE),
+        wheel.GEIKE: levels.on_springs,
     }
 
 
+def zeros_of(scene: WheelScene) -> FloatArray:
+    """The numbers n of the zeros q a = n pi that have both of their maxima in region 3."""
+    first, last = scene.jump / scene.oscillation_period, scene.cutoff / scene.oscillation_period
+    return np.arange(np.ceil(first + 0.5 + features.HALF_BAND), np.floor(last - 0.5 - features.HALF_BAND) + 1)
+
+
+def log_contrasts(omega: FloatArray, density: FloatArray, scene: WheelScene) -> FloatArray:
+    """ln of the mean of A omega^(2 H + 3) about the two maxima beside each zero, over that about the zero."""
+    flat = density * omega ** (2 * features.hurst(scene) + 3)
+    return features.log_beside_over_at(omega / scene.oscillation_period, flat, zeros_of(scene))
+
+
 def _contrasts(levels: wheel.WheelLevels) -> Iterator[Series]:
-    """Of boundary elements beside sin²(q a); of the linear contact on the same strips, and of springs."""
+    """Of boundary elements beside (14.12) in the same bands; of the linear contact on their strips, and of springs."""
     scene = levels.result.case.scene
     for model, (omega, density) in _spectra(levels).items():
-        linear = features.linear_contrasts(omega, scene) if model == wheel.BEM else None
-        found = features.contrasts_of(omega, density, scene)
-        yield features.contrast_series(model, found, scene, linear, OF_FIGURE)
-        if linear is not None:
-            yield features.contrast_series(wheel.LINEAR_1D, linear, scene)
 
+        def of(some: FloatArray, omega: FloatArray = omega) -> FloatArray:
+            return log_contrasts(omega, some.mean(axis=0), scene)
 
-def _oscillation(levels: wheel.WheelLevels) -> Iterator[Series]:
-    """Spectra in bands of a twelfth of the period of the oscillation."""
-    scene, spectra = levels.result.case.scene, _spectra(levels)
-    period, line = scene.oscillation_period, float(spectra[wheel.BEM][0][0])
-    edges = np.arange(0.7 * scene.jump, min(scene.cutoff, 12 * period), max(period / 12, 2 * line))
-    for model, (omega, density) in spectra.items():
-        means = band_means(omega, density.mean(axis=0), edges)
-        yield Series(OSCILLATION, model, means, along=OMEGA, at=(edges[1:] + edges[:-1]) / 2)
+        by_zero = partial(decibels, CONTRAST, along=ZERO, at=zeros_of(scene))
+        linear = log_contrasts(omega, features.linear_spectrum(scene, omega), scene)
+        margin = MARGINS["contrast"].beside("linear theory in one dimension in the same bands")
+        beside = {"reference": Estimates.exact(linear), "family": OF_FIGURE, "margin": margin}
+        yield by_zero(model, jackknifed(of, density), **beside if model == wheel.BEM else {})
+        if model == wheel.BEM:
+            yield by_zero(wheel.LINEAR_1D, linear)
 
 
 def of_wheel(case: wheel.Wheel3D, applications: float) -> dict[str, float]:
@@ -141,39 +140,36 @@ def of_wheel(case: wheel.Wheel3D, applications: float) -> dict[str, float]:
     }
 
 
-def of_regions(levels: wheel.WheelLevels) -> dict[str, float]:
-    """C_F of linear theory in 3D at the resonance over that where the band begins, so that roughness excites it; how
-    far boundary elements fall beyond the roughness, from its last tenth [dB]."""
-    scene = levels.result.case.scene
-    places = np.array([scene.eigenfrequency, 1.001 * scene.jump]) / scene.speed
-    at_resonance, behind = features.linear_force_3d(scene, places)
-    inside, outside = (
-        levels.of_strips(levels.converged, "bem", np.array(band) * scene.cutoff)[:, 0].mean() / (band[1] - band[0])
-        for band in ((0.9, 1.0), (1.3, 1.8))
-    )
-    return {
-        "force at ω_eigen over that at q_min v₀ [dB]": POWER_DECIBEL * math.log(at_resonance / behind),
-        "A beyond 1.3 q_max v₀ over that before q_max v₀ [dB]": POWER_DECIBEL * math.log(outside / inside),
-    }
-
-
 def tables(result: Outcomes) -> list[Table]:
     levels = wheel.WheelLevels(result)
     applications = float(np.mean([strip["applications"] for strip in levels.converged]))
-    values = of_wheel(result.case, applications) | of_regions(levels)
+    values = of_wheel(result.case, applications)
     return [Table(WHEEL, {name: [value] for name, value in values.items()})]
 
 
-MODEL_STYLES = {wheel.LINEAR_3D: "thick", wheel.LINEAR_1D: "exact", wheel.GEIKE: "mdr", wheel.ROLLING: "triangles"}
+def notes(result: Outcomes) -> Sequence[str]:
+    """What lies below q_min v0 in three dimensions, and what the grid leaves."""
+    levels = wheel.WheelLevels(result)
+    plateau, changes = levels.ranges["region 2"], POWER_DECIBEL * np.abs(levels.change.values)
+    below = -POWER_DECIBEL * levels.over_bem(wheel.GEIKE).values[plateau]
+    said = f"From {result.case.cells} to {2 * result.case.cells} cells to a radius a level changes by "
+    return (
+        *(
+            f"In three dimensions region 2 is no second order: boundary elements have {one:.0f} to {other:.0f} dB more "
+            "than springs there. Waves aslant to the track are longer along it than 2π / q_min, and linear theory in "
+            "three dimensions has them."
+            for one, other in ([(below.min(), below.max())] if plateau.any() else [])
+        ),
+        f"{said}{np.median(changes):.2g} dB in the median band and {changes.max():.2g} dB at most; levels are those of "
+        "no size, to first order.",
+    )
+
+
+MODEL_STYLES = {wheel.LINEAR_3D: "thick", wheel.GEIKE: "mdr"}
 MARKED = Curve(MARKS, style="guide", upright=True)
 BANDS = Panel(OMEGA, LEVELS, decades=75.0).of(*by_model(LEVELS, {**MODEL_STYLES, wheel.BEM: "bem"}, bars=True), MARKED)
 DIFFERENCES = Panel(OMEGA, "over boundary elements [dB]", ylim=(-12.0, 12.0), lines=(-3.0, -1.0, 1.0, 3.0)).of(
     Curve(OVER, wheel.BEM, "guide", "_", band=True), *by_model(OVER, MODEL_STYLES), MARKED
-)
-THIRD = Panel(OMEGA, DENSITY, log="y").of(
-    Curve(OSCILLATION, wheel.LINEAR_3D, "thick", wheel.LINEAR_3D),
-    Curve(OSCILLATION, wheel.GEIKE, "mdr line", f"{wheel.GEIKE}, region 3"),
-    Curve(OSCILLATION, wheel.BEM, "bem line", f"{wheel.BEM}, region 3"),
 )
 ZEROS = Panel(ZERO, "maxima over zeros [dB]", log="", lines=(0.0,)).of(
     *by_model(CONTRAST, {wheel.LINEAR_1D: "exact", wheel.GEIKE: "mdr", wheel.BEM: "bem"}, bars=True),
@@ -187,46 +183,44 @@ STUDY = Study(
         "{c.strip.shape[0]} time steps, {c.cells} cells to a contact radius, residual {c.tolerance:g}; surfaces "
         "periodic, {c.strip.shape[1]} cells wide, half a natural period longer than {c.periods}. The linear contact of "
         "fixed radius rolls on the same surfaces; boundary elements begin in its steady state. "
-        "{c.wheels} wheels on springs move in their steady state, on tracks of Geike's spectrum of these surfaces, or "
-        "of the rolling spectrum, with which springs have the force level of the half-space. All use Hann's window. "
-        "Levels of boundary elements are over the linear contact on the same surfaces, times linear theory; grid: from "
-        f"{{c.coarse}} cells to a radius to first order; solver: from a residual {wheel.TIGHTER} times smaller. "
-        "Nothing damps the wheel, and in 3D roughness excites its resonance, so that all begin in the steady state and "
-        "bands begin at twice the eigenfrequency."
+        "{c.wheels} wheels on springs move in their steady state, on tracks of Geike's spectrum of these surfaces. All "
+        "use Hann's window. Levels of boundary elements are over the linear contact on the same surfaces, times linear "
+        "theory; grid: {c.finer} of the strips on half as long cells, to first order; solver: from a residual "
+        f"{wheel.TIGHTER} times smaller. Nothing damps the wheel, and in 3D roughness excites its resonance, so that "
+        "bands begin at twice the eigenfrequency. Isotropic ground has waves of any length along the track, so that "
+        "region 2 is linear here."
     ),
     series=series,
     claims=(
         Claim(
+            whose=Whose.BOOK,
+            no=THREE_D_DIFFER,
             either=(
                 {"quantity": LEVEL, "model": wheel.OVER_BEM[wheel.GEIKE]},
                 {"quantity": QUANTITIES[SLOPE], "model": wheel.BEM},
                 {"quantity": CONTRAST},
-            )
+            ),
         ).saying(
-            "Boundary elements in the time loop confirm Fig. 14.4.",
+            "Springs stand for three dimensions: boundary elements in the time loop have the regions of Fig. 14.4.",
             short="Springs of Fig. 14.4 over boundary elements in the time loop",
         ),
         Claim(quantity=LEVEL, model=wheel.OVER_BEM[wheel.LINEAR_3D], along="range").saying(
             "Linear theory in three dimensions has the acceleration of the wheel.", short="linear theory in 3D"
         ),
-        Claim(quantity=LEVEL, model=wheel.OVER_BEM[wheel.ROLLING], along="range").saying(
-            "Springs of the rolling spectrum have the acceleration of the wheel in three dimensions.",
-            short="springs of the rolling spectrum",
-        ),
     ),
     charts=(
-        Chart("wheel_3d", claims=(0, 1), columns=2, width=11.0, height=7.4).of(
+        Chart("wheel_3d", claims=(0, 1), width=13.5).of(
             "(a) Acceleration of the wheel in one-third octaves, 95 % of sample, grid and solver. (b) The same over "
             "boundary elements, their interval shaded; lines: ± 1 and ± 3 dB. Region 2 ends at q_min v₀. (c) The "
-            "oscillation of region 3. (d) Its contrast at each zero of sin²(q a), 95 %.",
+            "maxima of region 3 over each zero of sin²(q a), 95 %.",
             BANDS,
             DIFFERENCES,
-            THIRD,
             ZEROS,
         ),
     ),
     tables=tables,
     printed=(WHEEL,),
+    notes=notes,
 )
 CASE = Case(
     name="wheel_3d",
@@ -236,13 +230,12 @@ CASE = Case(
     quick=wheel.Wheel3D(strips=3, wheels=30),
     full=wheel.Wheel3D(
         scene=features.TABLE,
-        strips=8,
-        periods=4,
+        strips=24,
+        periods=2,
         width=4,
         cells=40,
         shared=10,
-        coarse=30,
-        coarser=3,
+        finer=8,
         tolerance=0.0001,
         short=1,
         wheels=200,

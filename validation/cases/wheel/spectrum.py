@@ -9,21 +9,16 @@ import numpy as np
 
 from validation.analysis.evidence import Role
 from validation.analysis.margins import MARGINS
-from validation.analysis.over_range import worst
 from validation.analysis.series import Estimates, Margin, Series, Where
 from validation.analysis.spectra import band_levels, band_means, one_third_octaves
-from validation.analysis.statistics import Estimate
 from validation.analysis.study import Outcomes
 from validation.cases.wheel import features
 from validation.cases.wheel.features import TABLE, decibels
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene
-from validation.simulation.wheel_on_half_space import Snapshot, contact_snapshot
 from validation.simulation.wheel_on_springs import WheelEnsemble, simulate_ensemble
 from validation.theory import wheel as wheel_theory
-
-SNAPSHOT = "contact at one moment"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,8 +26,7 @@ class WheelSpectrum:
     """An ensemble of wheels of a scene on springs, and the same with one parameter changed at a time.
 
     scene; realisations: of the scene itself; varied: of each variation; groups: into which both are divided for error
-    bars; batch: wheels that are simulated together, at most; parameters: whether to vary any; cells: to a contact
-    radius of boundary elements in the snapshot; snapshot_steps: before it; seed: zero or positive.
+    bars; batch: wheels that are simulated together, at most; parameters: whether to vary any; seed: zero or positive.
     """
 
     scene: WheelScene = TABLE
@@ -41,8 +35,6 @@ class WheelSpectrum:
     groups: int = 10
     batch: int = 150
     parameters: bool = True
-    cells: int = 16
-    snapshot_steps: int = 24
     seed: int = 146
 
     def variations(self) -> Mapping[str, WheelScene]:
@@ -70,20 +62,17 @@ class WheelSpectrum:
 
 def run(case: WheelSpectrum, engine: Engine = SERIAL) -> Outcomes:
     """Simulate all wheels of all variations."""
-    scene = case.scene
-    features.hurst(scene)  # which a smooth one has not
+    features.hurst(case.scene)  # which a smooth one has not
     batches = engine.map_groups(simulate_ensemble, case.batches())
     failed = [name for name, group in batches.items() if any(batch["failed"] for batch in group)]
     if failed:
         raise NotConvergedError("wheels flew higher than sums are exact for", failed)
-    snapshot = Snapshot(scene=scene, cells=case.cells, steps=case.snapshot_steps, seed=case.seed)
-    return Outcomes(case, {**batches, SNAPSHOT: engine.map(contact_snapshot, [snapshot])[0]})
+    return Outcomes(case, batches)
 
 
 def _varied(scene: WheelScene) -> dict[str, WheelScene]:
     """One parameter at a time, down and up."""
     varied = {f"v₀ × {factor:g}": replace(scene, speed=factor * scene.speed) for factor in (0.25, 2.0)}
-    varied |= {f"F_N × {factor:g}": replace(scene, load=factor * scene.load) for factor in (0.25, 4.0)}
     rail = scene.rail
     if rail is None:
         return varied
@@ -103,14 +92,13 @@ SOURCES = {
     features.JUMP: "q_min v₀, (14.20)",
     features.SLOPE: "-2 H - 3, (14.13)",
     features.PERIOD: "π v₀ / a, (14.12)",
-    features.BREAK + features.PREDICTED: "where (14.14) through the resonator meets that floor",
 }
 """Of the features that are judged."""
-OF_FIGURE = 5
-"""Numbers of the claim of Fig. 14.4, whose intervals hold at once: four features, and the level of region 3."""
+OF_PARAMETERS = features.PEAK, features.JUMP
+"""Of these what the book says that no parameter changes."""
+CHANGED, NOTHING = "changed", "nothing"
 BANDS_PER_PERIOD = 12
 """Of the oscillation."""
-PARSEVAL = Margin(tolerance=1e-11, reason="rounding of the Fourier transforms", source="Parseval", role=Role.IDENTITY)
 BALANCE = Margin(
     1e-11, "rounding of a sum over all steps", source="Newton: mean force and load balance", role=Role.IDENTITY
 )
@@ -118,15 +106,13 @@ OVER_LINEAR = MARGINS["level"].beside("(14.12) through the resonator: a contact 
 
 
 def series(result: Outcomes) -> list[Series]:
-    """Features beside theory for the scene and for the worst variation; level and contrast of region 3; identities."""
-    spectra, (mine, *varied) = spectra_of(result), features_by_scene(result)
+    """Features beside theory for the scene and for each variation; level of region 3; identities."""
+    spectra = spectra_of(result)
     base, spectrum = next(iter(spectra.items()))
     return [
         *_identities([batch for name in spectra for batch in result[name]]),
-        *mine.values(),
+        *features_by_scene(result),
         *levels_over_linear(spectrum),
-        *_worst_scenes(varied),
-        *_contrasts(spectrum),
         *_drawn(spectrum, result[base]),
         *(_in_sixths(name, one) for name, one in spectra.items() if name != base),
     ]
@@ -137,43 +123,31 @@ def spectra_of(result: Outcomes) -> dict[str, features.Spectrum]:
     return {name: features.Spectrum.of(scene, result[name]) for name, scene in result.case.variations().items()}
 
 
-def features_by_scene(result: Outcomes) -> list[dict[str, Series]]:
-    """Of the scene itself first, whose intervals hold at once for the figure; those of the others, for all of them."""
-    (base, spectrum), *varied = spectra_of(result).items()
-    return [features_of(base, spectrum, OF_FIGURE), *(features_of(*one, len(varied)) for one in varied)]
+def family_of(case: WheelSpectrum) -> int:
+    """Numbers of the claim on Fig. 14.4, whose intervals hold at once: of the scene itself, peak and jump of others."""
+    return len(SOURCES) + len(OF_PARAMETERS) * (len(case.variations()) - 1)
 
 
-def features_of(name: str, spectrum: features.Spectrum, family: int) -> dict[str, Series]:
-    """Those that the spectrum of a scene has, beside theory; family: whose intervals hold at once.
-
-    The floor is that of the jumps by construction, if the roughness ends at q_max: shown, and evidence of nothing.
-    """
-    values, theory = features.measured(spectrum), features.expected(spectrum)
-    return {
-        key: Series(
+def features_by_scene(result: Outcomes) -> list[Series]:
+    """Those that each spectrum has, beside theory; of the scene itself first."""
+    case, family = result.case, family_of(result.case)
+    return [
+        Series(
             quantity,
             "springs",
             (values[key],),
-            where={"scene": name},
-            reference=theory.get(key, 1.0),
+            where={"scene": case.scene.name, CHANGED: NOTHING if name == case.scene.name else name},
+            reference=theory[key],
             grid=float(spectrum.omega[0]) / 2 if key == features.JUMP else 0.0,
-            unit="rad/s" if key in (features.PEAK, features.JUMP, features.PERIOD) else "-",
-            margin=MARGINS[key.removesuffix(features.PREDICTED)].beside(SOURCES[key]) if key in SOURCES else None,
+            unit="-" if key == features.SLOPE else "rad/s",
+            margin=MARGINS[key].beside(SOURCES[key]),
             family=family,
         )
+        for name, spectrum in spectra_of(result).items()
+        for values, theory in [(features.measured(spectrum), features.expected(spectrum))]
         for key, quantity in features.QUANTITIES.items()
         if key in values
-    }
-
-
-def _worst_scenes(varied: list[dict[str, Series]]) -> Iterator[Series]:
-    """Of each feature the scene, with one parameter changed, whose verdict is that of all."""
-    for key in SOURCES:
-        if of_key := [features[key] for features in varied if key in features]:
-            numbered = [replace(n, where={"scene": float(i)}) for i, one in enumerate(of_key) for n in one.numbers]
-            far = of_key[int(worst(numbered).where["scene"])]  # type: ignore[arg-type]
-            name = f"worst of {len(of_key)} with one parameter changed: {far.where['scene']}"
-            yield replace(far, where={"scenes": name})
+    ]
 
 
 def levels_over_linear(spectrum: features.Spectrum) -> list[Series]:
@@ -186,33 +160,13 @@ def levels_over_linear(spectrum: features.Spectrum) -> list[Series]:
         return []
     found = Estimates.ratios(band_levels(omega, spectrum.hann.T, edges).T, band_levels(omega, spectrum.linear, edges))
     centres = np.sqrt(edges[1:] * edges[:-1])
-    over = partial(decibels, model="springs over linear theory", margin=OVER_LINEAR)
-    value, error = (math.sqrt(np.mean(np.square([getattr(one, name) for one in found]))) for name in ("value", "error"))
-    where: Where = {"region": "region 3"}
-    ends: Where = {features.OMEGA: (float(centres[0]), float(centres[-1]))}
-    rms = (Estimate(value, error, found[0].samples),)
-    return [
-        over(features.LEVEL, found=found, where=where, along=features.OMEGA, at=centres, family=OF_FIGURE),
-        over(f"rms of {features.LEVEL}", found=rms, where={**where, **ends}, family=OF_FIGURE * centres.size),
-    ]
-
-
-def _contrasts(spectrum: features.Spectrum) -> list[Series]:
-    """Of the oscillation of region 3, with Hann's window."""
-    scene, omega = spectrum.scene, spectrum.omega
-    linear, found = features.linear_contrasts(omega, scene), features.contrasts_of(omega, spectrum.hann, scene)
-    return [features.contrast_series(*one) for one in (("springs", found, scene, linear), (LINEAR, linear, scene))]
+    place: Where = {"region": features.THIRD}
+    over = partial(decibels, features.LEVEL, "springs over linear theory", where=place, along=features.OMEGA)
+    return [over(found=found, at=centres, margin=OVER_LINEAR)]
 
 
 def _identities(batches: list[Outcome]) -> Iterator[Series]:
     wheels = sum(batch["jump"].size for batch in batches)
-    yield Series(
-        "integral of A over f, over the mean square acceleration, less one",
-        "",
-        (max(abs(_parseval(batch)) for batch in batches),),
-        where={"batches": f"worst of {len(batches)} batches"},
-        margin=PARSEVAL,
-    )
     yield Series(
         "mean of F - F_N less M times the velocity change over T, over the rms of F - F_N",
         "",
@@ -220,15 +174,6 @@ def _identities(batches: list[Outcome]) -> Iterator[Series]:
         where={"wheels": f"worst of {wheels} wheels"},
         margin=BALANCE,
     )
-
-
-def _parseval(batch: Outcome) -> float:
-    square = float(np.mean(batch["square"]))
-    density = batch["plain"].mean(axis=0)
-    steps = round(float(batch["duration"] / batch["time step"]))
-    weights = np.full(density.size, 2.0)
-    weights[-1] = 2.0 if steps % 2 else 1.0
-    return (float(weights @ density) / float(batch["duration"]) + float(np.mean(batch["mean"] ** 2))) / square - 1
 
 
 def _drawn(spectrum: features.Spectrum, batches: list[Outcome]) -> Iterator[Series]:

@@ -206,7 +206,6 @@ QUESTIONS = (
         in_decibels,
         (
             Alternative(LINEAR_3D, of_wheel(model=wheel.OVER_BEM[wheel.LINEAR_3D]), INTEGRAL),
-            Alternative(EQUIVALENT, of_wheel(model=wheel.OVER_BEM[wheel.ROLLING]), OF_SPRINGS),
             counted(f"on a rail, {reduced.READ} in the time loop", reduced.READ, MOVING, "rms over bands"),
             Alternative(f"{BEM} in the time loop", None, steps, "wheel_3d"),
         ),
