@@ -48,6 +48,12 @@ class Motion:
         return np.asarray(self.next_acceleration - self.acceleration[0])
 
 
+def _with_dashpot(integrator: Integrator, rate: float) -> Integrator:
+    if rate and integrator is not VELOCITY_VERLET:
+        raise ValueError(f"integrator must be {VELOCITY_VERLET.name} for a wheel with damping, got {integrator.name}")
+    return velocity_verlet(rate) if rate else integrator
+
+
 def simulate(
     wheel: Wheel,
     law: ContactLaw,
@@ -77,12 +83,7 @@ def simulate(
     if not (np.isfinite(d).all() and np.isfinite(v).all() and d.shape == v.shape):
         raise ValueError(f"approach and velocity must be finite and alike in shape, got {d} and {v}")
     gravity, rate = wheel.load / wheel.mass, damping_rate(wheel)
-    if rate:
-        if integrator is not VELOCITY_VERLET:
-            raise ValueError(
-                f"integrator must be {VELOCITY_VERLET.name} for a wheel with damping, got {integrator.name}"
-            )
-        integrator = velocity_verlet(rate)
+    integrator = _with_dashpot(integrator, rate)
 
     def acceleration(place: int, d: FloatArray) -> FloatArray:
         return np.asarray(gravity - law.force(place, d) / wheel.mass)
