@@ -13,8 +13,8 @@ from validation.analysis.series import Series
 from validation.analysis.statistics import Interval
 from validation.analysis.study import Study
 from validation.cases.rail import across, filters
-from validation.cases.rail.across import GROUND, OFFSET, WHEEL, AcrossResult
-from validation.cases.rail.filters import COUNTED, GROUNDS, counted, linear_filter
+from validation.cases.rail.across import GROUND, WHEEL, AcrossResult
+from validation.cases.rail.filters import COUNTED, GROUNDS, OFFSET, counted, linear_filter
 from validation.cases.rail.rolled_filters import A3, OVER_BEM, WAVE
 from validation.simulation.model_names import BED, BEM, LINEAR, LINEAR_ON_LINE
 from validation.simulation.rail_strip import SHORTEST

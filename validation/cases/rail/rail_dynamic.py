@@ -17,7 +17,7 @@ from validation.analysis.nominal_bands import NominalBands
 from validation.analysis.series import Estimates, Series, masked
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray, mean_estimate
 from validation.analysis.study import Outcomes, Study
-from validation.cases.rail.filters import COUNTED, RailWheel, counted, linear_filter, scene_of
+from validation.cases.rail.filters import COUNTED, OFFSET, RailWheel, counted, linear_filter, scene_of
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine
 from validation.scenes.damping import in_per_cent
@@ -31,7 +31,7 @@ Key = tuple[float, float, str, str]
 """Offset of the levels, damping, model, grid."""
 Track = tuple[str, str]
 """Model, and what lifts its wheel."""
-OFFSET, FREQUENCY, DAMPING = "dB over the curve", "f [Hz]", "damping"
+FREQUENCY, DAMPING = "f [Hz]", "damping"
 MOVING, INFERRED = "filter in motion", "filter inferred from the force"
 BESIDE, AIRBORNE, RMS = "filter in motion, of two models", "time without contact", "rms of "
 CURVE = 0.0

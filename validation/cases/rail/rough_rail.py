@@ -16,7 +16,7 @@ from validation.analysis.series import Estimates, Series, masked, only
 from validation.analysis.study import Study
 from validation.cases.rail import filters
 from validation.cases.rail import rolled_filters as rolled
-from validation.cases.rail.filters import COUNTED, counted, millimetres
+from validation.cases.rail.filters import COUNTED, OFFSET, counted, millimetres
 from validation.simulation import model_names as named
 from validation.simulation.model_names import BEM, LINEAR, LINEAR_ON_LINE, twin_of
 from validation.simulation.rail_strip import (
@@ -32,7 +32,7 @@ from validation.simulation.rail_strip import (
 
 SHOWN = (LINEAR, named.SPRINGS_THAT_READ, named.ONE_SIDED_BED)
 MODELS = (*SHOWN, named.SPRINGS_ON_LINE)
-OFFSET, WAVES, GROUND, RIDGES = "offset [dB]", "waves of h'", "isotropic ground", "ridges"
+WAVES, GROUND, RIDGES = "waves of h'", "isotropic ground", "ridges"
 OF_BEM = "interval of A3 of boundary elements"
 HEIGHTS, ELLIPSE = "mean of heights over energy mean of lines", "A3 of the ellipse over that of a line"
 SPACING, ACROSS = "spacing [mm]", "across"

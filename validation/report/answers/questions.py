@@ -125,7 +125,7 @@ of_rail = partial(
     Source,
     case="across",
     quantity=OVER_BEM,
-    where={across.OFFSET: 0.0},
+    where={filters.OFFSET: 0.0},
     axis=across.GROUND,
     over=across.GROUND,
     series=(across.WHEEL,),
