@@ -15,6 +15,7 @@ from validation.analysis.claims import (
     decibels,
     off_by,
     per_cent,
+    root_mean_square,
     times,
     times_source,
 )
@@ -44,7 +45,12 @@ CLAIM = Claim(says="It is so.", short="It", quantity="level", along="h/d")
     [
         ((AGREE, AGREE, AGREE), ClaimStatus.HOLDS, "", "It: agree within 1 dB"),
         ((AGREE, AGREE, DIFFER), ClaimStatus.LIMITED, "up to h/d = 1", "It: agree within 1 dB, up to h/d = 1"),
-        ((AGREE, UNDECIDED, AGREE), ClaimStatus.LIMITED, "only at h/d = 0.1", "It: agree within 1 dB, only at h/d = 0.1"),
+        (
+            (AGREE, UNDECIDED, AGREE),
+            ClaimStatus.LIMITED,
+            "only at h/d = 0.1",
+            "It: agree within 1 dB, only at h/d = 0.1",
+        ),
         ((DIFFER, AGREE, AGREE), ClaimStatus.CONTRADICTED, "", "It: +3.00 ± 0.10 dB at h/d = 0.1"),
         ((UNDECIDED, AGREE, AGREE), ClaimStatus.OPEN, "", "It: not decided within 1 dB"),
     ],
@@ -149,7 +155,11 @@ def test_an_identity_tests_no_claim_and_stands_in_a_matrix():
             "Yes only at h/d = 0.1, within 1 dB; not decided beyond that: +1.00 ± 0.30 dB at h/d = 1.",
         ),
         ((UNDECIDED, DIFFER), {}, "No: +3.00 ± 0.10 dB at h/d = 1, where 1 dB is allowed."),
-        ((DIFFER,), {"no": NOT_THIS_CURVE}, "We do not get this curve: +3.00 ± 0.10 dB at h/d = 0.1, where 1 dB is allowed."),
+        (
+            (DIFFER,),
+            {"no": NOT_THIS_CURVE},
+            "We do not get this curve: +3.00 ± 0.10 dB at h/d = 0.1, where 1 dB is allowed.",
+        ),
         ((AGREE, UNDECIDED), {}, "Not decided within 1 dB: +1.00 ± 0.30 dB at h/d = 1."),
         ((DIFFER, DIFFER), {"differ": True}, "Yes, by more than 1 dB: the nearest is +3.00 ± 0.10 dB at h/d = 0.1."),
         ((DIFFER, AGREE), {"differ": True}, "No: +0.20 ± 0.10 dB at h/d = 1, within 1 dB."),
@@ -163,12 +173,12 @@ def test_the_answer_is_one_sentence_of_the_number_that_decides(verdicts, changes
 def test_of_several_models_the_worst_is_named_in_its_own_margin():
     """0.3 of 0.1 is farther off than 3 dB of 2."""
     near, far = point(3.0, 0.0, model="a", tolerance=2.0), point(0.3, 0.0, model="b", tolerance=0.1)
-    assert Claim(says="It is so.").judged([near, far]).answer == "No: b +0.3 dB at q a = 1, where 0.1 dB is allowed."
+    assert Claim(says="It is so.").judged([near, far]).answer == "No: b, +0.3 dB at q a = 1, where 0.1 dB is allowed."
 
 
 def test_among_several_margins_none_stands_for_all():
     near, far = point(1.0, 0.0, model="a", tolerance=2.0), point(0.09, 0.0, model="b", tolerance=0.1)
-    assert Claim(says="It is so.").judged([near, far]).answer == "Yes: at worst b +0.09 dB at q a = 1, within 0.1 dB."
+    assert Claim(says="It is so.").judged([near, far]).answer == "Yes: at worst b, +0.09 dB at q a = 1, within 0.1 dB."
 
 
 def test_the_rest_of_a_range_lies_below_beyond_or_elsewhere():
@@ -207,6 +217,7 @@ def test_a_worst_point_is_at_its_place_and_names_follow_after_a_comma(where, sai
         (decibels, -1.26, 0.04, "-1.3 dB"),
         (decibels, -0.04, 0.01, "less than 0.05 dB"),
         (decibels, -0.04, 0.3, "+0.0 ± 0.3 dB"),
+        (root_mean_square, 2.49, 0.0, "2.5 dB rms"),
         (times, 51.0, 0.0, "350 times (350 to 350)"),
         (times, -6.0, 1.0, "0.5 times (0.45 to 0.56)"),
         (per_cent, 20 * math.log10(2), 0.0, "+100.0 %"),

@@ -125,12 +125,12 @@ STUDY = Study(
     series=series,
     claims=(
         Claim(quantity=rolled.OVER_BEM, along=OFFSET, model=LINEAR, printed=decibels).saying(
-            "On a rail that is rougher than the limit of ISO 3095, linear theory of the ellipse has the contact filter "
-            "of boundary elements within 1 dB.",
+            "On a rail that is rougher than the limit of ISO 3095, linear theory of the ellipse gives the contact "
+            "filter of boundary elements.",
             short="Linear theory of the ellipse",
         ),
         Claim(quantity=HEIGHTS, printed=decibels).saying(
-            "The mean of the heights of parallel lines has the levels of the energy mean of their spectra within 1 dB.",
+            "The mean of the heights of parallel lines has the levels of the energy mean of their spectra.",
             short="Mean of heights over energy mean",
         ),
     ),
