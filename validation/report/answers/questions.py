@@ -164,7 +164,7 @@ QUESTIONS = (
     ),
     Question(
         "roll-off",
-        "Stiffness of roughness with a roll-off",
+        "Stiffness of a rough punch with a roll-off",
         of_rolled_off(quantity=interface.STIFFNESS),
         per_cent,
         (PRESSED("interface"),),
