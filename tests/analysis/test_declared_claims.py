@@ -15,6 +15,7 @@ from validation.analysis.claims import (
     decibels,
     off_by,
     per_cent,
+    root_mean_square,
     times,
     times_source,
 )
@@ -44,7 +45,12 @@ CLAIM = Claim(says="It is so.", short="It", quantity="level", along="h/d")
     [
         ((AGREE, AGREE, AGREE), ClaimStatus.HOLDS, "", "It: agree within 1 dB"),
         ((AGREE, AGREE, DIFFER), ClaimStatus.LIMITED, "up to h/d = 1", "It: agree within 1 dB, up to h/d = 1"),
-        ((AGREE, UNDECIDED, AGREE), ClaimStatus.LIMITED, "up to h/d = 0.1", "It: agree within 1 dB, up to h/d = 0.1"),
+        (
+            (AGREE, UNDECIDED, AGREE),
+            ClaimStatus.LIMITED,
+            "only at h/d = 0.1",
+            "It: agree within 1 dB, only at h/d = 0.1",
+        ),
         ((DIFFER, AGREE, AGREE), ClaimStatus.CONTRADICTED, "", "It: +3.00 ± 0.10 dB at h/d = 0.1"),
         ((UNDECIDED, AGREE, AGREE), ClaimStatus.OPEN, "", "It: not decided within 1 dB"),
     ],
@@ -78,10 +84,11 @@ OF_QUANTITIES = [number(v, quantity=q) for q, v in (("height", DIFFER), ("gradie
     [
         ("-h/d", by_height(DIFFER, AGREE, AGREE), "from h/d = 1 on"),
         # one of several quantities ends them
-        ("h/d", [*by_height(AGREE, AGREE), *by_height(AGREE, DIFFER, quantity="slope")], "up to h/d = 0.1"),
+        ("h/d", [*by_height(AGREE, AGREE), *by_height(AGREE, DIFFER, quantity="slope")], "only at h/d = 0.1"),
         ("q a", by_band(AGREE, AGREE, DIFFER), "up to q a = 4"),
         ("-q a", by_band(DIFFER, AGREE, AGREE), "from q a = 2 on"),
         ("-quantity", OF_QUANTITIES, "in curvature, gradient"),
+        ("g", [number(v, g=g) for v, g in ((AGREE, "a"), (AGREE, "b"), (AGREE, "c"), (DIFFER, "d"))], "from a to c"),
     ],
 )
 def test_limits_from_the_last_value_on_or_along_quantities(along, numbers, limits):
@@ -140,18 +147,22 @@ def test_an_identity_tests_no_claim_and_stands_in_a_matrix():
         (
             (AGREE, DIFFER),
             {"along": "h/d"},
-            "Yes up to h/d = 0.1, within 1 dB; beyond that +3.00 ± 0.10 dB at h/d = 1.",
+            "Yes only at h/d = 0.1, within 1 dB; beyond that +3.00 ± 0.10 dB at h/d = 1.",
         ),
         (
             (AGREE, UNDECIDED),
             {"along": "h/d"},
-            "Yes up to h/d = 0.1, within 1 dB; beyond that +1.00 ± 0.30 dB at h/d = 1.",
+            "Yes only at h/d = 0.1, within 1 dB; not decided beyond that: +1.00 ± 0.30 dB at h/d = 1.",
         ),
-        ((UNDECIDED, DIFFER), {}, "No: +3.00 ± 0.10 dB at h/d = 1, beyond 1 dB."),
-        ((DIFFER,), {"no": NOT_THIS_CURVE}, "We do not get this curve: +3.00 ± 0.10 dB at h/d = 0.1, beyond 1 dB."),
+        ((UNDECIDED, DIFFER), {}, "No: +3.00 ± 0.10 dB at h/d = 1, where 1 dB is allowed."),
+        (
+            (DIFFER,),
+            {"no": NOT_THIS_CURVE},
+            "We do not get this curve: +3.00 ± 0.10 dB at h/d = 0.1, where 1 dB is allowed.",
+        ),
         ((AGREE, UNDECIDED), {}, "Not decided within 1 dB: +1.00 ± 0.30 dB at h/d = 1."),
-        ((DIFFER, DIFFER), {"differ": True}, "Yes, by more than 1 dB: at least +3.00 ± 0.10 dB at h/d = 0.1."),
-        ((DIFFER, AGREE), {"differ": True}, "No: +0.20 ± 0.10 dB at h/d = 1, no more than 1 dB."),
+        ((DIFFER, DIFFER), {"differ": True}, "Yes, by more than 1 dB: the nearest is +3.00 ± 0.10 dB at h/d = 0.1."),
+        ((DIFFER, AGREE), {"differ": True}, "No: +0.20 ± 0.10 dB at h/d = 1, within 1 dB."),
     ],
 )
 def test_the_answer_is_one_sentence_of_the_number_that_decides(verdicts, changes, answer):
@@ -162,7 +173,23 @@ def test_the_answer_is_one_sentence_of_the_number_that_decides(verdicts, changes
 def test_of_several_models_the_worst_is_named_in_its_own_margin():
     """0.3 of 0.1 is farther off than 3 dB of 2."""
     near, far = point(3.0, 0.0, model="a", tolerance=2.0), point(0.3, 0.0, model="b", tolerance=0.1)
-    assert Claim(says="It is so.").judged([near, far]).answer == "No: b +0.3 dB at q a = 1, beyond 0.1 dB."
+    assert Claim(says="It is so.").judged([near, far]).answer == "No: b, +0.3 dB at q a = 1, where 0.1 dB is allowed."
+
+
+def test_among_several_margins_none_stands_for_all():
+    near, far = point(1.0, 0.0, model="a", tolerance=2.0), point(0.09, 0.0, model="b", tolerance=0.1)
+    assert Claim(says="It is so.").judged([near, far]).answer == "Yes: at worst b, +0.09 dB at q a = 1, within 0.1 dB."
+
+
+def test_the_rest_of_a_range_lies_below_beyond_or_elsewhere():
+    below, elsewhere = (Claim(says="", along=a).judged(by_height(DIFFER, AGREE, AGREE)).answer for a in ("-h/d", "h/d"))
+    assert "; below that" in below and elsewhere.startswith("No")
+    assert "; elsewhere" in Claim(says="", along="-quantity").judged(OF_QUANTITIES).answer
+
+
+def test_a_large_margin_of_a_ratio_is_a_factor():
+    wide = Claim(says="", printed=per_cent).judged([point(1.0, 0.0, tolerance=3.0)])
+    assert wide.answer == "Yes, within a factor of 1.41: +12.2 % at q a = 1."
 
 
 def test_among_those_that_agree_the_interval_counts_too():
@@ -174,12 +201,13 @@ def test_among_those_that_agree_the_interval_counts_too():
     ("where", "said"),
     [
         ({"h/d": 1.0, "q a": (1.0, 4.0), "worst at": 2.0}, " at h/d = 1, q a = 2"),
+        ({"over ISO 3095 [dB]": 10.0}, " at 10 dB over ISO 3095"),
         ({"band": "below it", "f [Hz]": (177.0, 1402.0)}, ", below it, f = 177 to 1402 Hz"),
     ],
 )
 def test_a_worst_point_is_at_its_place_and_names_follow_after_a_comma(where, said):
     answer = Claim(says="It is so.").judged([point(3.0, 0.1, quantity="level", model="m", where=where)]).answer
-    assert answer == f"No: +3.00 ± 0.10 dB{said}, beyond 1 dB."
+    assert answer == f"No: +3.00 ± 0.10 dB{said}, where 1 dB is allowed."
 
 
 @pytest.mark.parametrize(
@@ -189,10 +217,12 @@ def test_a_worst_point_is_at_its_place_and_names_follow_after_a_comma(where, sai
         (decibels, -1.26, 0.04, "-1.3 dB"),
         (decibels, -0.04, 0.01, "less than 0.05 dB"),
         (decibels, -0.04, 0.3, "+0.0 ± 0.3 dB"),
+        (root_mean_square, 2.49, 0.0, "2.5 dB rms"),
         (times, 51.0, 0.0, "350 times (350 to 350)"),
         (times, -6.0, 1.0, "0.5 times (0.45 to 0.56)"),
-        (per_cent, 20 * math.log10(2), 0.0, "+100.0 % (+100.0 to +100.0)"),
-        (per_cent, 1.0, 0.0, "+12.2 % (+12.2 to +12.2)"),
+        (per_cent, 20 * math.log10(2), 0.0, "+100.0 %"),
+        (per_cent, 1.0, 0.0, "+12.2 %"),
+        (per_cent, -1.0, 0.5, "-10.9 ± 5.3 %"),
         (per_cent, -40.0, 0.0, "none left"),
         (off_by, 1.0, 0.0, "off by +1.0e+00 dB"),
         (times_source, 0.5, 0.0, "0.5 times that of s"),

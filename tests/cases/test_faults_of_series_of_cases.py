@@ -51,7 +51,7 @@ def test_each_length_of_springs_has_its_own_level_and_exponents_their_grid():
             assert n.sample == pytest.approx(DECIBEL * 0.01 * student(8, 1 - 0.05 / (PUNCH.per_decade + 1)))
     less = numbers_with(numbers, study.EXPONENT, study.LESS)
     assert len(less) == 4 and {(round(n.value, 9), round(n.grid, 9)) for n in less} == {(0.1, 0.03)}
-    (law,) = numbers_with(numbers, study.EXPONENT, study.BEM)
+    (law,) = numbers_with(numbers, study.EXPONENT, study.OF_BEM)
     assert (law.value, law.grid) == pytest.approx((0.5, 0.02))
     assert law.sample == pytest.approx(0.01 * student(8, 1 - 0.05 / 2))
 
@@ -59,7 +59,7 @@ def test_each_length_of_springs_has_its_own_level_and_exponents_their_grid():
 def test_published_exponents_are_those_of_their_hurst_exponent():
     """0.77 at H = 0, 0.51 at H = 1."""
     numbers = [n for h in (0.4, 0.7) for n in numbers_of(fractal_punch_study.exponents(found_in_fig_14_1(), h))]
-    laws = numbers_with(numbers, model=fractal_punch_study.BEM)
+    laws = numbers_with(numbers, model=fractal_punch_study.OF_BEM)
     assert [n.reference for n in laws] == pytest.approx([0.77 - 0.26 * 0.4, 0.77 - 0.26 * 0.7])
     assert {n.where[fractal_punch.FORCE] for n in laws} == {(0.01, 0.1)}
 

@@ -35,7 +35,7 @@ def planted(factor):
     [
         (lambda offset: 1.02, ClaimStatus.HOLDS, ""),
         (lambda offset: 1.5, ClaimStatus.CONTRADICTED, ""),
-        (lambda offset: 1 + 0.05 * offset, ClaimStatus.LIMITED, "up to dB over the curve = 0"),
+        (lambda offset: 1 + 0.05 * offset, ClaimStatus.LIMITED, "only at 0 dB over ISO 3095"),
     ],
 )
 def test_the_claim_of_the_filter_follows_what_lifts_the_wheel_in_motion(factor, status, limits):

@@ -9,6 +9,7 @@ from validation.analysis.evidence import Evidence, Role, Table, Verdict
 from validation.cases.punch import fractal_punch_study, interface, work
 from validation.cases.punch.ensembles import DEVIATION, MEAN, OVER
 from validation.cases.rail import across, rolled_filters
+from validation.cases.rail.filters import OFFSET
 from validation.cases.rail.rail_dynamic import BESIDE, RMS, SPRINGS_OVER_BEM
 from validation.cases.rolling.force_spectrum import LINEAR_3D, RMS_FORCE, RMS_LEVEL, SPRINGS
 from validation.cases.rolling.force_spectrum import OVER as OVER_ROLLED
@@ -147,13 +148,13 @@ def test_an_alternative_on_an_axis_of_its_own_says_which():
     found = {"h/d": [0.1], "h' a/d": [0.37], "cells to a contact radius": [12], "applications a time step": [7.0]}
     wheel = section_of("wheel_3d", [failing], Table("wheel", found))
     moving = {"quantity": RMS + BESIDE, "model": SPRINGS_OVER_BEM, "tolerance": 1.0}
-    where = {"dB over the curve": 0.0, "f [Hz]": (100.0, 900.0)}
+    where = {OFFSET: 0.0, "f [Hz]": (100.0, 900.0)}
     rail = section_of("rail_dynamic", [at((0.1, 1.0), 0.2, **moving | {"where": where})])
     row = row_of("dynamic-wheel", wheel, rail)
     assert words_of(row) == ["no"]
     assert row.measured == "h' a/d = 0.37"
     on_rail, in_time = row.instead
-    assert on_rail[0].endswith("in the time loop at 0 dB over the curve, within 1 dB rms over bands")
+    assert on_rail[0].endswith("in the time loop at 0 dB over ISO 3095, within 1 dB rms over bands")
     assert on_rail[1] == "rail_dynamic"
     assert in_time[0].startswith("boundary elements in the time loop (7 applications")
 
@@ -236,7 +237,7 @@ def test_differences_below_and_above_are_told_apart():
 
 def test_a_rail_is_judged_by_what_lies_across_from_ridges_to_isotropic_ground():
     def off(ground, value, offset=0.0):
-        where = {"wheel": "50 kN, 920 mm", "offset [dB]": offset, "across": ground, "wavelength [mm]": (8.0, 100.0)}
+        where = {"wheel": "50 kN, 920 mm", OFFSET: offset, "across": ground, "wavelength [mm]": (8.0, 100.0)}
         model, quantity = across.LINES[0], rolled_filters.OVER_BEM
         return at((0.1, 1.0), value, where=where, quantity=quantity, model=model, tolerance=1.0)
 
@@ -318,8 +319,8 @@ def test_a_cell_says_yes_only_where_all_agree_and_nothing_lacks(found, verdict):
 @pytest.mark.parametrize(
     ("places", "name", "said"),
     [
-        ((-10.0, 10.0), "dB over the curve", "-10 to 10 dB over the curve"),
-        ((5.0,), "dB over the curve", "5 dB over the curve"),
+        ((-10.0, 10.0), OFFSET, "-10 to 10 dB over ISO 3095"),
+        ((5.0,), OFFSET, "5 dB over ISO 3095"),
         ((0.01, 0.3), "h/d", "h/d = 0.01 to 0.3"),
         (("region 2", "region 3"), "the spectrum", "region 2, region 3"),
     ],

@@ -82,7 +82,7 @@ def test_the_command_writes_one_sound_a_model_with_one_gain(tmp_path, capsys):
     assert about["heard"].startswith("What is heard is the contact force")
     assert "50 times a second, which is heard as a tone" in " ".join(printed.split())
     assert "over boundary elements" not in printed
-    assert (one / "levels.csv").read_text().startswith("f [Hz],linear theory in 3D [dB re 1 N],")
+    assert (one / "levels.csv").read_text().startswith('f [Hz],"linear, ellipse [dB re 1 N]",')
     sound(two, "--models", "geike,springs,linear")
     assert {f.name: f.read_bytes() for f in one.iterdir()} == {f.name: f.read_bytes() for f in two.iterdir()}
 

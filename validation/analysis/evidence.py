@@ -141,9 +141,15 @@ def number_with(
 def _placed(name: str, value: Place) -> str:
     if isinstance(value, str):
         return value
-    if isinstance(value, tuple):
-        return f"{name} = {value[0]:g} to {value[1]:g}"
-    return f"{name} = {value:g}"
+    return placed(name, f"{value[0]:g} to {value[1]:g}" if isinstance(value, tuple) else f"{value:g}")
+
+
+def placed(name: str, value: str) -> str:
+    """ "h/d = 0.1", "f = 177 Hz", and of words with a unit "10 dB over ISO 3095"."""
+    symbol, _, unit = name.removesuffix("]").partition(" [")
+    if unit and " " in symbol:
+        return f"{value} {unit} {symbol}"
+    return f"{symbol} = {value}{f' {unit}' if unit else ''}"
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from validation.analysis.chart import Chart, Curve, Map, Panel
-from validation.analysis.evidence import Evidence, Table
+from validation.analysis.evidence import Evidence, Table, placed
 from validation.analysis.series import ENDS, JUDGED
 from validation.report.style import BEM, EXACT, GUIDE, MDR, MDR_LINE, MDR_OTHER, Style, graded, panels, tick, visible
 
@@ -162,7 +162,7 @@ def _apart(values: np.ndarray) -> list[float]:
 def _said(name: str, value: object) -> str:
     """A value by its name; a name by itself, unless it is a number of a column that has names too."""
     try:
-        return f"{name} = {float(value):g}"  # type: ignore[arg-type]
+        return placed(name, f"{float(value):g}")  # type: ignore[arg-type]
     except ValueError:
         return str(value)
 

@@ -66,7 +66,7 @@ STUDY = Study(
             where={"setting": ...},
         ),
         Claim(quantity=case.COST, differ=True, whose=Whose.BOOK, printed=hours).saying(
-            "The contact of the wheel is too costly for boundary elements or finite elements in three dimensions."
+            "The rolling contact of a rough wheel in three dimensions is too costly for boundary elements."
         ),
     ),
     charts=(Chart("precision", claims=(0,)).of(f"Error against seconds, a chart a quantity. {MARKS}"),),

@@ -223,7 +223,7 @@ def _punches(result: Outcomes) -> Iterator[Series]:
         k = mdr.load_curve(np.zeros(n[0]), length=length, modulus=1.0).at_approach(1e-3).stiffness
         yield by_cells(name, np.full(len(n), k))
         role = Role.FINDING if name == LENGTHS[0] else Role.IDENTITY
-        near = "10 %: a margin of the mean stiffness"
+        near = "10 %: the margin of the mean stiffness of rough punches"
         yield single(FULL, name, 100 * (k / CAPACITANCE - 1), 10.0, numerical, near, unit="%", role=role)
 
 
@@ -258,14 +258,14 @@ def _ellipse(result: Outcomes) -> Iterator[Series]:
 
 
 def in_per_cent(number: Number) -> str:
-    return f"{number.value:+.1f} %"
+    return f"{abs(number.value):.1f} % {'softer' if number.value < 0 else 'stiffer'}"
 
 
 EXACT = (
     *("force over Hertz", "approach over Hertz", "stiffness over 2 E* a", "contact radius over Hertz"),
     *(PRESSURE_ERROR, LIMIT, CIRCLE, WIDTH),
 )
-OF_BOTH = (Curve(FORCE, BEM, "bem", BEM), Curve(FORCE, MDR, "mdr around", "springs (MDR)"))
+OF_BOTH = (Curve(FORCE, BEM, "bem", BEM), Curve(FORCE, MDR, "mdr around", "springs"))
 STUDY = Study(
     title="Contacts with closed forms",
     method=(
@@ -283,17 +283,15 @@ STUDY = Study(
     series=series,
     claims=(
         Claim(quantity=EXACT, printed=off_by).saying(
-            "Boundary elements have the contacts of Hertz, of flat punches and of Westergaard, and springs that of "
-            "Hertz, within what their grids leave.",
+            "Boundary elements give the contacts of Hertz, of flat punches and of Westergaard, springs that of Hertz.",
             short="Both methods beside closed forms",
         ),
         Claim(quantity=tuple(CONTACT)).saying(
-            "Both the closed form of an ellipse and boundary elements have the contact of the program CONTACT.",
+            "The closed form of an ellipse and boundary elements give the contact that the program CONTACT publishes.",
             short="Closed form and boundary elements beside the contact of CONTACT",
         ),
         Claim(quantity=FULL, printed=in_per_cent).saying(
-            "Springs on the length L_1D = L have the stiffness of a square punch of side L in full contact within "
-            "10 %.",
+            "Springs on the length L_1D = L are as stiff as a square punch of side L in full contact.",
             short="Springs on L_1D = L beside the square punch in full contact",
         ),
     ),
@@ -320,7 +318,7 @@ STUDY = Study(
             ),
             Panel(CELLS, ERROR, log="xy").of(
                 Curve(ERROR, f"{SPHERE}, {BEM}", "bem", BEM),
-                Curve(ERROR, f"{SPHERE}, {MDR}", "mdr around", "springs (MDR)"),
+                Curve(ERROR, f"{SPHERE}, {MDR}", "mdr around", "springs"),
                 Curve(ERROR, PUNCH, "crosses", "square punch, boundary elements"),
                 Curve(ERROR, WAVE, "thick", "wave, boundary elements"),
             ),

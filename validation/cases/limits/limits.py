@@ -146,10 +146,10 @@ def summarised(sweep: Sweep) -> dict[str, object]:
 
 def said(number: Number) -> str:
     if number.quantity == WARNED:
-        return f"has {number.value:.0f} % of its values without the right message"
+        return f"{number.value:.0f} % of its values without the right message"
     if number.grid > abs(number.value) + number.tolerance:
         return "no threshold in the sweep"
-    return f"fails {abs(number.value):.2g} octaves {'after' if number.value > 0 else 'before'} the predicted threshold"
+    return f"{abs(number.value):.2g} octaves {'after' if number.value > 0 else 'before'} the predicted threshold"
 
 
 def panel(limit: Limit) -> Panel:

@@ -79,13 +79,13 @@ def notes(result: Outcomes) -> list[str]:
         return []
     said = [
         f"Over all loads and H, the ratio changes by {100 * mean.value.value:+.1f} ± "
-        f"{100 * (mean.value.half_width + mean.grid):.1f} % by decade of bandwidth.",
+        f"{100 * (mean.value.half_width + mean.grid):.1f} % per decade of bandwidth.",
         f"At q_max/q_min = {waves} MDR's relative deviation is {_from_to(ratios)} that of boundary elements.",
     ]
     uncoupled = [ratio.value for pair in pairs for ratio in found.without_coupling(*pair).values()]
     if uncoupled:
         times = _from_to(uncoupled)
-        said += [f"Without elastic coupling, that along a line is {times} that over an area."]
+        said += [f"Without elastic coupling, the deviation of springs along a line is {times} that over an area."]
     return said
 
 
@@ -118,8 +118,8 @@ STUDY = Study(
     series=series,
     claims=(
         Claim(quantity=DRIFT, printed=per_cent).saying(
-            "The ratio of the deviations of MDR and of boundary elements does not change with bandwidth.",
-            short="Ratio of the deviations, by decade of bandwidth",
+            "MDR's relative deviation of the stiffness over that of boundary elements is the same in every bandwidth.",
+            short="Change of the ratio of deviations per decade of bandwidth",
         ),
     ),
     charts=(

@@ -22,7 +22,7 @@ from validation.simulation.rough_punch import (
 )
 
 MEAN, DEVIATION = "mean stiffness", "relative deviation"
-FORCE, OVER, FEW = "Fbar", "mdr over bem3d", "bem3d, few cells"
+FORCE, OVER, FEW = "Fbar", "springs over boundary elements", "boundary elements, few cells"
 K = TypeVar("K", bound=Hashable)
 J = TypeVar("J", bound=Hashable)
 

@@ -21,13 +21,14 @@ from validation.selection import model_needed
 from validation.simulation.rough_punch import BEM, FEW_CELLS, MDR
 from validation.theory import closed_forms
 
-EXPONENT, LESS, OF_LONG = "exponent", "mdr less bem3d", ", L_1D = 1.1523 L"
-OF_LAW = f"{BEM} beside {shown.LAW}"
+EXPONENT, LESS, OF_LONG = "exponent", "springs less boundary elements", ", L_1D = 1.1523 L"
+OF_BEM = shown.NAMES[BEM]
+OF_LAW = f"{OF_BEM} beside {shown.LAW}"
 PRINTED, FIT = ", as Fig. 14.1 shows it", "fit"
 LEVEL = Margin(
     tolerance=DECIBEL * math.log(1.1),
-    reason="10 %: 0.8 dB, finer than one-third octave levels of rolling are known",
-    source="bem3d, extrapolated",
+    reason="10 %: 0.8 dB, less than the 1 dB within which measured levels of rolling repeat",
+    source="boundary elements, extrapolated",
 )
 FIGURE = replace(
     LEVEL,
@@ -92,7 +93,11 @@ def exponents(found: shown.PunchStatistics, hurst: float) -> Iterator[Series]:
         if first == tested:
             law = partial(Series, EXPONENT, where=place, family=len(case.hursts), grid=[bem.grid])
             for model, source, reference in (
-                (BEM, "Pohrt and Popov (2012), linear between H = 0 and 1", steep + (flat - steep) * hurst),
+                (
+                    OF_BEM,
+                    "Pohrt and Popov (2012), linear between H = 0 and 1",
+                    steep + (flat - steep) * hurst,
+                ),
                 (OF_LAW, "an unbounded spectrum", 1 / (1 + hurst)),
             ):
                 yield law(model, (bem.value,), margin=replace(DIGITS, source=source), reference=reference)
@@ -190,11 +195,13 @@ STUDY = Study(
             no=THREE_D_DIFFER,
             where={shown.H: float, FORCE: lambda decade: decade[0] > 0.5 * CARRIED},
         ).saying(
-            f"MDR gives the mean stiffness of rough punches under more than the last asperities, Fbar from {CARRIED}.",
+            f"MDR gives the mean stiffness of rough punches where more than the last asperities carry, from Fbar = "
+            f"{CARRIED} on.",
             short="MDR's mean stiffness over boundary elements",
         ),
-        Claim(quantity=EXPONENT, model=BEM, along=f"-{shown.H}", whose=Whose.FIELD).saying(
-            "The stiffness grows with the force to a power of 0.77 at H = 0 to 0.51 at H = 1 (Pohrt and Popov 2012).",
+        Claim(quantity=EXPONENT, model=OF_BEM, along=f"-{shown.H}", whose=Whose.FIELD).saying(
+            "The exponent of the stiffness over the force falls from 0.77 at H = 0 to 0.51 at H = 1 (Pohrt and Popov "
+            "2012).",
             short="The exponent of the stiffness",
         ),
         Claim(quantity=MEAN, model=FIT, printed=per_cent).saying(
@@ -265,7 +272,7 @@ STUDY = Study(
         of_hursts(
             name="exponent of the mean stiffness beside what is published, and beside 1 / (1 + H)",
             quantity=EXPONENT,
-            model=(BEM, OF_LAW),
+            model=(OF_BEM, OF_LAW),
             columns="model",
         ),
     ),

@@ -68,6 +68,11 @@ class Interface:
         """p / E* at which Persson's contact fraction is erf(sqrt(2) p / (E* g)), over h: Fbar of the punch."""
         return np.asarray(self.spectrum(ground).gradient * erfinv(self.contacts) / math.sqrt(2))
 
+    @property
+    def per_cent(self) -> tuple[float, ...]:
+        """The contacts."""
+        return tuple(round(100 * contact, 6) for contact in self.contacts)
+
     def slopes(self, ground: Ground) -> Statistic:
         """d ln K / d ln p from each load to the next."""
         steps = np.diff(np.log(self.pressures(ground)))
@@ -123,8 +128,12 @@ LIGHT = 0.1
 PUNCH, BARBER = "punch", "at the least (Barber)"
 GAMMAS = {f"Persson, γ = {gamma:g}": gamma for gamma in (YANG_AND_PERSSON, 1.0)}
 FITTED, UNFITTED = GAMMAS
-EDGELESS, ON_PUNCH, SERIES = "bem3d, interface", "bem3d, punch", "interface and flat punch in series"
-ROLL_OFF, CONTACT = "q_r L / 2π", "nominal contact"
+EDGELESS, ON_PUNCH, SERIES = (
+    "boundary elements, interface",
+    "boundary elements, punch",
+    "interface and flat punch in series",
+)
+ROLL_OFF, CONTACT = "q_r L / 2π", "contact in Persson's theory [%]"
 STIFFNESS, AREA, GAP = "stiffness", "contact fraction", "mean gap"
 SCALED, SCALED_PUNCH = "K h over p", "k h over F"
 FRACTION, GAP_OVER_H = "contact fraction A over L²", "mean gap over h"
@@ -138,7 +147,9 @@ ZERO_GAP = 1e-12
 DECIBELS: Mapping[str, Any] = {"scale": DECIBEL, "unit": "dB"}
 ONE: Mapping[str, Any] = {"reference": 1.0}
 NEAR = Margin(
-    DECIBEL * math.log(1.1), "10 %: 0.8 dB, finer than one-third octave levels of rolling are known", source="bem3d"
+    DECIBEL * math.log(1.1),
+    "10 %: 0.8 dB, less than the 1 dB within which measured levels of rolling repeat",
+    source="boundary elements",
 )
 PROPORTIONAL = Margin(
     math.log10(1.1),
@@ -187,7 +198,7 @@ def _of_interface(case: Interface, ground: Ground, mine: Measured) -> Iterator[S
     """K h / p along the loads, theory beside it load by load, and the exponents of both from load to load."""
     over_h, where = case.pressures(ground), _where(ground)
     stiffness, finer = mine.of()
-    shown = partial(Series, SCALED, where=where, along=CONTACT, at=case.contacts, shown=math.exp)
+    shown = partial(Series, SCALED, where=where, along=CONTACT, at=case.per_cent, shown=math.exp)
     yield shown(BEM, stiffness - Estimates.exact(np.log(over_h)), grid=finer)
     yield shown(BARBER, np.full(over_h.size, math.log(case.height / float(mine.coarse["highest"].mean()))))
     spectrum = case.spectrum(ground)
@@ -204,7 +215,7 @@ def _of_interface(case: Interface, ground: Ground, mine: Measured) -> Iterator[S
 def _of_punch(case: Interface, interface: Measured, punch: Measured, springs: Outcome) -> Iterator[Series]:
     """The punch, its interface in series with the flat punch, and springs, load by load."""
     ground, forces, slope = case.pressed, np.array(case.forces), case.slopes(case.pressed)
-    shown = partial(Series, where=_where(ground), along=CONTACT, at=case.contacts, shown=math.exp)
+    shown = partial(Series, where=_where(ground), along=CONTACT, at=case.per_cent, shown=math.exp)
     drawn: dict[str, tuple[str, FloatArray | float]] = {
         "stiffness": (SCALED_PUNCH, forces),
         "area": (FRACTION, 1.0),
@@ -249,8 +260,8 @@ def _each(
     margin: Margin | None = NEAR,
 ) -> Iterator[Series]:
     """A number at each load; of exponents for each step between light loads."""
-    places: Sequence[Place] = [step for step in pairwise(case.contacts) if step[1] <= LIGHT]
-    places, unit = (places, ONE) if quantity == EXPONENT else (case.contacts, DECIBELS)
+    places: Sequence[Place] = [step for step in pairwise(case.per_cent) if step[1] <= 100 * LIGHT]
+    places, unit = (places, ONE) if quantity == EXPONENT else (case.per_cent, DECIBELS)
     for place, one, left in zip(places, found, finer, strict=False):
         where: Where = {**_where(ground), CONTACT: place}
         family = len(places) * len(case.grounds)
@@ -278,7 +289,7 @@ STUDY = Study(
         "A rough face of period L is pressed on a periodic half-space: there is no edge, and the approach is that "
         "of the mean planes. Its spectrum is level up to q_r and a power law of H to {c.band} q_r. K = dp / "
         "d(approach) at constant contact area; {c.surfaces} surfaces of each, on four cells to the shortest wave. "
-        "Loads are named by the contact fraction that Persson's theory has under them, erf(√2 p / (E* g)), g the rms "
+        "Loads are named by the contact that Persson's theory has under them, erf(√2 p / (E* g)), g the rms "
         "gradient. The face of (q_r L / 2π, H) = ({c.pressed:g}) is that of a square punch of side L too, under equal "
         "forces, beside {c.profiles} profiles of {c.points} springs. Values are extrapolated to first order from "
         "{c.refined} surfaces on twice as many cells a side; ± grid is half of that correction, with its 95 % "
@@ -288,15 +299,15 @@ STUDY = Study(
     series=series,
     claims=(
         of_interface(quantity=OVER_LOAD, no=NOT_THIS_CURVE, printed=per_cent).saying(
-            "Up to 10 % nominal contact the normal stiffness of a rough interface is proportional to the load.",
+            "Up to 10 % contact the normal stiffness of a rough interface is proportional to the load.",
             short="Stiffness of an interface over the load, at lighter loads",
         ),
         of_interface(quantity=BESIDE_BEM, model=FITTED, printed=per_cent).saying(
-            "Up to 20 % nominal contact Persson's theory, with γ = 0.45, has the stiffness of a rough interface.",
+            "Up to 20 % contact Persson's theory, with γ = 0.45, gives the stiffness of a rough interface.",
             short="Persson's stiffness beside boundary elements",
         ),
         Claim(quantity=(AREA, GAP), differ=True, printed=times).saying(
-            "MDR has neither the true contact area nor the mean gap of a rough punch.",
+            "MDR's contact area and mean gap differ from those of a rough punch.",
             short="MDR's contact area and mean gap beside those of boundary elements",
         ),
     ),

@@ -13,7 +13,7 @@ from validation.analysis.margins import FIELD, THREE_DECIBELS
 from validation.analysis.series import Estimates, Series, Where, masked, only
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray, Interval, jackknifed
 from validation.cases.rail import filters
-from validation.cases.rail.filters import GROUNDS, RailWheel, counted, decibel, linear_filter, on_strips
+from validation.cases.rail.filters import GROUNDS, OFFSET, RailWheel, counted, decibel, linear_filter, on_strips
 from validation.cases.rail.rolled_filters import (
     A3,
     OVER_BEM,
@@ -44,7 +44,7 @@ REACH = "shortest wave within 1 dB of boundary elements [mm]"
 BORDER, OFF, WITHIN = "largest alpha for one line", "one line over boundary elements [dB]", "within [dB]"
 NEAREST, LEFT = "nearest to boundary elements", "worst band of the nearest [dB]"
 ALPHA_OF, FACTOR_OF, ALIKE = "alpha of Remington", "factor of the bed", "alpha that is alike"
-WHEEL, OFFSET, GROUND, SPEED = "wheel", "offset [dB]", "across", "speed [km/h]"
+WHEEL, GROUND, SPEED = "wheel", "across", "speed [km/h]"
 SPEEDS, TOLERANCES = (80.0, 200.0), (1.0, 2.0, 3.0)
 WAYS = ("in the worst band that counts", *(f"in dB(A) at {speed:g} km/h" for speed in SPEEDS))
 FINE_ALPHAS = np.geomspace(0.1, 8.0, 60)

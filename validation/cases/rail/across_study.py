@@ -13,8 +13,8 @@ from validation.analysis.series import Series
 from validation.analysis.statistics import Interval
 from validation.analysis.study import Study
 from validation.cases.rail import across, filters
-from validation.cases.rail.across import GROUND, OFFSET, WHEEL, AcrossResult
-from validation.cases.rail.filters import COUNTED, GROUNDS, counted, linear_filter
+from validation.cases.rail.across import GROUND, WHEEL, AcrossResult
+from validation.cases.rail.filters import COUNTED, GROUNDS, OFFSET, counted, linear_filter
 from validation.cases.rail.rolled_filters import A3, OVER_BEM, WAVE
 from validation.simulation.model_names import BED, BEM, LINEAR, LINEAR_ON_LINE
 from validation.simulation.rail_strip import SHORTEST
@@ -126,8 +126,8 @@ STUDY = Study(
     method=(
         "Lines have the levels of ISO 3095:2013; their waves cross the rail as ridges, with |k_y| < alpha k_x "
         "uniformly, or as on isotropic ground. Wheels ({c.labels}) roll under constant load on a crown of {c.crown:g} "
-        "m, the first also on rougher rails (dB more, wheels, strips: {c.rougher:g}). Boundary elements have {c.cells} "
-        "cells to the smaller semi-axis, on {c.strips} strips a ground, each upside down too. "
+        "m, {c.rougher[1]} of them also on rails {c.rougher[0]:g} dB rougher, {c.rougher[2]} strips. Boundary elements "
+        "have {c.cells} cells to the smaller semi-axis, on {c.strips} strips a ground, each upside down too. "
         "Strips are drawn as wide as oblique long waves need, and rolled over along their middle; roughness ends at "
         f"{SHORTEST:g} a_x. Linear filters are integrals; A3 of boundary elements is that of linear theory of the "
         "ellipse and what they are over it on the same strips. One line: springs with R_1 = a_x²/d, "
@@ -142,7 +142,7 @@ STUDY = Study(
     series=lambda result: result.series,
     claims=(
         Claim(quantity=OVER_BEM, model=LINEAR, printed=decibels).saying(
-            "Linear theory of the ellipse is the contact filter of boundary elements, whatever lies across.",
+            "Linear theory of the ellipse gives the contact filter of boundary elements, whatever lies across.",
             short="Linear theory of the ellipse",
         ),
         replace(from_ridges, quantity=across.ONE_LINE, whose=Whose.FIELD).saying(
@@ -152,7 +152,7 @@ STUDY = Study(
         ),
         from_ridges.saying("One measured line is enough for the contact filter.", short="One line"),
         replace(from_ridges, model=filters.BED_WIDER).saying(
-            "A bed of springs (DPRS) on a patch wider by 2/√3 has the contact filter of boundary elements.",
+            "A bed of springs (DPRS) on a patch wider by 2/√3 gives the contact filter of boundary elements.",
             short="DPRS on a wider patch",
         ),
     ),

@@ -32,6 +32,8 @@ from validation.simulation.rail_strip import (
 )
 from validation.theory.elliptic_contact import EllipticContact
 
+OFFSET = "over ISO 3095 [dB]"
+"""Of the levels of a rail over the limit curve."""
 TABLE, HEADER = Path(__file__).with_name("cnossos_a3_2021.csv"), 3
 T = TypeVar("T", bound=np.generic)
 STEEL = 210e9 / (2 * (1 - 0.3**2))

@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, Matrix
+from validation.analysis.claims import Claim, Matrix, root_mean_square
 from validation.analysis.evidence import Whose
 from validation.analysis.margins import REPEATABLE
 from validation.analysis.nominal_bands import NominalBands
 from validation.analysis.series import Estimates, Series, masked
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray, mean_estimate
 from validation.analysis.study import Outcomes, Study
-from validation.cases.rail.filters import COUNTED, RailWheel, counted, linear_filter, scene_of
+from validation.cases.rail.filters import COUNTED, OFFSET, RailWheel, counted, linear_filter, scene_of
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine
 from validation.scenes.damping import in_per_cent
@@ -31,7 +31,7 @@ Key = tuple[float, float, str, str]
 """Offset of the levels, damping, model, grid."""
 Track = tuple[str, str]
 """Model, and what lifts its wheel."""
-OFFSET, FREQUENCY, DAMPING = "dB over the curve", "f [Hz]", "damping"
+FREQUENCY, DAMPING = "f [Hz]", "damping"
 MOVING, INFERRED = "filter in motion", "filter inferred from the force"
 BESIDE, AIRBORNE, RMS = "filter in motion, of two models", "time without contact", "rms of "
 CURVE = 0.0
@@ -205,7 +205,7 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(quantity=RMS + MOVING, whose=Whose.FIELD, along=OFFSET).saying(
+        Claim(quantity=RMS + MOVING, whose=Whose.FIELD, along=OFFSET, printed=root_mean_square).saying(
             "The contact filter of constant load holds for a wheel in motion.",
             short="In motion over constant load, rms over bands",
         ),

@@ -29,7 +29,6 @@ SOUNDING = {"bem": BEM, "linear": LINEAR, "springs": SPRINGS_THAT_READ, "geike":
 """Models by the names of their files."""
 SHORTEST = 0.9
 """Largest wavenumber over that of two cells a wave."""
-LABELS = {model: model for model in SOUNDING.values()} | {LINEAR: "linear theory in 3D"}
 LOWEST, FEWEST_WAVES = 20.0, 5
 """First frequency of one-third octaves [Hz], and waves of a period below it."""
 LEAST = -40.0
@@ -194,7 +193,7 @@ class RailSoundResult(Outcomes):
         return np.where(found > LEAST, np.round(found, 2), np.nan)
 
     def bands_table(self) -> Table:
-        found = {f"{LABELS[model]} [dB re 1 N]": self.in_bands(model).tolist() for model in self.case.sounding}
+        found = {f"{model} [dB re 1 N]": self.in_bands(model).tolist() for model in self.case.sounding}
         return Table("levels", {"f [Hz]": (self.bands.centres / (2 * math.pi)).tolist(), **found})
 
     def sounds_table(self) -> Table:
@@ -202,7 +201,7 @@ class RailSoundResult(Outcomes):
         rows = []
         for model in self.case.sounding:
             row: dict[str, object] = {
-                "model": LABELS[model],
+                "model": model,
                 "level [dB re 1 N]": round(self.level(model), 2),
                 "A-weighted [dB re 1 N]": round(self.weighted(model), 2),
                 "largest [N]": round(float(np.abs(self.signal(model)).max()), 1),
@@ -226,7 +225,7 @@ class RailSoundResult(Outcomes):
 
 def column_of(model: str) -> str:
     """Of the table of samples."""
-    return f"{LABELS[model]} [N]"
+    return f"{model} [N]"
 
 
 def decibels(power: float) -> float:

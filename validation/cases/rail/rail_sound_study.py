@@ -10,7 +10,7 @@ from validation.analysis.series import Series
 from validation.analysis.sound import Sound, Sounds
 from validation.analysis.study import Study
 from validation.cases.rail import rail_sound
-from validation.cases.rail.rail_sound import LABELS, SOUNDING, RailSound, RailSoundResult
+from validation.cases.rail.rail_sound import SOUNDING, RailSound, RailSoundResult
 from validation.simulation.model_names import BEM, LINEAR, SPRINGS_THAT_READ
 from validation.simulation.rail_sound import GEIKE, ISOTROPIC
 
@@ -28,7 +28,7 @@ def series(result: RailSoundResult) -> list[Series]:
     case, found = result.case, list[Series]()
     f, time = result.bands.centres / (2 * math.pi), 1000 * np.arange(round(SHOWN * case.rate)) / case.rate
     for model in case.sounding:
-        name, force = LABELS[model], np.round(result.signal(model), 1)[: time.size]
+        name, force = model, np.round(result.signal(model), 1)[: time.size]
         found += [
             Series(IN_BANDS, name, result.in_bands(model), along=FREQUENCY, at=f, unit="dB re 1 N"),
             Series(FORCE, name, force, along=TIME, at=time[: force.size], unit="N"),
@@ -53,7 +53,7 @@ def sounds_of(result: RailSoundResult) -> Sounds:
         tracks=tuple(
             Sound(
                 name=name,
-                label=LABELS[model][0].upper() + LABELS[model][1:],
+                label=model[0].upper() + model[1:],
                 column=rail_sound.column_of(model),
                 says=f"{result.weighted(model):.1f} dB(A) re 1 N{_beside(result, model)}.",
             )
@@ -124,8 +124,8 @@ STUDY = Study(
                 Curve(FORCE, style="lines", by=("model",), down=1e4)
             ),
             Panel(FREQUENCY, "level [dB re 1 N]", decades=45.0, legend="lower left").of(
-                Curve(IN_BANDS, LABELS[BEM], "thick", by=("model",)),
-                Curve(IN_BANDS, LABELS[LINEAR], "crosses", by=("model",)),
+                Curve(IN_BANDS, BEM, "thick", by=("model",)),
+                Curve(IN_BANDS, LINEAR, "crosses", by=("model",)),
                 Curve(IN_BANDS, SPRINGS_THAT_READ, "mdr", by=("model",)),
                 Curve(IN_BANDS, GEIKE, "other", by=("model",)),
                 Curve(PLACES, ENDS, "dashed", "_", upright=True),

@@ -119,7 +119,7 @@ class RolledFiltersResult(Outcomes):
 def in_bands(case: RolledFilters, key: Key) -> Callable[..., Series]:
     """A series over the bands of a kind of strip [dB]."""
     wheel, offset, name = key
-    where: Where = {"wheel": wheel.label, "offset [dB]": offset, "across": name}
+    where: Where = {"wheel": wheel.label, filters.OFFSET: offset, "across": name}
     at = filters.millimetres(strip_bands(case.scene(key)))
     return partial(Series, where=where, along=WAVE, at=at, scale=POWER_DECIBEL, unit="dB")
 

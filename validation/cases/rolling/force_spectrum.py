@@ -11,7 +11,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.analysis.evidence import Number, Place, Role, plus_minus
+from validation.analysis.evidence import Place, Role
 from validation.analysis.margins import REPEATABLE
 from validation.analysis.series import Estimates, Margin, Series
 from validation.analysis.spectra import Bands
@@ -119,7 +119,7 @@ def run(case: ForceSpectrum, engine: Engine = SERIAL) -> Outcomes:
 
 
 BEM, REFINED = "boundary elements", "boundary elements, half of the cell"
-SPRINGS, LINEAR_1D, LINEAR_3D, MEAN_1D = "springs", "(14.12)", "linear theory in 3D", "(14.14)"
+SPRINGS, LINEAR_1D, LINEAR_3D, MEAN_1D = "springs", "(14.12)", "linear theory, 3D", "(14.14)"
 OVER, UNBOUNDED = " over boundary elements", "(14.14) over linear theory in 3D, unbounded power law"
 CURVE, MEAN_LEVEL = "level of a one-third octave over the curve", "mean level for q a > 4"
 LEVEL = "level of an octave"
@@ -151,12 +151,6 @@ def series(result: Outcomes) -> list[Series]:
         *_inputs(result.case),
         *_spectrum(result, heights[0]),
     ]
-
-
-def root_mean_square(number: Number) -> str:
-    """Of decibels, which has no sign: 2.49 dB rms."""
-    value = plus_minus(number.value, number.uncertainty) if number.uncertainty else f"{number.value:.3g}"
-    return f"{value}{number.behind} rms"
 
 
 def at(case: ForceSpectrum, height: float) -> dict[str, Place]:

@@ -4,7 +4,7 @@ from functools import partial
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import THREE_D_DIFFER, Claim, Matrix, beside, per_cent
+from validation.analysis.claims import THREE_D_DIFFER, Claim, Matrix, decibels, per_cent, root_mean_square
 from validation.analysis.evidence import Whose
 from validation.analysis.study import Study
 from validation.cases.rolling.force_spectrum import (
@@ -31,7 +31,6 @@ from validation.cases.rolling.force_spectrum import (
     SURFACE,
     ForceSpectrum,
     Q,
-    root_mean_square,
     run,
     series,
 )
@@ -64,6 +63,7 @@ STUDY = Study(
     series=series,
     claims=(
         of_book(
+            printed=decibels,
             either=(
                 {"quantity": CURVE, "model": SPRINGS},
                 {"quantity": MEAN_LEVEL, "model": f"{SPRINGS} over {MEAN_1D}"},
@@ -75,7 +75,7 @@ STUDY = Study(
         ),
         of_book(
             no=THREE_D_DIFFER,
-            printed=lambda number: (root_mean_square if number.quantity == RMS_LEVEL else beside)(number),
+            printed=lambda number: (root_mean_square if number.quantity == RMS_LEVEL else decibels)(number),
             either=(
                 {"quantity": MEAN_LEVEL, "model": MEAN_1D + OVER},
                 {"quantity": RMS_LEVEL, "model": LINEAR_1D + OVER},
@@ -86,11 +86,11 @@ STUDY = Study(
             short="(14.12) and (14.14) over boundary elements",
         ),
         of_input(model=INPUT_NAMES["line"]).saying(
-            "Springs on a line measured along an isotropic surface have the level of three dimensions in octaves.",
+            "Springs on a line measured along an isotropic surface have the force of three dimensions in octaves.",
             short="(14.12) with the line trace, over linear theory in 3D",
         ),
         of_input(model=INPUT_NAMES["rolling"]).saying(
-            "Springs on the rolling-equivalent spectrum have the level of three dimensions in octaves.",
+            "Springs on the rolling-equivalent spectrum have the force of three dimensions in octaves.",
             short="(14.12) with the rolling-equivalent spectrum, over linear theory in 3D",
         ),
         Claim(quantity=(RMS_FORCE, MEAN_FORCE), model=SPRINGS + OVER, along=SLOPE, printed=per_cent).saying(
@@ -98,8 +98,8 @@ STUDY = Study(
             short="Mean and rms force, springs over boundary elements",
         ),
         Claim(quantity=RMS + FOUND, model=LINEAR_3D, along=SLOPE, printed=root_mean_square).saying(
-            "Between the zeros of sin(q a) the roughness follows from the force by the filter in three dimensions, "
-            "read backwards.",
+            "Between the zeros of sin(q a) the roughness follows from the force by linear theory in three "
+            "dimensions, read backwards.",
             short="Roughness from force by the filter in 3D",
         ),
     ),

@@ -10,13 +10,13 @@ import numpy as np
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, Matrix
+from validation.analysis.claims import Claim, Matrix, root_mean_square
 from validation.analysis.evidence import Place
 from validation.analysis.margins import REPEATABLE
 from validation.analysis.series import Margin, Series
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed, mean_estimate
 from validation.analysis.study import Outcomes, Study
-from validation.cases.rolling.force_spectrum import HEIGHT, SLOPE, SLOPE_COUNTS, Q, root_mean_square
+from validation.cases.rolling.force_spectrum import HEIGHT, SLOPE, SLOPE_COUNTS, Q
 from validation.engine.convergence import require_realisations
 from validation.engine.engine import SERIAL, Engine
 from validation.scenes.description import slope_ratio
@@ -181,14 +181,14 @@ STUDY = Study(
     claims=(
         in_octaves(model=LINEAR).saying(
             "Linear theory in three dimensions has the levels of boundary elements in octaves.",
-            short="Linear theory in 3D beside boundary elements",
+            short="Linear theory, 3D, beside boundary elements",
         ),
         in_octaves(model=COARSEST).saying(
             "Boundary elements on {c.coarsest} cells to a contact radius have the levels of those on {c.cells}.",
             short="boundary elements on a third of the cells",
         ),
         Claim(quantity=KEPT, along=SLOPE).saying(
-            "How much of the contact is lost is decided by h' a/d, not by h/d, the band or the Hurst exponent.",
+            "At one h' a/d the same part of the contact is lost, whatever h/d, the band and the Hurst exponent.",
             short="Share of contact kept at the same h' a/d, over bands and Hurst exponents",
         ),
     ),

@@ -68,7 +68,7 @@ def run(case: RollingOverRidges, engine: Engine = SERIAL) -> Outcomes:
 RESPONSE, IMAGINARY = "response of the force times q a", "imaginary part of the response times q a"
 ERROR, BOUND, LARGEST = "error over the envelope", "bound of the error", "largest error over the envelope"
 NEAREST, ORDER, STIFFNESS = "error nearest to its bound", "order of the error", "k dd + dF at a prescribed force"
-CELLS, Q, EXACT = "points on a radius", "q a", "sin(q a), (14.11)"
+CELLS, Q, EXACT = "radius [points]", "q a", "sin(q a), (14.11)"
 FIRST_ORDER = Margin(
     0.7,
     "the place of the edge within its cell changes irregularly from grid to grid",
@@ -148,10 +148,10 @@ STUDY = Study(
             whose=Whose.BOOK,
             quantity=NEAREST,
             model=(BEM, FULL, SPRINGS),
-            printed=lambda error: f"{error.value:.2g} of {error.tolerance:.2g} that the grid leaves",
+            printed=lambda error: f"error {error.value:.2g} of {error.tolerance:.2g} that the grid leaves",
         ).saying(
             "Over ridges across the track the one-dimensional model is exact in three dimensions, (14.11).",
-            short="Over ridges, springs and boundary elements beside (14.11), through its zeros, within their grids",
+            short="Over ridges, springs and boundary elements beside (14.11)",
         ),
     ),
     charts=(

@@ -108,7 +108,7 @@ OVER = "springs over boundary elements"
 SHOWN = {MEAN: "mean stiffness of each model", DEVIATION: "relative deviation of each model"}
 WEIGHTS = {MEAN: np.array([0.0, 1.0]), DEVIATION: np.array([0.5, -1.0])}
 """Of ln of the mean variance and of ln of the mean."""
-TEN_PER_CENT = Margin(10.0, "10 %, as of the stiffness of punches", source="bem3d along the track, extrapolated")
+TEN_PER_CENT = Margin(10.0, "10 %, as of the stiffness of punches", source="boundary elements along it, extrapolated")
 
 
 def series(result: Outcomes) -> list[Series]:
@@ -174,7 +174,7 @@ STUDY = Study(
     series=series,
     claims=(
         Claim(quantity=DEVIATION).saying(
-            "Along a track under a constant load, springs have the fluctuation of stiffness of boundary elements.",
+            "Under a constant load the stiffness of springs fluctuates along a track as that of boundary elements.",
             short="Fluctuation of stiffness along a track, springs over boundary elements",
         ),
     ),

@@ -253,7 +253,7 @@ STUDY = Study(
     tables=tables,
     claims=(
         Claim(quantity=COVERAGE).saying(
-            "The error that is estimated for the cheapest sufficient model holds.",
+            "The true error of the model that is selected lies within the estimated one.",
             short="Share of true errors within their estimates, beside one",
         ),
         Claim(quantity=SPENT, printed=lambda n: f"{plus_minus(n.value, n.uncertainty)} % of the time").saying(

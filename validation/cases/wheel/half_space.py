@@ -16,6 +16,7 @@ from validation.cases.wheel.features import TABLE, accelerated_by, linear_force_
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene
+from validation.simulation import model_names as named
 from validation.simulation.wheel_on_half_space import WheelStrip, simulate_strip
 from validation.simulation.wheel_on_springs import WheelEnsemble, simulate_ensemble
 
@@ -106,11 +107,10 @@ def run(case: Wheel3D, engine: Engine = SERIAL) -> Outcomes:
     return Outcomes(case, {**strips, **springs}, unconverged)
 
 
-LINEAR_3D, LINEAR_1D, BEM = "linear, 3D", "linear, 1D (14.12)", "bem3d"
-GEIKE = "springs, Geike spectrum"
+LINEAR_3D, LINEAR_1D, BEM, GEIKE = "linear theory, 3D", "(14.12)", named.BEM, named.SPRINGS_GEIKE
 MODELS = (LINEAR_3D, GEIKE)
 CONTACTS = {BEM: "bem", LINEAR_3D: "linear"}
-OVER_BEM = {model: f"{model}, over bem3d" for model in MODELS}
+OVER_BEM = {model: f"{model} over {BEM}" for model in MODELS}
 POINTS = 40
 """Of a quadrature over a band."""
 

@@ -201,11 +201,12 @@ STUDY = Study(
                 {"quantity": CONTRAST},
             ),
         ).saying(
-            "Springs stand for three dimensions: boundary elements in the time loop have the regions of Fig. 14.4.",
+            "The one-dimensional model describes the dynamics of the wheel: boundary elements in the time loop have "
+            "the regions of Fig. 14.4.",
             short="Springs of Fig. 14.4 over boundary elements in the time loop",
         ),
         Claim(quantity=LEVEL, model=wheel.OVER_BEM[wheel.LINEAR_3D], along="range").saying(
-            "Linear theory in three dimensions has the acceleration of the wheel.", short="linear theory in 3D"
+            "Linear theory in three dimensions gives the acceleration of the wheel.", short="linear theory, 3D"
         ),
     ),
     charts=(

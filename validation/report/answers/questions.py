@@ -98,7 +98,7 @@ def counted(name: str, model: str, source: Source | None = None, by: str = "") -
 
 
 INTEGRAL, BY_FORMULA, OF_SPRINGS = "an integral over the spectrum", "a formula", "the work of springs"
-LINEAR_3D, EQUIVALENT = "linear theory in 3D", "springs, rolling spectrum"
+LINEAR_3D = "linear theory, 3D"
 FIT = partial(Alternative, "the fit 1/kbar = 1/1.1523 + 0.48/Fbar", cost=BY_FORMULA)
 PRESSED = partial(Alternative, BEM, None, worked)
 over_force = partial(Source, axis=punch.FORCE, over=punch.FORCE)
@@ -125,7 +125,7 @@ of_rail = partial(
     Source,
     case="across",
     quantity=OVER_BEM,
-    where={across.OFFSET: 0.0},
+    where={filters.OFFSET: 0.0},
     axis=across.GROUND,
     over=across.GROUND,
     series=(across.WHEEL,),
@@ -135,8 +135,8 @@ MOVING = Source(
     case="rail_dynamic",
     quantity=rail_dynamic.RMS + rail_dynamic.BESIDE,
     model=rail_dynamic.SPRINGS_OVER_BEM,
-    axis=rail_dynamic.OFFSET,
-    over=rail_dynamic.OFFSET,
+    axis=filters.OFFSET,
+    over=filters.OFFSET,
 )
 GEIKE, LINEAR = (model + rolling.OVER for model in (rolling.SPRINGS, rolling.LINEAR_3D))
 JUDGE = counted(BEM, reduced.JUDGE)
@@ -164,7 +164,7 @@ QUESTIONS = (
     ),
     Question(
         "roll-off",
-        "Stiffness of roughness with a roll-off",
+        "Stiffness of a rough punch with a roll-off",
         of_rolled_off(quantity=interface.STIFFNESS),
         per_cent,
         (PRESSED("interface"),),

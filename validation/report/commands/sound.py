@@ -6,7 +6,7 @@ import textwrap
 from pathlib import Path
 
 from validation.analysis.contents import as_csv, as_json
-from validation.cases.rail.rail_sound import LABELS, SOUNDING, RailSound, RailSoundResult, run
+from validation.cases.rail.rail_sound import SOUNDING, RailSound, RailSoundResult, run
 from validation.cases.rail.rail_sound_study import signed, sounds_of, what_is_heard
 from validation.engine.engine import Engine
 from validation.engine.progress import progress_of
@@ -106,7 +106,7 @@ def _lines(result: RailSoundResult) -> list[str]:
     lines = [f"{'model':32s} {'level':>10s} {'A-weighted':>12s}" + ("   over boundary elements" if beside else "")]
     for i, model in enumerate(result.case.sounding):
         level, weighted = table["level [dB re 1 N]"][i], table["A-weighted [dB re 1 N]"][i]
-        line = f"{LABELS[model]:32s} {level:7.1f} dB {weighted:6.1f} dB(A)"
+        line = f"{model:32s} {level:7.1f} dB {weighted:6.1f} dB(A)"
         if beside and model != reference:
             over, half = table["A-weighted over boundary elements [dB]"][i], table["± [dB]"][i]
             line += f"   {signed(over)} ± {half:.1f} dB(A)"
