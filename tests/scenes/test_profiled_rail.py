@@ -200,12 +200,6 @@ def test_a_cone_of_one_in_twenty_touches_the_smaller_radius(tmp_path):
     assert 0.08 < scene.radii[1] < 0.09
 
 
-def test_a_wheel_with_a_flange_runs_on_a_crown_of_one_radius(tmp_path):
-    scene = rolling(tmp_path, rail=False)
-    assert scene.profile.at == pytest.approx(-7.498e-3, abs=1e-5)
-    assert scene.radii[1] == pytest.approx(0.3, rel=1e-6)
-
-
 def test_a_wheel_in_coordinates_of_its_own_is_asked_for_its_offset(tmp_path):
     for shift, offset in ((745.0, "-740 mm"), (-745.0, "750 mm")):
         (tmp_path / "far.csv").write_text(table(tread(WHEEL_Y, 1 / 40), WHEEL_Y + shift))

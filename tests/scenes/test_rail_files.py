@@ -1,12 +1,8 @@
 """Scene files of a rail: units of the field, levels, lines and heights; everything that is refused, by its key."""
 
-import re
-
 import numpy as np
 import pytest
 
-from validation import compare
-from validation.__main__ import main
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.scenes.level_files import curve
@@ -71,26 +67,6 @@ def test_the_file_of_the_field_is_the_scene_that_it_says(tmp_path):
     assert scene.speed == pytest.approx(80 / 3.6)
     assert scene.modulus == pytest.approx(210e9 / 2 / (1 - 0.09))
     assert scene.levels.levels[0] == 17.1
-
-
-def test_the_shipped_scene_is_that_scene(tmp_path, capsys):
-    shipped, here = load_scene("rail"), loaded(tmp_path)
-    assert shipped.diagnose() == here.diagnose() == ()
-    assert describe(shipped) == describe(here)
-    with pytest.raises(SystemExit):
-        main(["compare", "--help"])
-    assert "(rail, " in " ".join(capsys.readouterr().out.split())
-
-
-def test_the_description_has_the_contact_that_is_assumed(tmp_path):
-    pairs = dict(describe(loaded(tmp_path)))
-    assert pairs["contact ellipse"].startswith("a_x = 5.68 mm along, a_y = 4.28 mm across")
-    assert (pairs["approach d"], pairs["peak pressure p0"]) == ("65.6 µm", "982 MPa")
-    assert pairs["contact modulus E*"].startswith("115.385 GPa: two equal bodies")
-    assert pairs["wheel"] == "radius 460 mm, straight across, load 50 kN of one wheel"
-    assert pairs["motion"] == "speed 80 km/h"
-    assert pairs["roughness"] == "rms 22.3 µm over all bands: iso3095-2013"
-    assert pairs["what lies across"] == "isotropic ground"
 
 
 @pytest.mark.parametrize(
@@ -162,13 +138,6 @@ def test_lines_and_a_rough_wheel_are_levels_together_and_one_line_needs_no_posit
     assert alone.levels.bands.nominal[[0, -1]].tolist() == [0.25, 0.0025]
     both = with_lines(tmp_path, line, 'spacing = "1 mm"', "[wheel.levels]", CURVE)
     assert both.roughness == alone.levels + curve("iso3095-2013")
-
-
-def test_heights_in_another_unit_are_refused_by_their_key(tmp_path):
-    np.save(tmp_path / "h.npy", np.random.default_rng(1).standard_normal((1000, 40)))
-    heights = [("[rail.levels]", "[rail.heights]"), (CURVE, 'file = "h.npy"\nspacing = "1 mm"')]
-    with pytest.raises(ValueError, match=r"^rail.heights.levels must lie between .* is the unit another"):
-        _ = loaded(tmp_path, *heights, ('across = "isotropic"', "")).levels
 
 
 def test_positions_may_descend_with_their_lines(tmp_path):
@@ -301,11 +270,6 @@ def test_heights_must_hold_the_contact(tmp_path, shape, spacing, said):
     ground = f'file = "h.npy"\nspacing = "{spacing}"'
     with pytest.raises(ValueError, match=said):
         loaded(tmp_path, ("[rail.levels]", "[rail.heights]"), (CURVE, ground), ('across = "isotropic"', ""))
-
-
-def test_a_quantity_that_a_rail_has_not_is_a_sentence():
-    with pytest.raises(ValueError, match=re.escape("scene 'Wheel on a rail'")):
-        compare(load_scene("rail"), "force-rms")
 
 
 def test_a_rail_is_no_dynamic_wheel():

@@ -22,15 +22,6 @@ from validation.selection.compare import SceneProblem
 ROLLING = (SCENES / "rolling_wheel.toml").read_text(encoding="utf-8")
 
 
-def test_shipped_scenes_are_what_they_say():
-    sphere, rolling = load_scene("sphere"), load_scene("rolling_wheel")
-    assert isinstance(sphere, IndentationScene)
-    assert isinstance(rolling, RollingScene)
-    assert sphere.contact_radius == pytest.approx(rolling.contact_radius) == pytest.approx(1.982e-3, rel=1e-3)
-    assert load_scene("rough_punch").reduced_load == pytest.approx(0.1, rel=1e-6)
-    assert load_scene("table_14_1") == RollingScene.of_wheel(load_wheel_scene("table_14_1"))
-
-
 def test_files_without_heights_are_refused(tmp_path):
     np.save(tmp_path / "face.npy", np.ones((32, 32), dtype=complex))
     with pytest.raises(ValueError, match=r"must hold real numbers, got complex128$"):
@@ -140,27 +131,12 @@ def test_a_smooth_punch_is_asked_for_its_units(size, load, modulus, doubt):
 # The command
 
 
-@pytest.mark.parametrize(
-    ("word", "shown"), [("5%", "5 %"), ("0.05", "5 %"), ("0.4238 dB", "0.42 dB"), (" 20 % ", "20 %")]
-)
-def test_tolerances_come_in_three_forms(capsys, word, shown):
-    assert main(["compare", "sphere", "--tolerance", word]) == 0
-    assert f"within {shown}\n" in capsys.readouterr().out
-
-
 @pytest.mark.parametrize("word", ["0", "-1%", "nan", "inf", "five", "5 percent", ""])
 def test_tolerances_that_are_none_are_refused(capsys, word):
     with pytest.raises(SystemExit) as refusal:
         main(["compare", "sphere", "--tolerance", word])
     assert refusal.value.code == 2
     assert "--tolerance" in capsys.readouterr().err
-
-
-def test_what_a_scene_cannot_answer_is_refused(capsys):
-    assert main(["compare", "sphere", "--quantity", "acceleration"]) == 2
-    assert "error: quantity must be one of stiffness for scene 'Smooth sphere'" in capsys.readouterr().err
-    assert main(["compare", "nowhere"]) == 2
-    assert "error: scene must be a file" in capsys.readouterr().err
 
 
 def test_the_seed_of_a_comparison_is_that_of_the_command(capsys, monkeypatch):
