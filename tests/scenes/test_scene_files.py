@@ -15,7 +15,6 @@ from validation.scenes.roughness import Roughness
 
 IN_FILE = r"scene \S+scene\.toml: "
 TABLE = (SCENES / "table_14_1.toml").read_text(encoding="utf-8")
-WHEELS = ("rough_wheel", "table_14_1")
 STEEL = Material(youngs_modulus=210e9, poisson_ratio=1 / 3, counterface="rigid")
 ROUGH = Roughness(rms=0.5e-6, hurst=0.7, longest=0.01, shortest=0.2e-3)
 

@@ -68,7 +68,7 @@ def uniform(heights, sizes, unit):
 BINARY = bytes(range(256)) * 3
 
 
-@pytest.mark.parametrize("file", ["face.nc", "face.opd", "face.x3p", "face.sdf", "face.anything"])
+@pytest.mark.parametrize("file", ["face.nc", "face.x3p", "face.anything"])
 def test_the_file_of_an_instrument_has_its_sizes_and_its_unit(tmp_path, monkeypatch, capsys, file):
     as_installed(monkeypatch, uniform(HEIGHT, (48.0, 48.0), "um"))
     (tmp_path / file).write_bytes(BINARY)
@@ -80,13 +80,9 @@ def test_the_file_of_an_instrument_has_its_sizes_and_its_unit(tmp_path, monkeypa
     assert ground.spacing == pytest.approx((1e-6, 1e-6))
     assert ground.notes()[0].startswith(f"{file}: SurfaceTopography read it as ")
     assert "secret" not in "".join(capsys.readouterr())
-    assert load_scene(scene_of(tmp_path, file, 'unit = "um"', side="48 um")).ground.spacing == pytest.approx(
-        (1e-6, 1e-6)
-    )
     for key, said in (('unit = "mm"', r"heights\.unit must be that of the file, um"), ("skip = 3", "heights")):
-        if key != "skip = 3" or file != "face.sdf":
-            with pytest.raises(ValueError, match=said):
-                load_scene(scene_of(tmp_path, file, key, side="48 um"))
+        with pytest.raises(ValueError, match=said):
+            load_scene(scene_of(tmp_path, file, key, side="48 um"))
     with pytest.raises(ValueError, match=r"heights\.spacing must be that of the file, 1 µm, or be left out, got 2 µm$"):
         load_scene(scene_of(tmp_path, file, side="48 um", spacing='"2 um"'))
 
