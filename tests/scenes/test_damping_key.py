@@ -11,7 +11,7 @@ from validation.scenes.bundled import SCENES
 from validation.scenes.damping import damping_of
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import load_wheel_scene
-from validation.scenes.load import load_scene, load_varied
+from validation.scenes.load import load_scene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.steadiness import force_on_the_way
 from validation.selection.exported import assumed
@@ -29,9 +29,7 @@ def rail(tmp_path, lines):
     return written(tmp_path, (MASS, lines), text=RAIL)
 
 
-@pytest.mark.parametrize(
-    ("given", "found"), [('"2 %"', 0.02), ('"2%"', 0.02), ("0.02", 0.02), ('"0.3 %"', 0.003), ("0", 0)]
-)
+@pytest.mark.parametrize(("given", "found"), [('"2 %"', 0.02), ("0.02", 0.02), ("0", 0)])
 def test_a_ratio_is_read_in_per_cent_or_as_a_number(tmp_path, given, found):
     path = dynamic(tmp_path, given)
     assert load_wheel_scene(path).damping == load_scene(path).damping == found
@@ -40,22 +38,15 @@ def test_a_ratio_is_read_in_per_cent_or_as_a_number(tmp_path, given, found):
 
 
 def test_per_cent_is_a_hundredth():
-    assert [damping_of("wheel.damping", text) for text in ("2 %", "0.7 %", 0.02)] == [0.02, 0.007, 0.02]
-
-
-def test_there_is_no_damping_by_default():
-    assert load_wheel_scene("table_14_1").damping == load_scene("table_14_1").damping == load_scene("rail").damping == 0
+    assert [damping_of("wheel.damping", text) for text in ("2 %", "2%", "0.7 %", 0.02)] == [0.02, 0.02, 0.007, 0.02]
 
 
 @pytest.mark.parametrize(
     ("given", "said"),
     [
         ('"-1 %"', "must be at least 0 and below 1, which is critical, got -0.01"),
-        ("2", 'must be at least 0 and below 1, which is critical, got 2, as: damping = "2 %"'),
         ('"100 %"', "must be at least 0 and below 1, which is critical, got 1"),
-        ('"2 kg"', "must be a share of critical, as \"2 %\" or 0.02, got '2 kg'"),
         ('"0.02"', 'must be a share of critical, as "2 %" or 0.02'),
-        ('"% 2"', "must be a share of critical"),
         ('"nan %"', "must be finite"),
         ("inf", "must be finite"),
         ("true", "must be a real number, got True"),
@@ -82,11 +73,6 @@ def test_it_is_told_in_the_description_and_in_json(tmp_path):
     assert "damping_ratio" not in assumed(load_scene("rolling_wheel"))
     moving = load_scene(rail(tmp_path, 'mass = "500 kg"\ndamping = "1.5 %"'))
     assert dict(describe(moving))["motion"] == "speed 80 km/h, mass 500 kg, damping 1.5 % of critical"
-
-
-def test_a_sweep_takes_it():
-    for value, found in (("0", 0.0), ("2%", 0.02), ("0.05", 0.05)):
-        assert load_varied("table_14_1", "wheel.damping", value).damping == found
 
 
 def test_linear_theory_of_compare_has_the_dashpot():

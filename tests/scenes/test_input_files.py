@@ -109,7 +109,6 @@ def test_sizes_are_bounded(tmp_path, monkeypatch):
         (b"1, 2\n1, 2\n1, 2\n1\n", "rows must be of one length, got 1 cell in line 4 of a table of 2"),
         (b"1, 2\n1, x\n1, 2\n1, 2\n1, 2\n", "rows must be numbers, got 'x' in column 2 of line 2: .*nodata = \"x\""),
         (b"1, \x1b[31m2\n", r"the format of an instrument"),
-        (b"1," * 500, "the file must have at most 99 lines of at most 100 characters, got more"),
         (b"1\n" * 500, "the file must have at most 99 lines of at most 100 characters, got more"),
         (b"1, 2\n" + b"1," * 500, "the file must have at most 99 lines of at most 100 characters, got more"),
         (b"\xff\xfe1, 2\n", "the format of an instrument"),
@@ -127,18 +126,15 @@ def test_tables_that_are_none_are_refused_in_one_line(tmp_path, monkeypatch, con
     ("text", "said"),
     [
         ("a = " + 50000 * "[" + 50000 * "]", f"must have at most {MOST_BYTES} bytes, got 100004"),
-        ("a = " + 20000 * "[" + 20000 * "]", f"must have lines of at most {LONGEST_LINE} bytes, got 40004"),
         ("a = " + 20000 * "[\n" + 20000 * "]\n", "must be valid TOML, got: values nested too deep"),
+        ("a = " + 20000 * "[" + 20000 * "]", f"must have lines of at most {LONGEST_LINE} bytes, got 40004"),
         (".".join(60000 * "a") + " = 1", f"must have at most {MOST_BYTES} bytes, got 120003"),
-        (".".join(30000 * "a") + " = 1", f"must have lines of at most {LONGEST_LINE} bytes, got 60003"),
         ("wheel." + ".".join(400 * "a") + " = 1", "name is missing, a scene must have it"),
         (PUNCH.replace("name", "name." + ".".join(400 * "a")), "name must be a text that is not blank, got {'a': {'"),
-        (PUNCH.replace("hurst", "hurst." + ".".join(400 * "a")), "roughness.hurst must be a number, got {'a': {'a':"),
         (
             "punch = 1\n" + PUNCH.replace("[punch]\n", "").replace("side", "# side").replace("load", "#"),
             "punch must be a table, got 1",
         ),
-        ("a = 1" + 5000 * "0", "must have lines of at most"),
     ],
 )
 def test_scenes_that_are_bombs_are_refused_in_one_sentence(tmp_path, capsys, text, said):

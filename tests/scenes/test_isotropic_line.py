@@ -1,13 +1,10 @@
 """The line of isotropic ground nearest to levels: smooth levels stay, what stands out or rises too steeply is named."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 from validation.scenes.isotropic_line import isotropic_line
 from validation.scenes.level_files import curve
-from validation.scenes.load import load_scene
 from validation.scenes.roughness_levels import RoughnessLevels
 from validation.theory.transverse_structure import has_isotropic_surface
 
@@ -20,11 +17,6 @@ def levels(values):
 
 
 STRAIGHT = levels(7 * np.log10(1000 * ISO.bands.wavelengths) - 10)
-
-
-def raised(by, *waves):
-    """The limit of ISO 3095 with so many decibels more at these wavelengths."""
-    return levels(np.array(ISO.levels) + by * np.isin(NOMINAL, waves))
 
 
 def level_of(line):
@@ -95,14 +87,3 @@ def test_levels_that_scatter_leave_their_scatter_and_waves_that_are_many_weigh_m
 def test_few_bands_have_a_line(count):
     some = RoughnessLevels(wavelengths=ISO.wavelengths[15 : 15 + count], levels=(3.0, 9.0, 2.0, 1.0)[:count])
     assert has_isotropic_surface(isotropic_line(some, np.ones(count)).line)
-
-
-def test_notes_name_the_bands():
-    rail = load_scene("rail")
-    assert not rail.diagnose()
-    for across, there in (("isotropic", "ridges"), (None, "smooth line")):
-        notes = replace(rail, across=across, roughness=raised(9.0, 31.5, 25, 100)).diagnose()
-        assert any("no isotropic ground has the levels at 100, 31.5 to 25 mm" in note for note in notes)
-        assert there in notes[-1] and "scatter" in notes[-2]
-    for across in ("ridges", 0.7):
-        assert not replace(rail, across=across, roughness=raised(9.0, 31.5)).diagnose()

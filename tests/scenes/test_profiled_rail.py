@@ -108,18 +108,11 @@ def test_curvatures_of_wheel_and_rail_add(tmp_path):
 @pytest.mark.parametrize(
     ("contents", "said"),
     [
-        ("", "must hold rows of numbers, got an empty file"),
         (table(parabola(300.0), header="y,height"), "columns must be named as 'y [mm],height [mm]', with their units"),
-        (table(parabola(300.0), header="height [mm],y [mm]"), "must be highest between its ends"),
-        (table(np.abs(Y), np.zeros_like(Y)), "y must ascend, got 0 m first and 0 m last"),
-        (table(parabola(300.0)).replace("\n5,", "\n7.77,"), "y must ascend"),
         (table(parabola(300.0), header="y [N],height [mm]"), "columns must be lengths, got y [N]"),
-        (table(parabola(300.0)).replace("-30,", "-30;1,"), "rows must be numbers, got '-30;1' in column 1 of line 3"),
-        (table(parabola(300.0)) + "\n31,2,3", "rows must be of one length, got 3 cells in line 124 of a table of 2"),
         (table(parabola(300.0)[:5], Y[:5]), "profile must have 7 to 100000 points"),
         (table(parabola(300.0)) + "\n29,1", "y must ascend, got 0.0295 m behind 0.03 m"),
         (table(-parabola(300.0)), "must be highest between its ends, -30 and 30 mm, got its highest point at -30 mm"),
-        (table(parabola(300.0)[40:80:8], Y[40:80:8]), "profile must have 7 to 100000 points"),
         (table(parabola(300.0)[::5], Y[::5]), "profile must have 5 points in the contact at the least, got so"),
         (table(parabola(1e9)), "profile must reach to twice the contact"),
         (table(parabola(300.0)[50:71], Y[50:71]), "must reach to twice the contact and have 5 points in it"),
@@ -198,12 +191,6 @@ def test_a_cone_of_one_in_twenty_touches_the_smaller_radius(tmp_path):
     scene = rolling(tmp_path, cone=0.05)
     assert scene.profile.at == pytest.approx(-11.547e-3, abs=3e-5)
     assert 0.08 < scene.radii[1] < 0.09
-
-
-def test_a_wheel_with_a_flange_runs_on_a_crown_of_one_radius(tmp_path):
-    scene = rolling(tmp_path, rail=False)
-    assert scene.profile.at == pytest.approx(-7.498e-3, abs=1e-5)
-    assert scene.radii[1] == pytest.approx(0.3, rel=1e-6)
 
 
 def test_a_wheel_in_coordinates_of_its_own_is_asked_for_its_offset(tmp_path):

@@ -9,10 +9,9 @@ from scipy import stats
 
 import bem3d
 from tests.selection.by_kind import OURS, estimates_by_kind, grid_of, grids_of, model_of_kind
-from tests.selection.planted_answers import ROUGH, Fake, ball, punch, waves, wheel
+from tests.selection.planted_answers import ROUGH, ball, punch, waves, wheel
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.roughness import Roughness
-from validation.selection import hierarchy
 from validation.selection.compare import compare
 from validation.selection.hierarchy import select_model
 from validation.selection.quantities import models_of, quantities_of
@@ -29,7 +28,7 @@ from validation.simulation.models import (
     rolling as rolling_models,
 )
 from validation.simulation.rolling_quantity import RollingQuantity
-from validation.simulation.sampling import grid_error, mean_error, too_few
+from validation.simulation.sampling import grid_error, mean_error
 from validation.theory.closed_forms import SQUARE_PUNCH
 from validation.theory.rolling import contact_lost
 
@@ -64,11 +63,6 @@ def test_grids_that_do_not_converge_have_no_error_bar():
     # what cannot be told from zero is covered by its sample
     student = stats.t(7).ppf(0.975) * noise.std(ddof=1) / math.sqrt(8)
     assert grid_error(noise, noise[::-1]) == pytest.approx(abs(noise.mean()) + student)
-
-
-def test_an_answer_on_less_than_six_is_none():
-    assert too_few(6, "cells") == ""
-    assert too_few(5.5, "cells") == "half of the contacts have 5.5 cells or fewer: the answer would be that of the grid"
 
 
 # Light loads
@@ -169,13 +163,6 @@ def test_waves_shorter_than_the_contact_are_left_to_boundary_elements(quantity, 
     scene = wheel(ground=Roughness(rms=0.05, hurst=0.9, longest=0.6, shortest=0.2))
     for kind, estimate in estimates_by_kind(scene, quantity, tolerance).items():
         assert estimate.in_range == (kind == "boundary elements")
-
-
-def test_a_model_out_of_range_is_never_asked():
-    asked = select_model([model := Fake(claimed=math.inf)], 0.1, callback=pytest.fail)
-    assert [candidate.status for candidate in asked.candidates] == ["out of range"]
-    assert asked.best is None
-    assert hierarchy.needed([model], 1e300) is None
 
 
 # What cannot serve a scene is a row
@@ -326,13 +313,6 @@ def test_realisations_are_others():
             assert abs(np.corrcoef(draw(1, 3), draw(realisation, seed))[0, 1]) < 0.5
     tracks, _ = rolled._tracks(RollingQuantity(wheel(), "force-rms"), 3, 3)
     assert (abs(np.corrcoef(tracks.T) - np.eye(3)) < 0.5).all()
-
-
-def test_a_contact_costs_the_same_on_every_grid():
-    model = grid_of(punch(), 0.4, 0, 32)
-    cost = model._cost({model.resolution: 9, **dict.fromkeys(model.references, 8)})
-    contacts = (cost.seconds - boundary_elements_pressed.CELL * cost.work) / boundary_elements_pressed.PRESS
-    assert contacts == pytest.approx(9 + 2 * 8)
 
 
 # What models claim, by hand

@@ -6,7 +6,6 @@ import json
 import math
 import re
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
@@ -15,8 +14,6 @@ from tests.selection.planted_answers import Fake, Finding, compared
 from validation.__main__ import main
 from validation.scenes.bundled import path_of
 from validation.selection.swept import Swept
-
-ROOT = Path(__file__).parents[2]
 
 
 def refuse_constant(name):
@@ -33,17 +30,6 @@ def rows_of(comparison):
 
 def spectrum(**settings):
     return validation.compare(validation.load_scene("rolling_wheel"), "force-spectrum", "3 dB", **settings)
-
-
-def test_the_keys_are_documented():
-    text = (ROOT / "reports" / "README.md").read_text().partition("## What `compare` writes")[2].partition("\n## ")[0]
-    rows = re.findall(r"^\| (`.*?`) \| (.*) \|$", text, flags=re.MULTILINE)
-    named = {key for keys, _ in rows for key in re.findall(r"`(\w+)`", keys)}
-    found = read(validation.compare(validation.load_scene("sphere")))
-    assert named == set(found)
-    said = {keys: set(re.findall(r"`(\w+)`", content)) for keys, content in rows}
-    assert set(found["assumed"]) == said["`assumed`"]
-    assert set(found["models"][0]) == said["`models`"]
 
 
 def test_the_contact_that_is_assumed_is_that_of_hertz():

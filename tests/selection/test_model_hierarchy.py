@@ -311,6 +311,12 @@ def test_every_case_states_which_model_it_needed():
     assert rms.removeprefix("force-rms: ") != spectrum.removeprefix("force-spectrum: ") != spectrum
 
 
+def test_what_was_not_solved_has_cost_nothing():
+    models = Fake(claimed=9.0, seconds=2.0), Fake(failed="lost", seconds=4.0), Finding(value=(2e7,)), Fake(seconds=8.0)
+    told = " ".join(summary(compared(*models)).split())
+    assert "solves: about 5 s, " in told and "that were not solved would have cost 10 s" in told
+
+
 def test_measured_heights_are_pressed_themselves():
     scene = punch(ground=measured(rough((64, 64), 1 / 64), 1 / 64), load=0.1)
     found = grids_of(scene, "stiffness", 0.05)[-1].solve()
@@ -413,21 +419,6 @@ def test_a_measured_track_is_rolled_itself():
     assert distance(found.value, linear.value) <= found.error + 0.01
     with pytest.raises(ValueError, match=r"rail.heights must be .* long"):
         wheel(ground=measured(height[:, :20], 1 / 8))
-
-
-def test_a_number_is_told_with_the_parts_of_its_error():
-    """12 % of 2e7 N/m; what was skipped and what was not needed has cost nothing, what has failed has."""
-    models = [
-        Fake(claimed=9.0, seconds=2.0),
-        Fake(failed="lost", seconds=4.0),
-        Finding(value=(2e7,), parts=PARTS),
-        Fake(seconds=8.0),
-    ]
-    lines = summary(compared(*models)).splitlines()
-    assert "stiffness = (2.00 ± 0.24)e7 N/m (12 %: model 10 %, grid 2 %, sample 0.3 %), by fake" in lines
-    told = " ".join(" ".join(lines).split())
-    assert "cost of the solves: about 5 s, " in told
-    assert "the models that were not solved would have cost 10 s" in told
 
 
 @pytest.mark.parametrize(("quantity", "unit"), [("force-spectrum", "N"), ("acceleration", "m/s²")])

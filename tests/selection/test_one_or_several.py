@@ -7,7 +7,6 @@ import pytest
 
 import validation
 from tests.selection.planted_answers import Fake, Finding, compared, punch
-from validation.selection.summary import help_with, overview
 
 
 def of(name="it", value=1.0, parts=(0.0, 0.0, 0.0)):
@@ -30,13 +29,6 @@ def test_a_list_becomes_one_table_with_its_scenes():
         ("two", "2", "springs"),
     ]
     assert "scene" not in validation.to_csv(TWO[0]).splitlines()[0]
-
-
-def test_a_list_becomes_a_line_a_scene_and_what_would_help():
-    alone = [Finding(name="springs", parts=(0.9, 0.0, 0.0))]
-    found = [*TWO, compared(*alone, scene=punch(load=1.0, name="far"))]
-    assert validation.summary(found).splitlines() == [*overview(found), *help_with(found)]
-    assert "far: " in validation.summary(found)
 
 
 @pytest.mark.parametrize("write", [validation.to_json, validation.to_csv, validation.to_figure, validation.summary])

@@ -62,7 +62,6 @@ def test_a_value_is_read_as_in_the_file():
         ("wheels.load", "1 N", "wheels.load must be a key in a table of the scene"),
         ("wheel", "1", "wheel must be a key with a value, got a table"),
         ("wheel.weight", "1 N", "wheel.weight is unknown"),
-        ("wheel.load", "1 m", "wheel.load must be a force"),
     ],
 )
 def test_a_key_that_is_none_is_refused(key, value, said, capsys):
