@@ -184,6 +184,14 @@ def test_dynamic_wheels_of_the_design_excite_no_resonance(quantity):
 # The table of the package
 
 
+def test_lines_about_a_table_are_names_and_the_rest_and_its_rows_have_none_of_them(tmp_path):
+    path = tmp_path / "mine.csv"
+    path.write_text("# measured: 2026-01-01\n# command: a: b: c\nkind,error\npunch,0.1\n")
+    assert calibration.provenance(path) == {"measured": "2026-01-01", "command": "a: b: c"}
+    assert calibration.rows_of(path) == [{"kind": "punch", "error": "0.1"}]
+    assert calibration.provenance(tmp_path / "none") == {} and calibration.rows_of(tmp_path / "none") == []
+
+
 @pytest.mark.slow
 def test_models_whose_code_is_another_are_named(tmp_path):
     path, asked = tmp_path / "today.csv", Target(wheel(), "force-rms")
