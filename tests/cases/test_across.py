@@ -12,7 +12,7 @@ import bem3d
 from validation.analysis.evidence import number_with, numbers_with
 from validation.analysis.series import numbers_of
 from validation.analysis.statistics import POWER_DECIBEL
-from validation.cases.rail import across, across_study, filters
+from validation.cases.rail import across, filters
 from validation.cases.rail.filters import GROUNDS, RailWheel, scene_of
 from validation.cases.rail.rolled_filters import OVER_BEM
 from validation.simulation.equivalent_displacement import transfer_of
@@ -196,17 +196,6 @@ def test_forces_in_decibel_a_are_beside_those_of_boundary_elements():
         powers = gain**2 * 10 ** ((np.array(scene.levels.levels) + a3) / 10)
         assert found.value == pytest.approx(10 * np.log10(powers.sum() / (powers @ 10 ** (louder / 10))), abs=2e-3)
         assert found.half_width > 0
-
-
-@pytest.mark.slow
-def test_tables_and_sentences_name_what_was_found():
-    evidence = across_study.STUDY.evidence(rolled())
-    borders = evidence.table(across_study.BORDERS)
-    assert list(borders[across.WHEEL]) == [WHEEL.label]
-    lacking = evidence.table(across_study.LACKING)
-    assert set(lacking["ridges"]) == {0.0} and lacking["alpha = 0.5"][-1] == pytest.approx(-1.7, abs=0.05)
-    assert sum("is within 1 dB in" in one for one in evidence.conclusions) == 3
-    assert len(evidence.claims) == 4
 
 
 def test_both_ways_are_the_heights_and_the_opposite_ones():

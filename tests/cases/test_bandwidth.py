@@ -139,12 +139,8 @@ def test_the_claim_follows_a_planted_answer(planting, status):
     assert statuses(STUDY.evidence(planted(**planting))) == [status]
 
 
-@pytest.mark.parametrize("bands", [(Band(8, 32, 9, 5),), (Band(8, 32, 9, 5), Band(16, 64, 10, 5))])
-def test_bands_that_are_not_nested_are_refused(bands):
-    with pytest.raises(ValueError, match="two at least"):
-        Bandwidth(bands=bands)
-
-
-def test_more_surfaces_under_all_forces_than_there_are_are_refused():
+@pytest.mark.parametrize("surfaces", [((9, 5),), ((9, 5), (10, 5)), ((4, 5), (4, 4))])
+def test_bands_that_are_not_nested_are_refused(surfaces):
+    """One alone; more surfaces in the wider one; more under all forces than there are."""
     with pytest.raises(ValueError, match="bands"):
-        Bandwidth(bands=(Band(8, 32, 4, 5), Band(16, 64, 4, 4)))
+        Bandwidth(bands=tuple(Band(8 * 2**i, 32 * 2**i, *counts) for i, counts in enumerate(surfaces)))

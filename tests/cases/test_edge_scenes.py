@@ -1,7 +1,6 @@
 """Scenes at the edges of the ranges: drawn again alike, valid, and on both sides of every end."""
 
 import math
-import warnings
 from dataclasses import replace
 from itertools import pairwise
 from types import SimpleNamespace
@@ -86,10 +85,8 @@ def pressed(scene):
         x, y = scene.ground.places
         gap = np.add.outer(x**2, y**2) / (2 * scene.size) - height
     half_space = bem3d.HalfSpace(shape=height.shape, spacing=spacing, modulus=scene.modulus)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", bem3d.ContactWarning)
-        contact = bem3d.solve(half_space, gap, force=scene.load, tolerance=1e-6)
-        return contact.stiffness(), np.count_nonzero(contact.pressure)
+    contact = bem3d.solve(half_space, gap, force=scene.load, tolerance=1e-6)
+    return contact.stiffness(), np.count_nonzero(contact.pressure)
 
 
 @pytest.mark.slow
@@ -156,9 +153,7 @@ def test_a_wheel_whose_resonance_leaves_no_band_is_refused_in_a_sentence():
     ground = replace(slow.ground, longest=2 * math.pi / (1.2 * turn), shortest=2 * math.pi / (2.2 * turn))
     found = compare(replace(slow, ground=ground), "acceleration")
     assert not found.met and np.isnan(found.value).all() and found.wavenumbers.size == 0
-    for model in found.models:
-        assert model.status == "out of range"
-        assert model.reason.startswith("no whole one-third octave of waves lies between ")
+    assert all(model.status == "out of range" and "one-third octave" in model.reason for model in found.models)
 
 
 def test_rails_at_the_edges_are_inside_and_beyond_what_was_measured_and_all_can_be():

@@ -19,7 +19,6 @@ from validation.cases.limits.sweeps import LIMITS, Sweep
 from validation.cases.punch.interface import Interface
 from validation.cases.rail import rough_rail
 from validation.cases.rolling import reduced_models as reduced_case
-from validation.cases.rolling.force_spectrum import ForceSpectrum, at
 from validation.cases.wheel import half_space_study
 from validation.report.answers.questions import QUESTIONS
 from validation.scenes.description import describe
@@ -34,7 +33,6 @@ from validation.simulation.rail_models import linear_error
 from validation.simulation.rail_quantity import RailQuantity
 from validation.simulation.reduced_models import MODELS, bands_of
 from validation.simulation.rolling_claims import RollingClaim
-from validation.simulation.rolling_strip import RoughStrip
 from validation.simulation.rough_punch import PunchRoughness
 from validation.simulation.track_spectrum import self_affine
 
@@ -94,20 +92,6 @@ def test_slopes_of_rail_and_wheel_add_by_squares():
     assert of_wheel(both)["h' a/d"] == pytest.approx(math.sqrt(10) * slope_of_table_14_1(), rel=1e-9)
 
 
-@pytest.mark.parametrize("shape", ["wheel", "sphere"])
-def test_a_description_has_the_slope_of_the_waves_that_it_names(shape):
-    """A wheel and a ball of one radius, load and roughness."""
-    scene = validation.load_scene("rolling_wheel")
-    if shape == "sphere":
-        scene = validation.IndentationScene(
-            name="ball", shape="sphere", size=scene.radius, load=scene.load, modulus=scene.modulus, ground=scene.ground
-        )
-    ground, d = scene.ground, (9 * scene.load**2 / (16 * 0.5 * scene.modulus**2)) ** (1 / 3)
-    slope = power_law_slope(ground.hurst, 2 * math.pi / ground.longest, 2 * math.pi / ground.shortest, ground.rms)
-    expected = f"{slope:.3g}, in one direction, of all waves, h' a/d = {slope * math.sqrt(0.5 / d):.3g}"
-    assert dict(describe(scene))["rms slope h'"] == expected
-
-
 # --- one number for one rail ---
 
 
@@ -150,16 +134,6 @@ def test_a_rail_has_one_slope_of_its_strips_and_one_of_all_bands():
     assert table[rough_rail.WAVES][0] == "50 to 3.15 mm"
 
 
-def test_a_strip_of_a_rail_has_the_slope_along_the_track():
-    """Of ground that is isotropic, heights as drawn: that across is as large, and no part of h'."""
-    scene = falling_rail()
-    strip = rail_strip.strip_of(scene, "isotropic", 8, 0, 1)
-    slope, _ = periodic_slopes(strip.surface, strip.spacing)
-    found = slope * scene.contact.along / scene.contact.approach
-    # oblique waves are missing in the two shortest bands of a strip
-    assert found == pytest.approx(rail_strip.lost_contact_number(scene), rel=0.1)
-
-
 def test_the_error_of_linear_theory_on_a_rail_goes_with_the_slope_along():
     """0.2 min(1, q a_x) + 1.1 q a_x h' a_x / d [dB]."""
     scene = falling_rail()
@@ -178,20 +152,6 @@ def periodic_slopes(height, spacing):
     waves = np.abs(np.fft.fft2(height, norm="forward")) ** 2
     q = [2 * np.pi * np.fft.fftfreq(n, spacing) for n in height.shape]
     return tuple(math.sqrt((waves * one**2).sum()) for one in (q[0][:, np.newaxis], q[1]))
-
-
-def test_a_strip_has_the_slope_of_its_spectrum_along_the_track():
-    strip = RoughStrip(spectrum=self_affine(0.7, 1.0, 8.0), height=0.1, length=64.0, width=64.0, seed=3)
-    along, across = periodic_slopes(strip.surface(4, 0), 0.25)
-    assert along == pytest.approx(0.1 * strip.spectrum.slope_along, rel=0.03)
-    assert math.hypot(along, across) == pytest.approx(0.1 * strip.spectrum.gradient, rel=0.01)
-
-
-def test_cases_of_rolling_print_the_slope_along_the_track():
-    """h' a/d of H = 0.7, of the rms heights over d."""
-    rolling = ForceSpectrum()
-    expected = [h * power_law_slope(rolling.hurst, rolling.first, rolling.last) for h in rolling.heights]
-    assert [at(rolling, h)["h' a/d"] for h in rolling.heights] == pytest.approx(expected, rel=5e-3)
 
 
 @pytest.mark.parametrize("gradient", [0.1, 0.3, 1.0])

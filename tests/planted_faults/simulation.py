@@ -73,10 +73,6 @@ def half_of_a_light_force(half_space, gap, *, forces, **settings):
     return few_cells.indent_few_cells(half_space, gap, forces=forces / 2, **settings)
 
 
-def upside_down(surface):
-    return -surface.roughness.surface(surface.cells, surface.realisation)
-
-
 def heavier_loads_as_light_ones(surface):
     return rough_punch.press_surface(dataclasses.replace(surface, forces=tuple(f / 2 for f in surface.forces)))
 
@@ -105,11 +101,6 @@ def inverted(omega, *, eigenfrequency, mass, damping):
     return 1 / (mass * (1 - (np.asarray(omega) / eigenfrequency) ** 2)) ** 2
 
 
-def held_at_the_edge(energy):
-    """A wheel that does not lift off."""
-    return 0.0 if energy >= 0 else other_turning_point(energy)
-
-
 def without_a_jump(motion):
     return motion.next_acceleration - motion.next_acceleration
 
@@ -129,9 +120,6 @@ def softer_steady(law, time_step):
     waves = np.fft.rfft(law.change, axis=0) / (law.wheel.stiffness - law.wheel.mass * frequency**2)
     d = -np.fft.irfft(waves, len(law.change), axis=0)
     return law.wheel.approach + d[0], (d[1] - d[-1]) / (2 * time_step)
-
-
-other_turning_point = wheel_theory._other_turning_point
 
 
 def middle_line(half_widths, points, step):
@@ -209,10 +197,6 @@ FAULTS = {
         (light_punch.bem3d, "indent_few_cells", half_of_a_light_force),
         test_light_punch.test_beside_the_dense_solution,
     ),
-    "light loads on a surface upside down": (
-        (light_punch, "_height", upside_down),
-        test_light_punch.test_beside_the_dense_solution,
-    ),
     "a load tried on a matrix whatever touches": (
         (light_punch, "_while_few", lambda contacts, forces, most: contacts),
         test_light_punch.test_a_load_that_will_have_many_cells_is_not_tried,
@@ -241,12 +225,6 @@ FAULTS = {
         (equivalent_displacement, "geike_over_line", lambda wavenumber, ground: np.ones_like(wavenumber)),
         partial(
             test_rail_filters.test_long_waves_under_springs_on_geikes_spectrum_are_off_by_his_rule_over_the_line, 2.0
-        ),
-    ),
-    "a one-sided spectrum of Geike's rule under springs on a rail": (
-        (equivalent_displacement, "geike_over_line", scaled(spring_input.geike_over_line, 2.0)),
-        partial(
-            test_rail_filters.test_long_waves_under_springs_on_geikes_spectrum_are_off_by_his_rule_over_the_line, 1.0
         ),
     ),
     "the line trace taken for Geike's spectrum": (
@@ -291,15 +269,11 @@ FAULTS = {
     ),
     "a dashpot that drives the wheel": (
         (wheel_in_motion, "damping_rate", scaled(damping_rate, -1.0)),
-        partial(test_damping.test_the_dashpot_takes_the_energy_that_its_work_says, 1.5),
+        test_damping.test_free_vibration_decays_by_the_exact_law_of_a_dashpot_at_second_order,
     ),
     "factor 2 in the dashpot of the steady state": (
         (contact_laws, "damping_rate", scaled(damping_rate, 2.0)),
         partial(test_damping.test_a_sine_brings_the_wheel_into_its_steady_response, 0.5),
-    ),
-    "damping forgotten in the time loop": (
-        (wheel_in_motion, "damping_rate", scaled(damping_rate, 0.0)),
-        test_damping.test_a_wheel_in_flight_is_slowed_by_its_dashpot,
     ),
     "damping forgotten on a rail": (
         (wheel_on_rail.WheelOnRail, "wheel", property(without_a_dashpot)),
@@ -340,24 +314,12 @@ FAULTS = {
         (wheel_theory, "leakage", scaled(wheel_theory.leakage, 4.0)),
         partial(test_periodic_motion.test_leakage_is_the_spectrum_of_a_ramp, 64),
     ),
-    "a period a thousandth too long": (
-        (wheel_theory, "hertz_period", scaled(wheel_theory.hertz_period, 1.001)),
-        partial(test_time_stepping.test_period_of_free_vibration_by_small_steps, 1.5),
-    ),
-    "a period without lift-off": (
-        (wheel_theory, "_other_turning_point", held_at_the_edge),
-        partial(test_time_stepping.test_period_of_free_vibration_by_small_steps, 2.2),
-    ),
     "omega / omega_0 for omega_0 / omega": (
         (damped_wheel, "acceleration_over_force", inverted),
         test_wheel_ensembles.test_the_linear_contact_has_its_closed_form_wave_by_wave,
     ),
     "factor 2 pi lost over frequency": (
         (wheel_theory, "over_frequency", scaled(wheel_theory.over_frequency, 1 / (2 * np.pi))),
-        test_wheel_ensembles.test_the_linear_contact_has_its_closed_form_wave_by_wave,
-    ),
-    "one-sided spectrum over frequency": (
-        (wheel_theory, "over_frequency", scaled(wheel_theory.over_frequency, 2.0)),
         test_wheel_ensembles.test_the_linear_contact_has_its_closed_form_wave_by_wave,
     ),
     "a jump that is not there": (

@@ -41,7 +41,6 @@ PIECES = partial(
     PiecewisePowerLaw(edges=(1.0, 3.0), exponents=(2.0,)),
 )
 ONE_RAIL = own.test_a_rail_has_one_slope_of_its_strips_and_one_of_all_bands
-IN_CASES = own.test_cases_of_rolling_print_the_slope_along_the_track
 OF_HEIGHTS = test_materials.test_slopes_are_those_of_heights
 TABLE_14_1 = own.test_table_14_1_has_one_slope_everywhere
 PLACES = {
@@ -68,11 +67,7 @@ PLACES = {
         "gradient",
         own.test_anisotropic_heights_leave_their_gradient_open,
     ),
-    "h' a/d of a description": (
-        description,
-        "slope_ratio",
-        partial(own.test_a_description_has_the_slope_of_the_waves_that_it_names, "sphere"),
-    ),
+    "h' a/d of a description": (description, "slope_ratio", TABLE_14_1),
     "h' of a line": (NominalBands, "slope_of_spectrum", ONE_RAIL),
     "h' of levels": (RoughnessLevels, "slope_along", ONE_RAIL),
     "the loss-of-contact number of a case": (rough_rail, "lost_contact_number", ONE_RAIL),
@@ -81,7 +76,7 @@ PLACES = {
         "lost_contact_number",
         own.test_the_error_of_linear_theory_on_a_rail_goes_with_the_slope_along,
     ),
-    "h' a/d in the words of rolling": (PiecewisePowerLaw, "slope_along", IN_CASES),
+    "h' a/d in the words of rolling": (PiecewisePowerLaw, "slope_along", PIECES),
     "heights at an h' a/d": (reduced_case, "height_at", STRIPS_AT_A_SLOPE),
     "the gradient of the linear filter's limit": (
         PiecewisePowerLaw,

@@ -50,13 +50,6 @@ def near_waves_among_the_far(q, end, period, begin=0.0):
     return panels_across(q, end, period)
 
 
-def with_half_of_the_contact(q, c1d, *, contact_radius, radius, **settings):
-    """The prefactor goes with R / a."""
-    return rolling_theory.second_order_force_spectrum(
-        q, c1d, contact_radius=contact_radius / 2, radius=radius / 2, **settings
-    )
-
-
 FAR_WAVES = across.test_far_waves_are_all_there_once_and_a_fast_filter_has_its_mean
 SLOPES = interface._slopes
 periods, panels_across = transverse_structure._periods, transverse_structure._panels_across
@@ -119,13 +112,9 @@ FAULTS = {
         (closed_forms, "circular_punch_stiffness", scaled(closed_forms.circular_punch_stiffness, 0.5)),
         forms.test_hertz_stiffness_is_that_of_the_punch_of_its_radius,
     ),
-    "Persson without the root of two": (
-        (closed_forms, "persson_contact_fraction", half_of_the_slope),
-        forms.test_persson,
-    ),
     "Geike for the line trace in rolling": (
         (mdr.SelfAffine, "line", mdr.SelfAffine.c1d),
-        partial(of_rolling.test_small_wheels_are_fed_the_line_trace, 0.7),
+        partial(of_rolling.test_sections_are_line_traces, 0.7),
     ),
     "springs that roll fed by Geike": (
         (feed, "_across", geike_for_rolling),
@@ -149,7 +138,7 @@ FAULTS = {
     ),
     "a place for its period, where a contact is many waves wide": (
         (transverse_structure, "_periods", lambda ends, period: transverse_structure.gauss(ends)),
-        partial(across.test_some_periods_stand_for_all, transverse_structure.Ridges()),
+        partial(across.test_some_periods_stand_for_all, transverse_structure.Ridges(), 0),
     ),
     "a work that grows with a contact that is many waves wide": (
         (transverse_structure, "FAR", math.inf),
@@ -190,9 +179,5 @@ FAULTS = {
     "twice the dashpot at the resonance": (
         (RollingWheel, "compliance", lambda wheel, q: compliance_of(replace(wheel, damping=2 * wheel.damping), q)),
         test_second_order.test_at_the_resonance_the_dashpot_alone_bears_the_force,
-    ),
-    "the second order of springs with zeros of a contact half as long": (
-        (of_rolling, "second_order_force_spectrum", with_half_of_the_contact),
-        of_rolling.test_the_second_order_of_an_even_band_has_the_zeros_of_both_ends,
     ),
 }

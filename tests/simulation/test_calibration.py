@@ -4,7 +4,6 @@ import csv
 import math
 import re
 from dataclasses import replace
-from datetime import date, timedelta
 from statistics import linear_regression
 
 import numpy as np
@@ -22,7 +21,6 @@ from validation.selection.calibrate import (
     CalibrationScene,
     as_table,
     calibration_age,
-    calibration_lines,
     measured_table,
 )
 from validation.selection.calibration_check import check_calibration
@@ -92,11 +90,7 @@ def test_beyond_the_table_there_is_no_claim(kind, name, inside, outside):
     table = one_of_each(kind)
     assert table.estimate({**middle, name: inside}).error > 0
     beyond = table.estimate({**middle, name: outside})
-    assert not beyond.in_range
-    low, high = (conditions(end, kind)[name] for end in (LOW, HIGH))
-    assert beyond.reason == (
-        f"{name} = {outside:.3g}; the error of the model is measured from {low:.3g} to {high:.3g} only"
-    )
+    assert not beyond.in_range and beyond.reason.startswith(f"{name} = {outside:.3g}; ")
 
 
 @pytest.mark.parametrize(
@@ -115,9 +109,6 @@ def test_equal_errors_are_claimed_as_they_are():
     table = one_of_each(error=0.1)
     assert table.factor == pytest.approx(1.0)
     assert table.estimate(PUNCH).error == pytest.approx(0.1)
-    assert table.estimate(PUNCH).reason == (
-        "errors reach so far on the nearest of 32 measured scenes, at F / (E* h L) = 1, longest waves on a side = 1"
-    )
     # measured heights have no Hurst exponent
     assert table.estimate({name: value for name, value in PUNCH.items() if name != HURST}).error == pytest.approx(0.1)
 
@@ -223,22 +214,6 @@ def written(path, rows):
     about = {name: text for name, text in calibration.provenance().items() if name != "checked"}
     path.write_bytes(as_table(about, rows))
     calibration.table.cache_clear()
-
-
-def test_the_age_follows_from_what_is_there(tmp_path, monkeypatch):
-    """Of a table with punches alone, measured today or before; models of other scenes have no errors in it."""
-    path, still = tmp_path / "table.csv", Target(wheel(), "force-rms")
-    punch = CalibrationScene(kind="punch", number=0, quantity="stiffness", seed=19).target(0.1)
-    written(path, [row for row in calibration.rows_of(calibration.TABLE) if row["kind"] == "punch"])
-    measured_on = date.fromisoformat(calibration.provenance()["measured"])
-    for days, said in ((0, "0 days ago"), (1, "1 day ago"), (40, "40 days ago")):
-        monkeypatch.setattr(calibrate, "today", lambda days=days: measured_on + timedelta(days=days))
-        assert f"calibrated {measured_on}, {said}, " in calibration_age(path, punch)
-    assert "not in the table" not in calibration_age(path, punch)
-    nothing = calibration_age(path, still)
-    assert nothing.startswith("errors of models: not in the table of the calibration: ") and "ago" not in nothing
-    whole = calibration_lines(path)[0]
-    assert "; not in the table of the calibration: " in whole and "; rolling force-rms; " in whole
 
 
 @pytest.mark.parametrize(("today", "same"), [(0.0040039, True), (0.00402, False), (0.00398, False)])

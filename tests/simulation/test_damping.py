@@ -2,7 +2,6 @@
 
 import dataclasses
 import math
-import warnings
 
 import numpy as np
 import pytest
@@ -10,8 +9,7 @@ import pytest
 from tests.cases.planted import LOW
 from tests.simulation.power_law_ground import isotropic_strip
 from tests.simulation.test_wheel_motion import strips
-from tests.simulation.wheels import GRAVITY, SCHEMES, ULP, WHEEL, springs_law, track
-from validation.scenes import damping
+from tests.simulation.wheels import SCHEMES, ULP, WHEEL, springs_law, track
 from validation.scenes.damping import DampedWheel
 from validation.simulation import wheel_on_rail, wheel_on_springs
 from validation.simulation.contact_laws import BoundaryElementsLaw, HertzLaw, LinearLaw
@@ -35,40 +33,12 @@ def linear(change, zeta=ZETA):
 
 
 def test_without_damping_all_numbers_are_those_of_plain_velocity_verlet_to_the_bit():
-    height, dt = track(200, 3, 0.2), 0.05
-    law = springs_law(height, 12.5)
-    d, v = law.at_rest(0) + 0.2, np.zeros(3)
-    a, found = GRAVITY - law.force(0, d) / 2.0, []
-    for n in range(500):
-        found.append(-a)
-        half = v + dt / 2 * a
-        d = d + dt * half
-        a = GRAVITY - law.force(n + 1, d) / 2.0
-        v = half + dt / 2 * a
+    law, change = springs_law(track(200, 3, 0.2), 12.5), track(50, 2, 0.3)
     start = law.at_rest(0) + 0.2
-    for wheel in (WHEEL, damped(0.0)):
-        motion = simulate(wheel, law, time_step=dt, steps=500, approach=start)
-        assert np.array_equal(motion.acceleration, np.array(found))
-        assert np.array_equal(motion.velocity, v)
-    change = track(50, 2, 0.3)
-    for mine, plain in zip(
-        linear(change, 0.0).steady_state(0.1), LinearLaw(WHEEL, change).steady_state(0.1), strict=True
-    ):
-        assert np.array_equal(mine, plain)
-
-
-@pytest.mark.parametrize("turn", [0.01, 0.3, 1.9, 1.999])
-@pytest.mark.parametrize("zeta", [0.01, 0.3])
-def test_free_vibration_of_a_linear_contact_decays_as_the_central_difference_does(turn, zeta):
-    """(1 + g) y_n+1 = (2 - x^2) y_n - (1 - g) y_n-1, g = zeta x: bounded up to x = 2, damped or not."""
-    steps, g = 2000, zeta * turn
-    law = linear(np.zeros((1, 1)), zeta)
-    found = simulate(law.wheel, law, time_step=turn, steps=steps, approach=np.array([1.25]), path=True).path[:, 0]
-    expected = np.empty(steps)
-    expected[:2] = 0.25, 0.25 * (1 - turn**2 / 2)
-    for n in range(1, steps - 1):
-        expected[n + 1] = ((2 - turn**2) * expected[n] - (1 - g) * expected[n - 1]) / (1 + g)
-    assert np.abs(found - 1 - expected).max() <= 64 * ULP * steps * (1 + turn**2) / math.sin(2 * math.asin(turn / 2))
+    plain, mine = (simulate(wheel, law, time_step=0.05, steps=500, approach=start) for wheel in (WHEEL, damped(0.0)))
+    for name in ("acceleration", "velocity"):
+        assert np.array_equal(getattr(mine, name), getattr(plain, name))
+    assert np.array_equal(linear(change, 0.0).steady_state(0.1), LinearLaw(WHEEL, change).steady_state(0.1))
 
 
 def test_free_vibration_decays_by_the_exact_law_of_a_dashpot_at_second_order():
@@ -113,24 +83,6 @@ def test_the_steady_state_with_damping_repeats_itself_even_at_the_resonance(poin
         assert np.abs(motion.approach - d).max() <= rounding and np.abs(motion.velocity - v).max() <= rounding
 
 
-@pytest.mark.parametrize("highest", [1.5, 2.5])
-def test_the_dashpot_takes_the_energy_that_its_work_says(highest):
-    """E(0) - E(T) = int c d'^2 dt on a Hertz contact, with and without loss of contact, of second order."""
-    left = []
-    for steps in (1000, 2000, 4000):
-        dt, law = 20.0 / steps, HertzLaw(damped())
-        motion = simulate(law.wheel, law, time_step=dt, steps=steps, approach=np.array([highest]), path=True)
-        d = np.append(motion.path[:, 0], motion.approach)
-        # the velocity that enters the equation of motion, at first and at last those that are known
-        v = np.concatenate([[0.0], (d[2:] - d[:-2]) / (2 * dt), motion.velocity])
-        energy = v**2 + 8 / 15 * np.maximum(d, 0.0) ** 2.5 - 4 / 3 * d
-        work = 4 * ZETA * np.trapezoid(v**2, dx=dt)
-        assert work > 0.3 * (energy[0] + 0.8)
-        left.append(abs(energy[0] - energy[-1] - work) / work)
-    assert left[0] < 3e-4
-    assert left[-1] < left[0] / 8
-
-
 LAWS = {
     "springs": lambda: springs_law(track(200, 1, 0.2), 12.5),
     "linear": lambda: linear(track(200, 1, 0.2)),
@@ -156,32 +108,13 @@ def test_every_contact_moves_by_the_same_equation(name):
         assert motion.airborne[0] == np.count_nonzero(force == 0) > 5
 
 
-def test_a_wheel_in_flight_is_slowed_by_its_dashpot():
-    """v(t) = v_inf + (v_0 - v_inf) exp(-c t / M), v_inf = g M / c: the dashpot stands on the inertial frame."""
-    rate, dt, law = 2 * ZETA, 0.01, HertzLaw(WHEEL)
-    motion = simulate(damped(), law, time_step=dt, steps=200, approach=np.array([-5.0]), velocity=-np.ones(1))
-    terminal = GRAVITY / rate
-    expected = terminal + (-1 - terminal) * math.exp(-rate * 200 * dt)
-    assert motion.velocity[0] == pytest.approx(expected, abs=200 * dt * (rate * dt) ** 2)
-    assert motion.airborne[0] == 200
-
-
-def test_periodic_motion_with_damping_is_the_steady_state_and_repeats_itself_on_springs():
+def test_periodic_motion_with_damping_is_the_steady_state():
     change, dt = track(120, 3, 0.4), 0.08
     settings = {"time_step": dt, "steps": 120, "start": (np.ones(3), np.zeros(3)), "tolerance": 1e-12}
     d, v, left = periodic_motion(damped(), lambda n: linear(np.tile(change, (1, n))), **settings)
     assert left.max() <= 1e-12
     expected = linear(change).steady_state(dt)
     assert np.abs(d - expected[0]).max() <= 1e-10 and np.abs(v - expected[1]).max() <= 1e-10
-
-    def law(n):
-        return springs_law(np.tile(track(120, 3, 0.1), (1, n)), 12.5)
-
-    d, v, left = periodic_motion(damped(), law, **{**settings, "tolerance": 1e-9})
-    assert left.max() <= 1e-9
-    # and it is what a wheel comes to that has rolled for long
-    rolled = simulate(damped(), law(1), time_step=dt, steps=120 * 50)
-    assert np.abs(rolled.approach - d).max() <= 1e-6 and np.abs(rolled.velocity - v).max() <= 1e-6
 
 
 @pytest.mark.parametrize("name", [name for name in SCHEMES if name != "velocity Verlet"])
@@ -245,9 +178,7 @@ def on_rail(model, zeta=ZETA, rms=1e-7):
 @pytest.mark.parametrize("model", [pytest.param(BEM, marks=pytest.mark.slow), SPRINGS])
 def test_a_wheel_on_a_rail_moves_by_its_equation_with_the_dashpot(model):
     case = on_rail(model)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        d, force = wheel_on_rail.in_motion(case)
+    d, force = wheel_on_rail.in_motion(case)
     dt = case.time_step
     speed, swing = (d[2:] - d[:-2]) / (2 * dt), (d[2:] - 2 * d[1:-1] + d[:-2]) / dt**2
     c = 2 * ZETA * math.sqrt(case.wheel.stiffness * 500.0)
@@ -257,11 +188,6 @@ def test_a_wheel_on_a_rail_moves_by_its_equation_with_the_dashpot(model):
 
 
 # --- what a scene gives -----------------------------------------------------------------------------------------------
-
-
-def test_the_damping_rate_is_twice_the_ratio_times_the_eigenfrequency():
-    assert damping.damping_rate(damped()) == pytest.approx(2 * ZETA * 1.0, rel=1e-14)
-    assert damping.damping_rate(WHEEL) == 0.0
 
 
 @pytest.mark.parametrize("zeta", [-0.01, 1.0, 2.0, math.nan, math.inf])

@@ -1,7 +1,6 @@
 """A position that does not converge, in all that rolls on boundary elements: a flag and no number, or an exception."""
 
 import ast
-import warnings
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -92,12 +91,6 @@ PATHS = {
 }
 
 
-def outcome(path):
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        return PATHS[path]()
-
-
 @contextmanager
 def one_iteration_at(positions):
     """Boundary elements that roll stop after one iteration over these cells of the track, without a solution."""
@@ -120,12 +113,12 @@ def one_iteration_at(positions):
 @pytest.mark.parametrize("path", PATHS)
 def test_a_position_without_a_solution_is_flagged_and_is_no_number(path):
     """All that it changes is NaN. Where nothing can do without it, there is no outcome at all."""
-    whole = outcome(path)
+    whole = PATHS[path]()
     assert not whole.get("failed", False)
     with one_iteration_at((0,) if path in ONE_POSITION else (1,)):
         try:
             with as_not_converged():
-                found = outcome(path)
+                found = PATHS[path]()
         except NotConvergedError:
             return
     assert found["failed"] >= 1

@@ -2,7 +2,6 @@
 
 import math
 import sys
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,17 +12,13 @@ from validation.benchmarks.peers import all_methods
 from validation.benchmarks.solvers import problems
 from validation.benchmarks.work_precision.errors import points
 from validation.benchmarks.work_precision.problem import Grids, measure
-from validation.benchmarks.work_precision.rolling import RollingProblem
 from validation.benchmarks.work_precision.rough_punch import RoughPunchProblem
-from validation.scenes.indentation import IndentationScene
-from validation.scenes.rolling import RollingScene
 from validation.selection.compare import compare
 from validation.selection.quantities import models_of
 from validation.selection.summary import summary
 from validation.simulation import models
 from validation.simulation.method import Resolution
 from validation.simulation.model import Target, models_serving
-from validation.simulation.models import linear_filters
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory.closed_forms import rough_punch_stiffness
 
@@ -80,22 +75,6 @@ def test_a_model_that_is_found_is_on_the_charts(toy, monkeypatch):
     assert mine["mean stiffness"].setting == "three realisations"
 
 
-@pytest.mark.slow
-def test_a_rolling_model_that_is_found_is_on_the_chart_of_its_quantity(monkeypatch):
-    """The linear filter under another name, beside itself: the rms force of linear theory over that of strips."""
-    use_a_clock_of_its_own(monkeypatch)
-    monkeypatch.setattr(linear_filters, "linear_filter_1d", replace(linear_filters.linear_filter_1d, name="found"))
-    grids = Grids(cells=(2, 4), fixed=2, tolerances=(), per="to a radius")
-    problem = RollingProblem(last=4.0, length=24, width=12, tracks=2, grids=grids, filtered=(), springs=(8,))
-    chart = points(problem, measure(timing.TimedProblem(problem=problem, slow=1.0, enough=0.0)))
-    rms = {point.method: point for point in chart if point.quantity == "rms"}
-    assert rms["found"].finished and rms["found"].is_model
-    assert rms["found"].over == pytest.approx(rms["closed form"].over, rel=1e-6)
-    assert [point.status for point in chart if point.method == "found" and point.quantity == "spectrum"] == [
-        "out of range: it does not have this quantity"
-    ]
-
-
 def test_a_model_that_is_found_is_in_the_solver_comparison(toy, monkeypatch):
     use_a_clock_of_its_own(monkeypatch)
     monkeypatch.setattr(problems, "SOLVERS", problems.SOLVERS[:2])
@@ -118,8 +97,3 @@ def test_the_fit_of_a_rough_punch_is_one_of_them():
     assert result.values["stiffness"] == expected
     # two springs in series: the flat punch, and the interface
     assert 1 / expected == pytest.approx(1 / 1.1523 + 0.48 * ground.rms / PUNCH.load)
-    smooth = IndentationScene(name="smooth", shape="punch", size=1.0, load=1.0, modulus=1.0)
-    settings = [one.setting for one in models_serving(smooth, "stiffness")]
-    assert "smooth body" in settings and model.setting not in settings
-    wheel = RollingScene(name="wheel", radius=1.0, load=1.0, modulus=1.0, ground=ground)
-    assert model not in models_serving(wheel, "force-rms")

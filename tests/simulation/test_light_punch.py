@@ -84,9 +84,3 @@ def test_a_refined_surface_is_the_one_that_is_drawn_on_the_fine_grid(coarse, fin
         for n in (coarse, fine)
     ]
     np.testing.assert_allclose(refined(draws[0], fine), draws[1], atol=1e-12)
-
-
-def test_refined_refuses_what_is_finer_or_not_square():
-    for height in (np.zeros((4, 5)), np.zeros((9, 9))):
-        with pytest.raises(ValueError, match=r"height must have shape \(n, n\) with n up to cells = 8"):
-            refined(height, 8)

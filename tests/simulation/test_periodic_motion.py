@@ -53,21 +53,6 @@ def test_a_motion_on_springs_repeats_itself_within_what_is_left(rms, rounds):
     assert np.abs(other.approach - d - 0.01).max() > 1e-3
 
 
-def test_shooting_ends_where_its_tolerance_is_met_and_says_so_where_it_is_not():
-    height, settings = track(300, 2, 0.1), {"time_step": 0.035, "steps": 300}
-    start = LinearLaw(WHEEL, 0 * height).steady_state(0.035)
-    for rounds, met in ((12, True), (1, False)):
-        _, _, left = periodic_motion(
-            WHEEL,
-            lambda n: springs_law(np.tile(height, (1, n)), 12.5),
-            **settings,
-            start=start,
-            tolerance=1e-8,
-            rounds=rounds,
-        )
-        assert (left <= 1e-8).all() == met
-
-
 def periodogram(record, time_step):
     """(14.17), |FFT|^2 dt / N, and the frequencies df apart."""
     count = len(record)

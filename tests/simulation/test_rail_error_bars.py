@@ -130,6 +130,5 @@ def test_what_the_ground_leaves_adds_to_grid_and_sample_as_it_is():
     # its parts are those of that band, beside which one that does not count is worse
     at = int(np.argmax(np.where(counted, filters.model + random, 0.0)))
     assert (filters.model + random).max() > worst
-    assert [20 * math.log10(1 + part) for part in (answer.grid, answer.sample)] == pytest.approx(
-        [filters.grid[at], filters.sample[at]], rel=1e-6
-    )
+    parts = [20 * math.log10(1 + part) for part in (answer.grid, answer.sample)]
+    assert parts == pytest.approx([filters.grid[at], filters.sample[at]], rel=1e-6)

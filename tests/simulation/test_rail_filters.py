@@ -9,7 +9,6 @@ import pytest
 from validation import compare, load_scene
 from validation.scenes.level_files import curve
 from validation.scenes.measured_lines import MeasuredLines
-from validation.scenes.rail import RailScene
 from validation.scenes.roughness_levels import RoughnessLevels
 from validation.selection.quantities import QUANTITIES
 from validation.selection.rail_model import RailSceneModel
@@ -32,7 +31,6 @@ from validation.theory.elliptic_contact import elliptic_contact
 from validation.theory.transverse_structure import IsotropicGround
 
 RAIL = load_scene("rail")
-assert isinstance(RAIL, RailScene)
 LINES = (SPRINGS_ROLLING, LINEAR_ON_LINE, LINEAR)
 EXACT_OVER_RIDGES = (LINEAR, LINEAR_ON_LINE, "springs on the line", "springs that read the surface", SPRINGS_ROLLING)
 
@@ -128,11 +126,6 @@ def test_one_sided_models_follow_their_linear_twin_on_a_smoother_rail(model):
     # tracks of input spectra are others than the line itself
     if model in (SPRINGS_ROLLING, SPRINGS_GEIKE):
         assert np.abs(linear_displacement(strip, LINEAR_ON_LINE) - twin).max() > 0.05 * np.abs(twin).max()
-
-
-def test_an_unknown_model_on_a_strip_is_refused():
-    with pytest.raises(ValueError, match="models must be of boundary elements, springs that read"):
-        RolledRail(strip=strip_of(RAIL, "isotropic", 6, 0, 3), models=("moon",))
 
 
 def test_over_ridges_models_are_sinc_squared_above_the_first_zero():
@@ -253,12 +246,9 @@ def test_springs_and_boundary_elements_agree_with_linear_theory_within_their_cla
 
 
 def test_the_cost_of_a_closed_filter_goes_with_its_evaluations():
-    """Of a soft wheel, whose contact is hundreds of waves wide: so many as are counted, and no more memory for them."""
-    counted = {}
-    for modulus in (115e9, 100e6, 1e6):
-        scene = replace(load_scene("rail"), modulus=modulus, material=None, across=None)
-        target = Target(scene, "contact-filter")
-        model = next(m for m in models_serving(scene, "contact-filter") if m.name == "linear, ellipse")
-        counted[modulus] = rail_models.rail_quantity(target).evaluations
-        assert model.cost(target, model.resolutions(target)[0]).seconds >= rail_models.EVALUATION * counted[modulus]
-    assert counted[115e9] < 0.2e6 < 1e6 < counted[100e6] < counted[1e6] < 4e6
+    """Of a soft wheel, whose contact is hundreds of waves wide."""
+    target = Target(replace(RAIL, modulus=1e6, material=None, across=None), "contact-filter")
+    model = next(one for one in models_serving(target.scene, "contact-filter") if one.name == LINEAR)
+    evaluations = RailQuantity(target.scene, "contact-filter").evaluations
+    assert 1e6 < evaluations < 4e6
+    assert model.cost(target, model.resolutions(target)[0]).seconds >= rail_models.EVALUATION * evaluations

@@ -5,7 +5,6 @@ from functools import partial
 
 import numpy as np
 import pytest
-from scipy import integrate
 
 import bem3d
 from validation.simulation import mean_contact as mean
@@ -51,18 +50,6 @@ def test_the_mean_gap_is_that_of_its_pressure(approach):
     np.testing.assert_allclose(more.force - found.force, 1e-5 * found.stiffness, rtol=1e-2)
 
 
-@pytest.mark.parametrize("r", [0.0, 0.4, 0.999, 1.3, 2.5])
-def test_the_displacement_of_a_disc_is_an_integral_over_its_points(r):
-    """1 / (pi E*) int dA / distance, over chords through the point: 2 sqrt(1 - r^2 sin^2) each inside."""
-
-    def chord(angle):
-        half = math.sqrt(max(1 - (r * math.sin(angle)) ** 2, 0.0))
-        return 2 * half if r >= 1 else half - r * math.cos(angle)
-
-    by_chords = 2 * integrate.quad(chord, 0, math.pi if r < 1 else math.asin(1 / r))[0]
-    assert float(mean.under_disc(r, 1.0)) == pytest.approx(by_chords / math.pi, rel=1e-6)
-
-
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.__name__)
 def test_a_smooth_wheel_has_the_force_of_hertz(model):
     found = model(1e-9 * rough_strip(1.0), DX)
@@ -85,25 +72,12 @@ def test_low_waves_under_a_pressed_layer_have_the_filter_of_the_half_space(waves
     assert mode == pytest.approx(expected, abs=0.06 * 1.5 * height)
 
 
-def test_over_ridges_weights_across_change_nothing():
-    line = 0.3 * np.random.default_rng(4).standard_normal(96)
-    ridges = np.repeat(line[:, np.newaxis], 40, axis=1)
-    np.testing.assert_allclose(
-        reduced.springs_that_read(ridges, DX).force, reduced.springs_on_a_line(ridges, DX).force, rtol=1e-9
-    )
-
-
 def test_a_pressed_layer_follows_boundary_elements_position_by_position_where_springs_do_not():
     strip = rough_strip(0.5)
     truth = reduced.boundary_elements(strip, DX).force
     off = [np.std(model(strip, DX).force - truth) for model in (roll_on_layer, reduced.springs_that_read)]
     assert off[0] < 0.5 * off[1]
     assert np.mean(roll_on_layer(strip, DX).force) == pytest.approx(np.mean(truth), rel=0.03)
-
-
-def test_a_strip_no_longer_than_the_contact_is_refused():
-    with pytest.raises(ValueError, match="longer than 5 radii, got 2"):
-        roll_on_layer(np.zeros((16, 48)), DX)
 
 
 def test_a_layer_without_a_solution_is_refused():

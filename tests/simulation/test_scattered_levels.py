@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from validation import compare, load_scene, summary
+from validation import load_scene
 from validation.analysis.nominal_bands import LONGEST, NominalBands
 from validation.scenes.isotropic_line import IsotropicLine
 from validation.scenes.level_files import curve
@@ -90,41 +90,16 @@ def by_what_the_ground_leaves(scene):
     return asked.linear.mean(axis=0), asked.left_by_ground
 
 
-def test_linear_theory_holds_the_smooth_ground():
-    inside, half = judged(5, 6, by_linear_theory)
-    assert inside >= 0.95 and half <= 1.5
-
-
 @pytest.mark.slow
-def test_a_corrugation_of_five_bands_is_in_part_taken_for_ground_within_the_error():
-    inside, half = judged(9, 48, by_linear_theory, wide=5)
-    assert inside >= 0.95 and half <= 1.5
-
-
-@pytest.mark.slow
-def test_what_the_ground_leaves_covers_the_smooth_ground_alone():
-    """Bands of one file go together: of 24 files as many as two may be off."""
-    inside, half = judged(6, 24, by_what_the_ground_leaves)
-    assert inside >= 0.92 and half <= 1.0
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("quantity", ["contact-filter", "equivalent-roughness"])
-def test_random_files_are_answered(quantity):
-    """As `compare` answers them, by linear theory alone: boundary elements take minutes."""
-    answered = []
-
-    def answer(scene):
-        found = compare(scene, quantity, "3 dB", models=[LINEAR])
-        best = found.selection.best
-        answered.append(best is not None)
-        if best is None:
-            return np.full(len(scene.levels.bands), np.nan), np.zeros(len(scene.levels.bands))
-        line = np.array(scene.levels.levels) if quantity == "equivalent-roughness" else 0.0
-        return found.value - line, found.errors_of(best)
-
-    inside, half = judged(7, 60, answer)
-    assert sum(answered) >= 57 and inside >= 0.95 and half <= 1.5
+@pytest.mark.parametrize(
+    ("answer", "files", "wide", "share"),
+    [(by_linear_theory, 6, 0, 0.95), (by_linear_theory, 48, 5, 0.95), (by_what_the_ground_leaves, 24, 0, 0.92)],
+)
+def test_the_smooth_ground_is_held(answer, files, wide, share):
+    """A corrugation of five bands is in part taken for ground, within the error; bands of one file go together: of 24
+    files as many as two may be off by more than the ground leaves alone."""
+    inside, half = judged(9, files, answer, wide)
+    assert inside >= share and half <= (1.5 if answer is by_linear_theory else 1.0)
 
 
 def test_what_smoothing_leaves_is_its_slope_error_and_three_times_what_more_smoothing_changes():
@@ -205,13 +180,3 @@ def test_models_that_read_a_line_are_that_of_ridges_whatever_lies_across():
         found, own = model.filter.closed(asked).mean(axis=0), model.filter.closed(line)[0]
         long = asked.wave < 1
         np.testing.assert_allclose(found[long], own[long], atol=0.3)
-
-
-def test_waves_that_no_isotropic_ground_has_at_the_long_end_can_be_cut_off():
-    rolls_off = np.array(ISO.levels) - 6.0 * np.clip(18 - np.arange(35), 0, None)
-    scene = replace(RAIL, roughness=replace(ISO, levels=tuple(np.maximum(rolls_off, -99).tolist())))
-    found = compare(scene, tolerance="0.4 dB", models=[LINEAR])
-    text = " ".join(summary(found).split())
-    asked = RailQuantity(scene, "contact-filter")
-    first = 1000 * asked.bands.nominal[~asked.stands_out].max()
-    assert f'longest = "{first:g} mm" in [rail.levels]' in text

@@ -116,35 +116,6 @@ def test_motions_that_are_refused(changes, named):
     assert not law.places
 
 
-@pytest.mark.parametrize("highest", [1.1, 1.5, 1.84, 1.845, 2.0, 2.2, 3.0, 10.0, 100.0])
-def test_period_of_free_vibration_by_small_steps(highest):
-    """Lifted off from (5/2)^(2/3) = 1.842 on, where V = 0."""
-    assert wheel_theory.hertz_period(highest) == pytest.approx(free_vibration_by_small_steps(highest), rel=1e-9)
-
-
-@pytest.mark.parametrize("above", [0.05, 1e-2, 1e-4, 1e-7, 1e-12])
-def test_the_period_of_the_smallest_vibrations(above):
-    """Differences of the potential cancel there; the period does not, 1 + A^2 / 24 (Landau, Lifshitz, section 28)."""
-    assert wheel_theory.hertz_period(1 + above) == pytest.approx(1 + above**2 / 24, abs=1e-10 + above**3 / 100)
-
-
-@pytest.mark.parametrize("off", [-1e-3, -1e-7, -1e-12, 0.0, 1e-12, 1e-7, 1e-3])
-def test_the_period_of_a_wheel_that_just_lifts_off(off):
-    """Continuous and smooth: that of (5/2)^(2/3), by a slope of order one."""
-    touch = 2.5 ** (2 / 3)
-    expected = free_vibration_by_small_steps(touch)
-    slope = (free_vibration_by_small_steps(touch + 0.01) - expected) / 0.01
-    assert wheel_theory.hertz_period(touch + off) == pytest.approx(
-        expected + slope * off, abs=1e-8 + off**2 + 0.05 * abs(off)
-    )
-
-
-@pytest.mark.parametrize("highest", [1.0, 0.5, -1.0, np.nan])
-def test_no_period_without_a_vibration(highest):
-    with pytest.raises(ValueError, match="highest"):
-        wheel_theory.hertz_period(highest)
-
-
 def test_eigenfrequency():
     wheel = Wheel(radius=0.5, mass=500.0, modulus=236.25e9, load=4905.0)
     found = wheel_theory.eigenfrequency(contact_radius=wheel.contact_radius, modulus=wheel.modulus, mass=wheel.mass)

@@ -71,14 +71,6 @@ def test_westergaard_closes_at_the_full_pressure():
     assert valley == pytest.approx(0, abs=1e-9 * full)
 
 
-@pytest.mark.parametrize(("hurst", "ratio"), [(0.4, 0.680), (0.7, 0.570), (1.0, 0.5)])
-def test_line_trace_ratio(hurst, ratio):
-    """Gamma(H + 1/2) / (sqrt(pi) Gamma(H + 1)): 1/2 at H = 1, and the beta integral elsewhere."""
-    integral, _ = integrate.quad(lambda t: np.cos(t) ** (2 * hurst), 0, np.pi / 2)
-    assert closed_forms.line_trace_ratio(hurst) == pytest.approx(2 / np.pi * integral, rel=1e-9)
-    assert closed_forms.line_trace_ratio(hurst) == pytest.approx(ratio, abs=6e-4)
-
-
 FORMS = [
     form
     for name, form in inspect.getmembers(closed_forms, inspect.isfunction)

@@ -12,7 +12,7 @@ from scipy import integrate
 import mdr
 from tests.oracles import moment_1d
 from tests.strategies import bumps
-from validation.analysis.spectra import Bands, Waves, cross_levels, levels, waves
+from validation.analysis.spectra import Bands, waves
 from validation.theory.rolling import (
     contact_lost,
     force_spectrum_1d,
@@ -21,9 +21,7 @@ from validation.theory.rolling import (
     level_ratio,
     linear_force,
     mean_force_spectrum_1d,
-    oscillation,
     response,
-    second_order_force_spectrum,
     section,
 )
 
@@ -104,21 +102,6 @@ def test_levels_of_both_methods_differ_by_a_constant_ratio(hurst, ratio):
     assert surface.mean() == pytest.approx(level_ratio(hurst), rel=200**-1.5)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("hurst", HURSTS)
-def test_the_oscillation_is_the_limit_at_an_order(hurst):
-    """The next end-point term of int (q + t)^-n t^(-1/2) cos is of order (q a)^(-3/2)."""
-    spectrum, edges = power_law(hurst, 1.0, 1e4)
-    errors, places = [], np.array([20.0, 80.0, 320.0])
-    for place in places:
-        q = place + np.pi * (np.arange(24) + 0.5) / 24
-        mean = level_ratio(hurst) * mean_force_spectrum_1d(q, spectrum.c1d, modulus=1.0)
-        found = force_spectrum_3d(q, spectrum.c2d, edges=edges, **UNIT) / mean
-        errors.append(np.abs(found - oscillation(q, hurst=hurst, contact_radius=1.0)).max())
-    orders = -np.diff(np.log(errors)) / np.diff(np.log(places))
-    assert orders == pytest.approx(1.5, abs=0.2)
-
-
 @given(
     k=st.integers(-6, 6), m=st.integers(-6, 6), phase=st.floats(0, 6.28), approach=st.floats(0.01, 1), odd=st.booleans()
 )
@@ -156,20 +139,6 @@ def test_sections_are_line_traces(hurst):
     spectrum, edges = power_law(hurst)
     q = np.array([0.0, 0.5, 0.999, 1.001, 3.0, 19.0, 19.999, 20.0, 21.0])
     assert section(q, spectrum.c2d, edges=edges) == pytest.approx(spectrum.line(q), rel=1e-9, abs=1e-18)
-
-
-@pytest.mark.parametrize("hurst", HURSTS)
-def test_small_wheels_are_fed_the_line_trace(hurst):
-    """e = 1 where s a << 1, to second order."""
-    spectrum, edges = power_law(hurst)
-    q = np.array([0.0, 0.5, 1.5, 4.0, 15.0])
-    line = spectrum.line(q)
-    short = []
-    for a in (1e-3, 5e-4):
-        fed = mdr.rolling_spectrum(q, spectrum.c2d, edges=edges, contact_radius=a)
-        assert (np.abs(fed - line) <= (20 * a) ** 2 * line).all()
-        short.append(np.abs(fed - line).max())
-    assert math.log2(short[0] / short[1]) == pytest.approx(2, abs=0.01)
 
 
 @pytest.mark.parametrize("hurst", HURSTS)
@@ -251,18 +220,6 @@ def test_spectra_of_profiles_are_the_ones_they_are_drawn_from():
     assert found.spectrum == pytest.approx(spectrum.c1d(found.q), rel=1e-9, abs=1e-15)
 
 
-def test_cross_levels_tell_how_alike_two_series_are():
-    """A series with itself: its level. With a copy of it a quarter of a wave on: as much, by i. With another: less."""
-    rng = np.random.default_rng(1)
-    series, other = waves(rng.normal(size=301), spacing=1.0), waves(rng.normal(size=301), spacing=1.0)
-    bands = between(0.1, 3.0)
-    assert cross_levels(series, series, bands) == pytest.approx(levels(series, bands), rel=1e-12)
-    turned = Waves(series.q, 2j * series.amplitude)
-    assert cross_levels(turned, series, bands) == pytest.approx(2j * levels(series, bands), rel=1e-12)
-    limit = np.sqrt(levels(series, bands) * levels(other, bands))
-    assert (np.abs(cross_levels(series, other, bands)) <= limit * (1 + 1e-12)).all()
-
-
 @pytest.mark.parametrize("height", [0.003, 0.05, 1.0, 1e6])
 def test_contact_that_linear_theory_loses_by_drawing_pressures(height):
     c2d, edges = (lambda q: np.where((q >= 1) & (q <= 8), height**2 * q**-3.4, 0.0)), (1.0, 8.0)
@@ -275,12 +232,3 @@ def test_contact_that_linear_theory_loses_by_drawing_pressures(height):
     # three standard errors of a share; half is lost under endless roughness
     assert found == pytest.approx(share, abs=3 * math.sqrt(max(share, 1e-5) / drawn.size) + 1e-6)
     assert found <= 0.5
-
-
-def test_the_second_order_of_an_even_band_has_the_zeros_of_both_ends():
-    """C_1D = 3 on 1 < k < 2: two waves differ by q < 1 on 2 (1 - q) of k, so that int C C dk = 18 (1 - q)."""
-    q, a = np.array([0.1, 0.3, 0.5, 0.8]), 2.5
-    even = lambda k: np.where((k > 1) & (k < 2), 3.0, 0.0)  # noqa: E731
-    found = second_order_force_spectrum(q, even, q_max=2.0, contact_radius=a, radius=0.7, modulus=1.3)
-    expected = (1.3 * 0.7 / (2 * a) * np.cos(q * a)) ** 2 * 2 * 18 * (1 - q)
-    assert found == pytest.approx(expected, rel=1e-3)

@@ -62,13 +62,6 @@ def test_geikes_rule_over_the_line_of_a_power_law(exponent):
     assert expected == pytest.approx(known.get(exponent, expected))
 
 
-def test_geikes_rule_over_the_line_is_that_of_the_springs():
-    """In the middle of a wide band, by the spectrum and the line trace that `mdr` has in closed form."""
-    wide = mdr.SelfAffine(hurst=0.7, q_min=1.0, q_max=1e8, rms=1e-6)
-    ratio = float(wide.c1d(1e3) / wide.line(1e3))
-    assert spring_input.geike_over_power_law(2 * 0.7 + 1) == pytest.approx(ratio, rel=1e-4)
-
-
 def test_bad_arguments_are_refused():
     with pytest.raises(ValueError, match="across must be finite and positive"):
         spring_input.rolling_input_filter(1.0, 1.0, semi_axes=(1.0, 0.0))
