@@ -79,7 +79,6 @@ def panels(
     *,
     width: float = 9.0,
     height: float = 3.4,
-    sharex: bool = False,
     sharey: Literal["none", "row", "all"] = "none",
     within: dict[str, float] | None = None,
 ) -> tuple[Figure, list[Axes]]:
@@ -89,7 +88,7 @@ def panels(
     which for panels with a colour bar comes out with other last bits every time.
     """
     figure = Figure(figsize=(width, height), layout=None if within else "constrained")
-    axes = list(figure.subplots(rows, columns, squeeze=False, sharex=sharex, sharey=sharey, gridspec_kw=within).flat)
+    axes = list(figure.subplots(rows, columns, squeeze=False, sharey=sharey, gridspec_kw=within).flat)
     for letter, axis in zip("abcdefghijkl", axes, strict=False):
         axis.set_title(f"({letter})", loc="left")
     return figure, axes
