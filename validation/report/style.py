@@ -83,8 +83,7 @@ def panels(
 ) -> tuple[Figure, list[Axes]]:
     """A figure of lettered panels, row by row.
 
-    within: left, right, bottom, top, wspace, hspace of the panels; by default they are laid out around their labels,
-    which for panels with a colour bar comes out with other last bits every time.
+    within: left, right, bottom, top, wspace, hspace of the panels; by default they are laid out around their labels.
     """
     figure = Figure(figsize=(width, height), layout=None if within else "constrained")
     axes = list(figure.subplots(rows, columns, squeeze=False, sharey=sharey, gridspec_kw=within).flat)
