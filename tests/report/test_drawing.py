@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from validation.analysis.chart import Chart, Curve, Map, Panel, by_model
+from validation.analysis.chart import Chart, Curve, Panel, by_model
 from validation.analysis.evidence import Evidence, Table
 from validation.analysis.study import Settings
 from validation.report.drawing import draw
@@ -135,11 +135,6 @@ def test_decades_are_those_below_the_largest_value_and_not_below_a_line_across_t
     marked = Curve("level", "bem", "guide", "_", upright=True)
     (axis,) = drawn(Curve("level", label="b"), marked, tables=(small,), log="xy", decades=3.0)
     assert axis.get_ylim() == pytest.approx((1e-9 * VALUE[-1], 6e-6 * VALUE[-1]))
-
-
-def test_the_cells_of_a_map_are_those_of_their_parameters():
-    figure = draw(Chart("c", "", Map("level", "q a", "h/d", "model", "dB")), EVIDENCE)
-    assert figure.axes[1].collections[0].get_array().reshape(2, 3).tolist() == [[4, 5, 6], [10, 11, 12]]
 
 
 def test_panels_share_an_axis_where_they_say_so():

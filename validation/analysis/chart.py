@@ -74,22 +74,6 @@ class Panel:
 
 
 @dataclass(frozen=True)
-class Map:
-    """A quantity over two parameters in colours, a panel for each value of `facet`; borders: where it passes them;
-    at: of x, dotted.
-    """
-
-    quantity: str
-    x: str
-    y: str
-    facet: str
-    label: str
-    at: tuple[float, ...] = ()
-    borders: tuple[float, float] = (1.0, 3.0)
-    largest: float = 12.0
-
-
-@dataclass(frozen=True)
 class Chart:
     """A figure. name: "case" or "case-part"; panels: none where `report/figures` has a function that draws it; claims:
     numbers of those that its headline states; sharey: one for all.
@@ -97,7 +81,7 @@ class Chart:
 
     name: str
     caption: str = ""
-    panels: tuple[Panel, ...] | Map = ()
+    panels: tuple[Panel, ...] = ()
     _: KW_ONLY
     claims: tuple[int, ...] = (0,)
     columns: int = 0
@@ -105,15 +89,13 @@ class Chart:
     width: float = 10.5
     height: float = 4.0
 
-    def of(self, caption: str, *panels: Panel, over: Map | None = None) -> "Chart":
-        """The same with this caption and these panels, or this map."""
-        return replace(self, caption=caption, panels=over or panels)
+    def of(self, caption: str, *panels: Panel) -> "Chart":
+        """The same with this caption and these panels."""
+        return replace(self, caption=caption, panels=panels)
 
     @property
     def tables(self) -> tuple[str, ...]:
         """Names of those that it draws."""
-        if isinstance(self.panels, Map):
-            return (self.panels.quantity,)
         curves = [curve.quantity for panel in self.panels for curve in panel.curves]
         judged = [panel.judged + JUDGED for panel in self.panels if panel.judged]
         return tuple(dict.fromkeys([*curves, *judged]))

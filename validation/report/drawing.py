@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from validation.analysis.chart import Chart, Curve, Map, Panel
+from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.evidence import Evidence, Table, placed
 from validation.analysis.series import ENDS, JUDGED
 from validation.report.style import BEM, EXACT, GUIDE, MDR, MDR_LINE, MDR_OTHER, Style, graded, panels, tick, visible
@@ -27,20 +27,18 @@ STYLES: dict[str, Style] = {
     "interval": {"color": "#000000"},
     "crosses": {"color": "#000000", "marker": "x", "linestyle": "none"},
     "bem line": {"color": BEM["color"], "linestyle": "--", "linewidth": 1.2},
-    "triangles": {**MDR, "color": "#009E73", "marker": "^"},
     "dots": {"color": MDR["color"], "marker": ".", "markersize": 2.5, "linestyle": "none"},
 }
 GRADED: dict[str, Style] = {
     "graded": {},
     "marks": {"linestyle": "none"},
     "lines": {"marker": "none"},
-    "graded dashed": {"linestyle": "--"},
     "dotted": {"marker": "none", "linestyle": ":"},
     "open": {"markerfacecolor": "white", "linestyle": ":"},
     "open marks": {"markerfacecolor": "white", "linestyle": "none"},
 }
 FIRST = "first"
-POINTS, FEW, LARGE = 12, 15, 1e5
+FEW, LARGE = 15, 1e5
 FEW_DECADES, ASIDE = 300, 1.2
 HIGHEST = 4.8
 """Of a row of panels."""
@@ -48,8 +46,6 @@ SIGN = {"agree": "=", "differ": "≠", "undecided": "?"}
 
 
 def draw(chart: Chart, evidence: Evidence) -> Figure:
-    if isinstance(chart.panels, Map):
-        return _map(chart.panels, evidence.table(chart.panels.quantity))
     facets = [(panel, facet) for panel in chart.panels for facet in _facets(panel, evidence)]
     columns = min(chart.columns or len(facets), len(facets))
     rows = -(-len(facets) // columns)
@@ -217,52 +213,3 @@ def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str
         axis.plot(x, y - down, label=label, **style)
     if curve.band:
         axis.fill_between(x, low, high, color=style["color"], alpha=0.15, linewidth=0)
-
-
-def _map(what: Map, table: Table) -> Figure:
-    """Too low is hatched: too low and too high are alike without colour."""
-    facets = list(dict.fromkeys(table.columns[what.facet]))
-    rows = -(-len(facets) // 2)
-    place = {"left": 0.08, "right": 0.8, "bottom": 0.08, "top": 0.95, "wspace": 0.06, "hspace": 0.14}
-    figure, axes = panels(rows, 2, height=3.3 * rows, sharex=True, sharey="all", within=place)
-    across, up = (np.unique(table[name]) for name in (what.x, what.y))
-    edges_x, edges_y = _cell_edges(across), _cell_edges(up)
-    fine = _points_in_cells(edges_x), _points_in_cells(edges_y)
-    for axis, facet in zip(axes, facets, strict=False):
-        mine = table.where(**{what.facet: facet})
-        cells = np.full((up.size, across.size), np.nan)
-        cells[np.searchsorted(up, mine[what.y]), np.searchsorted(across, mine[what.x])] = mine["value"]
-        shown = np.clip(np.where(np.isfinite(cells), cells, -99.0), -what.largest, what.largest)
-        image = axis.pcolormesh(edges_x, edges_y, shown, cmap="PuOr", vmin=-what.largest, vmax=what.largest)
-        many = np.kron(shown, np.ones((POINTS, POINTS)))
-        for border, dash in zip(what.borders, ("solid", "dashed"), strict=True):
-            axis.contour(*fine, many, levels=[-border, border], colors="black", linestyles=dash, linewidths=1.1)
-        axis.contourf(*fine, many, levels=[-2 * what.largest, -what.borders[-1]], colors="none", hatches=["//"])
-        axis.set(xscale="log", yscale="log", title=str(facet))
-        axis.set_yticks(up, [f"{y:g}" for y in up])
-        axis.yaxis.minorticks_off()
-        tick(axis, _round(edges_x[0], edges_x[-1]))
-        for x in what.at:
-            axis.axvline(x, **GUIDE)
-        axis.grid(visible=False)
-    for axis in axes[::2]:
-        axis.set_ylabel(what.y)
-    for axis in axes[-2:]:
-        axis.set_xlabel(what.x)
-    figure.colorbar(image, cax=figure.add_axes((0.9, 0.25, 0.02, 0.55)), label=what.label, extend="both")
-    return figure
-
-
-def _cell_edges(values: np.ndarray) -> np.ndarray:
-    """Edges of cells around values on a logarithmic axis."""
-    logs = np.log(values)
-    middles = (logs[1:] + logs[:-1]) / 2
-    first, last = logs[0] - (middles[0] - logs[0]), logs[-1] + (logs[-1] - middles[-1])
-    return np.asarray(np.exp(np.concatenate([[first], middles, [last]])))
-
-
-def _points_in_cells(borders: np.ndarray) -> np.ndarray:
-    """So many in each cell that contours run along cells and not across them."""
-    logs = np.log(borders)
-    part = (np.arange(POINTS) + 0.5) / POINTS
-    return np.asarray(np.exp((logs[:-1, np.newaxis] + np.diff(logs)[:, np.newaxis] * part).ravel()))

@@ -16,7 +16,6 @@ from matplotlib.text import Text
 from matplotlib.ticker import LogFormatter
 
 from validation.analysis.evidence import Evidence, Table
-from validation.report.compact import compact
 
 Style = dict[str, Any]
 
@@ -79,17 +78,15 @@ def panels(
     *,
     width: float = 9.0,
     height: float = 3.4,
-    sharex: bool = False,
     sharey: Literal["none", "row", "all"] = "none",
     within: dict[str, float] | None = None,
 ) -> tuple[Figure, list[Axes]]:
     """A figure of lettered panels, row by row.
 
-    within: left, right, bottom, top, wspace, hspace of the panels; by default they are laid out around their labels,
-    which for panels with a colour bar comes out with other last bits every time.
+    within: left, right, bottom, top, wspace, hspace of the panels; by default they are laid out around their labels.
     """
     figure = Figure(figsize=(width, height), layout=None if within else "constrained")
-    axes = list(figure.subplots(rows, columns, squeeze=False, sharex=sharex, sharey=sharey, gridspec_kw=within).flat)
+    axes = list(figure.subplots(rows, columns, squeeze=False, sharey=sharey, gridspec_kw=within).flat)
     for letter, axis in zip("abcdefghijkl", axes, strict=False):
         axis.set_title(f"({letter})", loc="left")
     return figure, axes
@@ -107,7 +104,7 @@ def visible(values: np.ndarray, *, above: float = 0.0) -> np.ndarray:
     return np.where(np.isfinite(values) & (values > above), values, np.nan)
 
 
-FORMATS = {"svg": "Date", "png": "Software", "pdf": "CreationDate"}
+FORMATS = {"svg": ("Date", "Creator"), "png": ("Software",), "pdf": ("CreationDate",)}
 """Of pictures, each with what would make their bytes differ from one time or version to the next."""
 
 
@@ -148,5 +145,5 @@ def picture(figure: Figure, form: str = "svg") -> bytes:
     """In one of the `FORMATS`: the same bytes for the same figure."""
     buffer = io.BytesIO()
     with matplotlib.rc_context(SETTINGS):
-        figure.savefig(buffer, format=form, metadata={FORMATS[form]: None})
-    return compact(buffer.getvalue().decode()).encode() if form == "svg" else buffer.getvalue()
+        figure.savefig(buffer, format=form, metadata=dict.fromkeys(FORMATS[form]))
+    return buffer.getvalue()

@@ -102,7 +102,7 @@ def _strip(cells: Sequence[Cell]) -> list[tuple[str, str]]:
 def _measured(cells: Sequence[Cell], source: Source) -> list[str]:
     """The whole range, and the conditions of its numbers: outside nothing is known."""
     ranges: dict[str, list[Place]] = {source.over: [cell.place for cell in cells if not isinstance(cell.place, str)]}
-    for name in (*((source.axis,) if source.read else ()), *source.series):
+    for name in source.series:
         ranges[name] = [number.where[name] for number in _numbers(cells) if name in number.where]
     return [span(places, name) for name, places in ranges.items() if places]
 

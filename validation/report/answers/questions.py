@@ -97,9 +97,8 @@ def counted(name: str, model: str, source: Source | None = None, by: str = "") -
     return Alternative(name, source, partial(times_springs, model), "reduced_models", by)
 
 
-INTEGRAL, BY_FORMULA, OF_SPRINGS = "an integral over the spectrum", "a formula", "the work of springs"
-LINEAR_3D = "linear theory, 3D"
-FIT = partial(Alternative, "the fit 1/kbar = 1/1.1523 + 0.48/Fbar", cost=BY_FORMULA)
+INTEGRAL, LINEAR_3D = "an integral over the spectrum", "linear theory, 3D"
+FIT = partial(Alternative, "the fit 1/kbar = 1/1.1523 + 0.48/Fbar", cost="a formula")
 PRESSED = partial(Alternative, BEM, None, worked)
 over_force = partial(Source, axis=punch.FORCE, over=punch.FORCE)
 of_punch = partial(over_force, case="fractal_punch", model=punch.OVER, where={"H": float}, series=("H",))

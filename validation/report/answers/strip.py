@@ -29,14 +29,13 @@ class Cell:
 class Source(Choice):
     """Where the numbers of a model stand.
 
-    case: whose; axis: the condition that decides; over: how it is printed, or what is printed in its place, which a
-    table has in a column, read, by the condition; series: conditions with numbers of their own at each place.
+    case: whose; axis: the condition that decides; over: how it is printed; series: conditions with numbers of their own
+    at each place.
     """
 
     case: str
     axis: str
     over: str
-    read: tuple[str, str] | None = None
     series: tuple[str, ...] = ()
 
     def cells(self, evidence: Evidence) -> list[Cell]:
@@ -44,18 +43,12 @@ class Source(Choice):
         found: dict[Place, list[Number]] = {}
         for number in self.chosen(evidence.numbers):
             if self.axis in number.where:
-                found.setdefault(self._place(number.where[self.axis], evidence), []).append(number)
+                found.setdefault(number.where[self.axis], []).append(number)
         every = {self._series(number) for numbers in found.values() for number in numbers}
         return [
             Cell(place, tuple(numbers), len(every - {self._series(number) for number in numbers}))
             for place, numbers in _apart(found).items()
         ]
-
-    def _place(self, place: Place, evidence: Evidence) -> Place:
-        if self.read is None:
-            return place
-        table, column = self.read
-        return float(evidence.table(table).where(**{self.axis: place})[column][0])
 
     def _series(self, number: Number) -> tuple[object, ...]:
         return (number.quantity, *(number.where.get(name) for name in self.series))
