@@ -43,22 +43,15 @@ def test_bars_end_where_the_interval_ends():
     np.testing.assert_allclose(ends, [[0.9, 1.3], [1.9, 2.3], [2.9, 3.3]])
 
 
-def test_bars_of_a_family_stand_side_by_side():
-    (axis,) = drawn(Curve("level", by=("model",), of={"h/d": "first"}, bars=True))
-    first, second = (container.lines[0].get_xdata() for container in axis.containers)
-    np.testing.assert_allclose(second, 1.03 * first)
-
-
-def test_few_decades_of_a_logarithmic_axis_have_plain_numbers():
-    (axis,) = drawn(Curve("level", "bem"), log="xy", ylim=(0.3, 3))
-    assert [label.get_text() for label in axis.get_yticklabels()] == ["0.5", "1", "2"]
-
-
-def test_a_bar_to_zero_and_below_goes_down_a_decade_on_a_logarithmic_axis():
-    table = Table("level", {**TABLE.rows(range(3)).columns, "low": [-1.0, 1.9, 2.9]})
-    (axis,) = drawn(Curve("level", style="bem", label="b", bars=True), tables=(table,), log="xy")
-    ends = [segment[:, 1] for segment in axis.containers[0].lines[2][0].get_segments()]
-    np.testing.assert_allclose(ends, [[0.1, 1.3], [1.9, 2.3], [2.9, 3.3]])
+def test_what_has_no_room_on_a_logarithmic_axis_is_not_drawn_and_a_bar_below_zero_goes_down_a_decade():
+    first = TABLE.rows(range(3)).columns
+    table = Table("level", {**first, "value": [1.0, 0.0, 3.0], "low": [-1.0, 0.0, 2.9]})
+    (axis,) = drawn(
+        Curve("level", label="b"), Curve("level", style="bem", label="c", bars=True), tables=(table,), log="xy"
+    )
+    np.testing.assert_array_equal(axis.lines[0].get_ydata(), [1, np.nan, 3])
+    first_bar = axis.containers[0].lines[2][0].get_segments()[0]
+    np.testing.assert_allclose(first_bar[:, 1], [0.1, 1.3])
 
 
 def test_each_model_has_its_style_and_bars_where_it_has_an_interval():
@@ -70,12 +63,6 @@ def test_each_model_has_its_style_and_bars_where_it_has_an_interval():
     assert axis.get_legend_handles_labels()[1] == ["mdr", "bem"]
 
 
-def test_markers_are_apart_and_ticks_at_the_values():
-    (axis,) = drawn(Curve("level", "bem", "exact", "b", of={"h/d": "first"}, apart=0.1), ticked=True)
-    assert axis.lines[0].get_markevery() == 0.1
-    assert [label.get_text() for label in axis.get_xticklabels()] == ["1", "2", "4"]
-
-
 def test_a_family_has_one_style_in_all_facets():
     """Of models, each of which is in one facet alone."""
     first, second = drawn(Curve("level", by=("model", "h/d")), facet="h/d")
@@ -83,28 +70,11 @@ def test_a_family_has_one_style_in_all_facets():
     assert len(set(colours)) == 4
 
 
-def test_a_panel_with_a_legend_of_its_own_leaves_the_others_to_the_figure():
-    curves = (Curve("level", "bem", label="b"),)
-    figure = draw(Chart("c", "", (Panel("q a", "y", curves, legend="best"), Panel("q a", "y", curves))), EVIDENCE)
-    assert figure.axes[0].get_legend() and not figure.axes[1].get_legend() and len(figure.legends) == 1
-
-
 def test_values_may_be_places_on_the_horizontal_axis_and_intervals_stand_alone():
     (axis,) = drawn(Curve("level", "bem", "guide", upright=True, of={"h/d": 0.1}))
     assert [line.get_xdata()[0] for line in axis.lines] == [1, 2, 3]
     (axis,) = drawn(Curve("level", "bem", "interval", of={"h/d": 0.1}))
     assert not axis.lines and {*axis.collections[0].get_paths()[0].vertices[:, 1]} >= {0.9, 1.3, 3.3}
-
-
-def test_places_along_x_are_marked():
-    (axis,) = drawn(Curve("level", "bem", label="b"), at=(1.5, 3.0))
-    assert [line.get_xdata()[0] for line in axis.lines[-2:]] == [1.5, 3.0]
-
-
-def test_what_has_no_room_on_a_logarithmic_axis_is_not_drawn():
-    zero = Table("level", {**TABLE.rows(range(3)).columns, "value": [1.0, 0.0, 2.0]})
-    (axis,) = drawn(Curve("level", label="b"), tables=(zero,), log="xy")
-    np.testing.assert_array_equal(axis.lines[0].get_ydata(), [1, np.nan, 2])
 
 
 def test_verdicts_stand_over_their_ranges():
@@ -140,15 +110,6 @@ def test_decades_are_those_below_the_largest_value_and_not_below_a_line_across_t
 def test_the_cells_of_a_map_are_those_of_their_parameters():
     figure = draw(Chart("c", "", Map("level", "q a", "h/d", "model", "dB")), EVIDENCE)
     assert figure.axes[1].collections[0].get_array().reshape(2, 3).tolist() == [[4, 5, 6], [10, 11, 12]]
-
-
-def test_panels_share_an_axis_where_they_say_so():
-    """Up to the largest value of all, though a bound is given below."""
-    panels = tuple(Panel("q a", "y", (Curve("level", model, "exact", "b"),), ylim=(0, None)) for model in MODELS)
-    first, second = draw(Chart("c", "", panels, sharey=True), EVIDENCE).axes
-    assert first.get_ylim() == second.get_ylim()
-    assert first.get_ylim()[0] == 0 and first.get_ylim()[1] > VALUE.max()
-    assert (first.get_ylabel(), second.get_ylabel()) == ("y", "")
 
 
 @pytest.mark.parametrize(
