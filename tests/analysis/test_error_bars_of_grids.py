@@ -12,12 +12,8 @@ from validation.analysis.series import Series
 from validation.analysis.statistics import (
     DECIBEL,
     Estimate,
-    at_level,
-    difference_of_halves,
     extrapolated,
-    log_mean,
-    paired_samples,
-    sample,
+    jackknifed,
     student,
 )
 from validation.analysis.study import Outcomes
@@ -38,13 +34,6 @@ def test_what_extrapolation_leaves_open_is_half_of_its_way_and_the_interval_of_a
     assert extrapolated(coarse, finer, among=5)[1] == pytest.approx(0.1 + 2 * stats.t.ppf(0.995, 3) * 0.03)
 
 
-def on_grids(rng, surfaces, slope=0.1, scatter=0.02):
-    """Stiffness on cells of size 1 and 1/2 of surfaces whose error is of first order, their own slope each."""
-    true = 1 + 0.1 * rng.standard_normal((surfaces, 1))
-    own = slope + scatter * rng.standard_normal((surfaces, 1))
-    return true * np.exp(own), true * np.exp(own / 2)
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("refined", [3, 6])
 def test_sample_and_grid_together_hold_cells_of_no_size(refined):
@@ -52,11 +41,12 @@ def test_sample_and_grid_together_hold_cells_of_no_size(refined):
     rng = np.random.default_rng(refined)
 
     def drawn():
-        coarse, fine = on_grids(rng, 12)
-        value, left = extrapolated(
-            sample(coarse, rng).estimate(at_level(0, log_mean)),
-            paired_samples(coarse[:refined], fine[:refined], rng).estimate(difference_of_halves(at_level(0, log_mean))),
-        )
+        # stiffness on cells of size 1 and 1/2, whose error is of first order, with a slope of their own
+        true, own = 1 + 0.1 * rng.standard_normal(12), 0.1 + 0.02 * rng.standard_normal(12)
+        grids = true[:, np.newaxis] * np.exp(np.outer(own, [1, 0.5]))
+        (coarse,) = jackknifed(lambda rows: np.log(rows[:, 0].mean()), grids)
+        (finer,) = jackknifed(lambda rows: np.log(rows[:, 1].mean() / rows[:, 0].mean()), grids[:refined])
+        value, left = extrapolated(coarse, finer)
         return value.value, value.half_width + left
 
     assert covered(drawn, 0.0, trials=200) >= 0.95
@@ -156,18 +146,6 @@ def test_the_error_of_an_answer_covers_its_truth(size, short, paired, quantity):
         return one.value, one.half_width
 
     assert holds(covered(drawn, truth, trials=400), trials=400, short=short, wide=0.0 if paired else 0.04)
-
-
-@pytest.mark.parametrize("paired", [True, False])
-def test_the_error_of_an_answer_has_the_quantile_of_its_sample(paired):
-    """Of a mean of n: t s / sqrt(n) over the mean of the reference, on both sides where they are not paired."""
-    x = np.random.default_rng(0).lognormal(0, 0.1, 5)
-    exact = {"k": np.full(5, 2.0)}
-    one = error(MEAN, MethodValues({"k": x}, paired=paired), MethodValues(exact))
-    assert one.half_width == pytest.approx(t(5) * x.std(ddof=1) / math.sqrt(5) / 2)
-    # half of it extrapolated the same way leaves the same; twice the change leaves more
-    more = error(MEAN, MethodValues({"k": x}, {"k": np.full(5, 1.0)}, 2.0, paired=paired), MethodValues(exact))
-    assert more.half_width > 1.5 * one.half_width
 
 
 def test_two_realisations_have_an_error_bar_and_one_has_none():

@@ -8,15 +8,6 @@ from hypothesis import strategies as st
 from validation.analysis.evidence import Number, Role, Table, Verdict, grouped
 from validation.analysis.statistics import (
     Estimate,
-    at_level,
-    decade_slope,
-    decade_weights,
-    difference_of_halves,
-    log_deviation_over,
-    log_mean,
-    log_relative_deviation,
-    sample,
-    weighted_mean,
 )
 
 reals = st.floats(-1e3, 1e3)
@@ -46,6 +37,7 @@ def test_a_criterion_must_agree_and_a_finding_need_not():
     assert not number(value=2.0).met
     assert not number(sample=1.0).met
     assert number(value=2.0, role=Role.FINDING).met
+    assert number(role=Role.IDENTITY).met and not number(value=2.0, role=Role.IDENTITY).met
 
 
 @pytest.mark.parametrize("name", ["value", "reference", "tolerance", "grid", "sample"])
@@ -75,65 +67,12 @@ def test_so_much_more_of_a_sample_would_decide(value, tolerance, grid, sample):
         assert other.verdict is Verdict.UNDECIDED
 
 
-def test_levels_of_a_realisation_are_resampled_together():
-    """What has the same scatter at two levels has none in their ratio."""
-    rng = np.random.default_rng(0)
-    draws = 1 + 0.2 * rng.standard_normal((50, 1))
-    both = sample(np.concatenate([draws, 1.5 * draws], axis=1), rng)
-    ratio = both.estimate(difference_of_halves(at_level(0, log_mean)))
-    assert ratio.value == pytest.approx(np.log(1.5))
-    assert ratio.error == pytest.approx(0, abs=1e-12)
-    alone = both.estimate(at_level(0, log_mean)).error
-    assert both.estimate(weighted_mean(np.array([0.5, 0.5]), log_mean)).error == pytest.approx(alone, rel=1e-6)
-
-
-def test_lost_realisations_are_left_out():
-    rng = np.random.default_rng(0)
-    draws = 1 + 0.2 * rng.random((20, 2))
-    draws[3:, 1] = np.nan
-    found = sample(draws, rng)
-    assert found.size == 3
-    assert found.estimate(at_level(1, log_mean)).value == pytest.approx(np.log(draws[:3, 1].mean()))
-    assert found.estimate(at_level(0, log_relative_deviation)).value == pytest.approx(
-        np.log(draws[:, 0].std(ddof=1) / draws[:, 0].mean())
-    )
-
-
-def test_weights_of_a_decade():
-    """Trapezoidal: exact for what is linear in ln F, a decade at a time, on any number of levels in it."""
-    for per_decade in (1, 2, 3, 6):
-        forces = tuple(10.0 ** (-3 + i / per_decade) for i in range(4 * per_decade + 1))
-        line = 2 + 3 * np.log10(forces)
-        for power in (-3, -2, -1, 0):
-            assert decade_weights(forces, 10.0**power) @ line == pytest.approx(2 + 3 * (power + 0.5))
-            assert decade_slope(forces, 10.0**power) @ line == pytest.approx(3 / np.log(10))
-
-
-def test_deviation_over_levels_where_some_have_none():
-    """Root mean square: a level without deviation counts as zero, none at all is minus infinity."""
-    weights = np.array([0.25, 0.5, 0.25])
-    mean, deviation = np.ones(3), np.array([0.2, 0.1, 0.0])
-    expected = np.log(np.sqrt(0.25 * 0.04 + 0.5 * 0.01))
-    assert log_deviation_over(weights)(mean, deviation) == pytest.approx(expected)
-    with np.errstate(divide="ignore"):
-        assert log_deviation_over(weights)(mean, np.full(3, 1e-14)) == -np.inf
-
-
 @given(a=st.floats(0.01, 10), b=st.floats(0.01, 10), n=st.integers(3, 100), m=st.integers(3, 100))
 def test_difference_of_estimates(a, b, n, m):
     apart = Estimate(3.0, a, n).minus(Estimate(1.0, b, m))
     assert apart.value == 2.0
     assert apart.error == pytest.approx(np.hypot(a, b))
     assert min(n, m) - 1 <= apart.samples <= n + m
-
-
-@pytest.mark.parametrize(
-    "bad",
-    [np.ones(5), np.ones((2, 3)), np.full((4, 1), np.inf), np.array([[1.0], [-1.0], [2.0], [1.0]]), np.zeros((5, 1))],
-)
-def test_realisations_are_positive_and_enough(bad):
-    with pytest.raises(ValueError, match="realisations"):
-        sample(bad, np.random.default_rng(0))
 
 
 def test_rows_are_grouped_by_the_values_of_columns_in_their_order():

@@ -43,20 +43,10 @@ def test_peak_by_a_loop(top, larger):
             if top + side >= 0:
                 hann[top + side] = part * hann[top]
         hann[50] = 100.0
-        found, expected = regions.peak(omega, hann, 20.0), peak_by_loop(omega, hann, 20.0)
-        assert found == pytest.approx(expected, rel=1e-12, nan_ok=True)
-
-
-def test_no_line_lies_below_the_first():
-    omega, hann = noise(0, 20)
-    assert math.isnan(regions.peak(omega, hann, omega[0]))
-    assert math.isnan(regions.peak(omega, hann, 0.1))
-
-
-def test_the_only_line_below_may_be_the_peak():
-    omega, hann = np.arange(1.0, 31), np.ones(30)
-    hann[:2] = 16.0, 4.0
-    assert regions.peak(omega, hann, 1.5) == pytest.approx(1.0)
+        # of many lines, of the first alone, and of none
+        for below in (20.0, 1.5 * omega[0], omega[0], 0.1):
+            found, expected = regions.peak(omega, hann, below), peak_by_loop(omega, hann, below)
+            assert found == pytest.approx(expected, rel=1e-12, nan_ok=True)
 
 
 def test_a_peak_five_times_what_lies_beside_it_stands_out():
@@ -249,70 +239,7 @@ def test_waves_by_a_loop(points):
 # --- statistics ---
 
 
-def test_decibels_and_per_cents():
-    assert statistics.DECIBEL * math.log(10) == pytest.approx(20)
-    assert statistics.POWER_DECIBEL * math.log(10) == pytest.approx(10)
-    assert pytest.approx(20 * math.log10(1.03)) == statistics.THREE_PER_CENT
-    assert pytest.approx(20 * math.log10(1.05)) == statistics.FIVE_PER_CENT
-
-
-def test_as_many_resamples_as_the_levels_have():
-    drawn = statistics.sample(1 + np.random.default_rng(0).random((6, 3)), np.random.default_rng(1))
-    assert drawn.moments.shape == (2, 3) and drawn.resampled.shape == (2, 3, 999) and drawn.size == 6
-
-
-@pytest.mark.parametrize(("lost", "known"), [(499, True), (500, False)])
-def test_a_statistic_that_most_resamples_do_not_have_has_no_error(lost, known):
-    """Of 999."""
-    values = np.random.default_rng(0).standard_normal(999)
-    values[:lost] = np.nan
-    drawn = statistics.Sample(np.ones((2, 1)), np.stack([values, values])[:, np.newaxis], 8)
-    found = drawn.estimate(lambda mean, _: mean[0])
-    assert found.samples == 8 and found.value == 1.0
-    assert math.isfinite(found.error) == known
-    if known:
-        assert found.error == pytest.approx(math.sqrt(8 / 7) * np.nanstd(values, ddof=1))
-
-
-def test_pairs_count_where_both_are():
-    """What one grid lacks counts in neither; halves are coarse and fine."""
-    coarse, fine = np.arange(1.0, 11).reshape(5, 2), 2 * np.arange(1.0, 11).reshape(5, 2)
-    coarse[0, 0], fine[1, 1] = np.nan, np.nan
-    both = statistics.paired_samples(coarse, fine, np.random.default_rng(0))
-    assert both.size == 4
-    expected = [np.mean([3, 5, 7, 9]), np.mean([2, 6, 8, 10]), np.mean([6, 10, 14, 18]), np.mean([4, 12, 16, 20])]
-    np.testing.assert_allclose(both.moments[0], expected)
-
-
-def test_weights_of_a_decade_one_by_one():
-    """Ends of the decade count half, and what lies just outside not at all."""
-    forces = 10.0 ** np.array([-1.5, -1, -0.5, -0.2, 0, 0.5])
-    np.testing.assert_allclose(statistics.decade_weights(forces, 0.1), np.array([0, 0.5, 1, 1, 0.5, 0]) / 3)
-    moved = forces * (1 + 1e-10)
-    np.testing.assert_allclose(statistics.decade_weights(moved, 0.1), np.array([0, 0.5, 1, 1, 0.5, 0]) / 3)
-
-
 def test_the_nearest_force_is_that_of_the_least_ratio():
     assert statistics.nearest((1.0, 10.0, 100.0), 3.0) == 0
     assert statistics.nearest((1.0, 10.0, 100.0), 3.3) == 1
     assert statistics.nearest((1.0, 10.0, 100.0), 40.0) == 2
-
-
-def test_levels_without_weight_need_not_have_the_statistic():
-    weights = np.array([0.5, 0.0, 0.5])
-    found = statistics.weighted_mean(weights, lambda mean, _: np.log(mean))(np.array([1.0, -1.0, 4.0]), np.ones(3))
-    assert found == pytest.approx(math.log(4) / 2)
-
-
-def test_what_differs_by_rounding_has_no_deviation():
-    """A part of 1e-12 and less."""
-    with np.errstate(divide="ignore"):
-        found = statistics.log_relative_deviation(np.ones(3), np.array([1e-12, 1.1e-12, 0.5]))
-    np.testing.assert_allclose(found, [-np.inf, math.log(1.1e-12), math.log(0.5)])
-
-
-def test_a_change_is_of_the_second_half_less_the_first():
-    found = statistics.difference_of_halves(statistics.log_mean)(np.array([1.0, 2.0, 3.0, 8.0]), np.ones(4))
-    np.testing.assert_allclose(found, [math.log(3), math.log(4)])
-    at = statistics.at_level(1, lambda mean, deviation: mean + 10 * deviation)
-    assert at(np.array([1.0, 2.0]), np.array([3.0, 4.0])) == 42.0

@@ -6,18 +6,12 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from hypothesis.extra.numpy import arrays
 
 from validation.analysis import spectra
 from validation.analysis import spectral_features as regions
 
 WINDOWS = ("none", "hann")
 ROUNDING = 1e-12
-
-series = st.tuples(st.integers(3, 40), st.integers(1, 3)).flatmap(
-    lambda shape: arrays(np.float64, shape, elements=st.floats(-1, 1, width=32))
-)
-time_steps = st.floats(1e-6, 1e3)
 
 
 def hann(steps):
@@ -44,24 +38,16 @@ def mean_square(record, steps, time_step):
 # --- (14.17) ----------------------------------------------------------------------------------------------------------
 
 
-@given(x=series, time_step=time_steps)
-def test_parseval_without_window(x, time_step):
-    """<x^2> - <x>^2 = sum A / T over both signs, since frequency zero is left out; rounding of N terms below one."""
-    found = mean_square(spectra.record_spectra(x, time_step=time_step), len(x), time_step)
-    assert found == pytest.approx(np.mean(x**2, axis=0) - np.mean(x, axis=0) ** 2, abs=len(x) * ROUNDING)
-
-
+@pytest.mark.parametrize("window", WINDOWS)
 @pytest.mark.parametrize("steps", [24, 25])
-def test_parseval_of_hann_in_expectation(steps):
-    """Over all places at which a record may begin the window weighs all its values alike: exact, no sample needed."""
+def test_parseval_in_expectation(steps, window):
+    """Over all places at which a record may begin a window weighs all its values alike: exact, no sample needed."""
     rng, time_step = np.random.default_rng(steps), 0.3
     x = rng.normal(size=steps)
     x = np.stack([np.roll(x, n) for n in range(steps)], axis=1)
-    zero = by_slow_sums(x, time_step, "hann")[0] / (steps * time_step)
-    found = mean_square(spectra.record_spectra(x, time_step=time_step, window="hann"), steps, time_step) + zero
+    zero = by_slow_sums(x, time_step, window)[0] / (steps * time_step)
+    found = mean_square(spectra.record_spectra(x, time_step=time_step, window=window), steps, time_step) + zero
     assert found.mean() == pytest.approx(np.mean(x**2), rel=ROUNDING)
-    # not of each record by itself
-    assert np.ptp(found) > 0.1 * found.mean()
 
 
 @pytest.mark.parametrize("window", WINDOWS)
@@ -232,16 +218,6 @@ def test_noise_has_no_period():
 # --- region 4 ---------------------------------------------------------------------------------------------------------
 
 
-@given(floor=st.floats(1e-12, 1e12), time_step=st.floats(1e-3, 0.2))
-def test_floor_level_of_a_leak(floor, time_step):
-    """J^2 / T of |J| dt / |2 sin(omega dt / 2)|, as the continuation of a ramp has it, for steps that are not small."""
-    omega = LINE * np.arange(1, 2000)
-    density = floor * time_step**2 / 4 / np.sin(omega * time_step / 2) ** 2
-    assert regions.floor_level(omega, density, 8.0, 12.0, time_step) == pytest.approx(floor, rel=1e-11)
-    if time_step * 8 > 0.3:
-        assert np.mean((density * omega**2)[omega > 8]) > 1.005 * floor
-
-
 def test_floor_level_of_a_ramp():
     """Slow truth: a record that rises by J over its length leaks nothing but that."""
     steps, jump = 512, 3.0
@@ -249,13 +225,6 @@ def test_floor_level_of_a_ramp():
     record = spectra.record_spectra(x, time_step=0.1)
     found = regions.floor_level(record.omega, record.density[:, 0], 1.0, 20.0, 0.1)
     assert found == pytest.approx(jump**2 / 51.2, rel=1e-9)
-
-
-@given(power=st.floats(1e-9, 1e9), exponent=st.floats(-6, -2.5))
-def test_power_level_of_a_pure_power_law(power, exponent):
-    omega = LINE * np.arange(1, 2000)
-    found = regions.power_level(omega, power * omega**exponent, FIRST, LAST, PERIOD, exponent)
-    assert found == pytest.approx(power, rel=1e-9)
 
 
 def test_power_level_under_an_oscillation_is_half():

@@ -47,11 +47,18 @@ def test_of_equals_the_first_stands_on_the_front():
     assert names(front([*twins[:1], point("dearer", 0.1, 2.0), point("worse", 0.2, 1.0)])) == [("one", 8.0)]
 
 
-@pytest.mark.parametrize("status", ["failed: RuntimeError: lost", "out of range: too few cells"])
-def test_who_has_not_finished_is_not_on_the_front(status):
-    lost = point("lost", math.nan, 1e-9, status=status)
-    assert names(front([lost, *CHART])) == names(front(CHART))
-    assert front([lost]) == []
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {"off": math.nan, "status": "failed: RuntimeError: lost"},
+        {"off": math.nan, "status": "out of range: too few cells"},
+        {"off": 0.0, "is_reference": True},
+    ],
+)
+def test_neither_who_has_not_finished_nor_the_reference_is_on_the_front(settings):
+    no_part = point("none", seconds=1e-9, **settings)
+    assert names(front([no_part, *CHART])) == names(front(CHART))
+    assert front([no_part]) == []
 
 
 def test_errors_are_ranked_by_their_upper_ends():
@@ -118,8 +125,3 @@ def test_the_cheapest_is_claimed_of_times(another, status, rivals):
     numbers = numbers_of(times([*BESIDE_SPRINGS, another]))
     assert STUDY.claims[0].judged(numbers).status == status
     assert tuple(number.source for number in numbers) == rivals
-
-
-def test_the_reference_itself_takes_no_part():
-    referee = point(CLOSED, 0.0, 1e-6, is_reference=True)
-    assert names(front([referee, *CHART])) == names(front(CHART))

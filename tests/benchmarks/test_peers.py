@@ -9,7 +9,6 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from tests.benchmarks.made_up import run_command
 from validation.analysis.series import numbers_of
 from validation.benchmarks import isolation as alone
 from validation.benchmarks import peers, timing
@@ -238,14 +237,3 @@ def test_peers_find_the_same_pressure(name, evidence):
 def test_a_difference_of_answers_is_a_missed_criterion(result):
     off = with_rows(result, {"bem3d, Polonsky-Keer": {PRESSURE: 2e-4, FORCE: 2e-6, problems.AREA: 0.0}}, {}, {}, {})
     assert sum(not number.met for number in CASE.evidence(off).numbers) == 2
-
-
-@pytest.mark.slow
-def test_command_line(result, tmp_path, monkeypatch, capsys):
-    """The comparison has a page, tables on the terminal, and times that are kept apart from results."""
-    results = run_command(CASE, result, tmp_path, monkeypatch)
-    assert "problem: rough, F = 0.004 E* L², free, 32²" in capsys.readouterr().out
-    assert results["settings"]["cells"] == [32]
-    for file in ("figures/race.svg", "data/race-heats.csv"):
-        assert (tmp_path / file).exists()
-    assert "Solver comparison" in (tmp_path / "speed.html").read_text()

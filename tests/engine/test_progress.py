@@ -6,7 +6,7 @@ import sys
 import pytest
 
 from validation.engine import progress
-from validation.engine.progress import Progress, format_left
+from validation.engine.progress import Progress
 
 
 @pytest.fixture
@@ -87,14 +87,6 @@ def test_a_part_with_solves_to_come_is_not_over():
     assert part.share == pytest.approx(0.75 * progress.BEFORE_EVIDENCE)
     part.finish()
     assert part.share == 1.0
-
-
-@pytest.mark.parametrize(
-    ("seconds", "told"),
-    [(0, "a few seconds"), (34, "about 30 s"), (89, "about 90 s"), (125, "about 2 min"), (7000, "about 1.9 h")],
-)
-def test_the_time_left_is_as_exact_as_it_can_be_known(seconds, told):
-    assert format_left(seconds) == told
 
 
 def printed(monkeypatch, clock, *, terminal):

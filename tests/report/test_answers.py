@@ -18,7 +18,7 @@ from validation.cases.wheel.half_space import GEIKE, OVER_BEM
 from validation.report.answers import questions
 from validation.report.answers.first_screen import answered_questions, from_to, plain
 from validation.report.answers.questions import in_decibels, per_cent, times
-from validation.report.answers.strip import Cell, span
+from validation.report.answers.strip import Cell
 from validation.report.contents import CASES
 from validation.report.section import Section
 
@@ -62,12 +62,8 @@ def words_of(row):
 @pytest.mark.parametrize(
     ("value", "half", "cell", "begins"),
     [
-        (0.0, 0.0, "yes", "Enough from"),
-        (0.5 * TEN, 0.5 * TEN, "yes", "Enough from"),
         (-TEN, 0.0, "yes", "Enough from"),
         (0.5 * TEN, 0.51 * TEN, "open", "Open from"),
-        (TEN, 0.1, "open", "Open from"),
-        (1.01 * TEN, 0.0, "no", "Not enough from"),
         (-1.5 * TEN, 0.49 * TEN, "no", "Not enough from"),
     ],
 )
@@ -99,22 +95,18 @@ def test_a_sentence_has_a_clause_for_each_side_and_ends_where_it_was_measured():
     numbers = [at((0.01, 0.1), 1.0, 1.5), at((0.1, 1.0), 0.3, 0.1), at((1.0, 10.0), -1.2, 0.02)]
     row = mean_stiffness(*reversed(numbers))
     assert row.word == "In part"
-    assert row.answer == (
-        "Enough from Fbar = 0.1 to 1 (all intervals within +2 to +5 %); not enough from Fbar = 1 to 10 (it "
-        "differs: -13 %); open from Fbar = 0.01 to 0.1 (intervals from -6 to +33 %)."
-    )
-    assert list(row.strip) == [
-        ("< 0.01", "not measured"),
-        ("0.01 to 0.1", "open"),
-        ("0.1 to 1", "yes"),
-        ("1 to 10", "no"),
-        ("> 10", "not measured"),
-    ]
-    assert row.measured == "Fbar = 0.01 to 10, H = 0.7"
-    assert row.margin == "10 %: reason"
-    assert row.within == "10 %"
+    for clause in ("(all intervals within +2 to +5 %)", "(it differs: -13 %)", "(intervals from -6 to +33 %)"):
+        assert clause in row.answer
+    places = ("< 0.01", "0.01 to 0.1", "0.1 to 1", "1 to 10", "> 10")
+    assert list(row.strip) == list(zip(places, ("not measured", "open", "yes", "no", "not measured"), strict=True))
+    assert (row.measured, row.margin) == ("Fbar = 0.01 to 10, H = 0.7", "10 %: reason")
     (told,) = plain([row])
     assert told["strip"][2] == {"place": "0.1 to 1", "enough": "yes"} and told["case"] == "fractal_punch"
+    # the page has a class for each word
+    cells = re.findall(
+        r'<li class="(\w+)"><span class="at">.*?</span> <b>.*?([\w ]+)(?:</span>)?</b></li>', html_of(punch(*numbers))
+    )
+    assert cells == [(word.replace("not measured", "unmeasured"), word) for word in words_of(row)]
 
 
 def test_neighbours_of_one_side_are_one_range_and_others_are_not():
@@ -202,20 +194,6 @@ def test_numbers_of_another_model_are_no_answer():
     assert row_of("rolling-spectrum", rolling(RMS_LEVEL, LINEAR_3D, 0.0)).word == "Not measured"
 
 
-def limits(quantity, value, contact=0.1):
-    return at((0.1, 1.0), value, where={interface.ROLL_OFF: 8.0, interface.CONTACT: contact}, quantity=quantity)
-
-
-def row_of_limits(name, *numbers):
-    return row_of(name, section_of("interface", numbers, WORKED))
-
-
-def test_area_and_gap_are_both_needed_and_told_apart():
-    row = row_of_limits("area-and-gap", limits(interface.AREA, 20.0), limits(interface.GAP, -6.0))
-    assert "contact fraction 10 times, mean gap 0.5 times" in row.answer
-    assert row_of_limits("area-and-gap", limits(interface.AREA, 0.0), limits(interface.GAP, -6.0)).word == "No"
-
-
 def test_ranges_that_overlap_are_one_cell():
     """One H was measured less far than the other: both are numbers of the same cell."""
     numbers = [
@@ -246,10 +224,20 @@ def test_a_rail_is_judged_by_what_lies_across_from_ridges_to_isotropic_ground():
     assert list(row.strip) == [("ridges", "yes"), ("alpha = 1", "no"), ("isotropic ground", "no")]
 
 
+def test_area_and_gap_are_both_needed_and_told_apart():
+    def row(*values):
+        where = {interface.ROLL_OFF: 8.0, interface.CONTACT: 0.1}
+        found = zip((interface.AREA, interface.GAP), values, strict=True)
+        numbers = [at((0.1, 1.0), value, where=where, quantity=quantity) for quantity, value in found]
+        return row_of("area-and-gap", section_of("interface", numbers, WORKED))
+
+    assert "contact fraction 10 times, mean gap 0.5 times" in row(20.0, -6.0).answer
+    assert row(0.0, -6.0).word == "No"
+
+
 def test_the_scatter_has_numbers_of_its_own():
     found = punch(at((0.1, 1.0), 0.0), at((0.1, 1.0), -30.0, quantity=DEVIATION))
-    assert words_of(row_of("scatter", found))[1:-1] == ["no"]
-    assert words_of(row_of("mean-stiffness", found))[1:-1] == ["yes"]
+    assert [row_of(name, found).word for name in ("scatter", "mean-stiffness")] == ["No", "Yes"]
 
 
 @pytest.mark.parametrize(("times", "said"), [((3.04, 3.0, 99.0), "3"), ((12000.0, 300.4, 99.0), "300 to 12,000")])
@@ -257,24 +245,6 @@ def test_a_reduced_model_costs_its_counted_work_over_springs(times, said):
     table = Table("work over springs on a line", {"model": ["mine", "mine", "other"], "value": list(times)})
     evidence = section_of("reduced_models", [], table).evidence
     assert questions.times_springs("mine", evidence) == f"{said} times the counted work of springs on a line"
-
-
-# --- the page ---
-
-
-def test_cells_of_the_page_are_lettered_and_link_to_their_evidence():
-    """Colour says nothing that the word does not."""
-    page = html_of(punch(*(at(decade, value) for decade, value in zip(DECADES, (0.0, 3.0, TEN), strict=True))))
-    cells = re.findall(r'<li class="(\w+)"><span class="at">.*?</span> <b>.*?([\w ]+)(?:</span>)?</b></li>', page)
-    words = ("not measured", "yes", "no", "yes", "not measured")
-    assert cells == [(word.replace("not measured", "unmeasured"), word) for word in words]
-    row = page[page.index('id="answer-mean-stiffness"') : page.index('id="answer-scatter"')]
-    assert 'href="pressed.html#fractal_punch"' in row
-    assert 'id="fractal_punch"' in page
-    assert "is MDR enough?" in row
-    missing = page[page.index('id="answer-contact-filter"') : page.index('id="answer-dynamic-wheel"')]
-    assert "Not run." in missing
-    assert "href" not in missing
 
 
 # --- words ---

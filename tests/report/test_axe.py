@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 from tests.report.axe import LACKING, violations
-from tests.report.test_page import ABOUT, MATRIX, section_of
+from tests.report.test_page import MATRIX, section_of
+from tests.report.test_printed import ABOUT
 from validation.report import page
 from validation.report.answers.first_screen import MAP
 

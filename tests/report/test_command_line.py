@@ -339,6 +339,9 @@ def test_a_lost_ensemble_has_no_result_and_is_exit_3(small, tmp_path, monkeypatc
         (["report", "--seed", "-1"], "--seed"),
         (["report", "--seed", "nan"], "--seed"),
         (["race", "--executor", "local"], "--executor"),
+        (["sound", "rail", "--models", "bem,moon"], "--models"),
+        (["sound", "rail", "--seconds", "nan"], "--seconds"),
+        (["sound", "rail", "--seconds", "-1"], "--seconds"),
         (["dance"], "dance"),
         ([], "COMMAND"),
     ],
@@ -372,9 +375,3 @@ def test_a_case_without_its_figure_file_ends_before_the_first_solve(tmp_path, mo
     assert report("--only", "moon", "--out", str(tmp_path / "out")) == command.Exit.BAD_INPUT
     assert "report/figures/moon.py" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
-
-
-def test_cases_are_listed(capsys):
-    assert command.main(["cases"]) == 0
-    printed = capsys.readouterr().out
-    assert all(name in printed and entry.answers in printed for name, entry in CASES.items())

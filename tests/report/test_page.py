@@ -7,25 +7,18 @@ import pytest
 
 from tests.report.accessibility import Tree, faults
 from tests.report.test_command_line import SMALL
-from tests.report.test_printed import evidence_with, number
+from tests.report.test_printed import ABOUT, evidence_with, number
 from validation import __main__ as command
 from validation.analysis.contents import as_csv, from_csv
 from validation.analysis.evidence import JudgedClaim, Role, Table, Verdict, VerdictCell
-from validation.cases.wheel.spectrum import OSCILLATION
 from validation.report import page
 from validation.report.contents import CASES
-from validation.report.figures import tables_of
 from validation.report.formats import format_field, map_of
 from validation.report.page_figure import figures_of
 from validation.report.redraw import redraw
 from validation.report.section import Section
 from validation.report.style import picture
 
-ABOUT = {
-    **dict.fromkeys(("python", "system", "processor", "cores", "workers", "documentation"), ""),
-    **{part: {} for part in ("libraries", "seeds", "kept", "seconds", "timed")},
-    **{"version": "1.2.3", "commit": "abc1234"},
-}
 FIELDS = [VerdictCell("+1 %", Verdict.AGREE), VerdictCell("+9 %", Verdict.DIFFER), "no value"]
 MATRIX = Table("Deviation", {"H": ["0.4", "0.7", "1"], "Fbar 1 to 10": FIELDS, "Fbar 10 to 100": FIELDS[::-1]})
 
@@ -85,8 +78,6 @@ def test_the_first_figure_is_open_and_titled_by_its_finding():
     figures = [e for e in Tree(html_of(shown)).root.walk() if e.attributes.get("class") == "figure"]
     assert ["open" in figure.attributes for figure in figures] == [True, False]
     assert ["".join(f.children[0].words).strip() for f in figures] == ["Springs are 30 dB too quiet", "A sphere"]
-    assert ["".join(f.children[0].children[0].words) for f in figures] == ["Figure 1.", "Figure 2."]
-    assert all(e.attributes["alt"] for f in figures for e in f.walk() if e.tag == "img")
 
 
 def test_a_table_of_verdicts_is_a_lettered_map_with_the_table_behind_it():
@@ -108,12 +99,9 @@ def test_a_figure_is_numbered_on_the_page_and_cited_by_name_version_and_commit()
     text = html_of(section_of("hertz"), section_of("geike"))
     assert text.index('id="figure-hertz"') < text.index('id="figure-geike"')
     figure = figures_of([section_of("hertz"), section_of("geike")])["geike"]
-    assert (figure.number, figure.finding) == (2, "A curve")
-    assert figure.citation(ABOUT, "full") == (
-        "Figure 2, “A curve”, in: Reduced contact models: validation report (mdr-validation 1.2.3, commit abc1234, "
-        "profile full), exact.html#figure-geike"
-    )
-    assert figure.citation(ABOUT, "full") in text
+    cited = figure.citation(ABOUT, "full")
+    assert cited in text and cited.startswith("Figure 2, “A curve”, in: ")
+    assert cited.endswith("(mdr-validation 1.2.3, commit abc1234, profile full), exact.html#figure-geike")
     assert "commit 0ld0000, profile" in figure.citation({**ABOUT, "kept": {"geike": "0ld0000"}}, "full")
     assert "commit abc1234, profile" in figure.citation({**ABOUT, "kept": {"hertz": "0ld0000"}}, "full")
 
@@ -129,11 +117,6 @@ def test_a_table_comes_back_from_its_file():
     assert [type(column[0]) for column in back.columns.values()] == [float, int, bool, str]
     assert as_csv(back) == as_csv(Table("t", values)) == b"x,n,yes,name\n1.5,1,True,a\n,2,False,\n"
     assert as_csv(Table("t", {"x": [float("inf")]})) == b'x\n""\n'
-
-
-def test_the_tables_of_a_figure_are_those_that_it_asks_for():
-    assert tables_of("geike") == ("C_1D [m³]", "moment over that of the surface")
-    assert OSCILLATION in tables_of("wheel") and OSCILLATION not in tables_of("wheel-parameters")
 
 
 @pytest.mark.slow

@@ -49,40 +49,40 @@ def evidence_with(numbers, page_tables=(), claims=()):
     )
 
 
-def html_of(section, documentation=""):
-    """The front page, and that of the chapter of one case."""
-    about = {name: {} for name in ("libraries", "seeds", "kept")} | {"seconds": {section.name: 1.0}, "timed": ()}
-    about |= dict.fromkeys(("version", "commit", "python", "system", "processor", "cores", "workers"), "")
-    about |= {"documentation": documentation}
-    pages = page.pages([section], "full", about, None)
+ABOUT = {
+    **dict.fromkeys(("python", "system", "processor", "cores", "workers", "documentation"), ""),
+    **{part: {} for part in ("libraries", "seeds", "kept", "seconds", "timed")},
+    **{"version": "1.2.3", "commit": "abc1234"},
+}
+
+
+def html_of(*sections, **about):
+    """The front page, and those of the chapters."""
+    pages = page.pages(sections, "full", {**ABOUT, **about}, None)
     return pages.pop("index.html").decode() + "".join(chapter.decode() for chapter in pages.values())
 
 
 def test_the_page_links_to_the_documentation_that_is_built(tmp_path):
     section = Section("geike", CASES["geike"], "none", {}, evidence_with([number(1.0)]))
     assert documentation_beside(tmp_path / "quick") == ""
-    assert "make docs" not in html_of(section)
-    built = tmp_path / BUILT
-    built.parent.mkdir(parents=True)
-    built.touch()
-    address = documentation_beside(tmp_path / "quick")
     (tmp_path / "quick").mkdir()
-    assert (tmp_path / "quick" / address).samefile(built)
-    assert f'<a href="{address}">Documentation</a>' in html_of(section, address)
-
-
-NUMBERS = [
-    number(1.234567, reference=1.2, tolerance=0.5, grid=0.0123, sample=0.0456, quantity="agrees"),
-    number(-3.5, reference=2.5, tolerance=0.25, grid=0.031, quantity="differs", unit="rad/s"),
-    number(7.25, reference=7.0, tolerance=0.5, sample=0.9, quantity="open", unit="-", role=Role.FINDING),
-]
+    (tmp_path / BUILT).parent.mkdir(parents=True)
+    (tmp_path / BUILT).touch()
+    address = documentation_beside(tmp_path / "quick")
+    assert (tmp_path / "quick" / address).samefile(tmp_path / BUILT)
+    assert f'<a href="{address}">Documentation</a>' in html_of(section, documentation=address)
 
 
 def test_rows_of_the_file_and_of_the_results_are_the_numbers():
-    table = numbers_table(NUMBERS)
-    rows = case_results(Section("geike", CASES["geike"], "none", {}, evidence_with(NUMBERS)))["numbers"]
+    numbers = [
+        number(1.234567, reference=1.2, tolerance=0.5, grid=0.0123, sample=0.0456, quantity="agrees"),
+        number(-3.5, reference=2.5, tolerance=0.25, grid=0.031, quantity="differs", unit="rad/s"),
+        number(7.25, reference=7.0, tolerance=0.5, sample=0.9, quantity="open", unit="-", role=Role.FINDING),
+    ]
+    table = numbers_table(numbers)
+    rows = case_results(Section("geike", CASES["geike"], "none", {}, evidence_with(numbers)))["numbers"]
     for name in ("verdict", "unit", "role", "value", "reference", "difference", "grid", "sample", "tolerance"):
-        expected = [getattr(number, name) for number in NUMBERS]
+        expected = [getattr(number, name) for number in numbers]
         assert table[name].tolist() == [row[name] for row in rows] == expected
     assert [row["verdict"] for row in rows] == ["agree", "differ", "undecided"]
     assert [row["met"] for row in rows] == [True, False, None]
@@ -131,8 +131,6 @@ def test_a_value_with_its_interval(value, half):
     ("value", "half", "text"),
     [
         (12640.4, 110.0, "12640 ± 110"),
-        (1.23456, 0.0789, "1.235 ± 0.079"),
-        (99.6, 10.0, "100 ± 10"),
         (1.5, 1.04, "1.5 ± 1.0"),
         (1.0, 2e-9, "1 ± 2e-09"),
         (1.0, 2.4e-6, "1.0000000 ± 0.0000024"),
@@ -148,5 +146,3 @@ def test_a_number_in_a_sentence():
     n = number(1.25, reference=1.0, tolerance=0.5, grid=0.02, sample=0.03)
     assert n.sentence == "x = 1.25 dB ± 0.05 dB, agree with 1 dB within 0.5 dB"
     assert replace(n, unit="-").sentence == "x = 1.25 ± 0.05, agree with 1 within 0.5"
-    assert replace(n, value=3.0).sentence == "x = 3 dB ± 0.05 dB, differ with 1 dB within 0.5 dB"
-    assert replace(n, value=1.5).sentence == "x = 1.5 dB ± 0.05 dB, undecided with 1 dB within 0.5 dB"

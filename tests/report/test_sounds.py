@@ -128,11 +128,3 @@ def test_scenes_and_lengths_without_a_sound_are_refused(scene, seconds, said, tm
     assert command.main(words) == command.Exit.BAD_INPUT
     assert said in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
-
-
-@pytest.mark.parametrize("words", [["--models", "bem,moon"], ["--seconds", "nan"], ["--seconds", "-1"]])
-def test_bad_words_are_exit_2(words, capsys):
-    with pytest.raises(SystemExit) as caught:
-        command.main(["sound", "rail", *words])
-    assert caught.value.code == command.Exit.BAD_INPUT
-    assert words[0] in capsys.readouterr().err

@@ -42,16 +42,6 @@ def test_every_form_of_a_figure_is_drawn_whatever_a_scene_is_called(name, form):
     assert len(to_figure(of_name(name), form=form)) > 1000
 
 
-def test_no_text_of_a_figure_is_parsed():
-    """The same picture as with all parsing of mathematics left out: the title, and the names of models."""
-    found = of_name("$x^2$")
-    drawn = to_figure(found, form="png")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(compared, "SETTINGS", {**style.SETTINGS, "text.parse_math": False})
-        patch.setattr(compared, "plain_figure", lambda figure: None)
-        assert to_figure(found, form="png") == drawn
-
-
 @pytest.mark.filterwarnings("error")
 def test_names_of_any_length_stay_inside_a_figure():
     """In the title, the legend and on the axis: no more than two lines, and no axes pushed out."""
