@@ -6,6 +6,7 @@ Left as they are: annotations, decorators, imports, strings.
 import ast
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import chain, islice, takewhile
 
 Swap = tuple[object, str | int, object]
 """Where a change is made: a node or a list of nodes, a name or an index in it, and what stands there instead."""
@@ -43,8 +44,8 @@ CONTEXT = 24
 class Mutant:
     """One change: which of its file, in which function and lines, from what to what.
 
-    lines: of the statement it stands in; of the whole function for a default value of an argument; empty where it
-    takes effect at import; name: of the constant that it changes, if any.
+    lines: of the statement it stands in; of the whole function for a default value of an argument; name: of the
+    constant that it changes at import, if any.
     """
 
     path: str
@@ -63,24 +64,24 @@ class Mutant:
 def mutants_of(path: str, source: str) -> list[Mutant]:
     """All mutants of a module."""
     return [
-        Mutant(path, number, scope, _lines(statement), _constant(statement) if not scope else "", change)
+        Mutant(path, number, scope, _lines(statement), "" if scope else _constant(statement), change)
         for number, (scope, statement, change, _) in enumerate(_planted(ast.parse(source)))
     ]
 
 
 def mutated(mutant: Mutant, source: str) -> str:
     """The module with the change."""
-    for number, (_, _, _, write) in enumerate(_planted(ast.parse(source))):
-        if number == mutant.number:
-            return write()
+    for _, _, _, write in islice(_planted(ast.parse(source)), mutant.number, None):
+        return write()
     raise ValueError(f"there is no mutant {mutant.number} in this source of {mutant.path}")
 
 
 def _planted(tree: ast.Module) -> Iterator[tuple[str, ast.stmt, str, Callable[[], str]]]:
     """Each change in turn, which stands in the tree until the next is asked for."""
-    for scope, statement, swaps in _statements(tree.body, ()):
+    for scope, body, place in _places(tree.body, ()):
+        statement = body[place]
         before = _header(statement)
-        for holder, key, new in swaps:
+        for holder, key, new in list(_swaps(body, place)):
             old = _put(holder, key, new)
             after = "..." if isinstance(new, ast.Pass) else _header(statement)
             yield scope, statement, _difference(before, after), lambda: ast.unparse(tree)
@@ -89,111 +90,80 @@ def _planted(tree: ast.Module) -> Iterator[tuple[str, ast.stmt, str, Callable[[]
 
 def _put(holder: object, key: str | int, new: object) -> object:
     """Put something in its place; returns what has stood there."""
-    if isinstance(holder, list):
-        old, holder[key] = holder[key], new
-    else:
-        old = getattr(holder, key)
-        setattr(holder, key, new)
+    fields = holder if isinstance(holder, list) else vars(holder)
+    old, fields[key] = fields[key], new
     return old
 
 
-def _statements(body: list[ast.stmt], scope: tuple[str, ...]) -> Iterator[tuple[str, ast.stmt, list[Swap]]]:
-    """Statements with the function they stand in, and what may be changed in them, blocks within them apart."""
+def _places(body: list[ast.stmt], scope: tuple[str, ...]) -> Iterator[tuple[str, list[ast.stmt], int]]:
+    """Of all statements: the function they stand in, their block and their place in it."""
     for place, statement in enumerate(body):
-        swaps = [swap for part in _parts(statement) for swap in _swaps(part)]
-        if _can_go(statement):
-            swaps.append((body, place, ast.Pass()))
-        yield ".".join(scope), statement, [*swaps, *_of_statement(statement)]
+        yield ".".join(scope), body, place
         inner = (*scope, statement.name) if isinstance(statement, ast.FunctionDef | ast.ClassDef) else scope
         for block in ("body", "orelse", "finalbody"):
-            yield from _statements(getattr(statement, block, []), inner)
+            yield from _places(getattr(statement, block, []), inner)
         for handler in getattr(statement, "handlers", []):
-            yield from _statements(handler.body, scope)
+            yield from _places(handler.body, scope)
 
 
 def _parts(statement: ast.stmt) -> list[ast.expr]:
     """The expressions of a statement that are evaluated in its own lines."""
     match statement:
-        case ast.FunctionDef():
-            return [one for one in (*statement.args.defaults, *statement.args.kw_defaults) if one is not None]
-        case ast.AnnAssign():
-            return [statement.value] if statement.value is not None else []
-        case ast.ClassDef() | ast.Import() | ast.ImportFrom():
-            return []
-        case ast.Expr(value=ast.Constant()):
-            return []
-    parts = [part for _, part in ast.iter_fields(statement)]
-    flat = [one for part in parts for one in (part if isinstance(part, list) else [part])]
-    return [one.context_expr if isinstance(one, ast.withitem) else one for one in flat if _is_expression(one)]
-
-
-def _is_expression(part: object) -> bool:
-    return isinstance(part, ast.expr | ast.withitem)
+        case ast.FunctionDef(args=args):
+            parts = [*args.defaults, *args.kw_defaults]
+        case ast.AnnAssign(value=value):
+            parts = [value]
+        case ast.With(items=items):
+            parts = [item.context_expr for item in items]
+        case ast.ClassDef() | ast.Expr(value=ast.Constant()):
+            parts = []
+        case _:
+            parts = chain(*(part if isinstance(part, list) else [part] for _, part in ast.iter_fields(statement)))
+    return [part for part in parts if isinstance(part, ast.expr)]
 
 
 def _can_go(statement: ast.stmt) -> bool:
     """Whether it is a call, an assignment to a part of something, or a way out of a loop."""
     match statement:
-        case ast.Expr(value=ast.Call()) | ast.Break() | ast.Continue():
+        case ast.Expr(value=ast.Call()) | ast.Break() | ast.Continue() | ast.AugAssign():
             return True
-        case ast.Assign(targets=[ast.Subscript() | ast.Attribute()]) | ast.AugAssign():
+        case ast.Assign(targets=[ast.Subscript() | ast.Attribute()]):
             return True
     return False
 
 
-def _of_statement(statement: ast.stmt) -> list[Swap]:
-    """Conditions turned round, operators of assignments, values that are not returned."""
-    match statement:
-        case ast.If(test=test) | ast.While(test=test):
-            return _negated(statement, test)
-        case ast.AugAssign(op=op) if type(op) in OPERATORS:
-            return [(statement, "op", OPERATORS[type(op)]())]
-        case ast.Return(value=value) if value is not None and not _is_none(value):
-            return [(statement, "value", ast.Constant(None))]
-    return []
-
-
-def _negated(holder: ast.AST, test: ast.expr) -> list[Swap]:
-    """A condition turned round, but for those which have their opposite among their own changes."""
-    negation = isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not)
-    if negation or (isinstance(test, ast.Compare) and len(test.ops) == 1):
-        return []
-    return [(holder, "test", ast.UnaryOp(ast.Not(), test))]
-
-
-def _is_none(value: ast.expr) -> bool:
-    return isinstance(value, ast.Constant) and value.value is None
-
-
-def _swaps(expression: ast.expr) -> Iterator[Swap]:
-    """What may be changed in an expression and all below it."""
-    for node in ast.walk(expression):
+def _swaps(body: list[ast.stmt], place: int) -> Iterator[Swap]:  # noqa: C901
+    """What may be changed in a statement, blocks within it apart."""
+    if _can_go(body[place]):
+        yield body, place, ast.Pass()
+    for node in chain([body[place]], *map(ast.walk, _parts(body[place]))):
         match node:
             case ast.Compare(ops=ops):
                 yield from ((ops, i, other()) for i, op in enumerate(ops) for other in COMPARISONS[type(op)])
-            case ast.BinOp(op=op) if type(op) in OPERATORS:
+            case ast.BinOp(op=op) | ast.AugAssign(op=op) if type(op) in OPERATORS:
                 yield node, "op", OPERATORS[type(op)]()
             case ast.BoolOp(op=op):
                 yield node, "op", ast.Or() if isinstance(op, ast.And) else ast.And()
+            case ast.UnaryOp(op=ast.USub()):
+                yield node, "op", ast.UAdd()
             case ast.UnaryOp(op=op, operand=operand):
-                yield (
-                    (node, "op", ast.UAdd())
-                    if isinstance(op, ast.USub)
-                    else (node, "operand", ast.UnaryOp(op, operand))
-                )
-            case ast.IfExp(test=test):
-                yield from _negated(node, test)
+                yield node, "operand", ast.UnaryOp(op, operand)
+            case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test) if not _has_its_opposite(test):
+                yield node, "test", ast.UnaryOp(ast.Not(), test)
+            case ast.Return(value=value) if value is not None and getattr(value, "value", ...) is not None:
+                yield node, "value", ast.Constant(None)
             case ast.Constant(value=bool() | int() | float() as value):
                 yield node, "value", _another(value)
-            case ast.Call(func=ast.Name() | ast.Attribute() as function):
-                yield from _renamed(function)
+            case ast.Call(func=ast.Name(id=name) as function) if name in NAMES:
+                yield function, "id", NAMES[name]
+            case ast.Call(func=ast.Attribute(attr=name) as function) if name in NAMES:
+                yield function, "attr", NAMES[name]
 
 
-def _renamed(function: ast.Name | ast.Attribute) -> list[Swap]:
-    """The least for the largest, and the like."""
-    where = "id" if isinstance(function, ast.Name) else "attr"
-    name = getattr(function, where)
-    return [(function, where, NAMES[name])] if name in NAMES else []
+def _has_its_opposite(test: ast.expr) -> bool:
+    """Whether a condition is turned round by a change within it."""
+    negation = isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not)
+    return negation or (isinstance(test, ast.Compare) and len(test.ops) == 1)
 
 
 def _another(value: bool | int | float) -> bool | int | float:
@@ -224,8 +194,7 @@ def _header(statement: ast.stmt) -> str:
     text = ast.unparse(statement)
     if not hasattr(statement, "body"):
         return " ".join(text.split())
-    decorators = len(getattr(statement, "decorator_list", []))
-    return text.splitlines()[decorators]
+    return text.splitlines()[len(getattr(statement, "decorator_list", []))]
 
 
 def _difference(before: str, after: str) -> str:
@@ -239,7 +208,7 @@ def _difference(before: str, after: str) -> str:
 
 def _in_common(one: str, other: str) -> int:
     """Letters with which both begin."""
-    return next((i for i, (a, b) in enumerate(zip(one, other, strict=False)) if a != b), min(len(one), len(other)))
+    return sum(takewhile(bool, (a == b for a, b in zip(one, other, strict=False))))
 
 
 def _short(text: str) -> str:

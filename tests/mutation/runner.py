@@ -2,25 +2,20 @@
 
 Needs what `make coverage` and `make verdicts` have left behind: which test has executed which line, and how long each
 takes. A mutant is met by the tests that have executed its lines, quickest first, until one fails or the time for it is
-over. Each is run in a process forked from this one, in which libraries are loaded and the project is not, on a copy of
-the project.
+over, in a process of its own on a copy of the project.
 """
 
 import argparse
-import ctypes
-import importlib
 import json
-import multiprocessing
 import os
 import random
 import re
 import resource
 import shutil
-import signal
+import subprocess
 import sys
 import tempfile
 import tomllib
-from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
@@ -28,55 +23,27 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import coverage
-import pytest
 
 from tests.mutation.mutants import Mutant, mutants_of, mutated
-from tests.mutation.report import Outcome, Survey, Trial, table
+from tests.mutation.report import Outcome, Survey, table
 
 ROOT = Path(__file__).parents[2]
-PROJECT = ("mdr", "bem3d", "validation", "tests")
-BESIDE = ("pyproject.toml", "reports/README.md", "reports/docs/own_data.md")
-"""What the tests of rooms read beside it."""
+HERE = ROOT / "tests" / "mutation"
+COPIED = ("mdr", "bem3d", "validation", "tests", "reports", "pyproject.toml", "README.md", "ARCHITECTURE.md")
 KILLERS = ROOT / ".mutation-killers.json"
 """Who has killed which mutant before: it is asked first the next time."""
-REASONS = ROOT / "tests" / "mutation" / "survivors.toml"
 MEMORY = 8 * 2**30
-"""Of a mutant, in bytes of address space."""
+"""Of the tests of a mutant, in bytes of address space."""
 SETTINGS = {"HYPOTHESIS_PROFILE": "mutation", "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1", "OPENBLAS_NUM_THREADS": "1"}
-QUIET = ("-qq", "-x", "--tb=no", "-p", "no:cacheprovider")
-
-
-@dataclass(frozen=True)
-class Field:
-    """What is surveyed: files, what `make` has recorded of the tests that look at them, and the table of it."""
-
-    targets: tuple[str, ...]
-    command: str
-    data: Path
-    times: Path
-    table: Path
-
-    def paths(self) -> list[str]:
-        """Of its files, from the root."""
-        return sorted(str(path.relative_to(ROOT)) for pattern in self.targets for path in ROOT.glob(pattern))
-
-
+QUIET = ("-qq", "-x", "--tb=no", "-rfE", "-p", "no:cacheprovider")
+METHODS = ("mdr/*.py", "bem3d/*.py", "validation/theory/closed_forms.py")
 VERDICTS = (
-    "validation/analysis/series.py",
-    "validation/analysis/over_range.py",
-    "validation/analysis/claims.py",
-    "validation/analysis/study.py",
-    "validation/analysis/margins.py",
-    "validation/simulation/limit_sweeps.py",
-    "validation/simulation/probing.py",
-    "validation/analysis/statistics.py",
-    "validation/analysis/evidence.py",
-    "validation/analysis/spectra.py",
-    "validation/analysis/spectral_features.py",
-    "validation/benchmarks/work_precision/errors.py",
-    "validation/benchmarks/work_precision/pareto.py",
+    *("validation/analysis/series.py", "validation/analysis/over_range.py", "validation/analysis/claims.py"),
+    *("validation/analysis/study.py", "validation/analysis/margins.py", "validation/analysis/statistics.py"),
+    *("validation/analysis/evidence.py", "validation/analysis/spectra.py", "validation/analysis/spectral_features.py"),
+    *("validation/simulation/limit_sweeps.py", "validation/simulation/probing.py", "validation/engine/engine.py"),
+    *("validation/benchmarks/work_precision/errors.py", "validation/benchmarks/work_precision/pareto.py"),
     "validation/selection/hierarchy.py",
-    "validation/engine/engine.py",
 )
 CLAIMS = {
     "answers": "validation/report/answers/*.py",
@@ -90,26 +57,13 @@ CLAIMS = {
     "sound": "validation/analysis/sound.py",
 }
 """What claims rest on: grids of Fig. 14.1, calibrated errors, rails, and what is printed of all of them."""
-
-
-def looked_at_by_guards(targets: tuple[str, ...], table: str) -> Field:
-    """Files that the tests of `make verdicts` look at."""
-    data, times = ROOT / ".coverage-verdicts", ROOT / ".coverage-verdicts-times.xml"
-    return Field(targets, "verdicts", data, times, ROOT / "tests" / "mutation" / table)
-
-
 FIELDS = {
-    "methods": Field(
-        ("mdr/*.py", "bem3d/*.py", "validation/theory/closed_forms.py"),
-        "coverage",
-        ROOT / ".coverage",
-        ROOT / ".coverage-times.xml",
-        ROOT / "tests" / "mutation" / "MUTATIONS.md",
-    ),
-    "verdicts": looked_at_by_guards(VERDICTS, "MUTATIONS_OF_VERDICTS.md"),
-    "claims": looked_at_by_guards(tuple(CLAIMS.values()), "MUTATIONS_OF_CLAIMS.md"),
-    **{name: looked_at_by_guards((files,), f"MUTATIONS_OF_{name.upper()}.md") for name, files in CLAIMS.items()},
+    "methods": METHODS,
+    "verdicts": VERDICTS,
+    "claims": tuple(CLAIMS.values()),
+    **{name: (files,) for name, files in CLAIMS.items()},
 }
+"""What is surveyed."""
 
 
 @dataclass(frozen=True)
@@ -120,12 +74,13 @@ class Suite:
     executed: dict[str, dict[int, set[str]]]
 
     @classmethod
-    def recorded(cls, of: Field) -> "Suite":
-        """From the files in the root."""
-        data = coverage.CoverageData(str(of.data))
+    def recorded(cls, command: str) -> "Suite":
+        """From the files that `make coverage` or `make verdicts` leaves in the root."""
+        name = ".coverage" if command == "coverage" else ".coverage-verdicts"
+        data, times = coverage.CoverageData(str(ROOT / name)), ROOT / f"{name}-times.xml"
         data.read()
-        if not of.times.exists() or not data.measured_files():
-            raise SystemExit(f"there is no record of the tests: run make {of.command}")
+        if not times.exists() or not data.measured_files():
+            raise SystemExit(f"there is no record of the tests: run make {command}")
         executed = {
             str(Path(file).resolve().relative_to(ROOT)): {
                 line: {context.rpartition("|")[0] for context in contexts if context}
@@ -133,8 +88,7 @@ class Suite:
             }
             for file in data.measured_files()
         }
-        cases = ElementTree.parse(of.times).iter("testcase")
-        return cls({_node(case): _seconds(case) for case in cases}, executed)
+        return cls(dict(map(_timed, ElementTree.parse(times).iter("testcase"))), executed)
 
     def tests_of(self, mutant: Mutant, sources: dict[str, str]) -> set[str]:
         """Those that have executed its lines; else those that have executed any line which names the constant that it
@@ -159,21 +113,36 @@ class Suite:
             total += self.seconds[test]
         return chosen
 
+    def run(self, tests: list[str], folder: Path) -> tuple[Outcome, str]:
+        """Tests in this order on a copy of the project, until one fails: which one it was, if it has said so."""
+        command = [sys.executable, "-m", "pytest", *QUIET, *tests]
+        longest = 60 + 3 * sum(self.seconds[test] for test in tests)
+        try:
+            done = subprocess.run(
+                command,
+                cwd=folder,
+                env=os.environ | SETTINGS,
+                timeout=longest,
+                capture_output=True,
+                text=True,
+                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY)),
+            )
+        except subprocess.TimeoutExpired:
+            return Outcome.TIMED_OUT, ""
+        killer = re.search(r"^(?:FAILED|ERROR) (.*?)(?: - |$)", done.stdout, flags=re.MULTILINE)
+        return Outcome.KILLED if done.returncode else Outcome.SURVIVED, killer[1] if killer else ""
 
-def _node(case: ElementTree.Element) -> str:
-    return f"{case.get('classname').replace('.', '/')}.py::{case.get('name')}"
+
+def _timed(case: ElementTree.Element) -> tuple[str, float]:
+    """A test and its seconds by itself: with all the fixtures that it shares with others, see `fixture_times`."""
+    shared = sum(float(p.get("value")) for p in case.iter("property") if p.get("name") == "fixtures")
+    node = f"{case.get('classname').replace('.', '/')}.py::{case.get('name')}"
+    return node, max(float(case.get("time", 0)), shared)
 
 
 @cache
 def _source(path: str) -> str:
-    """Of a file of tests, from the root."""
     return (ROOT / path).read_text()
-
-
-def _seconds(case: ElementTree.Element) -> float:
-    """Of a test by itself: with all the fixtures that it shares with others, see `fixture_times`."""
-    shared = sum(float(p.get("value")) for p in case.iter("property") if p.get("name") == "fixtures")
-    return max(float(case.get("time", 0)), shared)
 
 
 def _naming(name: str, source: str) -> list[int]:
@@ -181,121 +150,54 @@ def _naming(name: str, source: str) -> list[int]:
     return [i for i, line in enumerate(source.splitlines(), 1) if re.search(rf"\b{name}\b", line)]
 
 
-class Bench:
-    """A copy of the project, in which tests are run on one mutant after another."""
-
-    def __init__(self, suite: Suite, folder: Path):
-        self.suite, self.folder = suite, folder
-        for name in PROJECT:
-            shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
-        for file in BESIDE:
-            (folder / file).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy2(ROOT / file, folder / file)
-        self._fork = multiprocessing.get_context("fork")
-        self._running = self._fork.RawArray(ctypes.c_char, 1000)
-
-    def load_libraries(self, tests: set[str]) -> None:
-        """Import what the tests import, and forget what of it is the project's own."""
-        os.environ.update(SETTINGS)
-        for file in {test.partition("::")[0] for test in tests}:
-            importlib.import_module(file.removesuffix(".py").replace("/", "."))
-        for name in [name for name in sys.modules if name.partition(".")[0] in PROJECT]:
-            del sys.modules[name]
-
-    def trial(self, mutant: Mutant, source: str, tests: list[str]) -> Trial:
-        """What becomes of a mutant."""
-        if not tests:
-            return Trial(mutant, Outcome.SURVIVED)
-        (self.folder / mutant.path).write_text(mutated(mutant, source))
-        try:
-            outcome, last = self.run(tests)
-        finally:
-            # with its time of change, by which Python knows what it has compiled before
-            shutil.copy2(ROOT / mutant.path, self.folder / mutant.path)
-        return Trial(mutant, outcome, "" if outcome is Outcome.SURVIVED else last)
-
-    def run(self, tests: list[str], *, unchanged: bool = False) -> tuple[Outcome, str]:
-        """Tests in this order, until one fails; and which was the last to run. Unchanged, all of them must be there."""
-        self._running.value = b""
-        process = self._fork.Process(target=self._child, args=(tests, unchanged))
-        process.start()
-        process.join()
-        last = self._running.value.decode()
-        if process.exitcode in (0, pytest.ExitCode.NO_TESTS_COLLECTED):
-            return Outcome.SURVIVED, last
-        return (Outcome.TIMED_OUT if process.exitcode == -signal.SIGALRM else Outcome.KILLED), last
-
-    def _child(self, tests: list[str], unchanged: bool) -> None:
-        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-        sys.dont_write_bytecode = not unchanged
-        nothing = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nothing, 1)
-        os.dup2(nothing, 2)
-        os.chdir(self.folder)
-        sys.path.insert(0, str(self.folder))
-        # nothing but the tests may take long, either
-        signal.setitimer(signal.ITIMER_REAL, 60)
-        files = sorted({test.partition("::")[0] for test in tests})
-        chosen = Chosen(tests, self.suite.seconds, self._running)
-        code = pytest.main([*QUIET, *files], plugins=[chosen])
-        os._exit(pytest.ExitCode.USAGE_ERROR if unchanged and chosen.missing else code)
-
-
-class Chosen:
-    """A plugin that runs some tests alone, in their order, and gives each ten times the time it has taken before."""
-
-    def __init__(self, tests: list[str], seconds: dict[str, float], running: ctypes.Array):
-        self._rank = {test: i for i, test in enumerate(tests)}
-        self._seconds, self._running = seconds, running
-        self.missing = len(tests)
-
-    @pytest.hookimpl(trylast=True)
-    def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
-        items[:] = sorted((i for i in items if i.nodeid in self._rank), key=lambda item: self._rank[item.nodeid])
-        self.missing = len(self._rank) - len(items)
-
-    def pytest_runtest_logstart(self, nodeid: str) -> None:
-        self._running.value = nodeid.encode()[:999]
-        signal.setitimer(signal.ITIMER_REAL, 10 + 10 * self._seconds[nodeid])
+def copy_of_the_project(folder: Path) -> None:
+    """Beside the packages, what the tests of rooms read."""
+    for name in COPIED:
+        if (ROOT / name).is_dir():
+            skipped = shutil.ignore_patterns("__pycache__", "reference", "full", "quick", "_build")
+            shutil.copytree(ROOT / name, folder / name, ignore=skipped)
+        else:
+            shutil.copy2(ROOT / name, folder / name)
 
 
 def main(arguments: list[str]) -> None:
     """Plant mutants, all or a sample of them, and write what has become of each."""
     asked = parsed(arguments)
-    of = FIELDS[asked.of]
-    suite, before = Suite.recorded(of), json.loads(KILLERS.read_text()) if KILLERS.exists() else {}
-    paths = of.paths()
-    sources = {path: (ROOT / path).read_text() for path in paths}
+    suite = Suite.recorded("coverage" if asked.of == "methods" else "verdicts")
+    before = json.loads(KILLERS.read_text()) if KILLERS.exists() else {}
+    paths = sorted({str(path.relative_to(ROOT)) for pattern in FIELDS[asked.of] for path in ROOT.glob(pattern)})
+    sources = {path: _source(path) for path in paths}
     everything = [mutant for path in paths for mutant in mutants_of(path, sources[path])]
     chosen = [mutant for mutant in everything if not asked.only or mutant.path in asked.only]
     if asked.sample is not None and asked.sample < len(chosen):
         chosen = sorted(random.Random(asked.seed).sample(chosen, asked.sample), key=lambda m: (m.path, m.number))
-    tests = {m: suite.quickest(suite.tests_of(m, sources), before.get(_name(m)), asked.seconds) for m in chosen}
-    with tempfile.TemporaryDirectory() as folder:
-        bench = Bench(suite, Path(folder))
-        union = {test for some in tests.values() for test in some}
-        bench.load_libraries(union)
+    tests = {
+        m: suite.quickest(suite.tests_of(m, sources), before.get(f"{m.path}: {m.key}"), asked.seconds) for m in chosen
+    }
+    trials = []
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        copy_of_the_project(folder)
+        union = suite.quickest({test for some in tests.values() for test in some}, None, float("inf"))
         print(f"{len(union)} tests on the unchanged project", flush=True)
-        outcome, last = bench.run(suite.quickest(union, None, float("inf")), unchanged=True)
-        if outcome is not Outcome.SURVIVED:
-            raise SystemExit(f"a test fails on the unchanged project, or is not there: the last was {last}")
-        trials = []
-        for i, mutant in enumerate(chosen):
-            trials.append(bench.trial(mutant, sources[mutant.path], tests[mutant]))
-            print(f"{i + 1}/{len(chosen)} {trials[-1].outcome}: {mutant.path}: {mutant.key}", flush=True)
-            if trials[-1].killer:
-                before[_name(mutant)] = trials[-1].killer
+        if suite.run(union, folder)[0] is not Outcome.SURVIVED:
+            raise SystemExit("a test fails on the unchanged project, or is not there")
+        for i, mutant in enumerate(chosen, 1):
+            (folder / mutant.path).write_text(mutated(mutant, sources[mutant.path]))
+            outcome, killer = suite.run(tests[mutant], folder) if tests[mutant] else (Outcome.SURVIVED, "")
+            (folder / mutant.path).write_text(sources[mutant.path])
+            trials.append((mutant, outcome))
+            print(f"{i}/{len(chosen)} {outcome}: {mutant.path}: {mutant.key}", flush=True)
+            if killer:
+                before[f"{mutant.path}: {mutant.key}"] = killer
                 KILLERS.write_text(json.dumps(before, indent=0))
-    counts = Counter(mutant.path for mutant in everything)
-    survey = Survey(trials, counts, asked.seed if len(chosen) < len(everything) else None, asked.seconds)
-    text = table(survey, tomllib.loads(REASONS.read_text()))
+    seed = asked.seed if len(chosen) < len(everything) else None
+    text = table(
+        Survey(trials, everything, seed, asked.seconds), tomllib.loads(_source("tests/mutation/survivors.toml"))
+    )
     if not asked.only:
-        of.table.write_text(text)
+        (HERE / f"MUTATIONS{'' if asked.of == 'methods' else f'_OF_{asked.of.upper()}'}.md").write_text(text)
     print(text)
-
-
-def _name(mutant: Mutant) -> str:
-    return f"{mutant.path}: {mutant.key}"
 
 
 def parsed(arguments: list[str]) -> argparse.Namespace:
