@@ -18,7 +18,7 @@ from validation.cases.wheel.half_space import GEIKE, OVER_BEM
 from validation.report.answers import questions
 from validation.report.answers.first_screen import answered_questions, from_to, plain
 from validation.report.answers.questions import in_decibels, per_cent, times
-from validation.report.answers.strip import Cell
+from validation.report.answers.strip import Cell, span
 from validation.report.contents import CASES
 from validation.report.section import Section
 
