@@ -7,8 +7,6 @@ import types
 import mdr
 from validation.analysis import spectra
 
-POISSON = 1 / 3
-
 
 def with_math(**wrong):
     """math with some names changed."""
@@ -25,7 +23,7 @@ def scaled(function, factor):
     return wrong
 
 
-E_FOR_E_STAR = 1 - POISSON**2
+E_FOR_E_STAR = 1 - (1 / 3) ** 2
 
 
 def one_sided_spectrum(found):
