@@ -107,23 +107,24 @@ def test_a_failure_is_raised_unless_it_is_wanted_as_a_value(asked, limit):
 
 
 @pytest.mark.parametrize(
-    ("residual", "status"),
-    [(0.0, "converged"), (1e-4, "converged"), (1.001e-4, None), (9.9e-4, None), (np.nan, "breakdown")],
+    ("residuals", "status"),
+    [
+        ((0.0,), "converged"),
+        ((1e-4,), "converged"),
+        ((1.001e-4,), None),
+        ((9.9e-4,), None),
+        ((np.nan,), "breakdown"),
+        ((1.0,) * 5, None),
+        ((1.0,) * 6, "iteration limit"),
+    ],
 )
-def test_the_tolerance_is_that_of_the_caller(residual, status):
+def test_the_tolerance_and_the_iteration_limit_are_those_of_the_caller(residuals, status):
+    """1e-4 and 5; a history has an entry for the start, too."""
     attempt = IterationState(np.zeros((1, 1)), 1.0)
-    attempt.record_residual(residual, 1e-4, 5)
+    for found in residuals:
+        attempt.record_residual(found, 1e-4, 5)
     assert attempt.status == status
-    assert attempt.history == [residual]
-
-
-@pytest.mark.parametrize(("entries", "status"), [(5, None), (6, "iteration limit")])
-def test_the_iteration_limit_is_that_of_the_caller(entries, status):
-    """A history has an entry for the start, too."""
-    attempt = IterationState(np.zeros((1, 1)), 1.0)
-    for _ in range(entries):
-        attempt.record_residual(1.0, 1e-4, 5)
-    assert attempt.status == status
+    assert attempt.history == list(residuals)
 
 
 def test_every_load_of_a_path_is_within_its_tolerance():

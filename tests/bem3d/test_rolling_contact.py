@@ -271,12 +271,6 @@ def test_applications_are_counted(by, monkeypatch):
         assert len(calls) == contact.operator_applications + (position == 0)
 
 
-def test_a_start_from_the_last_two_positions_saves_applications():
-    """In counts: on a smooth strip fewer than the first position takes, from none."""
-    found = bem3d.roll(strip(12, 0.02), spacing=1 / 12, **SPHERE, approach=1.0, tolerance=TOLERANCE)
-    assert found.operator_applications[2:].mean() <= 0.9 * found.operator_applications[0]
-
-
 def test_a_wheel_that_just_touches_bears_nothing():
     """At the very approach of first touch, over the middle of a cell."""
     wheel = bem3d.RollingContact(bem3d.Track(height=np.zeros((9, 9)), spacing=1.0, **SPHERE))

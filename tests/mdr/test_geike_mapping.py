@@ -86,19 +86,12 @@ def test_line_trace_of_a_wide_power_law(hurst):
     assert ratio == pytest.approx(closed_forms.line_trace_ratio(hurst), rel=1e-9)
 
 
-@given(spectrum=bumps(), scale=st.floats(0.1, 10))
-def test_line_trace_of_an_arbitrary_spectrum_against_its_closed_form(spectrum, scale):
+@given(scale=st.floats(0.1, 10))
+def test_line_trace_of_an_arbitrary_spectrum_against_its_closed_form(scale):
     """A Gaussian is its own line trace but for a factor: C_2D = exp(-q^2 / s^2) gives sqrt(pi) s exp(-q^2 / s^2)."""
-    q = scale * np.linspace(0, 3, 7)
+    q = scale * np.linspace(0, 3, 6).reshape(2, 3)
     trace = mdr.line_trace(q, lambda k: np.exp(-((k / scale) ** 2)), q_max=8 * scale)
     np.testing.assert_allclose(trace, np.sqrt(np.pi) * scale * np.exp(-((q / scale) ** 2)), rtol=1e-9)
-
-
-def test_line_traces_of_arrays_are_those_of_numbers():
-    q = np.linspace(0, 3, 6)
-    one_by_one = [mdr.line_trace(k, lambda s: np.exp(-(s**2)), q_max=8.0) for k in q]
-    together = mdr.line_trace(q.reshape(2, 3), lambda s: np.exp(-(s**2)), q_max=8.0)
-    np.testing.assert_allclose(together, np.reshape(one_by_one, (2, 3)), rtol=1e-14)
 
 
 def test_the_edges_of_a_band_belong_to_it_within_a_billionth():

@@ -35,12 +35,16 @@ def assert_is_the_sum(track, found, approach):
     assert (np.rint(in_contact) <= most).all()
 
 
-@given(track=on_springs())
-def test_force_is_the_sum_over_all_springs(track):
-    found = track.roll()
-    assert_is_the_sum(track, found, track.approach)
-    assert np.array_equal(found.approach, np.full(track.height.size, track.approach))
-    assert np.array_equal(found.force, mdr.rolling_force(track.height, **track.wheel, approach=track.approach))
+@given(track=on_springs(), seed=st.integers(0, 1000))
+def test_force_is_the_sum_over_all_springs(track, seed):
+    """At one approach, and at one for each point, of any sign: at some of them the wheel is lifted off."""
+    each = track.approach * np.random.default_rng(seed).uniform(-2, 1, track.height.size)
+    for approach in (track.approach, each):
+        found = track.roll(approach=approach)
+        assert_is_the_sum(track, found, approach)
+        assert np.array_equal(found.approach, np.broadcast_to(approach, track.height.size))
+    one = mdr.rolling_force(track.height, **track.wheel, approach=track.approach)
+    assert np.array_equal(track.roll().force, one)
 
 
 @given(springs=st.integers(0, 3000), spacing=st.floats(1e-3, 10), radius=st.floats(0.1, 100), ulps=st.integers(-2, 2))
@@ -53,15 +57,6 @@ def test_the_reach_of_the_wheel_by_its_profile_as_it_is_rounded(springs, spacing
     found = wheel.reach(level)
     assert wheel.wheel(found + 1) >= level
     assert wheel.wheel(found) < level if level > 0 else found == -1
-
-
-@given(track=on_springs(), seed=st.integers(0, 1000))
-def test_an_approach_for_each_point(track, seed):
-    """Of any sign: at some points the wheel is lifted off."""
-    approach = track.approach * np.random.default_rng(seed).uniform(-2, 1, track.height.size)
-    found = track.roll(approach=approach)
-    assert_is_the_sum(track, found, approach)
-    assert np.array_equal(found.approach, approach)
 
 
 @pytest.mark.parametrize("rms", [0.0, 1e-3, 0.1, 1.0, 10.0])

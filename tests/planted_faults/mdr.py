@@ -107,10 +107,6 @@ FAULTS = {
         (mdr, "geike", scaled(mdr.geike, 1 / np.pi)),
         partial(of_geike.test_moments_of_arbitrary_spectra_are_kept, n=0),
     ),
-    "2 pi q C_2D for Geike": (
-        (mdr, "geike", scaled(mdr.geike, 2.0)),
-        partial(of_geike.test_moments_of_arbitrary_spectra_are_kept, n=0),
-    ),
     "x^2 / 2R in one dimension": (
         (mdr, "sphere_profile", lambda x, *, radius: np.asarray(x) ** 2 / (2 * radius)),
         partial(brute_force.test_springs_under_a_parabola_tend_to_the_sphere_at_second_order, 0.1),
@@ -149,10 +145,6 @@ FAULTS = {
         IN_STEP,
     ),
     "many wheels half a cell ahead": ((mdr.RollingEnsemble, "_profile", profile_half_a_cell_ahead), IN_STEP),
-    "many wheels a cell ahead": (
-        (mdr.RollingEnsemble, "force", lambda wheels, place, d: force_in_step(wheels, place + 1, d)),
-        IN_STEP,
-    ),
     "springs that pull under many wheels": (
         (wheels_in_step, "np", in_numpy({"maximum": lambda values, least, out=None: values})),
         partial(in_step.test_force_to_1e_12_of_the_smooth_wheel, 30.0, 0.1),
