@@ -16,6 +16,7 @@ from matplotlib.text import Text
 from matplotlib.ticker import LogFormatter
 
 from validation.analysis.evidence import Evidence, Table
+from validation.report.compact import compact
 
 Style = dict[str, Any]
 
@@ -104,7 +105,7 @@ def visible(values: np.ndarray, *, above: float = 0.0) -> np.ndarray:
     return np.where(np.isfinite(values) & (values > above), values, np.nan)
 
 
-FORMATS = {"svg": ("Date", "Creator"), "png": ("Software",), "pdf": ("CreationDate",)}
+FORMATS = {"svg": "Date", "png": "Software", "pdf": "CreationDate"}
 """Of pictures, each with what would make their bytes differ from one time or version to the next."""
 
 
@@ -145,5 +146,5 @@ def picture(figure: Figure, form: str = "svg") -> bytes:
     """In one of the `FORMATS`: the same bytes for the same figure."""
     buffer = io.BytesIO()
     with matplotlib.rc_context(SETTINGS):
-        figure.savefig(buffer, format=form, metadata=dict.fromkeys(FORMATS[form]))
-    return buffer.getvalue()
+        figure.savefig(buffer, format=form, metadata={FORMATS[form]: None})
+    return compact(buffer.getvalue().decode()).encode() if form == "svg" else buffer.getvalue()
