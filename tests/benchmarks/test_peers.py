@@ -174,7 +174,7 @@ def test_fastest_is_claimed_of_times(result):
 
     assert claim(0.5, 0.1, 0.5, 0.5).status == "holds"
     limited = claim(0.5, 2.0, 0.5, 0.5)
-    assert (limited.status, limited.limits) == ("holds within limits", "from cells = 128 on")
+    assert (limited.status, limited.limits) == ("holds within limits", "only at cells = 128")
     assert claim(0.5, 2.0, 0.5, 1.5).status == "contradicted"
     # intervals that overlap decide nothing
     assert claim(0.5, 0.5, 0.98, 0.5).status == "open"
