@@ -5,7 +5,7 @@ import pytest
 
 from validation.analysis.evidence import ClaimStatus, Verdict, numbers_with
 from validation.analysis.study import Outcomes
-from validation.cases.punch import interface
+from validation.cases.punch import interface_study
 from validation.cases.punch.interface import (
     BESIDE_BEM,
     BOUNDED,
@@ -17,6 +17,7 @@ from validation.cases.punch.interface import (
     OF_SERIES,
     OVER_LOAD,
     PUNCH,
+    ROLL_OFF,
     Interface,
 )
 from validation.theory.interface import persson_stiffness
@@ -42,7 +43,7 @@ def evidence(law, case=CASE, finer=1.0, flat=1.1523):
     punch = 1 / (1 / law(case.pressed) + 1 / flat)
     found |= {(PUNCH, 1): outcome(punch, case.surfaces), (PUNCH, 2): outcome(punch, case.refined)}
     found["mdr"] = outcome(2 * punch, case.profiles)
-    return interface.CASE.evidence(Outcomes(case, found))
+    return interface_study.CASE.evidence(Outcomes(case, found))
 
 
 def power(exponent):
@@ -75,9 +76,7 @@ def test_a_power_of_the_load_is_found_and_judged(exponent, status):
 
 def test_theory_is_put_over_boundary_elements_and_few_waves_do_not_judge_it():
     found = evidence(lambda ground: theory(ground, 1.25 if ground[0] == 4 else 1.0))
-    values = {
-        (n.where[interface.ROLL_OFF], n.where[CONTACT]): n for n in numbers_with(found.numbers, BESIDE_BEM, FITTED)
-    }
+    values = {(n.where[ROLL_OFF], n.where[CONTACT]): n for n in numbers_with(found.numbers, BESIDE_BEM, FITTED)}
     assert values[8, 1.0].value == pytest.approx(0.0, abs=1e-3)
     assert values[4, 1.0].value == pytest.approx(-20 * np.log10(1.25), abs=1e-3)
     assert found.claims[1].status is ClaimStatus.HOLDS

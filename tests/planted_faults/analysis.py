@@ -190,6 +190,10 @@ FAULTS = {
         (statistics.Estimate, "half_width", property(of_one_tail)),
         partial(test_error_bars.test_the_interval_of_a_mean_is_students, 2),
     ),
+    "a third of the interval, seen by its coverage": (
+        (statistics.Estimate, "half_width", property(lambda estimate: estimate.error / 1.5)),
+        partial(test_error_bars.test_the_interval_of_a_mean_is_students, 5),
+    ),
     "two standard errors of a sample of four": (
         (statistics.Estimate, "half_width", property(lambda estimate: 2 * estimate.error)),
         partial(test_error_bars_of_rolling.test_ratios_of_levels_cover_their_truth, 4),

@@ -47,7 +47,7 @@ from validation.simulation import (
 from validation.simulation import motion as wheel_in_motion
 from validation.simulation.model_names import LINE
 from validation.simulation.rough_punch import PunchRoughness
-from validation.theory import damped_wheel, spring_input
+from validation.theory import spring_input
 from validation.theory import wheel as wheel_theory
 
 
@@ -315,7 +315,7 @@ FAULTS = {
         partial(test_periodic_motion.test_leakage_is_the_spectrum_of_a_ramp, 64),
     ),
     "omega / omega_0 for omega_0 / omega": (
-        (damped_wheel, "acceleration_over_force", inverted),
+        (wheel_theory, "acceleration_over_force", inverted),
         test_wheel_ensembles.test_the_linear_contact_has_its_closed_form_wave_by_wave,
     ),
     "factor 2 pi lost over frequency": (

@@ -12,13 +12,13 @@ from scipy import special
 import mdr
 from tests.planted_faults.wrong import one_sided_spectrum, scaled
 from tests.theory import test_closed_forms as forms
-from tests.theory import test_damped_wheel, test_second_order
 from tests.theory import test_interface as of_interface
 from tests.theory import test_rolling_theory as of_rolling
+from tests.theory import test_second_order, test_wheel
 from tests.theory import test_spring_input as of_input
 from tests.theory import test_transverse_structure as across
 from validation.analysis import spectra
-from validation.theory import closed_forms, damped_wheel, interface, spring_input, transverse_structure
+from validation.theory import closed_forms, interface, spring_input, transverse_structure, wheel
 from validation.theory import rolling as rolling_theory
 from validation.theory.line_spectrum import LineSpectrum
 from validation.theory.second_order import RollingWheel
@@ -26,7 +26,7 @@ from validation.theory.second_order import RollingWheel
 
 def damped_wheel_alone(omega, **given):
     """M^2 times what the acceleration has."""
-    return damped_wheel.acceleration_over_force(omega, mass=1.0, **given)
+    return wheel.acceleration_over_force(omega, mass=1.0, **given)
 
 
 pairs_of, compliance_of = RollingWheel._pairs, RollingWheel.compliance
@@ -161,8 +161,8 @@ FAULTS = {
         partial(FAR_WAVES, transverse_structure.WaveBand(0.7)),
     ),
     "a dashpot without its own force on the wheel": (
-        (damped_wheel, "contact_force_over_force", damped_wheel_alone),
-        test_damped_wheel.test_acceleration_and_force_over_the_force_at_a_fixed_approach,
+        (wheel, "contact_force_over_force", damped_wheel_alone),
+        test_wheel.test_acceleration_and_force_over_the_force_at_a_fixed_approach,
     ),
     "half of the second-order force": (
         (RollingWheel, "force_spectrum", scaled(RollingWheel.force_spectrum, 0.25)),

@@ -2,6 +2,7 @@
 
 import math
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from validation.benchmarks.peers import all_methods
 from validation.benchmarks.solvers import problems
 from validation.benchmarks.work_precision.errors import points
 from validation.benchmarks.work_precision.problem import Grids, measure
+from validation.benchmarks.work_precision.rolling import RollingProblem
 from validation.benchmarks.work_precision.rough_punch import RoughPunchProblem
 from validation.selection.compare import compare
 from validation.selection.quantities import models_of
@@ -19,6 +21,8 @@ from validation.selection.summary import summary
 from validation.simulation import models
 from validation.simulation.method import Resolution
 from validation.simulation.model import Target, models_serving
+from validation.simulation.model_names import FILTER_3D
+from validation.simulation.models import linear_filters
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory.closed_forms import rough_punch_stiffness
 
@@ -73,6 +77,21 @@ def test_a_model_that_is_found_is_on_the_charts(toy, monkeypatch):
     assert {"mean stiffness", "relative deviation"} == set(mine)
     assert all(point.finished and point.work == 1.0 for point in mine.values())
     assert mine["mean stiffness"].setting == "three realisations"
+
+
+def test_a_rolling_model_that_is_found_is_on_the_chart_of_its_quantity(monkeypatch):
+    """The rms force of linear theory is the same in one and in three dimensions, under whatever name."""
+    use_a_clock_of_its_own(monkeypatch)
+    monkeypatch.setattr(linear_filters, "linear_filter_1d", replace(linear_filters.linear_filter_1d, name="found"))
+    grids = Grids(cells=(2, 4), fixed=2, tolerances=(), per="to a radius")
+    problem = RollingProblem(last=4.0, length=24, width=12, tracks=2, grids=grids, filtered=(), springs=(8,))
+    chart = points(problem, measure(timing.TimedProblem(problem=problem, slow=1.0, enough=0.0)))
+    rms = {point.method: point for point in chart if point.quantity == "rms"}
+    assert rms["found"].finished and rms["found"].is_model
+    assert rms["found"].over == pytest.approx(rms[FILTER_3D].over, rel=1e-6)
+    assert [point.status for point in chart if point.method == "found" and point.quantity == "spectrum"] == [
+        "out of range: it does not have this quantity"
+    ]
 
 
 def test_a_model_that_is_found_is_in_the_solver_comparison(toy, monkeypatch):

@@ -89,11 +89,6 @@ def levels(found: Waves, bands: Bands) -> FloatArray:
     return bands.sums(found.q, np.abs(found.amplitude) ** 2).real
 
 
-def cross_levels(found: Waves, other: Waves, bands: Bands) -> ComplexArray:
-    """sum of c conj(c') over each band: with both `levels`, all that the coherence takes."""
-    return bands.sums(found.q, found.amplitude * np.conj(other.amplitude))
-
-
 @dataclass(frozen=True, eq=False)
 class RecordSpectra:
     """Spectra of finite records: omega, shape (frequencies,) [rad/s]; density: A, (frequencies, records) [x^2 s].

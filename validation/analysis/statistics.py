@@ -1,7 +1,6 @@
 """Estimates from a sample of realisations, with the error that the size of the sample leaves."""
 
 import math
-import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -18,13 +17,8 @@ DECIBEL = 20 / math.log(10)
 """From a natural logarithm."""
 POWER_DECIBEL = 10 / math.log(10)
 """The same, of a ratio of powers."""
-THREE_PER_CENT, FIVE_PER_CENT = DECIBEL * math.log(1.03), DECIBEL * math.log(1.05)
-
-RESAMPLES = 999
-BATCH = 100
 JACKKNIFE_GROUPS = 100
 ROUNDING = 1e-12
-LOG10_TOLERANCE = 1e-9
 
 
 def student(degrees: float, confidence: float = 0.95) -> float:
@@ -148,141 +142,11 @@ def extrapolated(coarse: Estimate, finer: Estimate, among: int = 1) -> tuple[Est
     return value, abs(finer.value) + 2 * finer.half_width_among(among)
 
 
-@dataclass(frozen=True)
-class Sample:
-    """Realisations, each at all levels, and as many resamples of them as an error bar takes.
-
-    moments: mean and standard deviation (n - 1) of each level, shape (2, levels); resampled: those of each resample,
-    (2, levels, resamples); size: realisations at the level that has fewest.
-    """
-
-    moments: FloatArray
-    resampled: FloatArray
-    size: int
-
-    def estimate(self, statistic: Statistic) -> Estimate:
-        """One number with its bootstrap standard error, which is NaN where most resamples have no finite value.
-
-        A resample of n has the variance of the sample itself, (n - 1) / n of what that of the population is estimated
-        to be: sqrt(n / (n - 1)) makes up for it. Student's quantile makes up for most of what the percentile interval
-        misses in samples as small as 12.
-        """
-        with np.errstate(divide="ignore", invalid="ignore"):
-            value, resampled = float(statistic(*self.moments)), statistic(*self.resampled)
-        finite = resampled[np.isfinite(resampled)]
-        whole = math.sqrt(self.size / (self.size - 1))
-        error = whole * float(finite.std(ddof=1)) if finite.size > RESAMPLES // 2 else math.nan
-        return Estimate(value, error, self.size)
-
-    def by_level(self, statistic: Statistic) -> list[Estimate]:
-        """A number at each level."""
-        return [self.estimate(at_level(level, statistic)) for level in range(self.moments.shape[1])]
-
-
-def sample(realisations: FloatArray, rng: np.random.Generator) -> Sample:
-    """Bootstrap over realisations: what is drawn again is a realisation at all of its levels.
-
-    realisations: positive, shape (realisations, levels), NaN for what is lost; at least 3 at every level.
-    """
-    known = np.isfinite(realisations) & (realisations > 0)
-    if realisations.ndim != 2 or not (known | np.isnan(realisations)).all() or known.sum(axis=0).min() < 3:
-        raise ValueError(f"realisations must be at least 3 finite positive values a level, got {realisations}")
-    rows = realisations.T
-    with warnings.catch_warnings():
-        # where a level has few realisations, a resample may have none of them, and no moments
-        warnings.simplefilter("ignore", RuntimeWarning)
-        resampled = scipy.stats.bootstrap(
-            (rows,),
-            _moments,
-            vectorized=True,
-            n_resamples=RESAMPLES,
-            batch=BATCH,
-            method="percentile",
-            axis=-1,
-            rng=rng,
-        )
-    return Sample(_moments(rows), resampled.bootstrap_distribution, int(known.sum(axis=0).min()))
-
-
-def paired_samples(coarse: FloatArray, fine: FloatArray, rng: np.random.Generator) -> Sample:
-    """The same realisations on two grids, side by side for `change`; what one of them lacks counts in neither."""
-    both = np.where(np.isfinite(coarse) & np.isfinite(fine), 1.0, np.nan)
-    return sample(np.concatenate([both * coarse, both * fine], axis=1), rng)
-
-
-def _moments(rows: FloatArray, axis: int = -1) -> FloatArray:
-    return np.stack([np.nanmean(rows, axis=axis), np.nanstd(rows, axis=axis, ddof=1)])
-
-
 def log_mean(mean: FloatArray, deviation: FloatArray) -> FloatArray:
     """ln of the mean, level by level."""
     return np.asarray(np.log(mean))
 
 
-def log_relative_deviation(mean: FloatArray, deviation: FloatArray) -> FloatArray:
-    """ln of deviation over mean, level by level; minus infinity where values differ by rounding alone."""
-    return np.asarray(np.log(_relative(mean, deviation)))
-
-
-def at_level(level: int, statistic: Statistic) -> Statistic:
-    """A statistic at one level."""
-    return lambda mean, deviation: statistic(mean[level], deviation[level])
-
-
-def weighted_mean(weights: FloatArray, statistic: Statistic) -> Statistic:
-    """sum_l w_l s_l of a statistic s of each level: with weights that sum to one, its mean over levels.
-
-    A level without weight need not have the statistic.
-    """
-    used = weights != 0
-    return lambda mean, deviation: np.asarray(
-        np.tensordot(weights[used], statistic(mean[used], deviation[used]), (0, 0))
-    )
-
-
-def decade_weights(forces: Sequence[float], first: float) -> FloatArray:
-    """The trapezoidal rule over ln F from F = first to 10 first: the weights of a mean over that decade of levels."""
-    levels = np.log10(np.array(forces) / first)
-    inside = (levels > -LOG10_TOLERANCE) & (levels < 1 + LOG10_TOLERANCE)
-    ends = (np.abs(levels) < LOG10_TOLERANCE) | (np.abs(levels - 1) < LOG10_TOLERANCE)
-    weights = np.where(inside, np.where(ends, 0.5, 1.0), 0.0)
-    return np.asarray(weights / weights.sum())
-
-
-def slope_weights(forces: Sequence[float], before: int, after: int) -> FloatArray:
-    """The weights of d ln k / d ln F from one level to another."""
-    weights = np.zeros(len(forces))
-    weights[after], weights[before] = 1.0, -1.0
-    return np.asarray(weights / math.log(forces[after] / forces[before]))
-
-
-def decade_slope(forces: Sequence[float], first: float) -> FloatArray:
-    """Those from F = first to 10 first, both among the levels."""
-    return slope_weights(forces, nearest(forces, first), nearest(forces, 10 * first))
-
-
 def nearest(forces: Sequence[float], force: float) -> int:
     """The level that is nearest to a force, by their ratio."""
     return int(np.argmin(np.abs(np.log(np.array(forces) / force))))
-
-
-def log_deviation_over(weights: FloatArray) -> Statistic:
-    """ln of the root mean square over levels of the relative deviation, which may vanish at some of them."""
-    return lambda mean, deviation: np.asarray(
-        np.log(np.tensordot(weights, _relative(mean, deviation) ** 2, (0, 0))) / 2
-    )
-
-
-def difference_of_halves(statistic: Statistic) -> Statistic:
-    """What a statistic is of the second half of the levels, less what it is of the first: pairs, resampled together."""
-
-    def of_halves(mean: FloatArray, deviation: FloatArray) -> FloatArray:
-        half = len(mean) // 2
-        return np.asarray(statistic(mean[half:], deviation[half:]) - statistic(mean[:half], deviation[:half]))
-
-    return of_halves
-
-
-def _relative(mean: FloatArray, deviation: FloatArray) -> FloatArray:
-    relative = deviation / mean
-    return np.asarray(np.where(relative > ROUNDING, relative, 0.0))

@@ -35,7 +35,7 @@ class ChapterTest:
     claim: str = ""
     quantity: str = ""
     model: str = ""
-    where: Mapping[str, float] = field(default_factory=dict)
+    where: Mapping[str, str | float] = field(default_factory=dict)
     no: str = NO
 
     def judged(self, statement: str, evidence: Evidence) -> JudgedClaim | None:

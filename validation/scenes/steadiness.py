@@ -13,9 +13,9 @@ from validation.analysis.statistics import FloatArray
 from validation.scenes.damping import DampedWheel, damping_rate
 from validation.scenes.roughness import RoughSurface
 from validation.scenes.wheel_body import Wheel
-from validation.theory.damped_wheel import contact_force_over_force
 from validation.theory.gauss_legendre import on_panels
 from validation.theory.rolling import force_spectrum_1d
+from validation.theory.wheel import contact_force_over_force
 
 MAX_FORCE = 0.25
 """Root mean square of the force by linear theory, over the load: above it wheels leave the track."""

@@ -12,9 +12,9 @@ from validation.analysis.spectra import Bands
 from validation.engine.engine import FloatArray
 from validation.scenes.rolling import RollingScene
 from validation.scenes.steadiness import force_on_the_way
-from validation.theory.damped_wheel import dynamic_stiffness
 from validation.theory.gauss_legendre import on_panels
 from validation.theory.rolling import force_spectrum_1d, force_spectrum_3d, force_variance
+from validation.theory.wheel import dynamic_stiffness
 
 QuantityName = Literal["force-rms", "force-spectrum", "acceleration", "acceleration-rms"]
 

@@ -1,10 +1,8 @@
 """A rigid square punch with a rough face, drawn and pressed by either method: one solve of every case about it."""
 
-import math
 import warnings
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import asdict, dataclass, replace
-from functools import cached_property
+from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
 import numpy as np
@@ -19,12 +17,11 @@ from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.roughness import Roughness
 from validation.simulation.surface import draw_surface
-from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, TrackSpectrum
 
 BEM, MDR = "bem3d", "mdr"
 METHODS = (BEM, MDR)
 # the spawn keys under which each kind of roughness draws, and what is drawn again to tell the error of a sample
-PROFILES, SURFACES, BOOTSTRAP = 1, 2, 3
+PROFILES, SURFACES = 1, 2
 FEW_CELLS = 30
 """A contact of fewer cells is under-resolved."""
 # stiffness, area, approach and mean gap of a load that did not converge
@@ -229,27 +226,3 @@ class RolledOffRoughness(PunchRoughness):
     @property
     def spectrum(self) -> PlateauSpectrum:
         return PlateauSpectrum(**asdict(super().spectrum), q_roll_off=2 * np.pi * self.roll_off)
-
-
-@dataclass(frozen=True, kw_only=True)
-class InputRoughness(PunchRoughness):
-    """Whose profiles have another input spectrum than Geike's, of the side of the punch for the diameter of a wheel."""
-
-    input_spectrum: InputSpectrum
-
-    @property
-    def c1d(self) -> TrackSpectrum:
-        edges = self.spectrum.q_min, self.spectrum.q_max
-        spectrum = PiecewisePowerLaw(edges=edges, exponents=(2 * self.hurst + 2,))
-        return TrackSpectrum(spectrum, self.input_spectrum, contact_radius=0.5)
-
-    @cached_property
-    def profile_height(self) -> float:
-        """rms of the profiles over that of the surface."""
-        c1d, q = self.c1d, 2 * np.pi * np.arange(1.0, self.waves[1] + 1)
-        return math.sqrt(float(c1d(q).sum() / replace(c1d, input_spectrum="geike")(q).sum()))
-
-    def profile(self, points: int, realisation: int) -> FloatArray:
-        rng = random_generator(self.seed, PROFILES, realisation)
-        height = self.height * self.profile_height
-        return mdr.rough_profile(self.c1d, length=1.0, points=points, rms=height, rng=rng)

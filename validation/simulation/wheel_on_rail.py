@@ -18,7 +18,7 @@ from validation.simulation.equivalent_displacement import linear_displacement, r
 from validation.simulation.model_names import BEM, LINE, LINEAR
 from validation.simulation.motion import simulate_from_linear_motion
 from validation.simulation.rail_strip import RailStrip
-from validation.theory.damped_wheel import dynamic_stiffness
+from validation.theory.wheel import dynamic_stiffness
 
 DEEPER = 6.0
 """Largest approach of the springs in motion, over that of the smooth wheel."""

@@ -20,8 +20,6 @@ Spectrum = Callable[[FloatArray], FloatArray]
 
 NODES = 24
 """Of Gauss and Legendre, on a panel no longer than half a wave of sin^2."""
-SECOND_ORDER_POINTS = 20_000
-"""Of the trapezoidal rule from zero to q_max."""
 WIDEST = 1.4
 """Largest ratio of both ends of a panel, on which a power law is a polynomial to rounding."""
 
@@ -176,26 +174,3 @@ def linear_force(height: ArrayLike, *, spacing: float, radius: float, modulus: f
     filtered = response(np.hypot(qx[:, np.newaxis], qy), contact_radius=a, modulus=modulus) * np.fft.fft2(h)
     along = np.fft.ifft(filtered @ np.exp(1j * qy * dx * (ny - 1) / 2) / ny).real
     return np.asarray(4 / 3 * modulus * a * approach + along)
-
-
-def second_order_force_spectrum(
-    q: ArrayLike,
-    c1d: Spectrum,
-    *,
-    q_max: float,
-    contact_radius: float,
-    radius: float,
-    modulus: float,
-) -> FloatArray:
-    """C_F of the second-order force of one-sided springs, F_2 = E* R / (4 a) (h(x + a)^2 + h(x - a)^2) [N^2 m].
-
-    Where the height at an end of the contact is h, the contact is longer there by R h / (2 a), and the springs of that
-    part bear h / 2 in the mean. For Gaussian heights the spectrum of h^2 is 2 int C_1D(k) C_1D(q - k) dk, so that
-    C_F = (E* R / (2 a))^2 cos^2(q a) 2 int C_1D(k) C_1D(q - k) dk: below q_min too, and with zeros at cos(q a) = 0.
-    q, q_max: [rad/m]; c1d: C_1D of the track, two-sided, zero beyond q_max [m^3].
-    """
-    k = np.linspace(-q_max, q_max, 1 + 2 * SECOND_ORDER_POINTS)
-    own = c1d(np.abs(k))
-    place = np.atleast_1d(np.asarray(q, dtype=np.float64))
-    squares = np.array([2 * np.trapezoid(own * c1d(np.abs(one - k)), k) for one in place])
-    return np.asarray((modulus * radius / (2 * contact_radius) * np.cos(place * contact_radius)) ** 2 * squares)

@@ -13,9 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from validation.theory.closed_forms import circular_punch_stiffness
-from validation.theory.damped_wheel import dynamic_stiffness
 from validation.theory.rolling import response
-from validation.theory.wheel import over_frequency
+from validation.theory.wheel import dynamic_stiffness, over_frequency
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]

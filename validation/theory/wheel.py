@@ -1,24 +1,16 @@
-"""A wheel on its contact spring: the resonance, free vibration, and the leakage of a finite record.
+"""A wheel on its contact spring: the resonance, and the leakage of a finite record.
 
-References of the dynamic wheel, which import neither method. M z'' = F - F_N, z upward, the approach d downward.
+References of the dynamic wheel, which import neither method. M z'' = F - F_N - c z', z upward, the approach d
+downward, F = F_N + k (d - d_N) + dF, c = 2 zeta M omega_0, omega_0 = sqrt(k / M).
 Frequencies are angular, omega in rad/s; spectra are those of (14.17), two-sided over the frequency f: <x^2> = int A df.
 """
 
 import math
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import special
-
-from validation.theory.gauss_legendre import gauss_legendre
 
 FloatArray = NDArray[np.float64]
-
-NODES = 100
-"""Of Gauss and Legendre on each part of a period."""
-SLIVER = 1e-6
-"""Of the approach without contact, which no part of a period of its own resolves."""
 
 
 def eigenfrequency(*, contact_radius: float, modulus: float, mass: float) -> float:
@@ -26,61 +18,41 @@ def eigenfrequency(*, contact_radius: float, modulus: float, mass: float) -> flo
     return math.sqrt(2 * contact_radius * modulus / mass)
 
 
-def hertz_period(highest: float) -> float:
-    """Period of free vibration on a Hertz contact, over that of a small one, 2 pi / omega_0 [-].
+def dynamic_stiffness(
+    omega: ArrayLike, *, stiffness: float, mass: float, damping: float = 0.0, time_step: float = 0.0
+) -> NDArray[np.complex128]:
+    """-dF / (d - d_N) = k - M omega^2 + i c omega of a linear contact [N/m].
 
-    M d'' = F_N - F_N (d/d_N)^(3/2), released at the approach `highest`, over d_N of static equilibrium, above one. With
-    u = d / d_N and tau = omega_0 t, u'' = (2/3) (1 - u^(3/2)), since omega_0^2 = (3/2) F_N / (M d_N); without contact
-    u'' = 2/3. The energy u'^2 / 2 + V(u) is kept, V = (2/3) ((2/5) max(u, 0)^(5/2) - u), so the period is
-    2 int du / sqrt(2 (V(highest) - V(u))) between both turning points; u = middle - half cos(theta) takes the singular
-    ends away, for Gauss and Legendre.
+    damping: zeta, of critical. time_step: of velocity Verlet, whose motion has it exactly with 2 sin(omega dt / 2) / dt
+    in place of the omega of the mass, and sin(omega dt) / dt of the dashpot; zero: of continuous time [s].
     """
-    if not highest > 1:
-        raise ValueError(f"highest must be above one, got {highest}")
-    above = highest - 1
-    energy = _potential(above)
-    below = _other_turning_point(energy)
-    middle, half = (above + below) / 2, (above - below) / 2
-    # where contact is lost the force has no second derivative
-    ends = [0.0, math.acos((middle + 1) / half), math.pi] if below < -1 - SLIVER else [0.0, math.pi]
-    node, weight = gauss_legendre(NODES)
-    period = 0.0
-    for first, last in pairwise(ends):
-        theta = (first + last) / 2 + (last - first) / 2 * node
-        left = energy - np.vectorize(_potential)(middle - half * np.cos(theta))
-        period += (last - first) / 2 * float(weight @ (2 * half * np.sin(theta) / np.sqrt(2 * left)))
-    return period / (2 * math.pi)
+    w = np.asarray(omega, dtype=np.float64)
+    inertia, speed = w**2, w
+    if time_step:
+        inertia, speed = (2 * np.sin(w * time_step / 2) / time_step) ** 2, np.sin(w * time_step) / time_step
+    dashpot = 2 * damping * np.sqrt(stiffness * mass)
+    return np.asarray(stiffness - mass * inertia + 1j * dashpot * speed)
 
 
-def _potential(x: float) -> float:
-    """V over that of rest at u = 1 + x; by its series where rounding would leave no digits."""
-    if x < -1:
-        return -2 / 3 * (x + 0.4)
-    if abs(x) < 0.03:
-        terms = (0.4 * float(special.binom(2.5, k)) * x ** (k - 2) for k in range(2, 14))
-        return 2 / 3 * x * x * math.fsum(terms)
-    return 2 / 3 * (0.4 * (math.pow(1 + x, 2.5) - 1) - x)
+def acceleration_over_force(
+    omega: ArrayLike, *, eigenfrequency: float, mass: float, damping: float = 0.0
+) -> FloatArray:
+    """abs(a(omega) / dF(omega))^2 = omega^4 / abs(k - M omega^2 + i c omega)^2 [kg^-2], dF at a fixed approach.
 
-
-def _other_turning_point(energy: float) -> float:
-    """x below rest of this energy; without contact V = -(2/3) (x + 2/5)."""
-    if energy >= _potential(-1.0):
-        return -1.5 * energy - 0.4
-    low, high = -1.0, 0.0
-    while True:
-        middle = (low + high) / 2
-        if middle in (low, high):
-            return middle
-        low, high = (middle, high) if _potential(middle) > energy else (low, middle)
-
-
-def acceleration_over_force(omega: ArrayLike, *, eigenfrequency: float, mass: float) -> FloatArray:
-    """abs(a(omega) / dF(omega))^2 = 1 / (M (1 - (omega_0 / omega)^2))^2 [kg^-2], dF at a fixed approach.
-
-    M z'' = dF - k z without damping: a = -omega^2 z.
+    Without damping 1 / (M (1 - (omega_0 / omega)^2))^2. At the resonance 1 / (2 zeta M)^2.
     """
     ratio = eigenfrequency / np.asarray(omega, dtype=np.float64)
-    return np.asarray(1 / (mass * (1 - ratio**2)) ** 2)
+    return np.asarray(1 / ((mass * (1 - ratio**2)) ** 2 + (2 * damping * mass * ratio) ** 2))
+
+
+def contact_force_over_force(omega: ArrayLike, *, eigenfrequency: float, damping: float) -> FloatArray:
+    """abs((F - F_N) / dF)^2: the force of the contact that moves, over that at a fixed approach [-].
+
+    (1 + (2 zeta r)^2) / ((1 - r^2)^2 + (2 zeta r)^2), r = omega_0 / omega.
+    """
+    ratio = eigenfrequency / np.asarray(omega, dtype=np.float64)
+    dashpot = (2 * damping * ratio) ** 2
+    return np.asarray((1 + dashpot) / ((1 - ratio**2) ** 2 + dashpot))
 
 
 def over_frequency(force_spectrum: ArrayLike, *, speed: float) -> FloatArray:
@@ -97,16 +69,6 @@ def leakage(omega: ArrayLike, *, jump: ArrayLike, time_step: float, duration: fl
     """
     half = np.asarray(omega, dtype=np.float64) * time_step / 2
     return np.asarray(np.asarray(jump) ** 2 * time_step**2 / (4 * duration * np.sin(half) ** 2))
-
-
-def mean_square_jump(forced: float, *, eigenfrequency: float, duration: float) -> float:
-    """<J^2> of a wheel from static equilibrium on an open track: (1 + cos^2(omega_0 T)) <a_f^2> [m^2/s^4].
-
-    The record begins with a = 0, where free vibration cancels the forced acceleration a_f = dF / M; it ends with
-    another a_f, and with that vibration turned by omega_0 T. For waves far above the resonance, whose motion is small.
-    forced: <a_f^2>, int A df of linear theory.
-    """
-    return forced * (1 + math.cos(eigenfrequency * duration) ** 2)
 
 
 def break_exponent(hurst: float) -> float:

@@ -18,7 +18,7 @@ from validation.simulation.rough_punch import BEM, MDR, require_converged
 
 BANDWIDTH, H = "q_max / q_min", "H"
 RATIO = "relative deviation, MDR over boundary elements"
-DRIFT, ROLLED = "change of that ratio by decade of q_max / q_min", "change of that ratio by a roll-off"
+DRIFT, ROLLED = "change of that ratio per decade of q_max / q_min", "change of that ratio by a roll-off"
 OF_EACH = f"{DRIFT}, under each force"
 ALIKE = Margin(DECIBEL * math.log(1.1), "10 %, the margin at which MDR is said to predict it", source="no change")
 
@@ -118,7 +118,8 @@ STUDY = Study(
     series=series,
     claims=(
         Claim(quantity=DRIFT, printed=per_cent).saying(
-            "MDR's relative deviation of the stiffness over that of boundary elements is the same in every bandwidth.",
+            "From one decade of bandwidth to the next, MDR's relative deviation of the stiffness over that of boundary "
+            "elements stays the same.",
             short="Change of the ratio of deviations per decade of bandwidth",
         ),
     ),
@@ -140,7 +141,7 @@ STUDY = Study(
     ),
     matrices=(
         Matrix(
-            name="change of MDR over boundary elements by decade of q_max / q_min, or by a roll-off",
+            name="change of MDR over boundary elements per decade of q_max / q_min, or by a roll-off",
             quantity=(DRIFT, ROLLED),
             rows=("quantity", H),
             columns=FORCE,

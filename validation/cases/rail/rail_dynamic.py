@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, Matrix, root_mean_square
+from validation.analysis.claims import Claim, Matrix, decibels_rms
 from validation.analysis.evidence import Whose
 from validation.analysis.margins import REPEATABLE
 from validation.analysis.nominal_bands import NominalBands
@@ -205,7 +205,7 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(quantity=RMS + MOVING, whose=Whose.FIELD, along=OFFSET, printed=root_mean_square).saying(
+        Claim(quantity=RMS + MOVING, whose=Whose.FIELD, along=OFFSET, printed=decibels_rms).saying(
             "The contact filter of constant load holds for a wheel in motion.",
             short="In motion over constant load, rms over bands",
         ),

@@ -21,7 +21,6 @@ from validation.simulation import model_names as named
 from validation.simulation.model_names import BEM, LINEAR, LINEAR_ON_LINE, twin_of
 from validation.simulation.rail_strip import (
     SHORTEST,
-    StatedAcross,
     line_of,
     lines_across,
     lost_contact_number,
@@ -36,7 +35,7 @@ WAVES, GROUND, RIDGES = "waves of h'", "isotropic ground", "ridges"
 OF_BEM = "interval of A3 of boundary elements"
 HEIGHTS, ELLIPSE = "mean of heights over energy mean of lines", "A3 of the ellipse over that of a line"
 SPACING, ACROSS = "spacing [mm]", "across"
-GROUNDS: dict[str, StatedAcross] = {RIDGES: "ridges", "alpha = 0.5": 0.5, "alpha = 1": 1.0, GROUND: "isotropic"}
+GROUNDS = {name: filters.GROUNDS[name] for name in (RIDGES, "alpha = 0.5", "alpha = 1", GROUND)}
 
 
 @dataclass(frozen=True, kw_only=True)

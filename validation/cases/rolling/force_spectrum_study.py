@@ -4,7 +4,7 @@ from functools import partial
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import THREE_D_DIFFER, Claim, Matrix, decibels, per_cent, root_mean_square
+from validation.analysis.claims import THREE_D_DIFFER, Claim, Matrix, decibels, decibels_rms, per_cent
 from validation.analysis.evidence import Whose
 from validation.analysis.study import Study
 from validation.cases.rolling.force_spectrum import (
@@ -40,7 +40,7 @@ from validation.simulation.track_spectrum import INPUT_NAMES
 
 RMS = "rms of "
 of_book = partial(Claim, whose=Whose.BOOK, where={HEIGHT: lambda height: height <= LOW})
-of_input = partial(Claim, quantity=RMS + INPUT, printed=root_mean_square)
+of_input = partial(Claim, quantity=RMS + INPUT, printed=decibels_rms)
 IN_BANDS = partial(Panel, Q, shade=(-1.0, 1.0), lines=(0.0,))
 STUDY = Study(
     title="The force along a track over isotropic roughness",
@@ -75,7 +75,7 @@ STUDY = Study(
         ),
         of_book(
             no=THREE_D_DIFFER,
-            printed=lambda number: (root_mean_square if number.quantity == RMS_LEVEL else decibels)(number),
+            printed=lambda number: (decibels_rms if number.quantity == RMS_LEVEL else decibels)(number),
             either=(
                 {"quantity": MEAN_LEVEL, "model": MEAN_1D + OVER},
                 {"quantity": RMS_LEVEL, "model": LINEAR_1D + OVER},
@@ -97,7 +97,7 @@ STUDY = Study(
             "At a given approach springs have the mean and the rms force of boundary elements.",
             short="Mean and rms force, springs over boundary elements",
         ),
-        Claim(quantity=RMS + FOUND, model=LINEAR_3D, along=SLOPE, printed=root_mean_square).saying(
+        Claim(quantity=RMS + FOUND, model=LINEAR_3D, along=SLOPE, printed=decibels_rms).saying(
             "Between the zeros of sin(q a) the roughness follows from the force by linear theory in three "
             "dimensions, read backwards.",
             short="Roughness from force by the filter in 3D",

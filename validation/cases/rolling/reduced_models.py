@@ -10,7 +10,7 @@ import numpy as np
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, Matrix, root_mean_square
+from validation.analysis.claims import Claim, Matrix, decibels_rms
 from validation.analysis.evidence import Place
 from validation.analysis.margins import REPEATABLE
 from validation.analysis.series import Margin, Series
@@ -140,10 +140,6 @@ def _contact(result: Outcomes, key: Key) -> Iterator[Series]:
         yield Series(KEPT, JUDGE, (mine,), where=_where(key), reference=(first,), margin=TENTH, family=family)
 
 
-def _kept(result: Outcomes, key: Key) -> Estimate:
-    return mean_estimate(np.array([float(one["kept"]) for one in result[key]]))
-
-
 def off(result: Outcomes, key: Key, model: str) -> Estimate:
     """Root mean square over octaves of the mean level over that of boundary elements [dB], with its jackknife."""
     names = list(MODELS)
@@ -164,7 +160,7 @@ def work(result: Outcomes, key: Key, model: str) -> float:
 SHOWN = (LINE, LINEAR, READ, BED, COARSEST)
 BY_MODEL = partial(Curve, by=("model",))
 BY_SPECTRUM = partial(Curve, OWN_KEPT, by=("H", Q), bars=True)
-in_octaves = partial(Claim, quantity=OFF, along=SLOPE, printed=root_mean_square)
+in_octaves = partial(Claim, quantity=OFF, along=SLOPE, printed=decibels_rms)
 STUDY = Study(
     title="Models of the wheel on a rough surface, beside boundary elements",
     method=(
@@ -212,7 +208,7 @@ STUDY = Study(
         ),
     ),
     matrices=(
-        Matrix(name=OFF, quantity=OFF, rows=(SLOPE, "H", Q, HEIGHT), columns="model", printed=root_mean_square),
+        Matrix(name=OFF, quantity=OFF, rows=(SLOPE, "H", Q, HEIGHT), columns="model", printed=decibels_rms),
         Matrix(name=KEPT, quantity=KEPT, rows=("H", Q), columns=SLOPE),
     ),
     printed=(TABLE_14_1,),

@@ -14,7 +14,6 @@ from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, 
 from validation.engine.engine import Outcome
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.scenes.roughness import Roughness
-from validation.theory import damped_wheel
 from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
 
@@ -89,7 +88,7 @@ def linear_force_3d(scene: WheelScene, q: FloatArray) -> FloatArray:
 def accelerated_by(force: FloatArray, scene: WheelScene, omega: FloatArray) -> FloatArray:
     """A of the wheel on its contact spring under a force of that C_F."""
     same = {name: getattr(scene, name) for name in ("eigenfrequency", "mass", "damping")}
-    resonator = damped_wheel.acceleration_over_force(omega, **same)
+    resonator = wheel_theory.acceleration_over_force(omega, **same)
     return np.asarray(wheel_theory.over_frequency(force, speed=scene.speed) * resonator)
 
 

@@ -1,0 +1,126 @@
+"""What is claimed of the stiffness of a rough interface, of its punch and of MDR on the same roughness."""
+
+from functools import partial
+
+from validation.analysis.case import Case, Chapter
+from validation.analysis.chart import Chart, Curve, Panel, by_model
+from validation.analysis.claims import NOT_THIS_CURVE, Claim, Matrix, per_cent, times
+from validation.analysis.evidence import Table, Whose
+from validation.analysis.study import Outcomes, Study
+from validation.cases.punch.interface import (
+    AREA,
+    BARBER,
+    BESIDE_BEM,
+    CONTACT,
+    EDGELESS,
+    ENOUGH_WAVES,
+    EXPONENT,
+    FITTED,
+    FRACTION,
+    GAP,
+    GAP_OVER_H,
+    OF_HALF,
+    OF_SERIES,
+    ON_PUNCH,
+    OVER_LOAD,
+    PUNCH,
+    ROLL_OFF,
+    SCALED,
+    SCALED_PUNCH,
+    SERIES,
+    UNFITTED,
+    Interface,
+    run,
+    series,
+)
+from validation.cases.punch.work import worked
+from validation.selection import model_needed
+from validation.simulation.rough_punch import BEM, MDR
+from validation.theory.closed_forms import INTERFACE
+
+
+def _work(result: Outcomes) -> tuple[Table]:
+    case = result.case
+    return (worked(case.cells, case.points, [result[PUNCH, 1]]),)
+
+
+of_interface = partial(
+    Claim, where={ROLL_OFF: lambda waves: waves >= ENOUGH_WAVES}, along="-" + CONTACT, whose=Whose.FIELD
+)
+FIRST = {ROLL_OFF: "first", "H": "first"}
+LINES = {FITTED: "exact", UNFITTED: "dashed", BARBER: "guide"}
+STYLES = {EDGELESS: "crosses", ON_PUNCH: "bem", SERIES: "bem line", MDR: "mdr line"}
+STUDY = Study(
+    title="The stiffness of a rough interface without edges, and of the same roughness under a punch",
+    method=(
+        "A rough face of period L is pressed on a periodic half-space: there is no edge, and the approach is that "
+        "of the mean planes. Its spectrum is level up to q_r and a power law of H to {c.band} q_r. K = dp / "
+        "d(approach) at constant contact area; {c.surfaces} surfaces of each, on four cells to the shortest wave. "
+        "Loads are named by the contact that Persson's theory has under them, erf(√2 p / (E* g)), g the rms "
+        "gradient. The face of (q_r L / 2π, H) = ({c.pressed:g}) is that of a square punch of side L too, under equal "
+        "forces, beside {c.profiles} profiles of {c.points} springs. Values are extrapolated to first order from "
+        "{c.refined} surfaces on twice as many cells a side; ± grid is half of that correction, with its 95 % "
+        "interval. Persson's elastic energy of waves in full contact has a factor γ + (1 - γ) P², P the contact "
+        "fraction: γ = 1 in 2007, 0.45 by simulations (Yang and Persson 2008)."
+    ),
+    series=series,
+    claims=(
+        of_interface(quantity=OVER_LOAD, no=NOT_THIS_CURVE, printed=per_cent).saying(
+            "Up to 10 % contact the normal stiffness of a rough interface is proportional to the load.",
+            short="Stiffness of an interface over the load, at lighter loads",
+        ),
+        of_interface(quantity=BESIDE_BEM, model=FITTED, printed=per_cent).saying(
+            "Up to 20 % contact Persson's theory, with γ = 0.45, gives the stiffness of a rough interface.",
+            short="Persson's stiffness beside boundary elements",
+        ),
+        Claim(quantity=(AREA, GAP), differ=True, printed=times).saying(
+            "MDR's contact area and mean gap differ from those of a rough punch.",
+            short="MDR's contact area and mean gap beside those of boundary elements",
+        ),
+    ),
+    charts=(
+        Chart("interface", columns=2, height=7.5, claims=(0, 1)).of(
+            "(a) Stiffness K of the interface times h over the load, level where K is proportional to the load. "
+            "Symbols: periodic boundary elements; lines: Persson's theory of the first face; level line: K = "
+            "p / (0.48 h), the fit for punches; dotted: the least that is possible, p over the largest height "
+            "(Barber). (b) The same of a punch, of its interface in series with the flat punch, and of MDR. (c) "
+            "Contact fraction, (d) mean gap over h. Bars: 95 % of sample and grid.",
+            Panel(CONTACT, SCALED, title="interface", log="xy", lines=(1 / INTERFACE,)).of(
+                Curve(SCALED, BEM, "marks", by=(ROLL_OFF, "H"), bars=True, beside=1.06),
+                *(Curve(SCALED, model, style, model, of=FIRST) for model, style in LINES.items()),
+            ),
+            Panel(CONTACT, SCALED_PUNCH, title="punch", log="xy").of(*by_model(SCALED_PUNCH, STYLES, bars=True)),
+            Panel(CONTACT, FRACTION, log="xy").of(*by_model(FRACTION, STYLES, bars=True)),
+            Panel(CONTACT, GAP_OVER_H).of(*by_model(GAP_OVER_H, STYLES, bars=True)),
+        ),
+    ),
+    matrices=(
+        Matrix(name=EXPONENT, quantity=EXPONENT, rows=(ROLL_OFF, "H"), columns=CONTACT),
+        Matrix(
+            name="load by load",
+            quantity=(OVER_LOAD, BESIDE_BEM, OF_HALF, OF_SERIES),
+            rows=("quantity", "model", ROLL_OFF, "H"),
+            columns=CONTACT,
+            printed=per_cent,
+        ),
+    ),
+    tables=_work,
+)
+CASE = Case(
+    name="interface",
+    chapter=Chapter.PRESSED,
+    place=3,
+    answers="Stiffness of a rough interface over the load, beside Persson's theory; contact area and mean gap of MDR",
+    quick=Interface(),
+    full=Interface(
+        grounds=((8, 0.7), (4, 0.7), (16, 0.7), (8, 0.4), (8, 1.0)),
+        pressed=(8, 0.7),
+        band=8,
+        surfaces=48,
+        refined=16,
+        profiles=500,
+    ),
+    run=run,
+    study=STUDY,
+    needs=model_needed.rolled_off,
+)
