@@ -20,7 +20,9 @@ from validation.cases.punch.work import APPLICATIONS, worked
 from validation.cases.rolling.force_spectrum import ForceSpectrum
 from validation.engine.random_numbers import random_generator
 from validation.simulation import rolling_strip, rough_punch
-from validation.simulation.rough_punch import BEM, MDR, press_profiles, press_surface
+from validation.simulation.model_names import BEM
+from validation.simulation.model_names import SPRINGS as MDR
+from validation.simulation.rough_punch import press_profiles, press_surface
 
 CASE = FractalPunch(
     hursts=(0.7,),

@@ -4,8 +4,9 @@ from functools import partial
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel, by_model
-from validation.analysis.claims import NOT_THIS_CURVE, Claim, Matrix, per_cent, times
+from validation.analysis.claims import NOT_THIS_CURVE, Claim, Matrix
 from validation.analysis.evidence import Table, Whose
+from validation.analysis.printed import per_cent, times
 from validation.analysis.study import Outcomes, Study
 from validation.cases.punch.interface import (
     AREA,
@@ -35,7 +36,8 @@ from validation.cases.punch.interface import (
 )
 from validation.cases.punch.work import worked
 from validation.selection import model_needed
-from validation.simulation.rough_punch import BEM, MDR
+from validation.simulation.model_names import BEM
+from validation.simulation.model_names import SPRINGS as MDR
 from validation.theory.closed_forms import INTERFACE
 
 
@@ -65,17 +67,18 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        of_interface(quantity=OVER_LOAD, no=NOT_THIS_CURVE, printed=per_cent).saying(
-            "Up to 10 % contact the normal stiffness of a rough interface is proportional to the load.",
-            short="Stiffness of an interface over the load, at lighter loads",
+        of_interface(quantity=EXPONENT, no=NOT_THIS_CURVE).saying(
+            "Up to 10 % contact the normal stiffness of a rough interface is proportional to the load: its exponent is "
+            "1.",
+            short="The exponent of the stiffness of an interface over the load agrees with 1",
         ),
         of_interface(quantity=BESIDE_BEM, model=FITTED, printed=per_cent).saying(
-            "Up to 20 % contact Persson's theory, with γ = 0.45, gives the stiffness of a rough interface.",
-            short="Persson's stiffness beside boundary elements",
+            "Persson's theory, with γ = 0.45, gives the normal stiffness of a rough interface up to 20 % contact.",
+            short="The stiffness of Persson's theory agrees with that of boundary elements",
         ),
         Claim(quantity=(AREA, GAP), differ=True, printed=times).saying(
             "MDR's contact area and mean gap differ from those of a rough punch.",
-            short="MDR's contact area and mean gap beside those of boundary elements",
+            short="MDR's contact area and mean gap differ from those of boundary elements",
         ),
     ),
     charts=(
