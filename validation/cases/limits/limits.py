@@ -191,7 +191,7 @@ STUDY = Study(
         ),
         Claim(quantity=WARNED, printed=said).saying(
             "The software warns past each limit and only there.",
-            short="warnings of the software agree with the limits",
+            short="Warnings of the software agree with the limits",
         ),
     ),
     charts=(

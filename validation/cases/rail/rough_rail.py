@@ -98,12 +98,14 @@ def means_of_lines(case: Any) -> Iterator[Series]:
 
 def notes(result: rolled.RolledFiltersResult) -> list[str]:
     """Which mean of parallel lines to take."""
-    numbers = [n for one in means_of_lines(result.case) for n in one.numbers if n.role is Role.FINDING]
+    case = result.case
+    assert isinstance(case, RoughRail)
+    numbers = [n for one in means_of_lines(case) for n in one.numbers if n.role is Role.FINDING]
     low = min(numbers, key=lambda number: number.value)
     return [
         "Average the spectra of parallel lines, not their heights: the mean of the heights of "
-        f"{result.case.lines} lines {low.where[SPACING]:g} mm apart is {-low.value:.1f} dB too low over {low.where[ACROSS]}, at a wave of "
-        f"{low.where['worst at']:g} mm."
+        f"{case.lines} lines {low.where[SPACING]:g} mm apart is {-low.value:.1f} dB too low over "
+        f"{low.where[ACROSS]}, at a wave of {low.where['worst at']:g} mm."
     ]
 
 

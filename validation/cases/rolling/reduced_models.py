@@ -189,7 +189,7 @@ STUDY = Study(
         ),
         in_octaves(model=COARSEST).saying(
             "Boundary elements on {c.coarsest} cells to a contact radius have the levels of those on {c.cells}.",
-            short="boundary elements on a third of the cells agree with those on all",
+            short="Boundary elements on a third of the cells agree with those on all",
         ),
         Claim(quantity=KEPT, along=SLOPE).saying(
             "At one h' a/d the same part of the contact is lost, whatever h/d, the band and the Hurst exponent.",

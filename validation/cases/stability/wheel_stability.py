@@ -216,7 +216,7 @@ STUDY = Study(
         ),
         Claim(quantity=OCTAVE).saying(
             "On low roughness springs a quarter of the shortest wave apart have the last one-third octave within 1 dB.",
-            short="the last one-third octave of springs a quarter wave apart agrees with that of the finest",
+            short="The last one-third octave of springs a quarter wave apart agrees with that of the finest",
         ),
     ),
     charts=(

@@ -91,7 +91,7 @@ STUDY = Study(
             whose=Whose.BOOK,
             either=({"quantity": distance.BREAK_LAW}, {"quantity": distance.SHARE, "where": {"region": FOURTH}}),
         ).saying(
-            "Region 4 is an artefact of the finite record: it leaks through the ends of that.",
+            "Region 4 is an artefact: leakage through the ends of the finite record.",
             short="Region 4 agrees with leakage of the finite record",
         ),
         Claim(quantity=(distance.CONTRAST, distance.OVER), along=distance.H_OVER_D).saying(

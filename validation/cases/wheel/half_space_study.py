@@ -207,7 +207,7 @@ STUDY = Study(
         ),
         Claim(quantity=LEVEL, model=wheel.OVER_BEM[wheel.LINEAR_3D], along="range").saying(
             "Linear theory in three dimensions gives the acceleration of the wheel.",
-            short="linear theory in 3D agrees with boundary elements in the time loop",
+            short="Linear theory in 3D agrees with boundary elements in the time loop",
         ),
     ),
     charts=(

@@ -112,7 +112,7 @@ STUDY = Study(
             where={spectrum.CHANGED: spectrum.NOTHING},
         ).saying(
             "Region 3 of Fig. 14.4 follows ω^(-2H-3) sin²(ω a / v₀).",
-            short="region 3 agrees with ω^(-2H-3) sin²(ω a / v₀)",
+            short="Region 3 agrees with ω^(-2H-3) sin²(ω a / v₀)",
         ),
     ),
     charts=(
