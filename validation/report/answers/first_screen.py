@@ -4,7 +4,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
-from validation.analysis.evidence import Evidence, Number, Place, Verdict
+from validation.analysis.claims import listed
+from validation.analysis.evidence import Evidence, Number, Place, Verdict, placed
 from validation.report.answers.questions import QUESTIONS, Alternative, Printed, Question, per_cent, times
 from validation.report.answers.strip import WORDS, Cell, Source, ends, span
 from validation.report.section import Section
@@ -152,14 +153,16 @@ def _word(verdicts: set[Verdict]) -> str:
 
 def _where(cells: Sequence[Cell], verdict: Verdict, over: str) -> str:
     """Neighbouring cells that say it: "at h' a/d = 0.3", "from Fbar = 0.1 to 1 and at Fbar = 9", "over ridges"."""
+    groups = [[c.place for c in some] for found, some in groupby(cells, key=lambda c: c.verdict) if found is verdict]
+    if len(groups) > 1 and all(len(places) == 1 and isinstance(places[0], float) for places in groups):
+        return f"at {placed(over, listed([span(places) for places in groups]))}"
     said = []
-    for found, group in groupby(cells, key=lambda cell: cell.verdict):
-        places = [cell.place for cell in group]
+    for places in groups:
         text = span(places, over)
         word = "from" if " to " in text else "at"
         if isinstance(places[0], str):
             word = "in" if over == REGIONS else "over"
-        said += [f"{word} {text}"] if found is verdict else []
+        said.append(f"{word} {text}")
     return " and ".join(said)
 
 
