@@ -157,7 +157,10 @@ def exponential(log: Estimate, less: float = 0.0) -> Estimate:
 
 def notes(result: Outcomes) -> list[str]:
     """Why springs fluctuate more: not by their spectrum, but where boundary elements no longer follow the roughness."""
-    case, (heavy, light) = result.case, sorted(result.case.forces, reverse=True)[:2]
+    case = result.case
+    if len(case.forces) == 1:
+        return []
+    heavy, light = sorted(case.forces, reverse=True)[:2]
     grown = {
         SPRINGS: [moment(DEVIATION, result[SPRINGS, force]).value for force in (heavy, light)],
         WHEEL: [of_bem(result, DEVIATION, force)[0].value for force in (heavy, light)],
