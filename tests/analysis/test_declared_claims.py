@@ -2,24 +2,15 @@
 
 import math
 from dataclasses import replace
+from itertools import takewhile
 
 import pytest
 from hypothesis import given
 
 from tests.analysis.test_judged_claims import point, points_with, verdicts
-from validation.analysis.claims import (
-    NOT_THIS_CURVE,
-    Claim,
-    Matrix,
-    beside,
-    decibels,
-    decibels_rms,
-    off_by,
-    per_cent,
-    times,
-    times_source,
-)
+from validation.analysis.claims import NOT_THIS_CURVE, Claim, Matrix
 from validation.analysis.evidence import ClaimStatus, Role, Verdict
+from validation.analysis.printed import beside, decibels, decibels_rms, off_by, per_cent, times, times_source
 from validation.analysis.series import Margin, Series
 from validation.analysis.study import Outcomes, Study
 
@@ -37,22 +28,38 @@ def by_height(*verdicts, **key):
     return [number(verdict, **key, **{"h/d": 0.1 * 10**i}) for i, verdict in enumerate(verdicts)]
 
 
-CLAIM = Claim(says="It is so.", short="It", quantity="level", along="h/d")
+CLAIM = Claim(says="It is so.", short="A model agrees with another", quantity="level", along="h/d")
 
 
 @pytest.mark.parametrize(
     ("verdicts", "status", "limits", "headline"),
     [
-        ((AGREE, AGREE, AGREE), ClaimStatus.HOLDS, "", "It: agree within 1 dB"),
-        ((AGREE, AGREE, DIFFER), ClaimStatus.LIMITED, "up to h/d = 1", "It: agree within 1 dB, up to h/d = 1"),
+        ((AGREE, AGREE, AGREE), ClaimStatus.HOLDS, "", "A model agrees with another within 1 dB"),
+        (
+            (AGREE, AGREE, DIFFER),
+            ClaimStatus.LIMITED,
+            "up to h/d = 1",
+            "A model agrees with another within 1 dB up to h/d = 1",
+        ),
+        # one tested point of a range is no range
         (
             (AGREE, UNDECIDED, AGREE),
-            ClaimStatus.LIMITED,
-            "only at h/d = 0.1",
-            "It: agree within 1 dB, only at h/d = 0.1",
+            ClaimStatus.OPEN,
+            "",
+            "It is not decided whether a model agrees with another within 1 dB: +1.00 ± 0.30 dB at h/d = 1",
         ),
-        ((DIFFER, AGREE, AGREE), ClaimStatus.CONTRADICTED, "", "It: +3.00 ± 0.10 dB at h/d = 0.1"),
-        ((UNDECIDED, AGREE, AGREE), ClaimStatus.OPEN, "", "It: not decided within 1 dB"),
+        (
+            (AGREE, DIFFER, DIFFER),
+            ClaimStatus.CONTRADICTED,
+            "",
+            "A model differs from another: +3.00 ± 0.10 dB at h/d = 1",
+        ),
+        (
+            (DIFFER, AGREE, AGREE),
+            ClaimStatus.CONTRADICTED,
+            "",
+            "A model differs from another: +3.00 ± 0.10 dB at h/d = 0.1",
+        ),
     ],
 )
 def test_status_limits_and_headline_follow_from_verdicts(verdicts, status, limits, headline):
@@ -67,8 +74,9 @@ def test_limits_are_the_first_piece_of_a_range(found):
     numbers = points_with(found)
     inside = Claim(says="It is so.", along="q a").judged(numbers).inside
     assert inside == (numbers[: len(inside)] if set(found) != {AGREE} else ())
-    assert all(number.verdict is AGREE for number in inside)
-    assert set(found) == {AGREE} or found[len(inside)] is not AGREE
+    assert all(number.verdict is AGREE for number in inside) and len(inside) != 1
+    first = list(takewhile(lambda verdict: verdict is AGREE, found))
+    assert len(inside) == (len(first) if 1 < len(first) < len(found) else 0)
 
 
 def by_band(*verdicts):
@@ -84,10 +92,14 @@ OF_QUANTITIES = [number(v, quantity=q) for q, v in (("height", DIFFER), ("gradie
     [
         ("-h/d", by_height(DIFFER, AGREE, AGREE), "from h/d = 1 on"),
         # one of several quantities ends them
-        ("h/d", [*by_height(AGREE, AGREE), *by_height(AGREE, DIFFER, quantity="slope")], "only at h/d = 0.1"),
+        (
+            "h/d",
+            [*by_height(AGREE, AGREE, AGREE), *by_height(AGREE, AGREE, DIFFER, quantity="slope")],
+            "up to h/d = 1",
+        ),
         ("q a", by_band(AGREE, AGREE, DIFFER), "up to q a = 4"),
         ("-q a", by_band(DIFFER, AGREE, AGREE), "from q a = 2 on"),
-        ("-quantity", OF_QUANTITIES, "in curvature, gradient"),
+        ("-quantity", OF_QUANTITIES, "in curvature and gradient"),
         ("g", [number(v, g=g) for v, g in ((AGREE, "a"), (AGREE, "b"), (AGREE, "c"), (DIFFER, "d"))], "from a to c"),
     ],
 )
@@ -102,9 +114,12 @@ def test_limits_need_a_number_of_each_quantity():
 
 
 def test_a_claim_that_things_differ_is_confirmed_by_that():
-    claim = Claim(says="They differ.", short="They", differ=True)
+    claim = Claim(says="They differ.", short="They differ", differ=True)
     judged = claim.judged(by_height(DIFFER, DIFFER))
-    assert judged.status is ClaimStatus.HOLDS and claim.headline(judged) == "They: differ by more than 1 dB"
+    assert judged.status is ClaimStatus.HOLDS
+    assert claim.headline(judged) == "They differ: the nearest is +3.00 ± 0.10 dB at h/d = 0.1"
+    alike = claim.judged(by_height(AGREE))
+    assert claim.headline(alike) == "Not so that they differ: +0.20 ± 0.10 dB at h/d = 0.1"
     assert claim.judged(by_height(AGREE, DIFFER)).status is ClaimStatus.CONTRADICTED
 
 
@@ -145,14 +160,25 @@ def test_an_identity_tests_no_claim_and_stands_in_a_matrix():
         ((AGREE, AGREE), {}, "Yes, within 1 dB: at worst +0.20 ± 0.10 dB at h/d = 0.1."),
         ((AGREE,), {}, "Yes, within 1 dB: +0.20 ± 0.10 dB at h/d = 0.1."),
         (
-            (AGREE, DIFFER),
+            (AGREE, AGREE, DIFFER),
             {"along": "h/d"},
-            "Yes only at h/d = 0.1, within 1 dB; beyond that +3.00 ± 0.10 dB at h/d = 1.",
+            "Yes up to h/d = 1, within 1 dB; beyond that +3.00 ± 0.10 dB at h/d = 10.",
+        ),
+        (
+            (AGREE, AGREE, UNDECIDED, DIFFER),
+            {"along": "h/d"},
+            "Yes up to h/d = 1, within 1 dB; not decided at h/d = 10; beyond that +3.00 ± 0.10 dB at h/d = 100.",
+        ),
+        (
+            (AGREE, UNDECIDED, UNDECIDED, DIFFER),
+            {"along": "h/d"},
+            "No: +3.00 ± 0.10 dB at h/d = 100, where 1 dB is allowed; it agrees only at h/d = 0.1; not decided at "
+            "h/d = 1 to 10.",
         ),
         (
             (AGREE, UNDECIDED),
             {"along": "h/d"},
-            "Yes only at h/d = 0.1, within 1 dB; not decided beyond that: +1.00 ± 0.30 dB at h/d = 1.",
+            "Not decided within 1 dB: +1.00 ± 0.30 dB at h/d = 1; it agrees only at h/d = 0.1.",
         ),
         ((UNDECIDED, DIFFER), {}, "No: +3.00 ± 0.10 dB at h/d = 1, where 1 dB is allowed."),
         (
@@ -173,12 +199,12 @@ def test_the_answer_is_one_sentence_of_the_number_that_decides(verdicts, changes
 def test_of_several_models_the_worst_is_named_in_its_own_margin():
     """0.3 of 0.1 is farther off than 3 dB of 2."""
     near, far = point(3.0, 0.0, model="a", tolerance=2.0), point(0.3, 0.0, model="b", tolerance=0.1)
-    assert Claim(says="It is so.").judged([near, far]).answer == "No: b, +0.3 dB at q a = 1, where 0.1 dB is allowed."
+    assert Claim(says="It is so.").judged([near, far]).answer == "No: +0.3 dB at q a = 1 (b), where 0.1 dB is allowed."
 
 
 def test_among_several_margins_none_stands_for_all():
     near, far = point(1.0, 0.0, model="a", tolerance=2.0), point(0.09, 0.0, model="b", tolerance=0.1)
-    assert Claim(says="It is so.").judged([near, far]).answer == "Yes: at worst b, +0.09 dB at q a = 1, within 0.1 dB."
+    assert Claim(says="It is so.").judged([near, far]).answer == "Yes: at worst +0.09 dB at q a = 1 (b), within 0.1 dB."
 
 
 def test_the_rest_of_a_range_lies_below_beyond_or_elsewhere():

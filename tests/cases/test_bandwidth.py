@@ -12,7 +12,9 @@ from validation.analysis.study import Outcomes
 from validation.cases.punch import fractal_punch_study
 from validation.cases.punch.bandwidth import AREA, DOUBLED, FINER, LOADS, ROLL_OFF, Band, Bandwidth, Deviations
 from validation.cases.punch.bandwidth_study import CASE, DRIFT, ROLLED, STUDY
-from validation.simulation.rough_punch import BEM, MDR, PunchRoughness
+from validation.simulation.model_names import BEM
+from validation.simulation.model_names import SPRINGS as MDR
+from validation.simulation.rough_punch import PunchRoughness
 from validation.simulation.springs_over_area import RoughAreas, press_areas
 
 MANY = 4000

@@ -14,13 +14,15 @@ from validation.analysis.evidence import Verdict, number_with, numbers_with
 from validation.analysis.study import Outcomes
 from validation.cases.punch import fractal_punch
 from validation.cases.punch.ensembles import DEVIATION, MEAN, OVER
-from validation.cases.punch.fractal_punch import CONVEX, LONG, NAMES, SLOPE, TREND, FractalPunch
+from validation.cases.punch.fractal_punch import CONVEX, LONG, SLOPE, TREND, FractalPunch
 from validation.cases.punch.fractal_punch_study import EXPONENT, LESS, STUDY
 from validation.cases.punch.work import APPLICATIONS, worked
 from validation.cases.rolling.force_spectrum import ForceSpectrum
 from validation.engine.random_numbers import random_generator
 from validation.simulation import rolling_strip, rough_punch
-from validation.simulation.rough_punch import BEM, MDR, press_profiles, press_surface
+from validation.simulation.model_names import BEM
+from validation.simulation.model_names import SPRINGS as MDR
+from validation.simulation.rough_punch import press_profiles, press_surface
 
 CASE = FractalPunch(
     hursts=(0.7,),
@@ -182,7 +184,7 @@ def test_verdicts_on_known_deviations(apart, surfaces, verdict):
 def test_the_order_of_the_curves_is_found_or_shown_to_be_absent():
     """Deviations that rise by exp(0.5 H) are found to, though each of them is known to some 15 % alone."""
     for rise, own, order in ((0.5, 0, 1), (-0.5, 0, -1), (0.0, 1, 0), (0.1, 1, 0)):
-        found = synthetic(surfaces=60, hursts=(0.4, 0.7, 1.0), rise=rise, own=own).table(TREND).where(model=NAMES[BEM])
+        found = synthetic(surfaces=60, hursts=(0.4, 0.7, 1.0), rise=rise, own=own).table(TREND).where(model=BEM)
         np.testing.assert_allclose(found["value"], rise, atol=0.1)
         ends = np.sign(found["low"]), np.sign(found["high"])
         assert (np.where(ends[0] == ends[1], ends[0], 0) == [order] * 5).all()
@@ -191,7 +193,7 @@ def test_the_order_of_the_curves_is_found_or_shown_to_be_absent():
 def test_exponents_of_a_power_law():
     """Ensembles with k ~ F^0.5 on both sides: the exponent in each decade, and no difference."""
     evidence = synthetic(surfaces=60)
-    values = [[n.value for n in numbers_with(evidence.numbers, EXPONENT, one)] for one in (LESS, *NAMES.values())]
+    values = [[n.value for n in numbers_with(evidence.numbers, EXPONENT, one)] for one in (LESS, BEM, MDR)]
     assert values == [pytest.approx([0, 0], abs=1e-9), pytest.approx([0.5]), []]
     for method in (BEM, MDR):
         np.testing.assert_allclose(evidence.table(SLOPE).where(model=method)["value"], 0.5, atol=1e-9)
@@ -233,7 +235,7 @@ def test_a_factor_lost_in_the_force_is_a_missed_criterion(monkeypatch):
             bem3d, "indent", lambda *args, forces, factor=factor, **more: indent(*args, forces=factor * forces, **more)
         )
         numbers = STUDY.evidence(fractal_punch.run(case)).numbers
-        assert number_with(numbers, CONVEX, "bem3d").met == (factor == 1.0)
+        assert number_with(numbers, CONVEX, BEM).met == (factor == 1.0)
 
 
 @pytest.mark.parametrize(

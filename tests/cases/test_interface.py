@@ -42,7 +42,7 @@ def evidence(law, case=CASE, finer=1.0, flat=1.1523):
             found[ground, times] = outcome(law(ground), count, finer if times == 2 else 1.0)
     punch = 1 / (1 / law(case.pressed) + 1 / flat)
     found |= {(PUNCH, 1): outcome(punch, case.surfaces), (PUNCH, 2): outcome(punch, case.refined)}
-    found["mdr"] = outcome(2 * punch, case.profiles)
+    found["springs"] = outcome(2 * punch, case.profiles)
     return interface_study.CASE.evidence(Outcomes(case, found))
 
 

@@ -109,7 +109,7 @@ def test_one_parameter_at_a_time():
         assert jump.reference == pytest.approx(factor * SMALL.jump)
     # the height is not among the parameters that the book names
     places = [number.where.get(spectrum.CHANGED) for number in found.claims[0].numbers]
-    assert {"nothing", "H = 0.4", "q_max × 2"} < set(places) and not {"h₀ × 0.25", "h₀ × 4"} & set(places)
+    assert {"unchanged", "H = 0.4", "q_max × 2"} < set(places) and not {"h₀ × 0.25", "h₀ × 4"} & set(places)
 
 
 @pytest.mark.parametrize(("of", "case"), [(spectrum, LONG), (by_distance, by_distance.WheelDistance())])

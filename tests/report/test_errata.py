@@ -78,15 +78,8 @@ def test_the_period_of_region_3_is_a_frequency():
     assert erratum("After (14.19), Δω3")["correct"] == "Δω3 = π v0/a"
 
 
-def test_14_13_is_equal_inside_the_band_and_needs_the_amount_of_q():
-    q, level, hurst = np.geomspace(600.0, 30000.0, 50), 3e-20, 0.7
-    geike = np.pi * q * level * q ** (-2 * hurst - 2)
-    exact = 4 * E**2 / q**2 * geike * np.sin(q * A) ** 2
-    np.testing.assert_allclose(
-        4 * E**2 / q**2 * level * np.pi * q ** (-2 * hurst - 1) * np.sin(q * A) ** 2, exact, rtol=1e-12
-    )
-    assert "C_F = " in erratum("(14.13)")["correct"] and "C_F ≈ " in erratum("(14.13)")["printed"]
-    assert isinstance((-600.0) ** (-2 * hurst - 1), complex) and "|q|" in erratum("(14.13), (14.18)")["correct"]
+def test_14_13_needs_the_amount_of_q():
+    assert isinstance((-600.0) ** (-2 * 0.7 - 1), complex) and "|q|" in erratum("(14.13), (14.18)")["correct"]
 
 
 def test_a_steel_rail_halves_the_modulus():

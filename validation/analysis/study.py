@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from validation.analysis.chart import Chart
-from validation.analysis.claims import Claim, Matrix
+from validation.analysis.claims import Claim, Matrix, in_sentence
 from validation.analysis.evidence import Evidence, Number, Table
 from validation.analysis.series import Series, numbers_of, tables_of
 from validation.analysis.sound import Sounds
@@ -28,8 +28,8 @@ class Settings(string.Formatter):
 
 
 def _title(clauses: Iterable[str]) -> str:
-    text = "; ".join(clauses)
-    return f"{text[:1].upper()}{text[1:]}"
+    """Clauses in a sentence."""
+    return "; ".join(in_sentence(clause) if i else clause for i, clause in enumerate(clauses))
 
 
 def nothing(*_: Any) -> tuple[()]:
@@ -82,7 +82,7 @@ class Study:
                 chart.name: _title(said[filled[i].says] for i in chart.claims if filled[i].says in said)
                 for chart in self.charts
             },
-            finding=f"{'; '.join(list(said.values())[:2])}." if said else "",
+            finding=f"{_title(list(said.values())[:2])}." if said else "",
             unconverged=result.unconverged,
             sounds=self.sounds(result),
         )

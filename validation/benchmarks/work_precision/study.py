@@ -4,8 +4,9 @@ from collections.abc import Sequence
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart
-from validation.analysis.claims import Claim, times_source
+from validation.analysis.claims import Claim
 from validation.analysis.evidence import Number, Whose
+from validation.analysis.printed import times_source
 from validation.analysis.study import Study
 from validation.benchmarks.work_precision import case
 from validation.benchmarks.work_precision.figure_cost import COST_OF_STEPS
@@ -58,12 +59,8 @@ STUDY = Study(
     printed=(case.WITHIN, case.WITHOUT, COST_OF_STEPS),
     claims=(
         Claim(quantity=case.TIME, printed=times_source).saying(
-            "Springs are the cheapest method up to the error that they reach, and boundary elements beyond it.",
-            short="Time over that of the cheapest other method as close",
-        ),
-        ClaimOfTheClosest(
-            says="A model without boundary elements comes within 10 %, or 1 dB, of them on every rough scene.",
-            where={"setting": ...},
+            "At each error springs are the cheapest method, or boundary elements where springs do not reach it.",
+            short="Springs, or boundary elements below their error, are the cheapest method",
         ),
         Claim(quantity=case.COST, differ=True, whose=Whose.BOOK, printed=hours).saying(
             "The rolling contact of a rough wheel in three dimensions is too costly for boundary elements."

@@ -111,7 +111,7 @@ STUDY = Study(
     claims=(
         Claim(quantity=NAMED, model=OVER_SURFACE).saying(
             "A profile drawn by Geike's rule has the mean square height, gradient and curvature of the surface.",
-            short="A drawn profile beside a drawn surface",
+            short="A profile by Geike's rule agrees with the surface",
         ),
     ),
     charts=(

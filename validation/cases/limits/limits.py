@@ -186,10 +186,12 @@ STUDY = Study(
     series=series,
     claims=(
         Claim(quantity=THRESHOLD, printed=said).saying(
-            "Each method fails where its condition says.", short="Failures beside their conditions"
+            "Each method fails where its condition says.",
+            short="Failures of the methods agree with their predicted thresholds",
         ),
         Claim(quantity=WARNED, printed=said).saying(
-            "The software warns past each limit, and never before it.", short="warnings of the software"
+            "The software warns past each limit and only there.",
+            short="Warnings of the software agree with the limits",
         ),
     ),
     charts=(

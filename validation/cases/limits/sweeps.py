@@ -84,7 +84,7 @@ SEED, PUNCHES = ("seed",), ("cells", "surfaces", "profiles", "seed")
 FORCES, SIDES = (*force_levels((-2, 2), 2), 10**2.5), (6, 10, 13, 14, 15, 16, 17, 18, 20, 24, 32)
 SPRINGS = (
     Limit(
-        LimitName("linear theory, 3D", "rough strip", "height h_rms / d"),
+        LimitName("linear filter, 3D", "rough strip", "height h_rms / d"),
         Probe(
             springs.rough_strips,
             (0.003, 0.01, 0.02, 0.04, 0.08, 0.12, 0.18, 0.27, 0.4, 0.7),
@@ -97,7 +97,7 @@ SPRINGS = (
         Judged(3.0),
     ),
     Limit(
-        LimitName("MDR", "true contact area", "force F / (E* h L)"),
+        LimitName("springs", "true contact area", "force F / (E* h L)"),
         Probe(springs.rough_punches, FORCES, PUNCHES),
         Failing("below", "contact fraction, over that of 3D, less one", "boundary elements, rough punches", 0.1),
         "p = 0.82 E* g, g the rms gradient, where Persson's contact fraction is 0.9: springs are right near full "
@@ -106,7 +106,7 @@ SPRINGS = (
         Judged(3.0),
     ),
     Limit(
-        LimitName("MDR", "mean gap", "force F / (E* h L)"),
+        LimitName("springs", "mean gap", "force F / (E* h L)"),
         Probe(springs.rough_punches, FORCES, PUNCHES, part=1),
         Failing("below", "difference of the mean gaps [h]", "boundary elements, rough punches", 0.1),
         "p = 0.34 E* g, g the rms gradient, where Persson's contact fraction is a half: springs are right where gaps "
@@ -115,7 +115,7 @@ SPRINGS = (
         Judged(3.0),
     ),
     Limit(
-        LimitName("MDR, linear filter", "level along the track", "wavenumber q a"),
+        LimitName("linear filter, 1D", "level along the track", "wavenumber q a"),
         Probe(springs.octaves, (0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 8.0, 16.0), SEED),
         Failing("above", "level over that of 3D [dB]", "linear theory of the half-space, octaves", 3.0),
         "q a = 1: waves shorter than the contact are lower by Γ(H+3/2) / (√π Γ(H+2)) on the half-space",
@@ -123,7 +123,7 @@ SPRINGS = (
         Judged(2.5),
     ),
     Limit(
-        LimitName("MDR, linear filter", "anisotropic surface", "aspect ratio of the waves, less one"),
+        LimitName("linear filter, 1D", "anisotropic surface", "aspect ratio of the waves, less one"),
         Probe(springs.anisotropy, (1.05, 1.1, 1.2, 1.3, 1.45, 1.65, 2.0, 3.0, 5.0, 9.0), SEED),
         Failing("above", "rms force, over that of 3D, less one", "linear theory of the half-space, quadrature", 0.2),
         "√ratio = 1 + tolerance, for q a >> 1: a line along the long waves is taken for one of an isotropic surface",
@@ -131,7 +131,7 @@ SPRINGS = (
         Judged(2.0, derived=True),
     ),
     Limit(
-        LimitName("MDR, linear filter", "rough track", "height h_rms / d"),
+        LimitName("linear filter, 1D", "rough track", "height h_rms / d"),
         Probe(springs.rough_tracks, (0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.45, 0.7, 1.0), ("track", "seed")),
         Failing("above", "force, over its fluctuation", "one-sided springs on the same track", 0.1),
         "h / d = 2 c tolerance, c = rms dF / (E* a h): second-order effect of the moving ends of the contact",
@@ -139,7 +139,7 @@ SPRINGS = (
         Judged(2.0, derived=True, warned=True),
     ),
     Limit(
-        LimitName("MDR", "springs too far apart", "springs to the shortest wave"),
+        LimitName("springs", "springs too far apart", "springs to the shortest wave"),
         Probe(springs.coarser_springs, STRIDES, SEED),
         Failing("below", "last one-third octave [dB]", f"{FINE} springs to the shortest wave", 1.0),
         "4 springs: z / sin z = 0.91 dB at z = π/4",
@@ -147,7 +147,7 @@ SPRINGS = (
         Judged(1.75, derived=True, warned=True),
     ),
     Limit(
-        LimitName("MDR", "the last asperity", "springs in contact"),
+        LimitName("springs", "the last asperity", "springs in contact"),
         Probe(springs.last_asperities, tuple(10.0 ** (-i / 2) for i in range(1, 11)), ("profiles", "seed")),
         Failing("below", "stiffness, rms over profiles", "many more springs on the same profile", 0.05),
         "1 / (√6 tolerance): the length of one contact is rounded to whole springs",
@@ -189,7 +189,7 @@ SPRINGS = (
 )
 HALF_SPACE = (
     Limit(
-        LimitName("BEM", "waves of few cells", "cells to the shortest wave"),
+        LimitName("boundary elements", "waves of few cells", "cells to the shortest wave"),
         Probe(elements.rough_grids, (12, 18, 24, 32, 48, 64, 96, 128), ("resolved", "seed")),
         Failing("below", "contact area, rms over surfaces", "64 cells to the shortest wave", 0.1),
         "4 cells: the edge of the contact is made of cells; its error, 0.4 / cells, is measured",
@@ -197,7 +197,7 @@ HALF_SPACE = (
         Judged(1.5, warned=True),
     ),
     Limit(
-        LimitName("BEM", "contact of few cells", "cells in the contact, π (a/dx)²"),
+        LimitName("boundary elements", "contact of few cells", "cells in the contact, π (a/dx)²"),
         Probe(elements.few_cells, (0.5, 0.8, 1.2, 1.5, 1.8, 2.1, 2.4, 3.4, 4.8, 6.8, 9.6)),
         Failing("below", "stiffness, rms over places", "Hertz, k = 2 E* a", 0.05),
         "0.3 / √cells = tolerance: the error of a flat punch, an upper bound",
@@ -205,7 +205,7 @@ HALF_SPACE = (
         Judged(4.0, warned=True),
     ),
     Limit(
-        LimitName("BEM, periodic", "images, no padding", "period L / a"),
+        LimitName("boundary elements, periodic", "images, no padding", "period L / a"),
         Probe(elements.images, (4, 8, 16, 24, 32, 40, 64)),
         Failing("below", "approach under a force", "free space, the same cells", 0.05),
         "1.655 a / L = tolerance: 3.9003 F / (π E* L) of all images and the mean plane",
@@ -213,7 +213,7 @@ HALF_SPACE = (
         Judged(1.25, derived=True),
     ),
     Limit(
-        LimitName("BEM", "edge of the grid", "side of the grid / 2 a"),
+        LimitName("boundary elements", "edge of the grid", "side of the grid / 2 a"),
         Probe(elements.grid_sides, SIDES),
         Failing("below", "force at an approach", "the same cells on a wider grid", 1e-3),
         "side = 2 a: beyond the edge there is no pressure",
@@ -221,7 +221,7 @@ HALF_SPACE = (
         Judged(1.2, derived=True, warned=True),
     ),
     Limit(
-        LimitName("BEM, rolling", "narrow strip", "width of the strip / 2 a"),
+        LimitName("boundary elements, rolling", "narrow strip", "width of the strip / 2 a"),
         Probe(elements.strip_widths, SIDES),
         Failing("below", "force at an approach", "the same cells on a wider strip", 0.01),
         "width = 2 a: the contact must end within the strip",
@@ -229,7 +229,7 @@ HALF_SPACE = (
         Judged(1.2, derived=True, warned=True),
     ),
     Limit(
-        LimitName("BEM, approach", "full contact by approach", "mean pressure / p*"),
+        LimitName("boundary elements, approach", "full contact by approach", "mean pressure / p*"),
         Probe(elements.full_contact, (0.5, 0.8, 0.9, 0.98, 0.995, 0.999, 1.0, 1.01, 1.1, 1.5)),
         Failing("above", "mean pressure at an approach", "the pressure that has this approach", 0.01),
         "p* = π E* h / λ: in full contact the approach is the mean gap at any pressure",
@@ -237,7 +237,7 @@ HALF_SPACE = (
         Judged(1.002, derived=True, warned=True),
     ),
     Limit(
-        LimitName("BEM, force", "huge force, full contact", "mean pressure / p*"),
+        LimitName("boundary elements, force", "huge force, full contact", "mean pressure / p*"),
         Probe(elements.huge_forces, tuple(2 * 10.0**i for i in range(17))),
         Failing("above", "waves of the pressure / p*", "p* cos(2π x / λ)", 1e-5),
         "tolerance / ε, the rounding unit: the waves are lost in the digits of the uniform pressure",
@@ -245,7 +245,7 @@ HALF_SPACE = (
         Judged(30.0, derived=True, warned=True),
     ),
     Limit(
-        LimitName("BEM", "one bad cell", "height of the spike / d"),
+        LimitName("boundary elements", "one bad cell", "height of the spike / d"),
         Probe(elements.spikes, (0.01, 0.03, 0.1, 0.3, 1.0, 2.0, 4.0, 7.0, 10.0, 15.0, 30.0, 100.0, 1e3)),
         Failing("above", "force at an approach", "the sphere without the bad cell", 0.1),
         "0.891 E* dx H = F: by Love's formula the bad cell alone carries the force of the sphere",

@@ -17,10 +17,9 @@ from validation.analysis.study import Outcomes
 from validation.cases.punch.ensembles import PunchEnsembles, press
 from validation.engine.engine import SERIAL, Engine
 from validation.simulation.light_punch import press_lightly
+from validation.simulation.model_names import BEM
+from validation.simulation.model_names import SPRINGS as MDR
 from validation.simulation.rough_punch import (
-    BEM,
-    MDR,
-    METHODS,
     Profiles,
     PunchRoughness,
     RolledOffRoughness,
@@ -208,7 +207,9 @@ class Deviations:
         little. Cells err alike in all bands, so that what they leave of a slope is the slope of what they leave."""
         ratio = {i: one.value for i, one in self.ratio(hurst, level).items()}
         shifts = np.array([one.influence for one in ratio.values()])
-        left = np.array([[steps[i].value for i in ratio] for steps in (self.steps(of, hurst, level) for of in METHODS)])
+        left = np.array(
+            [[steps[i].value for i in ratio] for steps in (self.steps(of, hurst, level) for of in (BEM, MDR))]
+        )
         if not np.isfinite([*left.sum(axis=0), *(one.value for one in ratio.values())]).all():
             return Resolved(Linearised(math.nan, shifts[0]), 0.0)
         waves = [self.result.case.bands[i].waves for i in ratio]

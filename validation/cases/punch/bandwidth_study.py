@@ -6,15 +6,18 @@ from functools import partial
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, Matrix, per_cent
+from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Place
 from validation.analysis.multilevel import combined
+from validation.analysis.printed import per_cent
 from validation.analysis.series import Margin, Series
 from validation.analysis.statistics import DECIBEL
 from validation.analysis.study import Outcomes, Study
 from validation.cases.punch.bandwidth import AREA, ROLL_OFF, Band, Bandwidth, Deviations, run
 from validation.cases.punch.ensembles import DEVIATION, FORCE, OVER
-from validation.simulation.rough_punch import BEM, MDR, require_converged
+from validation.simulation.model_names import BEM
+from validation.simulation.model_names import SPRINGS as MDR
+from validation.simulation.rough_punch import require_converged
 
 BANDWIDTH, H = "q_max / q_min", "H"
 RATIO = "relative deviation, MDR over boundary elements"
@@ -120,7 +123,7 @@ STUDY = Study(
         Claim(quantity=DRIFT, printed=per_cent).saying(
             "From one decade of bandwidth to the next, MDR's relative deviation of the stiffness over that of boundary "
             "elements stays the same.",
-            short="Change of the ratio of deviations per decade of bandwidth",
+            short="The ratio of deviations agrees with that at a tenth of the bandwidth",
         ),
     ),
     charts=(

@@ -25,9 +25,10 @@ from validation.analysis.study import Outcomes
 from validation.cases.punch.ensembles import DEVIATION, FEW, FORCE, MEAN, PunchEnsembles, press
 from validation.cases.punch.work import worked
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation import model_names as named
 from validation.simulation.light_punch import press_lightly
-from validation.simulation.rough_punch import BEM, FEW_CELLS, MDR, Profiles, PunchRoughness, Surface, require_converged
+from validation.simulation.model_names import BEM
+from validation.simulation.model_names import SPRINGS as MDR
+from validation.simulation.rough_punch import FEW_CELLS, Profiles, PunchRoughness, Surface, require_converged
 from validation.theory import closed_forms
 
 LONG = "springs, L_1D = 1.1523 L"
@@ -251,7 +252,6 @@ def seen(deviation: Resolved) -> Resolved:
 
 H, STIFFNESS, SCATTER, SLOPE = "H", "k / (E* L)", "relative deviation of k", "d ln k / d ln F"
 TREND = "d ln deviation / d H"
-NAMES = {BEM: named.BEM, MDR: named.SPRINGS}
 LAW, FRACTION = "1 / (1 + H)", "contact fraction"
 CONVEX = "largest excess of the slope of the load curve over the stiffnesses at its two ends"
 FLAT = "largest stiffness of any surface over that of the flat punch"
@@ -317,7 +317,7 @@ def trends(found: PunchStatistics) -> Iterator[Series]:
     for method in (BEM, MDR) if len(case.hursts) > 1 else ():
         by_force = [found.trend(method, level) for level in range(len(case.forces))]
         values, grid = [t.value for t in by_force], [t.grid for t in by_force]
-        yield Series(TREND, NAMES[method], values, along=FORCE, at=case.forces, grid=grid)
+        yield Series(TREND, method, values, along=FORCE, at=case.forces, grid=grid)
 
 
 def tables(result: Outcomes) -> tuple[Table, ...]:

@@ -17,7 +17,9 @@ from validation.analysis.study import Outcomes
 from validation.cases.punch.ensembles import OVER, change, of_rows, press
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.simulation.interface import press_interface
-from validation.simulation.rough_punch import BEM, MDR, Profiles, RolledOffRoughness, Surface, require_converged
+from validation.simulation.model_names import BEM
+from validation.simulation.model_names import SPRINGS as MDR
+from validation.simulation.rough_punch import Profiles, RolledOffRoughness, Surface, require_converged
 from validation.simulation.track_spectrum import PiecewisePowerLaw
 from validation.theory.closed_forms import SQUARE_PUNCH
 from validation.theory.interface import YANG_AND_PERSSON, persson_stiffness

@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, Matrix, decibels_rms
+from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Whose
 from validation.analysis.margins import REPEATABLE
 from validation.analysis.nominal_bands import NominalBands
+from validation.analysis.printed import decibels_rms
 from validation.analysis.series import Estimates, Series, masked
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray, mean_estimate
 from validation.analysis.study import Outcomes, Study
@@ -207,7 +208,7 @@ STUDY = Study(
     claims=(
         Claim(quantity=RMS + MOVING, whose=Whose.FIELD, along=OFFSET, printed=decibels_rms).saying(
             "The contact filter of constant load holds for a wheel in motion.",
-            short="In motion over constant load, rms over bands",
+            short="The contact filter in motion agrees with that of constant load, rms over bands",
         ),
     ),
     charts=(

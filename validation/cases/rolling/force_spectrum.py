@@ -20,6 +20,7 @@ from validation.analysis.study import Outcomes
 from validation.engine.convergence import require_realisations
 from validation.engine.engine import SERIAL, Engine
 from validation.simulation import rolling_strip
+from validation.simulation.model_names import FILTER_3D
 from validation.simulation.rolling_strip import HERTZ, RoughStrip, Tracks, level_1d, level_3d, over_bands, strip_levels
 from validation.simulation.roughness_from_force import by_filter_3d, by_mean_filter
 from validation.simulation.track_spectrum import (
@@ -119,7 +120,7 @@ def run(case: ForceSpectrum, engine: Engine = SERIAL) -> Outcomes:
 
 
 BEM, REFINED = "boundary elements", "boundary elements, half of the cell"
-SPRINGS, LINEAR_1D, LINEAR_3D, MEAN_1D = "springs", "(14.12)", "linear theory, 3D", "(14.14)"
+SPRINGS, LINEAR_1D, LINEAR_3D, MEAN_1D = "springs", "(14.12)", FILTER_3D, "(14.14)"
 OVER, UNBOUNDED = " over boundary elements", "(14.14) over linear theory in 3D, unbounded power law"
 CURVE, MEAN_LEVEL = "level of a one-third octave over the curve", "mean level for q a > 4"
 LEVEL = "level of an octave"

@@ -10,9 +10,10 @@ import numpy as np
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, Matrix, decibels_rms
+from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Place
 from validation.analysis.margins import REPEATABLE
+from validation.analysis.printed import decibels_rms
 from validation.analysis.series import Margin, Series
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed, mean_estimate
 from validation.analysis.study import Outcomes, Study
@@ -22,7 +23,8 @@ from validation.engine.engine import SERIAL, Engine
 from validation.scenes.description import slope_ratio
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.simulation import reduced_models
-from validation.simulation.reduced_models import BED, COARSE, COARSEST, JUDGE, LINE, LINEAR, MODELS, READ, TOLERANCE
+from validation.simulation.model_names import FILTER_3D as LINEAR
+from validation.simulation.reduced_models import BED, COARSE, COARSEST, JUDGE, LINE, MODELS, READ, TOLERANCE
 from validation.simulation.rolling_strip import RoughStrip, Strip
 from validation.simulation.track_spectrum import self_affine
 
@@ -106,7 +108,7 @@ def series(result: Outcomes) -> list[Series]:
     case, found = result.case, []
     for model in MODELS:
         largest = [max(off(result, key, model).value for key in result.found if key[0] <= s) for s in case.slopes]
-        found.append(Series(LARGEST, model, np.array(largest), along=SLOPE, at=case.slopes))
+        found.append(Series(LARGEST, _named(model), np.array(largest), along=SLOPE, at=case.slopes))
         found += [one for key in result.found for one in _of_strips(result, key, model)]
     found += [one for key in result.found for one in _contact(result, key)]
     scene = load_wheel_scene("table_14_1")
@@ -119,13 +121,19 @@ def _where(key: Key) -> dict[str, Place]:
     return {"H": hurst, Q: (ends[0], ends[1]), SLOPE: slope, HEIGHT: float(f"{height_at(*key):.3g}")}
 
 
+def _named(model: str) -> str:
+    """As `compare` has it."""
+    return LINEAR if model == reduced_models.LINEAR else model
+
+
 def _of_strips(result: Outcomes, key: Key, model: str) -> Iterator[Series]:
-    single, judge = partial(Series, model=model, where=_where(key)), model == JUDGE
+    name, judge = _named(model), model == JUDGE
+    single = partial(Series, model=name, where=_where(key))
     grid, error = GRID * off(result, key, COARSE).value, off(result, key, model)
     yield single(OFF, found=(error,), grid=grid, unit="dB", margin=None if judge else BESIDE)
     yield single(WORK, found=(work(result, key, model),))
     if not judge and key[0] == result.case.slopes[-1]:
-        yield Series(AT_WORK, model, (error,), where=_where(key), along=WORK, at=(work(result, key, model),), unit="dB")
+        yield Series(AT_WORK, name, (error,), where=_where(key), along=WORK, at=(work(result, key, model),), unit="dB")
 
 
 def _contact(result: Outcomes, key: Key) -> Iterator[Series]:
@@ -177,15 +185,15 @@ STUDY = Study(
     claims=(
         in_octaves(model=LINEAR).saying(
             "Linear theory in three dimensions has the levels of boundary elements in octaves.",
-            short="Linear theory, 3D, beside boundary elements",
+            short="Linear theory in 3D agrees with boundary elements",
         ),
         in_octaves(model=COARSEST).saying(
             "Boundary elements on {c.coarsest} cells to a contact radius have the levels of those on {c.cells}.",
-            short="boundary elements on a third of the cells",
+            short="Boundary elements on a third of the cells agree with those on all",
         ),
         Claim(quantity=KEPT, along=SLOPE).saying(
             "At one h' a/d the same part of the contact is lost, whatever h/d, the band and the Hurst exponent.",
-            short="Share of contact kept at the same h' a/d, over bands and Hurst exponents",
+            short="The share of contact kept at one h' a/d agrees with that of other spectra",
         ),
     ),
     charts=(

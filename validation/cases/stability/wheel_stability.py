@@ -210,13 +210,13 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(quantity=(GROWTH, REFUSED), printed=printed).saying(
-            "Time stepping becomes unstable where theory says, and the software rejects steps past that limit.",
-            short="Growth of a step and the refusals past its limit, beside theory",
+        Claim(quantity=GROWTH, printed=printed).saying(
+            "Time stepping becomes unstable where theory says.",
+            short="The growth of a step agrees with theory on both sides of its limit",
         ),
         Claim(quantity=OCTAVE).saying(
             "On low roughness springs a quarter of the shortest wave apart have the last one-third octave within 1 dB.",
-            short="the last one-third octave on springs a quarter wave apart",
+            short="The last one-third octave of springs a quarter wave apart agrees with that of the finest",
         ),
     ),
     charts=(

@@ -7,6 +7,7 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel, by_model
 from validation.analysis.claims import Claim
 from validation.analysis.evidence import Whose
+from validation.analysis.printed import share
 from validation.analysis.study import Outcomes, Study
 from validation.cases.wheel import distance
 from validation.cases.wheel.distance import BOOK, CUT, HANN, LINEAR, PERIODIC, SECOND_ORDER, SPRINGS
@@ -81,23 +82,22 @@ STUDY = Study(
     ),
     series=distance.series,
     claims=(
-        Claim(whose=Whose.BOOK, quantity=distance.SHARE, model=LINEAR).saying(
+        Claim(whose=Whose.BOOK, quantity=distance.SHARE, model=LINEAR, printed=share).saying(
             "Regions 1 and 2 arise from the non-linearity of the contact: in a steady state a linear contact has "
             "neither.",
-            short="A linear contact without leakage, over springs in regions 1 and 2",
+            short="A linear contact in a steady state has none of the power of springs in regions 1 and 2",
         ),
         Claim(
             whose=Whose.BOOK,
             either=({"quantity": distance.BREAK_LAW}, {"quantity": distance.SHARE, "where": {"region": FOURTH}}),
         ).saying(
-            "Region 4 is an artefact of the finite record: its break moves with the distance as leakage does, and it "
-            "vanishes in a periodic motion and under a window.",
-            short="Region 4 as leakage",
+            "Region 4 is an artefact: leakage through the ends of the finite record.",
+            short="Region 4 agrees with leakage of the finite record",
         ),
         Claim(quantity=(distance.CONTRAST, distance.OVER), along=distance.H_OVER_D).saying(
-            "Regions 1 and 2 of springs are of second order in the roughness: a closed theory without a free parameter "
-            "has their levels, and the zeros of region 2 over short waves.",
-            short="Regions 1 and 2 of springs over the closed second order",
+            "A closed theory of second order in the roughness, without a free parameter, gives regions 1 and 2 of "
+            "springs.",
+            short="Regions 1 and 2 of springs agree with a closed theory of second order",
         ),
     ),
     charts=(

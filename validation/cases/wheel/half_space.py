@@ -107,7 +107,7 @@ def run(case: Wheel3D, engine: Engine = SERIAL) -> Outcomes:
     return Outcomes(case, {**strips, **springs}, unconverged)
 
 
-LINEAR_3D, LINEAR_1D, BEM, GEIKE = "linear theory, 3D", "(14.12)", named.BEM, named.SPRINGS_GEIKE
+LINEAR_3D, LINEAR_1D, BEM, GEIKE = named.FILTER_3D, "(14.12)", named.BEM, named.SPRINGS_GEIKE
 MODELS = (LINEAR_3D, GEIKE)
 CONTACTS = {BEM: "bem", LINEAR_3D: "linear"}
 OVER_BEM = {model: f"{model} over {BEM}" for model in MODELS}

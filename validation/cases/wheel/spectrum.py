@@ -96,7 +96,7 @@ SOURCES = {
 """Of the features that are judged."""
 OF_PARAMETERS = features.PEAK, features.JUMP
 """Of these what the book says that no parameter changes."""
-CHANGED, NOTHING = "changed", "nothing"
+CHANGED, NOTHING = "changed", "unchanged"
 BANDS_PER_PERIOD = 12
 """Of the oscillation."""
 BALANCE = Margin(

@@ -4,13 +4,16 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
-from validation.analysis.evidence import Evidence, Number, Place, Verdict
+from validation.analysis.claims import listed
+from validation.analysis.evidence import Evidence, Number, Place, Verdict, placed
 from validation.report.answers.questions import QUESTIONS, Alternative, Printed, Question, per_cent, times
 from validation.report.answers.strip import WORDS, Cell, Source, ends, span
 from validation.report.section import Section
 
 MAP = "reduced_models-map"
 """The figure below the rows: the map of validity of rolling."""
+REGIONS = "the spectrum"
+"""An axis whose places are parts of it, not surfaces."""
 NOT_RUN, NO_RESULT, NOT_MEASURED = "Not run", "No result", "Not measured"
 
 
@@ -149,20 +152,28 @@ def _word(verdicts: set[Verdict]) -> str:
 
 
 def _where(cells: Sequence[Cell], verdict: Verdict, over: str) -> str:
-    """Neighbouring cells that say it: "at h' a/d = 0.3", "from Fbar = 0.1 to 1 and at Fbar = 9", "in region 2"."""
+    """Neighbouring cells that say it: "at h' a/d = 0.3", "from Fbar = 0.1 to 1 and at Fbar = 9", "over ridges"."""
+    groups = [[c.place for c in some] for found, some in groupby(cells, key=lambda c: c.verdict) if found is verdict]
+    if len(groups) > 1 and all(len(places) == 1 and isinstance(places[0], float) for places in groups):
+        return f"at {placed(over, listed([span(places) for places in groups]))}"
     said = []
-    for found, group in groupby(cells, key=lambda cell: cell.verdict):
-        places = [cell.place for cell in group]
+    for places in groups:
         text = span(places, over)
-        word = "in" if isinstance(places[0], str) else "from" if " to " in text else "at"
-        said += [f"{word} {text}"] if found is verdict else []
+        word = "from" if " to " in text else "at"
+        if isinstance(places[0], str):
+            word = "in" if over == REGIONS else "over"
+        said.append(f"{word} {text}")
     return " and ".join(said)
 
 
 def sentence(cells: Sequence[Cell], over: str, printed: Printed) -> str:
     """Where it is enough, where not, where open; each with the numbers that say so."""
     clauses = []
-    for verdict, word in ((Verdict.AGREE, "enough"), (Verdict.DIFFER, "not enough"), (Verdict.UNDECIDED, "open")):
+    for verdict, word in (
+        (Verdict.AGREE, "enough"),
+        (Verdict.DIFFER, "not enough"),
+        (Verdict.UNDECIDED, "open"),
+    ):
         if where := _where(cells, verdict, over):
             numbers = _numbers(cell for cell in cells if cell.verdict is verdict)
             clauses.append(f"{word} {where} ({_found(verdict, numbers, printed)})")
@@ -173,12 +184,12 @@ def sentence(cells: Sequence[Cell], over: str, printed: Printed) -> str:
 def _found(verdict: Verdict, numbers: Sequence[Number], printed: Printed) -> str:
     mine = [number for number in numbers if number.verdict is verdict]
     if verdict is Verdict.DIFFER:
-        count = f"{len(mine)} of {len(numbers)} numbers differ" if len(numbers) > 1 else "it differs"
-        return f"{count}: {_by_quantity(mine, printed)}"
+        return f"{'' if printed is times else 'off by '}{_by_quantity(mine, printed)}"
     if not mine:
         return "some numbers are missing"
     ends = (number.difference + sign * number.uncertainty for number in mine for sign in (-1, 1))
-    return f"{'all intervals within' if verdict is Verdict.AGREE else 'intervals from'} {from_to(ends, printed)}"
+    off = from_to(ends, printed)
+    return f"{'' if printed is times else 'off by '}{off}, error bars included"
 
 
 def _by_quantity(numbers: Sequence[Number], printed: Printed) -> str:

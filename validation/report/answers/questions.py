@@ -97,7 +97,7 @@ def counted(name: str, model: str, source: Source | None = None, by: str = "") -
     return Alternative(name, source, partial(times_springs, model), "reduced_models", by)
 
 
-INTEGRAL, LINEAR_3D = "an integral over the spectrum", "linear theory, 3D"
+INTEGRAL, LINEAR_3D = "an integral over the spectrum", wheel.LINEAR_3D
 FIT = partial(Alternative, "the fit 1/kbar = 1/1.1523 + 0.48/Fbar", cost="a formula")
 PRESSED = partial(Alternative, BEM, None, worked)
 over_force = partial(Source, axis=punch.FORCE, over=punch.FORCE)
@@ -192,7 +192,7 @@ QUESTIONS = (
         of_rail(model=across.LINES[0]),
         in_decibels,
         (
-            Alternative("linear theory of the ellipse", of_rail(model=across.MODELS[0]), INTEGRAL),
+            Alternative(across.MODELS[0], of_rail(model=across.MODELS[0]), INTEGRAL),
             Alternative(filters.BED_WIDER, of_rail(model=filters.BED_WIDER), INTEGRAL),
             JUDGE,
         ),

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from validation.analysis.claims import Choice
+from validation.analysis.claims import Choice, listed
 from validation.analysis.evidence import Evidence, Number, Place, Verdict, placed
 from validation.analysis.over_range import worst
 
@@ -76,7 +76,7 @@ def ends(place: Place) -> tuple[float, float]:
 def span(places: Sequence[Place], name: str = "") -> str:
     """ "Fbar = 0.1 to 10", "h' a/d = 0.3", "-10 to 10 dB over ISO 3095", "0.1 to 1", or names."""
     if isinstance(places[0], str):
-        return ", ".join(map(str, dict.fromkeys(places)))
+        return listed(list(dict.fromkeys(places)))
     low, high = min(ends(place)[0] for place in places), max(ends(place)[1] for place in places)
     both = f"{low:.2g}" if low == high else f"{low:.2g} to {high:.2g}"
     return placed(name, both) if name else both
