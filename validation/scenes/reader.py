@@ -12,7 +12,7 @@ from mdr.checks import count, finite, positive
 from validation.scenes.bundled import line_for
 from validation.scenes.input_files import SceneError, contents_of
 from validation.scenes.printable import is_printable, printable, shortened
-from validation.scenes.units import quantity
+from validation.scenes.units import Dimension, quantity
 
 Reader = Callable[[str, object], Any]
 
@@ -111,8 +111,28 @@ def yes_or_no(name: str, given: object) -> bool:
     return given
 
 
+def _number_or(dimension: Dimension, name: str, given: object) -> float:
+    """A number, or a text with its unit."""
+    return quantity(name, given, dimension) if isinstance(given, str) else float(NUMBER(name, given))
+
+
 LENGTH, MASS, FORCE, PRESSURE, SPEED = (
     partial(quantity, dimension=dimension, positive=True)
     for dimension in ("length", "mass", "force", "pressure", "speed")
 )
 NUMBER, POSITIVE, WHOLE = (partial(without_unit, read) for read in (finite, positive, partial(count, least=1)))
+DECIBELS: Reader = partial(_number_or, "level")
+_LENGTHS = "radius diameter transverse_radius crown_radius side distance longest shortest spacing"
+VALUES: dict[str, Reader] = {
+    **dict.fromkeys(_LENGTHS.split(), LENGTH),
+    **{"load": FORCE, "axle_load": FORCE, "mass": MASS, "speed": SPEED, "youngs_modulus": PRESSURE},
+    **{"contact_modulus": PRESSURE, "poisson_ratio": NUMBER, "alpha": POSITIVE, "springs": WHOLE},
+    **{"wheels_per_axle": WHOLE, "damping": partial(_number_or, "share of critical")},
+    **{"name": nonblank_text, "file": nonblank_text, "curve": nonblank_text, "fill": yes_or_no, "crop": yes_or_no},
+}
+"""How the value of a key is read that is the same in all tables which have it."""
+
+
+def values(*keys: str) -> dict[str, Reader]:
+    """How each of these keys is read."""
+    return {key: VALUES[key] for key in keys}

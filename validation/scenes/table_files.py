@@ -204,18 +204,18 @@ def _silent() -> Iterator[None]:
         yield
 
 
+@_silent()
 def _topography(path: Path) -> NumberTable:
     """Heights of the file of an instrument, with its spacing and unit as far as it has them.
 
     Raises ValueError where SurfaceTopography is missing or cannot read the file; the sentence shows nothing of it.
     """
     try:
-        with _silent():
-            from SurfaceTopography.IO import open_topography
+        from SurfaceTopography.IO import open_topography
     except ImportError:
         raise ValueError(MISSING) from None
     try:
-        with _silent(), open_topography(str(path)) as reader:
+        with open_topography(str(path)) as reader:
             channel = reader.default_channel
             sizes = {} if channel.physical_sizes is not None else {"physical_sizes": channel.nb_grid_pts}
             found = reader.topography(**sizes)

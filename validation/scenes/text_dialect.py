@@ -20,8 +20,6 @@ MOST_HEADER, SAMPLE, RUN = 2000, 2**20, 3
 """Lines in which the first row of numbers is looked for, and characters; rows on end that make a table."""
 MANY = 10
 """Rows to a line of a header that looks like one, at the least."""
-CHUNK = 2**20
-"""Bytes that are decoded at once, to see whether they can be."""
 CONTROL = re.compile(rb"[\x00-\x08\x0e-\x19\x1b-\x1f]")
 """Bytes that no text has."""
 MARKS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16"))
@@ -114,25 +112,18 @@ def encoding_of(file: IO[bytes], given: str | None) -> str:
 
     Raises ValueError for what is no text, or not in that encoding; the sentence shows nothing of the file.
     """
-    file.seek(0)
-    start = file.read(4)
-    known = given or next((name for mark, name in MARKS if start.startswith(mark)), None)
+    contents = file.read()
+    known = given or next((name for mark, name in MARKS if contents.startswith(mark)), "")
     if known and codecs.lookup(known).name == "utf-8":
         known = "utf-8-sig"
-    if known is None and start[1::2] == b"\x00\x00" and 0 not in start[::2]:
+    if not known and contents[1:4:2] == b"\x00\x00" and 0 not in contents[:4:2]:
         known = "utf-16-le"
+    if not re.search("16|32", known) and CONTROL.search(contents):
+        raise NoTextError("the file must be a text of numbers, got one with bytes that no text has")
     for encoding in (known,) if known else ("utf-8", "cp1252", "latin-1"):
-        decoder = codecs.getincrementaldecoder(encoding)()
-        file.seek(0)
-        try:
-            for chunk in iter(partial(file.read, CHUNK), b""):
-                if "16" not in encoding and "32" not in encoding and CONTROL.search(chunk):
-                    raise NoTextError("the file must be a text of numbers, got one with bytes that no text has")
-                decoder.decode(chunk)
-            decoder.decode(b"", final=True)
-        except UnicodeError:
-            continue
-        return encoding
+        with suppress(UnicodeError):
+            contents.decode(encoding)
+            return encoding
     raise NoTextError(f'the file must be a text in {known}, got other bytes; encoding = "latin-1" is another')
 
 
