@@ -139,7 +139,7 @@ FAULTS = {
     ),
     "half of the force that throws a wheel": (
         (steadiness, "force_spectrum_1d", scaled(rolling_theory.force_spectrum_1d, 0.25)),
-        partial(test_steadiness.test_the_force_on_the_way_against_a_plain_sum, 9.0),
+        partial(test_steadiness.test_the_force_on_the_way_against_a_plain_sum, 9.0, 0.0),
     ),
     "a flight that nobody foretells": (
         (steadiness, "MAX_FORCE", math.inf),

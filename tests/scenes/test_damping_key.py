@@ -13,7 +13,6 @@ from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.scenes.load import load_scene
 from validation.scenes.reader import VALUES
 from validation.scenes.rolling import RollingScene
-from validation.scenes.steadiness import force_on_the_way
 from validation.selection.exported import assumed
 from validation.simulation.rolling_quantity import RollingQuantity
 
@@ -87,20 +86,6 @@ def test_linear_theory_of_compare_has_the_dashpot():
     c = 2 * 0.3 * math.sqrt(body.stiffness * body.mass)
     expected = omega**2 / np.hypot(body.stiffness - body.mass * omega**2, c * omega)
     assert quantity.transfer(q) == pytest.approx(expected, rel=1e-12)
-
-
-@pytest.mark.parametrize("speed", [1.0, 3.0, 20.0])
-@pytest.mark.parametrize("zeta", [0.01, 0.2])
-def test_the_force_on_the_way_of_a_damped_wheel_is_a_plain_integral(speed, zeta):
-    """Also with the resonance among the waves, where it is finite."""
-    wheel = replace(load_wheel_scene("table_14_1"), speed=speed, damping=zeta)
-    a, ground = wheel.contact_radius, wheel.rail
-    q = np.geomspace(ground.q_min, ground.q_max, 400_001)
-    r = wheel.eigenfrequency / (q * speed)
-    gain = (1 + (2 * zeta * r) ** 2) / ((1 - r**2) ** 2 + (2 * zeta * r) ** 2)
-    density = np.pi * q * ground.c2d(q) * (2 * wheel.modulus * np.sin(q * a) / q) ** 2 * gain
-    expected = math.sqrt(2 * np.trapezoid(density, q))
-    assert force_on_the_way(wheel.body, speed, [ground]) == pytest.approx(expected, rel=1e-4)
 
 
 def test_damping_gives_a_steady_answer_where_the_resonance_is_among_the_waves():

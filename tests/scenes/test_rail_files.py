@@ -181,6 +181,11 @@ def test_heights_have_the_levels_of_their_lines(tmp_path):
         ('load = "50 kN" ', 'load = "50 kN"\nwheels_per_axle = 2', "wheel.wheels_per_axle belongs to wheel.axle_load"),
         ('load = "50 kN" ', 'load = "50 kN"\naxle_load = "1 N"', "one of load, axle_load, got load and axle_load"),
         ('load = "50 kN" ', 'load = "5 t"', r"wheel.load must be a force, .* got \"5 t\""),
+        (
+            'load = "50 kN" ',
+            'load = "1 N"\noffset = "3 mm"',
+            "wheel.offset must be left out where neither wheel nor rail",
+        ),
         ('load = "50 kN" ', "", "wheel must have one of load, axle_load, got none"),
         ('across = "isotropic"', 'across = "random"', 'rail.across must be "ridges", "isotropic" or a number'),
         ('across = "isotropic"', "across = -1.0", "rail.across must be positive"),
