@@ -4,11 +4,10 @@ import codecs
 import csv
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import partial
-from itertools import islice, takewhile
+from itertools import accumulate, takewhile
 from typing import IO
 
 from validation.scenes.column_names import column_of
@@ -107,10 +106,10 @@ class Dialect:
         return text.startswith(COMMENTS) and not (text.startswith(";") and self.delimiter == ";" and self.row(text))
 
 
-def encoding_of(file: IO[bytes], given: str | None) -> str:
-    """The encoding of a text: the given one, that of its mark, UTF-8, or Windows-1252, which has Latin-1.
+def lines_of(file: IO[bytes], given: str | None) -> tuple[list[str], str]:
+    """Of a text, and its encoding: the given one, that of its mark, UTF-8, or Windows-1252, which has Latin-1.
 
-    Raises ValueError for what is no text, or not in that encoding; the sentence shows nothing of the file.
+    Raises ValueError for what is no text, not in that encoding, or too long; the sentence shows nothing of the file.
     """
     contents = file.read()
     known = given or next((name for mark, name in MARKS if contents.startswith(mark)), "")
@@ -122,8 +121,7 @@ def encoding_of(file: IO[bytes], given: str | None) -> str:
         raise NoTextError("the file must be a text of numbers, got one with bytes that no text has")
     for encoding in (known,) if known else ("utf-8", "cp1252", "latin-1"):
         with suppress(UnicodeError):
-            contents.decode(encoding)
-            return encoding
+            return _split(contents.decode(encoding)), encoding
     raise NoTextError(f'the file must be a text in {known}, got other bytes; encoding = "latin-1" is another')
 
 
@@ -131,27 +129,22 @@ class NoTextError(ValueError):
     """A file that holds no text."""
 
 
-def lines_of(file: IO[str]) -> Iterator[str]:
-    """Of bounded number and length."""
-    for number, line in enumerate(iter(partial(file.readline, LONGEST_LINE + 1), "")):
-        if number >= MOST_LINES or len(line) > LONGEST_LINE:
-            raise ValueError(
-                f"the file must have at most {MOST_LINES} lines of at most {LONGEST_LINE} characters, got more"
-            )
-        # an inline comment, the end of a file of DOS, and the two words of an interferometer
-        line = NO_DATA.sub("nan", line) if "ata" in line else line
-        yield line.partition(" #")[0].rstrip("\r\n\x1a")
+def _split(text: str) -> list[str]:
+    """Lines of bounded number and length, without comments behind numbers."""
+    text = text.replace("\r\n", "\n").replace("\r", "\n").removesuffix("\n")
+    lines = text.split("\n", MOST_LINES)
+    if len(lines) > MOST_LINES or max(map(len, lines)) >= LONGEST_LINE:
+        raise ValueError(
+            f"the file must have at most {MOST_LINES} lines of at most {LONGEST_LINE} characters, got more"
+        )
+    # the two words of an interferometer, and the end of a file of DOS
+    return [(NO_DATA.sub("nan", line) if "ata" in line else line).partition(" #")[0].rstrip("\x1a") for line in lines]
 
 
-def sample_of(lines: Iterator[str], skip: int) -> list[str]:
+def sample_of(lines: Sequence[str], skip: int) -> Sequence[str]:
     """The first lines, and some below those to skip."""
-    found, characters = list(islice(lines, skip)), 0
-    for line in islice(lines, MOST_HEADER):
-        found.append(line)
-        characters += len(line)
-        if characters > SAMPLE and len(found) > skip + RUN:
-            break
-    return found
+    few = sum(characters <= SAMPLE for characters in accumulate(map(len, lines[skip : skip + MOST_HEADER])))
+    return lines[: skip + min(max(few, RUN) + 1, MOST_HEADER)]
 
 
 def recognised(
