@@ -1,7 +1,7 @@
 """Faults planted in what `tests/scenes` looks at: where, what is wrong there, and the test that must catch it."""
 
 import math
-from decimal import Decimal
+from fractions import Fraction
 from functools import partial
 
 import numpy as np
@@ -18,7 +18,6 @@ from tests.scenes import (
     test_steadiness,
 )
 from validation.scenes import (
-    damping,
     height_edits,
     level_files,
     material,
@@ -31,6 +30,7 @@ from validation.scenes import (
     steadiness,
     text_dialect,
     transverse_profile,
+    units,
 )
 from validation.scenes.roughness_levels import RoughnessLevels
 from validation.scenes.transverse_profile import TransverseProfile
@@ -39,7 +39,7 @@ from validation.theory import rolling as rolling_theory
 real_spectrum, check_alone = measured._spectrum, transverse_profile._check_alone
 both_together = transverse_profile.both_together
 moved, radius_of_parabola = TransverseProfile.moved, TransverseProfile.radius_within
-number, within = text_dialect.Dialect.number, RoughnessLevels.within
+filled_in, number, within = height_edits.filled_in, text_dialect.Dialect.number, RoughnessLevels.within
 radii_of_rail, slope_in_one_direction = rail.RailScene.radii.fget, roughness.Roughness.slope_along.fget
 
 
@@ -118,7 +118,7 @@ FAULTS = {
         partial(test_height_edits.test_few_points_are_filled_in_where_it_is_asked_for_and_told, "nan"),
     ),
     "cells taken for squares where points without data are filled in": (
-        (height_edits, "_weight", lambda step, least: 1.0),
+        (test_height_edits, "filled_in", lambda height, spacing: filled_in(height, (1.0, 1.0))),
         test_height_edits.test_holes_at_an_edge_against_repeated_means,
     ),
     "the first square for the central one": (
@@ -139,7 +139,7 @@ FAULTS = {
     ),
     "half of the force that throws a wheel": (
         (steadiness, "force_spectrum_1d", scaled(rolling_theory.force_spectrum_1d, 0.25)),
-        partial(test_steadiness.test_the_force_on_the_way_against_a_plain_sum, 9.0),
+        partial(test_steadiness.test_the_force_on_the_way_against_a_plain_sum, 9.0, 0.0),
     ),
     "a flight that nobody foretells": (
         (steadiness, "MAX_FORCE", math.inf),
@@ -162,7 +162,7 @@ FAULTS = {
         partial(test_rail.test_the_spectrum_has_the_power_of_each_band, "cnossos-average"),
     ),
     "per cent of damping taken for the ratio": (
-        (damping, "Decimal", lambda text: Decimal(text).scaleb(2)),
+        (units, "UNITS", units.UNITS | {"share of critical": {"%": Fraction(1)}}),
         test_damping_key.test_per_cent_is_a_hundredth,
     ),
     "the rougher of wheel and rail for both": (

@@ -9,10 +9,9 @@ import pytest
 from tests.scenes.test_height_forms import PUNCH, scene_of
 from validation.__main__ import main
 from validation.scenes import table_files, text_dialect
-from validation.scenes.input_files import check_regular, contents_of
 from validation.scenes.load import load_scene
 from validation.scenes.printable import is_printable, printable, quoted, shortened
-from validation.scenes.reader import LONGEST_LINE, MOST_BYTES
+from validation.scenes.reader import LONGEST_LINE, MOST_BYTES, check_regular, contents_of
 from validation.scenes.table_files import read_table
 
 HEIGHT = 1e-6 * np.random.default_rng(1).standard_normal((64, 64))
@@ -66,9 +65,14 @@ def test_arrays_of_every_version_and_order_are_read(tmp_path, version, order):
 
 
 @pytest.mark.parametrize("kind", [np.float32, np.int16, np.uint8, ">f8"])
-def test_numbers_of_other_kinds_are_read(tmp_path, kind):
+def test_numbers_of_other_kinds_are_read_and_complex_ones_refused(tmp_path, kind):
     np.save(tmp_path / "face.npy", (100 * np.abs(HEIGHT) / HEIGHT.max()).astype(kind))
     assert read_table("it", tmp_path / "face.npy").values.dtype == np.float64
+    np.save(tmp_path / "face.npy", HEIGHT.astype(complex))
+    with pytest.raises(ValueError, match=r"must hold real numbers, got complex128$"):
+        read_table("it", tmp_path / "face.npy")
+    with pytest.raises(OSError, match=r"^it .* cannot be read: No such file"):
+        read_table("it", tmp_path / "none.npy")
 
 
 def test_what_is_no_regular_file_is_refused_without_reading_it(tmp_path, capsys):

@@ -109,15 +109,11 @@ def test_a_scene_that_does_not_say_is_shown_both_lines(tmp_path, capsys, text):
 
 
 @pytest.mark.parametrize("text", [SPHERE, PUNCH, WHEEL])
-def test_another_body_is_a_table_of_its_own(tmp_path, text):
-    scene = load_scene(written(tmp_path, text, ALUMINIUM))
+def test_another_body_is_a_table_of_its_own_and_a_contact_modulus_may_be_given_instead(tmp_path, text):
+    path = written(tmp_path, text, ALUMINIUM)
+    scene = load_scene(path)
     assert scene.material.counterface == Elastic(youngs_modulus=70e9, poisson_ratio=0.33)
     assert scene.modulus == scene.material.modulus < 70e9 / (1 - 0.33**2)
-
-
-@pytest.mark.parametrize("text", [SPHERE, PUNCH, WHEEL])
-def test_a_contact_modulus_may_be_given_instead(tmp_path, text):
-    path = tmp_path / "scene.toml"
     path.write_text(re.sub(r"\[material\]\n(.+\n)+", '[material]\ncontact_modulus = "115 GPa"\n', text))
     assert load_scene(path).modulus == 115e9
 

@@ -1,8 +1,11 @@
 """Scene files of a rail: units of the field, levels, lines and heights; everything that is refused, by its key."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 
+from tests.scenes import test_scene_files
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.scenes.level_files import curve
@@ -33,13 +36,7 @@ LEVELS = "[rail.levels]\ncurve"
 HEADER = "wavelength [mm],level [dB re 1 um]"
 
 
-def written(folder, *changes, text=TEXT):
-    """A scene file with some texts changed, each of which must be there."""
-    for old, new in changes:
-        assert old in text
-        text = text.replace(old, new)
-    (folder / "rail.toml").write_text(text, encoding="utf-8")
-    return folder / "rail.toml"
+written = partial(test_scene_files.written, text=TEXT)
 
 
 def loaded(folder, *changes):
@@ -181,6 +178,11 @@ def test_heights_have_the_levels_of_their_lines(tmp_path):
         ('load = "50 kN" ', 'load = "50 kN"\nwheels_per_axle = 2', "wheel.wheels_per_axle belongs to wheel.axle_load"),
         ('load = "50 kN" ', 'load = "50 kN"\naxle_load = "1 N"', "one of load, axle_load, got load and axle_load"),
         ('load = "50 kN" ', 'load = "5 t"', r"wheel.load must be a force, .* got \"5 t\""),
+        (
+            'load = "50 kN" ',
+            'load = "1 N"\noffset = "3 mm"',
+            "wheel.offset must be left out where neither wheel nor rail",
+        ),
         ('load = "50 kN" ', "", "wheel must have one of load, axle_load, got none"),
         ('across = "isotropic"', 'across = "random"', 'rail.across must be "ridges", "isotropic" or a number'),
         ('across = "isotropic"', "across = -1.0", "rail.across must be positive"),
@@ -194,7 +196,7 @@ def test_heights_have_the_levels_of_their_lines(tmp_path):
     ],
 )
 def test_files_are_refused_by_key(tmp_path, old, new, said):
-    with pytest.raises(ValueError, match=rf"^scene \S+rail\.toml: .*{said}"):
+    with pytest.raises(ValueError, match=f"^{test_scene_files.IN_FILE}.*{said}"):
         loaded(tmp_path, (old, new))
 
 

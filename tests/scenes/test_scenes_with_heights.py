@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 import pytest
 
-from tests.scenes.test_height_forms import PUNCH, scene_of
+from tests.scenes.test_height_forms import PUNCH
 from tests.scenes.test_measured_heights import drawn, heights
 from tests.scenes.test_scene_files import IN_FILE, TABLE, written
 from validation.__main__ import main
@@ -20,14 +20,6 @@ from validation.scenes.rolling import RollingScene
 from validation.selection.compare import SceneProblem
 
 ROLLING = (SCENES / "rolling_wheel.toml").read_text(encoding="utf-8")
-
-
-def test_files_without_heights_are_refused(tmp_path):
-    np.save(tmp_path / "face.npy", np.ones((32, 32), dtype=complex))
-    with pytest.raises(ValueError, match=r"must hold real numbers, got complex128$"):
-        load_scene(scene_of(tmp_path, "face.npy"))
-    with pytest.raises(OSError, match=r"^heights.file .* cannot be read: No such file"):
-        load_scene(scene_of(tmp_path, "none.npy"))
 
 
 @pytest.mark.parametrize(

@@ -1,11 +1,8 @@
 """A dashpot between the wheel and the inertial frame, by its damping ratio; it acts while contact is lost, too."""
 
 from dataclasses import dataclass
-from decimal import Decimal, InvalidOperation
 
 from mdr.checks import finite
-from validation.scenes.printable import shortened
-from validation.scenes.reader import NUMBER
 from validation.scenes.wheel_body import Wheel
 
 
@@ -39,19 +36,6 @@ def check_damping(damping: float, mass: float | None) -> None:
             f"wheel.damping needs a mass: a wheel without one keeps its approach and does not vibrate, got "
             f'{in_per_cent(damping)} alone, as: mass = "500 kg"'
         )
-
-
-def damping_of(name: str, given: object) -> float:
-    """Of a scene file: a text in per cent, or a number."""
-    if not isinstance(given, str):
-        return float(NUMBER(name, given))
-    number, per_cent, rest = given.partition("%")
-    try:
-        if not per_cent or rest.strip():
-            raise InvalidOperation
-        return float(NUMBER(name, float(Decimal(number.strip()).scaleb(-2))))
-    except InvalidOperation:
-        raise ValueError(f'{name} must be a share of critical, as "2 %" or 0.02, got {shortened(given)}') from None
 
 
 def in_per_cent(damping: float) -> str:

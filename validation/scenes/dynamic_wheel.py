@@ -11,21 +11,10 @@ from scipy.fft import next_fast_len
 
 from mdr.checks import count
 from validation.scenes.bundled import bundled, path_of
-from validation.scenes.damping import DampedWheel, check_damping, damping_of
+from validation.scenes.damping import DampedWheel, check_damping
 from validation.scenes.material import Material, check_scene, material_of
 from validation.scenes.rail_file import is_rail
-from validation.scenes.reader import (
-    FORCE,
-    LENGTH,
-    MASS,
-    SPEED,
-    WHOLE,
-    Reader,
-    errors_of_file,
-    nonblank_text,
-    table,
-    tables_of,
-)
+from validation.scenes.reader import Reader, errors_of_file, table, tables_of, values
 from validation.scenes.roughness import Roughness, check_band, roughness_of
 from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
 from validation.scenes.wheel_body import OnHalfSpace
@@ -256,16 +245,14 @@ def wheel_of(tables: dict[str, Any]) -> WheelScene:
     )
 
 
-WHEEL: dict[str, Reader] = {
-    **{"radius": LENGTH, "mass": MASS, "load": FORCE, "speed": SPEED},
-    **{"damping": damping_of, "roughness": roughness_of},
-}
+ROUGH: dict[str, Reader] = {"roughness": roughness_of}
+WHEEL = values("radius", "mass", "load", "speed", "damping") | ROUGH
 SCENE: dict[str, Reader] = {
-    "name": nonblank_text,
+    **values("name"),
     "wheel": partial(table, WHEEL, ("damping", "roughness")),
     "material": material_of,
-    "rail": partial(table, {"roughness": roughness_of}, ("roughness",)),
-    "simulation": partial(table, {"distance": LENGTH, "springs": WHOLE}, ()),
+    "rail": partial(table, ROUGH, tuple(ROUGH)),
+    "simulation": partial(table, values("distance", "springs"), ()),
 }
 """How each value of a scene file is read."""
 

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from validation.analysis.statistics import FloatArray
@@ -138,38 +139,21 @@ def filled_in(height: FloatArray, spacing: tuple[float, float]) -> FloatArray:
     At such a point the discrete Laplacian is zero, 1/dx^2 and 1/dy^2 its weights: on square cells the point is the mean
     of its four neighbours. So no point becomes a summit or a valley, and a plane stays a plane up to its edge.
     """
-    from scipy.sparse import csr_array
-    from scipy.sparse.linalg import spsolve
-
-    unknown = np.isnan(height)
+    unknown, index = np.isnan(height), np.arange(height.size).reshape(height.shape)
     plane = _plane(height, ~unknown)
-    rest = np.where(unknown, 0.0, height - plane)
-    number = np.where(unknown, np.cumsum(unknown).reshape(height.shape) - 1, -1)
-    i, j = np.nonzero(unknown)
-    diagonal, right = np.zeros(i.size), np.zeros(i.size)
-    rows, columns, values = [], [], []
-    for di, dj, step in ((1, 0, spacing[0]), (-1, 0, spacing[0]), (0, 1, spacing[1]), (0, -1, spacing[1])):
-        weight = _weight(step, min(spacing))
-        row = np.flatnonzero((i + di >= 0) & (i + di < height.shape[0]) & (j + dj >= 0) & (j + dj < height.shape[1]))
-        next_to = i[row] + di, j[row] + dj
-        diagonal[row] += weight
-        right[row] += weight * rest[next_to]
-        others = number[next_to]
-        rows.append(row[others >= 0])
-        columns.append(others[others >= 0])
-        values.append(np.full(rows[-1].size, -weight))
-    every = np.arange(i.size)
-    matrix = csr_array(
-        (np.concatenate([*values, diagonal]), (np.concatenate([*rows, every]), np.concatenate([*columns, every])))
-    )
+    every, edges, weights = unknown.ravel(), [], []
+    for axis, step in enumerate(spacing):
+        near = np.delete(unknown, -1, axis) | np.delete(unknown, 0, axis)
+        edges.append(np.stack([np.delete(index, end, axis)[near] for end in (-1, 0)]))
+        weights.append(np.full(edges[-1].shape[1], (min(spacing) / step) ** 2))
+    (one, other), weight = np.hstack(edges), np.hstack(weights)
+    rows, columns = np.hstack([one, other, one, other]), np.hstack([one, other, other, one])
+    values = np.hstack([weight, weight, -weight, -weight])
+    laplacian = scipy.sparse.coo_array((values, (rows, columns)), shape=(every.size,) * 2).tocsr()[every]
+    right = -laplacian @ np.where(unknown, 0.0, height - plane).ravel()
     found = height.copy()
-    found[unknown] = np.asarray(spsolve(matrix, right)) + plane[unknown]
+    found[unknown] = scipy.sparse.linalg.spsolve(laplacian[:, every].tocsc(), right) + plane[unknown]
     return found
-
-
-def _weight(step: float, least: float) -> float:
-    """1 / dx^2 over that of the shorter distance."""
-    return (least / step) ** 2
 
 
 def _plane(height: FloatArray, known: NDArray[np.bool_]) -> FloatArray:

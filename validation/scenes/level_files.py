@@ -10,10 +10,10 @@ from validation.analysis.nominal_bands import nominal_wavelength
 from validation.scenes.column_names import RADIANS, WAVENUMBERS
 from validation.scenes.number_table import NumberTable
 from validation.scenes.printable import printable, quoted
-from validation.scenes.reader import LENGTH, NUMBER, Reader, errors_of, nonblank_text, one_of, table
+from validation.scenes.reader import DECIBELS, Reader, errors_of, one_of, table, values
 from validation.scenes.roughness_levels import RoughnessLevels
 from validation.scenes.table_files import FORM, read_table, sentence_about, table_beside
-from validation.scenes.units import UNITS, metres_of, quantity
+from validation.scenes.units import UNITS, metres_of
 
 CURVES = Path(__file__).parent / "levels"
 COLUMNS = "wavelength [mm],level [dB re 1 um]"
@@ -34,11 +34,9 @@ def curve(name: str) -> RoughnessLevels:
 def levels_in(name: str, given: object, *, folder: Path, told: list[str]) -> RoughnessLevels:
     """Of a bundled curve or of a file, so many decibels more, between two wavelengths. told: takes what was assumed."""
     readers: dict[str, Reader] = {
-        "curve": nonblank_text,
-        "file": nonblank_text,
-        "offset": _decibels,
-        "longest": LENGTH,
-        "shortest": LENGTH,
+        **values("curve", "file"),
+        "offset": DECIBELS,
+        **values("longest", "shortest"),
         "unit": unit_of_wavelengths,
         **FORM,
     }
@@ -132,11 +130,6 @@ def _wavelengths(values: NDArray[np.float64], unit: str) -> tuple[list[float], t
         found.append(band)
     words = "k = 2 pi / wavelength" if unit == RADIANS else "cycles: wavelength = 1 / k"
     return found, (f"its wavenumbers in {unit} are {words}, each of the nearest one-third octave",)
-
-
-def _decibels(name: str, given: object) -> float:
-    """A number, or a text with its unit."""
-    return quantity(name, given, "level") if isinstance(given, str) else NUMBER(name, given)
 
 
 def unit_of_wavelengths(name: str, given: object) -> str:

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 from validation.scenes.bundled import bundled, path_of
-from validation.scenes.damping import damping_of
 from validation.scenes.dynamic_wheel import wheel_of
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.material import material_of
@@ -17,18 +16,7 @@ from validation.scenes.measured_surface import heights_of, measured
 from validation.scenes.printable import printable
 from validation.scenes.rail import RailScene
 from validation.scenes.rail_file import is_rail, rail_of
-from validation.scenes.reader import (
-    FORCE,
-    LENGTH,
-    MASS,
-    SPEED,
-    Reader,
-    errors_of_file,
-    nonblank_text,
-    one_of,
-    table,
-    tables_of,
-)
+from validation.scenes.reader import Reader, errors_of_file, one_of, table, tables_of, values
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import roughness_of
 
@@ -158,8 +146,8 @@ def bundled_for_compare() -> tuple[str, ...]:
 def _pressed(body: str, tables: dict[str, Any], folder: Path) -> IndentationScene:
     size = "radius" if body == "sphere" else "side"
     readers: dict[str, Reader] = {
-        "name": nonblank_text,
-        body: partial(table, {size: LENGTH, "load": FORCE}, ()),
+        **values("name"),
+        body: partial(table, values(size, "load"), ()),
         "material": material_of,
         **_grounds(folder),
     }
@@ -176,10 +164,10 @@ def _pressed(body: str, tables: dict[str, Any], folder: Path) -> IndentationScen
 
 
 def _rolling(tables: dict[str, Any], moving: bool, folder: Path) -> RollingScene:
-    motion: dict[str, Reader] = {"mass": MASS, "speed": SPEED} if moving else {}
+    wheel = values("radius", "load", *(("mass", "speed") if moving else ()), "damping")
     readers: dict[str, Reader] = {
-        "name": nonblank_text,
-        "wheel": partial(table, {"radius": LENGTH, "load": FORCE, **motion, "damping": damping_of}, ("damping",)),
+        **values("name"),
+        "wheel": partial(table, wheel, ("damping",)),
         "material": material_of,
         "rail": partial(table, _grounds(folder), GROUNDS),
     }

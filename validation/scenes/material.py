@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 from mdr.checks import finite, positive
 from validation.scenes.printable import quoted
-from validation.scenes.reader import NUMBER, PRESSURE, Reader, nonblank_text, table
+from validation.scenes.reader import nonblank_text, table, values
 from validation.scenes.units import in_unit
 
 OTHERS = ("youngs_modulus", "poisson_ratio", "counterface")
@@ -126,7 +126,7 @@ class Material:
 
 def material_of(name: str, given: object) -> Material:
     """Of a table in a scene file."""
-    readers: dict[str, Reader] = {"contact_modulus": PRESSURE, **BODY, "counterface": _counterface}
+    readers = {**values("contact_modulus"), **BODY, "counterface": _counterface}
     return Material(**table(readers, tuple(readers), name, given))
 
 
@@ -147,7 +147,7 @@ def check_scene(scene: Any, keys: Sequence[str], optional: Sequence[str] = ()) -
         )
 
 
-BODY: dict[str, Reader] = {"youngs_modulus": PRESSURE, "poisson_ratio": NUMBER}
+BODY = values("youngs_modulus", "poisson_ratio")
 
 
 def _counterface(name: str, given: object) -> object:

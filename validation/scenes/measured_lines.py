@@ -15,7 +15,7 @@ from validation.scenes.measured import MeasuredHeights
 from validation.scenes.number_table import NumberTable
 from validation.scenes.positions import Places, metres_of_step, own_spacing, places_of, runs_one_way
 from validation.scenes.printable import shortened
-from validation.scenes.reader import LENGTH, Reader, errors_of, nonblank_text, table, yes_or_no
+from validation.scenes.reader import Reader, errors_of, table, values
 from validation.scenes.roughness_levels import LEAST, MICROMETRE, RoughnessLevels
 from validation.scenes.table_files import FORM, heights_of_columns, sentence_about, table_beside
 from validation.scenes.units import LENGTHS, in_unit, quantity, unit_of
@@ -115,16 +115,8 @@ MOSTLY = 0.9
 
 def lines_in(name: str, given: object, *, folder: Path, told: list[str]) -> MeasuredLines:
     """Of a table in a scene file: the file beside it, and how to read it. told: takes what was assumed of it."""
-    readers: dict[str, Reader] = {
-        "file": nonblank_text,
-        "spacing": LENGTH,
-        "unit": unit_of,
-        "positions": _positions,
-        "longest": LENGTH,
-        "shortest": LENGTH,
-        "fill": yes_or_no,
-        **FORM,
-    }
+    own: dict[str, Reader] = {"unit": unit_of, "positions": _positions}
+    readers = values("file", "spacing") | own | values("longest", "shortest", "fill") | FORM
     found = table(readers, tuple(readers)[1:], name, given)
     path, numbers = table_beside(name, found, folder)
     with errors_of(f"{name}."):

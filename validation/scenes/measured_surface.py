@@ -13,7 +13,7 @@ from validation.scenes.measured import FEWEST, MeasuredHeights, check_grid
 from validation.scenes.number_table import NumberTable
 from validation.scenes.positions import grid_of, metres_of_step, own_spacing, places_of
 from validation.scenes.printable import shortened
-from validation.scenes.reader import LENGTH, Reader, nonblank_text, table, yes_or_no
+from validation.scenes.reader import LENGTH, Reader, table, values
 from validation.scenes.table_files import FORM, heights_of_columns, sentence_about, table_beside
 from validation.scenes.units import in_unit, metres_of, unit_of
 
@@ -128,8 +128,13 @@ def heights_of(name: str, given: object, *, folder: Path) -> MeasuredHeights:
     """
     if isinstance(given, MeasuredHeights):
         return given
-    readers: dict[str, Reader] = {"file": nonblank_text, "spacing": _spacing, "unit": unit_of, **FORM}
-    readers |= {"crop": yes_or_no, "fill": yes_or_no}
+    readers: dict[str, Reader] = {
+        **values("file"),
+        "spacing": _spacing,
+        "unit": unit_of,
+        **FORM,
+        **values("crop", "fill"),
+    }
     found = table(readers, tuple(readers)[1:], name, given)
     path, numbers = table_beside(name, found, folder)
     wishes = {key: found.get(key, False) for key in ("crop", "fill")}

@@ -1,13 +1,11 @@
 """A table of numbers in a text of others: levels, lines, heights and profiles as they are exported."""
 
 import codecs
-import io
 import re
 from array import array
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from itertools import chain, islice
 from typing import IO
 
 import numpy as np
@@ -98,29 +96,23 @@ def table_of_text(file: IO[bytes], form: TableForm) -> NumberTable:
 
     Where columns are chosen, others may be texts.
     """
-    encoding = text_dialect.encoding_of(file, form.encoding)
+    lines, encoding = text_dialect.lines_of(file, form.encoding)
     if form.columns is not None:
         with suppress(ValueError):
-            return _as_written(file, encoding, form, None)
-    return _as_written(file, encoding, form, None if form.columns is None else len(form.columns))
+            return _as_written(lines, encoding, form, None)
+    return _as_written(lines, encoding, form, None if form.columns is None else len(form.columns))
 
 
-def _as_written(file: IO[bytes], encoding: str, form: TableForm, numeric: int | None) -> NumberTable:
+def _as_written(lines: Sequence[str], encoding: str, form: TableForm, numeric: int | None) -> NumberTable:
     """numeric: as of a `Dialect`."""
-    file.seek(0)
-    text, skip = io.TextIOWrapper(file, encoding=encoding), form.skip or 0
-    try:
-        lines = text_dialect.lines_of(text)
-        sample = text_dialect.sample_of(lines, skip)
-        nodata = frozenset(str(one).strip().lower() for one in form.nodata)
-        dialect, first, width = text_dialect.recognised(sample, skip, form.decimal, nodata, numeric)
-        values, below = _values(chain(islice(sample, first, None), lines), first, dialect, width)
-    finally:
-        text.detach()
-    above = sample[skip:first]
+    skip, nodata = form.skip or 0, frozenset(str(one).strip().lower() for one in form.nodata)
+    sample = text_dialect.sample_of(lines, skip)
+    dialect, first, width = text_dialect.recognised(sample, skip, form.decimal, nodata, numeric)
+    values, below = _values(lines[first:], first, dialect, width)
+    above = lines[skip:first]
     units, columns = unit_of_all(above), columns_of(above, width, dialect.delimiter)
     unit = units.pop() if len(units) == 1 and not any(column.unit for column in columns) else ""
-    notes = _how(dialect, width, sample[:first], encoding)
+    notes = _how(dialect, width, lines[:first], encoding)
     notes += (f"{below} {'line' if below == 1 else 'lines'} below its numbers",) if below else ()
     notes += (f"its header has the unit {unit}",) if unit else ()
     if width > 1 and np.isnan(values[:, -1]).all() and not columns[-1].name:

@@ -4,7 +4,6 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from validation.scenes.damping import damping_of
 from validation.scenes.level_files import levels_in
 from validation.scenes.material import material_of
 from validation.scenes.measured import MeasuredHeights
@@ -12,19 +11,7 @@ from validation.scenes.measured_lines import MeasuredLines, lines_in
 from validation.scenes.measured_surface import heights_of
 from validation.scenes.printable import shortened
 from validation.scenes.rail import ProfiledRail, RailScene
-from validation.scenes.reader import (
-    FORCE,
-    LENGTH,
-    MASS,
-    POSITIVE,
-    SPEED,
-    WHOLE,
-    Reader,
-    errors_of,
-    nonblank_text,
-    one_of,
-    table,
-)
+from validation.scenes.reader import POSITIVE, Reader, errors_of, one_of, table, values
 from validation.scenes.transverse_profile import TransverseProfile, both_together, profile_in
 from validation.scenes.units import in_unit, quantity
 
@@ -48,21 +35,11 @@ def is_rail(tables: dict[str, Any]) -> bool:
 def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
     """The scene in the tables of a file, other files beside it. Raises ValueError that names the key."""
     told: list[str] = []
-    ground: dict[str, Reader] = {
-        "levels": partial(levels_in, folder=folder, told=told),
-        "lines": partial(lines_in, folder=folder, told=told),
-        "heights": partial(heights_of, folder=folder),
-    }
-    shape: dict[str, Reader] = {"profile": partial(profile_in, folder=folder, told=told)}
-    on_wheel = shape | {key: ground[key] for key in ("levels", "lines")}
-    on_rail = shape | ground
-    readers: dict[str, Reader] = {
-        "name": nonblank_text,
-        "material": material_of,
-        "wheel": partial(table, WHEEL | on_wheel, (*WHEEL, *on_wheel)),
-        "rail": partial(table, RAIL | on_rail, (*RAIL, *on_rail)),
-    }
-    found = table(readers, (), "", tables)
+    of_files = {"profile": profile_in, "levels": levels_in, "lines": lines_in}
+    files: dict[str, Reader] = {key: partial(read, folder=folder, told=told) for key, read in of_files.items()}
+    bodies = {"wheel": WHEEL | files, "rail": RAIL | files | {"heights": partial(heights_of, folder=folder)}}
+    readers = {key: partial(table, every, tuple(every)) for key, every in bodies.items()}
+    found = table({**values("name"), "material": material_of, **readers}, (), "", tables)
     wheel, rail, material = found["wheel"], found["rail"], found["material"]
     roughness, of_roughness = _both(one_of(rail, "rail", GROUNDS), one_of(wheel, "wheel", GROUNDS, least=0))
     load, of_load = _load(wheel)
@@ -158,17 +135,7 @@ def _across(name: str, given: object) -> Any:
     return POSITIVE(name, given)
 
 
-WHEEL: dict[str, Reader] = {
-    "radius": LENGTH,
-    "diameter": LENGTH,
-    "transverse_radius": LENGTH,
-    "load": FORCE,
-    "axle_load": FORCE,
-    "wheels_per_axle": WHOLE,
-    "speed": SPEED,
-    "mass": MASS,
-    "damping": damping_of,
-    "offset": partial(quantity, dimension="length"),
-}
-RAIL: dict[str, Reader] = {"crown_radius": LENGTH, "across": _across, "alpha": POSITIVE}
+LOADED = values("radius", "diameter", "transverse_radius", "load", "axle_load", "wheels_per_axle")
+WHEEL = LOADED | values("speed", "mass", "damping") | {"offset": partial(quantity, dimension="length")}
+RAIL = {**values("crown_radius"), "across": _across, **values("alpha")}
 """How each value of a scene file is read."""

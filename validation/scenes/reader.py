@@ -1,6 +1,7 @@
 """Scene files: TOML tables, each value by its own reader, anything else is an error that names it."""
 
 import difflib
+import stat
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager
@@ -10,14 +11,51 @@ from typing import Any
 
 from mdr.checks import count, finite, positive
 from validation.scenes.bundled import line_for
-from validation.scenes.input_files import SceneError, contents_of
 from validation.scenes.printable import is_printable, printable, shortened
-from validation.scenes.units import quantity
+from validation.scenes.units import Dimension, quantity
 
 Reader = Callable[[str, object], Any]
 
 MOST_BYTES, LONGEST_LINE = 100_000, 1000
 """Of a scene file. Keys of thousands of parts, all on one line, would take minutes to parse."""
+KINDS = {stat.S_IFDIR: "a folder", stat.S_IFIFO: "a pipe", stat.S_IFSOCK: "a socket"}
+KINDS |= dict.fromkeys((stat.S_IFCHR, stat.S_IFBLK), "a device")
+"""Of what is no regular file."""
+
+
+class SceneError(ValueError):
+    """What is wrong with a scene file, and where it can be shown, the lines that would be right."""
+
+
+def check_regular(name: str, path: Path, *, most: int) -> int:
+    """The size of a regular file [bytes].
+
+    Raises OSError for one that is not there, ValueError for a folder, a pipe or a device, and beyond so many bytes.
+    """
+    try:
+        status = path.stat()
+    except OSError as problem:
+        raise type(problem)(f"{name} {printable(path)} cannot be read: {problem.strerror}") from None
+    if not stat.S_ISREG(status.st_mode):
+        kind = KINDS.get(stat.S_IFMT(status.st_mode), "something else")
+        raise ValueError(f"{name} {printable(path)} must be a regular file, got {kind}")
+    if status.st_size > most:
+        raise ValueError(f"{name} {printable(path)} must have at most {most} bytes, got {status.st_size}")
+    return status.st_size
+
+
+def contents_of(name: str, path: Path, *, most: int) -> bytes:
+    """All that a regular file holds. Raises OSError and ValueError as `check_regular`."""
+    check_regular(name, path, most=most)
+    try:
+        with path.open("rb") as file:
+            # some files of the system have no size before they are read
+            contents = file.read(most + 1)
+    except OSError as problem:
+        raise type(problem)(f"{name} {printable(path)} cannot be read: {problem.strerror}") from None
+    if len(contents) > most:
+        raise ValueError(f"{name} {printable(path)} must have at most {most} bytes, got more")
+    return contents
 
 
 def tables_of(path: Path) -> dict[str, Any]:
@@ -111,8 +149,28 @@ def yes_or_no(name: str, given: object) -> bool:
     return given
 
 
+def _number_or(dimension: Dimension, name: str, given: object) -> float:
+    """A number, or a text with its unit."""
+    return quantity(name, given, dimension) if isinstance(given, str) else float(NUMBER(name, given))
+
+
 LENGTH, MASS, FORCE, PRESSURE, SPEED = (
     partial(quantity, dimension=dimension, positive=True)
     for dimension in ("length", "mass", "force", "pressure", "speed")
 )
 NUMBER, POSITIVE, WHOLE = (partial(without_unit, read) for read in (finite, positive, partial(count, least=1)))
+DECIBELS: Reader = partial(_number_or, "level")
+_LENGTHS = "radius diameter transverse_radius crown_radius side distance longest shortest spacing"
+VALUES: dict[str, Reader] = {
+    **dict.fromkeys(_LENGTHS.split(), LENGTH),
+    **{"load": FORCE, "axle_load": FORCE, "mass": MASS, "speed": SPEED, "youngs_modulus": PRESSURE},
+    **{"contact_modulus": PRESSURE, "poisson_ratio": NUMBER, "alpha": POSITIVE, "springs": WHOLE},
+    **{"wheels_per_axle": WHOLE, "damping": partial(_number_or, "share of critical")},
+    **{"name": nonblank_text, "file": nonblank_text, "curve": nonblank_text, "fill": yes_or_no, "crop": yes_or_no},
+}
+"""How the value of a key is read that is the same in all tables which have it."""
+
+
+def values(*keys: str) -> dict[str, Reader]:
+    """How each of these keys is read."""
+    return {key: VALUES[key] for key in keys}

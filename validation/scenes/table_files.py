@@ -21,10 +21,9 @@ from numpy.typing import NDArray
 from mdr.checks import count, finite
 from validation.analysis.statistics import FloatArray
 from validation.scenes.height_edits import real_numbers
-from validation.scenes.input_files import check_regular
 from validation.scenes.number_table import MOST_VALUES, NumberTable, TableForm, known_alone, table_of_text
 from validation.scenes.printable import printable, quoted, shortened
-from validation.scenes.reader import Reader, nonblank_text, without_unit
+from validation.scenes.reader import Reader, check_regular, nonblank_text, without_unit
 from validation.scenes.text_dialect import NoTextError
 from validation.scenes.units import LENGTHS, in_unit, metres_of
 
@@ -204,18 +203,18 @@ def _silent() -> Iterator[None]:
         yield
 
 
+@_silent()
 def _topography(path: Path) -> NumberTable:
     """Heights of the file of an instrument, with its spacing and unit as far as it has them.
 
     Raises ValueError where SurfaceTopography is missing or cannot read the file; the sentence shows nothing of it.
     """
     try:
-        with _silent():
-            from SurfaceTopography.IO import open_topography
+        from SurfaceTopography.IO import open_topography
     except ImportError:
         raise ValueError(MISSING) from None
     try:
-        with _silent(), open_topography(str(path)) as reader:
+        with open_topography(str(path)) as reader:
             channel = reader.default_channel
             sizes = {} if channel.physical_sizes is not None else {"physical_sizes": channel.nb_grid_pts}
             found = reader.topography(**sizes)

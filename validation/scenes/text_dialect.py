@@ -4,11 +4,10 @@ import codecs
 import csv
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import partial
-from itertools import islice, takewhile
+from itertools import accumulate, takewhile
 from typing import IO
 
 from validation.scenes.column_names import column_of
@@ -20,8 +19,6 @@ MOST_HEADER, SAMPLE, RUN = 2000, 2**20, 3
 """Lines in which the first row of numbers is looked for, and characters; rows on end that make a table."""
 MANY = 10
 """Rows to a line of a header that looks like one, at the least."""
-CHUNK = 2**20
-"""Bytes that are decoded at once, to see whether they can be."""
 CONTROL = re.compile(rb"[\x00-\x08\x0e-\x19\x1b-\x1f]")
 """Bytes that no text has."""
 MARKS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16"))
@@ -109,30 +106,22 @@ class Dialect:
         return text.startswith(COMMENTS) and not (text.startswith(";") and self.delimiter == ";" and self.row(text))
 
 
-def encoding_of(file: IO[bytes], given: str | None) -> str:
-    """The encoding of a text: the given one, that of its mark, UTF-8, or Windows-1252, which has Latin-1.
+def lines_of(file: IO[bytes], given: str | None) -> tuple[list[str], str]:
+    """Of a text, and its encoding: the given one, that of its mark, UTF-8, or Windows-1252, which has Latin-1.
 
-    Raises ValueError for what is no text, or not in that encoding; the sentence shows nothing of the file.
+    Raises ValueError for what is no text, not in that encoding, or too long; the sentence shows nothing of the file.
     """
-    file.seek(0)
-    start = file.read(4)
-    known = given or next((name for mark, name in MARKS if start.startswith(mark)), None)
+    contents = file.read()
+    known = given or next((name for mark, name in MARKS if contents.startswith(mark)), "")
     if known and codecs.lookup(known).name == "utf-8":
         known = "utf-8-sig"
-    if known is None and start[1::2] == b"\x00\x00" and 0 not in start[::2]:
+    if not known and contents[1:4:2] == b"\x00\x00" and 0 not in contents[:4:2]:
         known = "utf-16-le"
+    if not re.search("16|32", known) and CONTROL.search(contents):
+        raise NoTextError("the file must be a text of numbers, got one with bytes that no text has")
     for encoding in (known,) if known else ("utf-8", "cp1252", "latin-1"):
-        decoder = codecs.getincrementaldecoder(encoding)()
-        file.seek(0)
-        try:
-            for chunk in iter(partial(file.read, CHUNK), b""):
-                if "16" not in encoding and "32" not in encoding and CONTROL.search(chunk):
-                    raise NoTextError("the file must be a text of numbers, got one with bytes that no text has")
-                decoder.decode(chunk)
-            decoder.decode(b"", final=True)
-        except UnicodeError:
-            continue
-        return encoding
+        with suppress(UnicodeError):
+            return _split(contents.decode(encoding)), encoding
     raise NoTextError(f'the file must be a text in {known}, got other bytes; encoding = "latin-1" is another')
 
 
@@ -140,27 +129,22 @@ class NoTextError(ValueError):
     """A file that holds no text."""
 
 
-def lines_of(file: IO[str]) -> Iterator[str]:
-    """Of bounded number and length."""
-    for number, line in enumerate(iter(partial(file.readline, LONGEST_LINE + 1), "")):
-        if number >= MOST_LINES or len(line) > LONGEST_LINE:
-            raise ValueError(
-                f"the file must have at most {MOST_LINES} lines of at most {LONGEST_LINE} characters, got more"
-            )
-        # an inline comment, the end of a file of DOS, and the two words of an interferometer
-        line = NO_DATA.sub("nan", line) if "ata" in line else line
-        yield line.partition(" #")[0].rstrip("\r\n\x1a")
+def _split(text: str) -> list[str]:
+    """Lines of bounded number and length, without comments behind numbers."""
+    text = text.replace("\r\n", "\n").replace("\r", "\n").removesuffix("\n")
+    lines = text.split("\n", MOST_LINES)
+    if len(lines) > MOST_LINES or max(map(len, lines)) >= LONGEST_LINE:
+        raise ValueError(
+            f"the file must have at most {MOST_LINES} lines of at most {LONGEST_LINE} characters, got more"
+        )
+    # the two words of an interferometer, and the end of a file of DOS
+    return [(NO_DATA.sub("nan", line) if "ata" in line else line).partition(" #")[0].rstrip("\x1a") for line in lines]
 
 
-def sample_of(lines: Iterator[str], skip: int) -> list[str]:
+def sample_of(lines: Sequence[str], skip: int) -> Sequence[str]:
     """The first lines, and some below those to skip."""
-    found, characters = list(islice(lines, skip)), 0
-    for line in islice(lines, MOST_HEADER):
-        found.append(line)
-        characters += len(line)
-        if characters > SAMPLE and len(found) > skip + RUN:
-            break
-    return found
+    few = sum(characters <= SAMPLE for characters in accumulate(map(len, lines[skip : skip + MOST_HEADER])))
+    return lines[: skip + min(max(few, RUN) + 1, MOST_HEADER)]
 
 
 def recognised(

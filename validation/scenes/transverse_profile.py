@@ -14,7 +14,7 @@ from mdr.checks import finite
 from validation.analysis.statistics import FloatArray
 from validation.scenes.number_table import NumberTable
 from validation.scenes.printable import printable
-from validation.scenes.reader import Reader, errors_of, nonblank_text, table, yes_or_no
+from validation.scenes.reader import Reader, errors_of, table, values, yes_or_no
 from validation.scenes.table_files import FORM, heights_of_columns, sentence_about, table_beside
 from validation.scenes.units import LENGTHS, in_unit, unit_of
 from validation.theory.elliptic_contact import elliptic_contact
@@ -222,7 +222,7 @@ def profile_in(name: str, given: object, *, folder: Path, told: list[str]) -> Tr
 
     told: takes what was assumed. Raises OSError for a file that cannot be read, ValueError for one that holds none.
     """
-    readers: dict[str, Reader] = {"file": nonblank_text, "unit": unit_of, "flip": yes_or_no, **FORM}
+    readers: dict[str, Reader] = {**values("file"), "unit": unit_of, "flip": yes_or_no, **FORM}
     found = table(readers, tuple(readers)[1:], name, {"file": given} if isinstance(given, str) else given)
     key = name if isinstance(given, str) else f"{name}.file"
     path, numbers = table_beside(name, found, folder, key=key)

@@ -8,7 +8,7 @@ from typing import Literal
 
 from validation.scenes.printable import quoted, shortened
 
-Dimension = Literal["length", "mass", "force", "pressure", "speed", "level"]
+Dimension = Literal["length", "mass", "force", "pressure", "speed", "level", "share of critical"]
 
 TABLE: dict[Dimension, tuple[str, str, str]] = {
     "length": ("0.5 m", "nm µm mm m", "m=1 cm=1e-2 mm=1e-3 um=1e-6 µm=1e-6 nm=1e-9 km=1e3"),
@@ -17,6 +17,7 @@ TABLE: dict[Dimension, tuple[str, str, str]] = {
     "pressure": ("210 GPa", "Pa kPa MPa GPa", "Pa=1 kPa=1e3 MPa=1e6 GPa=1e9"),
     "speed": ("20 m/s", "mm/s m/s", "m/s=1 mm/s=1e-3 km/h=10/36"),
     "level": ("10 dB", "dB", "dB=1"),
+    "share of critical": ("2 %", "%", "%=1e-2"),
 }
 """An example, the units in which a quantity is printed, the smallest first, and each unit over the SI unit."""
 
