@@ -35,7 +35,6 @@ from validation.cases.wheel.features import QUANTITIES
 from validation.engine import stored
 from validation.report.chapter import ENTRIES
 from validation.report.contents import CASES
-from validation.report.figures import drawing
 from validation.report.kept import kept_sections
 from validation.report.section import numbers_table, results_of
 
@@ -361,17 +360,11 @@ def test_an_executor_that_is_none_is_exit_2(executor, tmp_path, capsys):
     assert not out.exists()
 
 
-@pytest.mark.parametrize("figure", ["moon", "moon-part", "hertz-part"])
-def test_a_figure_that_nothing_draws_is_named(figure):
-    with pytest.raises(ValueError, match=rf"figure '{figure}' .* report/figures/{figure.partition('-')[0]}\.py"):
-        drawing(figure)
-
-
-def test_a_case_without_its_figure_file_ends_before_the_first_solve(tmp_path, monkeypatch, capsys):
+def test_a_case_whose_figure_nothing_draws_ends_before_the_first_solve(tmp_path, monkeypatch, capsys):
     def solved(case, engine):
         raise AssertionError("a solve")
 
     monkeypatch.setitem(CASES, "moon", replace(CASES["hertz"], name="moon", run=solved))
     assert report("--only", "moon", "--out", str(tmp_path / "out")) == command.Exit.BAD_INPUT
-    assert "report/figures/moon.py" in capsys.readouterr().err
+    assert "figure 'moon' must be a chart of its case, or in OWN" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()

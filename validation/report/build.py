@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import Future
+from concurrent.futures import Future, wait
 from dataclasses import asdict, replace
 from functools import partial
 from pathlib import Path
@@ -19,13 +19,12 @@ from validation.engine.progress import Part, Progress
 from validation.engine.workers import Workers
 from validation.report.answers.first_screen import answered_questions, plain
 from validation.report.chapter import chapter_results
-from validation.report.contents import CASES, TIMED
-from validation.report.durations import expected_seconds
+from validation.report.contents import CASES, TIMED, expected_seconds
 from validation.report.figures import drawing
 from validation.report.folder import REALISATIONS, RESULTS, Folder
 from validation.report.kept import DATA, PROVENANCE, kept_provenance, kept_sections
 from validation.report.page import pages, scene_summary
-from validation.report.pictures import FIGURES, Pictures
+from validation.report.pictures import FIGURES, begin_to_draw
 from validation.report.provenance import documentation_beside, provenance, with_kept
 from validation.report.section import Section, numbers_table, results_of, written_tables
 from validation.report.sounds import sound_files
@@ -68,9 +67,14 @@ def build(
         # those of a scheduler solve one case after the other
         Workers(workers if executor == LOCAL else 1) as processes,
     ):
-        pictures = Pictures(processes, shown.parts[FIGURES], profile)
+        pictures: dict[str, Future[bytes]] = {}
+
+        def draw(section: Section) -> None:
+            if section.evidence:
+                pictures.update(begin_to_draw(section.evidence, processes, shown.parts[FIGURES], profile))
+
         for section in kept:
-            pictures.draw(section)
+            draw(section)
         cases = CASES | TIMED
         settings = {name: cases[name].settings(profile, seed, scene) for name in names}
 
@@ -80,7 +84,7 @@ def build(
         sections = []
         for name, result in _results(names, run, processes, pictures):
             sections.append(_section(name, settings[name], result, shown.parts[name]))
-            pictures.draw(sections[-1])
+            draw(sections[-1])
             with shown.aside():
                 callback(sections[-1])
         seeds = {section.name: section.settings["seed"] for section in sections if "seed" in section.settings}
@@ -89,18 +93,19 @@ def build(
         if kept:
             about = with_kept(about, before, kept)
             sections = sorted([*sections, *kept], key=lambda section: list(cases).index(section.name))
-        folder.replace(_files(sections, pictures.found(), profile, about, scene, documentation_beside(out)))
+        drawn = {name: picture.result() for name, picture in pictures.items()}
+        folder.replace(_files(sections, drawn, profile, about, scene, documentation_beside(out)))
     return sections
 
 
 def _results(
-    names: Sequence[str], run: Callable[[str], Any], workers: Workers, pictures: Pictures
+    names: Sequence[str], run: Callable[[str], Any], workers: Workers, pictures: Mapping[str, Future[bytes]]
 ) -> Iterator[tuple[str, Future[Any]]]:
     """Of each case in their order, while the next are at work; what is timed is run last, when nothing else is."""
     lasting = [name for name in names if name not in TIMED]
     timed = [name for name in names if name in TIMED]
     yield from zip(lasting, workers.ahead([partial(run, name) for name in lasting]), strict=True)
-    pictures.found()
+    wait(pictures.values())
     yield from zip(timed, Workers(1).ahead([partial(run, name) for name in timed]), strict=True)
 
 

@@ -1,4 +1,4 @@
-"""Run cases and write their report; by `precision` and `race` what is timed alone."""
+"""Run cases and write their report; by `precision` and `race` what is timed alone; by `cases` list them."""
 
 import argparse
 from collections.abc import Sequence
@@ -19,6 +19,9 @@ from validation.scenes.printable import printable
 
 def describe(making: argparse.ArgumentParser) -> None:
     name = making.prog.split()[-1]
+    if name == "cases":
+        making.set_defaults(command=cases)
+        return
     making.set_defaults(
         command=report, only=None, keep=False, workers=1, executor=LOCAL, scene=None, timed=name in TIMED
     )
@@ -53,6 +56,12 @@ def describe(making: argparse.ArgumentParser) -> None:
         ("--executor", "WHERE", str, '"local" (default), or dask://HOST:PORT, whose workers replace local processes'),
         ("--scene", "FILE", str, scene),
     )
+
+
+def cases(arguments: argparse.Namespace) -> Exit:
+    """List those that are not timed, in the order of the page."""
+    print("\n".join(f"{name:20s} {case.answers}" for name, case in CASES.items()))
+    return Exit.MET
 
 
 def report(arguments: argparse.Namespace) -> Exit:
