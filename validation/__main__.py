@@ -14,7 +14,7 @@ from validation.engine.files import ERRORS_OF_A_PATH
 from validation.engine.termination import RESUME_NOTE, TerminatedError, WorkerLostError, terminable
 from validation.engine.warning_lines import one_line_warnings
 from validation.engine.workers import ONE_THREAD
-from validation.report.commands.exit_status import Exit
+from validation.report.commands.arguments import Exit
 from validation.scenes.input_files import SceneError
 from validation.scenes.printable import printable
 

@@ -56,24 +56,6 @@ def words_of(row):
     return [word for _, word in row.strip]
 
 
-# --- the side of the tolerance ---
-
-
-@pytest.mark.parametrize(
-    ("value", "half", "cell", "begins"),
-    [
-        (-TEN, 0.0, "yes", "Enough from"),
-        (0.5 * TEN, 0.51 * TEN, "open", "Open from"),
-        (-1.5 * TEN, 0.49 * TEN, "no", "Not enough from"),
-    ],
-)
-def test_cell_and_words_are_those_of_the_verdict(value, half, cell, begins):
-    row = mean_stiffness(at((0.1, 1.0), value, half))
-    assert words_of(row) == ["not measured", cell, "not measured"]
-    assert row.answer.startswith(f"{begins} Fbar = 0.1 to 1 (")
-    assert row.word == {"yes": "Yes", "open": "Open", "no": "No"}[cell]
-
-
 def test_one_counterexample_among_all_exponents_is_a_no():
     """At each place the worst of its numbers decides, and the sentence has the numbers that differ, no others."""
     values = ((0.4, 0.1), (0.7, 2.0), (1.0, 0.2), ("mean over H", 0.0))

@@ -265,15 +265,6 @@ def in_the_book(name, evidence):
 
 
 @pytest.mark.slow
-def test_a_failed_criterion_is_exit_1(small, tmp_path, monkeypatch, capsys):
-    symbol = bem3d.kernel.free_space_symbol
-    monkeypatch.setattr(bem3d.kernel, "free_space_symbol", lambda *args: 1.1 * symbol(*args))
-    assert report("--only", "hertz", "--out", str(tmp_path), "--workers", "1") == command.Exit.CRITERION_FAILED
-    assert "missed: sphere, boundary elements: force" in capsys.readouterr().out
-    assert "differ" in text_of(tmp_path)
-
-
-@pytest.mark.slow
 def test_not_converged_is_exit_3(small, tmp_path, monkeypatch, capsys):
     """One case fails, the others are still reported."""
     use(monkeypatch, "hertz", hertz.Hertz(cells_per_radius=(4, 6), load_steps=1, tolerance=1e-30))

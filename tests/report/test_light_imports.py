@@ -47,9 +47,10 @@ def test_a_closed_form_or_springs_need_no_boundary_elements(scene):
 
 def test_a_command_sums_with_one_thread_as_workers_do():
     """Threads of BLAS change last bits: they are set before numpy is loaded."""
-    code = "import os, sys; from validation.__main__ import main; main(['scene', 'sphere']); print(os.environ['OMP_NUM_THREADS'])"
+    code = f"{COMMAND}\nimport os\nprint(os.environ['OMP_NUM_THREADS'])"
     before = {name: value for name, value in os.environ.items() if not name.endswith("_NUM_THREADS")}
-    run = subprocess.run([sys.executable, "-c", code], env=before, capture_output=True, text=True, check=True)
+    words = [sys.executable, "-c", code, "scene", "sphere"]
+    run = subprocess.run(words, env=before, capture_output=True, text=True, check=True)
     assert run.stdout.splitlines()[-1] == "1"
     code = "import sys, validation.__main__; print('numpy' in sys.modules)"
     run = subprocess.run([sys.executable, "-c", code], env=before, capture_output=True, text=True, check=True)

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from tests.report.accessibility import Tree, faults
+from tests.report.accessibility import faults
 from tests.report.test_command_line import SMALL
 from tests.report.test_printed import ABOUT, evidence_with, number
 from validation import __main__ as command
@@ -56,7 +56,7 @@ def test_the_pages_lead_to_each_other():
         ('id="figure-geike"', 'id="geike"', "id geike twice"),
         ('href="index.html#asked"', 'href="#nowhere"', "link to #nowhere"),
         ('href="exact.html#geike"', 'href="exact.html#nowhere"', "link to exact.html#nowhere"),
-        ('<th scope="col">H', "<th>H", "header 'H' has no scope"),
+        ('<th scope="col">H', "<th>H", "header without a scope"),
     ],
 )
 def test_a_page_that_leads_nowhere_is_found(right, wrong, said):
@@ -75,9 +75,8 @@ def test_the_first_figure_is_open_and_titled_by_its_finding():
     captions = {"geike": "A curve.", "hertz": "A sphere."}
     shown = section_of("geike", headlines={"geike": "Springs are 30 dB too quiet"})
     shown = replace(shown, evidence=replace(shown.evidence, captions=captions))
-    figures = [e for e in Tree(html_of(shown)).root.walk() if e.attributes.get("class") == "figure"]
-    assert ["open" in figure.attributes for figure in figures] == [True, False]
-    assert ["".join(f.children[0].words).strip() for f in figures] == ["Springs are 30 dB too quiet", "A sphere"]
+    figures = re.findall(r'<details class="figure"( open)?><summary><b>.*?</b> (.*?)</summary>', html_of(shown))
+    assert figures == [(" open", "Springs are 30 dB too quiet"), ("", "A sphere")]
 
 
 def test_a_table_of_verdicts_is_a_lettered_map_with_the_table_behind_it():

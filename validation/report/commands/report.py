@@ -7,8 +7,7 @@ from pathlib import Path
 from validation.analysis.evidence import Table
 from validation.engine.engine import LOCAL
 from validation.report.build import build
-from validation.report.commands.arguments import add_options, add_profile, add_workers, at_least
-from validation.report.commands.exit_status import Exit
+from validation.report.commands.arguments import Exit, add_options, add_profile, add_workers, at_least
 from validation.report.contents import CASES, TIMED, timed_here
 from validation.report.formats import in_four_digits
 from validation.report.section import Section, total_of
