@@ -62,6 +62,9 @@ def test_one_counterexample_among_all_exponents_is_a_no():
     row = mean_stiffness(*(at((0.1, 1.0), value, hurst=hurst) for hurst, value in values))
     assert words_of(row)[1:-1] == ["no"]
     assert "1 of 3 numbers differ: +26 %" in row.answer
+    # what differs is nowhere near zero: a single range would say that it were
+    row = mean_stiffness(*(at((0.1, 1.0), value, hurst=value) for value in (-3.0, -2.0, 2.0, 3.0)))
+    assert "4 of 4 numbers differ: -29 to -21 % and +26 to +41 %" in row.answer
 
 
 def test_a_place_without_all_of_its_numbers_is_no_yes():
@@ -162,13 +165,9 @@ def rolling(quantity, model, value, half=0.1):
 
 
 @pytest.mark.parametrize(("name", "quantity"), [("rolling-rms", RMS_FORCE), ("rolling-spectrum", RMS_LEVEL)])
-@pytest.mark.parametrize(("value", "word"), [(0.5, "yes"), (-30.0, "no"), (3.0, "open")])
-def test_a_rolling_wheel_is_judged_over_its_slope(name, quantity, value, word):
-    row = row_of(name, rolling(quantity, SPRINGS, value))
-    assert list(row.strip)[1] == ("0.27", word)
-    assert row.answer.startswith(
-        {"yes": "Enough at", "no": "Not enough at", "open": "Open at"}[word] + " h' a/d = 0.27"
-    )
+def test_a_rolling_wheel_is_judged_over_its_slope(name, quantity):
+    row = row_of(name, rolling(quantity, SPRINGS, -30.0))
+    assert list(row.strip)[1] == ("0.27", "no") and row.answer.startswith("Not enough at h' a/d = 0.27")
     assert row.measured.endswith("H = 0.7")
 
 
@@ -184,15 +183,6 @@ def test_ranges_that_overlap_are_one_cell():
         for decade in ((0.1, 1.0), (1.0, last))
     ]
     assert [place for place, _ in mean_stiffness(*numbers).strip] == ["< 0.1", "0.1 to 1", "1 to 10", "> 10"]
-
-
-def test_differences_below_and_above_are_told_apart():
-    """What differs is nowhere near zero: a single range would say that it were."""
-    row = mean_stiffness(*(at((0.1, 1.0), value, hurst=value) for value in (-3.0, -2.0, 2.0, 3.0)))
-    assert "4 of 4 numbers differ: -29 to -21 % and +26 to +41 %" in row.answer
-    assert "it differs: -29 %" in mean_stiffness(at((0.1, 1.0), -3.0)).answer
-    both = mean_stiffness(at((0.1, 1.0), -3.0, hurst=0.4), at((0.1, 1.0), 0.0))
-    assert "1 of 2 numbers differ: -29 %" in both.answer
 
 
 def test_a_rail_is_judged_by_what_lies_across_from_ridges_to_isotropic_ground():

@@ -14,7 +14,6 @@ from validation.analysis.evidence import JudgedClaim, Role, Table, Verdict, Verd
 from validation.report import page
 from validation.report.contents import CASES
 from validation.report.formats import format_field, map_of
-from validation.report.page_figure import figures_of
 from validation.report.redraw import redraw
 from validation.report.section import Section
 from validation.report.style import picture
@@ -97,7 +96,7 @@ def test_a_table_with_few_verdicts_stays_as_it_is(columns):
 def test_a_figure_is_numbered_on_the_page_and_cited_by_name_version_and_commit():
     text = html_of(section_of("hertz"), section_of("geike"))
     assert text.index('id="figure-hertz"') < text.index('id="figure-geike"')
-    figure = figures_of([section_of("hertz"), section_of("geike")])["geike"]
+    figure = page.figures_of([section_of("hertz"), section_of("geike")])["geike"]
     cited = figure.citation(ABOUT, "full")
     assert cited in text and cited.startswith("Figure 2, “A curve”, in: ")
     assert cited.endswith("(mdr-validation 1.2.3, commit abc1234, profile full), exact.html#figure-geike")
@@ -107,7 +106,7 @@ def test_a_figure_is_numbered_on_the_page_and_cited_by_name_version_and_commit()
 
 def test_no_finding_is_stated_of_a_scene_without_a_steady_answer():
     shown = section_of("geike", headlines={"geike": "Springs agree"})
-    assert figures_of([shown], unsteady=True)["geike"].finding == "A curve"
+    assert page.figures_of([shown], unsteady=True)["geike"].finding == "A curve"
 
 
 def test_a_table_comes_back_from_its_file():

@@ -22,7 +22,6 @@ from validation.analysis.evidence import (
 )
 from validation.report import drawing, formats, page
 from validation.report.contents import CASES
-from validation.report.provenance import BUILT, documentation_beside
 from validation.report.section import Section, case_results, numbers_table
 
 # --- the page, files ---
@@ -50,7 +49,7 @@ def evidence_with(numbers, page_tables=(), claims=()):
 
 
 ABOUT = {
-    **dict.fromkeys(("python", "system", "processor", "cores", "workers", "documentation"), ""),
+    **dict.fromkeys(("python", "system", "processor", "cores", "workers"), ""),
     **{part: {} for part in ("libraries", "seeds", "kept", "seconds", "timed")},
     **{"version": "1.2.3", "commit": "abc1234"},
 }
@@ -60,17 +59,6 @@ def html_of(*sections, **about):
     """The front page, and those of the chapters."""
     pages = page.pages(sections, "full", {**ABOUT, **about}, None)
     return pages.pop("index.html").decode() + "".join(chapter.decode() for chapter in pages.values())
-
-
-def test_the_page_links_to_the_documentation_that_is_built(tmp_path):
-    section = Section("geike", CASES["geike"], "none", {}, evidence_with([number(1.0)]))
-    assert documentation_beside(tmp_path / "quick") == ""
-    (tmp_path / "quick").mkdir()
-    (tmp_path / BUILT).parent.mkdir(parents=True)
-    (tmp_path / BUILT).touch()
-    address = documentation_beside(tmp_path / "quick")
-    assert (tmp_path / "quick" / address).samefile(tmp_path / BUILT)
-    assert f'<a href="{address}">Documentation</a>' in html_of(section, documentation=address)
 
 
 def test_rows_of_the_file_and_of_the_results_are_the_numbers():

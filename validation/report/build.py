@@ -25,7 +25,7 @@ from validation.report.folder import REALISATIONS, RESULTS, Folder
 from validation.report.kept import DATA, PROVENANCE, kept_provenance, kept_sections
 from validation.report.page import pages, scene_summary
 from validation.report.pictures import FIGURES, begin_to_draw
-from validation.report.provenance import documentation_beside, provenance, with_kept
+from validation.report.provenance import provenance, with_kept
 from validation.report.section import Section, numbers_table, results_of, written_tables
 from validation.report.sounds import sound_files
 from validation.scenes.dynamic_wheel import WheelScene
@@ -94,7 +94,7 @@ def build(
             about = with_kept(about, before, kept)
             sections = sorted([*sections, *kept], key=lambda section: list(cases).index(section.name))
         drawn = {name: picture.result() for name, picture in pictures.items()}
-        folder.replace(_files(sections, drawn, profile, about, scene, documentation_beside(out)))
+        folder.replace(_files(sections, drawn, profile, about, scene))
     return sections
 
 
@@ -140,11 +140,10 @@ def _files(
     profile: Profile,
     about: dict[str, object],
     scene: WheelScene | None,
-    documentation: str,
 ) -> dict[str, bytes]:
     """All that a report is, the page last.
 
-    pictures: SVG of each figure; about: its provenance; documentation: its address, or empty.
+    pictures: SVG of each figure; about: its provenance.
     """
     files = {f"{FIGURES}/{name}.svg": picture for name, picture in pictures.items()}
     for section in sections:
@@ -161,7 +160,7 @@ def _files(
     )
     files[RESULTS] = as_json(results_of(lasting, profile) | more)
     files |= {f"{section.name}.json": as_json(results_of([section], profile)) for section in timed}
-    about = {**about, "timed": [section.name for section in timed], "documentation": documentation}
+    about = {**about, "timed": [section.name for section in timed]}
     return files | pages(sections, profile, about, scene)
 
 

@@ -1,12 +1,15 @@
 """The pages of a report: the front page and one a chapter, made of sections by the templates beside it."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
 
 from validation.analysis.case import Chapter, Profile
+from validation.analysis.contents import csv_name
 from validation.report.answers.first_screen import MAP, answered_questions
 from validation.report.chapter import ERRATA, REMARKS, chapter_of
-from validation.report.formats import templates
-from validation.report.page_figure import figures_of
+from validation.report.figures import tables_of
+from validation.report.formats import first_sentence, templates
 from validation.report.provenance import kept_from
 from validation.report.section import Section, claims_of, total_of
 from validation.report.sounds import sound_place
@@ -16,6 +19,55 @@ from validation.scenes.dynamic_wheel import WheelScene
 FRONT = "index.html"
 FEW_FINDINGS = 2
 """Conclusions of a case that are read before unfolding."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PageFigure:
+    """A figure on the page. number: in the order of the pages; page: where it is; finding: its title; caption: what it
+    draws; data: names of the CSV files that it draws.
+    """
+
+    number: int
+    name: str
+    case: str
+    page: str
+    finding: str
+    caption: str
+    data: tuple[str, ...]
+
+    @property
+    def place(self) -> str:
+        """Lasts when figures before it come or go."""
+        return f"{self.page}#figure-{self.name}"
+
+    def citation(self, about: Mapping[str, Any], profile: str) -> str:
+        """about: provenance of the report, with the commits of the cases that it has kept."""
+        commit = about["kept"].get(self.case, about["commit"])
+        return (
+            f"Figure {self.number}, “{self.finding}”, in: Reduced contact models: validation report "
+            f"(mdr-validation {about['version']}, commit {commit}, profile {profile}), "
+            f"{self.place}"
+        )
+
+
+def figures_of(sections: Sequence[Section], *, unsteady: bool = False) -> dict[str, PageFigure]:
+    """All figures by name, in the order of the pages. unsteady: no finding may be stated."""
+    found: dict[str, PageFigure] = {}
+    for section in sections:
+        if section.evidence is None:
+            continue
+        headlines = {} if unsteady else section.evidence.headlines
+        for name, caption in section.evidence.captions.items():
+            found[name] = PageFigure(
+                number=len(found) + 1,
+                name=name,
+                case=section.name,
+                page=section.page,
+                finding=headlines.get(name) or first_sentence(caption),
+                caption=caption,
+                data=tuple(csv_name(section.name, t) for t in tables_of(name) if section.evidence.has_table(t)),
+            )
+    return found
 
 
 def scene_summary(scene: WheelScene) -> dict[str, object]:
