@@ -104,9 +104,12 @@ def test_a_figure_is_numbered_on_the_page_and_cited_by_name_version_and_commit()
     assert "commit abc1234, profile" in figure.citation({**ABOUT, "kept": {"hertz": "0ld0000"}}, "full")
 
 
-def test_no_finding_is_stated_of_a_scene_without_a_steady_answer():
-    shown = section_of("geike", headlines={"geike": "Springs agree"})
-    assert page.figures_of([shown], unsteady=True)["geike"].finding == "A curve"
+def test_of_a_scene_without_a_steady_answer_nothing_is_claimed_and_no_verdict_is_shown():
+    shown = section_of("geike", headlines={"geike": "Springs agree"}).not_steady("it grows")
+    text = html_of(shown)
+    assert page.figures_of([shown])["geike"].finding == "A curve"
+    assert shown.claims == () and shown.unconverged == ("no steady answer: it grows",)
+    assert "no steady answer: it grows" in text and 'class="verdict agree"' not in text and 'class="map"' not in text
 
 
 def test_a_table_comes_back_from_its_file():
@@ -115,6 +118,7 @@ def test_a_table_comes_back_from_its_file():
     assert [type(column[0]) for column in back.columns.values()] == [float, int, bool, str]
     assert as_csv(back) == as_csv(Table("t", values)) == b"x,n,yes,name\n1.5,1,True,a\n,2,False,\n"
     assert as_csv(Table("t", {"x": [float("inf")]})) == b'x\n""\n'
+    assert as_csv(Table("t", {"x": [2e9 / 3]})) == b"x\n666666666.7\n"
 
 
 @pytest.mark.slow

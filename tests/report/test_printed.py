@@ -1,14 +1,10 @@
 """What is printed belongs to its data: cells of pages and files, words and signs of verdicts, numbers in sentences."""
 
-import csv
-import io
 import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from validation.analysis.contents import as_csv, as_written
 from validation.analysis.evidence import (
@@ -25,9 +21,6 @@ from validation.report.contents import CASES
 from validation.report.section import Section, case_results, numbers_table
 
 # --- the page, files ---
-
-reals = st.floats(-1e6, 1e6).filter(lambda x: x == 0 or abs(x) > 1e-6)
-widths = st.floats(1e-6, 1e4)
 
 
 def number(value=1.0, **changes):
@@ -86,16 +79,6 @@ def test_every_verdict_has_its_word_and_sign():
     assert formats.format_cell("<a> & b") == "&lt;a&gt; &amp; b" and formats.format_cell(0.123456) == "0.1235"
 
 
-@given(st.lists(st.floats(-1e12, 1e12), min_size=1, max_size=5), st.integers(1, 4))
-def test_files_hold_their_columns(values, width):
-    """To ten digits; columns in their order, under their names."""
-    columns = {f"c{j} [m]": [(j + 1) * value for value in values] for j in range(width)}
-    rows = list(csv.reader(io.StringIO(as_csv(Table("t", columns)).decode())))
-    assert rows[0] == list(columns)
-    for j, name in enumerate(columns):
-        np.testing.assert_allclose([float(row[j]) for row in rows[1:]], columns[name], rtol=1e-9)
-
-
 def test_an_interval_is_empty_where_nothing_scatters_and_comes_back():
     table = Table("t", {"low": [1.0, 2.5, math.nan], "value": [2.0, 2.5, math.nan], "high": [3.0, 2.5, math.nan]})
     assert as_csv(table, drawn=True).decode().splitlines() == ["low,value,high", "1,2,3", ",2.5,", ",,"]
@@ -106,19 +89,11 @@ def test_an_interval_is_empty_where_nothing_scatters_and_comes_back():
 # --- words ---
 
 
-@given(value=reals, half=widths)
-def test_a_value_with_its_interval(value, half):
-    """Both to the second digit of the interval."""
-    text, width = plus_minus(value, half).split(" ± ")
-    assert abs(float(width) - half) <= 0.051 * half
-    assert abs(float(text) - value) <= 0.051 * half + 1e-9
-    assert plus_minus(value, 0.0) == f"{value:.5g}"
-
-
 @pytest.mark.parametrize(
     ("value", "half", "text"),
     [
         (12640.4, 110.0, "12640 ± 110"),
+        (12640.4, 0.0, "12640"),
         (1.5, 1.04, "1.5 ± 1.0"),
         (1.0, 2e-9, "1 ± 2e-09"),
         (1.0, 2.4e-6, "1.0000000 ± 0.0000024"),

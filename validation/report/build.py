@@ -77,13 +77,15 @@ def build(
             draw(section)
         cases = CASES | TIMED
         settings = {name: cases[name].settings(profile, seed, scene) for name in names}
+        unsteady = scene.no_steady_answer() if scene else ""
 
         def run(name: str) -> Any:
             return cases[name].run(settings[name], replace(engine, shared=processes, progress=shown.parts[name]))
 
         sections = []
         for name, result in _results(names, run, processes, pictures):
-            sections.append(_section(name, settings[name], result, shown.parts[name]))
+            section = _section(name, settings[name], result, shown.parts[name])
+            sections.append(section.not_steady(unsteady) if unsteady else section)
             draw(sections[-1])
             with shown.aside():
                 callback(sections[-1])

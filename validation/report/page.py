@@ -50,20 +50,19 @@ class PageFigure:
         )
 
 
-def figures_of(sections: Sequence[Section], *, unsteady: bool = False) -> dict[str, PageFigure]:
-    """All figures by name, in the order of the pages. unsteady: no finding may be stated."""
+def figures_of(sections: Sequence[Section]) -> dict[str, PageFigure]:
+    """All figures by name, in the order of the pages."""
     found: dict[str, PageFigure] = {}
     for section in sections:
         if section.evidence is None:
             continue
-        headlines = {} if unsteady else section.evidence.headlines
         for name, caption in section.evidence.captions.items():
             found[name] = PageFigure(
                 number=len(found) + 1,
                 name=name,
                 case=section.name,
                 page=section.page,
-                finding=headlines.get(name) or first_sentence(caption),
+                finding=section.evidence.headlines.get(name) or first_sentence(caption),
                 caption=caption,
                 data=tuple(csv_name(section.name, t) for t in tables_of(name) if section.evidence.has_table(t)),
             )
@@ -84,12 +83,11 @@ def pages(
     sections: Sequence[Section], profile: Profile, about: dict[str, object], scene: WheelScene | None
 ) -> dict[str, bytes]:
     """By their names. about: the provenance; scene: of the user's own, or None."""
-    unsteady = scene is not None and bool(scene.no_steady_answer())
     chapters = [(chapter, some) for chapter in Chapter if (some := [s for s in sections if s.entry.chapter == chapter])]
     in_order = [section for _, some in chapters for section in some]
-    figures = figures_of(in_order, unsteady=unsteady)
+    figures = figures_of(in_order)
     places = {section.name: section.place for section in sections}
-    environment = templates(unsteady=unsteady)
+    environment = templates()
     environment.filters |= {"place_of": places.__getitem__, "sound_place": sound_place}
     environment.globals |= {
         "front": FRONT,
@@ -98,7 +96,7 @@ def pages(
         "errata": ERRATA,
         "remarks": REMARKS,
         "answers": [] if scene else answered_questions(sections),
-        "total": "" if unsteady else total_of(sections),
+        "total": total_of(sections),
         "asked": claims_of(in_order),
         "chapters": chapters,
         "profile": profile,
@@ -108,7 +106,6 @@ def pages(
         "about": about,
         "kept": kept_from(about),
         "scene": scene_summary(scene) if scene else None,
-        "unsteady": unsteady,
     }
     made = {
         some[0].page: environment.get_template("chapter.html").render(chapter=chapter, some=some)

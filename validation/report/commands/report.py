@@ -74,7 +74,6 @@ def report(arguments: argparse.Namespace) -> Exit:
     scene = _scene_of(arguments, names)
     if scene is not None:
         print("\n".join([scene.name, *description_lines(scene), ""]), flush=True)
-    unsteady = scene is not None and bool(scene.no_steady_answer())
     sections = build(
         names,
         profile=arguments.profile,
@@ -84,12 +83,12 @@ def report(arguments: argparse.Namespace) -> Exit:
         scene=scene,
         executor=arguments.executor,
         keep=arguments.keep,
-        callback=lambda section: print("\n".join(lines_of(section, unsteady=unsteady)), flush=True),
+        callback=lambda section: print("\n".join(lines_of(section)), flush=True),
     )
-    if not unsteady and any(section.claims for section in sections):
+    if any(section.claims for section in sections):
         print(total_of(sections))
     print(printable(f"report: {out / 'index.html'}"))
-    if unsteady or any(section.unconverged for section in sections):
+    if any(section.unconverged for section in sections):
         return Exit.NOT_CONVERGED
     return Exit.CRITERION_FAILED if any(section.missed for section in sections) else Exit.MET
 
@@ -111,15 +110,13 @@ def _scene_of(arguments: argparse.Namespace, names: Sequence[str]) -> WheelScene
     return load_wheel_scene(arguments.scene)
 
 
-def lines_of(section: Section, *, unsteady: bool = False) -> list[str]:
-    """A line for the case, each claim, conclusion, missed criterion and failed solve; unsteady: it has no level."""
-    met = f"criteria met {section.criteria - len(section.missed)} of {section.criteria}"
-    if unsteady:
-        met = "no steady answer, the results hold for this distance alone"
-    details: list[str] = []
-    if not unsteady:
-        details += [f"{c.status}: {c.claim} {c.answer}" for c in section.claims]
-        details += section.evidence.conclusions if section.evidence else ()
+def lines_of(section: Section) -> list[str]:
+    """A line for the case, each claim, conclusion, missed criterion and failed solve."""
+    met = "no criteria"
+    if section.criteria:
+        met = f"criteria met {section.criteria - len(section.missed)} of {section.criteria}"
+    details = [f"{c.status}: {c.claim} {c.answer}" for c in section.claims]
+    details += section.evidence.conclusions if section.evidence else ()
     details += [f"missed: {number.sentence}" for number in section.missed]
     details += [f"not converged: {solve}" for solve in section.unconverged]
     if section.name in TIMED and section.evidence:
