@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import Future, wait
+from concurrent.futures import Future
 from dataclasses import asdict, replace
 from functools import partial
 from pathlib import Path
@@ -107,7 +107,8 @@ def _results(
     lasting = [name for name in names if name not in TIMED]
     timed = [name for name in names if name in TIMED]
     yield from zip(lasting, workers.ahead([partial(run, name) for name in lasting]), strict=True)
-    wait(pictures.values())
+    for picture in pictures.values():
+        picture.result()
     yield from zip(timed, Workers(1).ahead([partial(run, name) for name in timed]), strict=True)
 
 
