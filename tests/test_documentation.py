@@ -12,7 +12,6 @@ import pytest
 import bem3d
 import mdr
 import validation
-from validation.report.provenance import BUILT
 from validation.scenes import rail_file
 
 ROOT = Path(__file__).parents[1]
@@ -120,11 +119,6 @@ def own_rail(folder):
     np.savetxt(folder / "lines.csv", np.random.default_rng(1).standard_normal((2000, 3)), delimiter=",")
     (folder / "my_rail.toml").write_text(SCENE)
     return folder / "my_rail.toml"
-
-
-def test_reports_look_for_it_where_make_puts_it():
-    (made,) = re.findall(r"\s(reports/docs/\S+/html) ", (ROOT / "Makefile").read_text(encoding="utf-8"))
-    assert f"{made}/index.html" == f"reports/{BUILT}"
 
 
 @pytest.mark.parametrize("page", [pytest.param("index", marks=pytest.mark.slow), "verdicts"])

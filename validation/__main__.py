@@ -14,7 +14,7 @@ from validation.engine.files import ERRORS_OF_A_PATH
 from validation.engine.termination import RESUME_NOTE, TerminatedError, WorkerLostError, terminable
 from validation.engine.warning_lines import one_line_warnings
 from validation.engine.workers import ONE_THREAD
-from validation.report.commands.exit_status import Exit
+from validation.report.commands.arguments import Exit
 from validation.scenes.printable import printable
 from validation.scenes.reader import SceneError
 
@@ -28,8 +28,8 @@ COMMANDS = {
     "race": "our solver and the other packages that are installed; the full size takes half an hour",
     "cases": "list the cases and what each shows",
 }
-TIMED = ("precision", "race")
-"""Of the module of `report`; each other one has its own in `validation.report.commands`, imported when it is given."""
+OF_REPORT = ("precision", "race", "cases")
+"""In the module of `report`; each other one has its own in `validation.report.commands`, imported when it is given."""
 
 STDOUT = 1
 """Its file descriptor."""
@@ -97,7 +97,7 @@ class _CommandParser(_Parser):
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         command = self.prog.split()[-1]
-        module = "report" if command in TIMED else command
+        module = "report" if command in OF_REPORT else command
         import_module(f"validation.report.commands.{module}").describe(self)
         return super().parse_known_args(args, namespace)
 

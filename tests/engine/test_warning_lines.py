@@ -20,10 +20,9 @@ def warns(arguments):
     with Workers({workers}) as workers:
         workers.submit(warnings.warn, "second thing").result()
     return 0
-import validation.report.commands.cases as cases
-cases.cases = warns
-cases.describe = lambda parser: parser.set_defaults(command=warns)
-sys.exit(command.main(["cases"]))
+import validation.report.commands.scene as scene
+scene.describe = lambda parser: parser.set_defaults(command=warns)
+sys.exit(command.main(["scene"]))
 """
 
 

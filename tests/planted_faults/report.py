@@ -21,7 +21,7 @@ from validation.analysis.claims import Claim
 from validation.analysis.evidence import Verdict
 from validation.report import build, chapter, formats, provenance, sounds, style
 from validation.report.answers import questions, strip
-from validation.report.page_figure import PageFigure
+from validation.report.page import PageFigure
 
 AGREE, DIFFER = Verdict.AGREE, Verdict.DIFFER
 

@@ -56,24 +56,6 @@ def words_of(row):
     return [word for _, word in row.strip]
 
 
-# --- the side of the tolerance ---
-
-
-@pytest.mark.parametrize(
-    ("value", "half", "cell", "begins"),
-    [
-        (-TEN, 0.0, "yes", "Enough from"),
-        (0.5 * TEN, 0.51 * TEN, "open", "Open from"),
-        (-1.5 * TEN, 0.49 * TEN, "no", "Not enough from"),
-    ],
-)
-def test_cell_and_words_are_those_of_the_verdict(value, half, cell, begins):
-    row = mean_stiffness(at((0.1, 1.0), value, half))
-    assert words_of(row) == ["not measured", cell, "not measured"]
-    assert row.answer.startswith(f"{begins} Fbar = 0.1 to 1 (")
-    assert row.word == {"yes": "Yes", "open": "Open", "no": "No"}[cell]
-
-
 def test_one_counterexample_among_all_exponents_is_a_no():
     """At each place the worst of its numbers decides, and the sentence has the numbers that differ, no others."""
     values = ((0.4, 0.1), (0.7, 2.0), (1.0, 0.2), ("mean over H", 0.0))
@@ -184,13 +166,9 @@ def rolling(quantity, model, value, half=0.1):
 
 
 @pytest.mark.parametrize(("name", "quantity"), [("rolling-rms", RMS_FORCE), ("rolling-spectrum", RMS_LEVEL)])
-@pytest.mark.parametrize(("value", "word"), [(0.5, "yes"), (-30.0, "no"), (3.0, "open")])
-def test_a_rolling_wheel_is_judged_over_its_slope(name, quantity, value, word):
-    row = row_of(name, rolling(quantity, SPRINGS, value))
-    assert list(row.strip)[1] == ("0.27", word)
-    assert row.answer.startswith(
-        {"yes": "Enough at", "no": "Not enough at", "open": "Open at"}[word] + " h' a/d = 0.27"
-    )
+def test_a_rolling_wheel_is_judged_over_its_slope(name, quantity):
+    row = row_of(name, rolling(quantity, SPRINGS, -30.0))
+    assert list(row.strip)[1] == ("0.27", "no") and row.answer.startswith("Not enough at h' a/d = 0.27")
     assert row.measured.endswith("H = 0.7")
 
 

@@ -2,14 +2,12 @@
 
 import re
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.report.test_printed import evidence_with, html_of, number
-from validation import benchmarks, cases
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Role, Verdict, Whose
 from validation.report import formats
 from validation.report.chapter import ENTRIES, ERRATA, REMARKS, ChapterEntry, ChapterTest, answers, chapter_results
@@ -194,10 +192,3 @@ def test_the_page_and_the_results_answer_the_book():
     assert book.count('<a href="exact.html#geike">geike</a>') == sum(len(row["answers"]) for row in rows)
     assert all(row["place"] in book for row in (*ERRATA, *REMARKS))
     assert chapter_results([section_of(claim([AGREE]), name="rail_sound")]) == []
-
-
-def test_every_answer_of_a_case_is_that_of_its_claim():
-    """No case makes a judged claim by itself."""
-    for package in (benchmarks, cases):
-        sources = [source for folder in package.__path__ for source in Path(folder).rglob("*.py")]
-        assert [source.name for source in sources if re.search(r"\bJudgedClaim\(", source.read_text())] == []

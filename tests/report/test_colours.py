@@ -12,8 +12,6 @@ YES = (".strip .yes", ".cell.yes", "table.map td.agree", ".verdict.agree", ".hol
 NO = (".strip .no", ".cell.no", "table.map td.differ", ".verdict.differ", ".contradicted")
 OPEN = (".strip .open", ".cell.open", "table.map td.undecided", ".verdict.undecided", ".open")
 NAMED = {"white": "#ffffff"}
-DARK, LIGHT = 0.3, 0.7
-"""Brightness of a field that is told from another in grey, 0 to 1."""
 
 
 def sheet():
@@ -41,10 +39,6 @@ def painted(selector, text):
     return tuple(int(digits[i : i + 2], 16) / 255 for i in (0, 2, 4))
 
 
-def bright(colour):
-    return 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2]
-
-
 @pytest.mark.parametrize(("yes", "no", "undecided"), list(zip(YES, NO, OPEN, strict=True)))
 def test_yes_is_green_no_is_red_and_undecided_is_neither(yes, no, undecided):
     text = sheet()
@@ -52,12 +46,6 @@ def test_yes_is_green_no_is_red_and_undecided_is_neither(yes, no, undecided):
     assert g > r and g > b
     assert red > green and red > blue
     assert between[2] < between[0] and abs(between[0] - between[1]) < 0.05
-
-
-@pytest.mark.parametrize(("yes", "no"), [(".strip .yes", ".strip .no"), ("table.map td.agree", "table.map td.differ")])
-def test_filled_fields_are_told_apart_in_grey(yes, no):
-    dark, light = sorted(bright(painted(name, sheet())) for name in (yes, no))
-    assert dark < DARK and light > LIGHT
 
 
 def borders(*selectors):

@@ -36,29 +36,18 @@ def test_a_family_has_a_curve_for_each_value_with_its_label_and_shift():
     np.testing.assert_array_equal(lines["h/d = 1"], [8, 9, 10])
 
 
-def test_bars_end_where_the_interval_ends():
-    (axis,) = drawn(Curve("level", "bem", "bem", "b", of={"h/d": "first"}, bars=True))
-    (container,) = axis.containers
-    ends = [segment[:, 1] for segment in container.lines[2][0].get_segments()]
-    np.testing.assert_allclose(ends, [[0.9, 1.3], [1.9, 2.3], [2.9, 3.3]])
-
-
 def test_bars_of_a_family_stand_side_by_side():
     (axis,) = drawn(Curve("level", by=("model",), of={"h/d": "first"}, bars=True))
     first, second = (container.lines[0].get_xdata() for container in axis.containers)
     np.testing.assert_allclose(second, 1.03 * first)
 
 
-def test_few_decades_of_a_logarithmic_axis_have_plain_numbers():
-    (axis,) = drawn(Curve("level", "bem"), log="xy", ylim=(0.3, 3))
-    assert [label.get_text() for label in axis.get_yticklabels()] == ["0.5", "1", "2"]
-
-
-def test_a_bar_to_zero_and_below_goes_down_a_decade_on_a_logarithmic_axis():
-    table = Table("level", {**TABLE.rows(range(3)).columns, "low": [-1.0, 1.9, 2.9]})
-    (axis,) = drawn(Curve("level", style="bem", label="b", bars=True), tables=(table,), log="xy")
+@pytest.mark.parametrize(("low", "log", "first"), [(0.9, "x", 0.9), (-1.0, "xy", 0.1)])
+def test_bars_end_where_the_interval_ends_and_a_decade_down_on_a_logarithmic_axis(low, log, first):
+    table = Table("level", {**TABLE.rows(range(3)).columns, "low": [low, 1.9, 2.9]})
+    (axis,) = drawn(Curve("level", style="bem", label="b", bars=True), tables=(table,), log=log)
     ends = [segment[:, 1] for segment in axis.containers[0].lines[2][0].get_segments()]
-    np.testing.assert_allclose(ends, [[0.1, 1.3], [1.9, 2.3], [2.9, 3.3]])
+    np.testing.assert_allclose(ends, [[first, 1.3], [1.9, 2.3], [2.9, 3.3]])
 
 
 def test_each_model_has_its_style_and_bars_where_it_has_an_interval():
@@ -70,10 +59,13 @@ def test_each_model_has_its_style_and_bars_where_it_has_an_interval():
     assert axis.get_legend_handles_labels()[1] == ["mdr", "bem"]
 
 
-def test_markers_are_apart_and_ticks_at_the_values():
-    (axis,) = drawn(Curve("level", "bem", "exact", "b", of={"h/d": "first"}, apart=0.1), ticked=True)
+def test_markers_are_apart_and_ticks_are_plain_numbers_at_the_values_or_of_few_decades():
+    (axis,) = drawn(
+        Curve("level", "bem", "exact", "b", of={"h/d": "first"}, apart=0.1), ticked=True, log="xy", ylim=(0.3, 3)
+    )
     assert axis.lines[0].get_markevery() == 0.1
-    assert [label.get_text() for label in axis.get_xticklabels()] == ["1", "2", "4"]
+    ticks = [[label.get_text() for label in labels()] for labels in (axis.get_xticklabels, axis.get_yticklabels)]
+    assert ticks == [["1", "2", "4"], ["0.5", "1", "2"]]
 
 
 def test_a_family_has_one_style_in_all_facets():
@@ -94,11 +86,6 @@ def test_values_may_be_places_on_the_horizontal_axis_and_intervals_stand_alone()
     assert [line.get_xdata()[0] for line in axis.lines] == [1, 2, 3]
     (axis,) = drawn(Curve("level", "bem", "interval", of={"h/d": 0.1}))
     assert not axis.lines and {*axis.collections[0].get_paths()[0].vertices[:, 1]} >= {0.9, 1.3, 3.3}
-
-
-def test_places_along_x_are_marked():
-    (axis,) = drawn(Curve("level", "bem", label="b"), at=(1.5, 3.0))
-    assert [line.get_xdata()[0] for line in axis.lines[-2:]] == [1.5, 3.0]
 
 
 def test_what_has_no_room_on_a_logarithmic_axis_is_not_drawn():
@@ -156,11 +143,11 @@ def test_settings_are_filled_into_a_text(text, found):
 
 
 def test_several_columns_have_an_axis_for_each_of_their_values():
-    axes = drawn(Curve("level", label="b"), facet=("h/d", "model"), at=(2.0, 99.0))
+    axes = drawn(Curve("level", label="b"), facet=("h/d", "model"), at=(1.5, 2.0, 99.0))
     assert [axis.get_title() for axis in axes] == [f"h/d = {h:g}, {model}" for h in H for model in MODELS]
     np.testing.assert_array_equal(axes[3].lines[0].get_ydata(), [10, 11, 12])
     # a mark that the panel does not reach is not drawn
-    assert [list(line.get_xdata()) for line in axes[3].lines[1:]] == [[2.0, 2.0]]
+    assert [line.get_xdata()[0] for line in axes[3].lines[1:]] == [1.5, 2.0]
 
 
 @pytest.mark.parametrize("curve", [Curve("level", style="nowhere"), Curve("level", by=("nowhere",))])

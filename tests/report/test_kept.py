@@ -1,4 +1,4 @@
-"""A report that makes one case anew keeps the others as they were made."""
+"""A report that makes one case anew keeps the others as they were made, and says of what is new on which processor."""
 
 import json
 import re
@@ -76,3 +76,18 @@ def test_what_cannot_be_kept_is_refused(tmp_path, capsys):
     del old["cases"]["hertz"]["title"]
     (tmp_path / "results.json").write_text(json.dumps(old))
     refused(capsys, "cannot keep hertz: 'title'", tmp_path, "--only", "geike", "--keep")
+
+
+CPUINFO = "processor : 0\nmodel name\t: Made-up 9 @ 3 GHz\n\nprocessor : 1\nmodel name\t: Another\n"
+
+
+@pytest.mark.parametrize(
+    ("listed", "wanted"), [(CPUINFO, "Made-up 9 @ 3 GHz"), ("CPU part : 0xd0c\n", "arch"), (None, "arch")]
+)
+def test_the_processor_is_the_first_that_the_system_lists_or_its_architecture(listed, wanted, tmp_path, monkeypatch):
+    if listed is not None:
+        (tmp_path / "cpuinfo").write_text(listed)
+    monkeypatch.setattr(provenance, "PROCESSORS", tmp_path / "cpuinfo")
+    monkeypatch.setattr(provenance.platform, "processor", lambda: "")
+    monkeypatch.setattr(provenance.platform, "machine", lambda: "arch")
+    assert provenance.processor() == wanted

@@ -6,9 +6,6 @@ import sys
 
 import pytest
 
-from validation.report.commands.cases import answers_of_cases
-from validation.report.contents import CASES
-
 HEAVY = {"matplotlib", "pyfftw", "joblib", "dask", "distributed", "jinja2", "scipy.optimize", "scipy.stats"}
 """Each takes a tenth of a second or more to import."""
 PAGE = ("validation.report.build", "validation.report.contents", "validation.report.figures", "validation.cases")
@@ -28,7 +25,7 @@ def modules_of(code, *words):
     return set(run.stdout.splitlines()[-1].split())
 
 
-@pytest.mark.parametrize("words", [["--help"], ["--version"], ["cases"], ["scene", "sphere"]])
+@pytest.mark.parametrize("words", [["--help"], ["--version"], ["scene", "sphere"]])
 def test_what_computes_nothing_imports_no_numerics(words):
     found = modules_of(COMMAND, *words)
     assert not found & {"numpy", "scipy", "mdr", "bem3d", *HEAVY}
@@ -48,15 +45,12 @@ def test_a_closed_form_or_springs_need_no_boundary_elements(scene):
     assert not {name for name in found if name.startswith(PAGE)}
 
 
-def test_the_list_of_cases_is_that_of_the_report():
-    assert list(answers_of_cases().items()) == [(name, case.answers) for name, case in CASES.items()]
-
-
 def test_a_command_sums_with_one_thread_as_workers_do():
     """Threads of BLAS change last bits: they are set before numpy is loaded."""
-    code = "import os, sys; from validation.__main__ import main; main(['cases']); print(os.environ['OMP_NUM_THREADS'])"
+    code = f"{COMMAND}\nimport os\nprint(os.environ['OMP_NUM_THREADS'])"
     before = {name: value for name, value in os.environ.items() if not name.endswith("_NUM_THREADS")}
-    run = subprocess.run([sys.executable, "-c", code], env=before, capture_output=True, text=True, check=True)
+    words = [sys.executable, "-c", code, "scene", "sphere"]
+    run = subprocess.run(words, env=before, capture_output=True, text=True, check=True)
     assert run.stdout.splitlines()[-1] == "1"
     code = "import sys, validation.__main__; print('numpy' in sys.modules)"
     run = subprocess.run([sys.executable, "-c", code], env=before, capture_output=True, text=True, check=True)

@@ -2,6 +2,7 @@
 
 import math
 import tomllib
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -10,20 +11,16 @@ from matplotlib.figure import Figure
 from validation.analysis.evidence import Evidence, Table
 from validation.engine.progress import Part
 from validation.engine.workers import Workers
-from validation.report import durations, pictures
-from validation.report.contents import CASES, TIMED
+from validation.report import contents, pictures
 
 
 def test_figures_come_by_their_names_and_are_counted(monkeypatch):
     monkeypatch.setattr(pictures, "draw_figure", lambda name, evidence, profile: f"{name} {profile}".encode())
     progress = Part("figures")
-    drawn = pictures.Pictures(Workers(1), progress, "quick")
-    drawn.draw(SimpleNamespace(evidence=SimpleNamespace(captions=dict.fromkeys("abc", ""))))
-    assert drawn.found() == {name: f"{name} quick".encode() for name in "abc"}
+    evidence = SimpleNamespace(captions=dict.fromkeys("abc", ""))
+    begun = pictures.begin_to_draw(evidence, Workers(1), progress, "quick")
+    assert {name: drawn.result() for name, drawn in begun.items()} == {name: f"{name} quick".encode() for name in "abc"}
     assert progress.line == "figures: drawn 3/3"
-    # a case that failed has none
-    drawn.draw(SimpleNamespace(evidence=None))
-    assert len(drawn.found()) == 3
 
 
 def test_a_figure_is_drawn_from_what_its_files_hold(monkeypatch):
@@ -38,9 +35,9 @@ def test_a_figure_is_drawn_from_what_its_files_hold(monkeypatch):
 
 
 def test_the_table_of_durations_names_cases_and_others_are_like_their_mean():
-    known = tomllib.loads(durations.TABLE.read_text())
-    assert known.keys() <= {*CASES, *TIMED, pictures.FIGURES}
+    known = tomllib.loads(Path(contents.__file__).with_name("durations.toml").read_text())
+    assert known.keys() <= {*contents.CASES, *contents.TIMED, pictures.FIGURES}
     for profile, seconds in zip(("quick", "full"), zip(*known.values(), strict=True), strict=True):
-        expected = durations.expected_seconds(["ladder", "a new case"], profile)
+        expected = contents.expected_seconds(["ladder", "a new case"], profile)
         assert expected["ladder"] == known["ladder"][profile == "full"]
         assert expected["a new case"] == pytest.approx(sum(seconds) / len(known))

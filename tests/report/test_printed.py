@@ -1,14 +1,10 @@
 """What is printed belongs to its data: cells of pages and files, words and signs of verdicts, numbers in sentences."""
 
-import csv
-import io
 import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from validation.analysis.contents import as_csv, as_written
 from validation.analysis.evidence import (
@@ -22,13 +18,9 @@ from validation.analysis.evidence import (
 )
 from validation.report import drawing, formats, page
 from validation.report.contents import CASES
-from validation.report.provenance import BUILT, documentation_beside
 from validation.report.section import Section, case_results, numbers_table
 
 # --- the page, files ---
-
-reals = st.floats(-1e6, 1e6).filter(lambda x: x == 0 or abs(x) > 1e-6)
-widths = st.floats(1e-6, 1e4)
 
 
 def number(value=1.0, **changes):
@@ -50,7 +42,7 @@ def evidence_with(numbers, page_tables=(), claims=()):
 
 
 ABOUT = {
-    **dict.fromkeys(("python", "system", "processor", "cores", "workers", "documentation"), ""),
+    **dict.fromkeys(("python", "system", "processor", "cores", "workers"), ""),
     **{part: {} for part in ("libraries", "seeds", "kept", "seconds", "timed")},
     **{"version": "1.2.3", "commit": "abc1234"},
 }
@@ -60,17 +52,6 @@ def html_of(*sections, **about):
     """The front page, and those of the chapters."""
     pages = page.pages(sections, "full", {**ABOUT, **about}, None)
     return pages.pop("index.html").decode() + "".join(chapter.decode() for chapter in pages.values())
-
-
-def test_the_page_links_to_the_documentation_that_is_built(tmp_path):
-    section = Section("geike", CASES["geike"], "none", {}, evidence_with([number(1.0)]))
-    assert documentation_beside(tmp_path / "quick") == ""
-    (tmp_path / "quick").mkdir()
-    (tmp_path / BUILT).parent.mkdir(parents=True)
-    (tmp_path / BUILT).touch()
-    address = documentation_beside(tmp_path / "quick")
-    assert (tmp_path / "quick" / address).samefile(tmp_path / BUILT)
-    assert f'<a href="{address}">Documentation</a>' in html_of(section, documentation=address)
 
 
 def test_rows_of_the_file_and_of_the_results_are_the_numbers():
@@ -98,16 +79,6 @@ def test_every_verdict_has_its_word_and_sign():
     assert formats.format_cell("<a> & b") == "&lt;a&gt; &amp; b" and formats.format_cell(0.123456) == "0.1235"
 
 
-@given(st.lists(st.floats(-1e12, 1e12), min_size=1, max_size=5), st.integers(1, 4))
-def test_files_hold_their_columns(values, width):
-    """To ten digits; columns in their order, under their names."""
-    columns = {f"c{j} [m]": [(j + 1) * value for value in values] for j in range(width)}
-    rows = list(csv.reader(io.StringIO(as_csv(Table("t", columns)).decode())))
-    assert rows[0] == list(columns)
-    for j, name in enumerate(columns):
-        np.testing.assert_allclose([float(row[j]) for row in rows[1:]], columns[name], rtol=1e-9)
-
-
 def test_an_interval_is_empty_where_nothing_scatters_and_comes_back():
     table = Table("t", {"low": [1.0, 2.5, math.nan], "value": [2.0, 2.5, math.nan], "high": [3.0, 2.5, math.nan]})
     assert as_csv(table, drawn=True).decode().splitlines() == ["low,value,high", "1,2,3", ",2.5,", ",,"]
@@ -118,19 +89,11 @@ def test_an_interval_is_empty_where_nothing_scatters_and_comes_back():
 # --- words ---
 
 
-@given(value=reals, half=widths)
-def test_a_value_with_its_interval(value, half):
-    """Both to the second digit of the interval."""
-    text, width = plus_minus(value, half).split(" ± ")
-    assert abs(float(width) - half) <= 0.051 * half
-    assert abs(float(text) - value) <= 0.051 * half + 1e-9
-    assert plus_minus(value, 0.0) == f"{value:.5g}"
-
-
 @pytest.mark.parametrize(
     ("value", "half", "text"),
     [
         (12640.4, 110.0, "12640 ± 110"),
+        (12640.4, 0.0, "12640"),
         (1.5, 1.04, "1.5 ± 1.0"),
         (1.0, 2e-9, "1 ± 2e-09"),
         (1.0, 2.4e-6, "1.0000000 ± 0.0000024"),

@@ -19,14 +19,13 @@ from validation.engine.progress import Part, Progress
 from validation.engine.workers import Workers
 from validation.report.answers.first_screen import answered_questions, plain
 from validation.report.chapter import chapter_results
-from validation.report.contents import CASES, TIMED
-from validation.report.durations import expected_seconds
+from validation.report.contents import CASES, TIMED, expected_seconds
 from validation.report.figures import drawing
 from validation.report.folder import REALISATIONS, RESULTS, Folder
 from validation.report.kept import DATA, PROVENANCE, kept_provenance, kept_sections
 from validation.report.page import pages, scene_summary
-from validation.report.pictures import FIGURES, Pictures
-from validation.report.provenance import documentation_beside, provenance, with_kept
+from validation.report.pictures import FIGURES, begin_to_draw
+from validation.report.provenance import provenance, with_kept
 from validation.report.section import Section, numbers_table, results_of, written_tables
 from validation.report.sounds import sound_files
 from validation.scenes.dynamic_wheel import WheelScene
@@ -68,19 +67,26 @@ def build(
         # those of a scheduler solve one case after the other
         Workers(workers if executor == LOCAL else 1) as processes,
     ):
-        pictures = Pictures(processes, shown.parts[FIGURES], profile)
+        pictures: dict[str, Future[bytes]] = {}
+
+        def draw(section: Section) -> None:
+            if section.evidence:
+                pictures.update(begin_to_draw(section.evidence, processes, shown.parts[FIGURES], profile))
+
         for section in kept:
-            pictures.draw(section)
+            draw(section)
         cases = CASES | TIMED
         settings = {name: cases[name].settings(profile, seed, scene) for name in names}
+        unsteady = scene.no_steady_answer() if scene else ""
 
         def run(name: str) -> Any:
             return cases[name].run(settings[name], replace(engine, shared=processes, progress=shown.parts[name]))
 
         sections = []
         for name, result in _results(names, run, processes, pictures):
-            sections.append(_section(name, settings[name], result, shown.parts[name]))
-            pictures.draw(sections[-1])
+            section = _section(name, settings[name], result, shown.parts[name])
+            sections.append(section.not_steady(unsteady) if unsteady else section)
+            draw(sections[-1])
             with shown.aside():
                 callback(sections[-1])
         seeds = {section.name: section.settings["seed"] for section in sections if "seed" in section.settings}
@@ -89,18 +95,20 @@ def build(
         if kept:
             about = with_kept(about, before, kept)
             sections = sorted([*sections, *kept], key=lambda section: list(cases).index(section.name))
-        folder.replace(_files(sections, pictures.found(), profile, about, scene, documentation_beside(out)))
+        drawn = {name: picture.result() for name, picture in pictures.items()}
+        folder.replace(_files(sections, drawn, profile, about, scene))
     return sections
 
 
 def _results(
-    names: Sequence[str], run: Callable[[str], Any], workers: Workers, pictures: Pictures
+    names: Sequence[str], run: Callable[[str], Any], workers: Workers, pictures: Mapping[str, Future[bytes]]
 ) -> Iterator[tuple[str, Future[Any]]]:
     """Of each case in their order, while the next are at work; what is timed is run last, when nothing else is."""
     lasting = [name for name in names if name not in TIMED]
     timed = [name for name in names if name in TIMED]
     yield from zip(lasting, workers.ahead([partial(run, name) for name in lasting]), strict=True)
-    pictures.found()
+    for picture in pictures.values():
+        picture.result()
     yield from zip(timed, Workers(1).ahead([partial(run, name) for name in timed]), strict=True)
 
 
@@ -135,11 +143,10 @@ def _files(
     profile: Profile,
     about: dict[str, object],
     scene: WheelScene | None,
-    documentation: str,
 ) -> dict[str, bytes]:
     """All that a report is, the page last.
 
-    pictures: SVG of each figure; about: its provenance; documentation: its address, or empty.
+    pictures: SVG of each figure; about: its provenance.
     """
     files = {f"{FIGURES}/{name}.svg": picture for name, picture in pictures.items()}
     for section in sections:
@@ -156,7 +163,7 @@ def _files(
     )
     files[RESULTS] = as_json(results_of(lasting, profile) | more)
     files |= {f"{section.name}.json": as_json(results_of([section], profile)) for section in timed}
-    about = {**about, "timed": [section.name for section in timed], "documentation": documentation}
+    about = {**about, "timed": [section.name for section in timed]}
     return files | pages(sections, profile, about, scene)
 
 

@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Sequence
-from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -15,13 +14,12 @@ SYMBOL = {"agree": "✓", "differ": "≠", "undecided": "?"}
 LETTER = {Verdict.AGREE: "A", Verdict.DIFFER: "D", Verdict.UNDECIDED: "?"}
 STATUS_SYMBOL = {"holds": "✓", "holds within limits": "(✓)", "contradicted": "✗", "open": "?"}
 """Each status also has a border of its own, so that it is known without colour."""
-NO_STEADY_ANSWER = Markup('<span class="verdict undecided">? no steady answer</span>')
 PANEL = re.compile(r"^\([a-z]\)(, \([a-z]\))* ")
 SENTENCE_END = re.compile(r"(?<=[.;]) (?=[A-Z(])")
 
 
-def templates(*, unsteady: bool = False) -> jinja2.Environment:
-    """Those beside this file, with the filters below. unsteady: no verdict is printed."""
+def templates() -> jinja2.Environment:
+    """Those beside this file, with the filters below."""
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(Path(__file__).parent / "templates"),
         autoescape=True,
@@ -30,8 +28,8 @@ def templates(*, unsteady: bool = False) -> jinja2.Environment:
         lstrip_blocks=True,
     )
     environment.filters |= {
-        "format_cell": partial(format_cell, unsteady=unsteady),
-        "format_status": partial(format_status, unsteady=unsteady),
+        "format_cell": format_cell,
+        "format_status": format_status,
         "format_field": format_field,
         "map_of": map_of,
         "capitalized": capitalized,
@@ -41,17 +39,8 @@ def templates(*, unsteady: bool = False) -> jinja2.Environment:
     return environment
 
 
-def format_verdict(verdict: str, *, unsteady: bool = False) -> Markup:
-    """A verdict with its symbol; a scene without a steady answer has none."""
-    if unsteady:
-        return NO_STEADY_ANSWER
-    return Markup('<span class="verdict {0}">{1} {0}</span>').format(verdict, SYMBOL[verdict])
-
-
-def format_status(status: ClaimStatus | None, *, unsteady: bool = False) -> Markup:
+def format_status(status: ClaimStatus | None) -> Markup:
     """The status of a claim with its symbol and colour."""
-    if unsteady:
-        return NO_STEADY_ANSWER
     name = status or "no result"
     return Markup('<span class="verdict {}">{} {}</span>').format(
         name.replace(" ", "-"), STATUS_SYMBOL.get(name, "–"), name
@@ -63,11 +52,11 @@ def in_four_digits(cell: object) -> str:
     return f"{cell:.4g}" if isinstance(cell, float) else str(cell)
 
 
-def format_cell(cell: object, *, unsteady: bool = False) -> Markup:
+def format_cell(cell: object) -> Markup:
     """A cell of a table, with its verdict where it has one."""
     if not isinstance(cell, VerdictCell):
         return escape(in_four_digits(cell))
-    badge = format_verdict(cell.verdict, unsteady=unsteady)
+    badge = Markup('<span class="verdict {0}">{1} {0}</span>').format(cell.verdict, SYMBOL[cell.verdict])
     after = f"; {cell.after}" if cell.after else ""
     return Markup("{}<br>{}{}").format(cell.text, badge, after)
 

@@ -1,7 +1,6 @@
 """One run at a time in a folder: the lock of the operating system, and beside it a file that names its holder."""
 
 import fcntl
-import json
 import os
 import socket
 import stat
@@ -9,7 +8,6 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from datetime import datetime
 from pathlib import Path
-from typing import Any
 
 from validation.engine.files import with_path_in_errors
 
@@ -46,9 +44,9 @@ def _taken(path: Path) -> int | None:
         try:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            raise ValueError(
-                f"{folder} is being written by {_holder(_signature(handle, path))}: wait for it, or name another folder"
-            ) from None
+            _, holder = _signature(handle, path)
+            said = f"{folder} is being written by {holder or 'another run'}: wait for it, or name another folder"
+            raise ValueError(said) from None
         except OSError as error:
             raise ValueError(f"{folder} must be on a file system that has locks: {error.strerror}") from None
         try:
@@ -56,34 +54,23 @@ def _taken(path: Path) -> int | None:
                 return None
         except FileNotFoundError:
             return None
-        signed = _signature(handle, path)
-        if signed.get("host", host) != host:
-            raise ValueError(
-                f"{folder} is being written by {_holder(signed)}, on another host: wait for it, or remove {path} if it "
-                "is over"
-            )
+        signed, holder = _signature(handle, path)
+        if signed not in ("", host):
+            what_to_do = f"wait for it, or remove {path} if it is over"
+            raise ValueError(f"{folder} is being written by {holder}, on another host: {what_to_do}")
         since = datetime.now().astimezone().isoformat(" ", timespec="seconds")
-        signature = {"kind": KIND, "host": host, "process": os.getpid(), "since": since}
         with with_path_in_errors(path):
             os.ftruncate(handle, 0)
-            os.pwrite(handle, json.dumps(signature).encode(), 0)
+            os.pwrite(handle, f"{KIND}\n{host}\nprocess {os.getpid()} on {host} since {since}\n".encode(), 0)
         given_up.pop_all()
     return handle
 
 
-def _signature(handle: int, path: Path) -> dict[str, Any]:
-    """Host, process and time of a run, empty before it has signed. Raises ValueError for a file that is no lock."""
-    try:
-        if not stat.S_ISREG(os.fstat(handle).st_mode):
-            raise ValueError("no plain file")
-        signature = json.loads(os.pread(handle, 4096, 0) or "{}")
-        if signature and signature["kind"] != KIND:
-            raise ValueError("of another kind")
-        return {name: signature[name] for name in ("host", "process", "since")} if signature else {}
-    except (ValueError, TypeError, LookupError, RecursionError):
-        raise ValueError(f"{path} is not the lock of a run: move it away, or name another folder") from None
-
-
-def _holder(signed: dict[str, Any]) -> str:
-    said = "process {process} on {host} since {since}"
-    return said.format(**signed) if signed else "another run"
+def _signature(handle: int, path: Path) -> tuple[str, str]:
+    """Host of a run and the run in words, empty before it has signed. Raises ValueError for a file that is no lock."""
+    plain = stat.S_ISREG(os.fstat(handle).st_mode)
+    text = os.pread(handle, 4096, 0).decode(errors="replace") if plain else "no plain file"
+    kind, *signed = text.split("\n")
+    if text and (kind != KIND or len(signed) != 3):
+        raise ValueError(f"{path} is not the lock of a run: move it away, or name another folder")
+    return (signed[0], signed[1]) if text else ("", "")

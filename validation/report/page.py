@@ -1,12 +1,15 @@
 """The pages of a report: the front page and one a chapter, made of sections by the templates beside it."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
 
 from validation.analysis.case import Chapter, Profile
+from validation.analysis.contents import csv_name
 from validation.report.answers.first_screen import MAP, answered_questions
 from validation.report.chapter import ERRATA, REMARKS, chapter_of
-from validation.report.formats import templates
-from validation.report.page_figure import figures_of
+from validation.report.figures import tables_of
+from validation.report.formats import first_sentence, templates
 from validation.report.provenance import kept_from
 from validation.report.section import Section, claims_of, total_of
 from validation.report.sounds import sound_place
@@ -16,6 +19,54 @@ from validation.scenes.dynamic_wheel import WheelScene
 FRONT = "index.html"
 FEW_FINDINGS = 2
 """Conclusions of a case that are read before unfolding."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PageFigure:
+    """A figure on the page. number: in the order of the pages; page: where it is; finding: its title; caption: what it
+    draws; data: names of the CSV files that it draws.
+    """
+
+    number: int
+    name: str
+    case: str
+    page: str
+    finding: str
+    caption: str
+    data: tuple[str, ...]
+
+    @property
+    def place(self) -> str:
+        """Lasts when figures before it come or go."""
+        return f"{self.page}#figure-{self.name}"
+
+    def citation(self, about: Mapping[str, Any], profile: str) -> str:
+        """about: provenance of the report, with the commits of the cases that it has kept."""
+        commit = about["kept"].get(self.case, about["commit"])
+        return (
+            f"Figure {self.number}, “{self.finding}”, in: Reduced contact models: validation report "
+            f"(mdr-validation {about['version']}, commit {commit}, profile {profile}), "
+            f"{self.place}"
+        )
+
+
+def figures_of(sections: Sequence[Section]) -> dict[str, PageFigure]:
+    """All figures by name, in the order of the pages."""
+    found: dict[str, PageFigure] = {}
+    for section in sections:
+        if section.evidence is None:
+            continue
+        for name, caption in section.evidence.captions.items():
+            found[name] = PageFigure(
+                number=len(found) + 1,
+                name=name,
+                case=section.name,
+                page=section.page,
+                finding=section.evidence.headlines.get(name) or first_sentence(caption),
+                caption=caption,
+                data=tuple(csv_name(section.name, t) for t in tables_of(name) if section.evidence.has_table(t)),
+            )
+    return found
 
 
 def scene_summary(scene: WheelScene) -> dict[str, object]:
@@ -32,12 +83,11 @@ def pages(
     sections: Sequence[Section], profile: Profile, about: dict[str, object], scene: WheelScene | None
 ) -> dict[str, bytes]:
     """By their names. about: the provenance; scene: of the user's own, or None."""
-    unsteady = scene is not None and bool(scene.no_steady_answer())
     chapters = [(chapter, some) for chapter in Chapter if (some := [s for s in sections if s.entry.chapter == chapter])]
     in_order = [section for _, some in chapters for section in some]
-    figures = figures_of(in_order, unsteady=unsteady)
+    figures = figures_of(in_order)
     places = {section.name: section.place for section in sections}
-    environment = templates(unsteady=unsteady)
+    environment = templates()
     environment.filters |= {"place_of": places.__getitem__, "sound_place": sound_place}
     environment.globals |= {
         "front": FRONT,
@@ -46,7 +96,7 @@ def pages(
         "errata": ERRATA,
         "remarks": REMARKS,
         "answers": [] if scene else answered_questions(sections),
-        "total": "" if unsteady else total_of(sections),
+        "total": total_of(sections),
         "asked": claims_of(in_order),
         "chapters": chapters,
         "profile": profile,
@@ -56,7 +106,6 @@ def pages(
         "about": about,
         "kept": kept_from(about),
         "scene": scene_summary(scene) if scene else None,
-        "unsteady": unsteady,
     }
     made = {
         some[0].page: environment.get_template("chapter.html").render(chapter=chapter, some=some)

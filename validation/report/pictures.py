@@ -9,33 +9,19 @@ from validation.analysis.evidence import Evidence
 from validation.engine.progress import Part
 from validation.engine.workers import Workers
 from validation.report.figures import drawing
-from validation.report.section import Section
 from validation.report.style import drawn, picture
 
 FIGURES = "figures"
 """The part of a run in which they are drawn, and their folder."""
 
 
-class Pictures:
-    """SVG of each figure. progress: the part of the run that is told of them."""
-
-    def __init__(self, workers: Workers, progress: Part, profile: Profile):
-        self._workers, self._progress, self._profile = workers, progress, profile
-        self._begun: dict[str, Future[bytes]] = {}
-
-    def draw(self, section: Section) -> None:
-        """Have the figures of a case drawn."""
-        if section.evidence is None:
-            return
-        names = list(section.evidence.captions)
-        self._progress.extend("drawn", len(names))
-        for name in names:
-            self._begun[name] = self._workers.submit(draw_figure, name, section.evidence, self._profile)
-            self._begun[name].add_done_callback(lambda _: self._progress.step())
-
-    def found(self) -> dict[str, bytes]:
-        """All that were to be drawn, as soon as they are."""
-        return {name: picture.result() for name, picture in self._begun.items()}
+def begin_to_draw(evidence: Evidence, workers: Workers, progress: Part, profile: Profile) -> dict[str, Future[bytes]]:
+    """SVG of each figure of a case, as soon as it is drawn. progress: the part of the run that counts them."""
+    progress.extend("drawn", len(evidence.captions))
+    begun = {name: workers.submit(draw_figure, name, evidence, profile) for name in evidence.captions}
+    for one in begun.values():
+        one.add_done_callback(lambda _: progress.step())
+    return begun
 
 
 def draw_figure(name: str, evidence: Evidence, profile: Profile) -> bytes:

@@ -13,8 +13,6 @@ from validation.report.section import Section
 from validation.scenes.printable import printable
 
 ROOT = Path(__file__).parents[2]
-BUILT = "docs/_build/html/index.html"
-"""The documentation, by `make docs`, beside the report folders of a checkout."""
 LIBRARIES = ("numpy", "scipy", "pyfftw", "matplotlib", "joblib")
 PROCESSORS = Path("/proc/cpuinfo")
 """Where Linux lists them, and their models but for some ARM."""
@@ -66,11 +64,6 @@ def kept_from(about: Mapping[str, Any]) -> dict[str, list[str]]:
     """Which cases were kept as made at each commit."""
     kept = about["kept"]
     return {commit: [name for name in kept if kept[name] == commit] for commit in dict.fromkeys(kept.values())}
-
-
-def documentation_beside(folder: Path) -> str:
-    """Address of the documentation for the page of a report in this folder; empty where it is not built."""
-    return f"../{BUILT}" if (folder.resolve().parent / BUILT).is_file() else ""
 
 
 def _commit() -> str:

@@ -2,7 +2,8 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
+from typing import Any
 
 from validation.analysis.case import Case, Profile
 from validation.analysis.evidence import (
@@ -47,6 +48,15 @@ class Section:
     def unconverged(self) -> tuple[str, ...]:
         return self.evidence.unconverged if self.evidence else self.failure
 
+    def not_steady(self, reason: str) -> "Section":
+        """The same where the scene has no steady answer: nothing is claimed or concluded, no verdict is shown."""
+        if self.evidence is None:
+            return self
+        tables = tuple(map(_without_verdicts, self.evidence.page_tables))
+        nothing: dict[str, Any] = {"claims": (), "conclusions": (), "finding": "", "headlines": {}}
+        told = (f"no steady answer: {reason}", *self.evidence.unconverged)
+        return replace(self, evidence=replace(self.evidence, **nothing, page_tables=tables, unconverged=told))
+
     @property
     def page(self) -> str:
         """Of its chapter."""
@@ -63,6 +73,11 @@ class Section:
     @property
     def criteria(self) -> int:
         return sum(number.role is Role.CRITERION for number in self.numbers)
+
+
+def _without_verdicts(table: Table) -> Table:
+    texts = {n: [c.text if isinstance(c, VerdictCell) else c for c in cells] for n, cells in table.columns.items()}
+    return Table(table.name, texts)
 
 
 def numbers_table(numbers: Sequence[Number]) -> Table:

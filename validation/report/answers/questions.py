@@ -98,44 +98,24 @@ def counted(name: str, model: str, source: Source | None = None, by: str = "") -
 
 
 INTEGRAL, LINEAR_3D = "an integral over the spectrum", wheel.LINEAR_3D
-FIT = partial(Alternative, "the fit 1/kbar = 1/1.1523 + 0.48/Fbar", cost="a formula")
 PRESSED = partial(Alternative, BEM, None, worked)
-over_force = partial(Source, axis=punch.FORCE, over=punch.FORCE)
-of_punch = partial(over_force, case="fractal_punch", model=punch.OVER, where={"H": float}, series=("H",))
+of_punch = partial(Source, case="fractal_punch", axis=punch.FORCE, series=("H",))
+of_mdr = partial(of_punch, model=punch.OVER, where={"H": float})
 of_rolled_off = partial(
-    Source,
-    case="interface",
-    model=punch.OVER,
-    axis=interface.CONTACT,
-    over=interface.CONTACT,
-    series=(interface.ROLL_OFF, "H"),
+    Source, case="interface", model=punch.OVER, axis=interface.CONTACT, series=(interface.ROLL_OFF, "H")
 )
-of_fit = partial(over_force, case="fractal_punch", quantity=punch.MEAN, model=fig_14_1.FIT, series=("H",))
-of_rolling = partial(Source, case="rolling", axis=rolling.SLOPE, over=rolling.SLOPE)
-of_strips = partial(
-    Source,
-    case="reduced_models",
-    quantity=reduced.OFF,
-    axis=rolling.SLOPE,
-    over=rolling.SLOPE,
-    series=("H", rolling.Q),
-)
+FIT = of_punch(quantity=punch.MEAN, model=fig_14_1.FIT)
+of_rolling = partial(Source, case="rolling", axis=rolling.SLOPE)
+of_strips = partial(Source, case="reduced_models", quantity=reduced.OFF, axis=rolling.SLOPE, series=("H", rolling.Q))
 of_rail = partial(
-    Source,
-    case="across",
-    quantity=OVER_BEM,
-    where={filters.OFFSET: 0.0},
-    axis=across.GROUND,
-    over=across.GROUND,
-    series=(across.WHEEL,),
+    Source, case="across", quantity=OVER_BEM, where={filters.OFFSET: 0.0}, axis=across.GROUND, series=(across.WHEEL,)
 )
-of_wheel = partial(Source, case="wheel_3d", quantity=LEVEL, axis="range", over="the spectrum")
+of_wheel = partial(Source, case="wheel_3d", quantity=LEVEL, axis="range", printed="the spectrum")
 MOVING = Source(
     case="rail_dynamic",
     quantity=rail_dynamic.RMS + rail_dynamic.BESIDE,
     model=rail_dynamic.SPRINGS_OVER_BEM,
     axis=filters.OFFSET,
-    over=filters.OFFSET,
 )
 GEIKE, LINEAR = (model + rolling.OVER for model in (rolling.SPRINGS, rolling.LINEAR_3D))
 JUDGE = counted(BEM, reduced.JUDGE)
@@ -143,14 +123,14 @@ QUESTIONS = (
     Question(
         "mean-stiffness",
         "Stiffness of a rough punch, its mean over surfaces",
-        of_punch(quantity=punch.MEAN),
+        of_mdr(quantity=punch.MEAN),
         per_cent,
-        (FIT(of_fit()), PRESSED("fractal_punch")),
+        (Alternative("the fit 1/kbar = 1/1.1523 + 0.48/Fbar", FIT, "a formula"), PRESSED("fractal_punch")),
     ),
     Question(
         "scatter",
         "Scatter of that stiffness over surfaces",
-        of_punch(quantity=punch.DEVIATION),
+        of_mdr(quantity=punch.DEVIATION),
         per_cent,
         (PRESSED("fractal_punch"),),
     ),

@@ -29,14 +29,18 @@ class Cell:
 class Source(Choice):
     """Where the numbers of a model stand.
 
-    case: whose; axis: the condition that decides; over: how it is printed; series: conditions with numbers of their own
-    at each place.
+    case: whose; axis: the condition that decides; printed: its name, by default the same; series: conditions with
+    numbers of their own at each place.
     """
 
     case: str
     axis: str
-    over: str
+    printed: str = ""
     series: tuple[str, ...] = ()
+
+    @property
+    def over(self) -> str:
+        return self.printed or self.axis
 
     def cells(self, evidence: Evidence) -> list[Cell]:
         """In the order of the axis; names in the order of the numbers."""

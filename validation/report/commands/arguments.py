@@ -1,8 +1,22 @@
-"""Arguments that several commands have."""
+"""What several commands have: arguments, and how they ended."""
 
 import argparse
 import os
 from collections.abc import Callable, Collection
+from enum import IntEnum
+
+
+class Exit(IntEnum):
+    """Exit status of the command."""
+
+    MET = 0
+    CRITERION_FAILED = 1
+    BAD_INPUT = 2
+    NOT_CONVERGED = 3
+    UNFINISHED = 4
+    FAULT = 70
+    INTERRUPTED = 130
+    TERMINATED = 143
 
 
 def add_profile(command: argparse.ArgumentParser) -> None:

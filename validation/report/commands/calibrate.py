@@ -5,10 +5,8 @@ from pathlib import Path
 
 from validation.engine.engine import Engine
 from validation.engine.progress import progress_of
-from validation.report.commands.arguments import add_options, add_workers, at_least
-from validation.report.commands.exit_status import Exit
-from validation.report.folder import REALISATIONS, Folder
-from validation.report.manifest import CALIBRATION
+from validation.report.commands.arguments import Exit, add_options, add_workers, at_least
+from validation.report.folder import CALIBRATION, REALISATIONS, Folder
 from validation.scenes.printable import printable
 from validation.selection.calibrate import CalibrationRun, calibration_lines, measured_table, table_in
 from validation.selection.calibration_check import check_calibration, check_installable, install

@@ -12,9 +12,7 @@ from validation.analysis.evidence import Table
 from validation.engine.engine import Engine
 from validation.engine.files import write_given
 from validation.engine.progress import progress_of
-from validation.report.commands.arguments import add_options, add_workers, at_least, some_of
-from validation.report.commands.exit_status import Exit
-from validation.report.manifest import COMPARISON
+from validation.report.commands.arguments import Exit, add_options, add_workers, at_least, some_of
 from validation.scenes.load import Scene, bundled_for_compare, files_of, load_scene, load_varied
 from validation.scenes.printable import printable
 from validation.selection.cells import format_seconds
@@ -171,7 +169,7 @@ def _reported(
 ) -> list[Comparison]:
     """The same, with a page in a folder of its own."""
     from validation.report.compared_page import PAGE, files_of_comparison  # which takes half a second to import
-    from validation.report.folder import Folder
+    from validation.report.folder import COMPARISON, Folder
     from validation.report.provenance import provenance
 
     with Folder(arguments.report, kind=COMPARISON, option="--report") as folder:

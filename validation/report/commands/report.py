@@ -1,4 +1,4 @@
-"""Run cases and write their report; by `precision` and `race` what is timed alone."""
+"""Run cases and write their report; by `precision` and `race` what is timed alone; by `cases` list them."""
 
 import argparse
 from collections.abc import Sequence
@@ -7,8 +7,7 @@ from pathlib import Path
 from validation.analysis.evidence import Table
 from validation.engine.engine import LOCAL
 from validation.report.build import build
-from validation.report.commands.arguments import add_options, add_profile, add_workers, at_least
-from validation.report.commands.exit_status import Exit
+from validation.report.commands.arguments import Exit, add_options, add_profile, add_workers, at_least
 from validation.report.contents import CASES, TIMED, timed_here
 from validation.report.formats import in_four_digits
 from validation.report.section import Section, total_of
@@ -19,6 +18,9 @@ from validation.scenes.printable import printable
 
 def describe(making: argparse.ArgumentParser) -> None:
     name = making.prog.split()[-1]
+    if name == "cases":
+        making.set_defaults(command=cases)
+        return
     making.set_defaults(
         command=report, only=None, keep=False, workers=1, executor=LOCAL, scene=None, timed=name in TIMED
     )
@@ -55,6 +57,12 @@ def describe(making: argparse.ArgumentParser) -> None:
     )
 
 
+def cases(arguments: argparse.Namespace) -> Exit:
+    """List those that are not timed, in the order of the page."""
+    print("\n".join(f"{name:20s} {case.answers}" for name, case in CASES.items()))
+    return Exit.MET
+
+
 def report(arguments: argparse.Namespace) -> Exit:
     """Run cases, write their report, and say how it came out."""
     # what is timed is run last, when nothing else is; a race needs other solvers
@@ -66,7 +74,6 @@ def report(arguments: argparse.Namespace) -> Exit:
     scene = _scene_of(arguments, names)
     if scene is not None:
         print("\n".join([scene.name, *description_lines(scene), ""]), flush=True)
-    unsteady = scene is not None and bool(scene.no_steady_answer())
     sections = build(
         names,
         profile=arguments.profile,
@@ -76,12 +83,12 @@ def report(arguments: argparse.Namespace) -> Exit:
         scene=scene,
         executor=arguments.executor,
         keep=arguments.keep,
-        callback=lambda section: print("\n".join(lines_of(section, unsteady=unsteady)), flush=True),
+        callback=lambda section: print("\n".join(lines_of(section)), flush=True),
     )
-    if not unsteady and any(section.claims for section in sections):
+    if any(section.claims for section in sections):
         print(total_of(sections))
     print(printable(f"report: {out / 'index.html'}"))
-    if unsteady or any(section.unconverged for section in sections):
+    if any(section.unconverged for section in sections):
         return Exit.NOT_CONVERGED
     return Exit.CRITERION_FAILED if any(section.missed for section in sections) else Exit.MET
 
@@ -103,15 +110,13 @@ def _scene_of(arguments: argparse.Namespace, names: Sequence[str]) -> WheelScene
     return load_wheel_scene(arguments.scene)
 
 
-def lines_of(section: Section, *, unsteady: bool = False) -> list[str]:
-    """A line for the case, each claim, conclusion, missed criterion and failed solve; unsteady: it has no level."""
-    met = f"criteria met {section.criteria - len(section.missed)} of {section.criteria}"
-    if unsteady:
-        met = "no steady answer, the results hold for this distance alone"
-    details: list[str] = []
-    if not unsteady:
-        details += [f"{c.status}: {c.claim} {c.answer}" for c in section.claims]
-        details += section.evidence.conclusions if section.evidence else ()
+def lines_of(section: Section) -> list[str]:
+    """A line for the case, each claim, conclusion, missed criterion and failed solve."""
+    met = "no criteria"
+    if section.criteria:
+        met = f"criteria met {section.criteria - len(section.missed)} of {section.criteria}"
+    details = [f"{c.status}: {c.claim} {c.answer}" for c in section.claims]
+    details += section.evidence.conclusions if section.evidence else ()
     details += [f"missed: {number.sentence}" for number in section.missed]
     details += [f"not converged: {solve}" for solve in section.unconverged]
     if section.name in TIMED and section.evidence:

@@ -2,7 +2,7 @@
 
 import argparse
 
-from validation.report.commands.exit_status import Exit
+from validation.report.commands.arguments import Exit
 from validation.scenes.bundled import bundled, path_of
 
 

@@ -10,10 +10,8 @@ from validation.cases.rail.rail_sound import SOUNDING, RailSound, RailSoundResul
 from validation.cases.rail.rail_sound_study import signed, sounds_of, what_is_heard
 from validation.engine.engine import Engine
 from validation.engine.progress import progress_of
-from validation.report.commands.arguments import add_workers, at_least, some_of
-from validation.report.commands.exit_status import Exit
-from validation.report.folder import Folder
-from validation.report.manifest import SOUND
+from validation.report.commands.arguments import Exit, add_workers, at_least, some_of
+from validation.report.folder import SOUND, Folder
 from validation.report.sounds import wavs
 from validation.scenes.description import description_lines
 from validation.scenes.load import load_scene

@@ -32,11 +32,6 @@ ROOM = 3.0
 """How far a chart goes on, as a factor, below what is drawn and above."""
 
 
-def draw(points: Table) -> Figure:
-    """Error against seconds."""
-    return _charts(points)
-
-
 def _style(method: str) -> Style:
     return {**COMMON, **STYLES.get(method, NEW)}
 
@@ -48,7 +43,8 @@ def _methods(points: Table) -> list[str]:
     return sorted(names, key=lambda name: known.index(name) if name in known else len(known))
 
 
-def _charts(points: Table) -> Figure:
+def draw(points: Table) -> Figure:
+    """Error against seconds."""
     charts = list(dict.fromkeys(zip(points["scene"].tolist(), points["quantity"].tolist(), strict=True)))
     figure, axes = panels(3, 4, width=14.0, height=10.0, within=PLACES)
     for i, (axis, (scene, quantity)) in enumerate(zip(axes, charts, strict=False)):
