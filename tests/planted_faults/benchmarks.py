@@ -8,9 +8,8 @@ import numpy as np
 from tests.benchmarks import test_chart_points as test_points
 from tests.benchmarks import test_fronts, test_peers
 from tests.planted_faults.wrong import scaled
+from validation.benchmarks import solvers as comparison
 from validation.benchmarks import timing
-from validation.benchmarks.solvers import case as comparison
-from validation.benchmarks.solvers import problems
 from validation.benchmarks.work_precision import case as precision_case
 from validation.benchmarks.work_precision import errors as precision_error
 from validation.benchmarks.work_precision import problem as precision
@@ -43,7 +42,7 @@ FAULTS = {
         test_peers.test_the_median_lies_between_order_statistics,
     ),
     "our solver for the first of the list": (
-        ((comparison, problems), "OUR_SOLVER", "theirs"),
+        (comparison, "OUR_SOLVER", "theirs"),
         test_peers.test_a_solver_that_is_placed_first_does_not_become_ours,
     ),
     "nothing left open by a reference": (

@@ -4,13 +4,11 @@ import math
 import sys
 from dataclasses import replace
 
-import numpy as np
 import pytest
 
 from tests.benchmarks.made_up import use_a_clock_of_its_own
 from validation.benchmarks import timing
 from validation.benchmarks.peers import all_methods
-from validation.benchmarks.solvers import problems
 from validation.benchmarks.work_precision.errors import points
 from validation.benchmarks.work_precision.pressed import RoughPunchProblem
 from validation.benchmarks.work_precision.problem import Grids, measure
@@ -77,6 +75,7 @@ def test_a_model_that_is_found_is_on_the_charts(toy, monkeypatch):
     assert {"mean stiffness", "relative deviation"} == set(mine)
     assert all(point.finished for point in mine.values())
     assert mine["mean stiffness"].setting == "three realisations"
+    assert "toy" in all_methods()
 
 
 def test_a_rolling_model_that_is_found_is_on_the_chart_of_its_quantity(monkeypatch):
@@ -92,20 +91,6 @@ def test_a_rolling_model_that_is_found_is_on_the_chart_of_its_quantity(monkeypat
     assert [point.status for point in chart if point.method == "found" and point.quantity == "spectrum"] == [
         "out of range: it does not have this quantity"
     ]
-
-
-def test_a_model_that_is_found_is_in_the_solver_comparison(toy, monkeypatch):
-    use_a_clock_of_its_own(monkeypatch)
-    monkeypatch.setattr(problems, "SOLVERS", problems.SOLVERS[:2])
-    problem = problems.SurfaceProblem(problems.ROUGH, 0.001, 32, False, 1, 1e-6)
-    outcome = problems.time_problem(timing.TimedProblem(problem=problem, slow=1.0, enough=1.0))
-    methods = outcome["solver"].tolist()
-    assert {"bem3d", "bem3d, Polonsky-Keer", "fit", "toy"} <= set(methods)
-    assert set(outcome["status"].tolist()) == {timing.FINISHED}
-    # of the pressures a model has none, so its stiffness alone is compared
-    toy = {name: column[methods.index("toy")] for name, column in outcome.items()}
-    assert np.isfinite(toy[problems.STIFFNESS]) and np.isnan([toy[problems.PRESSURE], toy[problems.FORCE]]).all()
-    assert "toy" in all_methods()
 
 
 def test_the_fit_of_a_rough_punch_is_one_of_them():

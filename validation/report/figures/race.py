@@ -13,7 +13,7 @@ MARKS: dict[str, Style] = {
     "ContactMechanics": {"color": "#009E73", "marker": "^"},
 }
 OTHER: Style = {"color": "#777777", "marker": "v", "markerfacecolor": "none"}
-"""Of contact models that are found."""
+"""Of a solver that has no style of its own."""
 
 
 def draw(heats: Table) -> Figure:
