@@ -28,7 +28,7 @@ class Pictures:
         if section.evidence is None:
             return
         names = list(section.evidence.captions)
-        self._progress.extend("drawn", len(names))
+        self._progress.begin("drawn", total=len(names))
         for name in names:
             self._begun[name] = self._workers.submit(draw_figure, name, section.evidence, self._profile)
             self._begun[name].add_done_callback(lambda _: self._progress.step())
