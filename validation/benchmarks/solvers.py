@@ -17,12 +17,14 @@ from validation.analysis.evidence import Table, table_of
 from validation.analysis.series import Margin, Series, single
 from validation.analysis.statistics import Interval
 from validation.analysis.study import Outcomes, Study
-from validation.benchmarks.peers import OUR_SOLVER, OURS, SOLVERS, DiscreteProblem, all_methods, solvers_on_grids
+from validation.benchmarks.peers import OUR_SOLVER, OURS, SOLVERS, DiscreteProblem, all_methods, by_pressure
 from validation.benchmarks.timing import (
     FINISHED,
     Configuration,
+    NamedMethod,
     TimedProblem,
     Timing,
+    along,
     interval_of_median,
     time_in_turns,
 )
@@ -76,9 +78,9 @@ class SurfaceProblem:
         rng = random_generator(self.seed)
         return draw_surface(band.c2d, shape=(n, n), spacing=1 / n, rng=rng, rms=ROUGH_HEIGHT)
 
-    def discrete(self, cells: int) -> DiscreteProblem:
+    def discrete(self) -> DiscreteProblem:
         """In plain values, with the approach that belongs to its force."""
-        problem = DiscreteProblem(self.height(), 1 / cells, 1.0, self.periodic, self.load, 0.0)
+        problem = DiscreteProblem(self.height(), 1 / self.cells, 1.0, self.periodic, self.load, 0.0)
         contact = bem3d.solve(problem.half_space(), problem.gap, force=self.load, tolerance=1e-10)
         return replace(problem, approach=contact.approach)
 
@@ -88,7 +90,9 @@ class SurfaceProblem:
 
     def configurations(self) -> tuple[Configuration, ...]:
         """Each solver that is installed, in a process of its own."""
-        return solvers_on_grids(SOLVERS, self, (self.cells,), "a side", self.residual)
+        methods = [NamedMethod(solver.name, by_pressure, (solver,)) for solver in SOLVERS if solver.version]
+        sizes: dict[str, Any] = {"sizes": (self.cells,), "parameter": "# cells a side", "residual": self.residual}
+        return tuple(each for by in methods for each in along(by, self, **sizes, worker=by.name))
 
 
 NOT_INSTALLED = "not installed"
