@@ -73,7 +73,7 @@ verdicts: $(STRENGTH)  ## which test of verdicts and claims has executed which l
 		$(GUARDS) $(ARGS)
 
 # small changes and who notices: in mdr, bem3d, closed forms; ARGS="--sample 300"; in what makes verdicts, and in what
-# claims rest on: ARGS="--of verdicts", "--of claims"; --help names the parts of it
+# claims rest on: ARGS="--of verdicts", "--of claims"; --only PATH for some of their files
 mutation: $(RECORD) $(RECORD_OF_VERDICTS)
 	$(RUN) tests.mutation.runner $(ARGS)
 
@@ -125,4 +125,4 @@ $(STRENGTH): $(READY)
 	touch $@
 
 clean:
-	rm -rf $(VENV) $(OLDEST) reports/docs/_build reports/docs/examples .hypothesis .mypy_cache .pytest_cache .ruff_cache .coverage .coverage-verdicts $(RECORD) $(RECORD_OF_VERDICTS) .mutation-killers.json
+	rm -rf $(VENV) $(OLDEST) reports/docs/_build reports/docs/examples .hypothesis .mypy_cache .pytest_cache .ruff_cache .coverage .coverage-verdicts $(RECORD) $(RECORD_OF_VERDICTS)

@@ -10,8 +10,8 @@ import pytest
 from tests.benchmarks.made_up import MEAN, k
 from validation.benchmarks.timing import FINISHED, OUT_OF_RANGE, Configuration
 from validation.benchmarks.work_precision.errors import MethodValues, error, points, reference_of
+from validation.benchmarks.work_precision.pressed import log_deviation
 from validation.benchmarks.work_precision.problem import EXTRAPOLATED, Quantity, mean_of
-from validation.benchmarks.work_precision.rough_punch import log_deviation
 from validation.engine.convergence import NotConvergedError
 
 LEVEL = mean_of("level", "k", decibel=True, order=2.0)
@@ -108,7 +108,6 @@ X = np.array([1.0, 1.1, 0.9])
 OUTCOME = {
     "status": np.array([FINISHED, FINISHED, FINISHED, "failed: lost"]),
     "setup": np.array([0.1, 0.2, 0.4, 0.8]),
-    "work": np.array([10.0, 20.0, 40.0, math.nan]),
     "seconds 0": np.array([1.0, 2.0, 3.0]),
     "seconds 1": np.array([10.0, 20.0, 30.0, 40.0, 50.0]),
     "seconds 2": np.array([0.5]),
@@ -155,12 +154,12 @@ def test_points_have_their_errors_and_costs():
     assert (fine.error, fine.over) == pytest.approx((0.45, 0.55))
     exact = MethodValues(k(np.full(3, 2.0)))
     assert fine.half_width == error(MEAN, MethodValues(k(1.1 * X)), exact).half_width > 0
-    assert (fine.seconds, fine.runs, fine.setup, fine.work) == ((20.0, 30.0, 40.0), 5, 0.2, 20.0)
+    assert (fine.seconds, fine.runs, fine.setup) == ((20.0, 30.0, 40.0), 5, 0.2)
     assert fine.finished and not fine.is_reference and fine.setting == "12 cells"
     # both grids are paid for
     both = point_of(found, EXTRAPOLATED, 12.0)
     assert both.seconds == pytest.approx((21.5, 32.0, 42.5))
-    assert (both.runs, both.setup, both.work) == pytest.approx((3, 0.3, 30.0))
+    assert (both.runs, both.setup) == pytest.approx((3, 0.3))
     # 1.1 (1.1 / 1.21)^2 = 1 / 1.1, of 2
     assert (both.over, both.error) == pytest.approx((1 / 2.2, 1 - 1 / 2.2))
     assert both.status == FINISHED and both.parameter == "# cells"

@@ -7,7 +7,7 @@ import pytest
 
 from tests.benchmarks.made_up import point
 from validation.analysis.series import numbers_of
-from validation.benchmarks.work_precision.case import times
+from validation.benchmarks.work_precision.case import STUDY, times
 from validation.benchmarks.work_precision.pareto import (
     cheapest,
     front,
@@ -15,17 +15,17 @@ from validation.benchmarks.work_precision.pareto import (
     monotone_envelope,
     reason_if_none,
 )
-from validation.benchmarks.work_precision.problem import BEM, CLOSED, FILTER_1D, FILTER_3D, MDR, MDR_ROLLING
-from validation.benchmarks.work_precision.study import STUDY
+from validation.benchmarks.work_precision.problem import BEM, CLOSED, FILTER_3D, MDR, MDR_ROLLING
+from validation.simulation.model_names import FILTER_1D
 
 CHART = [
-    point("MDR", 0.13, 1e-5, value=16, work=16.0),
-    point("MDR", 0.12, 2e-5, value=32, work=32.0),
-    point("BEM", 0.2, 1e-4, value=4, work=1000.0),
-    point("BEM", 0.03, 1e-3, value=8, work=9000.0),
-    point("BEM", 0.0005, 1e-2, value=16, work=80000.0),
-    point("BEM", 0.0001, 1e-1, value=32, work=800000.0),
-    point("plain", 0.03, 2e-3, value=8, work=8000.0),
+    point("MDR", 0.13, 1e-5, value=16),
+    point("MDR", 0.12, 2e-5, value=32),
+    point("BEM", 0.2, 1e-4, value=4),
+    point("BEM", 0.03, 1e-3, value=8),
+    point("BEM", 0.0005, 1e-2, value=16),
+    point("BEM", 0.0001, 1e-1, value=32),
+    point("plain", 0.03, 2e-3, value=8),
 ]
 
 
@@ -68,13 +68,13 @@ def test_errors_are_ranked_by_their_upper_ends():
 
 
 def test_luck_is_what_more_of_the_same_does_not_keep():
-    """The largest upper end at more work of the same method; no others, and nobody who is lost."""
+    """The largest upper end at finer settings of the same method; no others, and nobody who is lost."""
     chart = [
-        point("a", 0.01, 1.0, work=10.0),
-        point("a", 0.2, 2.0, work=20.0),
-        point("a", 0.05, 3.0, work=30.0, half_width=0.01),
-        point("a", 0.9, 9.0, work=30.0, status="failed: lost"),
-        point("b", 0.8, 1.0, work=99.0),
+        point("a", 0.01, 1.0),
+        point("a", 0.2, 2.0),
+        point("a", 0.05, 3.0, half_width=0.01),
+        point("a", 0.9, 9.0, status="failed: lost"),
+        point("b", 0.8, 1.0),
     ]
     found = monotone_envelope(chart)
     assert [p.finer for p in found] == pytest.approx([0.2, 0.06, 0.0, 0.0, 0.0])

@@ -9,55 +9,45 @@ import pytest
 import validation.__main__ as command
 from tests.benchmarks.made_up import named, run_command, timed_problem, use_a_clock_of_its_own
 from validation.analysis.evidence import Table
+from validation.analysis.spectra import levels, waves
 from validation.benchmarks.peers import all_methods
 from validation.benchmarks.timing import FINISHED, TimedProblem
-from validation.benchmarks.work_precision import exact_problems, figure_cost
+from validation.benchmarks.work_precision import figure_cost, rolling
 from validation.benchmarks.work_precision import problem as precision
-from validation.benchmarks.work_precision.case import WITHIN, WITHOUT, Precision, run
-from validation.benchmarks.work_precision.dynamic_wheel import WheelProblem, steady_acceleration
+from validation.benchmarks.work_precision.case import CASE, WITHIN, WITHOUT, Precision, run
 from validation.benchmarks.work_precision.pareto import TOLERANCES
-from validation.benchmarks.work_precision.problem import BEM, CLOSED, EXTRAPOLATED, LOOSE, MDR, POLONSKY_KEER, Grids
+from validation.benchmarks.work_precision.pressed import PunchProblem, RoughPunchProblem, SphereProblem
+from validation.benchmarks.work_precision.problem import BEM, CLOSED, EXTRAPOLATED, LOOSE, MDR, Grids
 from validation.benchmarks.work_precision.rolling import RollingProblem
-from validation.benchmarks.work_precision.rough_punch import RoughPunchProblem
-from validation.benchmarks.work_precision.study import CASE
 from validation.engine.engine import Engine
 from validation.report import contents
 from validation.report.contents import TIMED
-from validation.simulation.motion import simulate
 from validation.simulation.rolling_strip import HERTZ
-from validation.simulation.wheel_on_half_space import linear_law_3d
+from validation.theory.rolling import linear_force
 
 # --- every scene, small ---
 
 
 def exact_grids(cells, per):
-    few = {"polonsky_keer": cells[:2], "fixed": cells[1], "tolerances": (0.1, 1e-3)}
-    return Grids(cells=cells, tight=1e-8, per=per, **few)
+    return Grids(cells=cells, tight=1e-8, per=per, fixed=cells[1], tolerances=(0.1, 1e-3))
 
 
 SMALL = Precision(
-    sphere=exact_problems.SphereProblem(grids=exact_grids((4, 8, 16), "to a radius"), springs=(2.4, 4.4, 8.4, 16.4)),
-    punch=exact_problems.PunchProblem(grids=exact_grids((8, 16, 32), "a side"), springs=(4,)),
+    sphere=SphereProblem(grids=exact_grids((4, 8, 16), "to a radius"), springs=(2.4, 4.4, 8.4, 16.4)),
+    punch=PunchProblem(grids=exact_grids((8, 16, 32), "a side"), springs=(4,)),
     fractal=RoughPunchProblem(
         waves=7,
         realisations=4,
         profiles=12,
-        grids=Grids(cells=(10, 16, 32, 64), polonsky_keer=(16,), fixed=16, tolerances=(0.1,)),
+        grids=Grids(cells=(10, 16, 32, 64), fixed=16, tolerances=(0.1,)),
         springs=(10, 16, 64),
     ),
     rolling=RollingProblem(
         last=6.0,
         width=12,
         tracks=6,
-        grids=Grids(cells=(1, 3, 6), polonsky_keer=(3,), fixed=3, tolerances=(0.1,), per="to a radius"),
-        filtered=(3, 6),
+        grids=Grids(cells=(1, 3, 6), fixed=3, tolerances=(0.1,), per="to a radius"),
         springs=(1, 8),
-    ),
-    wheel=WheelProblem(
-        wheels=6,
-        grids=Grids(cells=(6, 12), fixed=6, tolerances=(1e-2,), per="to a radius"),
-        filtered=(6,),
-        springs=(12,),
     ),
     cost=figure_cost.FigureCost(wheels=20, steps=20),
 )
@@ -80,19 +70,17 @@ def charts(found):
     return found.table("points")
 
 
-EXACT = {CLOSED, POLONSKY_KEER, BEM, LOOSE, EXTRAPOLATED}
-ROUGH = {precision.FILTER_3D, precision.FILTER_ON_STRIPS, MDR, BEM, LOOSE, precision.MDR_ROLLING, precision.FILTER_1D}
+ELEMENTS = {BEM, LOOSE, EXTRAPOLATED}
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("scene", "lines"),
     [
-        ("sphere", {*EXACT, MDR}),
-        ("square punch", {*EXACT, MDR}),
-        ("fractal punch", {"fit", MDR, BEM, LOOSE, POLONSKY_KEER, EXTRAPOLATED}),
-        ("rolling force", {*ROUGH, POLONSKY_KEER}),
-        ("dynamic wheel", ROUGH),
+        ("sphere", {CLOSED, MDR, *ELEMENTS}),
+        ("square punch", {CLOSED, MDR, *ELEMENTS}),
+        ("fractal punch", {"fit", MDR, *ELEMENTS}),
+        ("rolling force", {precision.FILTER_3D, MDR, precision.MDR_ROLLING, BEM, LOOSE}),
     ],
 )
 def test_every_method_has_its_line(scene, lines, charts):
@@ -114,17 +102,9 @@ def test_extrapolated_grids_are_closer_than_the_finer_of_them(charts):
 
 
 @pytest.mark.slow
-def test_looser_residuals_cost_less_and_are_farther_off(charts):
+def test_looser_residuals_are_farther_off(charts):
     loose, tight = (line(charts, "sphere", "force", method) for method in (LOOSE, BEM))
     assert loose["error"][0] > tight["error"][1]
-    assert (loose["work"] < tight["work"][1]).all()
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("scene", "quantity"), [("fractal punch", "mean stiffness"), ("rolling force", "rms")])
-def test_of_the_finest_grid_the_reference_leaves_open_as_much_as_it_lies_from_it(scene, quantity, charts):
-    mine = line(charts, scene, quantity, BEM)
-    assert mine["error"][-1] == pytest.approx(mine["band"][-1]) and mine["band"][0] > 0
 
 
 @pytest.mark.slow
@@ -141,12 +121,12 @@ def test_what_cannot_be_done_is_refused_with_a_reason(charts, found):
 @pytest.mark.slow
 def test_every_quantity_has_a_cheapest_method_of_each_tolerance(found):
     assert found.unconverged == () and {number.role for number in found.numbers} == {"finding"}
-    assert len(found.table("summary")["tolerance"]) == 9 * len(TOLERANCES)
-    assert len(found.table(WITHIN)["scene"]) == 9
+    assert len(found.table(WITHIN).columns) == 2 + len(TOLERANCES)
+    assert len(found.table(WITHIN)["scene"]) == 8
 
 
 @pytest.mark.slow
-def test_errors_fall_with_the_order_of_theory_and_the_published_iteration_has_the_same_values(charts):
+def test_errors_fall_with_the_order_of_theory(charts):
     for scene, quantity, method, order, within in (
         # second order; the staircase edge scatters the error from grid to grid
         ("sphere", "force", BEM, 2.0, 0.5),
@@ -156,11 +136,6 @@ def test_errors_fall_with_the_order_of_theory_and_the_published_iteration_has_th
     ):
         mine = line(charts, scene, quantity, method)
         assert -np.polyfit(np.log(mine["value"]), np.log(mine["error"]), 1)[0] == pytest.approx(order, abs=within)
-    for scene, quantity in (("sphere", "force"), ("square punch", "stiffness")):
-        fast, plain = (line(charts, scene, quantity, method) for method in (BEM, POLONSKY_KEER))
-        count = plain["value"].size
-        assert count > 1 and fast["value"][:count].tolist() == plain["value"].tolist()
-        assert plain["over the reference"] == pytest.approx(fast["over the reference"][:count], rel=1e-6)
 
 
 @pytest.mark.slow
@@ -206,30 +181,17 @@ def test_finished_scenes_are_kept_until_all_are(tmp_path, by_hand, monkeypatch):
 # --- what linear theory is used for ---
 
 
-STRIP = WheelProblem(realisations=3, wheels=6)
-
-
-def test_the_filtered_acceleration_is_the_motion_that_repeats_itself():
-    strip = STRIP.strip(0, 6, 1e-5)
-    linear = linear_law_3d(strip.scene.body, strip.surface(), strip.spacing)
-    time_step = strip.spacing / strip.scene.speed
-    approach, velocity = linear.steady_state(time_step)
-    steps = len(linear.change)
-    motion = simulate(linear.wheel, linear, time_step=time_step, steps=steps, approach=approach, velocity=velocity)
-    expected = steady_acceleration(linear, time_step)
-    np.testing.assert_allclose(motion.acceleration, expected, atol=1e-8 * np.abs(expected).max())
-
-
 @pytest.mark.slow
-@pytest.mark.parametrize("scene", [SMALL.rolling, STRIP], ids=lambda scene: scene.name)
-def test_means_over_phases_are_those_of_many_linear_realisations(scene):
-    draw = next(each for each in scene.configurations() if each.label == precision.FILTER_ON_STRIPS).prepare()
-    solves = [draw(i) for i in range(60)]
-    values = [solve().values for solve in solves]
-    found = {"level": np.array([one["level"] for one in values])}
-    if scene is SMALL.rolling:
-        # at a place, so that the mean of a strip counts too
-        found["variance"] = np.array([np.mean((solve.run()[0] / HERTZ - 1) ** 2) for solve in solves])
+def test_means_over_phases_are_those_of_many_linear_realisations():
+    """At a place, so that the mean of a strip counts too."""
+    scene, cells = SMALL.rolling, 3
+    surfaces = [scene.rough_strip.surface(cells, i) for i in range(60)]
+    values = [scene.on(cells).prepare()(i).read(np.zeros(scene.length * cells)).values for i in range(2)]
+    forces = [linear_force(one, spacing=1 / cells, **rolling.SMOOTH) / HERTZ - 1 for one in surfaces]
+    found = {
+        "level": np.array([levels(waves(force, spacing=1 / cells), scene.bands) for force in forces]),
+        "variance": np.array([np.mean(force**2) for force in forces]),
+    }
     for name, drawn in found.items():
         mean = values[0][f"mean {name}"]
         assert (np.abs(drawn.mean(axis=0) - mean) < 4 * drawn.std(axis=0, ddof=1) / math.sqrt(60)).all()
@@ -262,4 +224,4 @@ def test_report_times_last_of_all_and_before_the_race(installed, tmp_path, monke
 
 def test_a_seed_is_that_of_all_roughness():
     case = TIMED["precision"].settings("quick", 7)
-    assert [scene.seed for scene in case.problems()[2:]] == [7, 7, 7]
+    assert [scene.seed for scene in case.problems()[2:]] == [7, 7]

@@ -60,7 +60,8 @@ def test_what_is_lost_is_counted_while_it_runs(tmp_path):
     for found, failed in ((0, 2), (4, 2)):
         progress = Part("toy")
         Engine(store=tmp_path, progress=progress).map(lost_if_odd, range(4))
-        assert (progress.done, progress.found, progress.failed) == (4, found, failed)
+        (solves,) = progress.kinds
+        assert (solves.done, solves.found, solves.failed) == (4, found, failed)
 
 
 def lost_if_odd(problem):

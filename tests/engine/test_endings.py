@@ -182,9 +182,3 @@ def test_what_is_printed_goes_to_a_full_disk():
         run = subprocess.run(words, cwd=ROOT, env=ENVIRONMENT, stdout=full, stderr=subprocess.PIPE, text=True)
     assert run.returncode == command.Exit.UNFINISHED
     assert run.stderr == "error: No space left on device\n"
-
-
-@pytest.mark.parametrize("workers", [0, -1])
-def test_there_is_at_least_one_worker(workers):
-    with pytest.raises(ValueError, match="workers must be at least 1"):
-        Engine(workers=workers)

@@ -150,6 +150,11 @@ def test_an_executor_is_local_or_an_address(executor):
         Engine(executor=executor)
 
 
+def test_there_is_at_least_one_worker():
+    with pytest.raises(ValueError, match="workers must be at least 1"):
+        Engine(workers=0)
+
+
 def test_an_address_where_nobody_answers(problems, monkeypatch):
     monkeypatch.setattr(ensemble, "TIMEOUT", 1)
     with pytest.raises(ValueError, match="executor must be a running scheduler"):

@@ -6,7 +6,7 @@ over, in a process of its own on a copy of the project.
 """
 
 import argparse
-import json
+import math
 import os
 import random
 import re
@@ -19,6 +19,7 @@ import tomllib
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
+from itertools import accumulate
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -30,12 +31,10 @@ from tests.mutation.report import Outcome, Survey, table
 ROOT = Path(__file__).parents[2]
 HERE = ROOT / "tests" / "mutation"
 COPIED = ("mdr", "bem3d", "validation", "tests", "reports", "pyproject.toml", "README.md", "ARCHITECTURE.md")
-KILLERS = ROOT / ".mutation-killers.json"
-"""Who has killed which mutant before: it is asked first the next time."""
 MEMORY = 8 * 2**30
 """Of the tests of a mutant, in bytes of address space."""
 SETTINGS = {"HYPOTHESIS_PROFILE": "mutation", "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1", "OPENBLAS_NUM_THREADS": "1"}
-QUIET = ("-qq", "-x", "--tb=no", "-rfE", "-p", "no:cacheprovider")
+QUIET = ("-qq", "-x", "--tb=no", "-p", "no:cacheprovider")
 METHODS = ("mdr/*.py", "bem3d/*.py", "validation/theory/closed_forms.py")
 VERDICTS = (
     *("validation/analysis/series.py", "validation/analysis/over_range.py", "validation/analysis/claims.py"),
@@ -45,24 +44,13 @@ VERDICTS = (
     *("validation/benchmarks/work_precision/errors.py", "validation/benchmarks/work_precision/pareto.py"),
     "validation/selection/hierarchy.py",
 )
-CLAIMS = {
-    "answers": "validation/report/answers/*.py",
-    "calibration": "validation/simulation/calibrat*.py",
-    "contact_force": "validation/selection/contact_force.py",
-    "exported": "validation/selection/exported.py",
-    "graduation": "validation/analysis/graduation.py",
-    "isotropic_line": "validation/scenes/isotropic_line.py",
-    "multilevel": "validation/analysis/multilevel.py",
-    "rail": "validation/simulation/rail_*.py",
-    "sound": "validation/analysis/sound.py",
-}
+CLAIMS = (
+    *("validation/report/answers/*.py", "validation/simulation/calibrat*.py", "validation/selection/contact_force.py"),
+    *("validation/selection/exported.py", "validation/analysis/graduation.py", "validation/scenes/isotropic_line.py"),
+    *("validation/analysis/multilevel.py", "validation/simulation/rail_*.py", "validation/analysis/sound.py"),
+)
 """What claims rest on: grids of Fig. 14.1, calibrated errors, rails, and what is printed of all of them."""
-FIELDS = {
-    "methods": METHODS,
-    "verdicts": VERDICTS,
-    "claims": tuple(CLAIMS.values()),
-    **{name: (files,) for name, files in CLAIMS.items()},
-}
+FIELDS = {"methods": METHODS, "verdicts": VERDICTS, "claims": CLAIMS}
 """What is surveyed."""
 
 
@@ -103,18 +91,14 @@ class Suite:
         known = self.executed.get(path, {})
         return {test for line in lines for test in known.get(line, ()) if test in self.seconds}
 
-    def quickest(self, tests: set[str], first: str | None, most: float) -> list[str]:
-        """By their seconds, which add up to `most` or little more; first the one that has killed before."""
-        chosen, total = [first] if first in tests else [], 0.0
-        for test in sorted(tests - {first}, key=lambda test: (self.seconds[test], test)):
-            if total >= most:
-                break
-            chosen.append(test)
-            total += self.seconds[test]
-        return chosen
+    def quickest(self, tests: set[str], most: float = math.inf) -> list[str]:
+        """By their seconds, which add up to `most` or little more."""
+        chosen = sorted(tests, key=lambda test: (self.seconds[test], test))
+        before = accumulate((self.seconds[test] for test in chosen), initial=0.0)
+        return [test for test, total in zip(chosen, before, strict=False) if total < most]
 
-    def run(self, tests: list[str], folder: Path) -> tuple[Outcome, str]:
-        """Tests in this order on a copy of the project, until one fails: which one it was, if it has said so."""
+    def run(self, tests: list[str], folder: Path) -> Outcome:
+        """Tests in this order on a copy of the project, until one fails."""
         command = [sys.executable, "-m", "pytest", *QUIET, *tests]
         longest = 60 + 3 * sum(self.seconds[test] for test in tests)
         try:
@@ -123,14 +107,13 @@ class Suite:
                 cwd=folder,
                 env=os.environ | SETTINGS,
                 timeout=longest,
-                capture_output=True,
-                text=True,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
                 preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY)),
             )
         except subprocess.TimeoutExpired:
-            return Outcome.TIMED_OUT, ""
-        killer = re.search(r"^(?:FAILED|ERROR) (.*?)(?: - |$)", done.stdout, flags=re.MULTILINE)
-        return Outcome.KILLED if done.returncode else Outcome.SURVIVED, killer[1] if killer else ""
+            return Outcome.TIMED_OUT
+        return Outcome.KILLED if done.returncode else Outcome.SURVIVED
 
 
 def _timed(case: ElementTree.Element) -> tuple[str, float]:
@@ -164,33 +147,27 @@ def main(arguments: list[str]) -> None:
     """Plant mutants, all or a sample of them, and write what has become of each."""
     asked = parsed(arguments)
     suite = Suite.recorded("coverage" if asked.of == "methods" else "verdicts")
-    before = json.loads(KILLERS.read_text()) if KILLERS.exists() else {}
     paths = sorted({str(path.relative_to(ROOT)) for pattern in FIELDS[asked.of] for path in ROOT.glob(pattern)})
     sources = {path: _source(path) for path in paths}
     everything = [mutant for path in paths for mutant in mutants_of(path, sources[path])]
     chosen = [mutant for mutant in everything if not asked.only or mutant.path in asked.only]
     if asked.sample is not None and asked.sample < len(chosen):
         chosen = sorted(random.Random(asked.seed).sample(chosen, asked.sample), key=lambda m: (m.path, m.number))
-    tests = {
-        m: suite.quickest(suite.tests_of(m, sources), before.get(f"{m.path}: {m.key}"), asked.seconds) for m in chosen
-    }
+    tests = {mutant: suite.quickest(suite.tests_of(mutant, sources), asked.seconds) for mutant in chosen}
     trials = []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         copy_of_the_project(folder)
-        union = suite.quickest({test for some in tests.values() for test in some}, None, float("inf"))
+        union = suite.quickest({test for some in tests.values() for test in some})
         print(f"{len(union)} tests on the unchanged project", flush=True)
-        if suite.run(union, folder)[0] is not Outcome.SURVIVED:
+        if suite.run(union, folder) is not Outcome.SURVIVED:
             raise SystemExit("a test fails on the unchanged project, or is not there")
         for i, mutant in enumerate(chosen, 1):
             (folder / mutant.path).write_text(mutated(mutant, sources[mutant.path]))
-            outcome, killer = suite.run(tests[mutant], folder) if tests[mutant] else (Outcome.SURVIVED, "")
+            outcome = suite.run(tests[mutant], folder) if tests[mutant] else Outcome.SURVIVED
             (folder / mutant.path).write_text(sources[mutant.path])
             trials.append((mutant, outcome))
             print(f"{i}/{len(chosen)} {outcome}: {mutant.path}: {mutant.key}", flush=True)
-            if killer:
-                before[f"{mutant.path}: {mutant.key}"] = killer
-                KILLERS.write_text(json.dumps(before, indent=0))
     seed = asked.seed if len(chosen) < len(everything) else None
     text = table(
         Survey(trials, everything, seed, asked.seconds), tomllib.loads(_source("tests/mutation/survivors.toml"))

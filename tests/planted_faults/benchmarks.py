@@ -7,13 +7,10 @@ import numpy as np
 
 from tests.benchmarks import test_chart_points as test_points
 from tests.benchmarks import test_fronts, test_peers
-from tests.benchmarks import test_work_precision as test_precision
 from tests.planted_faults.wrong import scaled
+from validation.benchmarks import solvers as comparison
 from validation.benchmarks import timing
-from validation.benchmarks.solvers import case as comparison
-from validation.benchmarks.solvers import problems
 from validation.benchmarks.work_precision import case as precision_case
-from validation.benchmarks.work_precision import dynamic_wheel as precision_wheel
 from validation.benchmarks.work_precision import errors as precision_error
 from validation.benchmarks.work_precision import problem as precision
 from validation.benchmarks.work_precision.pareto import Point
@@ -45,7 +42,7 @@ FAULTS = {
         test_peers.test_the_median_lies_between_order_statistics,
     ),
     "our solver for the first of the list": (
-        ((comparison, problems), "OUR_SOLVER", "theirs"),
+        (comparison, "OUR_SOLVER", "theirs"),
         test_peers.test_a_solver_that_is_placed_first_does_not_become_ours,
     ),
     "nothing left open by a reference": (
@@ -73,10 +70,5 @@ FAULTS = {
     "decibels of an amplitude for those of a power": (
         (precision.Quantity, "distance", scaled(precision.Quantity.distance, 2.0)),
         test_points.test_levels_differ_by_the_root_mean_square_of_decibels,
-    ),
-    "a filtered acceleration in continuous time": (
-        (precision_wheel, "transfer", lambda wheel, omega, _: -(omega**2) / (wheel.stiffness - wheel.mass * omega**2)),
-        # omega for the 2 sin(omega dt / 2) / dt of leapfrog
-        test_precision.test_the_filtered_acceleration_is_the_motion_that_repeats_itself,
     ),
 }

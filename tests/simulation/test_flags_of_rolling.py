@@ -82,7 +82,7 @@ PATHS = {
         **dict(zip(("approach", "force"), wheel_on_rail.in_motion(MOVING), strict=True))
     ),
     "validation.benchmarks.work_precision.rolling:_roll": lambda: without_a_flag(
-        force=rolling_chart._roll(STRIP.surface(), 6, 1e-6)()[0]
+        force=rolling_chart._roll(STRIP.surface(), 6, 1e-6)()
     ),
     "validation.simulation.exact_contacts:press_ellipse": lambda: press_ellipse(
         PublishedContact(cells=6, tolerance=1e-6)

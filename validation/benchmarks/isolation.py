@@ -8,11 +8,10 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from types import TracebackType
-from typing import Protocol, TypeVar
-
-from validation.engine.engine import Outcome
+from typing import ParamSpec, TypeVar
 
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS")
+P = ParamSpec("P")
 T = TypeVar("T")
 
 
@@ -56,13 +55,7 @@ def one_thread() -> Iterator[None]:
                 os.environ[name] = value
 
 
-class Measurement(Protocol):
-    """A frozen dataclass that times itself."""
-
-    def measure(self) -> Outcome: ...
-
-
-def measure_alone(measurement: Measurement) -> Outcome:
-    """In a fresh process with one thread."""
+def alone(function: Callable[P, T], *arguments: P.args, **named: P.kwargs) -> T:
+    """The result of a fresh process with one thread."""
     with one_thread(), isolated_process() as worker:
-        return worker.submit(measurement.measure).result()
+        return worker.submit(function, *arguments, **named).result()

@@ -2,7 +2,7 @@
 
 import importlib.metadata
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 import bem3d
-from validation.benchmarks.timing import Configuration, NamedMethod, along
 from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.model import all_models
 
@@ -208,21 +207,12 @@ def all_methods() -> tuple[str, ...]:
     return (*(f"{solver.name} {solver.version}" for solver in SOLVERS), *(model.name for model in all_models()))
 
 
-def solvers_on_grids(
-    solvers: Sequence[PeerSolver], scene: Any, cells: Sequence[int], per: str, residual: float
-) -> tuple[Configuration, ...]:
-    """Each that is installed, in a process of its own. scene: has `discrete`, and `read_pressure` for its values."""
-    methods = [NamedMethod(solver.name, by_pressure, (solver,)) for solver in solvers if solver.version]
-    return tuple(
-        each
-        for method in methods
-        for each in along(method, scene, cells, f"# cells {per}", residual=residual, worker=method.name)
-    )
-
-
 def by_pressure(scene: Any, resolution: Resolution, solver: PeerSolver) -> Prepared:
-    """At the loosest of its tolerances; the solver is set up anew before each run, which may start from the last."""
-    discrete = scene.discrete(round(resolution.size))
+    """At the loosest of its tolerances; the solver is set up anew before each run, which may start from the last.
+
+    scene: has `discrete`, and `read_pressure` for its values.
+    """
+    discrete = scene.discrete()
     tolerance = find_tolerance(solver, discrete, resolution.residual)
 
     def read(found: tuple[Field, float]) -> Result:

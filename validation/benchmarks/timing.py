@@ -83,10 +83,9 @@ def along(
 class TimedProblem:
     """A problem on the clock.
 
-    problem: a frozen dataclass with `configurations`, models that are found not among them, a `scene`, None where no
-    models are found, and `served`, the quantities that a model may have of it; slow: a solve that takes longer is timed
-    once [s]; enough: after so many seconds the fewest runs are enough; methods: names and versions: a run that goes on
-    after a change of these begins anew.
+    problem: a frozen dataclass with `configurations`, models that are found not among them; slow: a solve that takes
+    longer is timed once [s]; enough: after so many seconds the fewest runs are enough; methods: names and versions: a
+    run that goes on after a change of these begins anew.
     """
 
     problem: Any
@@ -96,7 +95,10 @@ class TimedProblem:
 
 
 def configurations_of(problem: Any) -> tuple[Configuration, ...]:
-    """Models that are found, those whose resolution charts vary themselves left out, and what the problem has."""
+    """Models that are found, those whose resolution charts vary themselves left out, and what the problem has.
+
+    problem: also has a `scene`, None where no models are found, and `served`, what a model may have of it.
+    """
     own = problem.configurations()
     known, targets = {each.label for each in own}, [Target(problem.scene, quantity) for quantity in problem.served]
     found = (

@@ -1,13 +1,12 @@
 """The progress of a long run in one line: which part is at work, how far it is, the time left for the whole."""
 
-import math
 import shutil
 import sys
 import threading
-import time
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass
 
 SECONDS_BETWEEN_LINES = 10.0
 """Seconds between two lines in a log."""
@@ -19,95 +18,80 @@ TRUSTED = 10.0
 """Expected seconds of work after which the pace of this machine counts as much as the expected one."""
 UNKNOWN = 600.0
 """Seconds of work that a part is taken for whose duration nobody knows."""
-BACK, ERASED = "\r", "\x1b[K"
+
+
+@dataclass
+class Solves:
+    """Of one kind: how many there are, how many were found in the store, are done with those, and did not converge."""
+
+    doing: str
+    total: int = 0
+    found: int = 0
+    done: int = 0
+    failed: int = 0
 
 
 class Part:
-    """A part of a run: counts of its solves, those of each kind that did not converge, and their seconds of work.
+    """A part of a run: its solves, kind after kind, and their seconds of work. seconds: that are expected."""
 
-    all_done, all_total, all_found: of all kinds until now; done, total, found, failed: of the one that is at work.
-    """
-
-    def __init__(self, name: str = "", seconds: float = 0.0, refresh: Callable[[], None] = lambda: None):
-        self.name, self.seconds = name, seconds
-        self.worked = 0.0
-        self.over = self.solving = False
-        self.doing = ""
-        self.done = self.total = self.found = self.failed = 0
-        self.all_done = self.all_total = self.all_found = 0
-        self.lost: Counter[str] = Counter()
-        self._refresh = refresh
+    def __init__(self, name: str = "", seconds: float = 0.0):
+        self.name, self.seconds, self.worked, self.over = name, seconds, 0.0, False
+        self.kinds: list[Solves] = []
 
     def begin(self, doing: str, *, total: int, found: int = 0, failed: int = 0) -> None:
-        """Solves that follow. found: in the store; failed: of those."""
-        self.doing, self.done, self.total, self.found, self.failed = doing, found, total, found, failed
-        self.all_done += found
-        self.all_total += total
-        self.all_found += found
-        self.lost[doing] += failed
-        self.solving |= total > found
-        self._refresh()
-
-    def extend(self, doing: str, more: int) -> None:
-        """More of the same."""
-        self.doing = doing
-        self.total += more
-        self.all_total += more
+        """Solves that follow, more of the last kind or another. found: in the store; failed: of those."""
+        if not self.kinds or self.kinds[-1].doing != doing:
+            self.kinds.append(Solves(doing))
+        kind = self.kinds[-1]
+        kind.total, kind.found, kind.done = kind.total + total, kind.found + found, kind.done + found
+        kind.failed += failed
 
     def step(self, failed: bool = False, seconds: float = 0.0) -> None:
         """One solve more. seconds: that it took."""
-        self.done += 1
-        self.all_done += 1
-        self.failed += failed
-        self.lost[self.doing] += failed
+        self.kinds[-1].done += 1
+        self.kinds[-1].failed += failed
         self.worked += seconds
-        self._refresh()
 
-    def finish(self) -> None:
-        self.over = True
-        self._refresh()
+    @property
+    def lost(self) -> Counter[str]:
+        """How many did not converge, by their kind."""
+        return sum((Counter({kind.doing: kind.failed}) for kind in self.kinds), Counter[str]())
 
     @property
     def share(self) -> float:
         """Of the part that is done."""
-        return 1.0 if self.over else BEFORE_EVIDENCE * self.all_done / max(self.all_total, 1)
+        return 1.0 if self.over else self._share(sum(kind.done for kind in self.kinds))
 
     @property
     def share_of_this_run(self) -> float:
         """Of the part that is done and was not found in the store."""
-        return self.share - (1.0 if self.over else BEFORE_EVIDENCE) * self.all_found / max(self.all_total, 1)
+        found = sum(kind.found for kind in self.kinds)
+        return self.share - (self._share(found) / BEFORE_EVIDENCE if self.over else self._share(found))
+
+    def _share(self, solves: int) -> float:
+        return BEFORE_EVIDENCE * solves / max(sum(kind.total for kind in self.kinds), 1)
 
     @property
     def line(self) -> str:
-        if not self.doing:
+        if not self.kinds:
             return self.name
-        found = f", {self.found} from an earlier run" if self.found else ""
-        failed = f", {self.failed} failed" if self.failed else ""
-        return f"{self.name}: {self.doing} {self.done}/{self.total}{found}{failed}"
+        kind = self.kinds[-1]
+        found = f", {kind.found} from an earlier run" if kind.found else ""
+        failed = f", {kind.failed} failed" if kind.failed else ""
+        return f"{self.name}: {kind.doing} {kind.done}/{kind.total}{found}{failed}"
 
 
 class Progress:
     """Parts of a run in their order: one line that is rewritten on a terminal, a line every few seconds in a log.
 
-    parts: name of each and the seconds that it is expected to take on one core; workers: that
-    share the work; shown: False prints nothing. Lines are also printed while no solve finishes, so that a log shows a
-    run that stands still.
+    parts: name of each and the seconds that it is expected to take on one core; workers: that share the work; shown:
+    False prints nothing. A thread prints the lines, also while no solve finishes: a log shows a run that stands still.
     """
 
-    def __init__(
-        self,
-        parts: Mapping[str, float],
-        *,
-        workers: int = 1,
-        shown: bool = True,
-        clock: Callable[[], float] = time.monotonic,
-    ):
-        self.parts = {name: Part(name, seconds, self.refresh) for name, seconds in parts.items()}
-        self._workers, self._now = workers, clock
-        self._shown, self._terminal = shown, sys.stderr.isatty()
-        self._began, self._printed = math.inf, clock()
-        self._lock = threading.RLock()
-        self._over = threading.Event()
+    def __init__(self, parts: Mapping[str, float], *, workers: int = 1, shown: bool = True):
+        self.parts = {name: Part(name, seconds) for name, seconds in parts.items()}
+        self._workers, self._shown, self._terminal = workers, shown, sys.stderr.isatty()
+        self._lock, self._over = threading.Lock(), threading.Event()
         self._ticks = threading.Thread(target=self._tick, daemon=True)
 
     def __enter__(self) -> "Progress":
@@ -120,17 +104,6 @@ class Progress:
             self._over.set()
             self._ticks.join()
             self._write("")
-
-    def refresh(self) -> None:
-        """Print the line, if the last one is old enough."""
-        if math.isinf(self._began) and any(part.solving for part in self.parts.values()):
-            self._began = self._now()
-        apart = SECONDS_BETWEEN_REFRESHES if self._terminal else SECONDS_BETWEEN_LINES
-        with self._lock:
-            if not self._shown or self._over.is_set() or self._now() - self._printed < apart:
-                return
-            self._printed = self._now()
-            self._write(self.line)
 
     @contextmanager
     def aside(self) -> Iterator[None]:
@@ -150,24 +123,21 @@ class Progress:
 
     @property
     def seconds_left(self) -> float:
-        """By the pace of what was done in this run, and the expected one as long as that is little.
-
-        Time counts from the first solve that is not stored: to load what is stored tells nothing of the pace.
-        """
+        """By the pace of the solves of this run, and the expected one as long as these are few."""
         parts = self.parts.values()
-        worked = sum(part.seconds * part.share_of_this_run for part in parts)
-        expected = TRUSTED / self._workers
-        pace = (max(self._now() - self._began, 0.0) + expected) / (worked + TRUSTED)
-        return pace * sum(part.seconds * (1 - part.share) for part in parts)
+        expected = sum(part.seconds * part.share_of_this_run for part in parts if part.worked)
+        pace = (sum(part.worked for part in parts) + TRUSTED) / (expected + TRUSTED)
+        return pace * sum(part.seconds * (1 - part.share) for part in parts) / self._workers
 
     def _tick(self) -> None:
-        while not self._over.wait(SECONDS_BETWEEN_REFRESHES):
-            self.refresh()
+        while not self._over.wait(SECONDS_BETWEEN_REFRESHES if self._terminal else SECONDS_BETWEEN_LINES):
+            with self._lock:
+                self._write(self.line)
 
     def _write(self, line: str) -> None:
         """On a terminal over the last one, in a log below it; an empty one erases the last."""
         if self._terminal:
-            sys.stderr.write(BACK + line[: shutil.get_terminal_size().columns - 1] + ERASED)
+            sys.stderr.write(f"\r{line[: shutil.get_terminal_size().columns - 1]}\x1b[K")
         elif line:
             sys.stderr.write(line + "\n")
         sys.stderr.flush()

@@ -129,12 +129,12 @@ def _section(name: str, settings: Any, result: Future[Any], progress: Part) -> S
         return of(None, (*_lost(progress), f"no evidence without them: {error}"))
     finally:
         progress.worked += time.perf_counter() - began
-        progress.finish()
+        progress.over = True
 
 
 def _lost(progress: Part) -> tuple[str, ...]:
     """A line for each kind of solve of a case that did not converge."""
-    return tuple(f"{doing}: {count} did not converge" for doing, count in progress.lost.items() if count)
+    return tuple(f"{doing}: {count} did not converge" for doing, count in progress.lost.items())
 
 
 def _files(

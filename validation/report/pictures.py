@@ -17,7 +17,7 @@ FIGURES = "figures"
 
 def begin_to_draw(evidence: Evidence, workers: Workers, progress: Part, profile: Profile) -> dict[str, Future[bytes]]:
     """SVG of each figure of a case, as soon as it is drawn. progress: the part of the run that counts them."""
-    progress.extend("drawn", len(evidence.captions))
+    progress.begin("drawn", total=len(evidence.captions))
     begun = {name: workers.submit(draw_figure, name, evidence, profile) for name in evidence.captions}
     for one in begun.values():
         one.add_done_callback(lambda _: progress.step())

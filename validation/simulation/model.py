@@ -1,6 +1,6 @@
 """A contact model: a function with a declaration of what it serves, of its error and of its cost.
 
-Found in `simulation/models`, it is a candidate of `compare`, a point on the charts and an entry of the race.
+Found in `simulation/models`, it is a candidate of `compare` and a point on the charts.
 """
 
 import math

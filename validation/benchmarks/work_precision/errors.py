@@ -164,11 +164,11 @@ def _timed(configuration: Configuration, outcome: Outcome, i: int) -> dict[str, 
         "status": str(outcome["status"][i]),
         "seconds": tuple(np.quantile(seconds, (0.25, 0.5, 0.75)).tolist()),
         "runs": seconds.size,
-        **{name: float(outcome[name][i]) for name in ("setup", "work")},
+        "setup": float(outcome["setup"][i]),
     }
 
 
 def _extrapolated(coarse: Point, fine: Point) -> Point:
     low, median, high = (x + y for x, y in zip(coarse.seconds, fine.seconds, strict=True))
-    runs, setup, work = min(coarse.runs, fine.runs), coarse.setup + fine.setup, coarse.work + fine.work
-    return replace(fine, method=EXTRAPOLATED, seconds=(low, median, high), runs=runs, setup=setup, work=work)
+    runs, setup = min(coarse.runs, fine.runs), coarse.setup + fine.setup
+    return replace(fine, method=EXTRAPOLATED, seconds=(low, median, high), runs=runs, setup=setup)

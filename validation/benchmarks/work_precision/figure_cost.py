@@ -1,14 +1,15 @@
 """What Fig. 14.4 costs by springs and with boundary elements in the time loop: a step, a metre, the whole figure."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 
 from validation.analysis.evidence import Table, table_of
-from validation.benchmarks.isolation import measure_alone, timed
+from validation.benchmarks.isolation import alone, timed
 from validation.benchmarks.timing import interval_of_median
-from validation.engine.engine import Engine, Outcome
+from validation.engine.engine import Engine, FloatArray, Outcome
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.simulation.contact_laws import BoundaryElementsLaw, SpringsLaw
 from validation.simulation.motion import simulate, simulate_from_linear_motion
@@ -37,44 +38,42 @@ class FigureCost:
     seed: int = 149
 
 
-@dataclass(frozen=True)
-class StepsOnSprings:
-    """Wheels in a batch, each on a track of its own."""
-
-    cost: FigureCost
-
-    def measure(self) -> Outcome:
-        """Seconds of a step of one wheel, several times."""
-        cost, scene = self.cost, self.cost.scene
-        heights = WheelEnsemble(scene=scene, count=cost.wheels, seed=cost.seed).heights()
-        law = SpringsLaw(scene.body, heights, scene.spacing)
-        ride = partial(simulate, scene.body, law, time_step=scene.time_step, steps=cost.steps)
-        return {"seconds": np.array([timed(ride)[1] for _ in range(RUNS)]) / (cost.steps * cost.wheels)}
+def on_springs(cost: FigureCost) -> Outcome:
+    """Seconds of a step of one wheel, several times; wheels in a batch, each on a track of its own."""
+    return {"seconds": alone(_seconds, _batch_on_springs, cost) / (cost.steps * cost.wheels)}
 
 
-@dataclass(frozen=True)
-class StepsOnHalfSpace:
-    """One wheel over the beginning of a strip."""
+def on_half_space(cost: FigureCost) -> Outcome:
+    """Seconds of a step, several times; one wheel over the beginning of a strip."""
+    return {"seconds": alone(_seconds, _wheel_on_half_space, cost) / cost.steps}
 
-    cost: FigureCost
 
-    def measure(self) -> Outcome:
-        """Seconds of a step, several times; plans are made before."""
-        cost, scene = self.cost, self.cost.scene
-        own = {"realisation": 0, "natural_periods": 0, "width": 2, "seed": cost.seed}
-        strip = WheelStrip(scene=scene, cells=cost.cells, shared=cost.cells, tolerance=cost.tolerance, **own)
-        surface, spacing = strip.surface(), strip.spacing
-        height = crop_to_reach(surface, spacing, scene.body)
-        law = BoundaryElementsLaw(scene.body, [height], spacing, tolerance=cost.tolerance)
-        linear = linear_law_3d(scene.body, surface, spacing)
-        ride = partial(simulate_from_linear_motion, law, linear, spacing / scene.speed, cost.steps)
-        return {"seconds": np.array([timed(ride)[1] for _ in range(1 + RUNS)][1:]) / cost.steps}
+def _seconds(prepare: Callable[[FigureCost], Callable[[], object]], cost: FigureCost) -> FloatArray:
+    """Of each run; plans are made in one before."""
+    ride = prepare(cost)
+    return np.array([timed(ride)[1] for _ in range(1 + RUNS)][1:])
+
+
+def _batch_on_springs(cost: FigureCost) -> Callable[[], object]:
+    scene = cost.scene
+    heights = WheelEnsemble(scene=scene, count=cost.wheels, seed=cost.seed).heights()
+    law = SpringsLaw(scene.body, heights, scene.spacing)
+    return partial(simulate, scene.body, law, time_step=scene.time_step, steps=cost.steps)
+
+
+def _wheel_on_half_space(cost: FigureCost) -> Callable[[], object]:
+    scene, own = cost.scene, {"realisation": 0, "natural_periods": 0, "width": 2, "seed": cost.seed}
+    strip = WheelStrip(scene=scene, cells=cost.cells, shared=cost.cells, tolerance=cost.tolerance, **own)
+    surface, spacing = strip.surface(), strip.spacing
+    height = crop_to_reach(surface, spacing, scene.body)
+    law = BoundaryElementsLaw(scene.body, [height], spacing, tolerance=cost.tolerance)
+    linear = linear_law_3d(scene.body, surface, spacing)
+    return partial(simulate_from_linear_motion, law, linear, spacing / scene.speed, cost.steps)
 
 
 def figure_cost(cost: FigureCost, engine: Engine) -> Table:
     """A row a method: median seconds of a step, of a metre, of a wheel; hours of the figure, with their interval."""
-    problems: tuple[StepsOnSprings | StepsOnHalfSpace, ...] = (StepsOnSprings(cost), StepsOnHalfSpace(cost))
-    springs, elements = engine.map(measure_alone, problems)
+    (springs,), (elements,) = engine.map(on_springs, [cost]), engine.map(on_half_space, [cost])
     rows = ("springs", cost.scene.springs, springs), ("boundary elements", cost.cells, elements)
     return table_of(COST_OF_STEPS, [_row(cost, method, n, outcome["seconds"].tolist()) for method, n, outcome in rows])
 

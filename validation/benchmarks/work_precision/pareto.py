@@ -18,9 +18,9 @@ class Point:
     unit: "%" for relative errors, or "dB"; band: uncertainty of the reference, in the unit of the error; method,
     parameter, value: of the configuration; is_reference: whether it is the reference itself; is_model: whether it has
     no surfaces of the reference, so that no parameter brings its error to zero; status: "finished", or why not; error,
-    half_width: with the interval of the sample; finer: the largest upper end of an error that more of the same leaves,
-    see `monotone_envelope`; over: the answer over the reference; seconds: quartiles and median, low, middle, high;
-    runs: behind them; setup: seconds; work: the cost that no machine changes.
+    half_width: with the interval of the sample; finer: the largest upper end of an error that finer settings leave, see
+    `monotone_envelope`; over: the answer over the reference; seconds: quartiles and median, low, middle, high; runs:
+    behind them; setup: seconds.
     """
 
     scene: str
@@ -40,7 +40,6 @@ class Point:
     seconds: tuple[float, float, float] = (NAN, NAN, NAN)
     runs: int = 0
     setup: float = NAN
-    work: float = NAN
 
     @property
     def finished(self) -> bool:
@@ -57,10 +56,14 @@ class Point:
 
 
 def monotone_envelope(points: Sequence[Point]) -> list[Point]:
-    """Each point with the largest upper bound of the error that its method has at more work, where that is larger."""
-    ranked = [(p.method, p.work, p.rank) for p in points if p.finished]
-    beyond = ([rank for name, work, rank in ranked if name == p.method and work > p.work] for p in points)
-    return [replace(point, finer=max(ranks, default=0.0)) for point, ranks in zip(points, beyond, strict=True)]
+    """Each point with the largest upper bound of the error that its method has at finer settings, which come later."""
+    worst: dict[str, float] = {}
+    found = []
+    for point in reversed(points):
+        found.append(replace(point, finer=worst.get(point.method, 0.0)))
+        if point.finished:
+            worst[point.method] = max(worst.get(point.method, 0.0), point.rank)
+    return found[::-1]
 
 
 def seconds(point: Point) -> float:

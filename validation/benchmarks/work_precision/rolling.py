@@ -7,31 +7,20 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 import numpy as np
 
 import bem3d
 import mdr
 from validation.analysis.spectra import Bands, levels, waves
-from validation.benchmarks.timing import Configuration, NamedMethod
-from validation.benchmarks.work_precision.problem import (
-    POLONSKY_KEER,
-    ChartProblem,
-    CountedSpectrum,
-    Found,
-    Grids,
-    Quantity,
-    along_a_track,
-    linear_power,
-    log_power,
-)
+from validation.benchmarks.timing import Configuration, NamedMethod, along
+from validation.benchmarks.work_precision.problem import FILTER_3D, MDR, MDR_ROLLING, ChartProblem, Grids, Quantity
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import FloatArray
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.simulation.method import Prepared, Resolution, Result, Solve, Values
-from validation.simulation.pressed import MOST_ITERATIONS
 from validation.simulation.rolling_strip import HERTZ, RoughStrip, crop_to_reach
 from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw, self_affine
 from validation.theory import rolling as rolling_theory
@@ -39,11 +28,16 @@ from validation.theory import rolling as rolling_theory
 SMOOTH = {"radius": 1.0, "modulus": 1.0, "approach": 1.0}
 WARM = 40
 """Positions before the clock runs: frames that find their size, plans."""
-WINDOW = 3
-"""Contact radii of the window on which Polonsky and Keer's iteration solves each position."""
-GRIDS = Grids(cells=(3, 4, 6, 12), polonsky_keer=(4,), fixed=6, per="to a radius")
-Roller = Callable[[FloatArray, int, float], Callable[[], Found]]
-"""Of a surface, cells to a contact radius and a residual: a function that returns force and work."""
+GRIDS = Grids(cells=(3, 4, 6, 12), fixed=6, per="to a radius")
+
+
+def log_power(values: Values, name: str) -> FloatArray:
+    """ln of the mean of a power; on a surface over that of linear theory there, times what this has in the mean."""
+    power = values[name].mean(axis=0)
+    if f"linear {name}" in values:
+        power = power / values[f"linear {name}"].mean(axis=0) * values[f"mean {name}"].mean(axis=0)
+    with np.errstate(divide="ignore"):
+        return np.asarray(np.log(np.atleast_1d(power)))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,8 +45,7 @@ class RollingProblem(ChartProblem):
     """A wheel over self-affine roughness, q a from 1 to `last`, at a fixed approach.
 
     hurst; height: h_rms / d; last: q a of the shortest wave; length, width: of periodic strips over a; realisations:
-    of strips; tracks: of springs, their own; filtered: cells for the linear filter; springs: to a contact radius; seed:
-    zero or positive.
+    of strips; tracks: of springs, their own; springs: to a contact radius; seed: zero or positive.
     """
 
     name: ClassVar = "rolling force"
@@ -69,7 +62,6 @@ class RollingProblem(ChartProblem):
     realisations: int = 3
     tracks: int = 20
     grids: Grids = GRIDS
-    filtered: tuple[int, ...] = (4, 6)
     springs: tuple[int, ...] = (3, 4, 8, 16, 32)
     seed: int = 151
 
@@ -103,62 +95,62 @@ class RollingProblem(ChartProblem):
         return RoughStrip(spectrum=self.spectrum, height=self.height, length=length, width=width, seed=self.seed)
 
     def configurations(self) -> tuple[Configuration, ...]:
-        springs, strips = (springs_along_tracks, "linear", "one-sided"), (force_along_strips, _filtered)
-        return along_a_track(self, linear_spectrum, springs, strips, self.tracks)
+        """Linear theory, springs with both input spectra, boundary elements."""
+        own: dict[str, Any] = {"realisations": self.tracks, "paired": False}
+        spectra: dict[str, InputSpectrum] = {MDR: "geike", MDR_ROLLING: "rolling"}
+        by_springs = [NamedMethod(name, springs_along_tracks, (spectrum,)) for name, spectrum in spectra.items()]
+        return (
+            *along(NamedMethod(FILTER_3D, linear_spectrum), self, (1.0,), "linear theory", paired=False),
+            *(each for by in by_springs for each in along(by, self, self.springs, "# springs to a radius", **own)),
+            *self.boundary_elements(),
+        )
 
     @property
     def method(self) -> NamedMethod:
-        return NamedMethod("BEM", force_along_strips, (_roll,))
-
-    @property
-    def published(self) -> NamedMethod:
-        return NamedMethod(POLONSKY_KEER, force_along_strips, (_roll_published,))
+        return NamedMethod("BEM", force_along_strips)
 
 
 def linear_spectrum(scene: RollingProblem, resolution: Resolution) -> Prepared:
     """Linear theory in closed form: the variance at a place, and C_F along the track at the waves of a strip."""
-    c2d = CountedSpectrum(lambda q: np.asarray(scene.height**2 * scene.spectrum.c2d(q)))
+
+    def c2d(q: FloatArray) -> FloatArray:
+        return np.asarray(scene.height**2 * scene.spectrum.c2d(q))
+
     settings: dict[str, Any] = {"edges": scene.spectrum.edges, "contact_radius": 1.0, "modulus": 1.0}
     dq = 2 * np.pi / scene.length
     q = dq * np.arange(1, int(scene.bands.edges[-1] / dq) + 1)
 
     def solve() -> tuple[float, FloatArray]:
-        c2d.nodes = 0
         variance = rolling_theory.force_variance(c2d, **settings)
         return variance, dq * rolling_theory.force_spectrum_3d(q, c2d, **settings)
 
     def read(found: tuple[float, FloatArray]) -> Result:
         variance, level = found[0], scene.bands.sums(q, found[1]).real
-        return Result({"variance": np.array(variance / HERTZ**2), "level": level / HERTZ**2}, c2d.nodes)
+        return Result({"variance": np.array(variance / HERTZ**2), "level": level / HERTZ**2})
 
     return lambda _: Solve(solve, read)
 
 
-def springs_along_tracks(
-    scene: RollingProblem, resolution: Resolution, spectrum: InputSpectrum, contact: Literal["one-sided", "linear"]
-) -> Prepared:
-    """One-sided, or the filter (14.11) on them. Raises ValueError for waves that springs do not resolve."""
+def springs_along_tracks(scene: RollingProblem, resolution: Resolution, spectrum: InputSpectrum) -> Prepared:
+    """One-sided springs. Raises ValueError for waves that they do not resolve."""
     springs = round(resolution.size)
     scene.rough_strip.track(spectrum, springs, 0)
 
     def draw(realisation: int) -> Solve:
         track = scene.rough_strip.track(spectrum, springs, realisation)
-        solve = partial(mdr.roll, track, spacing=1 / springs, contact=contact, **SMOOTH)
 
         def read(found: mdr.RollingTrack) -> Result:
             force = found.force / HERTZ
-            # sums of neighbours cost as much as two looks at each spring
-            work = float(found.examined.sum()) + 2 * track.size
             level = levels(waves(force, spacing=1 / springs), scene.bands)
-            return Result({"variance": np.array(force.var()), "level": level}, work)
+            return Result({"variance": np.array(force.var()), "level": level})
 
-        return Solve(solve, read)
+        return Solve(lambda: mdr.roll(track, spacing=1 / springs, radius=1.0, modulus=1.0, approach=1.0), read)
 
     return draw
 
 
-def force_along_strips(scene: RollingProblem, resolution: Resolution, rolled: Roller) -> Prepared:
-    """Beside that of linear theory on each strip, and its mean over all phases of these waves.
+def force_along_strips(scene: RollingProblem, resolution: Resolution) -> Prepared:
+    """Boundary elements, beside that of linear theory on each strip, and its mean over all phases of these waves.
 
     Raises ValueError for waves that cells do not resolve.
     """
@@ -171,64 +163,40 @@ def force_along_strips(scene: RollingProblem, resolution: Resolution, rolled: Ro
     def draw(realisation: int) -> Solve:
         surface = scene.rough_strip.surface(cells, realisation)
         linear = rolling_theory.linear_force(surface, spacing=1 / cells, **SMOOTH) / HERTZ
-        q, power = linear_power(surface, 1 / cells, contact_radius=1.0, modulus=1.0, load=HERTZ)
-        along = slice(1, (q.size - 1) // 2 + 1)
-        mean = {"mean variance": np.array(power.sum()), "mean level": scene.bands.sums(q[along], power[along]).real}
+        q, power = linear_power(surface, 1 / cells)
+        ahead = slice(1, (q.size - 1) // 2 + 1)
+        mean = {"mean variance": np.array(power.sum()), "mean level": scene.bands.sums(q[ahead], power[ahead]).real}
         known = {**variance_and_level(linear, "linear "), **mean}
-        solve = rolled(surface, cells, resolution.residual)
-        return Solve(solve, lambda found: Result({**variance_and_level(found[0] / HERTZ), **known}, found[1]))
+        solve = _roll(surface, cells, resolution.residual)
+        return Solve(solve, lambda force: Result({**variance_and_level(force / HERTZ), **known}))
 
     draw(0)
     return draw
 
 
-def _filtered(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], Found]:
-    """Each wave by its response."""
-    return lambda: (rolling_theory.linear_force(surface, spacing=1 / cells, **SMOOTH), surface.size)
+def linear_power(surface: FloatArray, spacing: float) -> tuple[FloatArray, FloatArray]:
+    """Wavenumbers along the track, and the power of the linear force over HERTZ at each, all waves across added."""
+    qx, qy = (2 * np.pi * np.fft.fftfreq(n, spacing) for n in surface.shape)
+    response = rolling_theory.response(np.hypot(qx[:, np.newaxis], qy), contact_radius=1.0, modulus=1.0)
+    force = response * np.fft.fft2(surface, norm="forward")
+    return qx.astype(np.float64), np.asarray((np.abs(force / HERTZ) ** 2).sum(axis=1))
 
 
-def _roll(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], Found]:
-    """Each position from the two before; applications times the cells of a square around the smooth contact.
+def _roll(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], FloatArray]:
+    """Each position from the two before.
 
     Frames and their plans belong to the strip: they are made by rolling over its beginning.
     """
     height = crop_to_reach(surface, 1 / cells)
     track = bem3d.Track(height=height, spacing=1 / cells, radius=1.0, modulus=1.0)
 
-    def roll(positions: int) -> Found:
+    def roll(positions: int) -> FloatArray:
         wheel = bem3d.RollingContact(track, tolerance=tolerance)
-        along = [wheel.press(position, SMOOTH["approach"]) for position in range(positions)]
-        failed = sum(not contact.converged for contact in along)
+        contacts = [wheel.press(position, SMOOTH["approach"]) for position in range(positions)]
+        failed = sum(not contact.converged for contact in contacts)
         if failed:
             raise NotConvergedError(f"{failed} of {positions} positions did not converge")
-        work = sum(contact.operator_applications for contact in along) * (2 * cells) ** 2
-        return np.array([contact.force for contact in along]), float(work)
+        return np.array([contact.force for contact in contacts])
 
     roll(min(WARM, len(height)))
     return lambda: roll(len(height))
-
-
-def _roll_published(surface: FloatArray, cells: int, tolerance: float) -> Callable[[], Found]:
-    """One cold solve of Polonsky and Keer's a position, on a window that moves with the wheel."""
-    half_space, gap = moving_window(surface, cells)
-    solve = partial(bem3d.solve_polonsky_keer, half_space, tolerance=tolerance, max_iterations=MOST_ITERATIONS)
-
-    def roll() -> Found:
-        contacts = [solve(gap(position), approach=1.0) for position in range(len(surface))]
-        work = sum(contact.operator_applications * contact.pressure.size for contact in contacts)
-        return np.array([contact.force for contact in contacts]), float(work)
-
-    half_space.displacement(gap(0))
-    return roll
-
-
-def moving_window(surface: FloatArray, cells: int) -> tuple[bem3d.HalfSpace, Callable[[int], FloatArray]]:
-    """A half-space of three contact radii that moves with the wheel, and the gap on it at each position."""
-    n, spacing = 2 * math.ceil(WINDOW * cells / 2), 1 / cells
-    first = (surface.shape[1] - n) // 2
-    height, ahead = surface[:, first : first + n], np.arange(n) - n // 2
-    # the wheel stands over a cell along the track, and in the middle of the strip across it
-    x, y = ahead * spacing, (np.arange(n) + first - (surface.shape[1] - 1) / 2) * spacing
-    sphere = (x[:, np.newaxis] ** 2 + y**2) / 2
-    half_space = bem3d.HalfSpace(shape=(n, n), spacing=spacing, modulus=1.0)
-    return half_space, lambda position: sphere - height.take(ahead + position, axis=0, mode="wrap")

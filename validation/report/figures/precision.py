@@ -15,10 +15,8 @@ STYLES: dict[str, Style] = {
     "fit": {"color": "#000000", "marker": "x", "linestyle": "none", "markersize": 6},
     "linear filter, 1D": {"color": "#E69F00", "marker": "P", "linestyle": "-."},
     "linear filter, 3D": {"color": "#000000", "marker": "X", "linestyle": "none", "markersize": 7},
-    "linear filter, 3D, on strips": {"color": "#CC79A7", "marker": "X", "linestyle": ":"},
     "springs": {"color": "#D55E00", "marker": "s", "markerfacecolor": "white", "linestyle": "-"},
     "springs, rolling spectrum": {"color": "#009E73", "marker": "^", "markerfacecolor": "white", "linestyle": "--"},
-    "Polonsky-Keer": {"color": "#56B4E9", "marker": "D", "markerfacecolor": "white", "linestyle": ":"},
     "BEM, finer cells": {"color": "#0072B2", "marker": "o", "linestyle": "-"},
     "BEM, looser residual": {"color": "#0072B2", "marker": "d", "markerfacecolor": "white", "linestyle": "--"},
     "BEM, extrapolated": {"color": "#332288", "marker": "h", "linestyle": "-."},
@@ -27,7 +25,7 @@ NEW: Style = {"color": "#AA4499", "marker": "p", "markerfacecolor": "white", "li
 """Of a model that has no style of its own."""
 COMMON: Style = {"markersize": 4.5, "linewidth": 0.9}
 BARS: Style = {"capsize": 1.5, "elinewidth": 0.7}
-PLACES = {"left": 0.055, "right": 0.985, "bottom": 0.06, "top": 0.965, "wspace": 0.22, "hspace": 0.27}
+PLACES = {"left": 0.065, "right": 0.985, "bottom": 0.06, "top": 0.965, "wspace": 0.22, "hspace": 0.27}
 ROOM = 3.0
 """How far a chart goes on, as a factor, below what is drawn and above."""
 
@@ -46,14 +44,13 @@ def _methods(points: Table) -> list[str]:
 def draw(points: Table) -> Figure:
     """Error against seconds."""
     charts = list(dict.fromkeys(zip(points["scene"].tolist(), points["quantity"].tolist(), strict=True)))
-    figure, axes = panels(3, 4, width=14.0, height=10.0, within=PLACES)
+    figure, axes = panels(3, 3, width=12.5, height=10.0, within=PLACES)
     for i, (axis, (scene, quantity)) in enumerate(zip(axes, charts, strict=False)):
         mine = points.where(scene=scene, quantity=quantity)
         _chart(axis, mine)
         axis.set_title(f"{axis.get_title(loc='left')} {scene}: {quantity} [{mine['unit'][0]}]", loc="left")
-        axis.set(
-            xlabel="seconds of one realisation" if i >= len(charts) - 4 else "", ylabel="error" if i % 4 == 0 else ""
-        )
+        below, left = i >= len(charts) - 3, i % 3 == 0
+        axis.set(xlabel="seconds of one realisation" if below else "", ylabel="error" if left else "")
     for axis in axes[len(charts) :]:
         axis.set_axis_off()
         axis.set_title("", loc="left")

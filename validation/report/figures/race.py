@@ -2,6 +2,7 @@
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator
 
 from validation.analysis.evidence import Table
 from validation.report.style import Style, panels
@@ -13,7 +14,7 @@ MARKS: dict[str, Style] = {
     "ContactMechanics": {"color": "#009E73", "marker": "^"},
 }
 OTHER: Style = {"color": "#777777", "marker": "v", "markerfacecolor": "none"}
-"""Of contact models that are found."""
+"""Of a solver that has no style of its own."""
 
 
 def draw(heats: Table) -> Figure:
@@ -34,6 +35,10 @@ def draw(heats: Table) -> Figure:
     ratio.axvline(1.0, color="#000000", linewidth=1.0)
     time.set(xscale="log", xlabel="time to the residual [s]")
     ratio.set(xscale="log", xlabel="time / median time of bem3d")
+    for axis in (time, ratio):
+        axis.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.xaxis.set_major_formatter("{x:g}")
+        axis.minorticks_off()
     time.set_yticks(range(len(problems)), problems)
     time.invert_yaxis()
     figure.legend(*time.get_legend_handles_labels(), loc="outside lower center", ncols=4)

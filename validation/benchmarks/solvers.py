@@ -1,10 +1,15 @@
 """The solver comparison: the same contact problems, the same residual, one thread each, solvers in turns."""
 
 import itertools
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+import numpy as np
+
+import bem3d
+import mdr
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart
 from validation.analysis.claims import Claim, Matrix
@@ -13,16 +18,130 @@ from validation.analysis.printed import times_source
 from validation.analysis.series import Margin, Series, single
 from validation.analysis.statistics import Interval
 from validation.analysis.study import Outcomes, Study
-from validation.benchmarks.peers import OUR_SOLVER, OURS, SOLVERS, all_methods
-from validation.benchmarks.solvers import problems
-from validation.benchmarks.solvers.problems import (
-    ROUGH,
-    SPHERE,
-    SPHERE_LOAD,
-    SurfaceProblem,
+from validation.benchmarks.peers import OUR_SOLVER, OURS, SOLVERS, DiscreteProblem, all_methods, by_pressure
+from validation.benchmarks.timing import (
+    FINISHED,
+    Configuration,
+    NamedMethod,
+    TimedProblem,
+    Timing,
+    along,
+    interval_of_median,
+    time_in_turns,
 )
-from validation.benchmarks.timing import FINISHED, TimedProblem
-from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.engine.engine import SERIAL, Engine, FloatArray, Outcome
+from validation.engine.random_numbers import random_generator
+from validation.simulation.method import Values
+from validation.simulation.surface import draw_surface
+
+SPHERE, ROUGH = "sphere", "rough"
+SPHERE_LOAD = 4 / 3 / 4**3
+"""The force of Hertz for a = L/4 and R = L, over E* L^2."""
+ROUGH_HEIGHT = 0.01
+
+
+@dataclass(frozen=True)
+class SurfaceProblem:
+    """A surface pressed on an n x n grid of unit side: a sphere with a = n/4 cells, or a self-affine surface.
+
+    Rough: H = 0.7, from 2 pi/L to four cells a wave, rms height 0.01 L; load: F / (E* L^2); residual: that each solver
+    reaches, see `bem3d.residual`.
+    """
+
+    surface: str
+    load: float
+    cells: int
+    periodic: bool
+    seed: int
+    residual: float
+
+    @property
+    def name(self) -> str:
+        """Without its grid."""
+        load = "" if self.surface == SPHERE else f", F = {self.load:g} E* L²"
+        return f"{self.surface}{load}, {self.half_space}"
+
+    @property
+    def label(self) -> str:
+        return f"{self.name}, {self.cells}²"
+
+    @property
+    def half_space(self) -> str:
+        return "periodic" if self.periodic else "free"
+
+    def height(self) -> FloatArray:
+        """Positive towards the half-space [L]."""
+        n = self.cells
+        if self.surface == SPHERE:
+            x = (np.arange(n) + 0.5) / n - 0.5
+            return np.asarray(-(x[:, np.newaxis] ** 2 + x**2) / 2)
+        band = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi, q_max=2 * np.pi * n / 4, rms=ROUGH_HEIGHT)
+        rng = random_generator(self.seed)
+        return draw_surface(band.c2d, shape=(n, n), spacing=1 / n, rng=rng, rms=ROUGH_HEIGHT)
+
+    def discrete(self) -> DiscreteProblem:
+        """In plain values, with the approach that belongs to its force."""
+        problem = DiscreteProblem(self.height(), 1 / self.cells, 1.0, self.periodic, self.load, 0.0)
+        contact = bem3d.solve(problem.half_space(), problem.gap, force=self.load, tolerance=1e-10)
+        return replace(problem, approach=contact.approach)
+
+    def read_pressure(self, discrete: DiscreteProblem, pressure: FloatArray) -> Values:
+        """The pressure and the residual that it leaves."""
+        return {"pressure": pressure, "residual": np.array(discrete.residual(pressure))}
+
+    def configurations(self) -> tuple[Configuration, ...]:
+        """Each solver that is installed, in a process of its own."""
+        methods = [NamedMethod(solver.name, by_pressure, (solver,)) for solver in SOLVERS if solver.version]
+        sizes: dict[str, Any] = {"sizes": (self.cells,), "parameter": "# cells a side", "residual": self.residual}
+        return tuple(each for by in methods for each in along(by, self, **sizes, worker=by.name))
+
+
+NOT_INSTALLED = "not installed"
+PRESSURE, FORCE, AREA = (f"{what} difference to ours" for what in ("pressure", "force", "area"))
+"""Relative, of the pressure field in L2."""
+
+
+def time_problem(given: TimedProblem) -> Outcome:
+    """All solvers in processes of their own, with one thread, in turns: a row each."""
+    problem, configurations = given.problem, given.problem.configurations()
+    rows = {solver.name: Timing(NOT_INSTALLED, math.nan) for solver in SOLVERS}
+    rows |= zip((each.label for each in configurations), time_in_turns(configurations, given), strict=True)
+    ours = rows[OUR_SOLVER].results[0].values["pressure"] if rows[OUR_SOLVER].results else None
+    known = {"problem": problem.label, "surface": problem.surface, "half-space": problem.half_space}
+    known |= {"name": problem.name, "cells": problem.cells}
+    known |= {"area": math.nan if ours is None else np.count_nonzero(ours) / ours.size}
+    found = [
+        {**known, "solver": name, "status": row.status, **_row(row, problem.cells, ours)} for name, row in rows.items()
+    ]
+    return {name: np.array([row[name] for row in found]) for name in found[0]}
+
+
+def _row(timing: Timing, cells: int, ours: FloatArray | None) -> dict[str, float]:
+    seconds, result = (timing.seconds, timing.results[0]) if timing.status == FINISHED else ([math.nan], None)
+    low, high = interval_of_median(seconds)
+    return {
+        "median [s]": float(np.median(seconds)),
+        "fastest [s]": min(seconds),
+        "slowest [s]": max(seconds),
+        "runs": len(seconds),
+        "low [s]": low,
+        "high [s]": high,
+        "set-up [s]": min(timing.draws, default=math.nan),
+        "residual": float(result.values["residual"]) if result else math.nan,
+        "operator applications": result.work / cells**2 if result else math.nan,
+        **dict.fromkeys((PRESSURE, FORCE, AREA), math.nan),
+        **(_differences(result.values["pressure"], ours) if result and ours is not None else {}),
+    }
+
+
+def _differences(pressure: FloatArray, ours: FloatArray) -> dict[str, float]:
+    cells = np.count_nonzero(pressure > 1e-9 * pressure.max()) / np.count_nonzero(ours > 1e-9 * ours.max())
+    return {
+        PRESSURE: float(np.sqrt(((pressure - ours) ** 2).sum() / (ours**2).sum())),
+        FORCE: abs(float(pressure.sum() / ours.sum()) - 1),
+        AREA: abs(cells - 1),
+    }
+
 
 SETTLED = 1.0
 """Seconds of runs after which the fewest are enough."""
@@ -46,10 +165,7 @@ class SolverComparison:
         """Every surface in both half-spaces on every grid."""
         surfaces = [(SPHERE, SPHERE_LOAD), *((ROUGH, load) for load in self.loads)]
         kinds = itertools.product((True, False), surfaces, self.cells)
-        return [self._problem(*surface, n, periodic) for periodic, surface, n in kinds]
-
-    def _problem(self, surface: str, load: float, cells: int, periodic: bool) -> SurfaceProblem:
-        return SurfaceProblem(surface, load, cells, periodic, self.seed, self.residual)
+        return [SurfaceProblem(*surface, n, periodic, self.seed, self.residual) for periodic, surface, n in kinds]
 
 
 Row = Mapping[str, Any]
@@ -59,11 +175,10 @@ Rows = Sequence[Sequence[Row]]
 
 def run(case: SolverComparison, engine: Engine = SERIAL) -> Outcomes:
     """Time all problems, one at a time whatever the engine's workers, so that nothing else disturbs them."""
-
     given = [TimedProblem(problem=p, slow=case.slow, enough=SETTLED, methods=all_methods()) for p in case.problems()]
     # a run that was interrupted goes on; one that is over is timed anew the next time
     with engine.timed() as alone:
-        rows = [rows_of(outcome) for outcome in alone.map(problems.time_problem, given)]
+        rows = [rows_of(outcome) for outcome in alone.map(time_problem, given)]
     ours = [solver.name for solver in SOLVERS if solver.package == OURS]
     lost = [row for each in rows for row in each if row["solver"] in ours and row["status"] != FINISHED]
     said = tuple(f"{row['problem']}: {row['solver']} {row['status']}" for row in lost)
@@ -83,9 +198,9 @@ PRESSURES = "1e4 times the residual: the conditioning of the contact on fine gri
 FORCES = "100 times the residual: zero where the force is prescribed, by the stiffness elsewhere"
 AREAS = "single cells of vanishing pressure may be in or out of contact"
 AGREEMENT = (
-    ("pressure field, relative L2", problems.PRESSURE, 1e-4, PRESSURES),
-    ("force, relative", problems.FORCE, 1e-6, FORCES),
-    ("contact area, relative", problems.AREA, 1e-3, AREAS),
+    ("pressure field, relative L2", PRESSURE, 1e-4, PRESSURES),
+    ("force, relative", FORCE, 1e-6, FORCES),
+    ("contact area, relative", AREA, 1e-3, AREAS),
 )
 """The residual weighs gaps; pressures follow with the condition of the contact, areas by whole cells."""
 
@@ -97,9 +212,8 @@ def series(result: Outcomes) -> list[Series]:
 
 
 def _finished(rows: Sequence[Row]) -> dict[str, Row]:
-    """By the name of the solver; contact models, which have no pressure, are none."""
-    names = [solver.name for solver in SOLVERS]
-    return {row["solver"]: row for row in rows if row["status"] == FINISHED and row["solver"] in names}
+    """By the name of the solver."""
+    return {row["solver"]: row for row in rows if row["status"] == FINISHED}
 
 
 def _agreement(finished: Sequence[Mapping[str, Row]]) -> Iterator[Series]:
@@ -131,7 +245,7 @@ PEERS = "solvers"
 
 def tables(result: Outcomes) -> tuple[Table, ...]:
     timed = result["problems"]
-    versions = [{"solver": s.name, "mode": s.mode, "version": s.version or problems.NOT_INSTALLED} for s in SOLVERS]
+    versions = [{"solver": s.name, "mode": s.mode, "version": s.version or NOT_INSTALLED} for s in SOLVERS]
     return (
         table_of("heats", list(itertools.chain(*timed))),
         _seconds(timed),
@@ -140,10 +254,9 @@ def tables(result: Outcomes) -> tuple[Table, ...]:
 
 
 def _seconds(solved: Rows) -> Table:
-    solvers = dict.fromkeys((row["solver"] for rows in solved for row in rows), "")
     known = [{"problem": rows[0]["problem"], "area": f"{rows[0]['area']:.1%}"} for rows in solved]
     said = [{row["solver"]: _said(row) for row in rows} for rows in solved]
-    return table_of(SECONDS, [mine | solvers | theirs for mine, theirs in zip(known, said, strict=True)])
+    return table_of(SECONDS, [mine | theirs for mine, theirs in zip(known, said, strict=True)])
 
 
 def _said(row: Row) -> str:
@@ -163,7 +276,7 @@ STUDY = Study(
         "compares medians with intervals between order statistics. Set-up (operators, plans; ours with a whole first "
         "solve) is timed separately. Our applications are those on the finest grid or a window of it; our time "
         "includes the coarser grids. tamaas does not count applications. Fourier transforms are those of each package "
-        "as it is installed. Contact models that have no pressure are listed with the difference of their stiffness."
+        "as it is installed."
     ),
     series=series,
     tables=tables,

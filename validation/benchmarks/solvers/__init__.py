@@ -1,1 +1,0 @@
-"""Our solver beside those of others."""
