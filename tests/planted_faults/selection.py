@@ -358,11 +358,8 @@ FAULTS = {
         test_edge_scenes.test_answers_at_the_edges_are_counted_with_those_that_are_none,
     ),
     "dominated models among those that are offered": (
-        ((quantities, compare), "DOMINATED", ()),
-        functools.partial(
-            test_named_models.test_dominated_models_are_there_by_name_alone,
-            *("rail", "contact-filter", "springs that read the surface"),
-        ),
+        ((quantities, compare), "BY_NAME", ()),
+        test_named_models.test_springs_that_read_the_surface_are_there_by_name_alone,
     ),
     "a punch without the error at its edge": (
         (boundary_elements_pressed, "edge_error", lambda scene, cells: 0.0),

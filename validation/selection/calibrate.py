@@ -19,7 +19,7 @@ from validation.scenes.load import Scene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.selection.hierarchy import try_to_solve
-from validation.selection.quantities import DOMINATED, MOVING, PRESSED, ROLLING
+from validation.selection.quantities import MOVING, PRESSED, ROLLING
 from validation.selection.scene_model import SceneModel
 from validation.simulation.calibrated_range import CONDITIONS
 from validation.simulation.calibration import TABLE, Key, code_behind, conditions_by_kind, kind_of, provenance, table
@@ -242,8 +242,7 @@ def _names(some: Sequence[Key], every: Iterable[Key], target: Target | None) -> 
 
 def cheap_models(target: Target) -> tuple[Model, ...]:
     """Those that claim errors, and are selected among."""
-    serving = models_serving(target.scene, target.quantity)
-    return tuple(m for m in serving if not isinstance(m, GridModel) and m.name not in DOMINATED)
+    return tuple(one for one in models_serving(target.scene, target.quantity) if not isinstance(one, GridModel))
 
 
 def today() -> date:

@@ -17,7 +17,6 @@ from validation.selection.calibrate import (
     rows_of_point,
     today,
 )
-from validation.selection.quantities import DOMINATED
 from validation.simulation.calibration import TABLE, code_behind, provenance, rows_of, table
 
 SAME = 1e-3
@@ -32,10 +31,9 @@ def check_calibration(
     """Measure so many scenes of each kind and quantity of a table again.
 
     stamp: whether today's code becomes that of all rows where these are the same; the table is left as it is
-    otherwise. Rows of models that are offered by name alone are left out of it. Returns the rows that differ, in words,
-    and how many solves were measured.
+    otherwise. Returns the rows that differ, in words, and how many solves were measured.
     """
-    rows, about = [row for row in rows_of(path) if row["model"] not in DOMINATED], provenance(path)
+    rows, about = rows_of(path), provenance(path)
     if not rows:
         raise ValueError(f"no table of the calibration is in {printable(path)}")
     seed = int(about["command"].rsplit(" ", 1)[1])
