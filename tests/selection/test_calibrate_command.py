@@ -8,9 +8,8 @@ import pytest
 from validation.__main__ import main
 from validation.report.commands import calibrate as calibrate_command
 from validation.report.commands import calibrate as command
-from validation.selection import calibrate, calibration_check
-from validation.selection.calibrate import CalibrationRun, as_table
-from validation.selection.calibration_check import check_installable, install
+from validation.selection import calibrate
+from validation.selection.calibrate import CalibrationRun, as_table, check_installable, install
 from validation.simulation import calibration
 
 ONE_PUNCH = ("calibrate", "--spheres", "0", "--rolling", "0", "--wheels", "0", "--workers", "1", "--punches", "1")
@@ -149,7 +148,7 @@ def test_a_check_reports_and_writes_nothing(differing, monkeypatch, capsys):
 )
 def test_what_cannot_be_done_is_refused_before_anything_is_measured(words, said, tmp_path, capsys, monkeypatch):
     """No file of others is touched."""
-    monkeypatch.setattr(calibration_check.os, "access", lambda path, mode: False)
+    monkeypatch.setattr(calibrate.os, "access", lambda path, mode: False)
     (tmp_path / "calibration.csv").write_text("mine")
     assert main(["calibrate", *words]) == 2
     assert said in capsys.readouterr().err

@@ -13,7 +13,7 @@ from validation.engine.engine import Engine
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
-from validation.selection import calibrate, calibration_check
+from validation.selection import calibrate
 from validation.selection.calibrate import (
     QUANTITIES,
     RESONANCES,
@@ -21,9 +21,9 @@ from validation.selection.calibrate import (
     CalibrationScene,
     as_table,
     calibration_age,
+    check_calibration,
     measured_table,
 )
-from validation.selection.calibration_check import check_calibration
 from validation.selection.scene_model import Answer
 from validation.simulation import calibration
 from validation.simulation.calibrated_range import HEIGHT, HURST, LOAD, LONG, RATIO, WAVES
@@ -195,7 +195,8 @@ def test_lines_about_a_table_are_names_and_the_rest_and_its_rows_have_none_of_th
 @pytest.mark.slow
 def test_models_whose_code_is_another_are_named(tmp_path):
     path, asked = tmp_path / "today.csv", Target(wheel(), "force-rms")
-    codes = [calibration.code_behind(cheap(name, asked), asked) for name in ("springs", "linear filter, 1D")]
+    pressed = CalibrationScene(kind="punch", number=0, quantity="stiffness", seed=19).target()
+    codes = [calibration.code_behind(cheap("springs", one), one) for one in (asked, pressed)]
     assert all(re.fullmatch("[0-9a-f]{12}", code) for code in codes) and codes[0] != codes[1]
     written(path, calibration.rows_of(calibration.TABLE))
     assert check_calibration(1, MeasuredAgain(1.0), path, stamp=True)[0] == []
@@ -220,7 +221,7 @@ def written(path, rows):
 def test_small_errors_that_are_measured_again_are_as_close_as_large_ones(today, same):
     """To a thousandth of themselves: linear theory of long waves is off by as little as this."""
     row = {"kind": "rolling", "number": "3", "quantity": "force-rms", "model": "springs"}
-    found = calibration_check._differences([{**row, "error": "0.004"}], [{**row, "error": str(today)}])
+    found = calibrate._differences([{**row, "error": "0.004"}], [{**row, "error": str(today)}])
     assert (found == []) == same
     assert same or found == [f"rolling 3, force-rms, springs: an error of 0.004 in the table, of {today:g} today"]
 

@@ -10,8 +10,15 @@ from validation.report.commands.exit_status import Exit
 from validation.report.folder import REALISATIONS, Folder
 from validation.report.manifest import CALIBRATION
 from validation.scenes.printable import printable
-from validation.selection.calibrate import CalibrationRun, calibration_lines, measured_table, table_in
-from validation.selection.calibration_check import check_calibration, check_installable, install
+from validation.selection.calibrate import (
+    CalibrationRun,
+    calibration_lines,
+    check_calibration,
+    check_installable,
+    install,
+    measured_table,
+    table_in,
+)
 
 OUT = Path("calibration")
 """Where a table is measured, below the working folder."""
