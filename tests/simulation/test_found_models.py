@@ -19,12 +19,9 @@ from validation.selection.compare import compare
 from validation.selection.quantities import models_of
 from validation.selection.summary import summary
 from validation.simulation import models
-from validation.simulation.method import Resolution
-from validation.simulation.model import Target, models_serving
 from validation.simulation.model_names import FILTER_3D
 from validation.simulation.models import rolling
 from validation.simulation.rough_punch import PunchRoughness
-from validation.theory.closed_forms import rough_punch_stiffness
 
 TOY = """
 import numpy as np
@@ -106,13 +103,3 @@ def test_a_model_that_is_found_is_in_the_solver_comparison(toy, monkeypatch):
     toy = {name: column[methods.index("toy")] for name, column in outcome.items()}
     assert np.isfinite(toy[problems.STIFFNESS]) and np.isnan([toy[problems.PRESSURE], toy[problems.FORCE]]).all()
     assert "toy" in all_methods()
-
-
-def test_the_fit_of_a_rough_punch_is_one_of_them():
-    (model,) = (one for one in models_serving(PUNCH, "stiffness") if one.name == "fit")
-    result = model.prepare(Target(PUNCH), Resolution())(0)()
-    ground = PUNCH.ground
-    expected = rough_punch_stiffness(side=1.0, modulus=1.0, force=PUNCH.load, height=ground.rms)
-    assert result.values["stiffness"] == expected
-    # two springs in series: the flat punch, and the interface
-    assert 1 / expected == pytest.approx(1 / 1.1523 + 0.48 * ground.rms / PUNCH.load)
