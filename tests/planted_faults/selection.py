@@ -359,7 +359,7 @@ FAULTS = {
     ),
     "dominated models among those that are offered": (
         ((quantities, compare), "BY_NAME", ()),
-        test_named_models.test_springs_that_read_the_surface_are_there_by_name_alone,
+        functools.partial(test_named_models.test_springs_that_read_the_surface_are_there_by_name_alone, (), 0),
     ),
     "a punch without the error at its edge": (
         (boundary_elements_pressed, "edge_error", lambda scene, cells: 0.0),

@@ -40,12 +40,6 @@ def test_springs_that_read_the_surface_are_there_by_name_alone(models, count):
         assert [one.kind for one in offered].count(SPRINGS_THAT_READ) == count
 
 
-def test_a_model_that_was_not_asked_may_help():
-    found, _ = solved("rough_punch", "stiffness", 0.1, ["fit"])
-    assert not found.met
-    assert "what would help: boundary elements 64², which was not asked and claims 5 %" in summary(found)
-
-
 @pytest.mark.parametrize(
     ("scene", "quantity", "names", "expected"),
     [

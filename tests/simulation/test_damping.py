@@ -176,12 +176,3 @@ def test_a_wheel_on_a_rail_moves_by_its_equation_with_the_dashpot(model):
     dashpot = c * speed
     rest = 500.0 * swing - (5e4 - force[1:-1] - dashpot)
     assert np.abs(rest).max() < 1e-3 * np.abs(dashpot).max()
-
-
-# --- what a scene gives -----------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("zeta", [-0.01, 1.0, 2.0, math.nan, math.inf])
-def test_ratios_out_of_range_are_refused(zeta):
-    with pytest.raises(ValueError, match=r"^wheel\.damping must be "):
-        damped(zeta)
