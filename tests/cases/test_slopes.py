@@ -28,11 +28,10 @@ from validation.selection.summary import heading
 from validation.selection.tolerance import tolerance_of
 from validation.simulation import indentation, limits_of_springs, rail_strip
 from validation.simulation.model import ErrorEstimate
-from validation.simulation.models.linear_filters import linear_filter_3d
+from validation.simulation.models.rolling import RollingClaim, linear_filter_3d
 from validation.simulation.rail_models import linear_error
 from validation.simulation.rail_quantity import RailQuantity
 from validation.simulation.reduced_models import MODELS, bands_of
-from validation.simulation.rolling_claims import RollingClaim
 from validation.simulation.rough_punch import PunchRoughness
 from validation.simulation.track_spectrum import self_affine
 

@@ -29,7 +29,7 @@ from validation.engine.random_numbers import random_generator
 from validation.report import compared
 from validation.scenes import measured, rail
 from validation.selection import (
-    calibration_check,
+    calibrate,
     columns,
     compare,
     contact_force,
@@ -40,7 +40,7 @@ from validation.selection import (
     swept,
     tolerance,
 )
-from validation.simulation import calibrated_range, calibration, rolling_claims, sampling, surface
+from validation.simulation import calibrated_range, calibration, sampling, surface
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
 from validation.simulation import rolling_quantity as rolling_question
@@ -48,8 +48,8 @@ from validation.simulation.calibrated_range import LOAD
 from validation.simulation.models import (
     boundary_elements_pressed,
     boundary_elements_rolling,
-    linear_filters,
     pressed,
+    rolling,
 )
 from validation.theory import closed_forms
 from validation.theory import rolling as rolling_theory
@@ -234,7 +234,7 @@ FAULTS = {
         functools.partial(test_calibration.test_claims_cover_new_scenes_and_are_tight, "sphere"),
     ),
     "a table of any size in the place of that of the package": (
-        (calibration_check, "_refuse_fewer", lambda mine, there: None),
+        (calibrate, "_refuse_fewer", lambda mine, there: None),
         test_calibrate_command.test_the_run_that_the_table_is_of_may_be_installed_and_no_smaller_one,
     ),
     "a scene that calibrates itself": (
@@ -301,9 +301,9 @@ FAULTS = {
     ),
     "the rule of the rms for levels in bands": (
         (
-            linear_filters,
+            rolling,
             "ON_HALF_SPACE",
-            dataclasses.replace(linear_filters.ON_HALF_SPACE, bands=rolling_claims.LINEAR_RMS),
+            dataclasses.replace(rolling.ON_HALF_SPACE, bands=rolling.LINEAR_RMS),
         ),
         functools.partial(test_claims.test_claims_of_cheap_models_of_rolling, *test_claims.RULES[1]),
     ),
@@ -358,11 +358,8 @@ FAULTS = {
         test_edge_scenes.test_answers_at_the_edges_are_counted_with_those_that_are_none,
     ),
     "dominated models among those that are offered": (
-        ((quantities, compare), "DOMINATED", ()),
-        functools.partial(
-            test_named_models.test_dominated_models_are_there_by_name_alone,
-            *("rail", "contact-filter", "springs that read the surface"),
-        ),
+        ((quantities, compare), "BY_NAME", ()),
+        functools.partial(test_named_models.test_springs_that_read_the_surface_are_there_by_name_alone, (), 0),
     ),
     "a punch without the error at its edge": (
         (boundary_elements_pressed, "edge_error", lambda scene, cells: 0.0),

@@ -2,7 +2,7 @@
 
 import math
 import warnings
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -21,17 +21,14 @@ from validation.scenes.measured import MeasuredHeights
 from validation.selection import calibrate
 from validation.selection.columns import bands_of
 from validation.selection.compare import compare
-from validation.selection.hierarchy import (
-    needed,
-    select_model,
-)
+from validation.selection.hierarchy import needed, select_model
 from validation.selection.quantities import QUANTITIES, RAIL_QUANTITIES, models_of, quantities_of
 from validation.selection.summary import summary
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
 from validation.simulation.models import boundary_elements_pressed
 from validation.simulation.rolling_quantity import RollingQuantity
-from validation.simulation.sampling import distance, mean_error, realisations
+from validation.simulation.sampling import distance, mean_error
 
 
 def rough(shape, spacing, *, first=1.0, last=8.0, hurst=0.7, rms=1e-3, seed=2):
@@ -93,6 +90,25 @@ def test_what_becomes_of_models(claims, errors, expected, best):
     assert (found.best and found.best.model) is (None if best is None else models[best])
 
 
+@dataclass(frozen=True)
+class Raising(Fake):
+    problem: Exception | None = None
+
+    def solve(self):
+        raise self.problem
+
+
+@pytest.mark.parametrize(
+    "problem",
+    [ValueError("no wave"), ZeroDivisionError("by zero"), MemoryError(), bem3d.ConvergenceError("residual", (), None)],
+)
+def test_a_solve_that_raises_is_a_row_and_the_others_go_on(problem):
+    found = select_model([Raising(problem=problem), Fake()], 0.1)
+    assert [one.status for one in found.candidates] == ["failed", "accepted"]
+    assert found.candidates[0].reason == (str(problem) or "MemoryError")
+    assert found.candidates[0].answer.error == math.inf and np.isnan(found.candidates[0].answer.value).all()
+
+
 def test_a_grid_that_was_solved_as_a_reference_is_not_solved_again():
     """A climb over three grids costs what the finest and its references do, but for the coarsest reference of all."""
     models = grids_of(punch(), "stiffness", 1e-3, seed=3)
@@ -117,12 +133,6 @@ def test_the_error_of_a_mean_covers_it_in_95_of_100():
     inside = np.array([abs(row.mean()) <= mean_error(row[:, np.newaxis]) for row in draws])
     # two standard errors of a share of 4000
     assert inside.mean() == pytest.approx(0.95, abs=2 * math.sqrt(0.95 * 0.05 / 4000))
-
-
-def test_so_many_realisations_leave_the_error_that_was_asked_for():
-    assert realisations(0.3, 0.06) == math.ceil((2 * 0.3 / 0.06) ** 2)
-    assert realisations(0.3, 10.0) == 8
-    assert realisations(0.3, 1e-9, most=77) == 77
 
 
 # Models of a pressed body
@@ -247,14 +257,23 @@ def test_the_transfer_of_a_wheel_is_that_of_its_resonator():
     assert quantity.bands.edges[0] >= 2 * math.sqrt(k / 2.0) / 3.0 * (1 - 1e-9)
 
 
+TURN = 2 * np.pi
+TRACK = measured(rough((104, 96), 1 / 8, first=1 / TURN, last=3 / TURN, rms=2e-3, seed=3), 1 / 8)
+LOW_WHEELS = {
+    "force-spectrum": wheel(height=1e-3),
+    "acceleration-rms": wheel(height=1e-3, mass=1.0, speed=4.0),
+    "force-rms": wheel(ground=TRACK),
+}
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("quantity", ["force-spectrum", "acceleration-rms"])
+@pytest.mark.parametrize("quantity", LOW_WHEELS)
 def test_boundary_elements_tend_to_linear_theory(quantity):
-    moving = {"mass": 1.0, "speed": 4.0} if quantity.startswith("acceleration") else {}
-    scene = wheel(height=1e-3, **moving)
-    found = grids_of(scene, quantity, 0.1, seed=1)[-2].solve()
+    """On drawn ground and on a measured track, which is rolled itself."""
+    scene = LOW_WHEELS[quantity]
+    found = grids_of(scene, quantity, 0.1, seed=1)[-1 if scene.ground.is_single else -2].solve()
     linear = model_of_kind("linear filter, 3D", scene, quantity, 0.1, seed=1).solve()
-    assert found.error < 0.2
+    assert found.error < 0.2 or scene.ground.is_single
     assert distance(found.value, linear.value) <= found.error + 0.01
 
 
@@ -296,8 +315,6 @@ def test_scenes_are_asked_for_what_they_have():
     assert quantities_of(punch()) == ("stiffness",)
     assert quantities_of(wheel()) == ("force-rms", "force-spectrum")
     assert set(quantities_of(wheel(mass=1.0, speed=1.0))) == set(QUANTITIES) - {"stiffness", *RAIL_QUANTITIES}
-    with pytest.raises(ValueError, match=r"^quantity must be one of stiffness for scene 'punch', got 'acceleration'$"):
-        compare(punch(), quantity="acceleration")
     with pytest.raises(ValueError, match=r"^quantity must be one of force-rms, force-spectrum for scene 'wheel'"):
         compare(wheel(), quantity="acceleration")
 
@@ -322,8 +339,6 @@ def test_measured_heights_are_pressed_themselves():
     found = grids_of(scene, "stiffness", 0.05)[-1].solve()
     assert found.value[0] == pytest.approx(pressed_stiffness(scene.ground.height, 1 / 64, scene.load), rel=1e-6)
     assert found.sample == 0
-    # springs know the spectrum and not the surface
-    assert model_of_kind("springs", scene, "stiffness", 0.05).estimate().error > 0.5
 
 
 def test_a_face_that_a_spectrum_does_not_tell_is_left_to_boundary_elements():
@@ -334,19 +349,6 @@ def test_a_face_that_a_spectrum_does_not_tell_is_left_to_boundary_elements():
     assert estimates["fit"].error == estimates["springs"].error == math.inf
     assert "not Gaussian" in estimates["fit"].reason
     assert all(model.estimate().error < 0.3 for model in grids_of(scene, "stiffness", 0.3))
-
-
-@pytest.mark.slow
-def test_a_face_is_pressed_on_its_own_points_alone():
-    # four summits of 2 x 2 points, which bear all of the load and which means over 2 x 2 and 4 x 4 points lower
-    height = rough((256, 256), 1 / 256, last=16, hurst=0.8, seed=5)
-    for i, j in ((41, 57), (101, 201), (181, 33), (213, 149)):
-        height[i : i + 2, j : j + 2] += 6e-3
-    scene = punch(ground=measured(height, 1 / 256), load=0.05)
-    stiffness = pressed_stiffness(scene.ground.height, 1 / 256, scene.load)
-    for tolerance in (0.1, 0.3, 1.0):
-        best = compare(scene, tolerance=tolerance).selection.best
-        assert best is None or abs(math.log(best.answer.value[0] / stiffness)) <= best.answer.error
 
 
 def test_faces_of_more_points_than_any_grid_answer_for_the_summits_that_a_mean_hides(monkeypatch):
@@ -407,18 +409,6 @@ def test_linear_theory_answers_for_bands_in_which_a_track_has_no_waves():
     rolled_over = np.exp(rolled.on_boundary_elements(quantity, 12, 0, 0))
     # levels by linear theory where nothing excites the force are too low by more than was measured on drawn waves
     assert linear.estimate().error < distance(found.value, rolled_over) <= found.error
-
-
-@pytest.mark.slow
-def test_a_measured_track_is_rolled_itself():
-    turn = 2 * np.pi
-    height = rough((104, 96), 1 / 8, first=1 / turn, last=3 / turn, rms=2e-3, seed=3)
-    scene = wheel(ground=measured(height, 1 / 8))
-    linear = model_of_kind("linear filter, 3D", scene, "force-rms", 0.1).solve()
-    found = grids_of(scene, "force-rms", 0.1)[-1].solve()
-    assert distance(found.value, linear.value) <= found.error + 0.01
-    with pytest.raises(ValueError, match=r"rail.heights must be .* long"):
-        wheel(ground=measured(height[:, :20], 1 / 8))
 
 
 @pytest.mark.parametrize(("quantity", "unit"), [("force-spectrum", "N"), ("acceleration", "m/s²")])

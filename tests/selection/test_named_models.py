@@ -1,18 +1,21 @@
-"""Models that are named are solved, and no others; those out of their range too, without an error."""
+"""Models that are named are solved, and no others, in one text or as an index; what functions of the face take."""
 
+import csv
+import json
 import math
 
 import pytest
 
 import validation
-from tests.selection.planted_answers import Fake
+from tests.selection.planted_answers import Fake, Finding, compared, punch
 from validation.__main__ import main
 from validation.scenes.load import load_varied
 from validation.selection.compare import SceneProblem
 from validation.selection.hierarchy import select_model
 from validation.selection.named_models import models_named
-from validation.selection.quantities import DOMINATED, models_of
+from validation.selection.quantities import models_of
 from validation.selection.summary import WIDTH, summary
+from validation.simulation.model_names import SPRINGS_THAT_READ
 
 SPECTRUM = "rolling_wheel --quantity force-spectrum"
 
@@ -30,26 +33,11 @@ def test_short_names_are_mdr_and_the_grid_that_claims_the_tolerance():
     assert "side by side; differences from boundary elements 64²" in summary(found)
 
 
-@pytest.mark.parametrize(
-    ("scene", "quantity", "name"),
-    [
-        ("rolling_wheel", "force-rms", "pressed layer"),
-        ("rolling_wheel", "force-spectrum", "springs that read the surface"),
-        ("rail", "contact-filter", "springs that read the surface"),
-    ],
-)
-def test_dominated_models_are_there_by_name_alone(scene, quantity, name):
-    rolled = validation.load_scene(scene)
-    listed, _ = SceneProblem(rolled, (quantity,), 0.3).offered(quantity)
-    assert name not in {one.kind for one in listed}
-    listed, asked = SceneProblem(rolled, (quantity,), 0.3, models=(name,)).offered(quantity)
-    assert [one.kind for one in asked] == [name] and set(DOMINATED) & {one.kind for one in listed} == {name}
-
-
-def test_a_model_that_was_not_asked_may_help():
-    found, _ = solved("rough_punch", "stiffness", 0.1, ["fit"])
-    assert not found.met
-    assert "what would help: boundary elements 64², which was not asked and claims 5 %" in summary(found)
+@pytest.mark.parametrize(("models", "count"), [((), 0), (("Remington",), 0), ((SPRINGS_THAT_READ,), 1), (("mdr",), 1)])
+def test_springs_that_read_the_surface_are_there_by_name_alone(models, count):
+    rail = SceneProblem(validation.load_scene("rail"), ("contact-filter",), 0.3, models=models)
+    for offered in rail.offered("contact-filter"):
+        assert [one.kind for one in offered].count(SPRINGS_THAT_READ) == count
 
 
 @pytest.mark.parametrize(
@@ -58,18 +46,18 @@ def test_a_model_that_was_not_asked_may_help():
         ("rolling_wheel", "force-spectrum", ["springs"], ["springs"]),
         (
             *("rolling_wheel", "force-spectrum", "Linear filter,3D, mdr"),
-            ["linear filter, 3D", "springs", "springs that read the surface"],
+            ["linear filter, 3D", "springs"],
         ),
         ("rolling_wheel", "force-spectrum", ["boundary elements, a = 12"], ["boundary elements, a = 12 cells"]),
         (
-            *("rolling_wheel", "force-spectrum", ["pressed", "boundary elements"]),
-            ["pressed layer", "boundary elements, a = 8 cells"],
+            *("rolling_wheel", "force-spectrum", ["spr", "boundary elements"]),
+            ["springs", "boundary elements, a = 8 cells"],
         ),
         ("rail", "contact-filter", "linear, ellipse, bem", ["linear, ellipse", "boundary elements"]),
     ],
 )
 def test_models_have_their_names_and_beginnings(scene, quantity, names, expected):
-    models = models_of(validation.load_scene(scene), quantity, 0.4, 0, by_name=True)
+    models = models_of(validation.load_scene(scene), quantity, 0.4, 0, every=True)
     assert [model.name for model in models_named(models, names, 0.4)] == expected
 
 
@@ -112,3 +100,54 @@ def test_a_model_that_fails_out_of_its_range_says_why():
         ("out of range", "claims inf"),
     ]
     assert [one.name for one in found.solved] == ["found"] and found.best is None and not found.met
+
+
+def of(name="it", value=1.0, parts=(0.0, 0.0, 0.0)):
+    models = Finding(name="springs", value=(value,), parts=parts), Fake(name="boundary elements 64²")
+    return compared(*models, scene=punch(load=1.0, name=name))
+
+
+TWO = [of("one", 1.0), of("two", 2.0)]
+
+
+def test_a_list_becomes_a_list_of_objects():
+    assert json.loads(validation.to_json(TWO)) == [json.loads(validation.to_json(one)) for one in TWO]
+    assert json.loads(validation.to_json(TWO[:1])) == [json.loads(validation.to_json(TWO[0]))]
+
+
+def test_a_list_becomes_one_table_with_its_scenes():
+    rows = list(csv.DictReader(validation.to_csv(tuple(TWO)).splitlines()))
+    assert [(row["scene"], row["value"], row["model"]) for row in rows] == [
+        ("one", "1", "springs"),
+        ("two", "2", "springs"),
+    ]
+    assert "scene" not in validation.to_csv(TWO[0]).splitlines()[0]
+
+
+@pytest.mark.parametrize("write", [validation.to_json, validation.to_csv, validation.to_figure, validation.summary])
+@pytest.mark.parametrize(
+    ("given", "error"), [([], ValueError), ([TWO[0], 1], TypeError), ("text", TypeError), (None, TypeError)]
+)
+def test_what_is_no_comparison_is_refused(write, given, error):
+    with pytest.raises(error, match="comparison must be "):
+        write(given)
+
+
+def test_a_model_is_found_by_its_name_or_the_beginning_of_it():
+    models = TWO[0].models
+    assert models["springs"] is models[0] is models["Spr"] and models["boundary"] is models[1] is models[-1]
+    assert models[:1] == (models[0],) and len(models) == 2
+    for name in ("nothing", "", " "):
+        with pytest.raises(KeyError, match="models must be named by one of "):
+            models[name]
+    twins = compared(Fake(name="fit a"), Fake(name="fit b")).models
+    with pytest.raises(KeyError, match='"fit a"'):
+        twins["fit"]
+    found = compared(Fake(name="springs"), Fake(name="springs that read the surface")).models
+    assert found["springs"] is found[0] and found["springs that"] is found[1]
+
+
+@pytest.mark.parametrize("names", [["mdr", 3], [None]])
+def test_names_that_are_no_texts_are_refused(names):
+    with pytest.raises(TypeError, match="models must be names, got "):
+        validation.compare(validation.load_scene("rough_punch"), models=names)

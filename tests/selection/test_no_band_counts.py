@@ -1,4 +1,4 @@
-"""No band that counts is no answer: rails of short waves alone, by every model, and what is said of them."""
+"""Where no model of a rail can be enough: no band counts, or what lies across is left out. No solve is made in vain."""
 
 import json
 import math
@@ -11,6 +11,7 @@ from validation import compare, load_scene, summary, to_json
 from validation.cases.selection.model_selection import EdgeTrial, true_error
 from validation.scenes.rail import RailScene
 from validation.selection.rail_model import RailSceneModel
+from validation.selection.summary import what_would_help
 from validation.simulation.method import Resolution
 from validation.simulation.model import Target, models_serving
 from validation.simulation.rail_quantity import COUNTED
@@ -64,3 +65,29 @@ def test_a_trial_without_a_band_that_counts_has_no_true_error():
     quiet = np.full(4, 10 ** (-20 / 20))
     assert math.isnan(true_error(trial, quiet, quiet))
     assert true_error(trial, quiet * 2, np.ones(4)) > 0.5
+
+
+OPEN = replace(RAIL, across=None)
+
+
+def test_no_model_is_solved_that_what_lies_across_makes_too_wide():
+    names = []
+    found = compare(OPEN, quantity="contact-filter", tolerance="1 dB", callback=lambda one: names.append(one.name))
+    assert names == ["linear, ellipse"] and not found.met
+    (missed, helps) = what_would_help(found)
+    assert missed.startswith("not reached: the tolerance of 1 dB")
+    assert 'across = "isotropic" or "ridges" in [rail]' in helps
+
+
+@pytest.mark.parametrize(("scene", "tolerance"), [(RAIL, "0.2 dB"), (OPEN, "1.6 dB")])
+def test_a_solve_that_may_help_is_made(scene, tolerance):
+    """The ground is known, or both ends are within the tolerance."""
+
+    class AskedError(Exception):
+        pass
+
+    def stop(model):
+        raise AskedError(model.name)
+
+    with pytest.raises(AskedError, match="boundary elements"):
+        compare(scene, quantity="contact-filter", tolerance=tolerance, callback=stop)

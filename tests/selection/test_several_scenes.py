@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -11,7 +12,6 @@ import validation
 from tests.selection.planted_answers import punch
 from validation.__main__ import main
 from validation.engine.engine import Engine
-from validation.scenes.load import load_varied
 from validation.selection.compare import SceneProblem, content_of
 from validation.selection.several_scenes import compare_scenes
 from validation.selection.summary import summary
@@ -47,13 +47,8 @@ def test_what_would_help_is_said_of_each_that_is_not_met(capsys):
     words = ["compare", "rough_punch", "--models", "springs", "--tolerance", "20%", "--workers", "1"]
     assert main([*words, "--sweep", "punch.load=1 N,50 N"]) == 3
     text = " ".join(capsys.readouterr().out.split())
-    assert "load = 1 N: what would help: boundary elements" in text and "load = 50 N: what" not in text
-
-
-def test_a_value_is_read_as_in_the_file():
-    assert load_varied("rolling_wheel", "wheel.load", "2 kN").load == 2000.0
-    assert load_varied("rough_punch", "roughness.hurst", "0.5").ground.hurst == 0.5
-    assert load_varied("rolling_wheel", "wheel.load", "4905 N").load == validation.load_scene("rolling_wheel").load
+    assert re.search(r"load = 1 N: what would help: boundary elements \d+², which was not asked and claims \S+ %", text)
+    assert "load = 50 N: what" not in text
 
 
 @pytest.mark.parametrize(

@@ -80,15 +80,11 @@ def test_a_tolerance_is_echoed_in_its_unit(given, relative, shown):
     assert tolerance.shown(math.inf) == "unknown"
 
 
-@pytest.mark.parametrize("ratio", [0.0, -0.1, math.nan, math.inf])
-def test_a_tolerance_is_finite_and_positive(ratio):
-    with pytest.raises(ValueError, match=f"tolerance must be (positive|finite), got {ratio}"):
-        tolerance_of(ratio)
-
-
 @pytest.mark.parametrize(
     ("given", "said"),
     [
+        *((ratio, f"tolerance must be positive, got {ratio}") for ratio in (0.0, -0.1)),
+        *((ratio, f"tolerance must be finite, got {ratio}") for ratio in (math.nan, math.inf)),
         (20, '0.2 or "20%"'),
         (np.float64(2.5), '0.025 or "2.5%"'),
         (" 3 ", '"3%"'),
@@ -97,7 +93,7 @@ def test_a_tolerance_is_finite_and_positive(ratio):
 )
 def test_no_tolerance_is_taken_for_another(given, said):
     """A percentage without its sign is asked for."""
-    with pytest.raises(ValueError, match="tolerance must be as ") as refused:
+    with pytest.raises(ValueError, match="tolerance must be ") as refused:
         tolerance_of(given)
     assert said in str(refused.value)
 

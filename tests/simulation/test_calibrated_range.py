@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
+from tests.selection.planted_answers import punch, waves, wheel
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
-from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.simulation.calibrated_range import (
     HEIGHT,
@@ -31,14 +31,7 @@ SPHERE = IndentationScene(name="s", shape="sphere", size=0.5, load=4905.0, modul
 APPROACH = (4905.0 / (4 / 3 * 1e11 * math.sqrt(0.5))) ** (2 / 3)
 RADIUS = math.sqrt(0.5 * APPROACH)
 """Of the smooth sphere, by Hertz."""
-PUNCH = IndentationScene(
-    name="p",
-    shape="punch",
-    size=4.0,
-    load=3.0,
-    modulus=2.0,
-    ground=Roughness(rms=0.5, hurst=0.4, longest=2.0, shortest=0.4),
-)
+PUNCH = punch(load=6.0, size=4.0, modulus=2.0, ground=waves(first=0.5, last=2.5, rms=0.5, hurst=0.4))
 
 
 def test_conditions_of_a_punch_are_its_load_and_its_waves():
@@ -57,12 +50,10 @@ def test_conditions_of_a_sphere_are_its_height_and_its_waves_over_the_contact():
 
 
 def test_conditions_of_a_wheel_are_those_of_its_contact_and_a_moving_one_counts_its_waves_alone():
-    ground = Roughness(rms=0.01, hurst=0.7, longest=2 * math.pi, shortest=2 * math.pi / 4)
-    settings = {"name": "w", "radius": 1.0, "load": 4 / 3, "modulus": 1.0, "ground": ground}
-    still = RollingQuantity(RollingScene(**settings), "force-spectrum")
+    still = RollingQuantity(wheel(height=0.01), "force-spectrum")
     expected = {HEIGHT: 0.01, LONG: 1.0, SHORT: 4.0, RATIO: 4.0, HURST: 0.7}
     assert rolling_conditions(still) == pytest.approx(expected)
-    moving = RollingQuantity(RollingScene(**settings, mass=1.0, speed=10.0), "acceleration")
+    moving = RollingQuantity(wheel(height=0.01, mass=1.0, speed=10.0), "acceleration")
     found = rolling_conditions(moving)
     assert set(found) == {HEIGHT, MOVING_LONG, SHORT, RATIO, HURST}
     assert found[HEIGHT] == pytest.approx(0.01 * moving.amplification) and found[HEIGHT] > 0.01
@@ -72,9 +63,8 @@ def test_conditions_of_a_wheel_are_those_of_its_contact_and_a_moving_one_counts_
 def test_of_measured_heights_waves_of_four_points_are_the_shortest():
     """Steps of 0.1 under a contact of radius one: 2 pi / 0.4, not the pi / 0.1 of a wave of two points."""
     height = 1e-3 * np.random.default_rng(0).standard_normal((128, 64))
-    settings = {"name": "w", "radius": 1.0, "load": 4 / 3, "modulus": 1.0}
     ground = MeasuredHeights(height=height - height.mean(), spacing=(0.1, 0.1))
-    found = rolling_conditions(RollingQuantity(RollingScene(**settings, ground=ground), "force-rms"))
+    found = rolling_conditions(RollingQuantity(wheel(ground=ground), "force-rms"))
     assert found[SHORT] == pytest.approx(2 * math.pi / 0.4)
     assert found[RATIO] == pytest.approx(found[SHORT] / found[LONG]) and HURST not in found
 

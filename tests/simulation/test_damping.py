@@ -15,7 +15,7 @@ from validation.simulation import wheel_on_rail, wheel_on_springs
 from validation.simulation.contact_laws import BoundaryElementsLaw, HertzLaw, LinearLaw
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS_THAT_READ as SPRINGS
-from validation.simulation.motion import periodic_motion, simulate
+from validation.simulation.motion import simulate
 from validation.simulation.wheel_on_half_space import WheelStrip, simulate_strip
 from validation.simulation.wheel_on_rail import WheelOnRail
 from validation.simulation.wheel_on_springs import WheelEnsemble
@@ -108,15 +108,6 @@ def test_every_contact_moves_by_the_same_equation(name):
         assert motion.airborne[0] == np.count_nonzero(force == 0) > 5
 
 
-def test_periodic_motion_with_damping_is_the_steady_state():
-    change, dt = track(120, 3, 0.4), 0.08
-    settings = {"time_step": dt, "steps": 120, "start": (np.ones(3), np.zeros(3)), "tolerance": 1e-12}
-    d, v, left = periodic_motion(damped(), lambda n: linear(np.tile(change, (1, n))), **settings)
-    assert left.max() <= 1e-12
-    expected = linear(change).steady_state(dt)
-    assert np.abs(d - expected[0]).max() <= 1e-10 and np.abs(v - expected[1]).max() <= 1e-10
-
-
 @pytest.mark.parametrize("name", [name for name in SCHEMES if name != "velocity Verlet"])
 def test_other_schemes_are_refused_for_a_wheel_with_damping(name):
     with pytest.raises(ValueError, match=f"integrator must be velocity Verlet .* got {name}"):
@@ -185,12 +176,3 @@ def test_a_wheel_on_a_rail_moves_by_its_equation_with_the_dashpot(model):
     dashpot = c * speed
     rest = 500.0 * swing - (5e4 - force[1:-1] - dashpot)
     assert np.abs(rest).max() < 1e-3 * np.abs(dashpot).max()
-
-
-# --- what a scene gives -----------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("zeta", [-0.01, 1.0, 2.0, math.nan, math.inf])
-def test_ratios_out_of_range_are_refused(zeta):
-    with pytest.raises(ValueError, match=r"^wheel\.damping must be "):
-        damped(zeta)

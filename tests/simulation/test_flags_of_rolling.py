@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import bem3d
+from tests.selection.planted_answers import wheel
 from tests.simulation.power_law_ground import isotropic_strip
-from tests.simulation.test_calibration import wheel
 from validation.analysis.spectra import Bands
 from validation.benchmarks.work_precision import rolling as rolling_chart
 from validation.cases.rolling.ridges import RollingOverRidges
@@ -17,8 +17,6 @@ from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.scenes.load import load_scene
 from validation.scenes.transverse_profile import TransverseProfile
 from validation.scenes.wheel_body import Wheel
-from validation.selection.hierarchy import try_to_solve
-from validation.selection.scene_model import SceneModel
 from validation.simulation import rail_models, ridges, rolling_strip, wheel_on_rail
 from validation.simulation.contact_laws import BoundaryElementsLaw
 from validation.simulation.equivalent_displacement import RolledRail, roll_rail
@@ -46,7 +44,6 @@ BOTH_WAYS = WideRail(strip=RAIL, width=RAIL.width, bands=Bands((120.0, 400.0, 12
 HELD = HeldWheel(strip=RAIL, model=BEM, first=0, last=4, tolerance=1e-6)
 ROLLERS = ("bem3d.roll", "bem3d.rolling_force", "bem3d.RollingContact")
 ONE_POSITION = ("validation.simulation.exact_contacts:press_ellipse",)
-TOO_SHORT = bem3d.HalfSpace(shape=(12, 12), spacing=0.2, modulus=1.0), np.add.outer(*[np.linspace(-1, 1, 12) ** 2] * 2)
 Y = np.linspace(-0.03, 0.03, 61)
 PROFILE = TransverseProfile(y=tuple(Y.tolist()), height=tuple((-(Y**2) / 0.6).tolist()), source="head.csv")
 
@@ -166,13 +163,3 @@ def test_strips_of_a_rail_that_are_lost_leave_no_filter(monkeypatch):
     monkeypatch.setattr(rail_models.ContactFilter, "roll", lambda *_: {"failed": np.array(next(failed))})
     found = BOUNDARY_ELEMENTS.filter.over_twin(load_scene("rail"), "ridges", 3, 1)
     assert np.isnan(found).all()
-
-
-def test_a_model_whose_solve_raises_has_failed():
-    """Another model goes on; the reason is that of the solver."""
-    target = Target(wheel(), "force-rms")
-    model = SceneModel(ROLLING, target, ROLLING.resolutions(target)[0])
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(SceneModel, "solve", lambda self: bem3d.solve(*TOO_SHORT, approach=0.5, max_iterations=1))
-        answer = try_to_solve(model)
-    assert "residual" in answer.failed and np.isnan(answer.value).all()

@@ -17,12 +17,9 @@ from validation.selection.compare import compare
 from validation.selection.quantities import models_of
 from validation.selection.summary import summary
 from validation.simulation import models
-from validation.simulation.method import Resolution
-from validation.simulation.model import Target, models_serving
 from validation.simulation.model_names import FILTER_3D
-from validation.simulation.models import linear_filters
+from validation.simulation.models import rolling
 from validation.simulation.rough_punch import PunchRoughness
-from validation.theory.closed_forms import rough_punch_stiffness
 
 TOY = """
 import numpy as np
@@ -81,7 +78,7 @@ def test_a_model_that_is_found_is_on_the_charts(toy, monkeypatch):
 def test_a_rolling_model_that_is_found_is_on_the_chart_of_its_quantity(monkeypatch):
     """The rms force of linear theory is the same in one and in three dimensions, under whatever name."""
     use_a_clock_of_its_own(monkeypatch)
-    monkeypatch.setattr(linear_filters, "linear_filter_1d", replace(linear_filters.linear_filter_1d, name="found"))
+    monkeypatch.setattr(rolling, "linear_filter_1d", replace(rolling.linear_filter_1d, name="found"))
     grids = Grids(cells=(2, 4), fixed=2, tolerances=(), per="to a radius")
     problem = RollingProblem(last=4.0, length=24, width=12, tracks=2, grids=grids, springs=(8,))
     chart = points(problem, measure(timing.TimedProblem(problem=problem, slow=1.0, enough=0.0)))
@@ -91,13 +88,3 @@ def test_a_rolling_model_that_is_found_is_on_the_chart_of_its_quantity(monkeypat
     assert [point.status for point in chart if point.method == "found" and point.quantity == "spectrum"] == [
         "out of range: it does not have this quantity"
     ]
-
-
-def test_the_fit_of_a_rough_punch_is_one_of_them():
-    (model,) = (one for one in models_serving(PUNCH, "stiffness") if one.name == "fit")
-    result = model.prepare(Target(PUNCH), Resolution())(0)()
-    ground = PUNCH.ground
-    expected = rough_punch_stiffness(side=1.0, modulus=1.0, force=PUNCH.load, height=ground.rms)
-    assert result.values["stiffness"] == expected
-    # two springs in series: the flat punch, and the interface
-    assert 1 / expected == pytest.approx(1 / 1.1523 + 0.48 * ground.rms / PUNCH.load)

@@ -82,14 +82,6 @@ def test_models_of_two_radii_are_told_and_boundary_elements_take_the_profile(mon
     assert np.isinf(found.errors_of(by_name[BEM])[found.wavelength_mm < 2.5]).all()
 
 
-@pytest.mark.parametrize("height", [-(Y**2) / 0.6, worn(Y)])
-def test_another_load_has_another_contact_and_its_own_radius(height):
-    scene = profiled(height)
-    lighter = replace(scene, load=scene.load / 20)
-    assert lighter.contact.across < scene.contact.across
-    assert lighter.radii[1] == pytest.approx(0.3, rel=0.02)
-
-
 @pytest.mark.parametrize("cone", [0.0, 0.01])
 def test_a_cone_and_a_flange_press_as_the_ellipse_of_the_crown(cone):
     """A smooth crown of 300 mm under a tread with a flange beside it: Hertz's approach and pressure."""

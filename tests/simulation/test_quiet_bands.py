@@ -6,8 +6,7 @@ import numpy as np
 
 from validation.cases.selection.random_scenes import random_scene
 from validation.simulation.model import Target
-from validation.simulation.models.linear_filters import linear_filter_3d
-from validation.simulation.rolling_claims import filled
+from validation.simulation.models.rolling import filled, linear_filter_3d
 
 SCENE = random_scene("rolling", 1, 4242)
 """h/d = 0.14, and a shortest band with 1.2 % of the level of all: linear theory was found 19 % off."""

@@ -165,17 +165,6 @@ def test_ground_that_is_not_given_is_a_band_between_ridges_and_isotropic_ground(
     assert "across is not given" in linear.reason
 
 
-def test_the_limit_of_iso_3095_needs_no_boundary_elements():
-    found = compare(RAIL, "contact-filter", "1 dB")
-    assert found.met and found.model == LINEAR and found.unit == "dB"
-    rough = compare(RAIL, "equivalent-roughness", "1 dB")
-    np.testing.assert_allclose(rough.value, found.value + RAIL.levels.levels, atol=1e-9)
-    assert rough.unit == "dB re 1 µm"
-    best = found.selection.best
-    counted = found.value > -15
-    assert 20 * math.log10(1 + best.error) == pytest.approx(float(found.errors_of(best)[counted].max()))
-
-
 def test_beyond_what_was_measured_no_error_is_claimed():
     rough = replace(RAIL, roughness=RAIL.levels.raised(25.0))
     narrow = replace(RAIL, crown_radius=0.05)

@@ -1,8 +1,13 @@
-"""Measurement of the errors that cheap models claim: each beside fine boundary elements, over a sample of scenes."""
+"""Measurement of the errors that cheap models claim: each beside fine boundary elements, over a sample of scenes.
+
+Some scenes of a table are measured again, and a table takes the place of that of the package.
+"""
 
 import csv
 import io
 import math
+import os
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, date, datetime
@@ -13,16 +18,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.engine.files import write_given
 from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
+from validation.scenes.printable import printable
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.selection.hierarchy import try_to_solve
-from validation.selection.quantities import DOMINATED, MOVING, PRESSED, ROLLING
+from validation.selection.quantities import MOVING, PRESSED, ROLLING
 from validation.selection.scene_model import SceneModel
+from validation.simulation import calibration
 from validation.simulation.calibrated_range import CONDITIONS
-from validation.simulation.calibration import TABLE, Key, code_behind, conditions_by_kind, kind_of, provenance, table
+from validation.simulation.calibration import TABLE, Key
 from validation.simulation.model import GridModel, Model, Target, models_serving
 from validation.simulation.sampling import distance
 from validation.theory.closed_forms import hertz_force
@@ -53,6 +61,11 @@ COLUMNS = ("kind", "quantity", "number", "model", *CONDITIONS, "shape", "error",
 """Of the table; code: digest of what a row was measured with, and of what gave the same numbers since."""
 RESONANCES, IN_BAND = (math.log10(1.2), math.log10(6)), 3.5
 """lg of the frequency of the longest wave over the resonance of a dynamic wheel; of the shortest, at the least."""
+
+SAME = 1e-3
+"""Relative difference of an error measured again: the last bits of a solve are those of the machine, and its residual
+leaves more than they do."""
+Row = dict[str, str]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -171,7 +184,7 @@ def rows_of_point(point: CalibrationScene, outcome: Outcome) -> list[dict[str, A
     if outcome["failed"]:
         return []
     target = point.target()
-    kind, conditions = conditions_by_kind(target)
+    kind, conditions = calibration.conditions_by_kind(target)
     named = {name: f"{conditions[name]:.5g}" for name in CONDITIONS if name in conditions}
     about = {"kind": kind, "quantity": point.quantity, "number": point.number, **named}
     return [
@@ -181,7 +194,7 @@ def rows_of_point(point: CalibrationScene, outcome: Outcome) -> list[dict[str, A
             "shape": f"{model.shape(target):.5g}",
             "error": f"{error:.5g}",
             "reference": f"{float(outcome['reference']):.3g}",
-            "code": code_behind(model, target),
+            "code": calibration.code_behind(model, target),
         }
         for model, error in zip(point.cheap, outcome["error"], strict=True)
         if np.isfinite(error)
@@ -191,9 +204,9 @@ def rows_of_point(point: CalibrationScene, outcome: Outcome) -> list[dict[str, A
 def calibration_lines(path: Path = TABLE) -> list[str]:
     """What the table holds: its age, its code, and how well claims cover scenes that are left out of it."""
     head = f"{'scene':10s}{'quantity':18s}{'model':20s}{'scenes':>7s}{'covered':>9s}{'claim/error':>13s}"
-    table.cache_clear()  # which may have been written since
+    calibration.table.cache_clear()  # which may have been written since
     lines = [calibration_age(path), head]
-    for (kind, quantity, model), measured in table(path).items():
+    for (kind, quantity, model), measured in calibration.table(path).items():
         count, shown = len(measured.errors), f"{'—':>9s}{'—':>13s}"
         if count > 1:
             claimed = measured.factor * measured.left_out()
@@ -208,16 +221,16 @@ def calibration_age(path: Path = TABLE, target: Target | None = None) -> str:
 
     target: of a comparison, whose models alone are asked for.
     """
-    about = provenance(path)
+    about = calibration.provenance(path)
     if not about:
         return "errors of models: no calibration"
     one_of_each = CalibrationRun(punches=1, spheres=1, rolling=1, wheels=1).points
     models = {
-        (kind_of(one), one.quantity, model.name): code_behind(model, one)
+        (calibration.kind_of(one), one.quantity, model.name): calibration.code_behind(model, one)
         for one in ([target] if target else [point.target() for point in one_of_each])
         for model in cheap_models(one)
     }
-    known = table(path)
+    known = calibration.table(path)
     without = [key for key in models if key not in known]
     other = [key for key, code in models.items() if key in known and known[key].codes != {code}]
     missing = f"not in the table of the calibration: {_names(without, models, target)}" if without else ""
@@ -242,9 +255,94 @@ def _names(some: Sequence[Key], every: Iterable[Key], target: Target | None) -> 
 
 def cheap_models(target: Target) -> tuple[Model, ...]:
     """Those that claim errors, and are selected among."""
-    serving = models_serving(target.scene, target.quantity)
-    return tuple(m for m in serving if not isinstance(m, GridModel) and m.name not in DOMINATED)
+    return tuple(one for one in models_serving(target.scene, target.quantity) if not isinstance(one, GridModel))
 
 
 def today() -> date:
     return datetime.now(tz=UTC).date()
+
+
+def check_calibration(
+    scenes: int, engine: Engine = SERIAL, path: Path = TABLE, *, stamp: bool = False
+) -> tuple[list[str], str]:
+    """Measure so many scenes of each kind and quantity of a table again.
+
+    stamp: whether today's code becomes that of all rows where these are the same; the table is left as it is
+    otherwise. Returns the rows that differ, in words, and how many solves were measured.
+    """
+    rows, about = calibration.rows_of(path), calibration.provenance(path)
+    if not rows:
+        raise ValueError(f"no table of the calibration is in {printable(path)}")
+    seed = int(about["command"].rsplit(" ", 1)[1])
+    of_point, groups = defaultdict[CalibrationScene, list[Row]](list), defaultdict[str, list[CalibrationScene]](list)
+    for row in rows:
+        of_point[_point(row, seed)].append(row)
+    for point in of_point:
+        groups[f"{point.kind} {point.quantity}"].append(point)
+    points = [point for group in groups.values() for point in _spread(group, scenes)]
+    outcomes = engine.map(measure_errors, points)
+    again = [rows_of_point(point, outcome) for point, outcome in zip(points, outcomes, strict=True)]
+    differing = [
+        line for point, found in zip(points, again, strict=True) for line in _differences(of_point[point], found)
+    ]
+    solves = f"{len(points)} of {sum(map(len, groups.values()))} solves"
+    if stamp and not differing:
+        checked = {**about, "checked": f"{today().isoformat()}, {solves}"}
+        write_given(path, as_table(checked, [_with_code_of_today(row, seed) for row in rows]))
+        calibration.table.cache_clear()
+    return differing, solves
+
+
+def _point(row: Row, seed: int) -> CalibrationScene:
+    return CalibrationScene(kind=row["kind"], number=int(row["number"]), quantity=row["quantity"], seed=seed)
+
+
+def _spread(points: list[CalibrationScene], count: int) -> list[CalibrationScene]:
+    """From the first to the last."""
+    return [points[i] for i in dict.fromkeys(np.linspace(0, len(points) - 1, count).astype(int).tolist())]
+
+
+def _differences(rows: list[Row], again: list[Row]) -> list[str]:
+    before, after = ({row["model"]: row for row in some} for some in (rows, again))
+    name = f"{rows[0]['kind']} {rows[0]['number']}, {rows[0]['quantity']}"
+    lines = [f"{name}, {model}: in the table or measured alone" for model in before.keys() ^ after.keys()]
+    for model in before.keys() & after.keys():
+        first, second = (float(some[model]["error"]) for some in (before, after))
+        if abs(second - first) > SAME * first:
+            lines.append(f"{name}, {model}: an error of {first:g} in the table, of {second:g} today")
+    return sorted(lines)
+
+
+def _with_code_of_today(row: Row, seed: int) -> Row:
+    point = _point(row, seed)
+    (model,) = (one for one in point.cheap if one.name == row["model"])
+    return {**row, "code": calibration.code_behind(model, point.target())}
+
+
+def check_installable(run: CalibrationRun, path: Path = TABLE) -> None:
+    """Raises ValueError, before anything is measured, where a run has fewer scenes than the table that is there."""
+    if not (os.access(path, os.W_OK) and os.access(path.parent, os.W_OK)):
+        raise ValueError(f"--install must be allowed to write {printable(path)}, the table of the package")
+    there = {(row["kind"], row["quantity"], row["number"]) for row in calibration.rows_of(path)}
+    _refuse_fewer(
+        Counter(f"{point.kind} {point.quantity}" for point in run.points),
+        Counter(f"{kind} {quantity}" for kind, quantity, _ in there),
+    )
+
+
+def install(measured: Path, path: Path = TABLE) -> None:
+    """Raises ValueError where a model has fewer scenes in the table that was measured than in the one that is there."""
+    mine, there = (
+        Counter(f"{row['kind']} {row['quantity']}, {row['model']}" for row in calibration.rows_of(one))
+        for one in (measured, path)
+    )
+    _refuse_fewer(mine, there)
+    write_given(path, measured.read_bytes())
+    calibration.table.cache_clear()
+
+
+def _refuse_fewer(mine: Counter[str], there: Counter[str]) -> None:
+    for what, count in there.items():
+        if mine[what] < count:
+            wanted = f"as many scenes as the table of the package has, {count} of {what}"
+            raise ValueError(f"--install must leave {wanted}, got {mine[what]}")

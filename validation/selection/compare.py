@@ -18,7 +18,7 @@ from validation.scenes.rail import RailScene
 from validation.scenes.rolling import RollingScene
 from validation.selection.hierarchy import Candidate, Selection, select_model
 from validation.selection.named_models import ComparedModels, models_named
-from validation.selection.quantities import DOMINATED, LEVELS, REFERENCES, UNITS, models_of, quantities_of
+from validation.selection.quantities import BY_NAME, LEVELS, REFERENCES, UNITS, models_of, quantities_of
 from validation.selection.scene_model import SceneModel, Shared
 from validation.selection.swept import Swept
 from validation.selection.tolerance import Tolerance, decibels, tolerance_of
@@ -281,9 +281,9 @@ class SceneProblem:
     def offered(self, quantity: str, shared: Shared | None = None) -> tuple[list[SceneModel], list[SceneModel]]:
         """The models that are listed, the cheapest first, and those of them that may be solved."""
         tolerance = self.wanted.relative
-        every = models_of(self.scene, quantity, tolerance, self.seed, shared, by_name=bool(self.models))
+        every = models_of(self.scene, quantity, tolerance, self.seed, shared, every=bool(self.models))
         only = models_named(every, self.models, tolerance) if self.models else every
-        return [one for one in every if one.kind not in DOMINATED or any(one is named for named in only)], only
+        return [one for one in every if one.kind not in BY_NAME or any(one is named for named in only)], only
 
     def compared(self, callback: Callable[[SceneModel], None] = lambda _: None) -> dict[str, Comparison]:
         """Each quantity by its name; a filter and what it leaves share their solves."""

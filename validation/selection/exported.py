@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from validation.analysis.contents import as_csv, as_json
-from validation.analysis.evidence import Table, table_of
+from validation.analysis.evidence import Table
 from validation.analysis.nominal_bands import LONGEST, NominalBands
 from validation.engine.engine import FloatArray
 from validation.scenes.indentation import IndentationScene
@@ -102,20 +102,14 @@ def to_csv(comparison: OneOrSeveral) -> str:
 
 
 def table_of_several(comparisons: Sequence[Comparison]) -> Table:
-    """The tables of all, one under another, behind the name of the scene, and of the quantity where these differ."""
-    tables = [levels_of_models(one) for one in comparisons]
-    if len(tables) == 1:
-        return tables[0]
-    counts = [len(table["value"]) for table in tables]
-    front = {"scene": [one.scene.name for one in comparisons]}
-    if len(by_quantity(comparisons)) > 1:
-        front["quantity"] = [one.quantity for one in comparisons]
-    repeated = {name: [v for v, n in zip(of, counts, strict=True) for _ in range(n)] for name, of in front.items()}
-    columns = {
-        name: [v for table, n in zip(tables, counts, strict=True) for v in table.columns.get(name, [math.nan] * n)]
-        for name in dict.fromkeys(name for table in tables for name in table.columns)
-    }
-    return Table(comparisons[0].quantity, {**repeated, **columns})
+    """The rows of all, one under another, behind the name of the scene, and of the quantity where these differ."""
+    several, kinds = len(comparisons) > 1, len(by_quantity(comparisons)) > 1
+    rows = list[dict[str, object]]()
+    for one in comparisons:
+        front = ({"scene": one.scene.name} if several else {}) | ({"quantity": one.quantity} if kinds else {})
+        rows += [front | row for row in _rows(one)]
+    names = dict.fromkeys(name for row in rows for name in row)
+    return Table(comparisons[0].quantity, {name: [row.get(name, math.nan) for row in rows] for name in names})
 
 
 def by_quantity(comparisons: Sequence[Comparison]) -> dict[str, list[Comparison]]:
@@ -123,20 +117,16 @@ def by_quantity(comparisons: Sequence[Comparison]) -> dict[str, list[Comparison]
     return {name: [one for one in comparisons if one.quantity == name] for name in (o.quantity for o in comparisons)}
 
 
-def levels_of_models(comparison: Comparison) -> Table:
+def _rows(comparison: Comparison) -> list[dict[str, object]]:
     """A row a number or a band, of each model that was solved; NaN where there is no number."""
-    force = contact_force(comparison)
-    found = [_columns(comparison, one, force) for one in comparison.selection.solved]
-    if not found:
-        none = dict.fromkeys((*AXES, "value", "low", "high"), math.nan)
-        swept = swept_of(comparison) if comparison.swept else {}
-        row = {**none, "unit": comparison.unit, "model": "", "selected": False, **swept}
-        return table_of(comparison.quantity, [row])
-    return Table(comparison.quantity, {name: [value for one in found for value in one[name]] for name in found[0]})
+    force, swept = contact_force(comparison), swept_of(comparison) if comparison.swept else {}
+    found = [row for one in comparison.selection.solved for row in _rows_of_model(comparison, one, force)]
+    none = dict.fromkeys((*AXES, "value", "low", "high"), math.nan)
+    return [row | swept for row in found or [{**none, "unit": comparison.unit, "model": "", "selected": False}]]
 
 
-def _columns(comparison: Comparison, one: Candidate, force: ContactForce | None) -> dict[str, list[object]]:
-    """Of one model; those of a rail, of its force, of a clock and of a sweep where there are such."""
+def _rows_of_model(comparison: Comparison, one: Candidate, force: ContactForce | None) -> list[dict[str, object]]:
+    """Those of a rail, of its force and of a clock where there are such."""
     levels = levels_of(comparison, one, force)
     value, half = levels["value"], levels["error"]
     found: dict[str, Any] = {name: levels[name] if levels[name].size else math.nan for name in AXES}
@@ -147,8 +137,8 @@ def _columns(comparison: Comparison, one: Candidate, force: ContactForce | None)
         found |= {"force_sum_dBA": force.total(one.name), "force_over_selected_dB": force.over_chosen(one.name)}
     if comparison.timed:
         found["seconds"] = comparison.seconds_of(one)
-    found |= swept_of(comparison) if comparison.swept else {}
-    return {name: np.broadcast_to(np.asarray(of), value.shape).tolist() for name, of in found.items()}
+    columns = [np.broadcast_to(of, value.shape).tolist() for of in found.values()]
+    return [dict(zip(found, row, strict=True)) for row in zip(*columns, strict=True)]
 
 
 def swept_of(comparison: Comparison) -> dict[str, object]:

@@ -7,7 +7,7 @@ from validation.scenes.roughness_levels import MICROMETRE
 from validation.selection.rail_model import RailSceneModel
 from validation.selection.scene_model import SceneModel, Shared
 from validation.simulation.model import Target, models_serving
-from validation.simulation.model_names import PRESSED_LAYER, SPRINGS_THAT_READ
+from validation.simulation.model_names import SPRINGS_THAT_READ
 from validation.simulation.rail_quantity import RAIL_QUANTITIES
 
 PRESSED = ("stiffness",)
@@ -25,9 +25,8 @@ UNITS = {
     "contact-filter": "1",
     "equivalent-roughness": "µm",
 }
-DOMINATED = (PRESSED_LAYER, SPRINGS_THAT_READ)
-"""Models that are offered by name alone, since one that costs no more is closer: boundary elements on coarse cells to a
-pressed layer, linear theory in three dimensions to springs that read the surface, which pay in the time loop alone."""
+BY_NAME = (SPRINGS_THAT_READ,)
+"""Models that are offered by name alone: linear theory costs less and is closer; they pay in the time loop alone."""
 REFERENCES = {"equivalent-roughness": MICROMETRE}
 """Of levels, in SI units; one of those that are not named."""
 
@@ -42,11 +41,11 @@ def quantities_of(scene: Scene) -> tuple[str, ...]:
 
 
 def models_of(
-    scene: Scene, quantity: str, tolerance: float, seed: int, shared: Shared | None = None, *, by_name: bool = False
+    scene: Scene, quantity: str, tolerance: float, seed: int, shared: Shared | None = None, *, every: bool = False
 ) -> list[SceneModel]:
     """Models of a scene, the cheapest first. Raises ValueError for a quantity that the scene has not.
 
-    shared: what is solved for several quantities of one scene; by_name: whether those of `DOMINATED` are among them.
+    shared: what is solved for several quantities of one scene; every: whether those of `BY_NAME` are among them.
     """
     if quantity not in quantities_of(scene):
         known = ", ".join(quantities_of(scene))
@@ -56,7 +55,7 @@ def models_of(
     found = [
         kind(model, target, resolution, solved)
         for model in models_serving(scene, quantity)
-        if by_name or model.name not in DOMINATED
+        if every or model.name not in BY_NAME
         for resolution in model.resolutions(target)
     ]
     return sorted(found, key=lambda one: one.cost().seconds)

@@ -2,19 +2,16 @@
 
 import json
 from collections.abc import Sequence
-from dataclasses import fields
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
 
 from validation.engine.engine import Engine, Outcome
 from validation.selection.compare import Comparison, SceneProblem
-from validation.selection.hierarchy import Candidate, Selection
-from validation.selection.scene_model import Answer
+from validation.selection.hierarchy import Candidate, Selection, Status
+from validation.selection.scene_model import Answer, SceneModel
 from validation.simulation.model import Cost, ErrorEstimate
-
-KINDS = {kind.__name__: kind for kind in (Answer, Cost, ErrorEstimate)}
-"""Of what a store has of a model, by their names."""
 
 
 def compare_scenes(problems: Sequence[SceneProblem], engine: Engine) -> list[Comparison]:
@@ -29,32 +26,29 @@ def compare_scenes(problems: Sequence[SceneProblem], engine: Engine) -> list[Com
 
 def compare_scene(problem: SceneProblem) -> Outcome:
     """What became of each model, as JSON in one array a quantity."""
-    rows = {
-        name: [(one.status, one.reason, one.estimate, one.answer) for one in found.models]
+    texts = {
+        name: json.dumps([_row(one) for one in found.models], default=np.ndarray.tolist).encode()
         for name, found in problem.compared().items()
     }
-    texts = {name: json.dumps(of, default=_plain).encode() for name, of in rows.items()}
     return {name: np.frombuffer(text, dtype=np.uint8).astype(np.float64) for name, text in texts.items()}
 
 
 def _comparison(problem: SceneProblem, quantity: str, outcome: Outcome) -> Comparison:
-    rows = json.loads(outcome[quantity].astype(np.uint8).tobytes(), object_hook=_read)
+    rows = json.loads(outcome[quantity].astype(np.uint8).tobytes())
     models, _ = problem.offered(quantity)
-    candidates = tuple(Candidate(model, *row) for model, row in zip(models, rows, strict=True))
+    candidates = tuple(_candidate(model, *row) for model, row in zip(models, rows, strict=True))
     selection = Selection(problem.wanted.relative, candidates)
     return Comparison(problem.scene, quantity, selection, problem.wanted.in_decibels, timed=problem.solve_all)
 
 
-def _plain(value: Any) -> object:
-    """An array, or one of the `KINDS`."""
-    if isinstance(value, np.ndarray):
-        return {"array": value.tolist()}
-    return {type(value).__name__: {one.name: getattr(value, one.name) for one in fields(value)}}
+def _row(one: Candidate) -> tuple[object, ...]:
+    return one.status, one.reason, asdict(one.estimate), one.answer and asdict(one.answer)
 
 
-def _read(found: dict[str, Any]) -> object:
-    """What `_plain` has made."""
-    if len(found) == 1:
-        ((name, part),) = found.items()
-        return np.array(part, dtype=np.float64) if name == "array" else KINDS[name](**part)
-    return found
+def _candidate(model: SceneModel, status: Status, reason: str, estimate: Any, answer: Any) -> Candidate:
+    """Of what `_row` has made."""
+    if answer:
+        bands = {name: np.array(half, dtype=np.float64) for name, half in answer["band_errors"].items()}
+        value, cost = np.array(answer["value"], dtype=np.float64), Cost(**answer["cost"])
+        answer = Answer(**{**answer, "value": value, "cost": cost, "band_errors": bands})
+    return Candidate(model, status, reason, ErrorEstimate(**estimate), answer)

@@ -2,7 +2,8 @@
 
 import math
 import textwrap
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 
 from validation.scenes.description import description_lines
 from validation.scenes.indentation import IndentationScene
@@ -17,7 +18,6 @@ from validation.selection.contact_force import LEVELS, contact_force
 from validation.selection.hierarchy import Candidate
 from validation.selection.quantities import MOVING
 from validation.selection.rail_model import what_would_state_the_ground
-from validation.selection.reasons import grouped
 from validation.selection.scene_model import Answer
 from validation.selection.tolerance import Tolerance, decibels
 from validation.simulation.model import Target
@@ -25,6 +25,8 @@ from validation.simulation.rail_models import MEASURED_ON_STRIPS, rail_quantity
 
 WIDTH = 100
 """Columns of a terminal."""
+CAUSE, CLAUSE = ": ", "; "
+"""Between a clause and its cause, and between clauses of a reason."""
 ASSUMED = "elastic half-spaces, isotropic, without friction and adhesion"
 
 
@@ -98,6 +100,32 @@ def _reasons(comparison: Comparison) -> Iterator[str]:
     every = tuple(one.name for one in comparison.models)
     for names, reason in grouped({one.name: one.reason for one in comparison.models}):
         yield f"  {'all' if names == every and len(every) > 1 else '; '.join(names)}: {reason}"
+
+
+def grouped(reasons: Mapping[str, str]) -> Iterator[tuple[tuple[str, ...], str]]:
+    """Names of models and the clauses that these and no others have, in their order. reasons: by name."""
+    times = Counter(end for reason in set(reasons.values()) for end in _ends(reason))
+    names = dict[str, dict[str, None]]()
+    for name, reason in reasons.items():
+        for clause in _clauses(reason, times):
+            names.setdefault(clause, {})[name] = None
+    clauses = dict[tuple[str, ...], list[str]]()
+    for clause, those in names.items():
+        clauses.setdefault(tuple(those), []).append(clause)
+    return ((those, CLAUSE.join(same)) for those, same in clauses.items())
+
+
+def _ends(reason: str) -> set[str]:
+    """Clauses, and what stands behind the colon of one."""
+    clauses = reason.split(CLAUSE)
+    return {*clauses, *(clause.partition(CAUSE)[2] for clause in clauses)}
+
+
+def _clauses(reason: str, times: Mapping[str, int]) -> Iterator[str]:
+    """What stands in several reasons is a clause of its own, but for a word or a number, which says nothing alone."""
+    for clause in reason.split(CLAUSE):
+        head, _, cause = clause.partition(CAUSE)
+        yield from (head, cause) if " " in cause and times[cause] > 1 else (clause,)
 
 
 def overview(comparisons: Sequence[Comparison]) -> list[str]:

@@ -7,14 +7,13 @@ on a rail. On a rail, where a scene has springs on several tracks, the name of s
 BEM = "boundary elements"
 CLOSED_FORM, FIT = "closed form", "fit"
 FILTER_1D, FILTER_3D = "linear filter, 1D", "linear filter, 3D"
-PRESSED_LAYER = "pressed layer"
 LINEAR, LINEAR_ON_LINE, REMINGTON = "linear, ellipse", "linear, on the line", "Remington"
 BED, ONE_SIDED_BED = "spring bed (DPRS), linear", "spring bed (DPRS), one-sided"
 SPRINGS_GEIKE, SPRINGS_ON_LINE = "springs, Geike's rule", "springs on the line"
 SPRINGS_ON_MEAN, SPRINGS_ROLLING = "springs on the mean across", "springs, rolling spectrum"
 SPRINGS, SPRINGS_THAT_READ = "springs", "springs that read the surface"
 MODELS = (
-    *(BEM, CLOSED_FORM, FIT, FILTER_1D, FILTER_3D, PRESSED_LAYER, LINEAR, LINEAR_ON_LINE, REMINGTON, BED),
+    *(BEM, CLOSED_FORM, FIT, FILTER_1D, FILTER_3D, LINEAR, LINEAR_ON_LINE, REMINGTON, BED),
     *(ONE_SIDED_BED, SPRINGS_GEIKE, SPRINGS_ON_LINE, SPRINGS_ON_MEAN, SPRINGS_ROLLING, SPRINGS, SPRINGS_THAT_READ),
 )
 LINE, LINEAR_ON_MEAN = "line roughness", "linear, on the mean across"

@@ -21,7 +21,7 @@ from validation.scenes.load import Scene
 from validation.scenes.measured import MeasuredHeights
 from validation.selection.calibrate import OTHER_SEED, QUANTITIES
 from validation.selection.hierarchy import REFUSALS, select_model, try_to_solve, unsolved
-from validation.selection.quantities import DOMINATED, models_of
+from validation.selection.quantities import models_of
 from validation.selection.scene_model import Answer, SceneModel, Shared
 from validation.simulation.model import GridModel, all_models
 from validation.simulation.rail_models import RailModel, relative
@@ -48,13 +48,7 @@ EDGE_SCENES = (
     (RAIL, FEW),
 )
 COARSE, FINE = "coarse boundary elements", "fine boundary elements"
-CHEAP = tuple(
-    dict.fromkeys(
-        model.name
-        for model in all_models()
-        if not isinstance(model, GridModel | RailModel) and model.name not in DOMINATED
-    )
-)
+CHEAP = tuple(dict.fromkeys(one.name for one in all_models() if not isinstance(one, GridModel | RailModel)))
 MODELS = (*CHEAP, COARSE, FINE)
 """What selection may end on: the models below boundary elements by their kind, and those on two kinds of grid."""
 

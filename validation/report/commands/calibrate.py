@@ -8,8 +8,15 @@ from validation.engine.progress import progress_of
 from validation.report.commands.arguments import Exit, add_options, add_workers, at_least
 from validation.report.folder import CALIBRATION, REALISATIONS, Folder
 from validation.scenes.printable import printable
-from validation.selection.calibrate import CalibrationRun, calibration_lines, measured_table, table_in
-from validation.selection.calibration_check import check_calibration, check_installable, install
+from validation.selection.calibrate import (
+    CalibrationRun,
+    calibration_lines,
+    check_calibration,
+    check_installable,
+    install,
+    measured_table,
+    table_in,
+)
 
 OUT = Path("calibration")
 """Where a table is measured, below the working folder."""

@@ -108,7 +108,7 @@ def _problem(scene: Scene, arguments: argparse.Namespace) -> SceneProblem:
     quantities, seed = arguments.quantity or quantities_of(scene)[:1], arguments.seed or 0
     tolerance, names = tolerance_of(arguments.tolerance).relative, () if arguments.models is None else arguments.models
     for quantity in quantities:
-        models_named(models_of(scene, quantity, tolerance, seed, by_name=True), names, tolerance)
+        models_named(models_of(scene, quantity, tolerance, seed, every=True), names, tolerance)
     timed = arguments.all or arguments.over is not None
     return SceneProblem(scene, tuple(quantities), arguments.tolerance, seed, timed, names)
 

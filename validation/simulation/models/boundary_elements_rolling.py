@@ -9,7 +9,7 @@ from validation.simulation import rolling_levels as grids
 from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.model import Cost, ErrorEstimate, GridModel, Model, Target
 from validation.simulation.model_names import BEM
-from validation.simulation.rolling_claims import of_a_wheel
+from validation.simulation.models.rolling import of_a_wheel
 from validation.simulation.rolling_levels import RollingGrid, on_boundary_elements
 from validation.simulation.sampling import distance
 
