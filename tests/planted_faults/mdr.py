@@ -1,6 +1,5 @@
 """Faults planted in what `tests/mdr` looks at: where, what is wrong there, and the test that must catch it."""
 
-import math
 import types
 from functools import partial
 
@@ -26,7 +25,6 @@ from tests.mdr import test_rolling_surface as of_surfaces
 from tests.mdr import test_spring_warnings as doubts
 from tests.mdr import test_springs_against_brute_force as brute_force
 from tests.planted_faults.wrong import E_FOR_E_STAR, Fault, Times
-from validation.theory import closed_forms
 from validation.theory import rolling as rolling_theory
 
 
@@ -81,11 +79,7 @@ FAULTS = [
         lambda height, *, length, modulus: load_curve(height, length=1.1523 * length, modulus=modulus),
     ),
     of_geike.test_line_trace_of_a_wide_power_law,
-    Fault("level of the rolling force for that of the line trace").at(
-        closed_forms,
-        "line_trace_ratio",
-        lambda hurst: math.gamma(hurst + 1.5) / (math.sqrt(math.pi) * math.gamma(hurst + 2)),
-    ),
+    Fault("Geike for the line trace").at(mdr.SelfAffine, "line", mdr.SelfAffine.c1d),
     SURFACE_BY_WAVES,
     Fault("surface shifted by half a cell").at(surface, "_half_a_cell", lambda mode, points: np.ones(mode.shape)),
     Fault("spectrum of a surface without its mirror images").at(surface, "_hermitian", lambda wave, amplitudes: wave),

@@ -32,7 +32,7 @@ def damped_wheel_alone(omega, **given):
 pairs_of, compliance_of = RollingWheel._pairs, RollingWheel.compliance
 
 
-def half_of_the_slope(pressure, *, gradient):
+def half_of_the_slope(pressure, gradient):
     """erf(p / (E* h')), without the root of two."""
     return math.erf(pressure / gradient)
 
@@ -74,11 +74,6 @@ def circle_for_the_ellipse(along, across, *, semi_axes):
 ellipse_of_springs = spring_input.rolling_input_filter
 
 
-def without_its_logarithm(*, mean_pressure, amplitude, wavelength, modulus):
-    """d = h s."""
-    return mean_pressure * wavelength / (np.pi * modulus)
-
-
 FAULTS = [
     partial(of_interface.test_the_stiffness_is_the_slope_of_the_gap_that_the_energy_leaves, 0.45),
     Fault("waves of an interface by their slope in one direction").at(interface, "_slopes", slopes_in_one_direction),
@@ -86,11 +81,7 @@ FAULTS = [
         interface, "special", types.SimpleNamespace(erf=lambda x: special.erf(x / math.sqrt(2)))
     ),
     of_interface.test_the_area_is_that_of_pressures_that_diffuse,
-    Fault("pressures that diffuse half as fast").at(closed_forms, "persson_contact_fraction", half_of_the_slope),
-    partial(forms.test_the_westergaard_approach_is_the_integral_of_the_compliance_of_strips, 0.2),
-    Fault("an approach under a wave without its logarithm").at(
-        closed_forms, "westergaard_approach", without_its_logarithm
-    ),
+    Fault("pressures that diffuse half as fast").at(of_interface, "contact_fraction", half_of_the_slope),
     partial(of_input.test_on_a_circle_it_is_the_rolling_spectrum_of_a_wheel, 700.0),
     Fault("a circle for the ellipse in the rolling spectrum of a rail").at(
         spring_input, "rolling_input_filter", circle_for_the_ellipse
