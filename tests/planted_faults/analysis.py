@@ -73,11 +73,6 @@ def mean_of_the_range(points):
     return replace(worst(points), value=float(np.mean([p.difference for p in points])))
 
 
-def farthest(points):
-    """The point that is farthest off, whatever its interval and its tolerance."""
-    return max(points, key=lambda p: abs(p.difference))
-
-
 def about_its_mean(points, tolerance, reason):
     """The scatter over a range, of which a constant difference is no part."""
     found = over_range.root_mean_square(points, tolerance, reason)
@@ -88,20 +83,6 @@ def of_the_mean_alone(points, tolerance, reason):
     """The half-width of a mean of independent points."""
     found = over_range.root_mean_square(points, tolerance, reason)
     return replace(found, sample=found.sample / math.sqrt(len(points)))
-
-
-def wherever_limits_are_named(claim):
-    """Limits taken at their word."""
-    return ClaimStatus.LIMITED if claim.inside else claim_status(claim)
-
-
-def normal_quantile(degrees, confidence=0.95):
-    return float(stats.norm.ppf((1 + confidence) / 2))
-
-
-def scatter_of_the_others(without):
-    """Of a jackknife, the standard error of its values as if they were independent."""
-    return np.std(without, axis=0, ddof=1) / math.sqrt(len(without))
 
 
 def unpaired(values, references, weights):
@@ -182,7 +163,9 @@ FAULTS = [
     Fault("a third of the interval, seen by its coverage").at(
         statistics.Estimate, "half_width", property(lambda estimate: estimate.error / 1.5)
     ),
-    Fault("the normal quantile for Student's").at(statistics, "student", normal_quantile),
+    Fault("the normal quantile for Student's").at(
+        statistics, "student", lambda degrees, confidence=0.95: float(stats.norm.ppf((1 + confidence) / 2))
+    ),
     partial(test_error_bars_of_rolling.test_ratios_of_levels_cover_their_truth, 4),
     Fault("two standard errors of a sample of four").at(
         statistics.Estimate, "half_width", property(lambda estimate: 2 * estimate.error)
@@ -242,7 +225,9 @@ FAULTS = [
         test_judged_claims.test_the_worst_point_is_the_farthest_beyond_its_tolerance_with_its_interval,
         *test_judged_claims.WORST[0],
     ),
-    Fault("the farthest point for the worst").at(test_judged_claims, "worst", farthest),
+    Fault("the farthest point for the worst").at(
+        test_judged_claims, "worst", lambda points: max(points, key=lambda p: abs(p.difference))
+    ),
     test_judged_claims.test_the_interval_of_a_root_mean_square_holds_whenever_those_of_its_points_do,
     Fault("a root mean square about the mean").at(test_judged_claims, "root_mean_square", about_its_mean),
     Fault("the interval of a mean for that of a root mean square").at(
@@ -256,13 +241,17 @@ FAULTS = [
     partial(
         test_judged_claims.test_limits_hold_only_where_all_inside_agrees, Verdict.UNDECIDED, ClaimStatus.CONTRADICTED
     ),
-    Fault("limits taken at their word").at(JudgedClaim, "status", property(wherever_limits_are_named)),
+    Fault("limits taken at their word").at(
+        JudgedClaim, "status", property(lambda claim: ClaimStatus.LIMITED if claim.inside else claim_status(claim))
+    ),
     test_series.test_a_relative_margin_is_of_the_reference_and_a_criterion_has_a_finding_for_its_rms,
     Fault("a relative tolerance in the unit").at(
         test_series, "Margin", lambda relative=False, **settings: declared.Margin(**settings)
     ),
     partial(test_error_bars.test_leaving_out_one_is_the_standard_error_of_a_mean, 7),
-    Fault("a jackknife without its n - 1").at(statistics, "jackknife_error", scatter_of_the_others),
+    Fault("a jackknife without its n - 1").at(
+        statistics, "jackknife_error", lambda without: np.std(without, axis=0, ddof=1) / math.sqrt(len(without))
+    ),
     test_judged_claims.test_intervals_of_a_range_hold_at_once,
     Fault("the interval of one point for all of a range").at(
         statistics.Estimate, "half_width_among", lambda one, points: statistics.student(one.samples - 1) * one.error

@@ -61,12 +61,6 @@ from validation.simulation.rail_strip import RailStrip
 from validation.simulation.rolling_strip import level_1d
 from validation.simulation.rough_punch import PunchRoughness
 
-
-def with_the_integral_for_the_sum(case, spectrum):
-    """The level of a band of all waves for that of the waves of a track."""
-    return level_1d(case.spectrum, "geike", case.bands)
-
-
 REAL_SCENE, REAL_WEIGHTING, combined = rail_filters.scene_of, rail_filters.a_weighting, multilevel.combined
 PERIODIC_TRACKS = test_wheel_ensembles.test_periodic_tracks_take_whole_natural_periods_and_a_half
 STEADY = {"track": "steady-state"}
@@ -205,7 +199,7 @@ FAULTS = [
     ),
     test_rolling_cases.test_the_curve_on_a_track_is_that_of_its_waves_through_the_filter,
     Fault("a band of all waves for the waves of a track, in the curve of the book").at(
-        force_spectrum, "levels_on_track", with_the_integral_for_the_sum
+        force_spectrum, "levels_on_track", lambda case, spectrum: level_1d(case.spectrum, "geike", case.bands)
     ),
     test_force.test_the_mean_filter_finds_the_roughness_of_the_mean_force,
     Fault("factor 2 lost in the mean filter, read backwards").at(

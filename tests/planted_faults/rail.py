@@ -40,10 +40,6 @@ def of_equal_weights(found):
     return replace(found, of_values=np.ones(len(found.values)))
 
 
-def smooth_line_alone(**waves):
-    return ground_of_strip(**{**waves, "whole": None})
-
-
 def by_smooth_levels(scene):
     slope = rail_strip.strip_bands(scene).slope_of_spectrum(rail_strip.line_of(scene))
     return slope * scene.contact.along / scene.contact.approach
@@ -62,10 +58,6 @@ def of_the_fine_cells(result, key, model, other):
 def over_all_lines(model, contact):
     """Springs read each line, and the mean of three lines is one."""
     return filter_of("linear, on the line" if model.startswith("mean of") else model, contact)
-
-
-def on_a_circle_as_long(model, contact):
-    return filter_of(model, replace(contact, across=contact.along))
 
 
 slope_error, borne_by = graduation.Graduation.slope_error, equivalent_displacement.borne_by
@@ -88,7 +80,9 @@ FAULTS = [
     Fault("three lines at the edges of the contact").at(filters, "NEAR", 1.0),
     Fault("one line for the mean of three").at(filters, "filter_of", over_all_lines),
     partial(SUMS, filters.REMINGTON_THERE),
-    Fault("Remington's circle as long as the ellipse").at(filters, "filter_of", on_a_circle_as_long),
+    Fault("Remington's circle as long as the ellipse").at(
+        filters, "filter_of", lambda model, contact: filter_of(model, replace(contact, across=contact.along))
+    ),
     test_across.test_the_border_of_one_line_is_where_linear_theory_passes_the_tolerance_less_what_contact_adds,
     Fault("contact that adds to one line and not to boundary elements").at(
         across.AcrossResult, "beyond_linear", lambda result, key, sign=0: -beyond_linear(result, key, sign)
@@ -182,7 +176,9 @@ FAULTS = [
     SCATTERED.test_a_corrugation_costs_its_own_bands_alone_and_they_lie_between_ridges_and_isotropic_ground,
     Fault("a corrugation taken for isotropic ground").at(RailQuantity, "between", lambda quantity, ends: ends[-1:]),
     SCATTERED.test_strips_have_the_power_of_what_stands_out,
-    Fault("strips without a corrugation").at(rail_strip, "RailGround", smooth_line_alone),
+    Fault("strips without a corrugation").at(
+        rail_strip, "RailGround", lambda **waves: ground_of_strip(**{**waves, "whole": None})
+    ),
     SCATTERED.test_loss_of_contact_is_that_of_the_levels_as_they_are,
     Fault("the loss of contact of smooth levels alone").at(
         test_scattered_levels, "lost_contact_number", by_smooth_levels

@@ -60,14 +60,6 @@ def by_the_filter_of_one_dimension(q, c2d, *, edges, contact_radius, modulus):
     return rolling_theory.force_spectrum_1d(q, geike, contact_radius=contact_radius, modulus=modulus)
 
 
-def without_a_resonator(quantity, q):
-    return np.ones_like(q) / quantity.scene.body.mass
-
-
-def one_standard_error(ratios):
-    return float(np.sqrt(np.mean(ratios.var(axis=0, ddof=1) / len(ratios))))
-
-
 drawn_on_a_grid = pressed_heights._drawn
 
 
@@ -113,10 +105,6 @@ def another_strip_on_the_coarse_grid(target, resolution):
     solve = strips.prepare(target, resolution)
     coarse, _ = strips.resolutions(target)
     return (lambda strip: solve(strip + 1)) if resolution == coarse else solve
-
-
-def geike_for_what_rolls(ground, rule, **settings):
-    return surface.draw_track(ground, "geike", **settings)
 
 
 real_weighting, real_models_of = contact_force.a_weighting, compare.models_of
@@ -183,10 +171,12 @@ FAULTS = [
     Fault("a factor 2 lost in the variance of the force").at(rolling_question, "force_variance", Times(0.5)),
     test_ladder.test_the_transfer_of_a_wheel_is_that_of_its_resonator,
     Fault("no resonator between force and acceleration").at(
-        rolling_question.RollingQuantity, "transfer", without_a_resonator
+        rolling_question.RollingQuantity, "transfer", lambda quantity, q: np.ones_like(q) / quantity.scene.body.mass
     ),
     test_ladder.test_the_error_of_a_mean_covers_it_in_95_of_100,
-    Fault("one standard error for a 95 % interval").at(test_ladder, "mean_error", one_standard_error),
+    Fault("one standard error for a 95 % interval").at(
+        test_ladder, "mean_error", lambda ratios: float(np.sqrt(np.mean(ratios.var(axis=0, ddof=1) / len(ratios))))
+    ),
     functools.partial(test_ladder.test_the_law_of_interfaces_holds_as_it_claims, 1.0),
     Fault("twice the separation of a rough face").at(closed_forms, "INTERFACE", 0.96),
     functools.partial(test_ladder.test_the_whole_is_the_root_of_the_sum_of_its_bands, False),
@@ -268,7 +258,9 @@ FAULTS = [
     functools.partial(
         test_claims.test_springs_on_low_roughness_are_linear_theory_in_the_mean_over_bands, "force-spectrum"
     ),
-    Fault("Geike's spectrum for springs that roll").at(rolled, "draw_track", geike_for_what_rolls),
+    Fault("Geike's spectrum for springs that roll").at(
+        rolled, "draw_track", lambda ground, rule, **settings: surface.draw_track(ground, "geike", **settings)
+    ),
     functools.partial(test_ladder.test_bands_are_told_with_wavenumber_frequency_and_level, "force-spectrum", "N"),
     Fault("decibels of a power for those of a level").at(
         tolerance, "math", with_math(log10=lambda value: math.log10(value) / 2)

@@ -99,10 +99,6 @@ def inverted(omega, *, eigenfrequency, mass, damping):
     return 1 / (mass * (1 - (np.asarray(omega) / eigenfrequency) ** 2)) ** 2
 
 
-def without_a_jump(motion):
-    return motion.next_acceleration - motion.next_acceleration
-
-
 def one_copy(wheel, law, **settings):
     """Shooting that rolls and does not correct."""
     start = settings.pop("start")
@@ -124,11 +120,6 @@ def middle_line(half_widths, points, step):
     weights = np.zeros((points, half_widths.size))
     weights[points // 2] = 1.0
     return weights
-
-
-def line_itself(strip):
-    """A line trace in the place of Geike's spectrum."""
-    return equivalent_displacement.linear_displacement(strip, LINE)
 
 
 def springs_on_middle_line(height, *, spacing, **wheel):
@@ -216,7 +207,9 @@ FAULTS = [
         equivalent_displacement, "geike_over_line", lambda wavenumber, ground: np.ones_like(wavenumber)
     ),
     test_rail_sound.test_geikes_track_has_his_spectrum_and_the_phases_of_the_line,
-    Fault("the line trace taken for Geike's spectrum").at(test_rail_sound, "geike_track", line_itself),
+    Fault("the line trace taken for Geike's spectrum").at(
+        test_rail_sound, "geike_track", lambda strip: equivalent_displacement.linear_displacement(strip, LINE)
+    ),
     test_rail_sound.test_springs_that_read_a_smoother_rail_are_linear_theory,
     Fault("springs that read one line of the surface").at(mdr, "roll_surface", springs_on_middle_line),
     partial(test_rough_punches.test_heights_are_normalised_as_they_say, "bem3d", 1.0),
@@ -279,7 +272,9 @@ FAULTS = [
     Fault("omega / omega_0 for omega_0 / omega").at(wheel_theory, "acceleration_over_force", inverted),
     Fault("factor 2 pi lost over frequency").at(wheel_theory, "over_frequency", Times(1 / (2 * np.pi))),
     partial(test_wheel_motion.test_the_change_of_velocity_is_the_mean_acceleration, "linear"),
-    Fault("a jump that is not there").at(wheel_in_motion.Motion, "jump", property(without_a_jump)),
+    Fault("a jump that is not there").at(
+        wheel_in_motion.Motion, "jump", property(lambda motion: motion.next_acceleration - motion.next_acceleration)
+    ),
     test_periodic_motion.test_the_periodic_motion_of_a_linear_contact_is_its_steady_state,
     Fault("shooting without a correction").at(test_periodic_motion, "periodic_motion", one_copy),
     partial(test_wheel_motion.test_the_steady_motion_is_that_of_a_dense_solve_and_repeats_itself, 50, 0.1),

@@ -32,35 +32,14 @@ def damped_wheel_alone(omega, **given):
 pairs_of, compliance_of = RollingWheel._pairs, RollingWheel.compliance
 
 
-def half_of_the_slope(pressure, gradient):
-    """erf(p / (E* h')), without the root of two."""
-    return math.erf(pressure / gradient)
-
-
 def slopes_in_one_direction(c2d, edges):
     q, s = SLOPES(c2d, edges)
     return q, s / math.sqrt(2)
 
 
-def half_of_a_period(ends, period):
-    return periods(ends, np.asarray(period) / 2)
-
-
-def near_waves_among_the_far(q, end, period, begin=0.0):
-    return panels_across(q, end, period)
-
-
 FAR_WAVES = across.test_far_waves_are_all_there_once_and_a_fast_filter_has_its_mean
 SLOPES = interface._slopes
 periods, panels_across = transverse_structure._periods, transverse_structure._panels_across
-
-
-def geike_for_rolling(q, c2d, edges, flat):
-    return float(np.pi * q * c2d(np.array(q)))
-
-
-def line_for_rolling(q, c2d, edges, flat):
-    return float(rolling_theory.section(q, c2d, edges=edges))
 
 
 # the function of this name hides the module in the package
@@ -81,7 +60,9 @@ FAULTS = [
         interface, "special", types.SimpleNamespace(erf=lambda x: special.erf(x / math.sqrt(2)))
     ),
     of_interface.test_the_area_is_that_of_pressures_that_diffuse,
-    Fault("pressures that diffuse half as fast").at(of_interface, "contact_fraction", half_of_the_slope),
+    Fault("pressures that diffuse half as fast").at(
+        of_interface, "contact_fraction", lambda pressure, gradient: math.erf(pressure / gradient)
+    ),
     partial(of_input.test_on_a_circle_it_is_the_rolling_spectrum_of_a_wheel, 700.0),
     Fault("a circle for the ellipse in the rolling spectrum of a rail").at(
         spring_input, "rolling_input_filter", circle_for_the_ellipse
@@ -95,9 +76,13 @@ FAULTS = [
     partial(of_rolling.test_sections_are_line_traces, 0.7),
     Fault("Geike for the line trace in rolling").at(mdr.SelfAffine, "line", mdr.SelfAffine.c1d),
     partial(of_rolling.test_springs_that_are_fed_for_rolling_have_the_level_of_the_half_space, 0.7, 1.0),
-    Fault("springs that roll fed by Geike").at(feed, "_across", geike_for_rolling),
+    Fault("springs that roll fed by Geike").at(
+        feed, "_across", lambda q, c2d, edges, flat: float(np.pi * q * c2d(np.array(q)))
+    ),
     partial(of_rolling.test_large_wheels_are_fed_less_than_geike, 0.7),
-    Fault("springs that roll fed by the line trace").at(feed, "_across", line_for_rolling),
+    Fault("springs that roll fed by the line trace").at(
+        feed, "_across", lambda q, c2d, edges, flat: float(rolling_theory.section(q, c2d, edges=edges))
+    ),
     partial(of_rolling.test_force_spectrum_by_adaptive_quadrature, 0.7, 1.7),
     Fault("factor 4 lost in the spectrum of the half-space").at(rolling_theory, "response", Times(0.5)),
     of_rolling.test_spectra_of_profiles_are_the_ones_they_are_drawn_from,
@@ -119,8 +104,12 @@ FAULTS = [
         transverse_structure.IsotropicGround, "line_power", lambda ground, q: ground.line(q)
     ),
     partial(FAR_WAVES, transverse_structure.WaveBand(0.7)),
-    Fault("far waves over half of a period").at(transverse_structure, "_periods", half_of_a_period),
-    Fault("near waves counted among the far, too").at(transverse_structure, "_panels_across", near_waves_among_the_far),
+    Fault("far waves over half of a period").at(
+        transverse_structure, "_periods", lambda ends, period: periods(ends, np.asarray(period) / 2)
+    ),
+    Fault("near waves counted among the far, too").at(
+        transverse_structure, "_panels_across", lambda q, end, period, begin=0.0: panels_across(q, end, period)
+    ),
     test_wheel.test_acceleration_and_force_over_the_force_at_a_fixed_approach,
     Fault("a dashpot without its own force on the wheel").at(wheel, "contact_force_over_force", damped_wheel_alone),
     partial(test_second_order.test_the_second_order_force_is_that_of_drawn_profiles, test_second_order.FIXED),
