@@ -119,9 +119,6 @@ FAULTS = [
     test_read_only_results.test_an_older_view_of_the_gap_changes_no_problem,
     Fault("a gap that the caller may still write to").at(problem, "kept", lambda values: values),
     WORN_PROFILE,
-    Fault("a profile across that is half as high as it is").at(
-        rolling_frame, "checked_profile", lambda z, columns, step: np.asarray(z) / 2
-    ),
     Fault("a profile across for the parabola that it is about").at(
         rolling_frame,
         "checked_profile",

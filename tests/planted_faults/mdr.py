@@ -73,11 +73,6 @@ FAULTS = [
         "load_curve",
         lambda height, *, length, modulus: load_curve(height, length=length, modulus=E_FOR_E_STAR * modulus),
     ),
-    Fault("1.1523 L for L").at(
-        mdr,
-        "load_curve",
-        lambda height, *, length, modulus: load_curve(height, length=1.1523 * length, modulus=modulus),
-    ),
     of_geike.test_line_trace_of_a_wide_power_law,
     Fault("Geike for the line trace").at(mdr.SelfAffine, "line", mdr.SelfAffine.c1d),
     SURFACE_BY_WAVES,
