@@ -28,13 +28,6 @@ def trapezoid(values, q):
     return float(np.trapezoid(values, q))
 
 
-def test_spectra_are_two_sided():
-    q = np.geomspace(ROUGH.q_min, ROUGH.q_max, 20_001)
-    assert 2 * trapezoid(ROUGH.c1d(q), q) == pytest.approx(ROUGH.rms**2, rel=1e-6)
-    assert 2 * np.pi * trapezoid(q * ROUGH.c2d(q), q) == pytest.approx(ROUGH.rms**2, rel=1e-6)
-    assert ROUGH.c1d(q) == pytest.approx(np.pi * q * ROUGH.c2d(q))
-
-
 def test_a_slope_in_one_direction_and_the_gradient():
     """2 int q^2 C_line dq = pi int q^3 C_2D dq = g^2 / 2, by sums; Geike's profile has the slope g."""
     assert row("rms slope h'")[1].startswith("h'^2 = 2 int_0^inf q^2 C_line dq = g^2 / 2")

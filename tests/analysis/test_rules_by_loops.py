@@ -125,42 +125,11 @@ def test_the_floor_is_taken_over_all_lines_of_its_range():
 # --- oscillation ---
 
 
-def oscillating(lines, turns, first=1):
+def oscillating(lines, turns):
     """A sine of so many turns over the lines, about a power law, and a little noise."""
-    omega = np.arange(1.0, first + lines)
-    place = np.arange(lines) / lines
-    law = omega[first - 1 :] ** -2.0 * np.exp(0.5 * np.cos(2 * np.pi * turns * place))
-    density = np.concatenate([np.full(first - 1, 1e6), law])
-    return omega, density * np.exp(1e-3 * np.random.default_rng(0).standard_normal(omega.size))
-
-
-def period_by_loop(omega, density, first, last, least):
-    """A slow transform of what ln A has about its straight line, with Hann's window."""
-    inside = [j for j in range(len(omega)) if first <= omega[j] <= last]
-    n = len(inside)
-    x, y = np.log(omega[inside]), np.log(density[inside])
-    rest = y - np.polyval(np.polyfit(x, y, 1), x)
-    window = [math.sin(math.pi * k / n) ** 2 for k in range(n)]
-
-    def line(m):
-        return abs(sum(rest[k] * window[k] * np.exp(-2j * np.pi * m * k / n) for k in range(n))) ** 2
-
-    lines = [line(m) for m in range(n // 2)]
-    top = max(range(least, n // 4), key=lambda m: lines[m])
-    if lines[top] < 40 * np.median(lines[least : n // 4]):
-        return math.nan
-    side = 1 if lines[top + 1] > lines[top - 1] else -1
-    r = math.sqrt(lines[top + side] / lines[top])
-    return n * omega[0] / (top + side * (2 * r - 1) / (r + 1))
-
-
-@pytest.mark.parametrize("turns", [6.0, 6.3, 9.8, 14.5])
-def test_the_period_by_a_loop(turns):
-    """A hundred lines from the fortieth on, both ends in; what lies below them is much larger."""
-    omega, density = oscillating(100, turns, first=40)
-    found = regions.oscillation_period(omega, density, 40.0, 139.0, 3)
-    assert found == pytest.approx(period_by_loop(omega, density, 40.0, 139.0, 3), rel=1e-9)
-    assert found == pytest.approx(100 / turns, rel=0.02)
+    omega = np.arange(1.0, 1 + lines)
+    law = omega**-2.0 * np.exp(0.5 * np.cos(2 * np.pi * turns * np.arange(lines) / lines))
+    return omega, law * np.exp(1e-3 * np.random.default_rng(0).standard_normal(lines))
 
 
 @pytest.mark.parametrize(("lines", "finite"), [(12, False), (15, False), (96, True)])

@@ -27,27 +27,7 @@ def by_slow_sums(x, time_step, window):
     return np.abs(waves @ (w[:, np.newaxis] * x)) ** 2 * time_step**2 / (steps * time_step) / np.mean(w**2)
 
 
-def mean_square(record, steps, time_step):
-    """sum A / T over positive and negative frequencies; that of Nyquist is its own mirror image."""
-    sides = np.full(len(record.density), 2.0)
-    if steps % 2 == 0:
-        sides[-1] = 1
-    return sides @ record.density / (steps * time_step)
-
-
 # --- (14.17) ----------------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("window", WINDOWS)
-@pytest.mark.parametrize("steps", [24, 25])
-def test_parseval_in_expectation(steps, window):
-    """Over all places at which a record may begin a window weighs all its values alike: exact, no sample needed."""
-    rng, time_step = np.random.default_rng(steps), 0.3
-    x = rng.normal(size=steps)
-    x = np.stack([np.roll(x, n) for n in range(steps)], axis=1)
-    zero = by_slow_sums(x, time_step, window)[0] / (steps * time_step)
-    found = mean_square(spectra.record_spectra(x, time_step=time_step, window=window), steps, time_step) + zero
-    assert found.mean() == pytest.approx(np.mean(x**2), rel=ROUNDING)
 
 
 @pytest.mark.parametrize("window", WINDOWS)
@@ -213,24 +193,6 @@ def test_noise_has_no_period():
         noise = rng.exponential(size=omega.size)
         assert math.isnan(regions.oscillation_period(omega, omega**-4.4 * noise, FIRST, LAST, 3))
         assert regions.oscillation_period(omega, density * noise, FIRST, LAST, 3) == pytest.approx(PERIOD, rel=0.01)
-
-
-# --- region 4 ---------------------------------------------------------------------------------------------------------
-
-
-def test_floor_level_of_a_ramp():
-    """Slow truth: a record that rises by J over its length leaks nothing but that."""
-    steps, jump = 512, 3.0
-    x = jump * np.arange(steps)[:, np.newaxis] / steps
-    record = spectra.record_spectra(x, time_step=0.1)
-    found = regions.floor_level(record.omega, record.density[:, 0], 1.0, 20.0, 0.1)
-    assert found == pytest.approx(jump**2 / 51.2, rel=1e-9)
-
-
-def test_power_level_under_an_oscillation_is_half():
-    """Of sin^2, to the part that one line has of a period."""
-    found = regions.power_level(*law(-4.4), FIRST, LAST, PERIOD, -4.4)
-    assert found == pytest.approx(0.5, rel=LINE / PERIOD)
 
 
 @given(where=st.floats(1e-3, 1e6), exponent=st.floats(-6, -2.5), floor=st.floats(1e-9, 1e9))

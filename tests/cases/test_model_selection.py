@@ -1,6 +1,7 @@
 """The test of all error estimates: what it draws, counts and decides, and that estimates hold on new surfaces."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from tests.selection.planted_answers import Finding
 from validation.analysis.study import Outcomes
 from validation.cases.selection import model_selection as ladder
 from validation.cases.selection import model_selection_study as calibration
+from validation.cases.selection.random_scenes import KINDS
 
 
 @pytest.mark.slow
@@ -49,6 +51,22 @@ def test_the_calibration_test_has_the_numbers_it_is_given():
     assert covered.sample == pytest.approx(75 - 100 * stats.beta.ppf(0.025, 3, 2))
     assert spent.value == pytest.approx(2925 / 140) and 0 < spent.sample < 50
     assert [claim.numbers for claim in found.claims] == [(covered,), (spent,)]
+
+
+def test_scenes_at_the_edges_that_test_nothing_are_named():
+    case = ladder.CalibrationTest(punches=1, spheres=0, rolling=0, edges=(("punch", 2),))
+    edges = [{**outcome(0.1, 0.05, 0, 0), "refused": np.array(why), "offered": np.array(0.0)} for why in ("", "narrow")]
+    found = calibration.STUDY.evidence(Outcomes(case, {"random": [outcome(0.1, 0.05, 5.0, 10.0)], "edges": edges}))
+    (row,) = zip(*found.table(calibration.UNTESTED).columns.values(), strict=True)
+    assert row == ("punch", case.edge_trials[1].number, "narrow")
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_random_scene_is_that_of_its_numbers(kind):
+    """The trial's kind, number and seed."""
+    trial = ladder.CalibrationTrial(kind=kind, number=3, tolerances=(0.1,), seed=7)
+    again, other, anew = (replace(trial, **change) for change in ({}, {"number": 4}, {"seed": 8}))
+    assert trial.scene == again.scene and len({one.scene.load for one in (trial, other, anew)}) == 3
 
 
 def test_savings_are_beside_the_measured_time_of_the_reference(monkeypatch):

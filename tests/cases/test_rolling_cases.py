@@ -18,7 +18,7 @@ from validation.report.answers.first_screen import answered_questions
 from validation.report.section import Section
 from validation.simulation import rolling_strip
 from validation.simulation.rolling_strip import RoughStrip, Tracks, crop_to_reach, roll_tracks
-from validation.simulation.track_spectrum import PiecewisePowerLaw
+from validation.simulation.track_spectrum import INPUT_SPECTRA, PiecewisePowerLaw, TrackSpectrum
 from validation.theory.rolling import force_spectrum_1d, force_variance
 
 SMALL = rolling.ForceSpectrum(
@@ -56,6 +56,14 @@ def test_power_laws_have_unit_height_and_are_continuous(spectrum):
     inner = np.array(spectrum.edges[1:-1])
     assert spectrum.c2d(inner * (1 - 1e-10)) == pytest.approx(spectrum.c2d(inner * (1 + 1e-10)), rel=1e-8)
     assert (spectrum.c2d([0.99 * spectrum.edges[0], 1.01 * spectrum.edges[-1]]) == 0).all()
+
+
+def test_inputs_are_ordered_along_the_track():
+    """At q a = 4: Geike's most, then the line trace, then the rolling spectrum; below the band Geike's has nothing."""
+    found = (TrackSpectrum(SMALL.spectrum, name)(np.array([4.0, 0.9 * SMALL.first])) for name in INPUT_SPECTRA)
+    at = dict(zip(INPUT_SPECTRA, found, strict=True))
+    assert at["geike"][0] > at["line"][0] > at["rolling"][0] > 0
+    assert at["geike"][1] == 0 < at["rolling"][1] < at["line"][1]
 
 
 def test_strips_are_the_same_surface_on_finer_cells():

@@ -88,14 +88,6 @@ def test_verlet_keeps_its_energy_to_the_fourth_order():
     assert np.log2(swings[0] / swings[1]) == pytest.approx(4, abs=0.3)
 
 
-@pytest.mark.slow
-def test_a_wrong_limit_is_noticed(result, monkeypatch):
-    """Every scheme growing from half its limit on."""
-    amplification = free.amplification
-    monkeypatch.setattr(free, "amplification", lambda name, x: amplification(name, 2 * np.asarray(x)))
-    assert verdicts(result, case.GROWTH) == {Verdict.DIFFER}
-
-
 def exchanged(found, name, other):
     """The outcome of one scheme as that of another."""
     return {**found, name: found[other]}
@@ -118,15 +110,6 @@ def drifting(found):
 )
 def test_a_planted_change_is_noticed(result, name, change, quantity, model):
     assert verdicts(changed(result, {name: change(result[name])}), quantity, model) == {Verdict.DIFFER}
-
-
-@pytest.mark.slow
-def test_springs_taken_for_a_continuum_are_noticed(result, monkeypatch):
-    exact, lowest = rough.linear_response, SMALL.heights[0]
-    monkeypatch.setattr(rough, "linear_response", lambda track, stride: exact(track, 1))
-    (problem,) = case.coarser(SMALL, lowest)
-    coarse = changed(result, spacing={**result["spacing"], lowest: [rough.coarsen(problem)]})
-    assert verdicts(coarse, case.SUM) == {Verdict.DIFFER}
 
 
 @pytest.mark.parametrize("seed", range(5))

@@ -21,7 +21,7 @@ from tests.analysis import (
 )
 from tests.analysis import test_spectra as test_wheel_spectra
 from tests.cases import test_interface
-from tests.planted_faults.wrong import with_math
+from tests.planted_faults.wrong import Fault, with_math
 from validation.analysis import claims, multilevel, nominal_bands, over_range, spectra, statistics
 from validation.analysis import series as declared
 from validation.analysis import spectral_features as regions
@@ -63,45 +63,15 @@ def holds_unless_it_differs(claim):
     return ClaimStatus.CONTRADICTED if claim.count(Verdict.DIFFER) else ClaimStatus.HOLDS
 
 
-def most_agree(claim):
-    """A claim by the majority of its numbers."""
-    return ClaimStatus.HOLDS if 2 * claim.count(claim.confirmed_by) > len(claim.numbers) else ClaimStatus.OPEN
-
-
 def mean_of_the_range(points):
     """The signed mean over a range, in which signs cancel."""
     return replace(worst(points), value=float(np.mean([p.difference for p in points])))
-
-
-def farthest(points):
-    """The point that is farthest off, whatever its interval and its tolerance."""
-    return max(points, key=lambda p: abs(p.difference))
 
 
 def about_its_mean(points, tolerance, reason):
     """The scatter over a range, of which a constant difference is no part."""
     found = over_range.root_mean_square(points, tolerance, reason)
     return replace(found, value=float(np.std([point.difference for point in points])))
-
-
-def of_the_mean_alone(points, tolerance, reason):
-    """The half-width of a mean of independent points."""
-    found = over_range.root_mean_square(points, tolerance, reason)
-    return replace(found, sample=found.sample / math.sqrt(len(points)))
-
-
-def wherever_limits_are_named(claim):
-    """Limits taken at their word."""
-    return ClaimStatus.LIMITED if claim.inside else claim_status(claim)
-
-
-def normal_quantile(degrees, confidence=0.95):
-    return float(stats.norm.ppf((1 + confidence) / 2))
-
-
-def scatter_of_the_others(without):
-    """Of a jackknife, the standard error of its values as if they were independent."""
-    return np.std(without, axis=0, ddof=1) / math.sqrt(len(without))
 
 
 def unpaired(values, references, weights):
@@ -144,181 +114,123 @@ def both_edges(bands, q, values):
 
 
 claim_status = JudgedClaim.status.fget
-half_of_the_interval = statistics.Estimate.half_width.fget
 spectra_of_records = spectra.record_spectra
 peak = regions.peak
 
 
-FAULTS = {
-    "bands of base two for those of base ten": (
-        (
-            nominal_bands.NominalBands,
-            "edges",
-            property(lambda bands: bands.centres[0] * 2 ** ((np.arange(len(bands) + 1) - 0.5) / 3)),
-        ),
-        test_nominal_bands.test_bands_are_base_ten_and_lie_beside_each_other,
+FAULTS = [
+    test_nominal_bands.test_bands_are_base_ten_and_lie_beside_each_other,
+    Fault("bands of base two for those of base ten").at(
+        nominal_bands.NominalBands,
+        "edges",
+        property(lambda bands: bands.centres[0] * 2 ** ((np.arange(len(bands) + 1) - 0.5) / 3)),
     ),
-    "positive wavenumbers alone for the power of a band": (
-        (nominal_bands, "levels", lambda found, bands: spectra.levels(found, bands) / 2),
-        test_nominal_bands.test_power_of_a_wave_is_in_its_band_alone,
+    test_nominal_bands.test_power_of_a_wave_is_in_its_band_alone,
+    Fault("positive wavenumbers alone for the power of a band").at(
+        nominal_bands, "levels", lambda found, bands: spectra.levels(found, bands) / 2
     ),
-    "lines that keep their slope": (
-        (scipy.signal, "detrend", lambda heights: heights),
-        test_nominal_bands.test_power_of_a_record_is_that_of_its_waves,
+    test_nominal_bands.test_power_of_a_record_is_that_of_its_waves,
+    Fault("lines that keep their slope").at(scipy.signal, "detrend", lambda heights: heights),
+    partial(test_wheel_spectra.test_spectra_by_slow_sums, 31, "none"),
+    Fault("dt for dt^2 in (14.17)").at(spectra, "record_spectra", weighed(lambda time_step, _: 1 / time_step)),
+    partial(test_wheel_spectra.test_spectra_by_slow_sums, 31, "none"),
+    Fault("one-sided spectrum of a record").at(spectra, "record_spectra", weighed(lambda *_: 2)),
+    partial(test_wheel_spectra.test_spectra_by_slow_sums, 31, "hann"),
+    Fault("Hann without its mean square").at(
+        spectra, "record_spectra", weighed(lambda _, window: 3 / 8 if window == "hann" else 1)
     ),
-    "dt for dt^2 in (14.17)": (
-        (spectra, "record_spectra", weighed(lambda time_step, _: 1 / time_step)),
-        partial(test_wheel_spectra.test_spectra_by_slow_sums, 31, "none"),
+    partial(test_wheel_spectra.test_peak_of_a_tone_between_lines, 30.5),
+    Fault("half a line on in the peak").at(
+        regions, "peak", lambda omega, hann, below: peak(omega, hann, below) + omega[0] / 2
     ),
-    "one-sided spectrum of a record": (
-        (spectra, "record_spectra", weighed(lambda *_: 2)),
-        partial(test_wheel_spectra.test_parseval_in_expectation, 24, "none"),
+    partial(test_wheel_spectra.test_slope_under_an_oscillation, 0.7),
+    Fault("slope of bands that are not levelled").at(regions, "slope", slope_of_what_is_steep),
+    partial(test_error_bars.test_the_interval_of_a_mean_is_students, 2),
+    Fault("one tail of Student's t").at(statistics.Estimate, "half_width", property(of_one_tail)),
+    partial(test_error_bars.test_the_interval_of_a_mean_is_students, 5),
+    Fault("the normal quantile for Student's").at(
+        statistics, "student", lambda degrees, confidence=0.95: float(stats.norm.ppf((1 + confidence) / 2))
     ),
-    "Hann without its mean square": (
-        (spectra, "record_spectra", weighed(lambda _, window: 3 / 8 if window == "hann" else 1)),
-        partial(test_wheel_spectra.test_parseval_in_expectation, 24, "hann"),
+    partial(test_error_bars_of_rolling.test_ratios_of_levels_cover_their_truth, 4),
+    Fault("two standard errors of a sample of four").at(
+        statistics.Estimate, "half_width", property(lambda estimate: 2 * estimate.error)
     ),
-    "half a line on in the peak": (
-        (regions, "peak", lambda omega, hann, below: peak(omega, hann, below) + omega[0] / 2),
-        partial(test_wheel_spectra.test_peak_of_a_tone_between_lines, 30.5),
+    Fault("pairs of strips taken for independent ones").at(test_error_bars_of_rolling, "log_ratio_of_means", unpaired),
+    test_error_bars_of_grids.test_what_extrapolation_leaves_open_is_half_of_its_way_and_the_interval_of_all_of_it,
+    Fault("half of the way to cells of no size").at(test_error_bars_of_grids, "extrapolated", half_of_the_way),
+    partial(test_multilevel.test_mean_and_variance_have_no_bias, (8, 4), (0.9,)),
+    Fault("steps between grids taken the wrong way").at(
+        multilevel.Moments, "with_step", lambda mine, fine, coarse: moments_with_step(mine, coarse, fine)
     ),
-    "slope of bands that are not levelled": (
-        (regions, "slope", slope_of_what_is_steep),
-        partial(test_wheel_spectra.test_slope_under_an_oscillation, 0.7),
+    Fault("variances with n").at(multilevel, "moments", with_n),
+    test_multilevel.test_values_from_the_same_realisations_share_their_errors,
+    Fault("the covariance of two grids lost").at(
+        multilevel.Linearised, "__sub__", lambda mine, other: mine + -1.0 * shuffled(other)
     ),
-    "one tail of Student's t": (
-        (statistics.Estimate, "half_width", property(of_one_tail)),
-        partial(test_error_bars.test_the_interval_of_a_mean_is_students, 2),
+    partial(test_multilevel.test_intervals_hold_as_often_as_they_say, (300, 60), (0.95,), 0.93),
+    Fault("the quantile of 90 % for that of 95").at(multilevel, "student", lambda freedom, confidence=0.95: 1.6),
+    test_multilevel.test_a_sample_of_two_has_one_degree_of_freedom,
+    Fault("degrees of freedom that two surfaces do not have").at(
+        multilevel.Linearised, "freedom", property(lambda mine: math.inf)
     ),
-    "a third of the interval, seen by its coverage": (
-        (statistics.Estimate, "half_width", property(lambda estimate: estimate.error / 1.5)),
-        partial(test_error_bars.test_the_interval_of_a_mean_is_students, 5),
+    test_declared_claims.test_limits_are_the_first_piece_of_a_range,
+    Fault("limits of whatever agrees").at(claims, "takewhile", filter),
+    partial(test_multilevel.test_intervals_that_hold_together_share_their_five_per_cent, 25),
+    Fault("intervals of single points for those of a range").at(
+        multilevel, "student", lambda freedom, confidence=0.95: statistics.student(freedom)
     ),
-    "two standard errors of a sample of four": (
-        (statistics.Estimate, "half_width", property(lambda estimate: 2 * estimate.error)),
-        partial(test_error_bars_of_rolling.test_ratios_of_levels_cover_their_truth, 4),
+    test_multilevel.test_the_bias_of_a_logarithm_is_half_of_its_variance,
+    Fault("no bias of the logarithm taken off").at(multilevel, "math", with_math(log1p=lambda relative: 0.0)),
+    test_error_bars_of_grids.test_the_sample_interval_of_fig_14_1,
+    Fault("profiles and surfaces taken for the same realisations").at(
+        multilevel.Linearised, "beside", lambda mine, other: mine - other
     ),
-    "a whole interval for its half": (
-        (statistics.Estimate, "half_width", property(lambda estimate: 2 * half_of_the_interval(estimate))),
-        partial(test_error_bars.test_the_interval_of_a_mean_is_students, 3),
+    test_interface.test_what_finer_cells_change_is_extrapolated_and_half_of_it_left_open,
+    Fault("sample and grid exchanged").at(
+        declared, "Number", lambda grid, sample, **settings: Number(grid=sample, sample=grid, **settings)
     ),
-    "half of the way to cells of no size": (
-        (test_error_bars_of_grids, "extrapolated", half_of_the_way),
-        test_error_bars_of_grids.test_what_extrapolation_leaves_open_is_half_of_its_way_and_the_interval_of_all_of_it,
+    test_error_bars_of_rolling.test_levels_of_rolling_are_powers_in_decibels,
+    Fault("decibels of an amplitude for those of a power, in rolling").at(
+        force_spectrum, "POWER_DECIBEL", statistics.DECIBEL
     ),
-    "steps between grids taken the wrong way": (
-        (multilevel.Moments, "with_step", lambda mine, fine, coarse: moments_with_step(mine, coarse, fine)),
-        partial(test_multilevel.test_mean_and_variance_have_no_bias, (8, 4), (0.9,)),
+    test_rules_by_loops.test_a_band_holds_its_lower_edge_and_not_its_upper,
+    Fault("a line at the upper edge of a band counted in it").at(spectra.Bands, "sums", both_edges),
+    test_judged_claims.test_one_counterexample_contradicts_and_nothing_undecided_holds,
+    Fault("an undecided number taken for one that confirms").at(
+        JudgedClaim, "status", property(holds_unless_it_differs)
     ),
-    "variances with n": (
-        (multilevel, "moments", with_n),
-        partial(test_multilevel.test_mean_and_variance_have_no_bias, (8, 4), (0.9,)),
+    test_judged_claims.test_a_mean_of_both_signs_agrees_where_the_range_does_not,
+    Fault("the mean of a range for its worst point").at(test_judged_claims, "worst", mean_of_the_range),
+    partial(
+        test_judged_claims.test_the_worst_point_is_the_farthest_beyond_its_tolerance_with_its_interval,
+        *test_judged_claims.WORST[0],
     ),
-    "the covariance of two grids lost": (
-        (multilevel.Linearised, "__sub__", lambda mine, other: mine + -1.0 * shuffled(other)),
-        test_multilevel.test_values_from_the_same_realisations_share_their_errors,
+    Fault("the farthest point for the worst").at(
+        test_judged_claims, "worst", lambda points: max(points, key=lambda p: abs(p.difference))
     ),
-    "the quantile of 90 % for that of 95": (
-        (multilevel, "student", lambda freedom, confidence=0.95: 1.6),
-        partial(test_multilevel.test_intervals_hold_as_often_as_they_say, (300, 60), (0.95,), 0.93),
+    test_judged_claims.test_the_interval_of_a_root_mean_square_holds_whenever_those_of_its_points_do,
+    Fault("a root mean square about the mean").at(test_judged_claims, "root_mean_square", about_its_mean),
+    partial(test_error_bars_of_grids.test_grid_errors_of_fig_14_1_never_cancel, (-2.0, 2.0), 0.16),
+    Fault("grid errors of Fig. 14.1 that cancel in a difference").at(test_error_bars_of_grids, "combined", cancelled),
+    test_error_bars_of_grids.test_grid_errors_of_an_exponent_a_trend_and_a_ratio_add_up,
+    Fault("grid errors of Fig. 14.1 that cancel in an exponent").at(fractal_punch, "combined", cancelled),
+    Fault("grid errors of two methods that cancel").at(multilevel.Resolved, "beside", beside_with_its_sign),
+    partial(
+        test_judged_claims.test_limits_hold_only_where_all_inside_agrees, Verdict.UNDECIDED, ClaimStatus.CONTRADICTED
     ),
-    "degrees of freedom that two surfaces do not have": (
-        (multilevel.Linearised, "freedom", property(lambda mine: math.inf)),
-        test_multilevel.test_a_sample_of_two_has_one_degree_of_freedom,
+    Fault("limits taken at their word").at(
+        JudgedClaim, "status", property(lambda claim: ClaimStatus.LIMITED if claim.inside else claim_status(claim))
     ),
-    "limits of whatever agrees": (
-        (claims, "takewhile", filter),
-        test_declared_claims.test_limits_are_the_first_piece_of_a_range,
+    test_series.test_a_relative_margin_is_of_the_reference_and_a_criterion_has_a_finding_for_its_rms,
+    Fault("a relative tolerance in the unit").at(
+        test_series, "Margin", lambda relative=False, **settings: declared.Margin(**settings)
     ),
-    "intervals of single points for those of a range": (
-        (multilevel, "student", lambda freedom, confidence=0.95: statistics.student(freedom)),
-        partial(test_multilevel.test_intervals_that_hold_together_share_their_five_per_cent, 25),
+    partial(test_error_bars.test_leaving_out_one_is_the_standard_error_of_a_mean, 7),
+    Fault("a jackknife without its n - 1").at(
+        statistics, "jackknife_error", lambda without: np.std(without, axis=0, ddof=1) / math.sqrt(len(without))
     ),
-    "no bias of the logarithm taken off": (
-        (multilevel, "math", with_math(log1p=lambda relative: 0.0)),
-        test_multilevel.test_the_bias_of_a_logarithm_is_half_of_its_variance,
+    test_judged_claims.test_intervals_of_a_range_hold_at_once,
+    Fault("the interval of one point for all of a range").at(
+        statistics.Estimate, "half_width_among", lambda one, points: statistics.student(one.samples - 1) * one.error
     ),
-    "profiles and surfaces taken for the same realisations": (
-        (multilevel.Linearised, "beside", lambda mine, other: mine - other),
-        test_error_bars_of_grids.test_the_sample_interval_of_fig_14_1,
-    ),
-    "sample and grid exchanged": (
-        (declared, "Number", lambda grid, sample, **settings: Number(grid=sample, sample=grid, **settings)),
-        test_interface.test_what_finer_cells_change_is_extrapolated_and_half_of_it_left_open,
-    ),
-    "decibels of an amplitude for those of a power, in rolling": (
-        (force_spectrum, "POWER_DECIBEL", statistics.DECIBEL),
-        test_error_bars_of_rolling.test_levels_of_rolling_are_powers_in_decibels,
-    ),
-    "a line at the upper edge of a band counted in it": (
-        (spectra.Bands, "sums", both_edges),
-        test_rules_by_loops.test_a_band_holds_its_lower_edge_and_not_its_upper,
-    ),
-    "an undecided number taken for one that confirms": (
-        (JudgedClaim, "status", property(holds_unless_it_differs)),
-        test_judged_claims.test_one_counterexample_contradicts_and_nothing_undecided_holds,
-    ),
-    "a claim by the majority": (
-        (JudgedClaim, "status", property(most_agree)),
-        test_judged_claims.test_one_counterexample_contradicts_and_nothing_undecided_holds,
-    ),
-    "the mean of a range for its worst point": (
-        (test_judged_claims, "worst", mean_of_the_range),
-        test_judged_claims.test_a_mean_of_both_signs_agrees_where_the_range_does_not,
-    ),
-    "the farthest point for the worst": (
-        (test_judged_claims, "worst", farthest),
-        partial(
-            test_judged_claims.test_the_worst_point_is_the_farthest_beyond_its_tolerance_with_its_interval,
-            *test_judged_claims.WORST[0],
-        ),
-    ),
-    "a root mean square about the mean": (
-        (test_judged_claims, "root_mean_square", about_its_mean),
-        test_judged_claims.test_the_interval_of_a_root_mean_square_holds_whenever_those_of_its_points_do,
-    ),
-    "the interval of a mean for that of a root mean square": (
-        (test_judged_claims, "root_mean_square", of_the_mean_alone),
-        test_judged_claims.test_the_interval_of_a_root_mean_square_holds_whenever_those_of_its_points_do,
-    ),
-    "grid errors of Fig. 14.1 that cancel in a difference": (
-        (test_error_bars_of_grids, "combined", cancelled),
-        partial(test_error_bars_of_grids.test_grid_errors_of_fig_14_1_never_cancel, (-2.0, 2.0), 0.16),
-    ),
-    "grid errors of Fig. 14.1 that cancel in an exponent": (
-        (fractal_punch, "combined", cancelled),
-        test_error_bars_of_grids.test_grid_errors_of_an_exponent_a_trend_and_a_ratio_add_up,
-    ),
-    "grid errors of two methods that cancel": (
-        (multilevel.Resolved, "beside", beside_with_its_sign),
-        test_error_bars_of_grids.test_grid_errors_of_an_exponent_a_trend_and_a_ratio_add_up,
-    ),
-    "limits taken at their word": (
-        (JudgedClaim, "status", property(wherever_limits_are_named)),
-        partial(
-            test_judged_claims.test_limits_hold_only_where_all_inside_agrees,
-            Verdict.UNDECIDED,
-            ClaimStatus.CONTRADICTED,
-        ),
-    ),
-    "a relative tolerance in the unit": (
-        (test_series, "Margin", lambda relative=False, **settings: declared.Margin(**settings)),
-        test_series.test_a_relative_margin_is_of_the_reference_and_a_criterion_has_a_finding_for_its_rms,
-    ),
-    "the normal quantile for Student's": (
-        (statistics, "student", normal_quantile),
-        partial(test_error_bars.test_the_interval_of_a_mean_is_students, 5),
-    ),
-    "a jackknife without its n - 1": (
-        (statistics, "jackknife_error", scatter_of_the_others),
-        partial(test_error_bars.test_leaving_out_one_is_the_standard_error_of_a_mean, 7),
-    ),
-    "pairs of strips taken for independent ones": (
-        (test_error_bars_of_rolling, "log_ratio_of_means", unpaired),
-        partial(test_error_bars_of_rolling.test_ratios_of_levels_cover_their_truth, 4),
-    ),
-    "the interval of one point for all of a range": (
-        (statistics.Estimate, "half_width_among", lambda one, points: statistics.student(one.samples - 1) * one.error),
-        test_judged_claims.test_intervals_of_a_range_hold_at_once,
-    ),
-}
+]

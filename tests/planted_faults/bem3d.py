@@ -39,9 +39,8 @@ from tests.bem3d import test_rolling_frame as frames
 from tests.bem3d import test_transverse_profile as profiles
 from tests.bem3d import test_warnings as doubts
 from tests.bem3d import test_windows_and_starts as windows
-from tests.planted_faults.wrong import E_FOR_E_STAR, scaled
+from tests.planted_faults.wrong import E_FOR_E_STAR, Fault, Times
 from validation.theory import closed_forms
-from validation.theory import rolling as rolling_theory
 
 periodic_symbol = kernel.periodic_symbol
 
@@ -108,179 +107,113 @@ def yielding_mean_plane(shape, spacing, modulus):
     return symbol
 
 
-FAULTS = {
-    "a mean plane of a periodic half-space that yields": (
-        (kernel, "periodic_symbol", yielding_mean_plane),
-        partial(interfaces.test_a_wave_has_the_stiffness_and_the_approach_of_westergaard, 0.3),
+FAULTS = [
+    partial(interfaces.test_a_wave_has_the_stiffness_and_the_approach_of_westergaard, 0.3),
+    Fault("a mean plane of a periodic half-space that yields").at(kernel, "periodic_symbol", yielding_mean_plane),
+    partial(interfaces.test_the_stiffness_of_an_interface_is_what_closes_its_mean_gap, 5e-3),
+    Fault("a mean gap that the stiffness does not close").at(kernel, "periodic_symbol", yielding_mean_plane),
+    partial(interfaces.test_a_load_path_lies_between_those_of_the_smooth_bodies_at_the_extreme_heights, "sphere"),
+    Fault("half of the stiffness along a load path").at(
+        contact.Contact, "stiffness", lambda contact: contact.frozen.stiffness / 2
     ),
-    "a mean gap that the stiffness does not close": (
-        (kernel, "periodic_symbol", yielding_mean_plane),
-        partial(interfaces.test_the_stiffness_of_an_interface_is_what_closes_its_mean_gap, 5e-3),
-    ),
-    "half of the stiffness along a load path": (
-        (contact.Contact, "stiffness", lambda contact: contact.frozen.stiffness / 2),
-        partial(interfaces.test_a_load_path_lies_between_those_of_the_smooth_bodies_at_the_extreme_heights, "sphere"),
-    ),
-    "a gap that the caller may still write to": (
-        (problem, "kept", lambda values: values),
-        test_read_only_results.test_an_older_view_of_the_gap_changes_no_problem,
-    ),
-    "a profile across that is half as high as it is": (
-        (rolling_frame, "checked_profile", lambda z, columns, step: np.asarray(z) / 2),
-        WORN_PROFILE,
-    ),
-    "a profile across for the parabola that it is about": (
-        (
-            rolling_frame,
-            "checked_profile",
-            lambda z, columns, step: (
-                -(((np.arange(columns) - (columns - 1) / 2) * step) ** 2) / (2 * equivalent_radius(z, step))
-            ),
+    test_read_only_results.test_an_older_view_of_the_gap_changes_no_problem,
+    Fault("a gap that the caller may still write to").at(problem, "kept", lambda values: values),
+    WORN_PROFILE,
+    Fault("a profile across for the parabola that it is about").at(
+        rolling_frame,
+        "checked_profile",
+        lambda z, columns, step: (
+            -(((np.arange(columns) - (columns - 1) / 2) * step) ** 2) / (2 * equivalent_radius(z, step))
         ),
-        WORN_PROFILE,
     ),
-    "E for E* in boundary elements": (
-        (kernel, "free_space_symbol", scaled(kernel.free_space_symbol, E_FOR_E_STAR)),
-        rates.test_sphere_force_at_second_order,
+    rates.test_sphere_force_at_second_order,
+    Fault("E for E* in boundary elements").at(kernel, "free_space_symbol", Times(E_FOR_E_STAR)),
+    of_few_cells.test_one_cell_is_as_soft_as_it_is_alone,
+    Fault("E for E* among few cells").at(few_cells, "_influence", Times(E_FOR_E_STAR)),
+    Fault("few cells as wide as they are long").at(
+        few_cells, "_influence", lambda body: influence(body.like(shape=body.shape, spacing=body.steps[0]))
     ),
-    "E for E* among few cells": (
-        (few_cells, "_influence", scaled(few_cells._influence, E_FOR_E_STAR)),
-        of_few_cells.test_one_cell_is_as_soft_as_it_is_alone,
+    of_few_cells.test_a_cell_that_leaves_the_contact_keeps_no_rounding_of_its_pressure,
+    Fault("a cell that has left, kept for the rounding of its pressure").at(
+        projected_cg, "_left_over", lambda pressure, change: np.maximum(pressure + change, 0.0)
     ),
-    "a cell that has left, kept for the rounding of its pressure": (
-        (projected_cg, "_left_over", lambda pressure, change: np.maximum(pressure + change, 0.0)),
-        of_few_cells.test_a_cell_that_leaves_the_contact_keeps_no_rounding_of_its_pressure,
-    ),
-    "a second modulus among few cells": (
-        (few_cells, "_influence", lambda body: influence(body) / body.modulus),
-        UNIT_OF_FORCE,
-    ),
-    "few cells on the body that was pressed before": ((few_cells, "_influence", of_the_first_body({})), UNIT_OF_FORCE),
-    "the sum of the pressure for its energy": (
-        (few_cells, "_sum_of_unit_pressure", summed_pressure),
-        partial(of_few_cells.test_stiffness_of_a_flat_punch_is_that_of_a_direct_solve, (1.0, 1.0)),
-    ),
-    "few cells as wide as they are long": (
-        (few_cells, "_influence", lambda body: influence(body.like(shape=body.shape, spacing=body.steps[0]))),
-        of_few_cells.test_one_cell_is_as_soft_as_it_is_alone,
-    ),
-    "the cells that are looked at first, and no others": (
-        (few_cells, "GROWTH", 1),
-        of_few_cells.test_the_residual_is_that_of_the_whole_grid,
-    ),
-    "few cells judged by a forgiving residual": (
-        (few_cells, "residual", forgiving_residual),
-        of_few_cells.test_the_residual_is_that_of_the_whole_grid,
-    ),
-    "a stiffness of few cells within a tenth": (
-        (few_cells, "STIFFNESS_TOLERANCE", 0.1),
-        of_few_cells.test_stiffness_is_the_slope_of_the_load,
-    ),
-    "1.1419 for 1.1523 under the square punch": (
-        (closed_forms, "SQUARE_PUNCH", 1.012 * 2 / math.sqrt(math.pi)),
-        rates.test_square_punch_at_first_order,
-    ),
-    "pi lost in the pressure that closes a wave": (
-        (closed_forms, "westergaard_full_pressure", scaled(closed_forms.westergaard_full_pressure, 1 / np.pi)),
-        rates.test_wave_pressure_at_first_order,
-    ),
-    "factor 2 lost in the periodic symbol": (
-        (kernel, "periodic_symbol", scaled(kernel.periodic_symbol, 0.5)),
-        rates.test_wave_pressure_at_first_order,
-    ),
-    "a symbol that repeats instead of mirroring": (
-        (convolution, "_halfplane", repeated),
-        dense_twin.test_displacement_by_some_columns_at_a_time,
-    ),
-    "columns a power of two apart": (
-        (convolution, "COLUMNS_AT_ONCE", 32),
-        partial(dense_twin.test_rows_of_a_block_of_columns_are_not_a_power_of_two_apart, 1024),
-    ),
+    UNIT_OF_FORCE,
+    Fault("a second modulus among few cells").at(few_cells, "_influence", lambda body: influence(body) / body.modulus),
+    Fault("few cells on the body that was pressed before").at(few_cells, "_influence", of_the_first_body({})),
+    partial(of_few_cells.test_stiffness_of_a_flat_punch_is_that_of_a_direct_solve, (1.0, 1.0)),
+    Fault("the sum of the pressure for its energy").at(few_cells, "_sum_of_unit_pressure", summed_pressure),
+    of_few_cells.test_the_residual_is_that_of_the_whole_grid,
+    Fault("the cells that are looked at first, and no others").at(few_cells, "GROWTH", 1),
+    Fault("few cells judged by a forgiving residual").at(few_cells, "residual", forgiving_residual),
+    of_few_cells.test_stiffness_is_the_slope_of_the_load,
+    Fault("a stiffness of few cells within a tenth").at(few_cells, "STIFFNESS_TOLERANCE", 0.1),
+    rates.test_square_punch_at_first_order,
+    Fault("1.1419 for 1.1523 under the square punch").at(closed_forms, "SQUARE_PUNCH", 1.012 * 2 / math.sqrt(math.pi)),
+    rates.test_wave_pressure_at_first_order,
+    Fault("pi lost in the pressure that closes a wave").at(closed_forms, "westergaard_full_pressure", Times(1 / np.pi)),
+    Fault("factor 2 lost in the periodic symbol").at(kernel, "periodic_symbol", Times(0.5)),
+    dense_twin.test_displacement_by_some_columns_at_a_time,
+    Fault("a symbol that repeats instead of mirroring").at(convolution, "_halfplane", repeated),
+    partial(dense_twin.test_rows_of_a_block_of_columns_are_not_a_power_of_two_apart, 1024),
+    Fault("columns a power of two apart").at(convolution, "COLUMNS_AT_ONCE", 32),
+    dense_twin.test_displacement,
     # 2n - 2 points would do, since the kernel is even: the two farthest distances may share a point
-    "padding two points short": (
-        (halfspace, "_doubled", lambda points: max(points + points % 2, 2 * points - 4)),
-        dense_twin.test_displacement,
+    Fault("padding two points short").at(
+        halfspace, "_doubled", lambda points: max(points + points % 2, 2 * points - 4)
     ),
-    "no padding, seen in a contact": (
-        (halfspace, "_doubled", lambda points: points + points % 2),
-        rates.test_a_wider_grid_changes_nothing,
+    Fault("kernel shifted by half a cell").at(kernel, "love_table", shifted_table),
+    rates.test_a_wider_grid_changes_nothing,
+    Fault("no padding, seen in a contact").at(halfspace, "_doubled", lambda points: points + points % 2),
+    Fault("a residual that forgives").at((window_solve, projected_cg), "residual", forgiving_residual),
+    dense_twin.test_love_against_quadrature,
+    Fault("half of the corner function").at(
+        kernel, "corner", lambda x, y: kernel._half(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
     ),
-    "kernel shifted by half a cell": ((kernel, "love_table", shifted_table), dense_twin.test_displacement),
-    "half of the corner function": (
-        (kernel, "corner", lambda x, y: kernel._half(np.asarray(x, dtype=float), np.asarray(y, dtype=float))),
-        dense_twin.test_love_against_quadrature,
+    properties.test_stiffness_is_that_of_the_dense_contact,
+    Fault("stiffness of a contact grown by a cell").at(
+        contact,
+        "solve_fixed_area",
+        lambda body, cells, **settings: solve_fixed_area(body, cells | np.roll(cells, 1, axis=0), **settings),
     ),
-    "stiffness of a contact grown by a cell": (
-        (
-            contact,
-            "solve_fixed_area",
-            lambda body, cells, **settings: solve_fixed_area(body, cells | np.roll(cells, 1, axis=0), **settings),
-        ),
-        properties.test_stiffness_is_that_of_the_dense_contact,
+    properties.test_complementarity,
+    Fault("a residual blind to penetration").at(
+        (window_solve, projected_cg), "residual", lambda p, w, overlap: contact.residual(p, np.maximum(w, 0.0), overlap)
     ),
-    "a residual that forgives": (
-        ((window_solve, projected_cg), "residual", forgiving_residual),
-        rates.test_a_wider_grid_changes_nothing,
+    partial(windows.test_contacts_anywhere_on_the_grid, [(8, 8, 0.0), (110, 70, 0.2)], 1000.0),
+    Fault("a window that cuts cells off").at(window_solve, "smallest_box", half_a_window),
+    paths.test_error_of_the_stiffness_is_the_residual_squared,
+    Fault("stiffness to first order in the residual").at(bem3d, "solve_fixed_area", sum_of_the_pressure),
+    partial(rolled.test_ridges_across_the_track_tend_to_the_filter, 1),
+    Fault("factor 2 lost in linear theory, seen by boundary elements").at(rolled, "response", Times(0.5)),
+    COLD_SOLVE,
+    Fault("x^2 / R under the sphere").at(Track, "wheel", Times(2.0)),
+    Fault("the wheel half a cell ahead").at(
+        Track, "along", lambda track, rows: (np.asarray(rows) + 0.5) * track.steps[0]
     ),
-    "a residual blind to penetration": (
-        (
-            (window_solve, projected_cg),
-            "residual",
-            lambda p, w, overlap: contact.residual(p, np.maximum(w, 0.0), overlap),
-        ),
-        properties.test_complementarity,
+    Fault("the wheel half a cell aside").at(
+        Track, "across", lambda track, columns: (np.asarray(columns) - track.height.shape[1] / 2) * track.steps[1]
     ),
-    "a window that cuts cells off": (
-        (window_solve, "smallest_box", half_a_window),
-        partial(windows.test_contacts_anywhere_on_the_grid, [(8, 8, 0.0), (110, 70, 0.2)], 1000.0),
+    partial(rolled.test_a_bump_far_ahead_is_touched_before_the_frame_has_reached_it, "approach", 0.0),
+    Fault("a frame that is trusted").at(Frame, "outside", lambda *_: None),
+    frames.test_cells_that_a_frame_rules_out_are_open,
+    Fault("a bound four times as large").at(
+        Frame, "_moments", lambda *given: (4 * moments(*given)[0], *moments(*given)[1:])
     ),
-    "stiffness to first order in the residual": (
-        (bem3d, "solve_fixed_area", sum_of_the_pressure),
-        paths.test_error_of_the_stiffness_is_the_residual_squared,
+    accepted.test_every_position_of_a_wheel_is_within_its_tolerance,
+    Fault("a residual of rolling that is not looked at").at(wheel_on_strip, "residual", lambda *_: 0.0),
+    doubts.test_warning_of_a_modulus_in_gigapascals,
+    Fault("a modulus in gigapascals that nobody asks about").at(contact, "diagnose_units", lambda **_: ()),
+    CUT_SHORT,
+    Fault("accepted at ten times its tolerance").at(
+        window_solve.IterationState, "record_residual", at_ten_times_the_tolerance
     ),
-    "factor 2 lost in linear theory, seen by boundary elements": (
-        (rolled, "response", scaled(rolling_theory.response, 0.5)),
-        partial(rolled.test_ridges_across_the_track_tend_to_the_filter, 1),
+    Fault("the iteration limit taken for convergence").at(
+        contact.Contact, "converged", property(lambda one: one.status in ("converged", "iteration limit"))
     ),
-    "x^2 / R under the sphere": ((Track, "wheel", scaled(Track.wheel, 2.0)), COLD_SOLVE),
-    "the wheel half a cell ahead": (
-        (Track, "along", lambda track, rows: (np.asarray(rows) + 0.5) * track.steps[0]),
-        COLD_SOLVE,
+    partial(ellipses.test_low_waves_under_an_ellipse_have_the_filter_of_the_half_space, (1.0, 0.2), (1, 0)),
+    Fault("the radii along and across exchanged").at(Track, "radii", property(lambda track: track.radius[::-1])),
+    ellipses.test_the_expected_contact_is_the_ellipse_of_hertz,
+    Fault("a circle of the mean radius for an ellipse").at(
+        rolling_frame, "smooth_contact", lambda radii: smooth_contact((math.sqrt(radii[0] * radii[1]),) * 2)
     ),
-    "the wheel half a cell aside": (
-        (Track, "across", lambda track, columns: (np.asarray(columns) - track.height.shape[1] / 2) * track.steps[1]),
-        COLD_SOLVE,
-    ),
-    "a frame that is trusted": (
-        (Frame, "outside", lambda *_: None),
-        partial(rolled.test_a_bump_far_ahead_is_touched_before_the_frame_has_reached_it, "approach", 0.0),
-    ),
-    "a bound four times as large": (
-        (Frame, "_moments", lambda *given: (4 * moments(*given)[0], *moments(*given)[1:])),
-        frames.test_cells_that_a_frame_rules_out_are_open,
-    ),
-    "a residual of rolling that is not looked at": (
-        (wheel_on_strip, "residual", lambda *_: 0.0),
-        accepted.test_every_position_of_a_wheel_is_within_its_tolerance,
-    ),
-    "a modulus in gigapascals that nobody asks about": (
-        (contact, "diagnose_units", lambda **_: ()),
-        doubts.test_warning_of_a_modulus_in_gigapascals,
-    ),
-    "accepted at ten times its tolerance": (
-        (window_solve.IterationState, "record_residual", at_ten_times_the_tolerance),
-        CUT_SHORT,
-    ),
-    "the iteration limit taken for convergence": (
-        (contact.Contact, "converged", property(lambda one: one.status in ("converged", "iteration limit"))),
-        CUT_SHORT,
-    ),
-    "the radii along and across exchanged": (
-        (Track, "radii", property(lambda track: track.radius[::-1])),
-        partial(ellipses.test_low_waves_under_an_ellipse_have_the_filter_of_the_half_space, (1.0, 0.2), (1, 0)),
-    ),
-    "a circle of the mean radius for an ellipse": (
-        (rolling_frame, "smooth_contact", lambda radii: smooth_contact((math.sqrt(radii[0] * radii[1]),) * 2)),
-        ellipses.test_the_expected_contact_is_the_ellipse_of_hertz,
-    ),
-}
+]

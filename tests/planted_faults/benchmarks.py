@@ -7,7 +7,7 @@ import numpy as np
 
 from tests.benchmarks import test_chart_points as test_points
 from tests.benchmarks import test_fronts, test_peers
-from tests.planted_faults.wrong import scaled
+from tests.planted_faults.wrong import Fault, Times
 from validation.benchmarks import solvers as comparison
 from validation.benchmarks import timing
 from validation.benchmarks.work_precision import case as precision_case
@@ -23,52 +23,40 @@ def at_first_order(answer, quantity, rows):
 log_of_answer = precision_error.MethodValues.log
 
 
-FAULTS = {
-    "a time beside that of a method that is not as close": (
-        (
-            precision_case,
-            "_cheapest_as_close",
-            lambda _, others: min(others, key=lambda one: one.seconds[1], default=None),
+FAULTS = [
+    functools.partial(
+        test_fronts.test_the_cheapest_is_claimed_of_times,
+        test_fronts.timed_point(test_fronts.FILTER_1D, 0.3, 1e-6),
+        "holds",
+        (test_fronts.BEM, test_fronts.BEM),
+    ),
+    Fault("a time beside that of a method that is not as close").at(
+        precision_case,
+        "_cheapest_as_close",
+        lambda _, others: min(others, key=lambda one: one.seconds[1], default=None),
+    ),
+    test_peers.test_the_median_lies_between_order_statistics,
+    Fault("a median without an interval").at(
+        timing, "interval_of_median", lambda times: (np.median(times), np.median(times))
+    ),
+    test_peers.test_a_solver_that_is_placed_first_does_not_become_ours,
+    Fault("our solver for the first of the list").at(comparison, "OUR_SOLVER", "theirs"),
+    test_fronts.test_the_front_is_what_nothing_beats_and_ends_in_the_band,
+    Fault("nothing left open by a reference").at(Point, "rank", property(lambda point: point.error + point.half_width)),
+    test_fronts.test_errors_are_ranked_by_their_upper_ends,
+    Fault("errors ranked without their intervals").at(
+        Point, "rank", property(lambda point: max(point.error, point.band))
+    ),
+    test_points.test_what_realisations_have_of_their_own_drops_out_of_paired_errors,
+    Fault("the same surfaces taken for others").at(
+        test_points,
+        "error",
+        lambda quantity, mine, reference: precision_error.error(
+            quantity, dataclasses.replace(mine, paired=False), reference
         ),
-        functools.partial(
-            test_fronts.test_the_cheapest_is_claimed_of_times,
-            test_fronts.timed_point(test_fronts.FILTER_1D, 0.3, 1e-6),
-            "holds",
-            (test_fronts.BEM, test_fronts.BEM),
-        ),
     ),
-    "a median without an interval": (
-        (timing, "interval_of_median", lambda times: (np.median(times), np.median(times))),
-        test_peers.test_the_median_lies_between_order_statistics,
-    ),
-    "our solver for the first of the list": (
-        (comparison, "OUR_SOLVER", "theirs"),
-        test_peers.test_a_solver_that_is_placed_first_does_not_become_ours,
-    ),
-    "nothing left open by a reference": (
-        (Point, "rank", property(lambda point: point.error + point.half_width)),
-        test_fronts.test_the_front_is_what_nothing_beats_and_ends_in_the_band,
-    ),
-    "errors ranked without their intervals": (
-        (Point, "rank", property(lambda point: max(point.error, point.band))),
-        test_fronts.test_errors_are_ranked_by_their_upper_ends,
-    ),
-    "the same surfaces taken for others": (
-        (
-            test_points,
-            "error",
-            lambda quantity, mine, reference: precision_error.error(
-                quantity, dataclasses.replace(mine, paired=False), reference
-            ),
-        ),
-        test_points.test_what_realisations_have_of_their_own_drops_out_of_paired_errors,
-    ),
-    "first order for second in an extrapolation": (
-        (precision_error.MethodValues, "log", at_first_order),
-        functools.partial(test_points.test_two_grids_of_a_power_law_are_extrapolated_to_the_truth, 2.0),
-    ),
-    "decibels of an amplitude for those of a power": (
-        (precision.Quantity, "distance", scaled(precision.Quantity.distance, 2.0)),
-        test_points.test_levels_differ_by_the_root_mean_square_of_decibels,
-    ),
-}
+    functools.partial(test_points.test_two_grids_of_a_power_law_are_extrapolated_to_the_truth, 2.0),
+    Fault("first order for second in an extrapolation").at(precision_error.MethodValues, "log", at_first_order),
+    test_points.test_levels_differ_by_the_root_mean_square_of_decibels,
+    Fault("decibels of an amplitude for those of a power").at(precision.Quantity, "distance", Times(2.0)),
+]

@@ -6,6 +6,7 @@ import numpy as np
 from markupsafe import Markup
 
 from tests.cases import test_flags_on_the_page
+from tests.planted_faults.wrong import Fault
 from tests.report import (
     test_answers,
     test_claims,
@@ -61,79 +62,56 @@ def exchanged(one, other):
 CITATION = PageFigure.citation
 
 
-FAULTS = {
-    "a case that is kept has today's commit": (
-        (provenance, "with_kept", as_of_today),
-        test_kept.test_a_case_that_is_kept_twice_has_the_commit_that_made_it,
+FAULTS = [
+    test_kept.test_a_case_that_is_kept_twice_has_the_commit_that_made_it,
+    Fault("a case that is kept has today's commit").at(provenance, "with_kept", as_of_today),
+    test_page.test_a_figure_is_numbered_on_the_page_and_cited_by_name_version_and_commit,
+    Fault("a figure of a case that is kept is cited with today's commit").at(
+        PageFigure, "citation", lambda figure, about, profile: CITATION(figure, {**about, "kept": {}}, profile)
     ),
-    "a figure of a case that is kept is cited with today's commit": (
-        (PageFigure, "citation", lambda figure, about, profile: CITATION(figure, {**about, "kept": {}}, profile)),
-        test_page.test_a_figure_is_numbered_on_the_page_and_cited_by_name_version_and_commit,
+    partial(
+        test_flags_on_the_page.test_a_lost_solve_is_told_whatever_its_case_makes_of_it, test_flags_on_the_page.as_it_is
     ),
-    "a lost solve that nobody tells": (
-        (build, "_lost", lambda progress: ()),
-        partial(
-            test_flags_on_the_page.test_a_lost_solve_is_told_whatever_its_case_makes_of_it,
-            test_flags_on_the_page.as_it_is,
-        ),
+    Fault("a lost solve that nobody tells").at(build, "_lost", lambda progress: ()),
+    partial(test_colours.test_yes_is_green_no_is_red_and_undecided_is_neither, ".cell.yes", ".cell.no", ".cell.open"),
+    Fault("yes in the colours of no").at(test_colours, "sheet", exchanged("yes", "no")),
+    partial(
+        test_colours.test_yes_is_green_no_is_red_and_undecided_is_neither,
+        ".verdict.agree",
+        ".verdict.differ",
+        ".verdict.undecided",
     ),
-    "yes in the colours of no": (
-        (test_colours, "sheet", exchanged("yes", "no")),
-        partial(
-            test_colours.test_yes_is_green_no_is_red_and_undecided_is_neither, ".cell.yes", ".cell.no", ".cell.open"
-        ),
+    Fault("what differs in the colours of what agrees").at(test_colours, "sheet", exchanged("agree", "differ")),
+    partial(
+        test_answers.test_a_cell_says_yes_only_where_all_agree_and_nothing_lacks,
+        [test_answers.AGREES, test_answers.UNDECIDED],
+        Verdict.UNDECIDED,
     ),
-    "what differs in the colours of what agrees": (
-        (test_colours, "sheet", exchanged("agree", "differ")),
-        partial(
-            test_colours.test_yes_is_green_no_is_red_and_undecided_is_neither,
-            ".verdict.agree",
-            ".verdict.differ",
-            ".verdict.undecided",
-        ),
+    Fault("a place with one number that is undecided under a yes").at(
+        strip.Cell, "verdict", property(enough_unless_it_differs)
     ),
-    "a place with one number that is undecided under a yes": (
-        (strip.Cell, "verdict", property(enough_unless_it_differs)),
-        partial(
-            test_answers.test_a_cell_says_yes_only_where_all_agree_and_nothing_lacks,
-            [test_answers.AGREES, test_answers.UNDECIDED],
-            Verdict.UNDECIDED,
-        ),
+    partial(test_texts_of_users.test_a_plain_text_is_drawn_as_it_is_written, "$x^2$"),
+    Fault("texts of users as mathematics").at(style, "plain", lambda text: text),
+    test_answers.test_one_counterexample_among_all_exponents_is_a_no,
+    Fault("a cell that says what most of its numbers say").at(strip.Cell, "verdict", property(enough_by_most)),
+    test_answers.test_ranges_that_overlap_are_one_cell,
+    Fault("cells that overlap").at(strip, "_apart", lambda found: dict(sorted(found.items()))),
+    test_answers.test_decibels_are_printed_as_their_quantity,
+    Fault("the power of a ratio printed for its amplitude").at(questions, "DECIBEL", statistics.POWER_DECIBEL),
+    test_sounds.test_files_differ_by_the_level_of_the_forces,
+    Fault("a sound normalised by itself").at(sounds, "quantised", by_its_own_peak),
+    partial(test_claims.test_a_status_has_its_word_and_sign, [AGREE, DIFFER], {}, "✗ contradicted"),
+    Fault("a contradicted claim under a green badge").at(
+        formats, "format_status", lambda status, **_: Markup('<span class="verdict holds">✓ holds</span>')
     ),
-    "texts of users as mathematics": (
-        (style, "plain", lambda text: text),
-        partial(test_texts_of_users.test_a_plain_text_is_drawn_as_it_is_written, "$x^2$"),
+    partial(test_claims.test_a_key_that_no_number_has_leaves_no_status, {"quantity": "y0", "model": "m"}),
+    Fault("a statement of the book answered by numbers of another model").at(
+        chapter, "Claim", lambda model, **more: Claim(**more)
     ),
-    "a cell that says what most of its numbers say": (
-        (strip.Cell, "verdict", property(enough_by_most)),
-        test_answers.test_one_counterexample_among_all_exponents_is_a_no,
+    partial(test_claims.test_a_key_that_no_number_has_leaves_no_status, {"quantity": "y0", "where": {"h/d": 0.01}}),
+    Fault("a statement of the book answered outside of its assumptions").at(
+        chapter, "Claim", lambda where, **more: Claim(**more)
     ),
-    "cells that overlap": (
-        (strip, "_apart", lambda found: dict(sorted(found.items()))),
-        test_answers.test_ranges_that_overlap_are_one_cell,
-    ),
-    "the power of a ratio printed for its amplitude": (
-        (questions, "DECIBEL", statistics.POWER_DECIBEL),
-        test_answers.test_decibels_are_printed_as_their_quantity,
-    ),
-    "a sound normalised by itself": (
-        (sounds, "quantised", by_its_own_peak),
-        test_sounds.test_files_differ_by_the_level_of_the_forces,
-    ),
-    "a contradicted claim under a green badge": (
-        (formats, "format_status", lambda status, **_: Markup('<span class="verdict holds">✓ holds</span>')),
-        partial(test_claims.test_a_status_has_its_word_and_sign, [AGREE, DIFFER], {}, "✗ contradicted"),
-    ),
-    "a statement of the book answered by numbers of another model": (
-        (chapter, "Claim", lambda model, **more: Claim(**more)),
-        partial(test_claims.test_a_key_that_no_number_has_leaves_no_status, {"quantity": "y0", "model": "m"}),
-    ),
-    "a statement of the book answered outside of its assumptions": (
-        (chapter, "Claim", lambda where, **more: Claim(**more)),
-        partial(test_claims.test_a_key_that_no_number_has_leaves_no_status, {"quantity": "y0", "where": {"h/d": 0.01}}),
-    ),
-    "two signs of verdicts exchanged": (
-        (formats, "SYMBOL", {"agree": "≠", "differ": "✓", "undecided": "?"}),
-        test_printed.test_every_verdict_has_its_word_and_sign,
-    ),
-}
+    test_printed.test_every_verdict_has_its_word_and_sign,
+    Fault("two signs of verdicts exchanged").at(formats, "SYMBOL", {"agree": "≠", "differ": "✓", "undecided": "?"}),
+]

@@ -12,7 +12,7 @@ import mdr
 from tests import test_face
 from tests.benchmarks import test_chart_points as test_points
 from tests.cases import test_edge_scenes
-from tests.planted_faults.wrong import scaled, with_math
+from tests.planted_faults.wrong import Fault, Times, with_math
 from tests.selection import (
     test_calibrate_command,
     test_claims,
@@ -58,14 +58,6 @@ from validation.theory import rolling as rolling_theory
 def by_the_filter_of_one_dimension(q, c2d, *, edges, contact_radius, modulus):
     geike = functools.partial(mdr.geike, c2d=c2d)
     return rolling_theory.force_spectrum_1d(q, geike, contact_radius=contact_radius, modulus=modulus)
-
-
-def without_a_resonator(quantity, q):
-    return np.ones_like(q) / quantity.scene.body.mass
-
-
-def one_standard_error(ratios):
-    return float(np.sqrt(np.mean(ratios.var(axis=0, ddof=1) / len(ratios))))
 
 
 drawn_on_a_grid = pressed_heights._drawn
@@ -115,10 +107,6 @@ def another_strip_on_the_coarse_grid(target, resolution):
     return (lambda strip: solve(strip + 1)) if resolution == coarse else solve
 
 
-def geike_for_what_rolls(ground, rule, **settings):
-    return surface.draw_track(ground, "geike", **settings)
-
-
 real_weighting, real_models_of = contact_force.a_weighting, compare.models_of
 
 
@@ -140,229 +128,171 @@ def independent_bands(force):
     return float(np.sqrt(np.sum((share * force.half_width) ** 2)))
 
 
-FAULTS = {
-    "A-weighting at the frequency of half a wave": (
-        (contact_force, "a_weighting", lambda frequency: real_weighting(2 * frequency)),
-        test_contact_force.test_each_band_is_weighted_as_the_table_of_the_standard_has_its_frequency,
+FAULTS = [
+    test_contact_force.test_each_band_is_weighted_as_the_table_of_the_standard_has_its_frequency,
+    Fault("A-weighting at the frequency of half a wave").at(
+        contact_force, "a_weighting", lambda frequency: real_weighting(2 * frequency)
     ),
-    "the force over the approach for the stiffness of Hertz": (
-        (rail.RailScene, "contact", property(of_the_secant)),
-        test_contact_force.test_the_force_is_the_stiffness_of_hertz_times_the_equivalent_displacement,
+    test_contact_force.test_the_force_is_the_stiffness_of_hertz_times_the_equivalent_displacement,
+    Fault("the force over the approach for the stiffness of Hertz").at(
+        rail.RailScene, "contact", property(of_the_secant)
     ),
-    "errors of bands taken as independent in their sum": (
-        (contact_force.ContactForce, "error", property(independent_bands)),
-        test_contact_force.test_the_error_of_the_sum_is_that_of_its_bands_and_says_which_are_unknown,
+    test_contact_force.test_the_error_of_the_sum_is_that_of_its_bands_and_says_which_are_unknown,
+    Fault("errors of bands taken as independent in their sum").at(
+        contact_force.ContactForce, "error", property(independent_bands)
     ),
-    "the equivalent roughness filtered once more": (
-        (compare.Comparison, "a3_of", compare.Comparison.value_of),
-        test_contact_force.test_text_json_and_csv_have_the_same_table,
+    test_contact_force.test_text_json_and_csv_have_the_same_table,
+    Fault("the equivalent roughness filtered once more").at(compare.Comparison, "a3_of", compare.Comparison.value_of),
+    test_own_scene.test_both_quantities_of_a_rail_are_solved_once,
+    Fault("a rail solved anew for each quantity").at(
+        compare, "models_of", lambda *given, **named: real_models_of(*given[:4], **named)
     ),
-    "a rail solved anew for each quantity": (
-        (compare, "models_of", lambda *given, **named: real_models_of(*given[:4], **named)),
-        test_own_scene.test_both_quantities_of_a_rail_are_solved_once,
+    test_own_scene.test_seconds_are_those_of_all_solves_that_a_model_needs,
+    Fault("seconds without those of the grids that tell the error").at(
+        scene_model.SceneModel, "_seconds", of_its_own_grid
     ),
-    "seconds without those of the grids that tell the error": (
-        (scene_model.SceneModel, "_seconds", of_its_own_grid),
-        test_own_scene.test_seconds_are_those_of_all_solves_that_a_model_needs,
+    test_own_scene.test_a_distance_in_decibels_has_the_errors_of_its_band_and_the_reference_that_of_its_worst,
+    Fault("a distance from the reference where nothing is left to hear").at(
+        side_by_side, "counts", lambda comparison, one: np.full(comparison.value_of(one).size, True)
     ),
-    "a distance from the reference where nothing is left to hear": (
-        (side_by_side, "counts", lambda comparison, one: np.full(comparison.value_of(one).size, True)),
-        test_own_scene.test_a_distance_in_decibels_has_the_errors_of_its_band_and_the_reference_that_of_its_worst,
+    test_own_scene.test_five_curves_at_the_most_are_told_apart_in_colour_and_in_grey,
+    Fault("curves in the order of their cost").at(
+        compared, "shown_models", lambda found: [one.name for one in found.models]
     ),
-    "curves in the order of their cost": (
-        (compared, "shown_models", lambda found: [one.name for one in found.models]),
-        test_own_scene.test_five_curves_at_the_most_are_told_apart_in_colour_and_in_grey,
+    test_own_scene.test_a_sweep_has_the_values_in_the_unit_of_the_first,
+    Fault("a sweep with values in units of their own").at(
+        swept, "quantity", lambda name, text, dimension: float(swept.NUMBER.fullmatch(text)[1])
     ),
-    "a sweep with values in units of their own": (
-        (swept, "quantity", lambda name, text, dimension: float(swept.NUMBER.fullmatch(text)[1])),
-        test_own_scene.test_a_sweep_has_the_values_in_the_unit_of_the_first,
+    test_ladder.test_the_expected_levels_are_integrals_of_the_spectrum,
+    Fault("Geike for the half-space under a wheel").at(
+        rolling_question, "force_spectrum_3d", by_the_filter_of_one_dimension
     ),
-    "Geike for the half-space under a wheel": (
-        (rolling_question, "force_spectrum_3d", by_the_filter_of_one_dimension),
-        test_ladder.test_the_expected_levels_are_integrals_of_the_spectrum,
+    test_ladder.test_one_dimension_has_the_variance_of_the_force_and_not_its_levels,
+    Fault("a factor 2 lost in the variance of the force").at(rolling_question, "force_variance", Times(0.5)),
+    test_ladder.test_the_transfer_of_a_wheel_is_that_of_its_resonator,
+    Fault("no resonator between force and acceleration").at(
+        rolling_question.RollingQuantity, "transfer", lambda quantity, q: np.ones_like(q) / quantity.scene.body.mass
     ),
-    "a factor 2 lost in the variance of the force": (
-        (rolling_question, "force_variance", scaled(rolling_theory.force_variance, 0.5)),
-        test_ladder.test_one_dimension_has_the_variance_of_the_force_and_not_its_levels,
+    test_ladder.test_the_error_of_a_mean_covers_it_in_95_of_100,
+    Fault("one standard error for a 95 % interval").at(
+        test_ladder, "mean_error", lambda ratios: float(np.sqrt(np.mean(ratios.var(axis=0, ddof=1) / len(ratios))))
     ),
-    "no resonator between force and acceleration": (
-        (rolling_question.RollingQuantity, "transfer", without_a_resonator),
-        test_ladder.test_the_transfer_of_a_wheel_is_that_of_its_resonator,
+    functools.partial(test_ladder.test_the_law_of_interfaces_holds_as_it_claims, 1.0),
+    Fault("twice the separation of a rough face").at(closed_forms, "INTERFACE", 0.96),
+    functools.partial(test_ladder.test_the_whole_is_the_root_of_the_sum_of_its_bands, False),
+    Fault("one panel of a quadrature over decades").at(rolling_question, "PANEL", 1e9),
+    test_ladder.test_short_waves_of_a_measured_track_are_no_longer_ones,
+    Fault("measured heights at points, not over cells").at(measured.MeasuredHeights, "mean_over_cells", at_points),
+    test_ladder.test_waves_that_a_grid_cannot_carry_are_left_out_and_no_others_changed,
+    Fault("other waves on every grid of the ladder").at(pressed_heights, "_drawn", other_waves_on_every_grid),
+    test_claims.test_few_springs_and_few_cells_are_no_answer,
+    Fault("an answer that stands on one cell").at(scene_model, "too_few", lambda *_: ""),
+    test_claims.test_grids_that_do_not_converge_have_no_error_bar,
+    Fault("grids that do not converge with the error bar of those that do").at(
+        test_claims, "grid_error", the_last_change_alone
     ),
-    "one standard error for a 95 % interval": (
-        (test_ladder, "mean_error", one_standard_error),
-        test_ladder.test_the_error_of_a_mean_covers_it_in_95_of_100,
+    Fault("the error of a grid without that of its sample").at(sampling, "mean_error", lambda _: 0.0),
+    functools.partial(test_calibration.test_beyond_the_table_there_is_no_claim, "punch", LOAD, 0.0075, 0.0065),
+    Fault("a table of errors held constant beyond its end").at(calibration, "OPEN_BELOW", (LOAD,)),
+    functools.partial(test_calibration.test_claims_cover_new_scenes_and_are_tight, "punch"),
+    Fault("the error nearby, without what covers it").at(calibration.MeasuredErrors, "factor", 1.0),
+    functools.partial(test_calibration.test_claims_cover_new_scenes_and_are_tight, "sphere"),
+    Fault("a claim that half of the scenes exceed").at(calibration, "SHARE", 0.5),
+    test_calibrate_command.test_the_run_that_the_table_is_of_may_be_installed_and_no_smaller_one,
+    Fault("a table of any size in the place of that of the package").at(
+        calibrate, "_refuse_fewer", lambda mine, there: None
     ),
-    "twice the separation of a rough face": (
-        (closed_forms, "INTERFACE", 0.96),
-        functools.partial(test_ladder.test_the_law_of_interfaces_holds_as_it_claims, 1.0),
+    functools.partial(test_calibration.test_errors_nearby_are_those_of_a_loop_over_all_scenes, "punch"),
+    Fault("a scene that calibrates itself").at(calibration.MeasuredErrors, "left_out", lambda table: table.errors),
+    functools.partial(test_calibration.test_errors_nearby_are_those_of_a_loop_over_all_scenes, "sphere"),
+    Fault("a table without the growth of its errors").at(calibration.MeasuredErrors, "trend", 0.0),
+    test_ladder.test_a_coarse_grid_knows_how_far_it_is_from_a_fine_one,
+    Fault("a grid that leaves too much solved to the end of its sample").at(
+        boundary_elements_pressed, "MODEL", dataclasses.replace(surfaces, grid_error=lambda *_: (0.0, ""))
     ),
-    "one panel of a quadrature over decades": (
-        (rolling_question, "PANEL", 1e9),
-        functools.partial(test_ladder.test_the_whole_is_the_root_of_the_sum_of_its_bands, False),
+    functools.partial(test_claims.test_waves_shorter_than_the_contact_are_left_to_boundary_elements, "force-rms", 0.15),
+    Fault("a linear filter for waves shorter than the contact").at(calibrated_range, "outside", lambda *_: ""),
+    functools.partial(
+        test_points.test_an_answer_that_luck_has_put_on_its_reference_scatters_as_much, test_points.MEAN, True
     ),
-    "measured heights at points, not over cells": (
-        (measured.MeasuredHeights, "mean_over_cells", at_points),
-        test_ladder.test_short_waves_of_a_measured_track_are_no_longer_ones,
+    Fault("an error that luck has made small, and its interval").at(
+        precision_error, "math", types.SimpleNamespace(**{**vars(math), "copysign": lambda *_: 1.0})
     ),
-    "other waves on every grid of the ladder": (
-        (pressed_heights, "_drawn", other_waves_on_every_grid),
-        test_ladder.test_waves_that_a_grid_cannot_carry_are_left_out_and_no_others_changed,
+    functools.partial(test_claims.test_what_a_grid_leaves_is_the_rest_of_its_series_and_of_its_sample, 0.75, 3.0),
+    Fault("a series of grids without the noise of its last change").at(
+        test_claims, "grid_error", without_the_noise_of_its_series
     ),
-    "an answer that stands on one cell": (
-        (scene_model, "too_few", lambda *_: ""),
-        test_claims.test_few_springs_and_few_cells_are_no_answer,
+    test_claims.test_the_error_over_bands_is_their_root_mean_square,
+    Fault("quiet bands in the error of loud ones").at(test_claims, "mean_error", mean_over_bands),
+    test_claims.test_grids_are_compared_on_the_same_surfaces,
+    Fault("coarser grids on other surfaces").at(
+        boundary_elements_pressed, "MODEL", dataclasses.replace(surfaces, prepare=another_surface_on_coarser_grids)
     ),
-    "grids that do not converge with the error bar of those that do": (
-        (test_claims, "grid_error", the_last_change_alone),
-        test_claims.test_grids_that_do_not_converge_have_no_error_bar,
+    test_claims.test_realisations_are_others,
+    Fault("one surface for all").at(pressed_heights, "random_generator", the_same_every_time),
+    Fault("one strip and one track for all").at(rolled, "random_generator", the_same_every_time),
+    functools.partial(test_claims.test_no_stiffness_depends_on_units, test_claims.ROUGH_BODIES[1]),
+    Fault("a half-space of unit modulus").at(
+        boundary_elements_pressed, "bem3d", types.SimpleNamespace(**{**vars(bem3d), "HalfSpace": of_unit_modulus})
     ),
-    "the error of a grid without that of its sample": (
-        (sampling, "mean_error", lambda _: 0.0),
-        test_claims.test_grids_that_do_not_converge_have_no_error_bar,
+    test_claims.test_one_measured_face_is_not_the_mean_of_all,
+    Fault("one measured face for the mean of all").at(pressed, "SCATTER", 0.0),
+    test_claims.test_the_side_of_a_sphere_holds_what_it_may_touch,
+    Fault("a sphere cut off at its smooth approach").at(pressed_heights, "DEEPEST", 0.0),
+    test_claims.test_grids_are_as_fine_in_any_unit,
+    Fault("one cell in contact of a light punch").at(pressed_heights, "CONTACT", 1),
+    functools.partial(test_claims.test_claims_of_cheap_models_of_rolling, *test_claims.RULES[1]),
+    Fault("the rule of the rms for levels in bands").at(
+        rolling, "ON_HALF_SPACE", dataclasses.replace(rolling.ON_HALF_SPACE, bands=rolling.LINEAR_RMS)
     ),
-    "a table of errors held constant beyond its end": (
-        (calibration, "OPEN_BELOW", (LOAD,)),
-        functools.partial(test_calibration.test_beyond_the_table_there_is_no_claim, "punch", LOAD, 0.0075, 0.0065),
+    functools.partial(test_claims.test_two_grids_of_second_order_leave_what_they_miss, finest=False),
+    Fault("what the finer of two grids leaves, for the coarser").at(
+        boundary_elements_rolling, "OF_FINE", boundary_elements_rolling.OF_FINE - 1
     ),
-    "the error nearby, without what covers it": (
-        (calibration.MeasuredErrors, "factor", 1.0),
-        functools.partial(test_calibration.test_claims_cover_new_scenes_and_are_tight, "punch"),
+    functools.partial(test_claims.test_two_grids_of_second_order_leave_what_they_miss, finest=True),
+    Fault("a grid beside another on another strip").at(
+        boundary_elements_rolling, "MODEL", dataclasses.replace(strips, prepare=another_strip_on_the_coarse_grid)
     ),
-    "a claim that half of the scenes exceed": (
-        (calibration, "SHARE", 0.5),
-        functools.partial(test_calibration.test_claims_cover_new_scenes_and_are_tight, "sphere"),
+    functools.partial(
+        test_claims.test_springs_on_low_roughness_are_linear_theory_in_the_mean_over_bands, "force-spectrum"
     ),
-    "a table of any size in the place of that of the package": (
-        (calibrate, "_refuse_fewer", lambda mine, there: None),
-        test_calibrate_command.test_the_run_that_the_table_is_of_may_be_installed_and_no_smaller_one,
+    Fault("Geike's spectrum for springs that roll").at(
+        rolled, "draw_track", lambda ground, rule, **settings: surface.draw_track(ground, "geike", **settings)
     ),
-    "a scene that calibrates itself": (
-        (calibration.MeasuredErrors, "left_out", lambda table: table.errors),
-        functools.partial(test_calibration.test_errors_nearby_are_those_of_a_loop_over_all_scenes, "punch"),
+    functools.partial(test_ladder.test_bands_are_told_with_wavenumber_frequency_and_level, "force-spectrum", "N"),
+    Fault("decibels of a power for those of a level").at(
+        tolerance, "math", with_math(log10=lambda value: math.log10(value) / 2)
     ),
-    "a table without the growth of its errors": (
-        (calibration.MeasuredErrors, "trend", 0.0),
-        functools.partial(test_calibration.test_errors_nearby_are_those_of_a_loop_over_all_scenes, "sphere"),
+    functools.partial(test_ladder.test_bands_are_told_with_wavenumber_frequency_and_level, "acceleration", "m/s²"),
+    Fault("radians in a second told as hertz").at(compare, "math", with_math(pi=0.5)),
+    test_what_compare_says.test_spectra_stand_side_by_side_in_decibels,
+    Fault("models side by side in decibels of a power").at(
+        (columns, side_by_side), "differences", lambda one, other: 10 * np.log10(one.answer.value / other.answer.value)
     ),
-    "a grid that leaves too much solved to the end of its sample": (
-        (boundary_elements_pressed, "MODEL", dataclasses.replace(surfaces, grid_error=lambda *_: (0.0, ""))),
-        test_ladder.test_a_coarse_grid_knows_how_far_it_is_from_a_fine_one,
+    test_what_compare_says.test_mdr_is_named_where_it_is_enough_and_where_not,
+    Fault("springs that are enough whatever error they have").at(
+        hierarchy.Candidate, "error", property(lambda candidate: 0.0)
     ),
-    "a linear filter for waves shorter than the contact": (
-        (calibrated_range, "outside", lambda *_: ""),
-        functools.partial(
-            test_claims.test_waves_shorter_than_the_contact_are_left_to_boundary_elements, "force-rms", 0.15
-        ),
+    test_face.test_levels_come_in_decibels,
+    Fault("a level of the face without its logarithm").at(
+        compare.Comparison, "is_level", property(lambda result: False)
     ),
-    "an error that luck has made small, and its interval": (
-        (precision_error, "math", types.SimpleNamespace(**{**vars(math), "copysign": lambda *_: 1.0})),
-        functools.partial(
-            test_points.test_an_answer_that_luck_has_put_on_its_reference_scatters_as_much,
-            test_points.MEAN,
-            True,
-        ),
+    test_face.test_a_missed_tolerance_leaves_the_best_value,
+    Fault("a tolerance of the face that is always met").at(
+        hierarchy.Selection, "met", property(lambda selection: True)
     ),
-    "a series of grids without the noise of its last change": (
-        (test_claims, "grid_error", without_the_noise_of_its_series),
-        functools.partial(test_claims.test_what_a_grid_leaves_is_the_rest_of_its_series_and_of_its_sample, 0.75, 3.0),
+    functools.partial(test_edge_scenes.test_every_grid_under_a_wheel_has_all_measured_points, 0),
+    Fault("measured points between the cells of a wheel's grid").at(
+        rolled, "grids_of_points", lambda heights, radius: tuple(n * radius / heights.spacing[0] for n in (2, 4))
     ),
-    "quiet bands in the error of loud ones": (
-        (test_claims, "mean_error", mean_over_bands),
-        test_claims.test_the_error_over_bands_is_their_root_mean_square,
+    test_edge_scenes.test_answers_at_the_edges_are_counted_with_those_that_are_none,
+    Fault("an answer at the edge that always holds").at(
+        model_selection_study, "over_estimate", lambda table: 0 * table["true error"]
     ),
-    "coarser grids on other surfaces": (
-        (boundary_elements_pressed, "MODEL", dataclasses.replace(surfaces, prepare=another_surface_on_coarser_grids)),
-        test_claims.test_grids_are_compared_on_the_same_surfaces,
+    functools.partial(test_named_models.test_springs_that_read_the_surface_are_there_by_name_alone, (), 0),
+    Fault("dominated models among those that are offered").at((quantities, compare), "BY_NAME", ()),
+    functools.partial(test_claims.test_a_pressed_face_claims_no_less_than_the_edge_of_the_flat_punch, 32),
+    Fault("a punch without the error at its edge").at(
+        boundary_elements_pressed, "edge_error", lambda scene, cells: 0.0
     ),
-    "one surface for all": (
-        (pressed_heights, "random_generator", the_same_every_time),
-        test_claims.test_realisations_are_others,
-    ),
-    "one strip and one track for all": (
-        (rolled, "random_generator", the_same_every_time),
-        test_claims.test_realisations_are_others,
-    ),
-    "a half-space of unit modulus": (
-        (boundary_elements_pressed, "bem3d", types.SimpleNamespace(**{**vars(bem3d), "HalfSpace": of_unit_modulus})),
-        functools.partial(test_claims.test_no_stiffness_depends_on_units, test_claims.ROUGH_BODIES[1]),
-    ),
-    "one measured face for the mean of all": (
-        (pressed, "SCATTER", 0.0),
-        test_claims.test_one_measured_face_is_not_the_mean_of_all,
-    ),
-    "a sphere cut off at its smooth approach": (
-        (pressed_heights, "DEEPEST", 0.0),
-        test_claims.test_the_side_of_a_sphere_holds_what_it_may_touch,
-    ),
-    "one cell in contact of a light punch": (
-        (pressed_heights, "CONTACT", 1),
-        test_claims.test_grids_are_as_fine_in_any_unit,
-    ),
-    "the rule of the rms for levels in bands": (
-        (
-            rolling,
-            "ON_HALF_SPACE",
-            dataclasses.replace(rolling.ON_HALF_SPACE, bands=rolling.LINEAR_RMS),
-        ),
-        functools.partial(test_claims.test_claims_of_cheap_models_of_rolling, *test_claims.RULES[1]),
-    ),
-    "what the finer of two grids leaves, for the coarser": (
-        (boundary_elements_rolling, "OF_FINE", boundary_elements_rolling.OF_FINE - 1),
-        functools.partial(test_claims.test_two_grids_of_second_order_leave_what_they_miss, finest=False),
-    ),
-    "a grid beside another on another strip": (
-        (boundary_elements_rolling, "MODEL", dataclasses.replace(strips, prepare=another_strip_on_the_coarse_grid)),
-        functools.partial(test_claims.test_two_grids_of_second_order_leave_what_they_miss, finest=True),
-    ),
-    "Geike's spectrum for springs that roll": (
-        (rolled, "draw_track", geike_for_what_rolls),
-        functools.partial(
-            test_claims.test_springs_on_low_roughness_are_linear_theory_in_the_mean_over_bands, "force-spectrum"
-        ),
-    ),
-    "decibels of a power for those of a level": (
-        (tolerance, "math", with_math(log10=lambda value: math.log10(value) / 2)),
-        functools.partial(test_ladder.test_bands_are_told_with_wavenumber_frequency_and_level, "force-spectrum", "N"),
-    ),
-    "radians in a second told as hertz": (
-        (compare, "math", with_math(pi=0.5)),
-        functools.partial(test_ladder.test_bands_are_told_with_wavenumber_frequency_and_level, "acceleration", "m/s²"),
-    ),
-    "models side by side in decibels of a power": (
-        (
-            (columns, side_by_side),
-            "differences",
-            lambda one, other: 10 * np.log10(one.answer.value / other.answer.value),
-        ),
-        test_what_compare_says.test_spectra_stand_side_by_side_in_decibels,
-    ),
-    "springs that are enough whatever error they have": (
-        (hierarchy.Candidate, "error", property(lambda candidate: 0.0)),
-        test_what_compare_says.test_mdr_is_named_where_it_is_enough_and_where_not,
-    ),
-    "a level of the face without its logarithm": (
-        (compare.Comparison, "is_level", property(lambda result: False)),
-        test_face.test_levels_come_in_decibels,
-    ),
-    "a tolerance of the face that is always met": (
-        (hierarchy.Selection, "met", property(lambda selection: True)),
-        test_face.test_a_missed_tolerance_leaves_the_best_value,
-    ),
-    "measured points between the cells of a wheel's grid": (
-        (rolled, "grids_of_points", lambda heights, radius: tuple(n * radius / heights.spacing[0] for n in (2, 4))),
-        functools.partial(test_edge_scenes.test_every_grid_under_a_wheel_has_all_measured_points, 0),
-    ),
-    "an answer at the edge that always holds": (
-        (model_selection_study, "over_estimate", lambda table: 0 * table["true error"]),
-        test_edge_scenes.test_answers_at_the_edges_are_counted_with_those_that_are_none,
-    ),
-    "dominated models among those that are offered": (
-        ((quantities, compare), "BY_NAME", ()),
-        functools.partial(test_named_models.test_springs_that_read_the_surface_are_there_by_name_alone, (), 0),
-    ),
-    "a punch without the error at its edge": (
-        (boundary_elements_pressed, "edge_error", lambda scene, cells: 0.0),
-        functools.partial(test_claims.test_a_pressed_face_claims_no_less_than_the_edge_of_the_flat_punch, 32),
-    ),
-}
+]

@@ -10,7 +10,7 @@ import bem3d
 import mdr
 from bem3d import few_cells, rolling_contact
 from tests.cases import test_wheel_ensembles, test_wheel_on_half_space
-from tests.planted_faults.wrong import E_FOR_E_STAR, force_in_step, scaled
+from tests.planted_faults.wrong import E_FOR_E_STAR, Fault, Times
 from tests.simulation import (
     test_damping,
     test_flags_of_rolling,
@@ -26,7 +26,6 @@ from tests.simulation import (
     test_wheel_on_rail,
 )
 from validation.scenes import dynamic_wheel
-from validation.scenes.damping import damping_rate
 from validation.scenes.wheel_body import Wheel
 from validation.simulation import (
     contact_laws,
@@ -47,7 +46,6 @@ from validation.simulation import (
 from validation.simulation import motion as wheel_in_motion
 from validation.simulation.model_names import LINE
 from validation.simulation.rough_punch import PunchRoughness
-from validation.theory import spring_input
 from validation.theory import wheel as wheel_theory
 
 
@@ -101,10 +99,6 @@ def inverted(omega, *, eigenfrequency, mass, damping):
     return 1 / (mass * (1 - (np.asarray(omega) / eigenfrequency) ** 2)) ** 2
 
 
-def without_a_jump(motion):
-    return motion.next_acceleration - motion.next_acceleration
-
-
 def one_copy(wheel, law, **settings):
     """Shooting that rolls and does not correct."""
     start = settings.pop("start")
@@ -126,11 +120,6 @@ def middle_line(half_widths, points, step):
     weights = np.zeros((points, half_widths.size))
     weights[points // 2] = 1.0
     return weights
-
-
-def line_itself(strip):
-    """A line trace in the place of Geike's spectrum."""
-    return equivalent_displacement.linear_displacement(strip, LINE)
 
 
 def springs_on_middle_line(height, *, spacing, **wheel):
@@ -161,7 +150,7 @@ def told_of_none(solve):
 def without_its_flag(place, solve, path):
     """A solve that keeps what failed to itself, and the test that rolls it over a position without a solution."""
     test = partial(test_flags_of_rolling.test_a_position_without_a_solution_is_flagged_and_is_no_number, path)
-    return (place, solve, told_of_none(getattr(place, solve))), test
+    return test, Fault(f"{solve} without its flag").at(place, solve, told_of_none(getattr(place, solve)))
 
 
 ON_A_RAIL = test_flags_of_rolling.ON_A_RAIL
@@ -175,195 +164,141 @@ FLAGS = (
     (rolling_strip, "roll_loaded_strip", "validation.simulation.rolling_strip:roll_loaded_strip"),
 )
 
-FAULTS = {
-    **{f"{solve} without its flag": without_its_flag(place, solve, path) for place, solve, path in FLAGS},
-    "a rolling contact that always says it has converged": (
-        (rolling_contact.WheelContact, "converged", property(lambda contact: True)),
-        test_flags_of_rolling.test_a_position_without_a_solution_has_no_number,
+FAULTS = [
+    *(row for flag in FLAGS for row in without_its_flag(*flag)),
+    test_flags_of_rolling.test_a_position_without_a_solution_has_no_number,
+    Fault("a rolling contact that always says it has converged").at(
+        rolling_contact.WheelContact, "converged", property(lambda contact: True)
     ),
-    "numbers of a rolling contact that has not converged": (
-        (rolling_contact, "math", types.SimpleNamespace(nan=1.0)),
-        test_flags_of_rolling.test_a_position_without_a_solution_has_no_number,
+    Fault("numbers of a rolling contact that has not converged").at(
+        rolling_contact, "math", types.SimpleNamespace(nan=1.0)
     ),
-    "a pressed layer that has not converged": (
-        (bem3d, "solve", partial(bem3d.solve, raise_on_failure=False)),
-        test_reduced_models.test_a_layer_without_a_solution_is_refused,
+    test_reduced_models.test_a_layer_without_a_solution_is_refused,
+    Fault("a pressed layer that has not converged").at(bem3d, "solve", partial(bem3d.solve, raise_on_failure=False)),
+    partial(test_light_punch.test_the_same_numbers_as_by_transforms, 128),
+    Fault("a finer grid half a cell aside").at(light_punch, "refined", half_a_fine_cell_aside),
+    test_light_punch.test_beside_the_dense_solution,
+    Fault("half of a light force").at(light_punch.bem3d, "indent_few_cells", half_of_a_light_force),
+    test_light_punch.test_a_load_that_will_have_many_cells_is_not_tried,
+    Fault("a load tried on a matrix whatever touches").at(
+        light_punch, "_while_few", lambda contacts, forces, most: contacts
     ),
-    "a finer grid half a cell aside": (
-        (light_punch, "refined", half_a_fine_cell_aside),
-        partial(test_light_punch.test_the_same_numbers_as_by_transforms, 128),
+    partial(test_light_punch.test_heavier_loads_go_on_by_transforms, "OVERLAPPING", 1),
+    Fault("light loads that are not carried on").at(light_punch, "press_surface", heavier_loads_as_light_ones),
+    test_profiled_strip.test_a_worn_rail_rolls_as_its_profile_and_not_as_the_radius_of_its_contact,
+    Fault("a fitted radius in place of the transverse profile").at(
+        equivalent_displacement, "heights_across", on_the_fitted_radius
     ),
-    "half of a light force": (
-        (light_punch.bem3d, "indent_few_cells", half_of_a_light_force),
-        test_light_punch.test_beside_the_dense_solution,
+    test_rail_filters.test_over_ridges_models_are_sinc_squared_above_the_first_zero,
+    Fault("the rolling spectrum of a rail that filters ridges").at(
+        equivalent_displacement, "rolling_input_filter", share_of_oblique_waves
     ),
-    "a load tried on a matrix whatever touches": (
-        (light_punch, "_while_few", lambda contacts, forces, most: contacts),
-        test_light_punch.test_a_load_that_will_have_many_cells_is_not_tried,
+    Fault("20 lg of a ratio of powers").at(rail_quantity.RailQuantity, "filtered", Times(2.0)),
+    test_rail_filters.test_short_waves_under_springs_on_the_rolling_spectrum_have_the_level_of_the_half_space,
+    Fault("the line taken for the rolling spectrum of a rail").at(
+        equivalent_displacement, "rolling_input_filter", surface_itself
     ),
-    "light loads that are not carried on": (
-        (light_punch, "press_surface", heavier_loads_as_light_ones),
-        partial(test_light_punch.test_heavier_loads_go_on_by_transforms, "OVERLAPPING", 1),
+    partial(test_rail_filters.test_long_waves_pass_under_every_model_but_springs_on_geikes_spectrum, "isotropic"),
+    Fault("long waves that do not pass under springs on the rolling spectrum").at(
+        equivalent_displacement, "rolling_input_filter", Times(1.1)
     ),
-    "a fitted radius in place of the transverse profile": (
-        (equivalent_displacement, "heights_across", on_the_fitted_radius),
-        test_profiled_strip.test_a_worn_rail_rolls_as_its_profile_and_not_as_the_radius_of_its_contact,
+    partial(test_rail_filters.test_long_waves_under_springs_on_geikes_spectrum_are_off_by_his_rule_over_the_line, 2.0),
+    Fault("the line trace taken for Geike's spectrum under springs on a rail").at(
+        equivalent_displacement, "geike_over_line", lambda wavenumber, ground: np.ones_like(wavenumber)
     ),
-    "the rolling spectrum of a rail that filters ridges": (
-        (equivalent_displacement, "rolling_input_filter", share_of_oblique_waves),
-        test_rail_filters.test_over_ridges_models_are_sinc_squared_above_the_first_zero,
+    test_rail_sound.test_geikes_track_has_his_spectrum_and_the_phases_of_the_line,
+    Fault("the line trace taken for Geike's spectrum").at(
+        test_rail_sound, "geike_track", lambda strip: equivalent_displacement.linear_displacement(strip, LINE)
     ),
-    "the line taken for the rolling spectrum of a rail": (
-        (equivalent_displacement, "rolling_input_filter", surface_itself),
-        test_rail_filters.test_short_waves_under_springs_on_the_rolling_spectrum_have_the_level_of_the_half_space,
+    test_rail_sound.test_springs_that_read_a_smoother_rail_are_linear_theory,
+    Fault("springs that read one line of the surface").at(mdr, "roll_surface", springs_on_middle_line),
+    partial(test_rough_punches.test_heights_are_normalised_as_they_say, "bem3d", 1.0),
+    Fault("rms of the ensemble for that of each").at(PunchRoughness, "_normalised", lambda roughness, height: height),
+    partial(test_rough_punches.test_heights_are_normalised_as_they_say, "mdr", 1.0),
+    Fault("rms of each for that of the ensemble").at(
+        PunchRoughness, "_normalised", lambda roughness, height: height * roughness.height / height.std()
     ),
-    "long waves that do not pass under springs on the rolling spectrum": (
-        (equivalent_displacement, "rolling_input_filter", scaled(spring_input.rolling_input_filter, 1.1)),
-        partial(test_rail_filters.test_long_waves_pass_under_every_model_but_springs_on_geikes_spectrum, "isotropic"),
+    test_reduced_models.test_the_mean_contact_of_a_smooth_wheel_is_that_of_hertz,
+    Fault("half of the displacement under the mean contact").at(mean_contact, "ring_operator", Times(0.5)),
+    partial(test_reduced_models.test_low_waves_under_a_pressed_layer_have_the_filter_of_the_half_space, (2, 0)),
+    Fault("a trial on a pressed layer without its step").at(
+        pressed_layer, "_where_no_step_is_left", lambda forces, steps, approach: forces[len(forces) // 2]
     ),
-    "the line trace taken for Geike's spectrum under springs on a rail": (
-        (equivalent_displacement, "geike_over_line", lambda wavenumber, ground: np.ones_like(wavenumber)),
-        partial(
-            test_rail_filters.test_long_waves_under_springs_on_geikes_spectrum_are_off_by_his_rule_over_the_line, 2.0
-        ),
+    test_wheel_motion.test_at_rest_the_wheel_bears_its_load,
+    Fault("E for E* in the force, not in the approach at rest").at(mdr.RollingEnsemble, "force", Times(E_FOR_E_STAR)),
+    partial(
+        test_wheel_motion.test_on_a_smooth_track_a_wheel_stays_at_rest,
+        contact_laws.HertzLaw(test_wheel_motion.WHEEL, 2),
+        4 * test_wheel_motion.ULP,
     ),
-    "the line trace taken for Geike's spectrum": (
-        (test_rail_sound, "geike_track", line_itself),
-        test_rail_sound.test_geikes_track_has_his_spectrum_and_the_phases_of_the_line,
+    Fault("load forgotten in the equation of motion").at(test_wheel_motion, "simulate", without_load),
+    test_damping.test_free_vibration_decays_by_the_exact_law_of_a_dashpot_at_second_order,
+    Fault("factor 2 in the constant of the dashpot").at(wheel_in_motion, "damping_rate", Times(2.0)),
+    Fault("a dashpot that drives the wheel").at(wheel_in_motion, "damping_rate", Times(-1.0)),
+    partial(test_damping.test_a_sine_brings_the_wheel_into_its_steady_response, 0.5),
+    Fault("factor 2 in the dashpot of the steady state").at(contact_laws, "damping_rate", Times(2.0)),
+    partial(test_damping.test_a_wheel_on_a_rail_moves_by_its_equation_with_the_dashpot, test_damping.SPRINGS),
+    Fault("damping forgotten on a rail").at(wheel_on_rail.WheelOnRail, "wheel", property(without_a_dashpot)),
+    partial(test_damping.test_a_scene_with_damping_damps_its_wheels_on_springs, True),
+    Fault("damping forgotten in a scene of springs").at(
+        dynamic_wheel, "DampedWheel", lambda damping, **given: Wheel(**given)
     ),
-    "springs that read one line of the surface": (
-        (mdr, "roll_surface", springs_on_middle_line),
-        test_rail_sound.test_springs_that_read_a_smoother_rail_are_linear_theory,
+    partial(test_wheel_motion.test_time_reversal, 0.05, 0.0),
+    Fault("explicit Euler where nothing is asked for").at(
+        wheel_in_motion.simulate, "__kwdefaults__", by_another(integrators.EXPLICIT_EULER)
     ),
-    "rms of the ensemble for that of each": (
-        (PunchRoughness, "_normalised", lambda roughness, height: height),
-        partial(test_rough_punches.test_heights_are_normalised_as_they_say, "bem3d", 1.0),
+    partial(test_wheel_motion.test_free_vibration_of_a_linear_contact_is_the_exact_one_of_leapfrog, 0.3),
+    Fault("symplectic Euler where nothing is asked for").at(
+        wheel_in_motion.simulate, "__kwdefaults__", by_another(integrators.SYMPLECTIC_EULER)
     ),
-    "rms of each for that of the ensemble": (
-        (PunchRoughness, "_normalised", lambda roughness, height: height * roughness.height / height.std()),
-        partial(test_rough_punches.test_heights_are_normalised_as_they_say, "mdr", 1.0),
+    partial(test_time_stepping.test_order_of_a_scheme_on_a_free_vibration, "Runge-Kutta"),
+    Fault("the step of a cell for that of two in Runge and Kutta").at(
+        test_time_stepping,
+        "SCHEMES",
+        {**test_time_stepping.SCHEMES, "Runge-Kutta": half_a_step(integrators.RUNGE_KUTTA)},
     ),
-    "half of the displacement under the mean contact": (
-        (mean_contact, "ring_operator", scaled(mean_contact.ring_operator, 0.5)),
-        test_reduced_models.test_the_mean_contact_of_a_smooth_wheel_is_that_of_hertz,
+    partial(test_time_stepping.test_symplectic_schemes_keep_the_energy, "velocity Verlet", 1.5),
+    Fault("velocity Verlet with the force of the beginning alone").at(
+        test_time_stepping,
+        "SCHEMES",
+        {
+            **test_time_stepping.SCHEMES,
+            "velocity Verlet": dataclasses.replace(integrators.VELOCITY_VERLET, march=old_force_in_the_velocity),
+        },
     ),
-    "a trial on a pressed layer without its step": (
-        (pressed_layer, "_where_no_step_is_left", lambda forces, steps, approach: forces[len(forces) // 2]),
-        partial(test_reduced_models.test_low_waves_under_a_pressed_layer_have_the_filter_of_the_half_space, (2, 0)),
+    partial(test_periodic_motion.test_leakage_is_the_spectrum_of_a_ramp, 64),
+    Fault("factor 4 lost in the leakage").at(wheel_theory, "leakage", Times(4.0)),
+    test_wheel_ensembles.test_the_linear_contact_has_its_closed_form_wave_by_wave,
+    Fault("omega / omega_0 for omega_0 / omega").at(wheel_theory, "acceleration_over_force", inverted),
+    Fault("factor 2 pi lost over frequency").at(wheel_theory, "over_frequency", Times(1 / (2 * np.pi))),
+    partial(test_wheel_motion.test_the_change_of_velocity_is_the_mean_acceleration, "linear"),
+    Fault("a jump that is not there").at(
+        wheel_in_motion.Motion, "jump", property(lambda motion: motion.next_acceleration - motion.next_acceleration)
     ),
-    "E for E* in the force, not in the approach at rest": (
-        (mdr.RollingEnsemble, "force", scaled(force_in_step, E_FOR_E_STAR)),
-        test_wheel_motion.test_at_rest_the_wheel_bears_its_load,
+    test_periodic_motion.test_the_periodic_motion_of_a_linear_contact_is_its_steady_state,
+    Fault("shooting without a correction").at(test_periodic_motion, "periodic_motion", one_copy),
+    partial(test_wheel_motion.test_the_steady_motion_is_that_of_a_dense_solve_and_repeats_itself, 50, 0.1),
+    Fault("a steady motion in continuous time").at(contact_laws.LinearLaw, "steady_state", softer_steady),
+    test_wheel_on_rail.test_a_wheel_that_vibrates_on_a_smooth_rail_is_not_lifted,
+    Fault("a linear spring for Hertz in what lifts a wheel").at(
+        wheel_on_rail,
+        "lift",
+        lambda wheel, force, approach: wheel.approach + (force - wheel.load) / wheel.stiffness - approach,
     ),
-    "load forgotten in the equation of motion": (
-        (test_wheel_motion, "simulate", without_load),
-        partial(
-            test_wheel_motion.test_on_a_smooth_track_a_wheel_stays_at_rest,
-            contact_laws.HertzLaw(test_wheel_motion.WHEEL, 2),
-            4 * test_wheel_motion.ULP,
-        ),
+    test_wheel_on_rail.test_springs_in_a_time_step_are_those_of_a_track,
+    Fault("springs in a time step that read one line").at(wheel_on_rail, "weights_across", middle_line),
+    test_wheel_on_half_space.test_a_low_strip_is_the_linear_contact,
+    Fault("factor 2 lost in linear theory, seen by boundary elements in the loop").at(
+        wheel_on_half_space, "linear_force", Times(0.5)
     ),
-    "factor 2 in the constant of the dashpot": (
-        (wheel_in_motion, "damping_rate", scaled(damping_rate, 2.0)),
-        test_damping.test_free_vibration_decays_by_the_exact_law_of_a_dashpot_at_second_order,
+    test_rail_filters.test_ground_that_is_not_given_is_a_band_between_ridges_and_isotropic_ground,
+    Fault("a ground that is not given taken for known").at(
+        rail_quantity.RailQuantity, "half_width", property(lambda quantity: 0 * quantity.wave)
     ),
-    "a dashpot that drives the wheel": (
-        (wheel_in_motion, "damping_rate", scaled(damping_rate, -1.0)),
-        test_damping.test_free_vibration_decays_by_the_exact_law_of_a_dashpot_at_second_order,
+    test_rail_filters.test_beyond_what_was_measured_no_error_is_claimed,
+    Fault("errors of contact filters claimed beyond where they were measured").at(rail_models, "MOST_LOST", 10.0),
+    test_rail_filters.test_a_model_that_differs_from_linear_theory_says_by_how_much,
+    Fault("the error of linear theory claimed by every contact filter").at(
+        rail_models.ContactFilter, "model_error", lambda model, quantity, a3: rail_models.linear_error(quantity)
     ),
-    "factor 2 in the dashpot of the steady state": (
-        (contact_laws, "damping_rate", scaled(damping_rate, 2.0)),
-        partial(test_damping.test_a_sine_brings_the_wheel_into_its_steady_response, 0.5),
-    ),
-    "damping forgotten on a rail": (
-        (wheel_on_rail.WheelOnRail, "wheel", property(without_a_dashpot)),
-        partial(test_damping.test_a_wheel_on_a_rail_moves_by_its_equation_with_the_dashpot, test_damping.SPRINGS),
-    ),
-    "damping forgotten in a scene of springs": (
-        (dynamic_wheel, "DampedWheel", lambda damping, **given: Wheel(**given)),
-        partial(test_damping.test_a_scene_with_damping_damps_its_wheels_on_springs, True),
-    ),
-    "explicit Euler where nothing is asked for": (
-        (wheel_in_motion.simulate, "__kwdefaults__", by_another(integrators.EXPLICIT_EULER)),
-        partial(test_wheel_motion.test_time_reversal, 0.05, 0.0),
-    ),
-    "symplectic Euler where nothing is asked for": (
-        (wheel_in_motion.simulate, "__kwdefaults__", by_another(integrators.SYMPLECTIC_EULER)),
-        partial(test_wheel_motion.test_free_vibration_of_a_linear_contact_is_the_exact_one_of_leapfrog, 0.3),
-    ),
-    "the step of a cell for that of two in Runge and Kutta": (
-        (
-            test_time_stepping,
-            "SCHEMES",
-            {**test_time_stepping.SCHEMES, "Runge-Kutta": half_a_step(integrators.RUNGE_KUTTA)},
-        ),
-        partial(test_time_stepping.test_order_of_a_scheme_on_a_free_vibration, "Runge-Kutta"),
-    ),
-    "velocity Verlet with the force of the beginning alone": (
-        (
-            test_time_stepping,
-            "SCHEMES",
-            {
-                **test_time_stepping.SCHEMES,
-                "velocity Verlet": dataclasses.replace(integrators.VELOCITY_VERLET, march=old_force_in_the_velocity),
-            },
-        ),
-        partial(test_time_stepping.test_symplectic_schemes_keep_the_energy, "velocity Verlet", 1.5),
-    ),
-    "factor 4 lost in the leakage": (
-        (wheel_theory, "leakage", scaled(wheel_theory.leakage, 4.0)),
-        partial(test_periodic_motion.test_leakage_is_the_spectrum_of_a_ramp, 64),
-    ),
-    "omega / omega_0 for omega_0 / omega": (
-        (wheel_theory, "acceleration_over_force", inverted),
-        test_wheel_ensembles.test_the_linear_contact_has_its_closed_form_wave_by_wave,
-    ),
-    "factor 2 pi lost over frequency": (
-        (wheel_theory, "over_frequency", scaled(wheel_theory.over_frequency, 1 / (2 * np.pi))),
-        test_wheel_ensembles.test_the_linear_contact_has_its_closed_form_wave_by_wave,
-    ),
-    "a jump that is not there": (
-        (wheel_in_motion.Motion, "jump", property(without_a_jump)),
-        partial(test_wheel_motion.test_the_change_of_velocity_is_the_mean_acceleration, "linear"),
-    ),
-    "shooting without a correction": (
-        (test_periodic_motion, "periodic_motion", one_copy),
-        test_periodic_motion.test_the_periodic_motion_of_a_linear_contact_is_its_steady_state,
-    ),
-    "a steady motion in continuous time": (
-        (contact_laws.LinearLaw, "steady_state", softer_steady),
-        partial(test_wheel_motion.test_the_steady_motion_is_that_of_a_dense_solve_and_repeats_itself, 50, 0.1),
-    ),
-    "a linear spring for Hertz in what lifts a wheel": (
-        (
-            wheel_on_rail,
-            "lift",
-            lambda wheel, force, approach: wheel.approach + (force - wheel.load) / wheel.stiffness - approach,
-        ),
-        test_wheel_on_rail.test_a_wheel_that_vibrates_on_a_smooth_rail_is_not_lifted,
-    ),
-    "springs in a time step that read one line": (
-        (wheel_on_rail, "weights_across", middle_line),
-        test_wheel_on_rail.test_springs_in_a_time_step_are_those_of_a_track,
-    ),
-    "factor 2 lost in linear theory, seen by boundary elements in the loop": (
-        (wheel_on_half_space, "linear_force", scaled(wheel_on_half_space.linear_force, 0.5)),
-        test_wheel_on_half_space.test_a_low_strip_is_the_linear_contact,
-    ),
-    "20 lg of a ratio of powers": (
-        (rail_quantity.RailQuantity, "filtered", scaled(rail_quantity.RailQuantity.filtered, 2.0)),
-        test_rail_filters.test_over_ridges_models_are_sinc_squared_above_the_first_zero,
-    ),
-    "a ground that is not given taken for known": (
-        (rail_quantity.RailQuantity, "half_width", property(lambda quantity: 0 * quantity.wave)),
-        test_rail_filters.test_ground_that_is_not_given_is_a_band_between_ridges_and_isotropic_ground,
-    ),
-    "errors of contact filters claimed beyond where they were measured": (
-        (rail_models, "MOST_LOST", 10.0),
-        test_rail_filters.test_beyond_what_was_measured_no_error_is_claimed,
-    ),
-    "the error of linear theory claimed by every contact filter": (
-        (rail_models.ContactFilter, "model_error", lambda model, quantity, a3: rail_models.linear_error(quantity)),
-        test_rail_filters.test_a_model_that_differs_from_linear_theory_says_by_how_much,
-    ),
-}
+]

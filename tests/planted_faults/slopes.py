@@ -5,7 +5,7 @@ from functools import partial
 
 from tests.cases import test_fractal_punch, test_rolling_cases
 from tests.cases import test_slopes as own
-from tests.planted_faults.wrong import scaled
+from tests.planted_faults.wrong import Fault, Times
 from tests.scenes import test_materials
 from tests.theory import test_rolling_theory
 from validation.analysis.nominal_bands import NominalBands
@@ -21,15 +21,6 @@ from validation.scenes.roughness_levels import RoughnessLevels
 from validation.simulation import indentation, rail_quantity, rough_punch, track_spectrum
 from validation.simulation.track_spectrum import PiecewisePowerLaw
 from validation.theory import rolling
-
-
-def fault_of(place, name, factor):
-    """A function, a property or a number, times a factor."""
-    right = vars(place)[name]
-    if isinstance(right, float):
-        return factor * right
-    return property(scaled(right.fget, factor)) if isinstance(right, property) else scaled(right, factor)
-
 
 STRIPS_AT_A_SLOPE = partial(own.test_strips_at_equal_slopes_have_them, 0.3)
 AREA, GAP = (
@@ -96,16 +87,17 @@ PLACES = {
         own.test_loads_of_an_interface_have_the_contact_of_their_name,
     ),
 }
-FAULTS = {
-    f"a root of two {became} in {what}": ((place, name, fault_of(place, name, factor)), test)
+FAULTS = [
+    row
     for what, (place, name, test) in PLACES.items()
     for became, factor in (("lost", math.sqrt(0.5)), ("gained", math.sqrt(2)))
-}
+    for row in (test, Fault(f"a root of two {became} in {what}").at(place, name, Times(factor)))
+]
 # cells are a power of two: their test has a load on each side of one
-FAULTS |= {
-    f"a root of two {became} in the gradient of a light punch": (
-        (indentation, "rms_gradient", scaled(indentation.rms_gradient, factor)),
+for became, factor, load in (("lost", math.sqrt(0.5), (1.04, 256)), ("gained", math.sqrt(2), (0.96, 128))):
+    FAULTS += [
         partial(own.test_cells_of_a_light_punch_are_those_of_the_gradient, *load),
-    )
-    for became, factor, load in (("lost", math.sqrt(0.5), (1.04, 256)), ("gained", math.sqrt(2), (0.96, 128)))
-}
+        Fault(f"a root of two {became} in the gradient of a light punch").at(
+            indentation, "rms_gradient", Times(factor)
+        ),
+    ]

@@ -4,16 +4,30 @@ import functools
 import importlib
 import inspect
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 from hypothesis import Phase, settings
 
+from tests.planted_faults.wrong import Fault
+
 HELPERS = {"__init__", "test_planted_faults", "wrong"}
 NAMES = sorted({path.stem for path in Path(__file__).parent.glob("*.py")} - HELPERS)
 ROOMS = [importlib.import_module(f"tests.planted_faults.{name}") for name in NAMES]
-FAULTS = {fault: planted for room in ROOMS for fault, planted in room.FAULTS.items()}
+
+
+def planted(rows) -> Iterator[tuple[str, tuple[Fault, Callable]]]:
+    """Each fault by what is wrong, with the test above it."""
+    named_test = None
+    for row in rows:
+        if isinstance(row, Fault):
+            yield row.what, (row, named_test)
+        else:
+            named_test = row
+
+
+FAULTS = dict(row for room in ROOMS for row in planted(room.FAULTS))
 
 
 def parametrized(test) -> Iterator[tuple[list[str], list[tuple]]]:
@@ -69,9 +83,8 @@ def forget():
 @pytest.mark.usefixtures("nothing_remembered")
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_named_test_catches(fault, monkeypatch):
-    (places, name, wrong), named_test = FAULTS[fault]
-    for place in places if isinstance(places, tuple) else (places,):
-        monkeypatch.setattr(place, name, wrong)
+    planted_fault, named_test = FAULTS[fault]
+    planted_fault.plant(monkeypatch)
     stop_at_the_first_failure(getattr(named_test, "func", named_test), monkeypatch)
     with pytest.raises(AssertionError):
         named_test()

@@ -1,11 +1,45 @@
-"""Faults that more than one room uses."""
+"""A fault, and wrongs that more than one room uses."""
 
 import functools
+import inspect
 import math
 import types
+from dataclasses import dataclass, replace
 
 import mdr
 from validation.analysis import spectra
+
+
+@dataclass(frozen=True)
+class Times:
+    """What is right, a function, a property or a number, with a factor on its value."""
+
+    factor: float
+
+    def of(self, right):
+        if isinstance(right, float):
+            return self.factor * right
+        inner = getattr(right, "fget", None) or getattr(right, "func", None)
+        return property(scaled(inner, self.factor)) if inner else scaled(right, self.factor)
+
+
+@dataclass(frozen=True)
+class Fault:
+    """What is wrong, and what stands under a name in one place or several while it is."""
+
+    what: str
+    places: tuple = ()
+    name: str = ""
+    wrong: object = None
+
+    def at(self, place, name, wrong):
+        return replace(self, places=place if isinstance(place, tuple) else (place,), name=name, wrong=wrong)
+
+    def plant(self, monkeypatch):
+        for place in self.places:
+            right = inspect.getattr_static(place, self.name)
+            wrong = self.wrong.of(right) if isinstance(self.wrong, Times) else self.wrong
+            monkeypatch.setattr(place, self.name, wrong)
 
 
 def with_math(**wrong):

@@ -57,6 +57,18 @@ def test_the_words_are_the_ends_of_the_sum():
     assert steel(counterface=Elastic(youngs_modulus=1e30, poisson_ratio=0.3)).modulus == pytest.approx(rigid.modulus)
 
 
+EXAMPLES = {"sphere": (1, 4905), "rolling_wheel": (1, 4905), "table_14_1": (1, 4905), "rail": (2, 50e3)}
+
+
+@pytest.mark.parametrize("name", [*EXAMPLES, "rough_punch"])
+def test_example_scenes_have_the_modulus_and_the_load_of_what_they_show(name):
+    """210 GPa: of the book's wheel nu = 1/3 on a rigid body; of the punch F = 0.1 E* h L; of the rail two bodies."""
+    scene, ratio = load_scene(name), 0.3 if name in ("rail", "rough_punch") else 1 / 3
+    bodies, load = EXAMPLES.get(name, (1, 0.1 * scene.modulus * 1e-6 * 1e-3))
+    assert scene.modulus == pytest.approx(210e9 / (1 - ratio**2) / bodies, rel=1e-12)
+    assert scene.load == pytest.approx(load, rel=1e-6)
+
+
 NONE = {"youngs_modulus": None, "poisson_ratio": None, "counterface": None}
 SOFT = Elastic(youngs_modulus=-1.0, poisson_ratio=0.3)
 SWELLING = Elastic(youngs_modulus=1e9, poisson_ratio=0.7)

@@ -101,7 +101,7 @@ def test_a_file_that_names_no_unit_or_no_size_is_asked_for_it(tmp_path, monkeypa
         load_scene(path)
 
 
-def test_a_line_of_an_instrument_is_one_of_a_rail(tmp_path, monkeypatch):
+def test_a_line_of_an_instrument_is_one_of_a_rail_and_no_face(tmp_path, monkeypatch):
     line = 5 * np.random.default_rng(1).standard_normal(1000)
     (tmp_path / "line.nc").write_bytes(BINARY)
     changes = ("[rail.levels]", "[rail.lines]"), (CURVE, 'file = "line.nc"')
@@ -111,6 +111,9 @@ def test_a_line_of_an_instrument_is_one_of_a_rail(tmp_path, monkeypatch):
     as_installed(monkeypatch, uniform(HEIGHT, (48.0, 48.0), "um"))
     with pytest.raises(ValueError, match=r"lines\.file must have lines, got heights over an area: .*rail\.heights"):
         loaded(tmp_path, *changes)
+    as_installed(monkeypatch, uniform(HEIGHT[0], (48.0,), "um"))
+    with pytest.raises(ValueError, match=r"heights\.file must have heights over an area, got one line"):
+        load_scene(scene_of(tmp_path, "line.nc"))
 
 
 def test_what_no_reader_knows_is_a_sentence_that_shows_nothing_of_it(tmp_path, monkeypatch, capsys):

@@ -72,6 +72,12 @@ def test_low_waves_under_a_pressed_layer_have_the_filter_of_the_half_space(waves
     assert mode == pytest.approx(expected, abs=0.06 * 1.5 * height)
 
 
+def test_over_ridges_springs_that_read_are_those_of_a_line():
+    ridges = np.repeat(0.3 * np.random.default_rng(4).standard_normal((96, 1)), 40, axis=1)
+    found, line = (model(ridges, DX).force for model in (reduced.springs_that_read, reduced.springs_on_a_line))
+    np.testing.assert_allclose(found, line, rtol=1e-9)
+
+
 def test_a_pressed_layer_follows_boundary_elements_position_by_position_where_springs_do_not():
     strip = rough_strip(0.5)
     truth = reduced.boundary_elements(strip, DX).force

@@ -55,11 +55,9 @@ def test_short_waves_of_a_power_law_have_the_level_of_the_half_space(exponent, s
 @pytest.mark.parametrize("exponent", [1.0, 2.0, 3.0, 3.4])
 def test_geikes_rule_over_the_line_of_a_power_law(exponent):
     """sqrt(pi) Gamma((p + 1) / 2) / Gamma(p / 2), 1, pi / 2 and 2 for p = 1, 2 and 3."""
-    known = {1.0: 1.0, 2.0: math.pi / 2, 3.0: 2.0}
     found = spring_input.geike_over_line([2.0, 5.0, -5.0], IsotropicGround(power_law(exponent)))
-    expected = spring_input.geike_over_power_law(exponent)
+    expected = math.sqrt(math.pi) * math.gamma((exponent + 1) / 2) / math.gamma(exponent / 2)
     np.testing.assert_allclose(found, expected, rtol=2e-3)
-    assert expected == pytest.approx(known.get(exponent, expected))
 
 
 def test_bad_arguments_are_refused():
@@ -67,5 +65,3 @@ def test_bad_arguments_are_refused():
         spring_input.rolling_input_filter(1.0, 1.0, semi_axes=(1.0, 0.0))
     with pytest.raises(ValueError, match="wavenumber must not be zero"):
         spring_input.geike_over_line([1.0, 0.0], IsotropicGround(power_law(2.0)))
-    with pytest.raises(ValueError, match="exponent must be finite and positive"):
-        spring_input.geike_over_power_law(0.0)

@@ -87,19 +87,11 @@ def westergaard_full_pressure(*, amplitude: float, wavelength: float, modulus: f
 
 def westergaard_half_width(*, mean_pressure: float, amplitude: float, wavelength: float, modulus: float) -> float:
     """a from mean(p) / p* = sin^2(pi a / lambda), for 0 < mean(p) <= p* [m]. Source: Johnson, chapter 13."""
-    s = _part_of_full_contact(mean_pressure, amplitude=amplitude, wavelength=wavelength, modulus=modulus)
-    return wavelength / math.pi * math.asin(math.sqrt(s))
-
-
-def westergaard_approach(*, mean_pressure: float, amplitude: float, wavelength: float, modulus: float) -> float:
-    """d = h s (1 - ln s) of the mean plane from the first touch, s = mean(p) / p*, for 0 < s <= 1 [m].
-
-    The wave is 2h deep, its mean gap h - d. From the stiffness of flat periodic strips of half-width a, per area:
-    dd / dp = -(2 lambda / (pi E*)) ln sin(pi a / lambda), the logarithm of the capacity of an arc of the circle, with
-    sin^2(pi a / lambda) = s.
-    """
-    s = _part_of_full_contact(mean_pressure, amplitude=amplitude, wavelength=wavelength, modulus=modulus)
-    return amplitude * s * (1 - math.log(s))
+    full = westergaard_full_pressure(amplitude=amplitude, wavelength=wavelength, modulus=modulus)
+    positive(mean_pressure=mean_pressure)
+    if mean_pressure > full:
+        raise ValueError(f"mean_pressure must not exceed the pressure of full contact, {full:.6g}, got {mean_pressure}")
+    return wavelength / math.pi * math.asin(math.sqrt(mean_pressure / full))
 
 
 def westergaard_pressure(
@@ -115,36 +107,6 @@ def westergaard_pressure(
     inside = np.maximum(math.sin(math.pi * a / wavelength) ** 2 - np.sin(phase) ** 2, 0.0)
     pressure: FloatArray = 2 * full * np.abs(np.cos(phase)) * np.sqrt(inside)
     return pressure
-
-
-def _part_of_full_contact(mean_pressure: float, **wave: float) -> float:
-    """s = mean(p) / p*, at most one."""
-    full = westergaard_full_pressure(**wave)
-    positive(mean_pressure=mean_pressure)
-    if mean_pressure > full:
-        raise ValueError(f"mean_pressure must not exceed the pressure of full contact, {full:.6g}, got {mean_pressure}")
-    return mean_pressure / full
-
-
-def line_trace_ratio(hurst: float) -> float:
-    """C_line / C_Geike = Gamma(H + 1/2) / (sqrt(pi) Gamma(H + 1)) of an unbounded power law, H > 0 [-].
-
-    From C_line(q) = 2 int_q^inf C_2D(s) s / sqrt(s^2 - q^2) ds with C_2D ~ s^(-2H-2), over pi q C_2D(q).
-    """
-    positive(hurst=hurst)
-    return math.gamma(hurst + 0.5) / (math.sqrt(math.pi) * math.gamma(hurst + 1))
-
-
-def persson_contact_fraction(pressure: float, *, gradient: float) -> float:
-    """True contact area of a rough surface over its nominal area, without adhesion: erf(sqrt(2) p / (E* g)).
-
-    pressure: mean pressure p over E*, zero or positive; gradient: rms gradient g of the surface, positive.
-    Source: Persson, J. Chem. Phys. 115, 3840 (2001), full form.
-    """
-    positive(gradient=gradient)
-    if not (math.isfinite(pressure) and pressure >= 0):
-        raise ValueError(f"pressure must be finite and not negative, got {pressure}")
-    return math.erf(math.sqrt(2) * pressure / gradient)
 
 
 def positive(**values: float) -> None:

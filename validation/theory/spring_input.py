@@ -45,14 +45,3 @@ def geike_over_line(wavenumber: ArrayLike, ground: IsotropicGround) -> FloatArra
     if not (q > 0).all():
         raise ValueError("wavenumber must not be zero, got a zero: a ratio of spectra has no value there")
     return np.asarray(math.pi * q * ground.c2d(q) / ground.line_power(q))
-
-
-def geike_over_power_law(exponent: float) -> float:
-    """sqrt(pi) Gamma((p + 1) / 2) / Gamma(p / 2): `geike_over_line` of C_line ~ q^-p without an end [-].
-
-    1 for p = 1, 2 for p = 3, at every wavelength: no wave is long enough for another value. With C_2D = c q^(-p-1),
-    C_line = 2 c int_q^inf s^-p / sqrt(s^2 - q^2) ds = c q^-p sqrt(pi) Gamma(p / 2) / Gamma((p + 1) / 2). exponent: p,
-    positive. Raises ValueError for any other.
-    """
-    positive(exponent=exponent)
-    return math.sqrt(math.pi) * math.gamma((exponent + 1) / 2) / math.gamma(exponent / 2)
