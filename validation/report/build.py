@@ -48,9 +48,8 @@ def build(
 
     names: of cases in `CASES` or `TIMED`; profile: "quick" or "full"; out: a new folder or an earlier report;
     workers: processes; seed: for every case that draws, None for the seed of each case; scene: for every case of a
-    dynamic wheel, None for its own; executor: see `Engine`;
-    progress: a line on a terminal, lines in a log; keep: the other cases of the report in `out`, as they are;
-    callback: called with each case as it is finished.
+    dynamic wheel, None for its own; executor: see `Engine`; progress: a line on a terminal, lines in a log; keep: the
+    other cases of the report in `out`, as they are; callback: called with each case as it is finished.
     Results of finished solves are kept in the folder and used again by a later run with the same problem and code.
     Raises ValueError for a folder that holds something else or that another run is at, an executor that is none, a
     case without its figure file, and cases that cannot be kept; see `Engine` for what is raised where a run cannot be
@@ -67,14 +66,8 @@ def build(
         # those of a scheduler solve one case after the other
         Workers(workers if executor == LOCAL else 1) as processes,
     ):
-        pictures: dict[str, Future[bytes]] = {}
-
-        def draw(section: Section) -> None:
-            if section.evidence:
-                pictures.update(begin_to_draw(section.evidence, processes, shown.parts[FIGURES], profile))
-
-        for section in kept:
-            draw(section)
+        draw = partial(begin_to_draw, workers=processes, progress=shown.parts[FIGURES], profile=profile)
+        pictures = {name: picture for section in kept for name, picture in draw(section.evidence).items()}
         cases = CASES | TIMED
         settings = {name: cases[name].settings(profile, seed, scene) for name in names}
         unsteady = scene.no_steady_answer() if scene else ""
@@ -86,12 +79,11 @@ def build(
         for name, result in _results(names, run, processes, pictures):
             section = _section(name, settings[name], result, shown.parts[name])
             sections.append(section.not_steady(unsteady) if unsteady else section)
-            draw(sections[-1])
+            pictures |= draw(sections[-1].evidence)
             with shown.aside():
                 callback(sections[-1])
-        seeds = {section.name: section.settings["seed"] for section in sections if "seed" in section.settings}
-        worked = {section.name: shown.parts[section.name].worked for section in sections}
-        about = provenance(profile, seeds, engine, worked)
+        seeds = {one.name: one.settings["seed"] for one in sections if "seed" in one.settings}
+        about = provenance(profile, seeds, engine, {name: shown.parts[name].worked for name in names})
         if kept:
             about = with_kept(about, before, kept)
             sections = sorted([*sections, *kept], key=lambda section: list(cases).index(section.name))

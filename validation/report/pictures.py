@@ -15,8 +15,12 @@ FIGURES = "figures"
 """The part of a run in which they are drawn, and their folder."""
 
 
-def begin_to_draw(evidence: Evidence, workers: Workers, progress: Part, profile: Profile) -> dict[str, Future[bytes]]:
+def begin_to_draw(
+    evidence: Evidence | None, workers: Workers, progress: Part, profile: Profile
+) -> dict[str, Future[bytes]]:
     """SVG of each figure of a case, as soon as it is drawn. progress: the part of the run that counts them."""
+    if evidence is None:
+        return {}
     progress.begin("drawn", total=len(evidence.captions))
     begun = {name: workers.submit(draw_figure, name, evidence, profile) for name in evidence.captions}
     for one in begun.values():
