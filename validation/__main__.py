@@ -15,8 +15,8 @@ from validation.engine.termination import RESUME_NOTE, TerminatedError, WorkerLo
 from validation.engine.warning_lines import one_line_warnings
 from validation.engine.workers import ONE_THREAD
 from validation.report.commands.arguments import Exit
+from validation.scenes.input_files import SceneError
 from validation.scenes.printable import printable
-from validation.scenes.reader import SceneError
 
 COMMANDS = {
     "report": "run the cases and write a report folder",

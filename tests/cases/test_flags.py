@@ -104,7 +104,7 @@ LOST = {
         ridges,
         ridges.RollingOverRidges(cells=(4, 6), springs=(8.5,)),
         lambda p: p.method == "bem3d" and p.cells == 6,
-        "bem3d, 6 cells to a radius: 3 positions",
+        "boundary elements, 6 cells to a radius: 3 positions",
     ),
     "rolling, finer grid": (force_spectrum, FORCE, one_strip(3, 0.1, 8), "strip 3, h/d = 0.1, 8 cells to a radius: 7"),
     "rolling, all strips": (force_spectrum, FORCE, one_strip(0, 0.3, 4), "strip 0, h/d = 0.3, 4 cells to a radius: 7"),

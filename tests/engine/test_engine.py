@@ -212,7 +212,7 @@ def test_fewer_surfaces_are_the_first_of_more():
 
     few = fractal_punch.run(SMALL)
     more = fractal_punch.run(fractal_punch.FractalPunch(**{**vars(SMALL), "surfaces": ((0, 5, 5, 4, 0),)}))
-    of_few, of_more = (result[0.7, "bem3d", 16]["stiffness"] for result in (few, more))
+    of_few, of_more = (result[0.7, "boundary elements", 16]["stiffness"] for result in (few, more))
     np.testing.assert_array_equal(of_few, of_more[:4])
 
 

@@ -21,9 +21,10 @@ from numpy.typing import NDArray
 from mdr.checks import count, finite
 from validation.analysis.statistics import FloatArray
 from validation.scenes.height_edits import real_numbers
+from validation.scenes.input_files import check_regular
 from validation.scenes.number_table import MOST_VALUES, NumberTable, TableForm, known_alone, table_of_text
 from validation.scenes.printable import printable, quoted, shortened
-from validation.scenes.reader import Reader, check_regular, nonblank_text, without_unit
+from validation.scenes.reader import Reader, nonblank_text, without_unit
 from validation.scenes.text_dialect import NoTextError
 from validation.scenes.units import LENGTHS, in_unit, metres_of
 
