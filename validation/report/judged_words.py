@@ -119,5 +119,5 @@ def _everywhere(quantity: str, tolerance: str, groups: Sequence[Group]) -> str:
     others = ", ".join(groups[0][1])
     every = f" at every {others}" if others and len(groups) > 1 else ""
     if not ranges:
-        return f"Its {quantity} is within {tolerance} nowhere{every}."
+        return f"There is no {along} for which its {quantity} is within {tolerance}{every} for certain."
     return f"Its {quantity} is within {tolerance} for {along} = {' and '.join(ranges)}{every}."
