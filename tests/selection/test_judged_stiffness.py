@@ -5,11 +5,11 @@ from functools import cache
 import numpy as np
 import pytest
 
-from validation import stiffness_model
+from validation import stiffness_model, stiffness_of_surface
 from validation.analysis.judgement import enough
 from validation.engine.others import Called
-from validation.selection.judging import stiffness
-from validation.selection.judging.references import curve
+from validation.selection.judging import stiffness, surfaces
+from validation.selection.judging.references import Reference, curve
 from validation.selection.judging.stiffness import AskedPunch
 from validation.theory.closed_forms import SQUARE_PUNCH
 
@@ -151,3 +151,67 @@ def test_a_plateau_is_given_with_its_own_rms_height():
     assert np.sqrt(2 * np.pi * np.trapezoid(q * rough.c2d(q), q)) == pytest.approx(rough.rms, rel=1e-6)
     assert np.sqrt(2 * np.trapezoid(rough.c1d(q), q)) == pytest.approx(rough.rms, rel=1e-6)
     assert rough.c2d(2 * rough.q_min) == rough.c2d(7.9 * rough.q_min)
+
+
+FORCES = (0.01, 1.0)
+
+
+def by_the_summit(height, spacing, modulus, load):
+    """Of the highest summit alone, which scatters from surface to surface [N/m]."""
+    return modulus * spacing * len(height) * (load / modulus) ** 0.5 / height.max()
+
+
+@pytest.fixture
+def summits(monkeypatch):
+    """References by that law, on six surfaces."""
+    rows = [
+        Reference({"H": 0.7, "surface": f"surface {i}", "Fbar": force}, value, 0.0, 0.01)
+        for i in range(6)
+        for height in [stiffness.SIDE * surfaces.roughness(0.7).surface(256, i)]
+        for force in FORCES
+        for load in [force * stiffness.MODULUS * stiffness.HEIGHT * stiffness.SIDE**2]
+        for value in [by_the_summit(height, stiffness.SIDE / 256, 1.0, load / stiffness.MODULUS) / stiffness.SIDE]
+    ]
+    monkeypatch.setattr(surfaces, "curve", lambda quantity: rows)
+
+
+def judged_surfaces(function):
+    return list(surfaces.judged(Called(stiffness_of_surface("mine")(function)), 0.1))
+
+
+def test_surfaces_are_judged_one_by_one_and_in_their_mean_and_deviation(summits):
+    points = judged_surfaces(by_the_summit)
+    assert len(points) == 6 * 2 + 2 * 2
+    assert {p.verdict for p in points} == {"agree"}
+    # both on the same surfaces: what they share leaves no error but that of the grid
+    assert all(p.error == pytest.approx(0.01) for p in points)
+    stiffer = judged_surfaces(
+        lambda height, spacing, modulus, load: 1.3 * by_the_summit(height, spacing, modulus, load)
+    )
+    assert verdicts(stiffer, surfaces.OF_SURFACE) == verdicts(stiffer, MEAN) == {"differ"}
+    assert verdicts(stiffer, DEVIATION) == {"agree"}
+
+
+def test_a_law_without_the_surface_has_no_deviation(summits):
+    mean = {force: np.mean([row.value for row in surfaces.curve("") if row.where["Fbar"] == force]) for force in FORCES}
+
+    def blind(height, load):
+        force = load / (stiffness.MODULUS * stiffness.HEIGHT * stiffness.SIDE**2)
+        return mean[min(mean, key=lambda one: abs(one / force - 1))] * stiffness.MODULUS * stiffness.SIDE
+
+    points = judged_surfaces(blind)
+    assert "differ" not in verdicts(points, MEAN)
+    assert verdicts(points, DEVIATION) == {"differ"}
+
+
+def test_a_surface_turned_upside_down_is_another_one(summits):
+    points = judged_surfaces(lambda height, spacing, modulus, load: by_the_summit(-height, spacing, modulus, load))
+    assert "differ" in verdicts(points, surfaces.OF_SURFACE)
+
+
+def test_surfaces_that_there_is_no_time_for_are_left_open(summits, monkeypatch):
+    monkeypatch.setattr(surfaces, "SECONDS", 0.0)
+    monkeypatch.setattr(surfaces, "FEWEST", 1)
+    points = judged_surfaces(by_the_summit)
+    reasons = [p.reason for p in points if p.quantity == surfaces.OF_SURFACE and p.verdict == "undecided"]
+    assert reasons == ["not asked: 0 s are over"] * 6
