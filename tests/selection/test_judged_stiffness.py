@@ -86,21 +86,27 @@ def test_what_boundary_elements_have_agrees_and_what_is_twice_as_far_differs():
 
 
 @pytest.mark.slow
-def test_realisations_have_their_mean_and_deviation_with_the_error_of_the_sample(monkeypatch):
-    monkeypatch.setattr(stiffness, "MOST", 100)
-    monkeypatch.setattr(stiffness, "SECONDS", 300.0)
-
+def test_realisations_have_their_mean_and_deviation_with_the_error_of_the_sample():
     def draws(load, side, modulus, roughness, rng):
         mean, deviation = as_known(load, side, modulus, roughness)
         return rng.normal(mean, deviation)
 
-    points = [p for p in judged(draws, 0.3) if p.quantity in (MEAN, DEVIATION)]
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(stiffness, "MOST", 100)
+        patched.setattr(stiffness, "SECONDS", 300.0)
+        points = [p for p in judged(draws, 0.3) if p.quantity in (MEAN, DEVIATION)]
     assert "differ" not in verdicts(points, MEAN) and "agree" in verdicts(points, MEAN)
-    inside = [abs(p.difference) <= p.error for p in points]
-    assert np.mean(inside) > 0.85
+    assert np.mean([abs(p.difference) <= p.error for p in points]) > 0.85
     assert all(p.reason == "100 realisations" for p in points if p.quantity == MEAN)
-    points = judged(lambda load, side, modulus, roughness, rng: 1.5 * draws(load, side, modulus, roughness, rng))
+
+
+def test_realisations_that_are_too_stiff_differ():
+    """As many as come in no time."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(stiffness, "SECONDS", 0.0)
+        points = judged(lambda load, side, modulus, roughness, rng: 1.5 * as_known(load, side, modulus, roughness)[0])
     assert verdicts(points, MEAN) == {"differ"}
+    assert {p.reason for p in points if p.quantity == MEAN} == {"8 realisations"}
 
 
 @pytest.mark.parametrize(
