@@ -79,7 +79,7 @@ def _worst_lines(points: Sequence[JudgedPoint]) -> Iterator[str]:
     if found := worst(points):
         yield f"\nThe worst{f' {len(found)}' if len(found) > 1 else ''}:"
         yield from (f"  {point.quantity}, {point.place or 'everywhere'}: {point.shown}" for point in found)
-        if common := shared(found, points):
+        if found[0].verdict == DIFFER and (common := shared(found, points)):
             yield f"  They share: {common}."
 
 

@@ -105,6 +105,6 @@ def solved(engine: Engine) -> list[Reference]:
     for hurst in HURSTS:
         coarse, fine = (np.log([one["stiffness"] for one in found[hurst, n]]) for n in (CELLS, 2 * CELLS))
         for (i, j), finer in np.ndenumerate(fine - coarse):
-            where = {H: hurst, REALISATION: f"surface {i}", FORCE: FORCES[j]}
+            where: dict[str, float | str] = {H: hurst, REALISATION: f"surface {i}", FORCE: FORCES[j]}
             rows.append(Reference(where, math.exp(fine[i, j] + finer), 0.0, abs(finer)))
     return rows
