@@ -95,6 +95,7 @@ BROKEN = {
     "def f(:\n": r"bad.py: SyntaxError: ",
     "import no_such_module\n": "bad.py: ModuleNotFoundError: No module named 'no_such_module', line 1 of bad.py",
     "raise SystemExit(1)\n": "bad.py: SystemExit: 1, line 1 of bad.py",
+    "import validation\nvalidation.judge(__file__)\n": "OthersError: a file that is judged must not judge files itself",
     "import os; os._exit(7)\n": "bad.py: ended its process with status 7",
     "\0": "bad.py: SyntaxError: source code string cannot contain null bytes",
     f"{FACE}stiffness_model('a')(lambda load: 1)\n": "no function has a decorator",
