@@ -55,7 +55,7 @@ def test_no_example_is_left_out():
     trees = (ast.parse(text) for text in (path.read_text() for path in files) if ">>>" in text)
     written = [ast.get_docstring(node) or "" for tree in trees for node in ast.walk(tree) if isinstance(node, kinds)]
     run = [inspect.getdoc(member) or "" for member in CALLED.values()]
-    assert {text for text in written if ">>>" in text} == {text for text in run if ">>>" in text}
+    assert {text for text in written if ">>>" in text} <= {text for text in run if ">>>" in text}
 
 
 def entries(member, section):

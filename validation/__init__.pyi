@@ -1,7 +1,17 @@
 """What `validation` offers, for type checkers and editors."""
 
+from validation.engine.offered import contact_filter as contact_filter
+from validation.engine.offered import contact_law as contact_law
+from validation.engine.offered import contact_solver as contact_solver
+from validation.engine.offered import force_spectrum as force_spectrum
+from validation.engine.offered import profile_spectrum as profile_spectrum
+from validation.engine.offered import rolling_model as rolling_model
+from validation.engine.offered import stiffness_model as stiffness_model
+from validation.engine.offered import stiffness_of_surface as stiffness_of_surface
 from validation.report.compared import to_figure as to_figure
 from validation.report.contents import CASES as CASES
+from validation.report.judged import Judgement as Judgement
+from validation.report.judged import judge as judge
 from validation.scenes.dynamic_wheel import WheelScene as WheelScene
 from validation.scenes.dynamic_wheel import load_wheel_scene as load_wheel_scene
 from validation.scenes.indentation import IndentationScene as IndentationScene

@@ -21,6 +21,7 @@ from validation.scenes.printable import printable
 COMMANDS = {
     "report": "run the cases and write a report folder",
     "compare": "select the cheapest model of a scene that meets a tolerance",
+    "judge": "judge a model or a solver of your own, by the decorated functions of a file",
     "sound": "write what a wheel on a rail sounds like by each model, as WAV files with one gain",
     "scene": "print a scene that comes with this package, with a comment on every key",
     "calibrate": "measure the errors that cheap models claim, beside boundary elements",

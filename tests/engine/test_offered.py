@@ -1,0 +1,76 @@
+"""What a function may ask for: every other argument is refused in a sentence that lists those that it can have."""
+
+import pytest
+
+import validation
+from validation.engine.offered import KINDS
+
+
+def test_a_decorated_function_is_called_as_before():
+    @validation.stiffness_model("mine")
+    def mine(load, side):
+        return load / side
+
+    assert (mine(6.0, side=2.0), mine.name, mine.kind, mine.asks) == (3.0, "mine", "stiffness_model", ("load", "side"))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_kind_has_a_decorator_of_its_name_whose_example_it_takes(kind):
+    space = {}
+    exec(KINDS[kind].example, space)
+    function = next(value for name, value in space.items() if name != "__builtins__")
+    found = getattr(validation, kind)("shown")(function)
+    assert (found.kind, found.name) == (kind, "shown")
+    assert found.options == KINDS[kind].options
+
+
+WRONG = [
+    ("stiffness_model", lambda laod: 1, "'mine': laod is unknown: @stiffness_model may ask for load, side, modulus, "),
+    ("stiffness_model", lambda *loads: 1, r"by name, one by one, got \*loads: .* may ask for load, side"),
+    ("stiffness_model", lambda **given: 1, "one by one"),
+    ("stiffness_model", lambda load, /: 1, "one by one"),
+    ("stiffness_model", 3.0, "must stand above a function, got 3.0"),
+    ("stiffness_of_surface", lambda load: 1, "height must be asked for"),
+    ("force_spectrum", lambda radius: 1, "q must be asked for"),
+    ("profile_spectrum", lambda q: 1, "roughness must be asked for"),
+    ("contact_filter", lambda a_x: 1, "k_x must be asked for"),
+    ("contact_law", lambda position: 1, "approach must be asked for"),
+    ("contact_solver", lambda force: 1, "gap must be asked for"),
+    ("rolling_model", lambda height, load, line: 1, "either height or line must be asked for, got height and line"),
+    ("rolling_model", lambda line: 1, "either approach or load must be asked for, got neither"),
+    ("contact_solver", lambda gap, force, approach: 1, "either force or approach must be asked for, got force and app"),
+]
+
+
+@pytest.mark.parametrize(("kind", "function", "sentence"), WRONG)
+def test_another_signature_is_refused_in_one_sentence(kind, function, sentence):
+    with pytest.raises(TypeError, match=sentence) as refused:
+        getattr(validation, kind)("mine")(function)
+    assert "\n" not in str(refused.value)
+
+
+def test_both_of_a_pair_are_served_where_both_are_none_by_default():
+    solver = validation.contact_solver("both")(lambda gap, force=None, approach=None: gap)
+    assert solver.asks == ("gap", "force", "approach")
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "sentence"),
+    [
+        ((len,), {}, r"must have a name, as @stiffness_model\(.my model.\), got <built-in function len>"),
+        (("",), {}, "must have a name"),
+        (("a\nb",), {}, "must have a name"),
+        (("mine",), {"periodic": True}, "option periodic is unknown: @stiffness_model has none"),
+    ],
+)
+def test_a_name_is_a_text_and_options_are_those_of_the_kind(name, options, sentence):
+    with pytest.raises(TypeError, match=sentence):
+        validation.stiffness_model(*name, **options)
+    with pytest.raises(TypeError, match=r"option residual must be as 0\.0001, got 'small'"):
+        validation.contact_solver("mine", residual="small")
+
+
+def test_what_is_offered_already_is_not_offered_again():
+    once = validation.stiffness_model("once")(lambda load: 1)
+    with pytest.raises(TypeError, match="must stand above a function, got one that is offered already"):
+        validation.stiffness_model("twice")(once)

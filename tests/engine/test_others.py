@@ -1,0 +1,155 @@
+"""Files of others: whatever they do is a reason in words, and never an exception of ours."""
+
+import os
+import sys
+
+import numpy as np
+import pytest
+
+from validation import stiffness_model, stiffness_of_surface
+from validation.engine.offered import Failed
+from validation.engine.others import Called, OthersError, Visitor, offered_in, visited
+
+FACE = "from validation import stiffness_model, stiffness_of_surface\n"
+BAD = {
+    "return 1 / 0": "raised ZeroDivisionError: division by zero, line 4 of bad.py",
+    "raise ValueError('too\\nlight')": "raised ValueError: too light, line 4 of bad.py",
+    "raise SystemExit(3)": "raised SystemExit: 3, line 4 of bad.py",
+    "import os; os._exit(3)": "ended its process with status 3",
+    "import os; os.kill(os.getpid(), 9)": "ended its process by signal 9",
+    "return float('nan')": "returned NaN or infinity",
+    "return (1.0, float('inf'))": "returned NaN or infinity, 1 of 2 values",
+    "return [1.0, 2.0, 3.0]": r"returned shape (3,), must be one number or (2,)",
+    "return [[1.0], [2.0, 3.0]]": "returned rows of different lengths",
+    "return None": "returned nothing",
+    "return 'stiff'": "returned str, must be real numbers",
+    "return 1j": "returned complex numbers, must be real numbers",
+    "return input()": "raised EOFError: EOF when reading a line, line 4 of bad.py",
+}
+
+
+def written(folder, body, name="bad.py"):
+    path = folder / name
+    path.write_text(body)
+    return path
+
+
+@pytest.mark.slow
+def test_what_a_function_does_wrong_is_said_in_words_and_the_next_call_is_served(tmp_path):
+    """Each under its own name in one file; the process is started again where it has ended."""
+    bodies = [FACE]
+    for i, body in enumerate(BAD):
+        path = written(tmp_path, f"{FACE}@stiffness_model('{i}')\ndef bad(load):\n    {body}\n", "bad.py")
+        with Visitor(path) as visitor:
+            (caller,) = visitor.callers()
+            assert caller.call(load=1.0, side=2.0).reason == BAD[body], body
+        bodies.append(f"@stiffness_model('{i}')\ndef bad{i}(load):\n    {body}\n")
+    bodies.append("@stiffness_model('good')\ndef good(load):\n    return 2 * load\n")
+    with Visitor(written(tmp_path, "".join(bodies))) as visitor:
+        *wrong, good = visitor.callers()
+        for caller in wrong:
+            assert isinstance(caller.call(load=1.0), Failed)
+            assert good.call(load=3.0) == 6.0
+
+
+@pytest.mark.slow
+def test_a_hang_is_ended_and_after_three_nothing_is_asked(tmp_path):
+    loops = f"{FACE}@stiffness_model('loops')\ndef loops(load):\n    while load > 1:\n        pass\n    return load\n"
+    with Visitor(written(tmp_path, loops), seconds=3.0) as visitor:
+        (caller,) = visitor.callers()
+        assert caller.call(load=0.5) == 0.5
+        found = caller.calls("load", [2.0, 0.5, 2.0, 2.0, 0.5], {})
+        ended = visitor._process.pid
+    late = "no answer within 3 s"
+    assert [getattr(one, "reason", one) for one in found] == [
+        late,
+        0.5,
+        late,
+        late,
+        f"{late}, 3 times: not asked any more",
+    ]
+    with pytest.raises(ProcessLookupError):
+        os.kill(ended, 0)
+
+
+def test_a_file_is_run_with_its_folder_and_its_printing_is_caught(tmp_path, capfd):
+    """The digest is of its bytes and of the modules that it has loaded from there."""
+    written(tmp_path, "FACTOR = 3.0\n", "own_constants.py")
+    body = f"{FACE}from own_constants import FACTOR\nprint('begin')\n@stiffness_model('a name')\n"
+    path = written(tmp_path, body + "def bad(load):\n    print('called')\n    return FACTOR * load\n")
+    with Visitor(path) as visitor:
+        (caller,) = visitor.callers()
+        assert (caller.kind, caller.name, caller.asks) == ("stiffness_model", "a name", ("load",))
+        assert caller.call(load=2.0, side=1.0) == 6.0
+        assert caller.printed == "begin called"
+        assert [source.name for source in visitor.sources] == ["bad.py", "own_constants.py"]
+        before = visitor.digest
+    assert capfd.readouterr() == ("", "")
+    written(tmp_path, "FACTOR = 4.0\n", "own_constants.py")
+    with Visitor(path) as visitor:
+        assert visitor.digest != before
+
+
+BROKEN = {
+    "x = 1\n": "bad.py: no function has a decorator, which is one of @stiffness_model, ",
+    "def f(:\n": r"bad.py: SyntaxError: ",
+    "import no_such_module\n": "bad.py: ModuleNotFoundError: No module named 'no_such_module', line 1 of bad.py",
+    "raise SystemExit(1)\n": "bad.py: SystemExit: 1, line 1 of bad.py",
+    "import validation\nvalidation.judge(__file__)\n": "OthersError: a file that is judged must not judge files itself",
+    "import os; os._exit(7)\n": "bad.py: ended its process with status 7",
+    "\0": "bad.py: SyntaxError: source code string cannot contain null bytes",
+    f"{FACE}stiffness_model('a')(lambda load: 1)\n": "no function has a decorator",
+    f"{FACE}a = stiffness_model('a')(lambda loda: 1)\n": "bad.py: TypeError: 'a': loda is unknown: @",
+    f"{FACE}a = stiffness_model('a')(lambda load: 1)\nb = stiffness_model('a')(lambda: 1)\n": "are offered as 'a'",
+}
+
+
+@pytest.mark.parametrize("body", BROKEN)
+def test_a_broken_file_is_refused_in_one_sentence(body, tmp_path):
+    with pytest.raises(OthersError) as refused:
+        offered_in(written(tmp_path, body))
+    assert BROKEN[body] in str(refused.value)
+    assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize("place", ["nowhere.py", "."])
+def test_what_is_no_file_is_an_error_of_its_path(place, tmp_path):
+    with pytest.raises(OSError, match=r"No such file|Is a directory"):
+        offered_in(tmp_path / place)
+
+
+def test_a_function_of_this_process_is_checked_in_the_same_way(capsys):
+    @stiffness_of_surface("writes")
+    def writes(height):
+        sys.stdout.write("hello")
+        height[0] = 1.0
+        return 1.0
+
+    @stiffness_model("two")
+    def two(load):
+        return load, 0.1 * load
+
+    height = np.zeros((2, 2))
+    caller = Called(writes)
+    assert "assignment destination is read-only" in caller.call(height=height).reason
+    assert (height == 0).all() and caller.printed == "hello"
+    assert Called(two).call(load=2.0).tolist() == [2.0, 0.2]
+    assert not capsys.readouterr().out
+
+
+def test_an_own_raise_is_a_refusal_and_a_mistake_is_none():
+    @stiffness_model("refuses")
+    def refuses(load):
+        if load < 1:
+            raise ValueError("too light")
+        return load / 0
+
+    assert [Called(refuses).call(load=load).refused for load in (0.5, 2.0)] == [True, False]
+
+
+def test_only_decorated_functions_and_files_are_judged():
+    with (
+        pytest.raises(TypeError, match="model must be a function with a decorator, as @stiffness_model, or a file"),
+        visited(len),
+    ):
+        pass

@@ -1,0 +1,48 @@
+"""Faults planted in how models from elsewhere are judged, and the test that must catch each."""
+
+import math
+from functools import partial
+
+import numpy as np
+
+from tests.analysis import test_judgement
+from tests.planted_faults.wrong import with_math
+from tests.selection import test_judged_stiffness
+from validation.analysis import judgement
+from validation.selection.judging import stiffness
+
+given, verdict_of = stiffness.AskedPunch.arguments.fget, judgement._judged
+
+
+def under_twice_the_load(asked):
+    return {**given(asked), "load": 2 * given(asked)["load"]}
+
+
+def without_its_interval(quantity, where, pair, apart, half, *others):
+    return verdict_of(quantity, where, pair, apart, 0.0, *others)
+
+
+FAULTS = {
+    "a model asked under twice the load": (
+        (stiffness.AskedPunch, "arguments", property(under_twice_the_load)),
+        test_judged_stiffness.test_what_boundary_elements_have_agrees_and_what_is_twice_as_far_differs,
+    ),
+    "the level of a power law for that of its plateau": (
+        (stiffness.PlateauRoughness, "_share", property(lambda rough: 1.0)),
+        test_judged_stiffness.test_a_plateau_is_given_with_its_own_rms_height,
+    ),
+    "a verdict without its interval": (
+        (judgement, "_judged", without_its_interval),
+        partial(
+            test_judgement.test_the_whole_interval_lies_inside_or_outside_of_the_tolerance, 1.05, 0.06, "undecided"
+        ),
+    ),
+    "decibels of a power for those of an amplitude": (
+        (judgement, "math", with_math(log10=lambda x: math.log10(x) / 2)),
+        partial(test_judgement.test_a_ratio_of_ten_per_cent_is_0_83_decibels_of_a_level, 0.8, 0.02, "agree"),
+    ),
+    "realisations without the error of their sample": (
+        (stiffness, "sampled", lambda values: stiffness.Found(values.mean(), np.std(values) / np.mean(values))),
+        test_judged_stiffness.test_realisations_have_their_mean_and_deviation_with_the_error_of_the_sample,
+    ),
+}

@@ -1,0 +1,151 @@
+"""`mdr-validation judge` and `validation.judge`: what they write, how they end, what they refuse in one sentence."""
+
+import csv
+import json
+import subprocess
+import sys
+
+import pytest
+
+import validation
+from validation.__main__ import main
+from validation.analysis.judgement import compared, not_compared
+from validation.report import judged
+from validation.report.judged_figure import figure_of
+
+SERIES = """
+from validation import stiffness_model
+
+@stiffness_model("in series")
+def series(load, side, modulus, roughness):
+    return 1 / (0.49 * roughness.rms / load + 1 / (1.1523 * modulus * side))
+"""
+NAN = """
+@stiffness_model("lost")
+def lost(load):
+    print("lost at", load)
+    return float("nan")
+"""
+
+
+@pytest.fixture
+def file(tmp_path):
+    path = tmp_path / "mine.py"
+    path.write_text(SERIES)
+    return path
+
+
+def test_a_formula_is_judged_and_written(file, tmp_path, capsys):
+    places = [tmp_path / name for name in ("found.json", "found.csv", "found.png")]
+    words = [word for pair in zip(("--json", "--csv", "--figure"), map(str, places), strict=True) for word in pair]
+    assert main(["judge", str(file), "--out", str(tmp_path / "out"), *words]) == 0
+    printed, found = capsys.readouterr().out, json.loads(places[0].read_text())
+    assert list(found) == ["model", "kind", "tolerance", "verdicts", "enough", "seconds"]
+    assert (found["model"], found["kind"], found["tolerance"]) == ("in series", "stiffness_model", 0.1)
+    point = found["verdicts"][0]
+    assert {"quantity", "where", "value", "reference", "difference", "error", "verdict", "reason"} <= set(point)
+    assert point["difference"] == pytest.approx(point["value"] / point["reference"] - 1)
+    assert {"quantity", "where", "along", "from", "to", "verdict"} == set(found["enough"][0])
+    rows = list(csv.DictReader(places[1].read_text().splitlines()))
+    assert len(rows) == len(found["verdicts"])
+    assert [row["verdict"] for row in rows] == [p["verdict"] for p in found["verdicts"]]
+    assert places[2].read_bytes()[1:4] == b"PNG"
+    assert "H = 0.7                          ########=====  yes 0.464 to 10; no 0.001 to 0.215" in printed
+    assert "Its mean stiffness is within 10 % for Fbar = 0.464 to 10 at every H." in " ".join(printed.split())
+    assert "They share: Fbar up to 0.00215" in printed
+    names = {path.name for path in (tmp_path / "out").iterdir()}
+    assert names == {"judgement.json", "verdicts.csv", "summary.txt", "judgement.svg"}
+    assert (tmp_path / "out" / "summary.txt").read_text().splitlines()[2:] == printed.splitlines()[2:-1]
+
+
+def test_a_model_that_answers_nowhere_ends_with_three_unless_another_does(file, tmp_path, capsys):
+    file.write_text(SERIES + NAN)
+    assert main(["judge", str(file), "--only", "lost", "--json", str(tmp_path / "found.json")]) == 3
+    assert "returned NaN or infinity" in capsys.readouterr().out
+    last = json.loads((tmp_path / "found.json").read_text())["verdicts"][-1]
+    assert (last["quantity"], last["verdict"], last["value"]) == ("printing", "failed", None)
+    assert last["reason"].startswith("printed 'lost at ")
+    assert main(["judge", str(file), "--json", str(tmp_path / "found.json")]) == 0
+    assert [one["model"] for one in json.loads((tmp_path / "found.json").read_text())] == ["in series", "lost"]
+
+
+@pytest.mark.parametrize(
+    ("body", "words", "sentence"),
+    [
+        (None, [], "error: {path}: No such file or directory"),
+        ("x = 1", [], "mine.py: no function has a decorator, which is one of @stiffness_model, @stiffness_of_surface"),
+        (
+            "import nothing_of_the_kind",
+            [],
+            "ModuleNotFoundError: No module named 'nothing_of_the_kind', line 1 of mine",
+        ),
+        ("def f(:", [], "mine.py: SyntaxError"),
+        (
+            SERIES.replace("load,", "laod,"),
+            [],
+            "'in series': laod is unknown: @stiffness_model may ask for load, side, ",
+        ),
+        (SERIES, ["--only", "other"], "--only must be one of in series, got other"),
+        (SERIES, ["--tolerance", "ten"], "tolerance must be as"),
+        (SERIES, ["--figure", "found.gif"], "--figure must end in .svg, .png, .pdf, got found.gif"),
+    ],
+)
+def test_what_cannot_be_judged_is_refused_in_one_sentence(body, words, sentence, file, capsys):
+    if body is None:
+        file.unlink()
+    else:
+        file.write_text(body)
+    assert main(["judge", str(file), *words]) == 2
+    printed = capsys.readouterr()
+    assert sentence.format(path=file) in printed.err
+    assert printed.err.count("\n") == 1 and not printed.out
+
+
+def solver(*points):
+    """What a solver is judged to be by these points."""
+    return judged.Judgement("mine", "contact_solver", judged.tolerance_of(0.1), points, 1.0)
+
+
+RIGHT = compared("approach", {"problem": "sphere"}, 1.0, 1.0, 0.0, 0.1, decides=True)
+SLOW = compared("speed", {"cells": 64.0}, 3.0, 1.0, 0.0, 0.1)
+LOST = not_compared("approach", {"problem": "rough"}, "failed", "raised MemoryError", decides=True)
+
+
+@pytest.mark.parametrize(
+    ("points", "status"), [([RIGHT, SLOW], 0), ([RIGHT, LOST], 1), ([LOST], 1), ([], 3), ([SLOW], 0)]
+)
+def test_a_solver_that_differs_where_that_decides_ends_with_one(points, status, monkeypatch, file, capsys):
+    monkeypatch.setattr("validation.report.commands.judge.judged", lambda model, tolerance: solver(*points))
+    assert main(["judge", str(file)]) == status
+
+
+def test_the_functions_take_what_is_decorated_and_a_file(file):
+    @validation.stiffness_model("flat punch")
+    def flat(side, modulus):
+        return 1.1523 * modulus * side
+
+    found = validation.judge(flat, "1 dB")
+    assert found.tolerance.relative == pytest.approx(10 ** (1 / 20) - 1)
+    assert {p.verdict for p in found.verdicts if p.where.get("Fbar") == 0.001} == {"differ"}
+    assert {p.verdict for p in found.verdicts if p.where.get("Fbar") == 10.0} == {"agree"}
+    assert validation.judge(file).model == "in series"
+    file.write_text(SERIES + NAN)
+    with pytest.raises(ValueError, match="model must be one, got 'in series', 'lost'"):
+        validation.judge(file)
+    for wrong in (flat.function, 3, None):
+        with pytest.raises(TypeError, match="must be a function with a decorator"):
+            validation.judge(wrong)
+
+
+def test_a_figure_has_a_form():
+    with pytest.raises(ValueError, match="a figure must be one of svg, png, pdf, got 'gif'"):
+        figure_of([solver(RIGHT)], "gif")
+    assert b"<svg" in figure_of([solver(RIGHT)], "svg")
+
+
+@pytest.mark.slow
+def test_a_script_without_a_guard_may_judge_a_file(file):
+    """The other process does not import the script once more."""
+    code = f"import validation; print(validation.judge({str(file)!r}).model)"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert (run.stdout, run.stderr) == ("in series\n", "")

@@ -1,0 +1,75 @@
+"""Judge models of somebody's own: where each is enough, or whether a solver is right."""
+
+import argparse
+import re
+from pathlib import Path
+
+from validation.analysis.contents import as_json
+from validation.engine.files import write_given
+from validation.engine.others import Visitor
+from validation.report.commands.arguments import add_options
+from validation.report.commands.exit_status import Exit
+from validation.report.judged import Judgement, judged, points_as_csv
+from validation.scenes.printable import printable
+from validation.selection.tolerance import tolerance_of
+
+FIGURES = (".svg", ".png", ".pdf")
+
+
+def describe(judging: argparse.ArgumentParser) -> None:
+    judging.add_argument(
+        "file",
+        metavar="FILE",
+        type=Path,
+        help="a Python file with decorated functions, as @stiffness_model; it is run as a program, with your rights",
+    )
+    add_options(
+        judging,
+        ("--tolerance", "T", str, '"5%%", "0.05" or "0.4 dB" (default: 10%%)'),
+        ("--only", "NAME", str, "judge this model of the file alone"),
+        ("--out", "DIR", Path, "write summary, JSON, CSV and figure into this folder, of several models a folder each"),
+        ("--json", "FILE", Path, "write all verdicts for other programs; of several models a list"),
+        ("--csv", "FILE", Path, "write a row a verdict"),
+        ("--figure", "FILE", Path, "draw how far off each model is, in a .svg, .png or .pdf"),
+    )
+    judging.epilog = (
+        "Exit status: of a reduced model 0, whatever the verdicts; of a solver 0 right, 1 wrong; 2 no decorated "
+        "function, or bad usage; 3 it answered nowhere."
+    )
+    judging.set_defaults(command=judge, tolerance="10%")
+
+
+def judge(arguments: argparse.Namespace) -> Exit:
+    """Judge what a file offers."""
+    tolerance = tolerance_of(arguments.tolerance)
+    if arguments.figure is not None and arguments.figure.suffix not in FIGURES:
+        raise ValueError(f"--figure must end in {', '.join(FIGURES)}, got {printable(arguments.figure)}")
+    found: list[Judgement] = []
+    with Visitor(arguments.file) as visitor:
+        for caller in visitor.callers():
+            if arguments.only in (None, caller.name):
+                found.append(judged(caller, tolerance))
+                print(printable(found[-1].summary(), lines=True), end="\n\n", flush=True)
+        names = ", ".join(caller.name for caller in visitor.callers())
+    if not found:
+        raise ValueError(f"--only must be one of {printable(names)}, got {printable(arguments.only)}")
+    _write(found, arguments)
+    if any(one.wrong for one in found):
+        return Exit.CRITERION_FAILED
+    return Exit.MET if any(one.answered for one in found) else Exit.NOT_CONVERGED
+
+
+def _write(found: list[Judgement], arguments: argparse.Namespace) -> None:
+    if arguments.out:
+        for one in found:
+            folder = re.sub(r"[^\w.+-]+", "_", one.model).strip("._") or "model"
+            one.save(arguments.out / folder if len(found) > 1 else arguments.out)
+    if arguments.json:
+        objects = [one.as_dict() for one in found]
+        write_given(arguments.json, as_json(objects if len(objects) > 1 else objects[0]))
+    if arguments.csv:
+        write_given(arguments.csv, points_as_csv(found))
+    if arguments.figure:
+        from validation.report.judged_figure import figure_of  # which takes half a second to import
+
+        write_given(arguments.figure, figure_of(found, arguments.figure.suffix[1:]))

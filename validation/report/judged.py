@@ -1,0 +1,199 @@
+"""Judge a model of somebody's own: `validation.judge`, and what it returns."""
+
+import math
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from pkgutil import resolve_name
+
+from validation.analysis.contents import as_csv, as_json
+from validation.analysis.evidence import Table
+from validation.analysis.judgement import (
+    DIFFER,
+    FAILED,
+    REFUSED,
+    Enough,
+    JudgedPoint,
+    enough,
+    not_compared,
+)
+from validation.engine.files import write_whole
+from validation.engine.others import Called, visited
+from validation.report.judged_words import summary_lines
+from validation.selection.judging.judge import JUDGES, Judge, judge_of
+from validation.selection.tolerance import Tolerance, tolerance_of
+
+OF_SOLVER = "validation.benchmarks.solvers.judged:judged"
+"""Of a contact solver; it imports all solvers."""
+
+
+@dataclass(frozen=True, eq=False)
+class Judgement:
+    """What `judge` found of one model.
+
+    Attributes
+    ----------
+    model, kind : str
+        Name and decorator of the function.
+    tolerance : Tolerance
+        How near is near.
+    verdicts : tuple
+        A point each: quantity, where, value, reference, difference, error, verdict, reason.
+    seconds : float
+        That the judgement took.
+
+    Examples
+    --------
+    >>> @validation.stiffness_model("flat punch")
+    ... def flat(side, modulus):
+    ...     return 1.1523 * modulus * side
+    >>> found = validation.judge(flat)
+    >>> found.verdicts[0].verdict
+    'differ'
+    """
+
+    model: str
+    kind: str
+    tolerance: Tolerance
+    verdicts: tuple[JudgedPoint, ...]
+    seconds: float
+
+    @property
+    def enough(self) -> list[Enough]:
+        """Ranges of one verdict, along the number that decides."""
+        return enough(self.verdicts)
+
+    @property
+    def answered(self) -> bool:
+        """Whether there is any number to be judged."""
+        return any(math.isfinite(point.difference) for point in self.verdicts)
+
+    @property
+    def wrong(self) -> bool:
+        """Of a solver: whether it differs or fails where that decides."""
+        return any(point.decides and point.verdict in (DIFFER, FAILED, REFUSED) for point in self.verdicts)
+
+    def summary(self) -> str:
+        """Where it is enough, the worst points and what they share, and a paragraph for a paper."""
+        return "\n".join(summary_lines(self.model, self.kind, str(self.tolerance), self.verdicts, self.seconds))
+
+    def as_dict(self) -> dict[str, object]:
+        """What `as_json` writes; None for what is no number."""
+        return {
+            "model": self.model,
+            "kind": self.kind,
+            "tolerance": self.tolerance.relative,
+            "verdicts": [_point(point) for point in self.verdicts],
+            "enough": [_range(some) for some in self.enough],
+            "seconds": round(self.seconds, 3),
+        }
+
+    def as_json(self) -> str:
+        """All of it as strict JSON."""
+        return as_json(self.as_dict()).decode()
+
+    def as_csv(self) -> bytes:
+        """A row a point, a column a condition."""
+        return points_as_csv([self])
+
+    def save(self, folder: str | Path) -> None:
+        """Write judgement.json, verdicts.csv, summary.txt and judgement.svg into a folder, which is made."""
+        from validation.report.judged_figure import figure_of  # which takes half a second to import
+
+        files = {
+            "judgement.json": self.as_json().encode(),
+            "verdicts.csv": self.as_csv(),
+            "summary.txt": f"{self.summary()}\n".encode(),
+            "judgement.svg": figure_of([self], "svg"),
+        }
+        for name, contents in files.items():
+            write_whole(Path(folder) / name, contents)
+
+
+def judge(model: object, tolerance: float | str = 0.1) -> Judgement:
+    """Judge a model: where it is enough, with error bars, beside references that come with this package.
+
+    Parameters
+    ----------
+    model : callable or path
+        A function with one of the decorators, as `stiffness_model`; or a file that offers one, which is run as a
+        program, in a process of its own.
+    tolerance : float or str, optional
+        A ratio, or "10 %" or "1 dB". Levels are judged by 20 lg(1 + ratio) dB.
+
+    Returns
+    -------
+    Judgement
+        Verdicts, ranges, and their summary.
+
+    Raises
+    ------
+    TypeError, ValueError, OSError
+        For a function without a decorator, a file that cannot be read or offers more than one model, a tolerance that
+        is none.
+
+    Examples
+    --------
+    >>> @validation.stiffness_model("in series")
+    ... def series(load, side, modulus, roughness):
+    ...     return 1 / (0.49 * roughness.rms / load + 1 / (1.1523 * modulus * side))
+    >>> found = validation.judge(series, "10 %")
+    >>> [some.verdict for some in found.enough if some.where == {"H": 0.7} and some.stop == 10]
+    ['agree']
+    """
+    with visited(model) as callers:
+        if len(callers) > 1:
+            raise ValueError(f"model must be one, got {', '.join(repr(one.name) for one in callers)}: judge them apart")
+        return judged(callers[0], tolerance_of(tolerance))
+
+
+def judged(model: Called, tolerance: Tolerance) -> Judgement:
+    """Of one function, here or in another process."""
+    begin = time.perf_counter()
+    points = list(_points(model, tolerance.relative))
+    return Judgement(model.name, model.kind, tolerance, tuple(points), time.perf_counter() - begin)
+
+
+def _points(model: Called, tolerance: float) -> Iterator[JudgedPoint]:
+    yield from _judge(model.kind)(model, tolerance)
+    if model.printed:
+        yield not_compared("printing", {}, FAILED, f"printed {model.printed!r}")
+
+
+def _judge(kind: str) -> Judge:
+    judge: Judge = judge_of(kind) if kind in JUDGES else resolve_name(OF_SOLVER)
+    return judge
+
+
+def points_as_csv(judgements: list[Judgement]) -> bytes:
+    """A row a point of each; a condition that a point does not have is left empty."""
+    places = dict.fromkeys(name for one in judgements for point in one.verdicts for name in point.where)
+    rows = [
+        {
+            "model": one.model,
+            "quantity": point.quantity,
+            **{name: point.where.get(name, math.nan) for name in places},
+            **{name: getattr(point, name) for name in ("value", "reference", "difference", "error", "unit")},
+            "verdict": point.verdict,
+            "reason": point.reason,
+        }
+        for one in judgements
+        for point in one.verdicts
+    ]
+    return as_csv(Table("verdicts", {name: [row[name] for row in rows] for name in rows[0]} if rows else {}))
+
+
+def _point(point: JudgedPoint) -> dict[str, object]:
+    numbers = {name: _known(getattr(point, name)) for name in ("value", "reference", "difference", "error")}
+    words = {"unit": point.unit, "verdict": point.verdict, "reason": point.reason}
+    return {"quantity": point.quantity, "where": dict(point.where), **numbers, **words}
+
+
+def _range(some: Enough) -> dict[str, object]:
+    ends = {"along": some.along, "from": _known(some.start), "to": _known(some.stop)}
+    return {"quantity": some.quantity, "where": dict(some.where), **ends, "verdict": some.verdict}
+
+
+def _known(value: float) -> float | None:
+    return float(value) if math.isfinite(value) else None

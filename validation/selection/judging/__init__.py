@@ -1,0 +1,1 @@
+"""Models from elsewhere beside the references: what each kind is judged by."""

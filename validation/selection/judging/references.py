@@ -1,0 +1,90 @@
+"""References of the judges: what boundary elements have in a full report, as small files beside this module.
+
+`from_report` writes them; each says in comments of which case, commit and settings it is.
+"""
+
+import csv
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+FOLDER = Path(__file__).with_suffix("")
+VALUES = "value", "sample", "grid"
+Place = float | str
+
+
+@dataclass(frozen=True)
+class Reference:
+    """A number of boundary elements.
+
+    where: the conditions, by name; sample, grid: half-widths of 95 % that the surfaces and the cells leave, over the
+    value, of levels in decibels. Where the report has both in one interval, that is the sample, and the grid is zero.
+    """
+
+    where: Mapping[str, Place]
+    value: float
+    sample: float
+    grid: float
+
+    @property
+    def error(self) -> float:
+        """Both together, as the report adds them."""
+        return self.sample + self.grid
+
+
+@cache
+def curve(quantity: str) -> Sequence[Reference]:
+    """All that is known of a quantity, point by point. Raises LookupError for one without a file."""
+    rows = csv.DictReader(line for line in _lines(quantity) if not line.startswith("#"))
+    return [Reference(*_parted({name: _cell(word) for name, word in row.items()})) for row in rows]
+
+
+def _parted(row: dict[str, Place]) -> tuple[Mapping[str, Place], float, float, float]:
+    value, sample, grid = (float(row.pop(name)) for name in VALUES)
+    return row, value, sample, grid
+
+
+@cache
+def about(quantity: str) -> Mapping[str, Any]:
+    """Unit, case, commit and settings behind a file."""
+    pairs = (line[2:].partition(": ") for line in _lines(quantity) if line.startswith("# "))
+    return {name: json.loads(value) if name == "settings" else value for name, _, value in pairs}
+
+
+def quantities() -> list[str]:
+    """That have a file."""
+    return [str(about(path.stem)["quantity"]) for path in sorted(FOLDER.glob("*.csv"))]
+
+
+def _lines(quantity: str) -> list[str]:
+    path = FOLDER / file_name(quantity)
+    if not path.exists():
+        raise LookupError(f"quantity must be one of {', '.join(quantities())}, got {quantity!r}")
+    return path.read_text(encoding="utf-8").splitlines()
+
+
+def _cell(word: str) -> Place:
+    try:
+        return float(word)
+    except ValueError:
+        return word
+
+
+def file_name(quantity: str) -> str:
+    return f"{quantity.replace(',', '').replace(' ', '_')}.csv"
+
+
+def as_file(head: Mapping[str, Any], rows: Sequence[Reference]) -> bytes:
+    """What `curve` reads: the head as comments, then a row a point, to seven digits, errors to four."""
+    lines = [f"# {name}: {value if isinstance(value, str) else json.dumps(value)}" for name, value in head.items()]
+    cells = [
+        [*map(_word, row.where.values()), f"{row.value:.7g}", f"{row.sample:.4g}", f"{row.grid:.4g}"] for row in rows
+    ]
+    return ("\n".join([*lines, *(",".join(row) for row in [[*rows[0].where, *VALUES], *cells])]) + "\n").encode()
+
+
+def _word(place: Place) -> str:
+    return place if isinstance(place, str) else f"{place:.7g}"
