@@ -16,7 +16,8 @@ class Residual:
     """What is left of the conditions of a contact, w = gap + u - approach; zero for the discrete answer.
 
     tension: the most negative pressure over the largest; complementarity: sum(p |w|) / (s sum(p)), s the deepest
-    geometric overlap; penetration: max(-w) / s; approach: of the bodies [m], as prescribed or as the contact has it.
+    geometric overlap; penetration: max(-w) / s, both NaN without an overlap; approach: of the bodies [m], as prescribed
+    or as the contact has it.
     """
 
     tension: float
@@ -26,7 +27,8 @@ class Residual:
 
     @property
     def worst(self) -> float:
-        return max(self.tension, self.complementarity, self.penetration)
+        """NaN where one of them is."""
+        return float(np.max([self.tension, self.complementarity, self.penetration]))
 
 
 @dataclass(frozen=True)
@@ -57,19 +59,20 @@ class LoveHalfSpace:
         if approach is None:
             approach = float((pressure * separation).sum() / total)
         w, overlap = separation - approach, approach - float(gap.min())
+        scale = overlap if overlap > 0 else math.nan  # pressure without an overlap is no answer
         return Residual(
             tension=max(-float(pressure.min()), 0.0) / float(np.abs(pressure).max()),
-            complementarity=float((np.abs(pressure) * np.abs(w)).sum()) / abs(overlap * total),
-            penetration=max(-float(w.min()), 0.0) / abs(overlap),
+            complementarity=float((np.abs(pressure) * np.abs(w)).sum()) / abs(scale * total),
+            penetration=max(-float(w.min()), 0.0) / scale,
             approach=approach,
         )
 
     @cached_property
-    def _transfer(self) -> NDArray[np.complex128] | FloatArray:
+    def _transfer(self) -> NDArray[np.complex128]:
         (n, m), (dx, dy) = self.shape, self.spacing
         if self.periodic:
             q = 2 * math.pi * np.hypot(fft.fftfreq(n, dx)[:, np.newaxis], fft.rfftfreq(m, dy))
-            return np.divide(2 / self.modulus, q, out=np.zeros_like(q), where=q > 0)
+            return np.asarray(np.divide(2 / self.modulus, q, out=np.zeros(q.shape, dtype=np.complex128), where=q > 0))
         # cells to the right and, by the period of the padded grid, to the left
         x, y = (fft.fftfreq(2 * count, 1 / (2 * count)) * d for count, d in zip(self.shape, self.spacing, strict=True))
         return np.asarray(fft.rfft2(love(x[:, np.newaxis], y, dx, dy) / (math.pi * self.modulus)))
