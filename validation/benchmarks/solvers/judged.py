@@ -3,16 +3,18 @@
 import math
 import time
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 import bem3d
+from validation.analysis.judgement import AGREE, DIFFER, FAILED, UNDECIDED, JudgedPoint, not_compared
 from validation.benchmarks.solvers.discrete import KnownContact, problem_on, problems
+from validation.engine.offered import Caller
 from validation.theory.half_space import LoveHalfSpace, Residual
 
 FloatArray = NDArray[np.float64]
@@ -28,19 +30,23 @@ GRIDS, LONGEST = (32, 64, 128, 256), 10.0
 """Cells on a side that are timed, until a solve takes longer [s]."""
 
 
-class Solver(Protocol):
-    """A contact solver of anyone's.
+TIME, NOT_JUDGED = "time beside bem3d", "a time is neither right nor wrong"
 
-    asks: names of its arguments; options: free, periodic, residual; call: a pressure, or why there is none.
-    """
 
-    @property
-    def name(self) -> str: ...
-    @property
-    def asks(self) -> Sequence[str]: ...
-    @property
-    def options(self) -> Mapping[str, Any]: ...
-    def call(self, **arguments: object) -> object: ...
+def judged(model: Caller, tolerance: float) -> Iterator[JudgedPoint]:
+    """Right or wrong by the residual that the solver names, whatever the tolerance; then its times, not judged."""
+    asked = Asked(model)
+    for finding in asked.findings():
+        where = {"problem": finding.problem}
+        if math.isnan(finding.difference):
+            yield not_compared(finding.quantity, where, FAILED, finding.reason, decides=True)
+            continue
+        verdict, reason = (AGREE, "") if finding.right else (DIFFER, finding.reason)
+        numbers = finding.value, finding.reference, finding.difference
+        yield JudgedPoint(finding.quantity, where, *numbers, 0.0, verdict, reason, decides=True)
+    for row in timed(asked):
+        known, ratio = {"cells": float(row.cells)}, row.seconds / row.ours
+        yield JudgedPoint(TIME, known, row.seconds, row.ours, ratio - 1, math.nan, UNDECIDED, NOT_JUDGED)
 
 
 @dataclass(frozen=True)
@@ -64,7 +70,7 @@ class Finding:
 class Asked:
     """A solver with the residual that it is asked for."""
 
-    solver: Solver
+    solver: Caller
 
     @property
     def residual(self) -> float:
