@@ -21,7 +21,7 @@ MODULES = {
     "load_scene": "scenes.load",
     "load_wheel_scene": "scenes.dynamic_wheel",
     "measured": "scenes.measured_surface",
-    "problems": "benchmarks.solvers.discrete",
+    "problems": "benchmarks.judging.discrete",
     "summary": "selection.summary",
     "to_csv": "selection.exported",
     "to_figure": "report.compared",

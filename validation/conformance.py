@@ -22,8 +22,8 @@ from hypothesis import strategies as st
 
 import bem3d
 import mdr
-from validation.benchmarks.solvers.discrete import KnownContact, problems
-from validation.benchmarks.solvers.judged import Asked, FloatArray, moved, pressed, scaled
+from validation.benchmarks.judging.discrete import KnownContact, problems
+from validation.benchmarks.judging.judged import Asked, FloatArray, moved, pressed, scaled
 from validation.engine.offered import KINDS, Offered, offer
 
 # a few cells are what is asked for

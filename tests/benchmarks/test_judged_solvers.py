@@ -11,8 +11,8 @@ import pytest
 import bem3d
 from bem3d import kernel
 from tests import oracles
-from validation.benchmarks.solvers import discrete
-from validation.benchmarks.solvers.judged import Asked, Timed, growth, timed
+from validation.benchmarks.judging import discrete
+from validation.benchmarks.judging.judged import Asked, Timed, growth, timed
 from validation.engine.offered import Failed
 
 EXAMPLE = Path(discrete.__file__).parents[2] / "examples" / "own_solver.py"
@@ -143,7 +143,7 @@ def test_stored_problems_are_made_anew_to_their_digits_and_hold_their_limits():
 
 
 def test_a_solver_is_timed_beside_ours_until_it_takes_too_long(monkeypatch):
-    monkeypatch.setattr("validation.benchmarks.solvers.judged.GRIDS", (24, 32))
+    monkeypatch.setattr("validation.benchmarks.judging.judged.GRIDS", (24, 32))
     rows = timed(asked(ours))
     assert [row.cells for row in rows] == [24, 32]
     assert all(row.seconds > 0 and row.ours > 0 for row in rows)

@@ -1,7 +1,7 @@
 """A dozen discrete contact problems with their answers, by which a solver is judged.
 
 The answers stand in `discrete.npz` beside this file, readable with numpy alone. `python -m
-validation.benchmarks.solvers.discrete` makes them anew in a minute.
+validation.benchmarks.judging.discrete` makes them anew in a minute.
 """
 
 import io

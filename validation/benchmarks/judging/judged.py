@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 import bem3d
 from validation.analysis.judgement import AGREE, DIFFER, FAILED, UNDECIDED, JudgedPoint, not_compared
-from validation.benchmarks.solvers.discrete import KnownContact, problem_on, problems
+from validation.benchmarks.judging.discrete import KnownContact, problem_on, problems
 from validation.engine.offered import Caller
 from validation.theory.half_space import LoveHalfSpace, Residual
 
