@@ -26,6 +26,7 @@ MODULES = {
     "load_scene": "scenes.load",
     "load_wheel_scene": "scenes.dynamic_wheel",
     "measured": "scenes.measured_surface",
+    "problems": "benchmarks.judging.discrete",
     "profile_spectrum": "engine.offered",
     "rolling_model": "engine.offered",
     "stiffness_model": "engine.offered",

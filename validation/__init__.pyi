@@ -1,5 +1,6 @@
 """What `validation` offers, for type checkers and editors."""
 
+from validation.benchmarks.judging.discrete import problems as problems
 from validation.engine.offered import contact_filter as contact_filter
 from validation.engine.offered import contact_law as contact_law
 from validation.engine.offered import contact_solver as contact_solver

@@ -1,0 +1,1 @@
+"""Whether a contact solver of anyone is right."""
