@@ -20,6 +20,7 @@ from validation.analysis.judgement import (
 )
 from validation.engine.files import write_whole
 from validation.engine.others import Called, visited
+from validation.report.judged_solver import solver_lines
 from validation.report.judged_words import summary_lines
 from validation.selection.judging.judge import JUDGES, Judge, judge_of
 from validation.selection.tolerance import Tolerance, tolerance_of
@@ -76,6 +77,8 @@ class Judgement:
 
     def summary(self) -> str:
         """Where it is enough, the worst points and what they share, and a paragraph for a paper."""
+        if self.kind == "contact_solver":
+            return "\n".join(solver_lines(self.model, self.verdicts, self.seconds))
         return "\n".join(summary_lines(self.model, self.kind, str(self.tolerance), self.verdicts, self.seconds))
 
     def as_dict(self) -> dict[str, object]:

@@ -7,8 +7,7 @@ from pathlib import Path
 from validation.analysis.contents import as_json
 from validation.engine.files import write_given
 from validation.engine.others import Visitor
-from validation.report.commands.arguments import add_options
-from validation.report.commands.exit_status import Exit
+from validation.report.commands.arguments import Exit, add_options
 from validation.report.judged import Judgement, judged, points_as_csv
 from validation.scenes.printable import printable
 from validation.selection.tolerance import tolerance_of

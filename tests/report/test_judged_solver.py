@@ -1,0 +1,37 @@
+"""`judge` of a file with a contact solver: its exit status, and what a person reads."""
+
+import pytest
+
+from validation.__main__ import main
+from validation.benchmarks.judging import judged as solvers
+
+HEAD = """
+import bem3d
+from validation import contact_solver
+
+@contact_solver("mine", residual=1e-4)
+def solve(gap, spacing, modulus, force, tolerance):
+"""
+SOLVE = """
+    half_space = bem3d.HalfSpace(shape=gap.shape, spacing=spacing, modulus={modulus})
+    return bem3d.solve(half_space, gap, force=force, tolerance=tolerance, indenter_ends_at_edge=True).pressure
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("body", "status", "said"),
+    [
+        (SOLVE.format(modulus="modulus"), 0, "contact solver, right in all 68 checks"),
+        (SOLVE.format(modulus="modulus / 0.91"), 1, "the answer for 1.099 times the modulus"),
+        ("    raise ArithmeticError('no luck')", 3, "raised ArithmeticError: no luck"),
+    ],
+)
+def test_a_solver_ends_with_what_it_is(tmp_path, capsys, monkeypatch, body, status, said):
+    monkeypatch.setattr(solvers, "GRIDS", (24,))
+    (tmp_path / "mine.py").write_text(HEAD + body)
+    assert main(["judge", str(tmp_path / "mine.py"), "--json", str(tmp_path / "mine.json")]) == status
+    printed = capsys.readouterr().out
+    assert said in printed
+    assert (tmp_path / "mine.json").exists()
+    assert ("24²" in printed) == (status != 3), "times beside ours, where there are any"
