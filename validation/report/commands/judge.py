@@ -53,9 +53,9 @@ def judge(arguments: argparse.Namespace) -> Exit:
     if not found:
         raise ValueError(f"--only must be one of {printable(names)}, got {printable(arguments.only)}")
     _write(found, arguments)
-    if any(one.wrong for one in found):
-        return Exit.CRITERION_FAILED
-    return Exit.MET if any(one.answered for one in found) else Exit.NOT_CONVERGED
+    if not any(one.answered for one in found):
+        return Exit.NOT_CONVERGED
+    return Exit.CRITERION_FAILED if any(one.wrong for one in found) else Exit.MET
 
 
 def _write(found: list[Judgement], arguments: argparse.Namespace) -> None:
