@@ -4,6 +4,7 @@ import dataclasses
 import multiprocessing
 import os
 import time
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -91,7 +92,7 @@ def test_a_solver_that_fails_is_a_row(forked, monkeypatch):
         other("absent", dies, package="no-such-package"),
         other("warm", warms_up),
     )
-    monkeypatch.setattr(comparison, "SOLVERS", solvers)
+    monkeypatch.setattr(peers, "SOLVERS", solvers)
     outcome = comparison.time_problem(RUN)
     said = dict(zip(outcome["solver"].tolist(), outcome["status"].tolist(), strict=True))
     assert list(said) == [solver.name for solver in solvers]
@@ -186,8 +187,7 @@ def timed_rows(configurations, given):
 
 def test_a_solver_that_is_placed_first_does_not_become_ours():
     with pytest.MonkeyPatch.context() as monkeypatch:
-        for module in (peers, comparison):
-            monkeypatch.setattr(module, "SOLVERS", FIRST)
+        monkeypatch.setattr(peers, "SOLVERS", FIRST)
         monkeypatch.setattr(comparison, "time_in_turns", timed_rows)
         named = [SimpleNamespace(label=each.name) for each in FIRST]
         monkeypatch.setattr(SurfaceProblem, "configurations", lambda self: named)
@@ -198,8 +198,20 @@ def test_a_solver_that_is_placed_first_does_not_become_ours():
         assert outcome[PRESSURE].tolist() == [2.0, 0.0, 0.0]
         (number,) = numbers_of(comparison._speed(finished))
         assert (number.model, number.source, number.value) == ("bem3d", "bem3d, Polonsky-Keer", 2 / 3)
-        assert {n.model for n in comparison._agreement(finished)} == {"theirs", "bem3d, Polonsky-Keer"}
+        assert {n.model for n in comparison._agreement(finished, FIRST)} == {"theirs", "bem3d, Polonsky-Keer"}
         assert peers.of_others() == FIRST[:1]
+
+
+@pytest.mark.slow
+def test_a_solver_of_a_file_races_where_it_serves(forked):
+    own = Path(peers.__file__).parents[1] / "examples" / "own_solver.py"
+    result = comparison.run(dataclasses.replace(SMALL, residual=1e-6, own=str(own)))
+    found = {
+        row["problem"]: row["status"] for rows in result["problems"] for row in rows if "gradients" in row["solver"]
+    }
+    assert set(found.values()) == {"finished"}
+    assert len(found) == 2 and all("free" in problem for problem in found)
+    assert "own_solver.py" in comparison.tables(result)[2]["version"]
 
 
 def test_the_median_lies_between_order_statistics():

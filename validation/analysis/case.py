@@ -55,11 +55,13 @@ class Case:
         """The first of the study, empty where it has none."""
         return self.study.claims[0].says if self.study.claims else ""
 
-    def settings(self, profile: Profile, seed: int | None, scene: Any = None) -> Any:
-        """Of that size, with the seed where it draws anything, and the scene where it has one."""
+    def settings(self, profile: Profile, seed: int | None, scene: Any = None, own: str = "") -> Any:
+        """Of that size, with the seed where it draws anything, and the scene or the file of others where it has one."""
         settings = self.quick if profile == "quick" else self.full
         if seed is not None and hasattr(settings, "seed"):
             settings = replace(settings, seed=seed)
+        if own and hasattr(settings, "own"):
+            settings = replace(settings, own=own)
         return replace(settings, scene=scene) if scene is not None and hasattr(settings, "scene") else settings
 
     def model_needed(self, settings: Any) -> str:

@@ -2,15 +2,20 @@
 
 import importlib.metadata
 import math
+import runpy
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 import bem3d
+from validation.engine.offered import Offered
+from validation.engine.others import OthersError, offered_in
 from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.model import all_models
 
@@ -66,7 +71,8 @@ class PeerSolver:
 
     package: what it is a part of; prepare(problem, tolerance): everything that is done once for a grid, returned as a
     function that solves from a cold start; tolerances: its own, tried in this order, as parts of the residual asked
-    for, until the residual is reached.
+    for, until the residual is reached; serves: "free", "periodic" half-spaces; file: of somebody's own, which has no
+    package.
     """
 
     name: str
@@ -74,10 +80,14 @@ class PeerSolver:
     mode: str
     prepare: Callable[[DiscreteProblem, float], ColdSolve]
     tolerances: tuple[float, ...] = (1.0,)
+    serves: tuple[str, ...] = ("free", "periodic")
+    file: str = ""
 
     @property
     def version(self) -> str | None:
         """None where it is not installed."""
+        if self.file:
+            return Path(self.file).name
         try:
             return importlib.metadata.version(self.package)
         except importlib.metadata.PackageNotFoundError:
@@ -190,6 +200,49 @@ SOLVERS = (
         TIGHTER,
     ),
 )
+
+
+def solvers_with(file: str) -> tuple[PeerSolver, ...]:
+    """All of them, and the contact solvers of a file. Raises OthersError where it offers none, or cannot be read."""
+    if not file:
+        return SOLVERS
+    found = [one for one in offered_in(Path(file)) if one.kind == "contact_solver"]
+    if not found:
+        raise OthersError(f"{Path(file).name}: no function has the decorator @contact_solver")
+    taken = {solver.name for solver in SOLVERS}
+    return (*SOLVERS, *(_own(one, file, f"{one.name}, own" if one.name in taken else one.name) for one in found))
+
+
+def _own(offered: Offered, file: str, name: str) -> PeerSolver:
+    served = tuple(kind for kind in ("free", "periodic") if offered.options[kind])
+    mode = "by approach" if "approach" in offered.asks else "by force"
+    return PeerSolver(name, name, mode, partial(of_file, file, offered.name), TIGHTER, served, file)
+
+
+def of_file(file: str, name: str, problem: DiscreteProblem, tolerance: float) -> ColdSolve:
+    """A solver of somebody's own, in the process that times it."""
+    (solver,) = (one for one in _loaded(file) if one.name == name)
+    gap = problem.gap
+    gap.flags.writeable = False
+    given = {"gap": gap, "spacing": (problem.spacing, problem.spacing), "modulus": problem.modulus}
+    given |= {
+        "periodic": problem.periodic,
+        "force": problem.force,
+        "approach": problem.approach,
+        "tolerance": tolerance,
+    }
+    asked = {argument: given[argument] for argument in solver.asks}
+
+    def solve() -> tuple[Field, float]:
+        return np.array(solver(**asked), dtype=float), math.nan
+
+    return solve
+
+
+@cache
+def _loaded(file: str) -> tuple[Offered, ...]:
+    sys.path.insert(0, str(Path(file).resolve().parent))
+    return tuple(one for one in runpy.run_path(file).values() if isinstance(one, Offered))
 
 
 def of_others() -> tuple[PeerSolver, ...]:

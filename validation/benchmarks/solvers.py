@@ -18,7 +18,15 @@ from validation.analysis.printed import times_source
 from validation.analysis.series import Margin, Series, single
 from validation.analysis.statistics import Interval
 from validation.analysis.study import Outcomes, Study
-from validation.benchmarks.peers import OUR_SOLVER, OURS, SOLVERS, DiscreteProblem, all_methods, by_pressure
+from validation.benchmarks.peers import (
+    OUR_SOLVER,
+    OURS,
+    DiscreteProblem,
+    PeerSolver,
+    all_methods,
+    by_pressure,
+    solvers_with,
+)
 from validation.benchmarks.timing import (
     FINISHED,
     Configuration,
@@ -45,7 +53,7 @@ class SurfaceProblem:
     """A surface pressed on an n x n grid of unit side: a sphere with a = n/4 cells, or a self-affine surface.
 
     Rough: H = 0.7, from 2 pi/L to four cells a wave, rms height 0.01 L; load: F / (E* L^2); residual: that each solver
-    reaches, see `bem3d.residual`.
+    reaches, see `bem3d.residual`; own: a file with other solvers.
     """
 
     surface: str
@@ -54,6 +62,12 @@ class SurfaceProblem:
     periodic: bool
     seed: int
     residual: float
+    own: str = ""
+
+    @property
+    def solvers(self) -> tuple[PeerSolver, ...]:
+        """Those that serve it."""
+        return tuple(solver for solver in solvers_with(self.own) if self.half_space in solver.serves)
 
     @property
     def name(self) -> str:
@@ -91,7 +105,7 @@ class SurfaceProblem:
 
     def configurations(self) -> tuple[Configuration, ...]:
         """Each solver that is installed, in a process of its own."""
-        methods = [NamedMethod(solver.name, by_pressure, (solver,)) for solver in SOLVERS if solver.version]
+        methods = [NamedMethod(solver.name, by_pressure, (solver,)) for solver in self.solvers if solver.version]
         sizes: dict[str, Any] = {"sizes": (self.cells,), "parameter": "# cells a side", "residual": self.residual}
         return tuple(each for by in methods for each in along(by, self, **sizes, worker=by.name))
 
@@ -104,7 +118,7 @@ PRESSURE, FORCE, AREA = (f"{what} difference to ours" for what in ("pressure", "
 def time_problem(given: TimedProblem) -> Outcome:
     """All solvers in processes of their own, with one thread, in turns: a row each."""
     problem, configurations = given.problem, given.problem.configurations()
-    rows = {solver.name: Timing(NOT_INSTALLED, math.nan) for solver in SOLVERS}
+    rows = {solver.name: Timing(NOT_INSTALLED, math.nan) for solver in problem.solvers}
     rows |= zip((each.label for each in configurations), time_in_turns(configurations, given), strict=True)
     ours = rows[OUR_SOLVER].results[0].values["pressure"] if rows[OUR_SOLVER].results else None
     known = {"problem": problem.label, "surface": problem.surface, "half-space": problem.half_space}
@@ -152,7 +166,7 @@ class SolverComparison:
     """All problems.
 
     cells: grids; loads: of the rough surfaces; residual: that each solver reaches; slow: a solve that takes longer is
-    timed once [s].
+    timed once [s]; own: a file with other solvers.
     """
 
     cells: tuple[int, ...] = (64, 128)
@@ -160,12 +174,13 @@ class SolverComparison:
     residual: float = 1e-8
     slow: float = 5.0
     seed: int = 20261121
+    own: str = ""
 
     def problems(self) -> list[SurfaceProblem]:
         """Every surface in both half-spaces on every grid."""
         surfaces = [(SPHERE, SPHERE_LOAD), *((ROUGH, load) for load in self.loads)]
-        kinds = itertools.product((True, False), surfaces, self.cells)
-        return [SurfaceProblem(*surface, n, periodic, self.seed, self.residual) for periodic, surface, n in kinds]
+        kinds, common = itertools.product((True, False), surfaces, self.cells), (self.seed, self.residual, self.own)
+        return [SurfaceProblem(*surface, n, periodic, *common) for periodic, surface, n in kinds]
 
 
 Row = Mapping[str, Any]
@@ -179,7 +194,7 @@ def run(case: SolverComparison, engine: Engine = SERIAL) -> Outcomes:
     # a run that was interrupted goes on; one that is over is timed anew the next time
     with engine.timed() as alone:
         rows = [rows_of(outcome) for outcome in alone.map(time_problem, given)]
-    ours = [solver.name for solver in SOLVERS if solver.package == OURS]
+    ours = [solver.name for solver in solvers_with("") if solver.package == OURS]
     lost = [row for each in rows for row in each if row["solver"] in ours and row["status"] != FINISHED]
     said = tuple(f"{row['problem']}: {row['solver']} {row['status']}" for row in lost)
     return Outcomes(case, {"problems": rows}, said)
@@ -208,7 +223,7 @@ AGREEMENT = (
 def series(result: Outcomes) -> list[Series]:
     """Criteria for what must agree; times, none right or wrong."""
     finished = [_finished(rows) for rows in result["problems"]]
-    return [*_agreement(finished), *_speed(finished)]
+    return [*_agreement(finished, solvers_with(result.case.own)), *_speed(finished)]
 
 
 def _finished(rows: Sequence[Row]) -> dict[str, Row]:
@@ -216,10 +231,10 @@ def _finished(rows: Sequence[Row]) -> dict[str, Row]:
     return {row["solver"]: row for row in rows if row["status"] == FINISHED}
 
 
-def _agreement(finished: Sequence[Mapping[str, Row]]) -> Iterator[Series]:
+def _agreement(finished: Sequence[Mapping[str, Row]], solvers: Sequence[PeerSolver]) -> Iterator[Series]:
     """The largest difference to our answer over all runs that a solver has finished."""
     source = "the same discrete problem has one solution"
-    for name in (solver.name for solver in SOLVERS if solver.name != OUR_SOLVER):
+    for name in (solver.name for solver in solvers if solver.name != OUR_SOLVER):
         done = [rows[name] for rows in finished if {name, OUR_SOLVER} <= rows.keys()]
         if done:
             for what, key, tolerance, reason in AGREEMENT:
@@ -244,8 +259,8 @@ PEERS = "solvers"
 
 
 def tables(result: Outcomes) -> tuple[Table, ...]:
-    timed = result["problems"]
-    versions = [{"solver": s.name, "mode": s.mode, "version": s.version or NOT_INSTALLED} for s in SOLVERS]
+    timed, solvers = result["problems"], solvers_with(result.case.own)
+    versions = [{"solver": s.name, "mode": s.mode, "version": s.version or NOT_INSTALLED} for s in solvers]
     return (
         table_of("heats", list(itertools.chain(*timed))),
         _seconds(timed),

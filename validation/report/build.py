@@ -42,6 +42,7 @@ def build(
     executor: str = LOCAL,
     progress: bool = True,
     keep: bool = False,
+    own: str = "",
     callback: Callable[[Section], None] = lambda section: None,
 ) -> list[Section]:
     """Run the cases, write the report folder, return what it holds.
@@ -49,8 +50,8 @@ def build(
     names: of cases in `CASES` or `TIMED`; profile: "quick" or "full"; out: a new folder or an earlier report;
     workers: processes; seed: for every case that draws, None for the seed of each case; scene: for every case of a
     dynamic wheel, None for its own; executor: see `Engine`; progress: a line on a terminal, lines in a log; keep: the
-    other cases of the report in `out`, as they are; callback: called with each case as it is finished.
-    Results of finished solves are kept in the folder and used again by a later run with the same problem and code.
+    other cases of the report in `out`, as they are; own: a file with solvers for the race; callback: called with each
+    case as it is finished. Finished solves are kept in the folder, for a later run with the same problem and code.
     Raises ValueError for a folder that holds something else or that another run is at, an executor that is none, a
     case without its figure file, and cases that cannot be kept; see `Engine` for what is raised where a run cannot be
     finished.
@@ -69,7 +70,7 @@ def build(
         draw = partial(begin_to_draw, workers=processes, progress=shown.parts[FIGURES], profile=profile)
         pictures = {name: picture for section in kept for name, picture in draw(section.evidence).items()}
         cases = CASES | TIMED
-        settings = {name: cases[name].settings(profile, seed, scene) for name in names}
+        settings = {name: cases[name].settings(profile, seed, scene, own) for name in names}
         unsteady = scene.no_steady_answer() if scene else ""
 
         def run(name: str) -> Any:

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from validation.analysis.evidence import Table
+from validation.benchmarks.peers import solvers_with
 from validation.engine.engine import LOCAL
 from validation.report.build import build
 from validation.report.commands.arguments import Exit, add_options, add_profile, add_workers, at_least
@@ -22,13 +23,16 @@ def describe(making: argparse.ArgumentParser) -> None:
         making.set_defaults(command=cases)
         return
     making.set_defaults(
-        command=report, only=None, keep=False, workers=1, executor=LOCAL, scene=None, timed=name in TIMED
+        command=report, only=None, keep=False, workers=1, executor=LOCAL, scene=None, solver=None, timed=name in TIMED
     )
     add_profile(making)
     if name in TIMED:
         making.set_defaults(only=[name])
         out = ("--out", "DIR", Path, f"folder (default: reports/{name}-quick or reports/{name})")
         add_options(making, out, ("--seed", "S", at_least(0), "seed of the rough surfaces"))
+        if name == "race":
+            own = "a Python file with functions below @contact_solver, which race too; it is run as a program"
+            add_options(making, ("--solver", "FILE", Path, own))
         return
     making.add_argument(
         "--only",
@@ -83,6 +87,7 @@ def report(arguments: argparse.Namespace) -> Exit:
         scene=scene,
         executor=arguments.executor,
         keep=arguments.keep,
+        own=_solvers_of(arguments),
         callback=lambda section: print("\n".join(lines_of(section)), flush=True),
     )
     if any(section.claims for section in sections):
@@ -91,6 +96,14 @@ def report(arguments: argparse.Namespace) -> Exit:
     if any(section.unconverged for section in sections):
         return Exit.NOT_CONVERGED
     return Exit.CRITERION_FAILED if any(section.missed for section in sections) else Exit.MET
+
+
+def _solvers_of(arguments: argparse.Namespace) -> str:
+    """The file of `--solver`, refused before the first solve where it offers none."""
+    if arguments.solver is None:
+        return ""
+    solvers_with(str(arguments.solver))
+    return str(arguments.solver.resolve())
 
 
 def _folder(names: Sequence[str], arguments: argparse.Namespace) -> str:
