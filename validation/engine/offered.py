@@ -1,0 +1,257 @@
+"""What somebody offers to be judged: a function, its name, and what it asks for by the names of its arguments."""
+
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+Given = Mapping[str, Any]
+Shape = tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Failed:
+    """What stands in the place of a value: the reason, in words."""
+
+    reason: str
+
+
+class Caller(Protocol):
+    """An offered function as a judge sees it, in this process or in one of its own.
+
+    `call` takes all that there is and passes on what the function asks for. It returns finite numbers of the right
+    shape, or Failed.
+    """
+
+    @property
+    def kind(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def asks(self) -> tuple[str, ...]: ...
+    @property
+    def options(self) -> Given: ...
+    def call(self, **arguments: Any) -> FloatArray | Failed: ...
+
+
+class OfferedKind(NamedTuple):
+    """arguments: that a function may ask for; needs: must; either: one of each pair, or both where both are None by
+    default; returns: in words; shapes: that a value may have; options: of the decorator, by default."""
+
+    arguments: tuple[str, ...]
+    needs: tuple[str, ...]
+    either: tuple[tuple[str, str], ...]
+    returns: str
+    shapes: Callable[[Given], tuple[Shape, ...]]
+    options: Given
+    example: str
+
+
+def _one(given: Given) -> tuple[Shape, ...]:
+    return ((),)
+
+
+def _mean_and_deviation(given: Given) -> tuple[Shape, ...]:
+    return ((),) if "rng" in given else ((), (2,))
+
+
+def _along(given: Given) -> tuple[Shape, ...]:
+    return (np.shape(given.get("height", given.get("line")))[:1],)
+
+
+def _as(*names: str) -> Callable[[Given], tuple[Shape, ...]]:
+    return lambda given: (np.broadcast_shapes(*(np.shape(given[name]) for name in names if name in given)),)
+
+
+KINDS: Mapping[str, OfferedKind] = {
+    "stiffness_model": OfferedKind(
+        ("load", "side", "modulus", "roughness", "rng"),
+        (),
+        (),
+        "mean stiffness [N/m], or (mean, standard deviation); with rng that of one realisation a call",
+        _mean_and_deviation,
+        {},
+        "def half(load, side, modulus, roughness):\n    return 1 / (1 / (modulus * side) + roughness.rms / load)",
+    ),
+    "stiffness_of_surface": OfferedKind(
+        ("height", "spacing", "modulus", "load"),
+        ("height",),
+        (),
+        "stiffness of that surface [N/m]; height (n, n) is positive towards the other body",
+        _one,
+        {},
+        "def highest(height, spacing, modulus, load):\n    return 2 * modulus * spacing * (height > 0).sum() ** 0.5",
+    ),
+    "force_spectrum": OfferedKind(
+        ("q", "contact_radius", "approach", "radius", "modulus", "roughness"),
+        ("q",),
+        (),
+        "two-sided density [N² m] at q > 0 [rad/m]; its integral over all q is the variance of the force",
+        _as("q"),
+        {},
+        "def linear(q, contact_radius, modulus, roughness):\n"
+        "    return (2 * modulus * contact_radius) ** 2 * roughness.c1d(q)",
+    ),
+    "rolling_model": OfferedKind(
+        ("height", "line", "spacing", "radius", "modulus", "approach", "load"),
+        (),
+        (("height", "line"), ("approach", "load")),
+        "force (nx,) [N] at an approach from the mean plane, entry i with the wheel above cell i; or under a load the "
+        "approach (nx,) [m]. height (nx, ny) is periodic along axis 0, line (nx,) is its middle",
+        _along,
+        {},
+        "def stiff(line, radius, modulus, approach):\n"
+        "    return 4 / 3 * modulus * radius**0.5 * (approach + line).clip(0) ** 1.5",
+    ),
+    "contact_filter": OfferedKind(
+        ("k_x", "k_y", "a_x", "a_y", "approach", "alpha"),
+        ("k_x",),
+        (),
+        "amplitude abs(H) of waves k_x, k_y [rad/m], not its square, one for long waves; without k_y that of the line",
+        _as("k_x", "k_y"),
+        {},
+        "def smooth(k_x, a_x):\n    return 1 / (1 + (k_x * a_x) ** 2 / 4) ** 0.5",
+    ),
+    "profile_spectrum": OfferedKind(
+        ("q", "roughness"),
+        ("q", "roughness"),
+        (),
+        "C_1D [m³] at q [rad/m]: a rule like Geike's",
+        _as("q"),
+        {},
+        "def like_geike(q, roughness):\n    return 3 * q * roughness.c2d(q)",
+    ),
+    "contact_law": OfferedKind(
+        ("approach", "position"),
+        ("approach",),
+        (),
+        "force [N] of a wheel with a mass",
+        _as("approach", "position"),
+        {},
+        "def linear_law(approach):\n    return 1e8 * approach",
+    ),
+    "contact_solver": OfferedKind(
+        ("gap", "spacing", "modulus", "periodic", "tolerance", "force", "approach"),
+        ("gap",),
+        (("force", "approach"),),
+        "pressure (n, m) [Pa]; gap (n, m) is read-only",
+        _as("gap"),
+        {"free": True, "periodic": False, "residual": 1e-4},
+        "def even(gap, spacing, force):\n    return gap * 0 + force / (gap.size * spacing[0] * spacing[1])",
+    ),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Offered:
+    """A function that is offered under a name; it is called as before."""
+
+    kind: str
+    name: str
+    function: Callable[..., Any] = field(repr=False)
+    asks: tuple[str, ...]
+    options: Given
+
+    def __call__(self, *arguments: Any, **named: Any) -> Any:
+        return self.function(*arguments, **named)
+
+
+Decorator = Callable[[Callable[..., Any]], Offered]
+
+
+def _asked(kind: str, function: Callable[..., Any]) -> tuple[str, ...]:
+    """Names of the arguments. Raises TypeError for one that the kind has not, for one too many or too few."""
+    of, known = KINDS[kind], f"@{kind} may ask for {', '.join(KINDS[kind].arguments)}"
+    if not callable(function) or isinstance(function, type | Offered):
+        what = "one that is offered already" if isinstance(function, Offered) else repr(function)
+        raise TypeError(f"@{kind} must stand above a function, got {what}")
+    given = inspect.signature(function).parameters
+    for name, parameter in given.items():
+        if parameter.kind not in (parameter.POSITIONAL_OR_KEYWORD, parameter.KEYWORD_ONLY):
+            raise TypeError(f"arguments go by name, one by one, got {parameter}: {known}")
+        if name not in of.arguments:
+            raise TypeError(f"{name} is unknown: {known}")
+    if missing := [name for name in of.needs if name not in given]:
+        raise TypeError(f"{missing[0]} must be asked for: {known}")
+    for pair in of.either:
+        there = [name for name in pair if name in given]
+        if not there or (len(there) > 1 and any(given[name].default is not None for name in there)):
+            raise TypeError(f"either {pair[0]} or {pair[1]} must be asked for, got {' and '.join(there) or 'neither'}")
+    return tuple(given)
+
+
+def offer(kind: str, name: str, options: Given, function: Callable[..., Any]) -> Offered:
+    """The function under its name. Raises TypeError or ValueError in one sentence that begins with the name."""
+    try:
+        return Offered(kind, name, function, _asked(kind, function), options)
+    except TypeError as error:
+        raise TypeError(f"{name!r}: {error}") from None
+
+
+def _decorator(kind: str) -> Callable[..., Decorator]:
+    of = KINDS[kind]
+
+    def decorate(name: str, /, **options: Any) -> Decorator:
+        if not isinstance(name, str) or not name.strip() or not name.isprintable():
+            raise TypeError(f'@{kind} must have a name, as @{kind}("my model"), got {name!r}')
+        if unknown := [option for option in options if option not in of.options]:
+            raise TypeError(f"option {unknown[0]} is unknown: @{kind} has {', '.join(of.options) or 'none'}")
+        for option, value in options.items():
+            if not isinstance(value, bool if isinstance(of.options[option], bool) else float):
+                raise TypeError(f"option {option} must be as {of.options[option]}, got {value!r}")
+        return lambda function: offer(kind, name, {**of.options, **options}, function)
+
+    decorate.__name__ = decorate.__qualname__ = kind
+    decorate.__doc__ = _documented(kind, of)
+    return decorate
+
+
+def _documented(kind: str, of: OfferedKind) -> str:
+    options = "".join(
+        f"{name} : {type(value).__name__}, optional\n    What it serves; by default {value}.\n"
+        for name, value in of.options.items()
+    )
+    shown = of.example.replace("\n", "\n... ")
+    function = of.example.partition("(")[0].removeprefix("def ")
+    either = "".join(f" Either {a} or {b}." for a, b in of.either)
+    return f"""Offer a function to `judge`: {kind.replace("_", " ")}.
+
+The function returns {of.returns}.
+It asks for some of {", ".join(of.arguments)}, by these names, in SI units.{either}
+
+Parameters
+----------
+name : str
+    Under which it is judged.
+{options}
+Returns
+-------
+callable
+    The decorator of the function, which is called as before.
+
+Raises
+------
+TypeError
+    For an argument that it cannot have, with the list of those that it can, for too few, and for a name that is none.
+
+Examples
+--------
+>>> @validation.{kind}("my model")
+... {shown}
+>>> {function}.name
+'my model'
+"""
+
+
+stiffness_model = _decorator("stiffness_model")
+stiffness_of_surface = _decorator("stiffness_of_surface")
+force_spectrum = _decorator("force_spectrum")
+rolling_model = _decorator("rolling_model")
+contact_filter = _decorator("contact_filter")
+profile_spectrum = _decorator("profile_spectrum")
+contact_law = _decorator("contact_law")
+contact_solver = _decorator("contact_solver")

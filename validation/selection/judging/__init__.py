@@ -1,0 +1,1 @@
+"""Models and rules from outside, beside what boundary elements and closed forms answer."""
