@@ -1,7 +1,7 @@
 """What somebody offers to be judged: a function, its name, and what it asks for by the names of its arguments."""
 
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, Protocol
 
@@ -15,16 +15,17 @@ Shape = tuple[int, ...]
 
 @dataclass(frozen=True)
 class Failed:
-    """What stands in the place of a value: the reason, in words."""
+    """What stands in the place of a value: the reason, in words; refused: whether the function itself says so."""
 
     reason: str
+    refused: bool = False
 
 
 class Caller(Protocol):
     """An offered function as a judge sees it, in this process or in one of its own.
 
     `call` takes all that there is and passes on what the function asks for. It returns finite numbers of the right
-    shape, or Failed.
+    shape, or Failed. `calls` does so for each value of one argument, which takes less time.
     """
 
     @property
@@ -36,6 +37,7 @@ class Caller(Protocol):
     @property
     def options(self) -> Given: ...
     def call(self, **arguments: Any) -> FloatArray | Failed: ...
+    def calls(self, name: str, values: Sequence[Any], arguments: Given) -> list[FloatArray | Failed]: ...
 
 
 class OfferedKind(NamedTuple):

@@ -1,23 +1,22 @@
 """A contact filter of others beside boundary elements: A3 of five wheels on a rail, over what lies across."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping
 from functools import cache, partial
-from itertools import groupby
 
 import numpy as np
 
+from validation.analysis.judgement import FAILED, JudgedPoint, compared, compared_levels, not_compared
 from validation.analysis.statistics import FloatArray
 from validation.engine.offered import Caller, Failed
-from validation.scenes.level_files import curve as level_curve
+from validation.scenes.level_files import curve as levels_of
 from validation.scenes.rail import RailScene
-from validation.selection.judging.judgement import Verdict, compared, lost
-from validation.selection.judging.references import Curve, Place, about, curves
+from validation.selection.judging.references import Place, about, curve
 from validation.simulation.rail_strip import StatedAcross, line_of, strip_bands, structure_of
 from validation.theory.contact_filters import half_space_filter
 
-QUANTITY, LONG = "contact filter", "contact filter of a long wave"
-LOAD, DIAMETER, OFFSET, ALPHA = "load [kN]", "diameter [mm]", "over ISO 3095 [dB]", "alpha"
+FILTER, LONG = "contact filter", "contact filter of a long wave"
+LOAD, DIAMETER, OFFSET, ALPHA, WAVE = "load [kN]", "diameter [mm]", "over ISO 3095 [dB]", "alpha", "wavelength [mm]"
 STEEL = 210e9 / (2 * (1 - 0.3**2))
 """E* of steel on steel [Pa]."""
 COUNTED = -15.0
@@ -26,32 +25,30 @@ LONG_WAVE = 1e-4
 """Its wavenumber times the semi-axis along."""
 
 
-def judged(model: Caller, tolerance: float) -> Iterator[Verdict]:
+def judged(model: Caller, tolerance: float) -> Iterator[JudgedPoint]:
     """In one-third octaves from ridges to isotropic ground; boundary elements rolled over rougher rails too."""
-    wheels = groupby(curves(QUANTITY), key=lambda one: (one.where[LOAD], one.where[DIAMETER]))
-    for place, (_, same) in enumerate(wheels):
-        known = list(same)
-        if not place:
-            yield _long_wave(model, scene_of(known[0]), tolerance)
-        for across in dict.fromkeys(one.where[ALPHA] for one in known):
-            here = [one for one in known if one.where[ALPHA] == across]
-            yield from _on_ground(model, here, float(across), tolerance)
+    known = curve(FILTER)
+    yield _long_wave(model, scene_of(known[0].where), tolerance)
+    # the filter is the same at all levels of the roughness
+    found: dict[tuple[Place, ...], FloatArray | Failed] = {}
+    for one in known:
+        where, scene, alpha = one.where, scene_of(one.where), float(one.where[ALPHA])
+        key = where[LOAD], where[DIAMETER], alpha
+        band = _waves(scene).index(where[WAVE])
+        if _linear(scene, alpha)[: band + 1].min() <= COUNTED:
+            continue
+        if key not in found:
+            found[key] = a3(model, scene, alpha)
+        stated = {**where, ALPHA: "isotropic" if math.isinf(alpha) else alpha}
+        if isinstance(mine := found[key], Failed):
+            yield not_compared(FILTER, stated, FAILED, mine.reason, reference=one.value, unit="dB")
+        else:
+            yield compared_levels(FILTER, stated, float(mine[band]), one.value, one.error, tolerance)
 
 
-def _on_ground(model: Caller, known: Sequence[Curve], alpha: float, tolerance: float) -> Iterator[Verdict]:
-    """The filter is the same at all levels of the roughness."""
-    scene = scene_of(known[0])
-    found = a3(model, scene, alpha)
-    linear = _linear(scene, alpha)
-    for curve in known:
-        for i, (where, value, error) in enumerate(curve.points()):
-            if linear[: i + 1].min() <= COUNTED:
-                break
-            stated: dict[str, Place] = {**where, ALPHA: "isotropic" if math.isinf(alpha) else alpha}
-            if isinstance(found, Failed):
-                yield lost(QUANTITY, stated, found.reason)
-            else:
-                yield compared(QUANTITY, stated, float(found[i]), value, error, tolerance, decibels=True)
+def _waves(scene: RailScene) -> list[float]:
+    """Nominal, of a strip [mm]."""
+    return np.round(1000 * strip_bands(scene).nominal, 2).tolist()
 
 
 def a3(model: Caller, scene: RailScene, alpha: float) -> FloatArray | Failed:
@@ -65,7 +62,9 @@ def a3(model: Caller, scene: RailScene, alpha: float) -> FloatArray | Failed:
     asked: list[tuple[FloatArray, FloatArray]] = []
 
     def noted(k_x: FloatArray, k_y: FloatArray) -> FloatArray:
-        asked.append((np.broadcast_to(k_x, shape := np.broadcast_shapes(k_x.shape, k_y.shape)), np.broadcast_to(k_y, shape)))
+        asked.append(
+            (np.broadcast_to(k_x, shape := np.broadcast_shapes(k_x.shape, k_y.shape)), np.broadcast_to(k_y, shape))
+        )
         return np.ones(shape)
 
     power(noted)
@@ -97,27 +96,27 @@ def _linear(scene: RailScene, alpha: float) -> FloatArray:
     return np.asarray(10 * np.log10(found))
 
 
-def scene_of(known: Curve) -> RailScene:
-    """A conical wheel on a crowned rail of the roughness of ISO 3095."""
-    return _scene(float(known.where[LOAD]), float(known.where[DIAMETER]))
+def scene_of(where: Mapping[str, Place]) -> RailScene:
+    return _scene(float(where[LOAD]), float(where[DIAMETER]))
 
 
 @cache
 def _scene(load: float, diameter: float) -> RailScene:
+    """A conical wheel on a crowned rail of the roughness of ISO 3095."""
     return RailScene(
         name=f"{load:g} kN, {diameter:g} mm",
         radius=diameter / 2000,
         load=1000 * load,
         modulus=STEEL,
-        roughness=level_curve("iso3095-2013"),
-        crown_radius=about(QUANTITY)["settings"]["crown"],
+        roughness=levels_of("iso3095-2013"),
+        crown_radius=about(FILTER)["settings"]["crown"],
     )
 
 
-def _long_wave(model: Caller, scene: RailScene, tolerance: float) -> Verdict:
+def _long_wave(model: Caller, scene: RailScene, tolerance: float) -> JudgedPoint:
     k_x = np.array([LONG_WAVE / scene.contact.along])
     found = model.call(k_x=k_x, k_y=0 * k_x, **_contact(scene), alpha=1.0)
     where: dict[str, Place] = {"k_x a_x": LONG_WAVE}
     if isinstance(found, Failed):
-        return lost(LONG, where, found.reason)
+        return not_compared(LONG, where, FAILED, found.reason, reference=1.0)
     return compared(LONG, where, float(np.abs(found[0])), 1.0, LONG_WAVE, tolerance)

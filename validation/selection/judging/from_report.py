@@ -1,41 +1,58 @@
-"""The references of the judges from the folder of a full report: its numbers, and the few solves that it does not keep.
+"""The references of the judges, from the folder of a full report and a few solves that it does not keep.
 
-The report keeps no mean force by itself and no force position by position: springs roll over their tracks once more, and
-boundary elements over three short strips. Both take minutes; finished solves are stored.
+It keeps no mean force by itself and no force position by position: springs roll over their tracks once more, and
+boundary elements over three short strips. That takes two minutes; finished solves are stored.
 """
 
 import json
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.special import erfinv
 
+import bem3d
 from validation.analysis.contents import csv_name, from_csv
-from validation.analysis.spectra import Bands
-from validation.engine.engine import Engine
-from validation.selection.judging.references import VALUES, Place, as_file, file_name
+from validation.analysis.statistics import DECIBEL
+from validation.engine.engine import Engine, Outcome
+from validation.selection.judging.filters import ALPHA, DIAMETER, FILTER, LOAD, OFFSET, WAVE
+from validation.selection.judging.references import Reference, as_file, file_name
+from validation.selection.judging.rolling import (
+    EACH,
+    GRIDS,
+    HEIGHT,
+    HEIGHTS,
+    LEVEL,
+    LIFT,
+    MEAN,
+    RMS,
+    SLOPE,
+    bands_of,
+    spectrum_of,
+    strip_of,
+    variance_of,
+)
 from validation.simulation.rolling_strip import (
     HERTZ,
-    SMOOTH,
     RoughStrip,
     Strip,
     Tracks,
+    crop_to_reach,
     level_3d,
     roll_strip,
     roll_tracks,
 )
-from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
-from validation.theory.rolling import force_variance
+from validation.simulation.rough_punch import BEM, MDR
+from validation.simulation.track_spectrum import PiecewisePowerLaw
 
-Rows = Iterator[dict[str, Place]]
-BEM, SPRINGS_OVER, LINEAR_OVER = "bem3d", "springs over boundary elements", "linear theory, 3D over boundary elements"
-FBAR, Q, BAND = "Fbar", "q a", "q_max / q_min"
-HEIGHTS, CELLS, LENGTH, WIDTH, SEED = (0.03, 0.1, 0.3), (8, 24), 32.0, 16.0, 351
-"""Of the strips for position by position: h/d; cells to a contact radius, an odd ratio, so that centres meet."""
+Rows = Iterator[Reference]
+SPRINGS_OVER, LINEAR_OVER = "springs over boundary elements", "linear theory, 3D over boundary elements"
+FBAR, Q, BAND, ROLL_OFF = "Fbar", "q a", "q_max / q_min", "q_r L / 2π"
+FEATURES = ("peak ω_eigen", "jump", "slope of region 3", "period of the oscillation")
 
 
 @dataclass(frozen=True)
@@ -60,7 +77,7 @@ class Report:
         about = json.loads((self.folder / "provenance.json").read_text("utf-8"))
         return str(about.get("kept", {}).get(case, about["commit"]))
 
-    def rows(self, case: str, quantity: str, **equal: Place) -> list[dict[str, Any]]:
+    def rows(self, case: str, quantity: str, **equal: float | str) -> list[dict[str, Any]]:
         table = from_csv(quantity, (self.folder / "data" / csv_name(case, quantity)).read_text("utf-8"))
         rows = [dict(zip(table.columns, row, strict=True)) for row in zip(*table.columns.values(), strict=True)]
         return [row for row in rows if equal.items() <= row.items()]
@@ -77,154 +94,144 @@ class Source:
 
 def references_of(folder: Path, engine: Engine) -> dict[str, bytes]:
     """Contents of all files, by their names. Raises ValueError for what is no full report."""
-    report = Report(folder)
-    files = {}
+    report, files = Report(folder), {}
     for quantity, source in SOURCES.items():
-        head = {
-            "quantity": quantity,
-            "unit": source.unit,
-            "case": source.case,
-            "commit": report.commit(source.case),
-            "settings": report.settings(source.case),
-        }
-        rows = [row for row in source.found(report, engine) if math.isfinite(float(row["value"]))]
-        files[file_name(quantity)] = as_file(head, rows)
+        head = {"quantity": quantity, "unit": source.unit, "case": source.case, "commit": report.commit(source.case)}
+        rows = [row for row in source.found(report, engine) if math.isfinite(row.value)]
+        files[file_name(quantity)] = as_file({**head, "settings": report.settings(source.case)}, rows)
     return files
-
-
-def _valued(value: float, sample: float, grid: float = math.nan) -> dict[str, Place]:
-    return dict(zip(VALUES, (value, sample, grid), strict=True))
 
 
 def _half(row: Mapping[str, Any]) -> float:
     return float(row["high"] - row["low"]) / 2
 
 
+def _log_half(row: Mapping[str, Any]) -> float:
+    """Of a logarithm; of springs in full contact, which do not scatter, none."""
+    return math.log(row["high"] / row["low"]) / 2 if row["low"] > 0 else 0.0
+
+
 def _punch(statistic: str, ratio: str) -> Callable[[Report, Engine], Rows]:
     """Of Fig. 14.1: intervals of both methods are of the sample, that of their ratio has what the grids leave too."""
 
     def found(report: Report, _: Engine) -> Rows:
-        case = "fractal_punch"
-        band = float(report.settings(case)["cells"] // 4)
         mine, springs = (
-            {(row["H"], row[FBAR]): row for row in report.rows(case, statistic, model=model)} for model in (BEM, "mdr")
+            {(row["H"], row[FBAR]): row for row in report.rows("fractal_punch", statistic, model=model)}
+            for model in (BEM, MDR)
         )
-        for row in report.rows(case, ratio, model=SPRINGS_OVER):
+        for row in report.rows("fractal_punch", ratio, model=SPRINGS_OVER):
             key = row["H"], row[FBAR]
-            value = mine[key]["value"]
             own, others = (_log_half(one[key]) for one in (mine, springs))
             grid = max(_log_half(row) - math.hypot(own, others), 0.0)
-            yield {"H": key[0], BAND: band, FBAR: key[1], **_valued(value, value * own, value * grid)}
+            yield Reference({"H": key[0], FBAR: key[1]}, mine[key]["value"], own, grid)
 
     return found
 
 
-def _log_half(row: Mapping[str, Any]) -> float:
-    """Of springs in full contact, which do not scatter, none."""
-    return math.log(row["high"] / row["low"]) / 2 if row["low"] > 0 else 0.0
+def _rolled_off(report: Report, _: Engine) -> Rows:
+    """Of the punch of the case interface, whose loads are those of contact fractions in Persson's theory."""
+    settings = report.settings("interface")
+    waves, hurst = settings["pressed"]
+    edges = tuple(2 * math.pi * q for q in (1, waves, settings["band"] * waves))
+    gradient = PiecewisePowerLaw(edges=edges, exponents=(0.0, 2 * hurst + 2)).gradient
+    for row in report.rows("interface", "k h over F", model="boundary elements, punch"):
+        force = gradient * float(erfinv(row["contact in Persson's theory [%]"] / 100)) / math.sqrt(2)
+        where = {"H": hurst, ROLL_OFF: float(waves), FBAR: force}
+        yield Reference(where, force * row["value"], _log_half(row), 0.0)
 
 
 def _by_band(report: Report, _: Engine) -> Rows:
+    """But for the band of Fig. 14.1."""
+    known = report.settings("fractal_punch")["cells"] // 4
     for row in report.rows("bandwidth", "relative deviation", model=BEM):
-        yield {name: row[name] for name in ("H", FBAR, BAND)} | _valued(row["value"], _half(row))
+        if row[BAND] != known:
+            where = {name: float(row[name]) for name in ("H", FBAR, BAND)}
+            yield Reference(where, row["value"], _log_half(row), 0.0)
 
 
 def _interface(report: Report, _: Engine) -> Rows:
-    names = ["q_r L / 2π", "H", "contact in Persson's theory [%]"]
     for row in report.rows("interface", "K h over p", model=BEM):
-        yield {name: float(row[name]) for name in names} | _valued(row["value"], _half(row))
-
-
-def _spectrum(settings: Mapping[str, Any]) -> PiecewisePowerLaw:
-    return self_affine(settings["hurst"], settings["first"], settings["last"])
-
-
-def _bands(settings: Mapping[str, Any]) -> Bands:
-    return Bands.around(math.pi, settings["lowest"], settings["last"]).on(settings["length"])
-
-
-def _at(row: Mapping[str, Any]) -> dict[str, Place]:
-    return {name: float(row[name]) for name in ("h/d", "h' a/d")}
+        where = {name: float(row[name]) for name in (ROLL_OFF, "H", "contact in Persson's theory [%]")}
+        yield Reference(where, row["value"], _log_half(row), 0.0)
 
 
 def _levels(report: Report, _: Engine) -> Rows:
     """Of octaves: linear theory on the half-space less what it is over boundary elements."""
     settings = report.settings("rolling")
-    bands = _bands(settings)
-    exact = level_3d(_spectrum(settings), bands)
+    bands = bands_of(settings)
+    exact = level_3d(spectrum_of(settings), bands)
     for row in report.rows("rolling", "level of an octave", model=LINEAR_OVER):
         middle = int(np.argmin(np.abs(np.log(bands.centres / row[Q]))))
         level = 10 * math.log10(exact[middle - 1 : middle + 2].sum()) - row["value"]
-        yield _at(row) | {Q: float(row[Q])} | _valued(level, _half(row))
+        yield Reference({**_at(row), Q: row[Q]}, level, _half(row), 0.0)
+
+
+def _at(row: Mapping[str, Any]) -> dict[str, float]:
+    return {name: float(row[name]) for name in (HEIGHT, SLOPE)}
 
 
 def _rms(report: Report, _: Engine) -> Rows:
-    spectrum = _spectrum(report.settings("rolling"))
-    variance = force_variance(spectrum.c2d, edges=spectrum.edges, contact_radius=1.0, modulus=1.0) / HERTZ**2
+    variance = variance_of(spectrum_of(report.settings("rolling")))
     for row in report.rows("rolling", "rms force", model=LINEAR_OVER):
-        yield _reversed(row) | _valued(10 * math.log10(variance) - row["value"], _half(row))
-
-
-def _reversed(row: Mapping[str, Any]) -> dict[str, Place]:
-    """The slope first, so that the height is the parameter."""
-    return dict(reversed(_at(row).items()))
+        yield Reference(_at(row), 10 * math.log10(variance) - row["value"], _half(row), 0.0)
 
 
 def _mean(report: Report, engine: Engine) -> Rows:
-    settings = report.settings("rolling")
-    rows = report.rows("rolling", "mean force", model=SPRINGS_OVER)
+    """The springs of the case over what they are over boundary elements."""
+    settings, rows = report.settings("rolling"), report.rows("rolling", "mean force", model=SPRINGS_OVER)
     of_strip = {name: settings[name] for name in ("length", "width", "seed")}
     tracks = [
         Tracks(
-            scene=RoughStrip(spectrum=_spectrum(settings), height=row["h/d"], **of_strip),
+            scene=RoughStrip(spectrum=spectrum_of(settings), height=row[HEIGHT], **of_strip),
             input_spectrum="geike",
             realisations=settings["tracks"],
             springs=settings["springs"],
-            bands=_bands(settings),
+            bands=bands_of(settings),
         )
         for row in rows
     ]
     for row, springs in zip(rows, engine.map(roll_tracks, tracks), strict=True):
-        mean = float(springs["mean"].mean()) / 10 ** (row["value"] / 20)
-        yield _reversed(row) | _valued(mean, mean * math.log(10) / 20 * _half(row))
+        yield Reference(_at(row), float(springs["mean"].mean()) / 10 ** (row["value"] / 20), _half(row) / DECIBEL, 0.0)
 
 
-def stored_strip(height: float) -> RoughStrip:
-    """The strip for position by position, of rms height h/d."""
-    return RoughStrip(spectrum=self_affine(0.7, 1.0, 10.0), height=height, length=LENGTH, width=WIDTH, seed=SEED)
+def roll_under_load(strip: Strip) -> Outcome:
+    """Boundary elements under the load of Hertz: the approach over d; failed: positions that did not converge."""
+    seen, spacing = crop_to_reach(strip.surface(), 1 / strip.cells), 1 / strip.cells
+    wheel: dict[str, Any] = {"radius": 1.0, "modulus": 1.0, "force": HERTZ}
+    found = bem3d.roll(seen, spacing=spacing, tolerance=strip.tolerance, raise_on_failure=False, **wheel)
+    return {"approach": found.approach, "failed": np.array(float(np.count_nonzero(~found.converged)))}
 
 
-def _positions(_: Report, engine: Engine) -> Rows:
-    """The force at each position of the coarse grid, to first order on cells of no size."""
-    coarse, fine = CELLS
-    problems = {(h, n): stored_strip(h).strips(n, 1e-4 * h, 1) for h in HEIGHTS for n in CELLS}
-    force = {key: one[0]["force"] for key, one in engine.map_groups(roll_strip, problems).items()}
-    times = fine // coarse
-    for h in HEIGHTS:
-        at_coarse = force[h, fine][times // 2 :: times]
-        left = (at_coarse - force[h, coarse]) / (times - 1)
-        for i, (value, change) in enumerate(zip((at_coarse + left).tolist(), left.tolist(), strict=True)):
-            yield {"h/d": h, "x / a": (i + 0.5) / coarse} | _valued(value, 0.0, abs(change))
+def _positions(name: str, solve: Callable[[Strip], Outcome]) -> Callable[[Report, Engine], Rows]:
+    """At each position of the coarse grid, to first order on cells of no size, and as much is left."""
+
+    def found(_: Report, engine: Engine) -> Rows:
+        coarse, fine = GRIDS
+        problems = {(h, n): strip_of(h).strips(n, 1e-4 * h, 1) for h in HEIGHTS for n in GRIDS}
+        on = {key: one[0][name] for key, one in engine.map_groups(solve, problems).items()}
+        for h in HEIGHTS:
+            there = on[h, fine][fine // coarse // 2 :: fine // coarse]
+            left = (there - on[h, coarse]) / (fine // coarse - 1)
+            for i, (value, change) in enumerate(zip((there + left).tolist(), left.tolist(), strict=True)):
+                yield Reference({HEIGHT: h, "x / a": (i + 0.5) / coarse}, value, 0.0, abs(change / value))
+
+    return found
 
 
 def _filters(report: Report, _: Engine) -> Rows:
+    """alpha: zero of ridges, infinite of isotropic ground."""
     alpha = {"ridges": 0.0, "isotropic ground": math.inf}
     for row in report.rows("across", "A3", model="boundary elements"):
         load, diameter = (float(word.split()[0]) for word in row["wheel"].split(", "))
         across = alpha[row["across"]] if row["across"] in alpha else float(row["across"].split(" = ")[1])
-        place = {"load [kN]": load, "diameter [mm]": diameter, "over ISO 3095 [dB]": float(row["over ISO 3095 [dB]"])}
-        yield {**place, "alpha": across, "wavelength [mm]": float(row["wavelength [mm]"])} | _valued(
-            row["value"], _half(row)
-        )
-
-
-FEATURES = ("peak ω_eigen", "jump", "slope of region 3", "period of the oscillation")
+        where = {LOAD: load, DIAMETER: diameter, OFFSET: float(row[OFFSET]), ALPHA: across, WAVE: float(row[WAVE])}
+        yield Reference(where, row["value"], _half(row), 0.0)
 
 
 def _features(report: Report, _: Engine) -> Rows:
-    for number, name in enumerate(FEATURES):
+    for name in FEATURES:
         (row,) = report.rows("wheel", name, changed="nothing")
-        yield {"feature": name, "number": float(number)} | _valued(row["value"], _half(row))
+        yield Reference({"feature": name}, row["value"], abs(_half(row) / row["value"]), 0.0)
 
 
 SOURCES: Mapping[str, Source] = {
@@ -232,12 +239,14 @@ SOURCES: Mapping[str, Source] = {
     "deviation of the stiffness": Source(
         "over the mean", "fractal_punch", _punch("relative deviation of k", "relative deviation")
     ),
-    "deviation of the stiffness by bandwidth": Source("over the mean", "bandwidth", _by_band),
+    "mean stiffness with a roll-off": Source("k / (E* L)", "interface", _rolled_off),
+    "deviation of the stiffness, by bandwidth": Source("over the mean", "bandwidth", _by_band),
     "stiffness of an interface": Source("K h / p", "interface", _interface),
-    "force level": Source("dB, over F_Hertz^2 (h/d)^2, of an octave", "rolling", _levels),
-    "rms force": Source("dB, over F_Hertz^2 (h/d)^2", "rolling", _rms),
-    "mean force": Source("over F_Hertz", "rolling", _mean),
-    "force at a position": Source("over F_Hertz", "rolling", _positions),
-    "contact filter": Source("dB, A3", "across", _filters),
+    LEVEL: Source("dB, over F_Hertz^2 (h/d)^2, of an octave", "rolling", _levels),
+    RMS: Source("dB, over F_Hertz^2 (h/d)^2", "rolling", _rms),
+    MEAN: Source("over F_Hertz", "rolling", _mean),
+    EACH: Source("over F_Hertz", "rolling", _positions("force", roll_strip)),
+    LIFT: Source("over d", "rolling", _positions("approach", roll_under_load)),
+    FILTER: Source("dB, A3", "across", _filters),
     "feature of the wheel": Source("rad/s, but for the slope", "wheel", _features),
 }

@@ -1,115 +1,90 @@
-"""References of the judges: the curves of a full report, as small files beside this module."""
+"""References of the judges: what boundary elements have in a full report, as small files beside this module.
+
+`from_report` writes them; each says in comments of which case, commit and settings it is.
+"""
 
 import csv
 import json
-import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from validation.analysis.statistics import FloatArray
-
-FOLDER = Path(__file__).with_name("references")
+FOLDER = Path(__file__).with_suffix("")
 VALUES = "value", "sample", "grid"
-MADE_BY = "mdr-validation calibrate --references REPORT"
 Place = float | str
 
 
-@dataclass(frozen=True, eq=False)
-class Curve:
-    """A quantity of boundary elements along a parameter.
+@dataclass(frozen=True)
+class Reference:
+    """A number of boundary elements.
 
-    where: the conditions, by name; along, at: the parameter and its values; value; sample, grid: half-widths of 95 % that
-    the surfaces and the cells leave, in the unit of the value. Where the report has both in one interval that is the
-    sample, and the grid is zero.
+    where: the conditions, by name; sample, grid: half-widths of 95 % that the surfaces and the cells leave, over the
+    value, of levels in decibels. Where the report has both in one interval, that is the sample, and the grid is zero.
     """
 
-    quantity: str
     where: Mapping[str, Place]
-    along: str
-    at: FloatArray
-    value: FloatArray
-    sample: FloatArray
-    grid: FloatArray
+    value: float
+    sample: float
+    grid: float
 
     @property
-    def error(self) -> FloatArray:
+    def error(self) -> float:
         """Both together, as the report adds them."""
-        return np.asarray(self.sample + self.grid)
-
-    def points(self) -> Iterator[tuple[dict[str, Place], float, float]]:
-        """Of each point the place, the value and its error."""
-        for at, value, error in zip(self.at.tolist(), self.value.tolist(), self.error.tolist(), strict=True):
-            yield {**self.where, self.along: at}, value, error
-
-
-def curve(quantity: str, **where: Place) -> Curve:
-    """The one curve under these conditions. Raises LookupError where it is none, or one of several."""
-    found = [one for one in curves(quantity) if where.items() <= one.where.items()]
-    if len(found) != 1:
-        raise LookupError(f"one curve of {quantity!r} must have {where}, got {len(found)}")
-    return found[0]
+        return self.sample + self.grid
 
 
 @cache
-def curves(quantity: str) -> tuple[Curve, ...]:
-    """All of a quantity. Raises LookupError for a quantity without a file."""
-    names, rows = _table(quantity)
-    *conditions, along = names[: -len(VALUES)]
-    parted = groupby(rows, key=lambda row: [row[name] for name in conditions])
-    return tuple(_curve(quantity, conditions, along, list(some)) for _, some in parted)
+def curve(quantity: str) -> Sequence[Reference]:
+    """All that is known of a quantity, point by point. Raises LookupError for one without a file."""
+    rows = csv.DictReader(line for line in _lines(quantity) if not line.startswith("#"))
+    return [Reference(*_parted({name: _cell(word) for name, word in row.items()})) for row in rows]
 
 
-def _curve(quantity: str, conditions: Sequence[str], along: str, rows: Sequence[Mapping[str, Place]]) -> Curve:
-    columns = (np.array([float(row[name]) for row in rows]) for name in (along, *VALUES))
-    at, value, sample, grid = (np.nan_to_num(column) for column in columns)
-    return Curve(quantity, {name: rows[0][name] for name in conditions}, along, at, value, sample, grid)
+def _parted(row: dict[str, Place]) -> tuple[Mapping[str, Place], float, float, float]:
+    value, sample, grid = (float(row.pop(name)) for name in VALUES)
+    return row, value, sample, grid
 
 
 @cache
 def about(quantity: str) -> Mapping[str, Any]:
     """Unit, case, commit and settings behind a file."""
-    lines = [line[2:] for line in _text(quantity).splitlines() if line.startswith("# ")]
-    pairs = (line.partition(": ") for line in lines)
+    pairs = (line[2:].partition(": ") for line in _lines(quantity) if line.startswith("# "))
     return {name: json.loads(value) if name == "settings" else value for name, _, value in pairs}
 
 
 def quantities() -> list[str]:
     """That have a file."""
-    return sorted(path.stem.replace("_", " ") for path in FOLDER.glob("*.csv"))
+    return [str(about(path.stem)["quantity"]) for path in sorted(FOLDER.glob("*.csv"))]
 
 
-def _text(quantity: str) -> str:
+def _lines(quantity: str) -> list[str]:
     path = FOLDER / file_name(quantity)
     if not path.exists():
         raise LookupError(f"quantity must be one of {', '.join(quantities())}, got {quantity!r}")
-    return path.read_text(encoding="utf-8")
-
-
-def _table(quantity: str) -> tuple[list[str], list[dict[str, Place]]]:
-    names, *rows = csv.reader(line for line in _text(quantity).splitlines() if not line.startswith("#"))
-    return names, [dict(zip(names, map(_cell, row), strict=True)) for row in rows]
+    return path.read_text(encoding="utf-8").splitlines()
 
 
 def _cell(word: str) -> Place:
     try:
-        return float(word or math.nan)
+        return float(word)
     except ValueError:
         return word
 
 
 def file_name(quantity: str) -> str:
-    return f"{quantity.replace(' ', '_')}.csv"
+    return f"{quantity.replace(',', '').replace(' ', '_')}.csv"
 
 
-def as_file(head: Mapping[str, Any], rows: Sequence[Mapping[str, Place]]) -> bytes:
-    """What `curves` reads: the head as comments, a row a point, seven digits; values are the last three columns."""
+def as_file(head: Mapping[str, Any], rows: Sequence[Reference]) -> bytes:
+    """What `curve` reads: the head as comments, then a row a point, to seven digits, errors to four."""
     lines = [f"# {name}: {value if isinstance(value, str) else json.dumps(value)}" for name, value in head.items()]
-    cells = [[f"{cell:.7g}" if isinstance(cell, float) else str(cell) for cell in row.values()] for row in rows]
-    quoted = [",".join(f'"{cell}"' if "," in cell else cell for cell in row) for row in [list(rows[0]), *cells]]
-    return ("\n".join([*lines, *quoted]) + "\n").replace("nan", "").encode()
+    cells = [
+        [*map(_word, row.where.values()), f"{row.value:.7g}", f"{row.sample:.4g}", f"{row.grid:.4g}"] for row in rows
+    ]
+    return ("\n".join([*lines, *(",".join(row) for row in [[*rows[0].where, *VALUES], *cells])]) + "\n").encode()
+
+
+def _word(place: Place) -> str:
+    return place if isinstance(place, str) else f"{place:.7g}"
