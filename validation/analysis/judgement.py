@@ -147,6 +147,11 @@ class Enough:
 Group = tuple[str, Conditions, str, Sequence[JudgedPoint]]
 
 
+def is_property(group: Group) -> bool:
+    """Whether it is a rule that every model must follow, as its references say, which are one."""
+    return all(point.reference == 1 for point in group[3])
+
+
 def groups_of(points: Iterable[JudgedPoint]) -> Iterator[Group]:
     """Quantity, conditions and the number that decides, which has most values, and the points along it, ascending."""
     of: dict[str, list[JudgedPoint]] = {}
@@ -166,12 +171,12 @@ def groups_of(points: Iterable[JudgedPoint]) -> Iterator[Group]:
 
 def enough(points: Iterable[JudgedPoint]) -> list[Enough]:
     """Where a model agrees, differs, and where neither is known."""
-    return [
-        Enough(quantity, where, along, *(float(one.where.get(along, math.nan)) for one in (some[0], some[-1])), verdict)
-        for quantity, where, along, ordered in groups_of(points)
-        for verdict, run in groupby(ordered, lambda point: point.verdict)
-        for some in [list(run)]
-    ]
+    found = []
+    for quantity, where, along, ordered in groups_of(points):
+        for verdict, run in groupby(ordered, lambda point: point.verdict):
+            ends = [float(point.where.get(along, math.nan)) for point in run]
+            found.append(Enough(quantity, where, along, ends[0], ends[-1], verdict))
+    return found
 
 
 def worst(points: Iterable[JudgedPoint], count: int = 5) -> list[JudgedPoint]:

@@ -34,7 +34,7 @@ def judged(model: Caller, tolerance: float) -> Iterator[JudgedPoint]:
     for one in known:
         where, scene, alpha = one.where, scene_of(one.where), float(one.where[ALPHA])
         key = where[LOAD], where[DIAMETER], alpha
-        band = _waves(scene).index(where[WAVE])
+        band = _waves(scene).index(float(where[WAVE]))
         if _linear(scene, alpha)[: band + 1].min() <= COUNTED:
             continue
         if key not in found:
@@ -48,7 +48,7 @@ def judged(model: Caller, tolerance: float) -> Iterator[JudgedPoint]:
 
 def _waves(scene: RailScene) -> list[float]:
     """Nominal, of a strip [mm]."""
-    return np.round(1000 * strip_bands(scene).nominal, 2).tolist()
+    return [float(one) for one in np.round(1000 * strip_bands(scene).nominal, 2)]
 
 
 def a3(model: Caller, scene: RailScene, alpha: float) -> FloatArray | Failed:

@@ -19,23 +19,12 @@ import bem3d
 from validation.analysis.contents import csv_name, from_csv
 from validation.analysis.statistics import DECIBEL
 from validation.engine.engine import Engine, Outcome
+from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.selection.judging.filters import ALPHA, DIAMETER, FILTER, LOAD, OFFSET, WAVE
+from validation.selection.judging.laws import FEATURE, REGION, ends_of
 from validation.selection.judging.references import Reference, as_file, file_name
-from validation.selection.judging.rolling import (
-    EACH,
-    GRIDS,
-    HEIGHT,
-    HEIGHTS,
-    LEVEL,
-    LIFT,
-    MEAN,
-    RMS,
-    SLOPE,
-    bands_of,
-    spectrum_of,
-    strip_of,
-    variance_of,
-)
+from validation.selection.judging.rolling import EACH, GRIDS, HEIGHTS, LIFT, strip_of
+from validation.selection.judging.spectra import HEIGHT, LEVEL, MEAN, RMS, SLOPE, bands_of, spectrum_of, variance_of
 from validation.simulation.rolling_strip import (
     HERTZ,
     RoughStrip,
@@ -52,6 +41,8 @@ from validation.simulation.track_spectrum import PiecewisePowerLaw
 Rows = Iterator[Reference]
 SPRINGS_OVER, LINEAR_OVER = "springs over boundary elements", "linear theory, 3D over boundary elements"
 FBAR, Q, BAND, ROLL_OFF = "Fbar", "q a", "q_max / q_min", "q_r L / 2π"
+TENTH = 1.2816
+"""Of a Gaussian, its deviations to the highest tenth."""
 FEATURES = ("peak ω_eigen", "jump", "slope of region 3", "period of the oscillation")
 
 
@@ -234,6 +225,21 @@ def _features(report: Report, _: Engine) -> Rows:
         yield Reference({"feature": name}, row["value"], abs(_half(row) / row["value"]), 0.0)
 
 
+def _regions(report: Report, _: Engine) -> Rows:
+    """Of springs without a window; the sample by the lowest and the highest tenth of the wheels, as if Gaussian."""
+    curves = {}
+    for model in ("no window, (14.17)", "lowest tenth of wheels", "highest tenth of wheels"):
+        rows = report.rows("wheel", "A in twelfths of an octave", model=model)
+        curves[model] = np.array([row["value"] for row in rows])
+        centres = np.array([row["ω [rad/s]"] for row in rows])
+    mean, lowest, highest = curves.values()
+    spread = 10 * np.log10(highest / lowest) / (2 * TENTH) / math.sqrt(report.settings("wheel")["realisations"])
+    for name, (first, last) in ends_of(load_wheel_scene("table_14_1")).items():
+        inside = (centres > first) & (centres < last)
+        half = 1.96 * float(np.mean(spread[inside]))
+        yield Reference({"region": name}, float(np.mean(10 * np.log10(mean[inside]))), half, 0.0)
+
+
 SOURCES: Mapping[str, Source] = {
     "mean stiffness": Source("k / (E* L)", "fractal_punch", _punch("k / (E* L)", "mean stiffness")),
     "deviation of the stiffness": Source(
@@ -248,5 +254,6 @@ SOURCES: Mapping[str, Source] = {
     EACH: Source("over F_Hertz", "rolling", _positions("force", roll_strip)),
     LIFT: Source("over d", "rolling", _positions("approach", roll_under_load)),
     FILTER: Source("dB, A3", "across", _filters),
-    "feature of the wheel": Source("rad/s, but for the slope", "wheel", _features),
+    FEATURE: Source("rad/s, but for the slope", "wheel", _features),
+    REGION: Source("dB re 1 (m/s^2)^2 s", "wheel", _regions),
 }

@@ -1,0 +1,323 @@
+"""Functions of others: a file is run as a program in a process of its own, and what it does wrong is said in words."""
+
+import hashlib
+import importlib.util
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import traceback
+import warnings
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, redirect_stdout, suppress
+from dataclasses import dataclass, field
+from importlib.machinery import SourceFileLoader
+from io import StringIO
+from multiprocessing.connection import Connection, Pipe
+from pathlib import Path
+from types import TracebackType
+from typing import IO, Any
+
+import numpy as np
+
+from validation.engine.offered import KINDS, Failed, FloatArray, Offered
+from validation.engine.workers import ONE_THREAD
+
+SECONDS, LOADING = 10.0, 60.0
+"""In which a call, and the import of a file, must end."""
+HANGS = 3
+"""After so many nothing is asked any more."""
+SHOWN = 160
+"""Characters of what was printed or raised."""
+ROOT = Path(__file__).parents[2]
+
+
+class OthersError(ValueError):
+    """A file cannot be judged, in one sentence."""
+
+
+def called(offered: Offered, arguments: Mapping[str, Any]) -> FloatArray | Failed:
+    """The value, finite and of the right shape, or what is wrong. Arrays are read-only copies, compared afterwards."""
+    given = {name: arguments[name] for name in offered.asks if name in arguments}
+    arrays = {name: value.copy() for name, value in given.items() if isinstance(value, np.ndarray)}
+    lent = {name: value.copy() for name, value in arrays.items()}
+    for value in lent.values():
+        value.setflags(write=False)
+    try:
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")
+            # a view of what cannot be written cannot be made writeable
+            value = offered.function(**{**given, **{name: value[...] for name, value in lent.items()}})
+    except (Exception, SystemExit) as error:
+        return Failed(f"raised {raised(error)}", refused=_is_raised_on_purpose(error))
+    if changed := [name for name, kept in arrays.items() if not np.array_equal(kept, lent[name], equal_nan=True)]:
+        return Failed(f"changed {changed[0]}, which is not its own")
+    return _number(value, KINDS[offered.kind].shapes(given))
+
+
+def _number(value: Any, shapes: tuple[tuple[int, ...], ...]) -> FloatArray | Failed:
+    if value is None:
+        return Failed("returned nothing")
+    try:
+        array = np.asarray(value)
+        if array.dtype.kind not in "fiu" or np.ma.is_masked(value):
+            what = (
+                "complex numbers" if array.dtype.kind == "c" else "masked values" if array.dtype.kind in "fiu" else ""
+            )
+            return Failed(f"returned {what or type(value).__name__}, must be real numbers")
+        numbers = array.astype(np.float64)
+    except (TypeError, ValueError):
+        return Failed("returned rows of different lengths")
+    if numbers.shape not in shapes:
+        wanted = " or ".join(str(shape) if shape else "one number" for shape in shapes)
+        return Failed(f"returned shape {numbers.shape}, must be {wanted}")
+    if broken := int(np.count_nonzero(~np.isfinite(numbers))):
+        return Failed("returned NaN or infinity" + (f", {broken} of {numbers.size} values" if numbers.ndim else ""))
+    return numbers
+
+
+def raised(error: BaseException, path: Path | None = None) -> str:
+    """Its name, its words, and the last line of the file, or of any, that it went through."""
+    said = " ".join(str(error).split())
+    frames = traceback.extract_tb(error.__traceback__)
+    mine = [frame for frame in frames if Path(frame.filename).is_relative_to(path.parent)] if path else frames[1:]
+    where = f", line {mine[-1].lineno} of {Path(mine[-1].filename).name}" if mine else ""
+    said = said if len(said) <= SHOWN else f"{said[:SHOWN]}..."
+    return f"{type(error).__name__}{f': {said}' if said else ''}{where}"
+
+
+def _is_raised_on_purpose(error: BaseException) -> bool:
+    """Whether the last line is a statement that raises."""
+    frames = traceback.extract_tb(error.__traceback__)
+    return bool(frames) and (frames[-1].line or "").lstrip().startswith("raise ")
+
+
+@dataclass
+class Called:
+    """An offered function as a `Caller`: in this process, or by a visitor. printed: the first of what it printed."""
+
+    offered: Offered
+    visitor: "Visitor | None" = None
+    printed: str = field(default="", init=False)
+
+    @property
+    def kind(self) -> str:
+        return self.offered.kind
+
+    @property
+    def name(self) -> str:
+        return self.offered.name
+
+    @property
+    def asks(self) -> tuple[str, ...]:
+        return self.offered.asks
+
+    @property
+    def options(self) -> Mapping[str, Any]:
+        return self.offered.options
+
+    def call(self, **arguments: Any) -> FloatArray | Failed:
+        return self.calls("", [None], arguments)[0]
+
+    def calls(self, name: str, values: Sequence[Any], arguments: Mapping[str, Any]) -> list[FloatArray | Failed]:
+        if self.visitor:
+            found, printed = self.visitor.calls(self.offered, name, values, arguments)
+        else:
+            with redirect_stdout(StringIO()) as text:
+                found = [called(self.offered, {**arguments, name: value}) for value in values]
+            printed = text.getvalue()
+        self.printed = self.printed or " ".join(printed.split())[:SHOWN]
+        return found
+
+
+class Visitor:
+    """A file in a process of its own, which is ended where a call hangs, and started again.
+
+    offered: what it offers, whose functions are not here; sources: the file and the modules that it has loaded from its
+    folder. Raises OthersError where the file is broken or offers nothing, OSError where it cannot be read.
+    """
+
+    def __init__(self, path: Path, *, seconds: float = SECONDS):
+        self.path, self.seconds, self._hangs = path.absolute(), seconds, 0
+        self.sources: tuple[Path, ...] = ()
+        self.path.read_bytes()
+        self._start()
+
+    def __enter__(self) -> "Visitor":
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._end()
+
+    def callers(self) -> list[Called]:
+        """One of each function."""
+        return [Called(one, self) for one in self.offered]
+
+    @property
+    def digest(self) -> str:
+        """Of the bytes of the file, and of every module that it has loaded from its folder."""
+        sources = b"".join(hashlib.sha256(path.read_bytes()).digest() for path in self.sources)
+        return hashlib.sha256(sources).hexdigest()
+
+    def calls(
+        self, offered: Offered, name: str, values: Sequence[Any], arguments: Mapping[str, Any]
+    ) -> tuple[list[FloatArray | Failed], str]:
+        """The value, or what is wrong, for each value of one argument, and what was printed."""
+        given = {one: arguments[one] for one in offered.asks if one in arguments}
+        found: list[FloatArray | Failed] = []
+        printed = ""
+        while len(found) < len(values):
+            if self._hangs >= HANGS:
+                reason = f"no answer within {self.seconds:g} s, {HANGS} times: not asked any more"
+                return found + [Failed(reason)] * (len(values) - len(found)), printed
+            if self._process.poll() is not None:
+                self._start()
+            try:
+                self._pipe.send((self.offered.index(offered), given, name, values[len(found) :]))
+                for _ in values[len(found) :]:
+                    one, text = self._answer()
+                    found.append(one)
+                    printed = printed or text
+            except TimeoutError:
+                self._hangs += 1
+                self._end()
+                found.append(Failed(f"no answer within {self.seconds:g} s"))
+            except (EOFError, OSError):
+                found.append(Failed(f"ended its process{self._how()}"))
+        return found, printed
+
+    def _answer(self) -> tuple[FloatArray | Failed, str]:
+        if not self._pipe.poll(self.seconds):
+            raise TimeoutError
+        found, printed, sources = self._pipe.recv()
+        self.sources = sources or self.sources
+        return found, printed
+
+    def _start(self) -> None:
+        self._pipe, theirs = Pipe()
+        words = [sys.executable, "-P", "-c", f"from {__name__} import serve; serve({theirs.fileno()})", str(self.path)]
+        folders = [str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])]
+        self._process = subprocess.Popen(
+            words,
+            env={**os.environ, **ONE_THREAD, "PYTHONPATH": os.pathsep.join(folders)},
+            pass_fds=[theirs.fileno()],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,
+        )
+        theirs.close()
+        try:
+            found = self._pipe.recv() if self._pipe.poll(LOADING) else f"is not read within {LOADING:g} s"
+        except (EOFError, OSError):
+            found = f"ended its process{self._how()}"
+        if isinstance(found, str):
+            self._end()
+            raise OthersError(f"{self.path.name}: {found}")
+        declared, self.sources = found
+        if not hasattr(self, "offered"):
+            self.offered = [Offered(kind, name, _elsewhere, asks, options) for kind, name, asks, options in declared]
+
+    def _how(self) -> str:
+        self._process.wait()
+        status = self._process.returncode
+        return f" by signal {-status}" if status < 0 else f" with status {status}"
+
+    def _end(self) -> None:
+        with suppress(ProcessLookupError, PermissionError):
+            os.killpg(self._process.pid, signal.SIGKILL)
+        self._process.wait()
+        self._pipe.close()
+
+
+def _elsewhere(**_: Any) -> None:
+    raise NotImplementedError("the function is in another process")
+
+
+@contextmanager
+def visited(model: object) -> Iterator[list[Called]]:
+    """What a file offers, or the one function that is given.
+
+    Raises TypeError for what is neither, OthersError for a file that cannot be judged.
+    """
+    if isinstance(model, str | Path):
+        with Visitor(Path(model)) as visitor:
+            yield visitor.callers()
+    elif isinstance(model, Offered):
+        yield [Called(model)]
+    else:
+        raise TypeError(f"model must be a function with a decorator, as @stiffness_model, or a file, got {model!r}")
+
+
+def offered_in(path: Path) -> list[Offered]:
+    """What a file offers, in its order. Raises OthersError in one sentence, OSError where it cannot be read."""
+    with Visitor(path) as visitor:
+        return visitor.offered
+
+
+def serve(handle: int) -> None:
+    """The other process: load the file that the command line names, then answer until nobody asks."""
+    pipe, path = Connection(handle), Path(sys.argv[1])
+    with tempfile.TemporaryFile() as printed:
+        for stream in (1, 2):
+            os.dup2(printed.fileno(), stream)
+        try:
+            offered = _loaded(path)
+            pipe.send(([(one.kind, one.name, one.asks, one.options) for one in offered], _sources(path)))
+        except OthersError as error:
+            pipe.send(str(error))
+            return
+        with suppress(EOFError):
+            while True:
+                index, arguments, name, values = pipe.recv()
+                for value in values:
+                    loaded = len(sys.modules)
+                    found = called(offered[index], {**arguments, name: value})
+                    sources = _sources(path) if len(sys.modules) > loaded else ()
+                    pipe.send((found, _printed(printed), sources))
+
+
+def _printed(file: IO[bytes]) -> str:
+    """What was written into the file since it was empty, the first of it; it is emptied."""
+    sys.stdout.flush()
+    if not os.fstat(file.fileno()).st_size:
+        return ""
+    file.seek(0)
+    text = file.read(4 * SHOWN)
+    file.seek(0)
+    file.truncate()
+    return text.decode(errors="replace")
+
+
+def _loaded(path: Path) -> list[Offered]:
+    """Run the file as a program whose folder can be imported; it is imported under its own name where that is free."""
+    sys.path.insert(0, str(path.parent))
+    name = path.stem if path.stem not in sys.modules else "_judged"
+    loader = SourceFileLoader(name, str(path))
+    spec = importlib.util.spec_from_loader(name, loader)
+    assert spec is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    try:
+        loader.exec_module(module)
+    except (Exception, SystemExit) as error:
+        raise OthersError(raised(error, path)) from None
+    found = list(dict.fromkeys(one for one in vars(module).values() if isinstance(one, Offered)))
+    if not found:
+        raise OthersError(f"no function has a decorator, which is one of @{', @'.join(KINDS)}")
+    names = [one.name for one in found]
+    if twice := next((one for one in names if names.count(one) > 1), None):
+        raise OthersError(f"two functions are offered as {twice!r}")
+    return found
+
+
+def _sources(path: Path) -> tuple[Path, ...]:
+    """The file and the modules that are loaded from its folder, but for installed packages."""
+    files = {
+        Path(file) for one in list(sys.modules.values()) if isinstance(file := getattr(one, "__file__", None), str)
+    }
+    near = {file for file in files if file.is_relative_to(path.parent) and "site-packages" not in file.parts}
+    return tuple(sorted({path, *near}))
