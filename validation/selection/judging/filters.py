@@ -21,6 +21,8 @@ STEEL = 210e9 / (2 * (1 - 0.3**2))
 """E* of steel on steel [Pa]."""
 COUNTED = -15.0
 """dB of A3 of linear theory: shorter waves, from the first band below on, are no gate."""
+NOTHING = 1e-30
+"""A share that has a logarithm."""
 LONG_WAVE = 1e-4
 """Its wavenumber times the semi-axis along."""
 
@@ -73,8 +75,8 @@ def a3(model: Caller, scene: RailScene, alpha: float) -> FloatArray | Failed:
     if isinstance(found, Failed):
         return found
     answers = iter(np.split(found, np.cumsum([one.size for one, _ in asked])[:-1]))
-    with np.errstate(divide="ignore"):
-        return 10 * np.log10(power(lambda k_x, k_y: next(answers).reshape(np.broadcast_shapes(k_x.shape, k_y.shape))))
+    share = power(lambda k_x, k_y: next(answers).reshape(np.broadcast_shapes(k_x.shape, k_y.shape)))
+    return np.asarray(10 * np.log10(np.maximum(share, NOTHING)))
 
 
 def _contact(scene: RailScene) -> dict[str, float]:
