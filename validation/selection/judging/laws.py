@@ -74,21 +74,22 @@ def _properties(model: Caller, hurst: float, tolerance: float) -> Iterator[Judge
         ground(q_min=a, q_max=b, rms=HEIGHT * math.sqrt((a ** (-2 * hurst) - b ** (-2 * hurst)) / level))
         for a, b in ((FIRST, MIDDLE), (MIDDLE, LAST))
     ]
-    longer = ground(q_min=FIRST / 2, q_max=LAST / 2, rms=2 * HEIGHT)
-    asked = [(q, whole), *((q, part) for part in parts), (q / 2, longer)]
+    twice, longer = replace(whole, rms=math.sqrt(2) * HEIGHT), ground(q_min=FIRST / 2, q_max=LAST / 2, rms=2 * HEIGHT)
+    asked = [(q, whole), *((q, part) for part in parts), (q, twice), (q / 2, longer)]
     found = [model.call(q=at, roughness=one) for at, one in asked]
     where = {"H": hurst}
     if lost := next((one for one in found if isinstance(one, Failed)), None):
         yield not_compared(MOMENTS[0], where, FAILED, lost.reason, reference=1.0)
         return
-    mine, lower, upper, scaled = (np.asarray(one) for one in found)
+    mine, lower, upper, doubled, scaled = (np.asarray(one) for one in found)
     judge = partial(compared, where=where, reference=1.0, half_width=QUADRATURE, tolerance=tolerance)
     for n, name in MOMENTS.items():
         share = float(2 * mine * q**n @ dq / (2 * math.pi * whole.c2d(q) * q ** (n + 1) @ dq))
         yield judge(name, value=math.sqrt(max(share, 0.0)) if name.startswith("rms") else share)
     yield compared("not negative", where, 1 + min(float(mine.min() / np.abs(mine).max()), 0.0), 1.0, 0.0, ROUNDING)
     total = float(np.abs(mine) @ dq)
-    yield judge("linear in C_2D", value=1 + float(np.abs(mine - lower - upper) @ dq) / total)
+    apart = np.abs(mine - lower - upper) + np.abs(doubled - 2 * mine)
+    yield judge("linear in C_2D", value=1 + float(apart @ dq) / total)
     yield judge("scaling with the length", value=1 + float(np.abs(scaled - 8 * mine) @ dq) / (8 * total))
 
 
