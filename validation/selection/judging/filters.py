@@ -37,15 +37,25 @@ def judged(model: Caller, tolerance: float) -> Iterator[JudgedPoint]:
         where, scene, alpha = one.where, scene_of(one.where), float(one.where[ALPHA])
         key = where[LOAD], where[DIAMETER], alpha
         band = _waves(scene).index(float(where[WAVE]))
-        if _linear(scene, alpha)[: band + 1].min() <= COUNTED:
+        if _linear(scene, alpha)[: band + 1].min() <= COUNTED or not _serves(model, alpha):
             continue
         if key not in found:
             found[key] = a3(model, scene, alpha)
-        stated = {**where, ALPHA: "isotropic" if math.isinf(alpha) else alpha}
+        rougher = f", {where[OFFSET]:+g} dB" if where[OFFSET] else ""
+        stated: dict[str, Place] = {
+            "wheel": f"{scene.name}{rougher}",
+            ALPHA: "isotropic" if math.isinf(alpha) else alpha,
+            WAVE: where[WAVE],
+        }
         if isinstance(mine := found[key], Failed):
             yield not_compared(FILTER, stated, FAILED, mine.reason, reference=one.value, unit="dB")
         else:
             yield compared_levels(FILTER, stated, float(mine[band]), one.value, one.error, tolerance)
+
+
+def _serves(model: Caller, alpha: float) -> bool:
+    """A filter of the line that goes by alpha has none for isotropic ground."""
+    return math.isfinite(alpha) or "k_y" in model.asks or ALPHA not in model.asks
 
 
 def _waves(scene: RailScene) -> list[float]:
