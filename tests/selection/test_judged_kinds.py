@@ -187,6 +187,23 @@ def test_linear_theory_is_a_rolling_model_that_is_off_by_what_the_report_shows()
     assert_levels_as_shown(moved, "linear theory, 3D")
 
 
+@pytest.mark.slow
+def test_a_filter_on_the_line_has_the_levels_of_the_line_trace_within_the_error_of_the_strips():
+    def on_line(line, spacing, radius, modulus, approach):
+        a = math.sqrt(radius * approach)
+        q = 2 * math.pi * np.fft.rfftfreq(line.size, spacing[0])
+        change = linear_theory.response(q, contact_radius=a, modulus=modulus) * np.fft.rfft(line)
+        return 4 / 3 * modulus * a * approach + np.fft.irfft(change, line.size)
+
+    rows = [r for r in shown("rolling", "level of an octave by input spectrum") if r["surface"] == "H = 0.7"]
+    trace = [r["value"] for r in rows if r["model"] == "line trace"]
+    exact = [p for p in judged("force_spectrum", in_3d) if p.quantity == spectra.LEVEL]
+    found = [p for p in judged("rolling_model", on_line) if p.quantity == spectra.LEVEL]
+    for over, of_3d, point in zip(trace, exact[:4], found[:4], strict=True):
+        assert point.value - of_3d.value == pytest.approx(over, abs=point.error)
+        assert 0.2 < point.error < 2
+
+
 def test_under_a_load_the_approach_is_judged():
     assert verdicts(judged("rolling_model", under_load), "approach, position by position", **{"h/d": 0.03}) == {"agree"}
 

@@ -52,6 +52,23 @@ def test_positions_are_those_of_boundary_elements_on_the_strip():
     assert np.abs(force - [row.value for row in rows]) == pytest.approx(left * 1.5, abs=2e-4)
 
 
+class Made:
+    """An engine whose forces are 2, and off by a tenth of a cell."""
+
+    def map_groups(self, solve, groups):
+        return {
+            key: [{"force": np.full(round(strip.scene.length * strip.cells), 2 + 0.1 / strip.cells)}]
+            for key, (strip,) in groups.items()
+        }
+
+
+def test_positions_are_extrapolated_to_cells_of_no_size():
+    rows = list(SOURCES[EACH].found(None, Made()))
+    assert [row.value for row in rows] == pytest.approx([2.0] * len(rows))
+    assert [row.grid for row in rows] == pytest.approx([0.1 / GRIDS[1] / 2] * len(rows))
+    assert len(rows) == len(curve(EACH)) and [row.where for row in rows] == [row.where for row in curve(EACH)]
+
+
 def test_what_is_written_is_read_and_what_is_unknown_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(references, "FOLDER", tmp_path)
     row = references.Reference({"H": 0.7, "across": "ridges"}, 2.0, 0.5, 0.25)
