@@ -75,7 +75,7 @@ class Report:
 
 
 @dataclass(frozen=True)
-class Source:
+class ReferenceFile:
     """A file of references. unit; case: of the report; found: its rows."""
 
     unit: str
@@ -240,20 +240,20 @@ def _regions(report: Report, _: Engine) -> Rows:
         yield Reference({"region": name}, float(np.mean(10 * np.log10(mean[inside]))), half, 0.0)
 
 
-SOURCES: Mapping[str, Source] = {
-    "mean stiffness": Source("k / (E* L)", "fractal_punch", _punch("k / (E* L)", "mean stiffness")),
-    "deviation of the stiffness": Source(
+SOURCES: Mapping[str, ReferenceFile] = {
+    "mean stiffness": ReferenceFile("k / (E* L)", "fractal_punch", _punch("k / (E* L)", "mean stiffness")),
+    "deviation of the stiffness": ReferenceFile(
         "over the mean", "fractal_punch", _punch("relative deviation of k", "relative deviation")
     ),
-    "mean stiffness with a roll-off": Source("k / (E* L)", "interface", _rolled_off),
-    "deviation of the stiffness, by bandwidth": Source("over the mean", "bandwidth", _by_band),
-    "stiffness of an interface": Source("K h / p", "interface", _interface),
-    LEVEL: Source("dB, over F_Hertz^2 (h/d)^2, of an octave", "rolling", _levels),
-    RMS: Source("dB, over F_Hertz^2 (h/d)^2", "rolling", _rms),
-    MEAN: Source("over F_Hertz", "rolling", _mean),
-    EACH: Source("over F_Hertz", "rolling", _positions("force", roll_strip)),
-    LIFT: Source("over d", "rolling", _positions("approach", roll_under_load)),
-    FILTER: Source("dB, A3", "across", _filters),
-    FEATURE: Source("rad/s, but for the slope", "wheel", _features),
-    REGION: Source("dB re 1 (m/s^2)^2 s", "wheel", _regions),
+    "mean stiffness with a roll-off": ReferenceFile("k / (E* L)", "interface", _rolled_off),
+    "deviation of the stiffness, by bandwidth": ReferenceFile("over the mean", "bandwidth", _by_band),
+    "stiffness of an interface": ReferenceFile("K h / p", "interface", _interface),
+    LEVEL: ReferenceFile("dB, over F_Hertz^2 (h/d)^2, of an octave", "rolling", _levels),
+    RMS: ReferenceFile("dB, over F_Hertz^2 (h/d)^2", "rolling", _rms),
+    MEAN: ReferenceFile("over F_Hertz", "rolling", _mean),
+    EACH: ReferenceFile("over F_Hertz", "rolling", _positions("force", roll_strip)),
+    LIFT: ReferenceFile("over d", "rolling", _positions("approach", roll_under_load)),
+    FILTER: ReferenceFile("dB, A3", "across", _filters),
+    FEATURE: ReferenceFile("rad/s, but for the slope", "wheel", _features),
+    REGION: ReferenceFile("dB re 1 (m/s^2)^2 s", "wheel", _regions),
 }
