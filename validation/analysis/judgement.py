@@ -184,7 +184,7 @@ def worst(points: Iterable[JudgedPoint], count: int = 5) -> list[JudgedPoint]:
     known = [point for point in points if point.verdict == DIFFER]
 
     def apart(point: JudgedPoint) -> float:
-        factor = 10 ** (abs(point.difference) / 20) if point.unit == "dB" else abs(1 + point.difference)
+        factor = 10 ** (abs(point.difference) / 20) if point.unit == "dB" else 1 + point.difference
         return abs(math.log(max(factor, 1e-12)))
 
     lost = [point for point in points if point.verdict in (REFUSED, FAILED)]

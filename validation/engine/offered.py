@@ -207,6 +207,10 @@ def _decorator(kind: str) -> Callable[..., Decorator]:
                 raise TypeError(f"option {option} must be as {of.options[option]}, got {value!r}")
         return lambda function: offer(kind, name, {**of.options, **options}, function)
 
+    keyword = inspect.Parameter.KEYWORD_ONLY
+    options = [inspect.Parameter(one, keyword, default=value) for one, value in of.options.items()]
+    named = inspect.Parameter("name", inspect.Parameter.POSITIONAL_ONLY)
+    decorate.__signature__ = inspect.Signature([named, *options])  # type: ignore[attr-defined]  # of any function
     decorate.__name__ = decorate.__qualname__ = kind
     decorate.__doc__ = _documented(kind, of)
     return decorate

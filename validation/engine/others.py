@@ -30,6 +30,8 @@ HANGS = 3
 """After so many nothing is asked any more."""
 SHOWN = 160
 """Characters of what was printed or raised."""
+SERVING: list[Path] = []
+"""The file whose functions this process has, where it is the other one."""
 ROOT = Path(__file__).parents[2]
 
 
@@ -139,6 +141,8 @@ class Visitor:
     """
 
     def __init__(self, path: Path, *, seconds: float = SECONDS):
+        if SERVING:
+            raise OthersError("a file that is judged must not judge files itself: put that under `if __name__ == ...`")
         self.path, self.seconds, self._hangs = path.absolute(), seconds, 0
         self.sources: tuple[Path, ...] = ()
         self.path.read_bytes()
@@ -261,6 +265,7 @@ def offered_in(path: Path) -> list[Offered]:
 def serve(handle: int) -> None:
     """The other process: load the file that the command line names, then answer until nobody asks."""
     pipe, path = Connection(handle), Path(sys.argv[1])
+    SERVING.append(path)
     with tempfile.TemporaryFile() as printed:
         for stream in (1, 2):
             os.dup2(printed.fileno(), stream)

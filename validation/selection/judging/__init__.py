@@ -1,1 +1,1 @@
-"""Models and rules from outside, beside what boundary elements and closed forms answer."""
+"""Models from elsewhere beside the references: what each kind is judged by."""
