@@ -11,10 +11,11 @@ from validation.selection.judging.from_report import SOURCES, Report
 from validation.selection.judging.references import about, as_file, curve, file_name
 from validation.selection.judging.rolling import EACH, GRIDS, HEIGHTS, LIFT
 from validation.selection.judging.spectra import MEAN
+from validation.selection.judging.surfaces import OF_SURFACE
 from validation.simulation.rolling_strip import roll_strip
 
 REPORT = Path(__file__).parents[2] / "reports" / "reference"
-SOLVED = (MEAN, EACH, LIFT)
+SOLVED = (MEAN, EACH, LIFT, OF_SURFACE)
 """Take solves that the report does not keep."""
 
 

@@ -6,12 +6,13 @@ from functools import cache, partial
 
 import numpy as np
 
-from validation.analysis.judgement import FAILED, JudgedPoint, compared, compared_levels, not_compared
+from validation.analysis.judgement import JudgedPoint, compared, compared_levels
 from validation.analysis.statistics import FloatArray
 from validation.engine.offered import Caller, Failed
 from validation.scenes.level_files import curve as levels_of
 from validation.scenes.rail import RailScene
 from validation.selection.judging.references import Place, about, curve
+from validation.selection.judging.spectra import unanswered
 from validation.simulation.rail_strip import StatedAcross, line_of, strip_bands, structure_of
 from validation.theory.contact_filters import half_space_filter
 
@@ -48,7 +49,7 @@ def judged(model: Caller, tolerance: float) -> Iterator[JudgedPoint]:
             WAVE: where[WAVE],
         }
         if isinstance(mine := found[key], Failed):
-            yield not_compared(FILTER, stated, FAILED, mine.reason, reference=one.value, unit="dB")
+            yield unanswered(FILTER, stated, mine, one.value, "dB")
         else:
             yield compared_levels(FILTER, stated, float(mine[band]), one.value, one.error, tolerance)
 
@@ -130,5 +131,5 @@ def _long_wave(model: Caller, scene: RailScene, tolerance: float) -> JudgedPoint
     found = model.call(k_x=k_x, k_y=0 * k_x, **_contact(scene), alpha=1.0)
     where: dict[str, Place] = {"k_x a_x": LONG_WAVE}
     if isinstance(found, Failed):
-        return not_compared(LONG, where, FAILED, found.reason, reference=1.0)
+        return unanswered(LONG, where, found, 1.0)
     return compared(LONG, where, float(np.abs(found[0])), 1.0, LONG_WAVE, tolerance)

@@ -1,7 +1,7 @@
 """The references of the judges, from the folder of a full report and a few solves that it does not keep.
 
 It keeps no mean force by itself and no force position by position: springs roll over their tracks once more, and
-boundary elements over three short strips. That takes two minutes; finished solves are stored.
+boundary elements over three short strips and press some surfaces. That takes minutes; finished solves are stored.
 """
 
 import json
@@ -20,10 +20,11 @@ from validation.analysis.contents import csv_name, from_csv
 from validation.analysis.statistics import DECIBEL
 from validation.engine.engine import Engine, Outcome
 from validation.scenes.dynamic_wheel import load_wheel_scene
+from validation.selection.judging import surfaces
 from validation.selection.judging.filters import ALPHA, DIAMETER, FILTER, LOAD, OFFSET, WAVE
 from validation.selection.judging.laws import FEATURE, REGION, ends_of
 from validation.selection.judging.references import Reference, as_file, file_name
-from validation.selection.judging.rolling import EACH, GRIDS, HEIGHTS, LIFT, strip_of
+from validation.selection.judging.rolling import ACROSS, ALONG, EACH, GRIDS, HEIGHTS, LIFT, SEED, strip_of
 from validation.selection.judging.spectra import HEIGHT, LEVEL, MEAN, RMS, SLOPE, bands_of, spectrum_of, variance_of
 from validation.simulation.rolling_strip import (
     HERTZ,
@@ -76,20 +77,25 @@ class Report:
 
 @dataclass(frozen=True)
 class ReferenceFile:
-    """A file of references. unit; case: of the report; found: its rows."""
+    """unit; case: of the report; found: its rows; settings: of solves that the report does not have."""
 
     unit: str
     case: str
     found: Callable[[Report, Engine], Rows]
+    settings: Mapping[str, Any] | None = None
+
+    def head(self, report: Report) -> dict[str, Any]:
+        if self.settings is not None:
+            return {"case": self.case, "commit": "as this file", "settings": dict(self.settings)}
+        return {"case": self.case, "commit": report.commit(self.case), "settings": report.settings(self.case)}
 
 
 def references_of(folder: Path, engine: Engine) -> dict[str, bytes]:
     """Contents of all files, by their names. Raises ValueError for what is no full report."""
     report, files = Report(folder), {}
     for quantity, source in SOURCES.items():
-        head = {"quantity": quantity, "unit": source.unit, "case": source.case, "commit": report.commit(source.case)}
         rows = [row for row in source.found(report, engine) if math.isfinite(row.value)]
-        files[file_name(quantity)] = as_file({**head, "settings": report.settings(source.case)}, rows)
+        files[file_name(quantity)] = as_file({"quantity": quantity, "unit": source.unit, **source.head(report)}, rows)
     return files
 
 
@@ -240,6 +246,18 @@ def _regions(report: Report, _: Engine) -> Rows:
         yield Reference({"region": name}, float(np.mean(10 * np.log10(mean[inside]))), half, 0.0)
 
 
+def _surfaces(_: Report, engine: Engine) -> Rows:
+    yield from surfaces.solved(engine)
+
+
+OF_STRIPS = {"heights": HEIGHTS, "cells": GRIDS, "length": ALONG, "width": ACROSS, "seed": SEED}
+OF_SURFACES = {
+    "hursts": surfaces.HURSTS,
+    "surfaces": surfaces.SURFACES,
+    "cells": surfaces.CELLS,
+    "seed": surfaces.SEED,
+    "tolerance": surfaces.TOLERANCE,
+}
 SOURCES: Mapping[str, ReferenceFile] = {
     "mean stiffness": ReferenceFile("k / (E* L)", "fractal_punch", _punch("k / (E* L)", "mean stiffness")),
     "deviation of the stiffness": ReferenceFile(
@@ -251,8 +269,9 @@ SOURCES: Mapping[str, ReferenceFile] = {
     LEVEL: ReferenceFile("dB, over F_Hertz^2 (h/d)^2, of an octave", "rolling", _levels),
     RMS: ReferenceFile("dB, over F_Hertz^2 (h/d)^2", "rolling", _rms),
     MEAN: ReferenceFile("over F_Hertz", "rolling", _mean),
-    EACH: ReferenceFile("over F_Hertz", "rolling", _positions("force", roll_strip)),
-    LIFT: ReferenceFile("over d", "rolling", _positions("approach", roll_under_load)),
+    EACH: ReferenceFile("over F_Hertz", "judging/rolling", _positions("force", roll_strip), OF_STRIPS),
+    LIFT: ReferenceFile("over d", "judging/rolling", _positions("approach", roll_under_load), OF_STRIPS),
+    surfaces.OF_SURFACE: ReferenceFile("k / (E* L)", "judging/surfaces", _surfaces, OF_SURFACES),
     FILTER: ReferenceFile("dB, A3", "across", _filters),
     FEATURE: ReferenceFile("rad/s, but for the slope", "wheel", _features),
     REGION: ReferenceFile("dB re 1 (m/s^2)^2 s", "wheel", _regions),

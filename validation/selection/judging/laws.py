@@ -25,7 +25,7 @@ from validation.engine.offered import Caller, Failed
 from validation.engine.random_numbers import random_generator
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.selection.judging.references import Reference, curve
-from validation.selection.judging.spectra import CONTACT, MODULUS, judged_density
+from validation.selection.judging.spectra import CONTACT, MODULUS, judged_density, unanswered
 from validation.simulation.motion import simulate
 from validation.simulation.wheel_on_springs import band_edges
 from validation.theory.gauss_legendre import on_panels
@@ -80,7 +80,7 @@ def _properties(model: Caller, hurst: float, tolerance: float) -> Iterator[Judge
     found = [model.call(q=at, roughness=one) for at, one in asked]
     where = {"H": hurst}
     if lost := next((one for one in found if isinstance(one, Failed)), None):
-        yield not_compared(MOMENTS[0], where, FAILED, lost.reason, reference=1.0)
+        yield unanswered(MOMENTS[0], where, lost, 1.0)
         return
     mine, lower, upper, doubled, scaled = (np.asarray(one) for one in found)
     judge = partial(compared, where=where, reference=1.0, half_width=QUADRATURE, tolerance=tolerance)
@@ -102,7 +102,7 @@ def _springs(model: Caller, hurst: float, tolerance: float) -> Iterator[JudgedPo
         deviation = rows[DEVIATION][i]
         if isinstance(found, Failed):
             for one, name in ((known, STIFFNESS), (deviation, DEVIATION)):
-                yield not_compared(name, one.where, FAILED, found.reason, reference=one.value)
+                yield unanswered(name, one.where, found, one.value)
             continue
         of = moments(found[:, i], np.isfinite(found[:, i]))
         yield compared(

@@ -6,7 +6,7 @@ from functools import cache
 
 import numpy as np
 
-from validation.analysis.judgement import FAILED, JudgedPoint, compared, not_compared
+from validation.analysis.judgement import JudgedPoint, compared
 from validation.analysis.series import Estimates
 from validation.analysis.spectra import levels, waves
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, mean_estimate
@@ -28,6 +28,7 @@ from validation.selection.judging.spectra import (
     heights,
     octaves,
     spectrum_of,
+    unanswered,
     variance_of,
 )
 from validation.simulation.rolling_strip import HERTZ, SMOOTH, RoughStrip, crop_to_reach, level_3d
@@ -65,7 +66,7 @@ def _position_by_position(model: Caller, height: float, tolerance: float) -> Jud
     quantity, where = APART.format("approach" if under_load else "force"), {HEIGHT: height}
     found = _rolled(model, strip_of(height).surface(cells, 0), cells)
     if isinstance(found, Failed):
-        return not_compared(quantity, where, FAILED, found.reason, reference=fluctuation)
+        return unanswered(quantity, where, found, fluctuation)
     times = cells // GRIDS[0]
     apart, left = (
         math.sqrt(float(np.mean(one**2)))

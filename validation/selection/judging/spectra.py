@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 import mdr
-from validation.analysis.judgement import FAILED, JudgedPoint, compared, compared_levels, not_compared
+from validation.analysis.judgement import FAILED, REFUSED, JudgedPoint, compared, compared_levels, not_compared
 from validation.analysis.series import Estimates
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray
 from validation.engine.offered import Caller, Failed
-from validation.selection.judging.references import about, curve
+from validation.selection.judging.references import Place, about, curve
 from validation.simulation.rolling_strip import HERTZ, over_bands
 from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
 from validation.theory.rolling import force_variance
@@ -105,6 +105,14 @@ def _decibel(power: ArrayLike) -> FloatArray:
     return np.asarray(POWER_DECIBEL * np.log(np.maximum(power, NOTHING)))
 
 
+def unanswered(
+    quantity: str, where: Mapping[str, Place], failed: Failed, reference: float, unit: str = "-"
+) -> JudgedPoint:
+    """Where a model refuses, or fails."""
+    verdict = REFUSED if failed.refused else FAILED
+    return not_compared(quantity, where, verdict, failed.reason, reference=reference, unit=unit)
+
+
 def beside(quantities: Sequence[str], height: float, found: Levels | Failed, tolerance: float) -> Iterator[JudgedPoint]:
     """Octaves, rms and mean at one height."""
     for quantity in quantities:
@@ -113,7 +121,7 @@ def beside(quantities: Sequence[str], height: float, found: Levels | Failed, tol
             where = {name: place for name, place in known.where.items() if name != HEIGHT}
             if isinstance(found, Failed):
                 unit = "-" if of_mean else "dB"
-                yield not_compared(quantity, where, FAILED, found.reason, reference=known.value, unit=unit)
+                yield unanswered(quantity, where, found, known.value, unit)
                 continue
             mine, judge = found[quantity][i], compared if of_mean else compared_levels
             half = mine.half_width / abs(mine.value) if of_mean else mine.half_width
