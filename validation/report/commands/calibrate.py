@@ -4,9 +4,10 @@ import argparse
 from pathlib import Path
 
 from validation.engine.engine import Engine
+from validation.engine.files import write_whole
 from validation.engine.progress import progress_of
 from validation.report.commands.arguments import Exit, add_options, add_workers, at_least
-from validation.report.folder import CALIBRATION, REALISATIONS, Folder
+from validation.report.folder import CALIBRATION, REALISATIONS, REFERENCES, Folder
 from validation.scenes.printable import printable
 from validation.selection.calibrate import (
     CalibrationRun,
@@ -17,9 +18,11 @@ from validation.selection.calibrate import (
     measured_table,
     table_in,
 )
+from validation.selection.judging.from_report import references_of
+from validation.selection.judging.references import FOLDER as INSTALLED
 
-OUT = Path("calibration")
-"""Where a table is measured, below the working folder."""
+OUT, OUT_OF_REFERENCES = Path("calibration"), Path("references")
+"""Where a table is measured, and references are made, below the working folder."""
 PLACES = f"default: {OUT}; of --show and --check: the table of the package"
 COUNTED = {
     "punches": "rough punches",
@@ -50,11 +53,20 @@ def describe(calibrating: argparse.ArgumentParser) -> None:
     alone.add_argument(
         "--check", type=at_least(1), metavar="N", help="measure N scenes of each kind again, and report which differ"
     )
+    alone.add_argument(
+        "--references",
+        type=Path,
+        metavar="REPORT",
+        help="make the references of `judge` anew from the folder of a full report, which takes hours; the few solves "
+        "that it does not keep take two minutes (default of --out: references)",
+    )
     calibrating.set_defaults(command=calibrate, seed=run.seed)
 
 
 def calibrate(arguments: argparse.Namespace) -> Exit:
     """Measure the errors of cheap models beside boundary elements, or check or show those that were measured."""
+    if arguments.references:
+        return _references(arguments)
     table = table_in(arguments.out)
     if arguments.install and (arguments.show or (arguments.check and arguments.out is not None)):
         raise ValueError("--install is for a table that is measured, or for --check of that of the package")
@@ -96,6 +108,22 @@ def _measure(arguments: argparse.Namespace) -> Path:
     if arguments.install:
         install(table)
     return table
+
+
+def _references(arguments: argparse.Namespace) -> Exit:
+    """Of the judges, in a folder of the user's own, and in the package if asked for."""
+    out = arguments.out or OUT_OF_REFERENCES
+    with Folder(out, kind=REFERENCES) as folder, progress_of("references", arguments.workers) as progress:
+        engine = Engine(workers=arguments.workers, store=out / REALISATIONS, progress=progress)
+        files = references_of(arguments.references, engine)
+        folder.replace(files)
+    for name, contents in files.items() if arguments.install else ():
+        write_whole(INSTALLED / name, contents)
+    where = (
+        f"{INSTALLED}, where `judge` reads them" if arguments.install else f"{out}; `judge` reads those of the package"
+    )
+    print(printable(f"{len(files)} files of references in {where}"))
+    return Exit.MET
 
 
 def _what_is_used(table: Path, arguments: argparse.Namespace) -> str:

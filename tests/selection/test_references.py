@@ -1,0 +1,84 @@
+"""The references of the judges are what the report shows, and name what they are."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from validation.engine.engine import SERIAL
+from validation.selection.judging import from_report, references
+from validation.selection.judging.from_report import SOURCES, Report
+from validation.selection.judging.references import about, as_file, curve, file_name
+from validation.selection.judging.rolling import EACH, GRIDS, HEIGHTS, LIFT
+from validation.selection.judging.spectra import MEAN
+from validation.selection.judging.surfaces import OF_SURFACE
+from validation.simulation.rolling_strip import roll_strip
+
+REPORT = Path(__file__).parents[2] / "reports" / "reference"
+SOLVED = (MEAN, EACH, LIFT, OF_SURFACE)
+"""Take solves that the report does not keep."""
+
+
+@pytest.mark.parametrize("quantity", [name for name in SOURCES if name not in SOLVED])
+def test_a_file_is_what_the_committed_report_shows(quantity):
+    """Otherwise the report was made anew: `mdr-validation calibrate --references reports/reference --install`."""
+    rows = [row for row in SOURCES[quantity].found(Report(REPORT), SERIAL) if np.isfinite(row.value)]
+    assert [row.where for row in curve(quantity)] == [
+        {name: place if isinstance(place, str) else float(f"{place:.7g}") for name, place in row.where.items()}
+        for row in rows
+    ]
+    for name in references.VALUES:
+        mine, report = ([getattr(row, name) for row in some] for some in (curve(quantity), rows))
+        assert mine == pytest.approx(report, rel=1e-3 if name != "value" else 1e-6)
+    assert about(quantity)["settings"] == Report(REPORT).settings(SOURCES[quantity].case)
+
+
+def test_all_of_them_are_small_and_complete():
+    assert references.quantities() == sorted(SOURCES, key=file_name)
+    assert sum(path.stat().st_size for path in references.FOLDER.iterdir()) < 3e6
+    for quantity in SOURCES:
+        rows = curve(quantity)
+        assert rows and all(np.isfinite([row.value, row.sample, row.grid]).all() for row in rows)
+        assert all(min(row.sample, row.grid) >= 0 for row in rows)
+        assert set(about(quantity)) == {"quantity", "unit", "case", "commit", "settings"}
+
+
+def test_positions_are_those_of_boundary_elements_on_the_strip():
+    """The coarse grid is three times as far off as what the two grids leave."""
+    height, coarse = HEIGHTS[-1], GRIDS[0]
+    (strip,) = from_report.strip_of(height).strips(coarse, 1e-4 * height, 1)
+    force = roll_strip(strip)["force"]
+    rows = [row for row in curve(EACH) if row.where["h/d"] == height]
+    left = np.array([2 * abs(row.value) * row.grid for row in rows])
+    assert np.abs(force - [row.value for row in rows]) == pytest.approx(left * 1.5, abs=2e-4)
+
+
+class Made:
+    """An engine whose forces are 2, and off by a tenth of a cell."""
+
+    def map_groups(self, solve, groups):
+        return {
+            key: [{"force": np.full(round(strip.scene.length * strip.cells), 2 + 0.1 / strip.cells)}]
+            for key, (strip,) in groups.items()
+        }
+
+
+def test_positions_are_extrapolated_to_cells_of_no_size():
+    rows = list(SOURCES[EACH].found(None, Made()))
+    assert [row.value for row in rows] == pytest.approx([2.0] * len(rows))
+    assert [row.grid for row in rows] == pytest.approx([0.1 / GRIDS[1] / 2] * len(rows))
+    assert len(rows) == len(curve(EACH)) and [row.where for row in rows] == [row.where for row in curve(EACH)]
+
+
+def test_what_is_written_is_read_and_what_is_unknown_is_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr(references, "FOLDER", tmp_path)
+    row = references.Reference({"H": 0.7, "across": "ridges"}, 2.0, 0.5, 0.25)
+    (tmp_path / file_name("a level, of mine")).write_bytes(as_file({"quantity": "a level, of mine"}, [row]))
+    assert curve("a level, of mine") == [row] and row.error == 0.75
+    with pytest.raises(LookupError, match="a level, of mine, got 'mass'"):
+        curve("mass")
+
+
+def test_a_folder_without_a_full_report_is_refused(tmp_path):
+    with pytest.raises(ValueError, match="the folder of a full report"):
+        Report(tmp_path)
