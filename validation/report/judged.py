@@ -24,7 +24,7 @@ from validation.report.judged_words import summary_lines
 from validation.selection.judging.judge import JUDGES, Judge, judge_of
 from validation.selection.tolerance import Tolerance, tolerance_of
 
-OF_SOLVER = "validation.benchmarks.solvers.judged:judged"
+OF_SOLVER = "validation.benchmarks.judging.judged:judged"
 """Of a contact solver; it imports all solvers."""
 
 
