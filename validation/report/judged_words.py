@@ -90,7 +90,8 @@ def paragraph(model: str, tolerance: str, points: Sequence[JudgedPoint]) -> str:
     for quantity, some in groupby(groups_of(points), lambda group: group[0]):
         groups = list(some)
         # a property has the reference one, and is no result that a paper states
-        if len(groups) <= CURVES // 2 and all(len(group[3]) > 1 for group in groups) and not is_property(groups[0]):
+        ranges = bool(groups[0][2]) and len(groups) <= CURVES // 2 and all(len(group[3]) > 1 for group in groups)
+        if ranges and not is_property(groups[0]):
             said.append(_everywhere(quantity, tolerance, groups))
     known = [point for point in points if point.verdict in (AGREE, DIFFER, UNDECIDED)]
     if known:
