@@ -90,7 +90,8 @@ def paragraph(model: str, tolerance: str, points: Sequence[JudgedPoint]) -> str:
     for quantity, some in groupby(groups_of(points), lambda group: group[0]):
         groups = list(some)
         # a property has the reference one, and is no result that a paper states
-        if all(len(group[3]) > 1 for group in groups) and not is_property(groups[0]):
+        ranges = bool(groups[0][2]) and len(groups) <= CURVES // 2 and all(len(group[3]) > 1 for group in groups)
+        if ranges and not is_property(groups[0]):
             said.append(_everywhere(quantity, tolerance, groups))
     known = [point for point in points if point.verdict in (AGREE, DIFFER, UNDECIDED)]
     if known:
@@ -99,7 +100,7 @@ def paragraph(model: str, tolerance: str, points: Sequence[JudgedPoint]) -> str:
     if (most := worst(known, 1)) and most[0].verdict == DIFFER:
         said.append(f"The largest difference is {in_unit(most[0].difference, most[0].unit, '+')} at {most[0].place}.")
     if lost := len(points) - len(known):
-        said.append(f"It has no value at {lost} points.")
+        said.append(f"It has no value at {lost} of {len(points)} points.")
     return " ".join(said)
 
 
