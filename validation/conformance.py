@@ -7,12 +7,8 @@ example that hypothesis finds, as arrays that can be pasted.
 """
 
 import math
-import runpy
-import sys
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -20,14 +16,11 @@ import pytest
 from hypothesis import HealthCheck, assume, given, note, settings
 from hypothesis import strategies as st
 
-import bem3d
-import mdr
-from validation.benchmarks.judging.discrete import KnownContact, problems
-from validation.benchmarks.judging.judged import Asked, FloatArray, moved, pressed, scaled
-from validation.engine.offered import KINDS, Offered, offer
+from validation.benchmarks.judging.discrete import FloatArray, KnownContact, problems
+from validation.benchmarks.judging.given import approach_of, inside, roughness_of, rule_of, solver_of
+from validation.benchmarks.judging.judged import Asked, moved, pressed, scaled
 
-# a few cells are what is asked for
-pytestmark = pytest.mark.filterwarnings("ignore::bem3d.ContactWarning")
+Rule = Callable[..., FloatArray]
 np.set_printoptions(precision=17)
 slow = settings(deadline=None, suppress_health_check=list(HealthCheck), max_examples=30)
 
@@ -38,29 +31,7 @@ slow = settings(deadline=None, suppress_health_check=list(HealthCheck), max_exam
 @pytest.fixture(scope="module")
 def asked(request: pytest.FixtureRequest) -> Asked:
     """The solver under test; that of this project without one."""
-    place = request.config.getoption("--contact-solver", None)
-    found = named_in(place, "contact_solver") if place else OURS
-    # called in this process: its exceptions are the failure
-    return Asked(SimpleNamespace(**vars(found), call=found.function))
-
-
-def named_in(place: str, kind: str) -> Offered:
-    """FILE:NAME, a function with or without its decorator; the file is run, and its folder can be imported."""
-    file, _, name = place.rpartition(":")
-    if not Path(file).is_file():
-        raise pytest.UsageError(f"a function is named as FILE:NAME, and there is no file {file!r} in {place!r}")
-    sys.path.insert(0, str(Path(file).resolve().parent))
-    found = runpy.run_path(file).get(name)
-    if isinstance(found, Offered) and found.kind == kind:
-        return found
-    if not callable(found):
-        raise pytest.UsageError(f"{file} has no function {name!r} for @{kind}")
-    return offer(kind, name, KINDS[kind].options, found)
-
-
-def ours(gap: FloatArray, spacing: tuple[float, float], modulus: float, periodic: bool, force: float) -> FloatArray:
-    half_space = bem3d.HalfSpace(shape=gap.shape, spacing=spacing, modulus=modulus, periodic=periodic)
-    return bem3d.solve(half_space, gap, force=force, indenter_ends_at_edge=True).pressure
+    return solver_of(request.config.getoption("--contact-solver", None))
 
 
 @st.composite
@@ -80,9 +51,7 @@ def solved(asked: Asked, problem: KnownContact, like: str = "") -> FloatArray:
     """The pressure under the force, or under the approach that our solver finds for it."""
     note(f"gap = np.{problem.gap!r}\nspacing, modulus = {problem.spacing}, {problem.modulus!r}{like}")
     if not asked.by_force:
-        half_space = bem3d.HalfSpace(shape=problem.half_space.shape, spacing=problem.spacing, modulus=problem.modulus)
-        contact = bem3d.solve(half_space, problem.gap, force=problem.force, indenter_ends_at_edge=True)
-        problem = replace(problem, approach=contact.approach)
+        problem = replace(problem, approach=approach_of(problem))
         note(f"approach = {problem.approach!r}")
     else:
         note(f"force = {problem.force!r}")
@@ -139,34 +108,18 @@ def test_a_larger_load_presses_no_cell_out_of_contact(asked: Asked, problem: Kno
 
 
 @pytest.fixture(scope="module")
-def rule(request: pytest.FixtureRequest) -> Callable[..., FloatArray]:
+def rule(request: pytest.FixtureRequest) -> Rule:
     """C_1D(q) of a roughness; Geike's rule without one."""
-    place = request.config.getoption("--mapping", None)
-    return named_in(place, "profile_spectrum").function if place else geike
-
-
-def geike(q: FloatArray, roughness: Any) -> FloatArray:
-    return mdr.geike(q, roughness.c2d)
+    rule: Rule = rule_of(request.config.getoption("--mapping", None))
+    return rule
 
 
 bands = st.tuples(st.floats(0.1, 1.0), st.floats(1e2, 1e5), st.floats(2.0, 100.0), st.floats(1e-8, 1e-4))
 
 
-def roughness_of(hurst: float, q_min: float, ratio: float, rms: float) -> mdr.SelfAffine:
-    return mdr.SelfAffine(hurst=hurst, q_min=q_min, q_max=q_min * ratio, rms=rms)
-
-
-def inside(roughness: mdr.SelfAffine, nodes: int = 400) -> tuple[FloatArray, FloatArray]:
-    """Nodes and weights of an integral over the band, Gauss-Legendre in ln q."""
-    node, weight = np.polynomial.legendre.leggauss(nodes)
-    half = math.log(roughness.q_max / roughness.q_min) / 2
-    q = roughness.q_min * np.exp(half * (node + 1))
-    return q, weight * half * q
-
-
 @slow
 @given(bands)
-def test_a_profile_spectrum_is_finite_and_not_negative(rule: Callable[..., FloatArray], band: Any) -> None:
+def test_a_profile_spectrum_is_finite_and_not_negative(rule: Rule, band: Any) -> None:
     roughness = roughness_of(*band)
     found = np.asarray(rule(q=inside(roughness)[0], roughness=roughness))
     assert np.isfinite(found).all() and (found >= 0).all() and found.max() > 0
@@ -174,9 +127,7 @@ def test_a_profile_spectrum_is_finite_and_not_negative(rule: Callable[..., Float
 
 @slow
 @given(bands, st.sampled_from([1e-2, 5.0]))
-def test_a_profile_spectrum_is_linear_in_that_of_the_surface(
-    rule: Callable[..., FloatArray], band: Any, factor: float
-) -> None:
+def test_a_profile_spectrum_is_linear_in_that_of_the_surface(rule: Rule, band: Any, factor: float) -> None:
     hurst, q_min, ratio, rms = band
     roughness, other = roughness_of(*band), roughness_of(hurst, q_min, ratio, rms * math.sqrt(factor))
     q = inside(roughness)[0]
@@ -187,7 +138,7 @@ def test_a_profile_spectrum_is_linear_in_that_of_the_surface(
 
 @slow
 @given(bands, st.sampled_from([1e-3, 40.0]))
-def test_a_profile_spectrum_has_no_length_of_its_own(rule: Callable[..., FloatArray], band: Any, length: float) -> None:
+def test_a_profile_spectrum_has_no_length_of_its_own(rule: Rule, band: Any, length: float) -> None:
     """x -> s x and h -> s h takes C_1D(q) [m^3] to s^3 C_1D(s q)."""
     hurst, q_min, ratio, rms = band
     roughness, other = roughness_of(*band), roughness_of(hurst, q_min / length, ratio, rms * length)
@@ -199,9 +150,7 @@ def test_a_profile_spectrum_has_no_length_of_its_own(rule: Callable[..., FloatAr
 @slow
 @pytest.mark.parametrize(("moment", "name"), [(0, "height"), (2, "gradient"), (4, "curvature")])
 @given(bands)
-def test_the_profile_has_the_mean_square_of_the_surface(
-    rule: Callable[..., FloatArray], moment: int, name: str, band: Any
-) -> None:
+def test_the_profile_has_the_mean_square_of_the_surface(rule: Rule, moment: int, name: str, band: Any) -> None:
     """Geike's moments: int |q|^n C_1D dq over both signs is int |q|^n C_2D d²q, for the height, gradient, curvature."""
     roughness = roughness_of(*band)
     q, weight = inside(roughness)
@@ -209,8 +158,3 @@ def test_the_profile_has_the_mean_square_of_the_surface(
     surface = 2 * math.pi * (weight * q ** (moment + 1) * roughness.c2d(q)).sum()
     assume(surface > 0)
     assert line == pytest.approx(surface, rel=1e-6), f"mean square {name} of the profile over that of the surface"
-
-
-OURS: Any = SimpleNamespace(
-    name="bem3d", asks=("gap", "spacing", "modulus", "periodic", "force"), options={"residual": 1e-5}, function=ours
-)

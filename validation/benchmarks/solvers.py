@@ -179,8 +179,11 @@ class SolverComparison:
     def problems(self) -> list[SurfaceProblem]:
         """Every surface in both half-spaces on every grid."""
         surfaces = [(SPHERE, SPHERE_LOAD), *((ROUGH, load) for load in self.loads)]
-        kinds, common = itertools.product((True, False), surfaces, self.cells), (self.seed, self.residual, self.own)
-        return [SurfaceProblem(*surface, n, periodic, *common) for periodic, surface, n in kinds]
+        kinds = itertools.product((True, False), surfaces, self.cells)
+        return [self._problem(*surface, n, periodic) for periodic, surface, n in kinds]
+
+    def _problem(self, surface: str, load: float, cells: int, periodic: bool) -> SurfaceProblem:
+        return SurfaceProblem(surface, load, cells, periodic, self.seed, self.residual, self.own)
 
 
 Row = Mapping[str, Any]
