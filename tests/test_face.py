@@ -30,7 +30,7 @@ def spectrum():
 def test_every_name_is_there(name):
     assert getattr(validation, name) is not None
     assert name in dir(validation)
-    assert validation.MODULES[name].split(".")[0] in {"report", "selection", "scenes", "engine"}
+    assert validation.MODULES[name].split(".")[0] in {"report", "benchmarks", "selection", "scenes", "engine"}
 
 
 def test_the_stub_says_the_same():

@@ -112,7 +112,7 @@ LOST = not_compared("approach", {"problem": "rough"}, "failed", "raised MemoryEr
 
 
 @pytest.mark.parametrize(
-    ("points", "status"), [([RIGHT, RIGHT, SLOW], 0), ([RIGHT, LOST], 1), ([LOST], 1), ([], 3), ([SLOW], 0)]
+    ("points", "status"), [([RIGHT, RIGHT, SLOW], 0), ([RIGHT, LOST], 1), ([LOST], 3), ([], 3), ([SLOW], 0)]
 )
 def test_a_solver_that_differs_where_that_decides_ends_with_one(points, status, monkeypatch, file, capsys):
     monkeypatch.setattr("validation.report.commands.judge.judged", lambda model, tolerance: solver(*points))
