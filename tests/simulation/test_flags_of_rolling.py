@@ -17,6 +17,7 @@ from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.scenes.load import load_scene
 from validation.scenes.transverse_profile import TransverseProfile
 from validation.scenes.wheel_body import Wheel
+from validation.selection.judging import from_report
 from validation.simulation import rail_models, ridges, rolling_strip, wheel_on_rail
 from validation.simulation.contact_laws import BoundaryElementsLaw
 from validation.simulation.equivalent_displacement import RolledRail, roll_rail
@@ -85,6 +86,7 @@ PATHS = {
         PublishedContact(cells=6, tolerance=1e-6)
     ),
     "validation.simulation.limits_of_half_space:strip_widths": lambda: strip_widths((13, 18), finer=6),
+    "validation.selection.judging.from_report:roll_under_load": lambda: from_report.roll_under_load(STRIP),
 }
 
 

@@ -72,7 +72,7 @@ class LoveHalfSpace:
         (n, m), (dx, dy) = self.shape, self.spacing
         if self.periodic:
             q = 2 * math.pi * np.hypot(fft.fftfreq(n, dx)[:, np.newaxis], fft.rfftfreq(m, dy))
-            return np.asarray(np.divide(2 / self.modulus, q, out=np.zeros(q.shape, dtype=np.complex128), where=q > 0))
+            return np.asarray(np.divide(2 / self.modulus, q, out=np.zeros_like(q), where=q > 0), dtype=np.complex128)
         # cells to the right and, by the period of the padded grid, to the left
         x, y = (fft.fftfreq(2 * count, 1 / (2 * count)) * d for count, d in zip(self.shape, self.spacing, strict=True))
         return np.asarray(fft.rfft2(love(x[:, np.newaxis], y, dx, dy) / (math.pi * self.modulus)))
