@@ -4,14 +4,12 @@ import csv
 import json
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
 import validation
 from validation.__main__ import main
 from validation.analysis.judgement import compared, not_compared
-from validation.engine.others import offered_in
 from validation.report import judged
 from validation.report.judged_figure import figure_of
 
@@ -151,16 +149,3 @@ def test_a_script_without_a_guard_may_judge_a_file(file):
     code = f"import validation; print(validation.judge({str(file)!r}).model)"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert (run.stdout, run.stderr) == ("in series\n", "")
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["own_model", "own_filter"])
-def test_an_example_is_judged(name, capsys):
-    example = Path(validation.__file__).parent / "examples" / f"{name}.py"
-    assert main(["judge", str(example)]) == 0
-    assert "For a paper:" in capsys.readouterr().out
-
-
-def test_the_example_that_draws_asks_for_a_generator():
-    (offered,) = offered_in(Path(validation.__file__).parent / "examples" / "own_draws.py")
-    assert "rng" in offered.asks

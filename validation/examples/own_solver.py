@@ -1,15 +1,17 @@
-"""A contact solver of one's own, to be judged: conjugate gradients on Love's half-space, under a force.
+"""A contact solver of one's own is judged: is it right, and how fast is it beside `bem3d`?
 
-`mdr-validation judge own_solver.py`; `pytest --pyargs validation.conformance --contact-solver own_solver.py:solve`.
+Conjugate gradients on Love's half-space, under a force. Also for CI:
+`pytest --pyargs validation.conformance --contact-solver own_solver.py:solve`.
 """
 
 import math
 
 import numpy as np
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy.fft import fftfreq, irfft2, rfft2
 
-from validation import contact_solver
+from validation import contact_solver, judge
 
 FloatArray = NDArray[np.float64]
 
@@ -51,3 +53,20 @@ def solve(gap: FloatArray, spacing: tuple[float, float], modulus: float, force: 
             p, before = p - step * slope * overlapping, math.inf
         p *= force / (p.sum() * dx * dy)
     raise RuntimeError("no answer in 10,000 iterations")
+
+
+if __name__ == "__main__":  # `mdr-validation judge own_solver.py` does not come here
+    found = judge(solve)
+    print(found.summary())
+
+    times = [(p.where["cells"], p.value, p.reference) for p in found.verdicts if p.quantity == "time beside bem3d"]
+    cells, mine, ours = np.array(times).T
+    figure = Figure(figsize=(5, 3.5), layout="constrained")
+    axes = figure.subplots()
+    axes.loglog(cells, mine, "o-", label="conjugate gradients")
+    axes.loglog(cells, ours, "s-", label="bem3d")
+    axes.set(xlabel="cells on a side", ylabel="seconds, one thread")
+    axes.legend()
+    figure.savefig("own_solver.png")
+
+    assert found.answered and not found.wrong
