@@ -35,7 +35,7 @@ class Residual:
 class LoveHalfSpace:
     """An elastic half-space under pressures that are constant on rectangles.
 
-    u(x) = sum over rectangles of p / (pi E*) int dA / r; periodic: u(q) = 2 p(q) / (E* |q|), no mean displacement.
+    u(x) = sum over rectangles of p / (pi E*) int dA / r; periodic: u(q) = 2 p(q) / (E* q), no mean displacement.
     shape: (n, m) cells; spacing: (dx, dy) [m]; modulus: E* [Pa].
     Source: Love, Phil. Trans. R. Soc. A 228 (1929) 377; Johnson, Contact Mechanics, eq. (3.25).
     """
@@ -81,7 +81,7 @@ class LoveHalfSpace:
 def love(x: FloatArray, y: FloatArray, dx: float, dy: float) -> FloatArray:
     """int dA / r [m] over the rectangle dx times dy [m] around the origin, seen from (x, y) [m] on its plane.
 
-    The double integral of 1 / r is x asinh(y / |x|) + y asinh(x / |y|), between the corners.
+    The double integral of 1 / r is x asinh(y / abs(x)) + y asinh(x / abs(y)), between the corners.
     """
 
     def primitive(u: FloatArray, v: FloatArray) -> FloatArray:

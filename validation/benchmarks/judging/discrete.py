@@ -68,15 +68,26 @@ class KnownContact:
         return self.spacing[0] * self.spacing[1]
 
 
-@cache
 def problems() -> tuple[KnownContact, ...]:
-    """All of them, with the answers that are stored.
+    """Discrete contact problems with their answers, by which a solver is judged.
+
+    Returns
+    -------
+    tuple
+        Of problems in SI units. Each has ``name``, ``gap`` (n, m), ``spacing`` (dx, dy), ``modulus``, ``periodic`` and
+        ``force``; the answer on its grid ``approach``, ``pressure`` (n, m), ``stiffness``, ``area``; and ``limits``
+        (3, 2): approach, stiffness and area on cells of no size, with what the grids leave.
 
     Examples
     --------
     >>> [problem.name for problem in validation.problems()][:3]
     ['sphere', 'ellipse', 'flat']
     """
+    return _stored()
+
+
+@cache
+def _stored() -> tuple[KnownContact, ...]:
     with np.load(TABLE) as stored:
         names = dict.fromkeys(key.split(":")[0] for key in stored)
         return tuple(_read(name, stored) for name in names)
