@@ -47,9 +47,15 @@ def contacts(draw: st.DrawFn) -> KnownContact:
     return replace(problems()[0], name="drawn", gap=gap, spacing=spacing, modulus=modulus, force=force)
 
 
+def pasted(array: FloatArray) -> str:
+    """As an array that can be pasted, with all digits."""
+    with np.printoptions(precision=17):
+        return f"np.{array!r}"
+
+
 def solved(asked: Asked, problem: KnownContact, like: str = "") -> FloatArray:
     """The pressure under the force, or under the approach that our solver finds for it."""
-    note(f"gap = np.{problem.gap!r}\nspacing, modulus = {problem.spacing}, {problem.modulus!r}{like}")
+    note(f"gap = {pasted(problem.gap)}\nspacing, modulus = {problem.spacing}, {problem.modulus!r}{like}")
     if not asked.by_force:
         problem = replace(problem, approach=approach_of(problem))
         note(f"approach = {problem.approach!r}")
@@ -58,7 +64,7 @@ def solved(asked: Asked, problem: KnownContact, like: str = "") -> FloatArray:
     found = asked.pressure(problem)
     assert not isinstance(found, str), found
     left = asked.left(problem, found)
-    note(f"pressure = np.{found!r}\n{left}")
+    note(f"pressure = {pasted(found)}\n{left}")
     assert left.worst <= asked.residual, f"a residual of {left.worst:.3g}, promised: {asked.residual:g}"
     if asked.by_force:
         assert found.sum() * problem.cell == pytest.approx(problem.force, rel=asked.residual), "the force is not held"
