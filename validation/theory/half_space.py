@@ -15,7 +15,7 @@ FloatArray = NDArray[np.float64]
 class Residual:
     """What is left of the conditions of a contact, w = gap + u - approach; zero for the discrete answer.
 
-    tension: the most negative pressure over the largest; complementarity: sum(p |w|) / (s sum(p)), s the deepest
+    tension: the most negative pressure over the largest; complementarity: sum(p abs(w)) / (s sum(p)), s the deepest
     geometric overlap; penetration: max(-w) / s, both NaN without an overlap; approach: of the bodies [m], as prescribed
     or as the contact has it.
     """
