@@ -137,10 +137,13 @@ def test_boundary_elements_agree_with_linear_theory_and_six_decibels_more_differ
 @pytest.mark.slow
 def test_springs_have_the_curve_of_the_book_and_three_dimensions_do_not(rolled):
     """And half of their force does not have it."""
-    curve, three_d, line, equivalent, *_ = CASE.evidence(rolled).claims
+    evidence = CASE.evidence(rolled)
+    curve, three_d, equivalent, *_ = evidence.claims
     assert curve.status is ClaimStatus.HOLDS and curve.answer.startswith("Yes, within 1 dB")
     assert three_d.answer.startswith("We get this curve, and three dimensions differ: +")
-    assert (line.status, equivalent.status) == (ClaimStatus.CONTRADICTED, ClaimStatus.HOLDS)
+    assert equivalent.status is ClaimStatus.HOLDS
+    # the line trace, of which no claim is made, has not the levels of three dimensions
+    assert any(n.model == rolling.INPUT_NAMES["line"] and n.verdict == "differ" for n in evidence.numbers)
     springs = rolled[rolling.SPRINGS, 0.01]
     halved = changed(rolled, {(rolling.SPRINGS, 0.01): springs | {"level": springs["level"] / 4}})
     assert CASE.evidence(halved).claims[0].status is ClaimStatus.CONTRADICTED
