@@ -15,11 +15,13 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, assume, given, note, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
-from validation.benchmarks.judging.discrete import FloatArray, KnownContact, problems
+from validation.benchmarks.judging.discrete import KnownContact, problems
 from validation.benchmarks.judging.given import approach_of, inside, roughness_of, rule_of, solver_of
 from validation.benchmarks.judging.judged import Asked, moved, pressed, scaled
 
+FloatArray = NDArray[np.float64]
 Rule = Callable[..., FloatArray]
 np.set_printoptions(precision=17)
 slow = settings(deadline=None, suppress_health_check=list(HealthCheck), max_examples=30)
@@ -62,7 +64,7 @@ def solved(asked: Asked, problem: KnownContact, like: str = "") -> FloatArray:
     else:
         note(f"force = {problem.force!r}")
     found = asked.pressure(problem)
-    assert not isinstance(found, str), found
+    assert isinstance(found, np.ndarray), found
     left = asked.left(problem, found)
     note(f"pressure = {pasted(found)}\n{left}")
     assert left.worst <= asked.residual, f"a residual of {left.worst:.3g}, promised: {asked.residual:g}"

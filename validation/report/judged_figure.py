@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from validation.analysis.judgement import Group, groups_of, is_property
+from validation.analysis.judgement import Group, JudgedPoint, groups_of, is_property
 from validation.report.style import FORMATS, SETTINGS, graded, in_two_lines, picture, plain_figure
 
 if TYPE_CHECKING:
@@ -44,6 +44,9 @@ def figure_of(judgements: Sequence["Judgement"], form: str) -> bytes:
 
 
 def _panel(axes: Axes, judgement: "Judgement", quantity: str, curves: Sequence[Group]) -> None:
+    if judgement.kind == "contact_solver":  # right or wrong by numbers that no figure needs; its times
+        _times(axes, judgement.model, curves[0][3])
+        return
     in_decibels = curves[0][3][0].unit == "dB"
     factor = 1.0 if in_decibels else 100.0
     within = 20 * math.log10(1 + judgement.tolerance.relative) if in_decibels else 100 * judgement.tolerance.relative
@@ -63,3 +66,14 @@ def _panel(axes: Axes, judgement: "Judgement", quantity: str, curves: Sequence[G
     axes.set_ylabel(f"off the reference [{'dB' if in_decibels else '%'}]")
     if any(where for _, where, _, _ in curves):
         axes.legend(fontsize=7)
+
+
+def _times(axes: Axes, model: str, points: Sequence[JudgedPoint]) -> None:
+    """Of a solver and of ours, on the same grids."""
+    cells = [float(point.where["cells"]) for point in points]
+    for i, (name, what) in enumerate(((model, "value"), ("bem3d", "reference"))):
+        axes.loglog(cells, [getattr(point, what) for point in points], label=name, **graded(i, 2))
+    axes.set_title(in_two_lines(f"{model}: seconds, one thread", 60), loc="left")
+    axes.set_xlabel("cells on a side")
+    axes.set_ylabel("seconds")
+    axes.legend(fontsize=7)

@@ -1,7 +1,7 @@
-"""A dozen discrete contact problems with their answers, by which a solver is judged.
+"""Discrete contact problems with their answers, by which a solver is judged.
 
 The answers stand in `discrete.npz` beside this file, readable with numpy alone. `python -m
-validation.benchmarks.judging.discrete` makes them anew in a minute.
+validation.benchmarks.judging.discrete` makes them anew.
 """
 
 import io
@@ -14,16 +14,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import bem3d
 import mdr
+from validation.engine.engine import FloatArray
 from validation.engine.files import write_whole
 from validation.engine.random_numbers import random_generator
 from validation.simulation.surface import draw_surface
 from validation.theory.half_space import LoveHalfSpace
-
-FloatArray = NDArray[np.float64]
 
 TABLE = Path(__file__).with_suffix(".npz")
 SIDE, MODULUS, CELLS, SEED = 1e-3, 1e11, 48, 35
@@ -104,7 +102,6 @@ def _read(name: str, stored: Mapping[str, FloatArray]) -> KnownContact:
 # --- shapes: the gap over L at x, y in (0, 1) ---
 
 Shape = Callable[[FloatArray, FloatArray], FloatArray]
-Rough = Callable[[int], FloatArray]
 
 
 def paraboloid(x: FloatArray, y: FloatArray, along: float = 1.0, across: float = 1.0) -> FloatArray:

@@ -5,16 +5,16 @@ import runpy
 import sys
 import warnings
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 
 import bem3d
 import mdr
-from validation.benchmarks.judging.discrete import FloatArray, KnownContact
+from validation.benchmarks.judging.discrete import KnownContact
 from validation.benchmarks.judging.judged import Asked
-from validation.engine.offered import KINDS, Offered, offer
+from validation.engine.offered import KINDS, FloatArray, Offered, offer
+from validation.engine.others import Called
 
 
 def named_in(place: str, kind: str) -> Offered:
@@ -35,14 +35,11 @@ def named_in(place: str, kind: str) -> Offered:
 
 
 def solver_of(place: str | None) -> Asked:
-    """That of a file, or ours; it is called in this process, so that its exceptions are the failure."""
-    if place is None:
-        asks = ("gap", "spacing", "modulus", "periodic", "force")
-        return Asked(
-            SimpleNamespace(kind="contact_solver", name="bem3d", asks=asks, options={"residual": 1e-5}, call=ours)
-        )
-    found = named_in(place, "contact_solver")
-    return Asked(SimpleNamespace(**vars(found), call=found.function))
+    """That of a file, or ours; it is called in this process."""
+    options = {**KINDS["contact_solver"].options, "periodic": True, "residual": 1e-5}
+    return Asked(
+        Called(named_in(place, "contact_solver") if place else offer("contact_solver", "bem3d", options, ours))
+    )
 
 
 def ours(gap: FloatArray, spacing: tuple[float, float], modulus: float, periodic: bool, force: float) -> FloatArray:

@@ -3,21 +3,18 @@
 import math
 import time
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import bem3d
 from validation.analysis.judgement import AGREE, DIFFER, FAILED, UNDECIDED, JudgedPoint, not_compared
 from validation.benchmarks.judging.discrete import KnownContact, problem_on, problems
-from validation.engine.offered import Caller
+from validation.engine.offered import Caller, Failed, FloatArray
 from validation.theory.half_space import LoveHalfSpace, Residual
-
-FloatArray = NDArray[np.float64]
 
 RESIDUAL = 1e-4
 """That a solver is asked for, where it names none."""
@@ -28,42 +25,33 @@ FREE, PERIODIC = "sphere", "sphere, periodic"
 """Problems that properties are asked of."""
 GRIDS, LONGEST = (32, 64, 128, 256), 10.0
 """Cells on a side that are timed, until a solve takes longer [s]."""
-
-
+FEW_CELLS, NEXT_TERM = 0.02, 0.15
+"""Of a contact that grows: a stop may leave single cells of vanishing pressure in; of an order: the next term, of order
+1.5 at the edge, changes it on coarse grids."""
 TIME, NOT_JUDGED = "time beside bem3d", "a time is neither right nor wrong"
 
 
 def judged(model: Caller, tolerance: float) -> Iterator[JudgedPoint]:
     """Right or wrong by the residual that the solver names, whatever the tolerance; then its times, not judged."""
     asked = Asked(model)
-    for finding in asked.findings():
-        where = {"problem": finding.problem}
-        if math.isnan(finding.difference):
-            yield not_compared(finding.quantity, where, FAILED, finding.reason, decides=True)
-            continue
-        verdict, reason = (AGREE, "") if finding.right else (DIFFER, finding.reason)
-        numbers = finding.value, finding.reference, finding.difference
-        yield JudgedPoint(finding.quantity, where, *numbers, 0.0, verdict, reason, decides=True)
+    yield from asked.findings()
     for row in timed(asked):
         known, ratio = {"cells": float(row.cells)}, row.seconds / row.ours
         yield JudgedPoint(TIME, known, row.seconds, row.ours, ratio - 1, math.nan, UNDECIDED, NOT_JUDGED)
 
 
-@dataclass(frozen=True)
-class Finding:
-    """One number of a solver. within: what was accepted of the difference; reason: what is wrong, in words."""
+def checked(
+    quantity: str, problem: str, value: float, reference: float, apart: float, within: float, reason: str
+) -> JudgedPoint:
+    """One number of a solver. apart: from the reference; within: what is accepted; reason: what is wrong, in words."""
+    right = abs(apart) <= within  # NaN is not
+    where = {"problem": problem}
+    verdict, said = (AGREE, "") if right else (DIFFER, reason)
+    return JudgedPoint(quantity, where, value, reference, apart, 0.0, verdict, said, decides=True)
 
-    quantity: str
-    problem: str
-    value: float
-    reference: float
-    difference: float
-    within: float
-    reason: str = ""
 
-    @property
-    def right(self) -> bool:
-        return abs(self.difference) <= self.within  # NaN is not
+def unanswered(quantity: str, problem: str, failed: Failed) -> JudgedPoint:
+    return not_compared(quantity, {"problem": problem}, FAILED, failed.reason, decides=True)
 
 
 @dataclass(frozen=True)
@@ -84,25 +72,14 @@ class Asked:
         option = ("periodic", False) if problem.periodic else ("free", True)
         return bool(self.solver.options.get(*option))
 
-    def pressure(self, problem: KnownContact) -> FloatArray | str:
+    def pressure(self, problem: KnownContact) -> FloatArray | Failed:
         """Its answer, or why there is none."""
-        gap = problem.gap.copy()
-        gap.flags.writeable = False
-        given = {"gap": gap, "spacing": problem.spacing, "modulus": problem.modulus, "periodic": problem.periodic}
-        given |= {"force": problem.force, "approach": problem.approach, "tolerance": self.residual}
-        found = self.solver.call(**{name: given[name] for name in self.solver.asks})
-        if reason := getattr(found, "reason", ""):
-            return str(reason)
-        pressure = np.asarray(found)
-        if pressure.shape != gap.shape or pressure.dtype.kind not in "fiu":
-            return f"returned {pressure.dtype} of shape {pressure.shape}, accepted: a pressure of shape {gap.shape}"
-        if not np.isfinite(pressure).all():
-            return f"{np.count_nonzero(~np.isfinite(pressure))} of {pressure.size} pressures are not finite"
-        if not np.abs(pressure).max() > 0:
-            return "no pressure anywhere"
-        return pressure.astype(float)
+        given = {"gap": problem.gap, "spacing": problem.spacing, "modulus": problem.modulus}
+        given |= {"periodic": problem.periodic, "force": problem.force, "approach": problem.approach}
+        found = self.solver.call(**given, tolerance=self.residual)
+        return found if isinstance(found, Failed) or found.any() else Failed("no pressure anywhere")
 
-    def findings(self) -> Iterator[Finding]:
+    def findings(self) -> Iterator[JudgedPoint]:
         """All of them; what a solver does not serve is not asked."""
         for problem in filter(self.serves, problems()):
             yield from self.answered(problem)
@@ -113,32 +90,32 @@ class Asked:
         if self.solver.options.get("free", True):
             yield from self.convergence()
 
-    def answered(self, problem: KnownContact) -> Iterator[Finding]:
+    def answered(self, problem: KnownContact) -> Iterator[JudgedPoint]:
         """Conditions of the contact by the operator that judges, then the answer."""
         p = self.pressure(problem)
-        if isinstance(p, str):
-            yield Finding("answer", problem.name, math.nan, math.nan, math.nan, 0.0, p)
+        if isinstance(p, Failed):
+            yield unanswered("answer", problem.name, p)
             return
         left, force = self.left(problem, p), float(p.sum()) * problem.cell
         wrong = diagnosed(problem, p)
         for name, value in (("tension", left.tension), ("complementarity", left.complementarity)):
-            yield Finding(name, problem.name, value, 0.0, value, self.residual, wrong)
-        yield Finding("penetration", problem.name, left.penetration, 0.0, left.penetration, self.residual, wrong)
+            yield checked(name, problem.name, value, 0.0, value, self.residual, wrong)
+        yield checked("penetration", problem.name, left.penetration, 0.0, left.penetration, self.residual, wrong)
         if self.by_force:
             apart = force / problem.force - 1
-            yield Finding("force balance", problem.name, force, problem.force, apart, self.residual, "force not held")
+            yield checked("force balance", problem.name, force, problem.force, apart, self.residual, "force not held")
         of_answer, deepest = OF_ANSWER * self.residual, problem.approach - float(problem.gap.min())
         apart = (left.approach - problem.approach) / deepest if self.by_force else force / problem.force - 1
         mine, known = (left.approach, problem.approach) if self.by_force else (force, problem.force)
-        yield Finding("approach" if self.by_force else "force", problem.name, mine, known, apart, of_answer, wrong)
+        yield checked("approach" if self.by_force else "force", problem.name, mine, known, apart, of_answer, wrong)
         off = float(np.linalg.norm(p - problem.pressure) / np.linalg.norm(problem.pressure))
-        yield Finding("pressure", problem.name, off, 0.0, off, max(OF_PRESSURE, of_answer), wrong)
+        yield checked("pressure", problem.name, off, 0.0, off, max(OF_PRESSURE, of_answer), wrong)
 
     def left(self, problem: KnownContact, p: FloatArray) -> Residual:
         """Of what was prescribed; a force has the approach of its contact."""
         return problem.half_space.residual(problem.gap, p, None if self.by_force else problem.approach)
 
-    def properties(self, problem: KnownContact) -> Iterator[Finding]:
+    def properties(self, problem: KnownContact) -> Iterator[JudgedPoint]:
         """The same contact in other units, mirrored and moved, pressed more, and one whose contact is fixed."""
         within = 2 * max(OF_PRESSURE, OF_ANSWER * self.residual)
         first = self.pressure(problem)
@@ -152,38 +129,39 @@ class Asked:
             others["shift"] = (moved(problem, lambda a: np.roll(a, 5, axis=0)), lambda p: np.roll(p, -5, axis=0))
         for name, (other, back) in others.items():
             second = self.pressure(other)
-            if isinstance(first, str) or isinstance(second, str):
-                reason = second if isinstance(second, str) else str(first)
-                yield Finding(name, problem.name, math.nan, 0.0, math.nan, within, reason)
+            if isinstance(first, Failed):
+                yield unanswered(name, problem.name, first)
+            elif isinstance(second, Failed):
+                yield unanswered(name, problem.name, second)
             else:
                 off = float(np.linalg.norm(back(second) - first) / np.linalg.norm(first))
-                yield Finding(name, problem.name, off, 0.0, off, within, "the pressure is another one")
+                yield checked(name, problem.name, off, 0.0, off, within, "the pressure is another one")
         yield from self.monotone(problem)
         if not problem.periodic:
             yield from self.superposition()
 
-    def monotone(self, problem: KnownContact) -> Iterator[Finding]:
+    def monotone(self, problem: KnownContact) -> Iterator[JudgedPoint]:
         """The area grows with the load."""
         loads = [pressed(problem, part) for part in (0.3, 0.6, 1.0)]
         found = [self.pressure(one) for one in loads]
         for (one, before), (_, after) in pairwise(zip(loads, found, strict=True)):
-            if isinstance(before, str) or isinstance(after, str):
+            if isinstance(before, Failed) or isinstance(after, Failed):
                 continue  # the answer itself is a finding
             cells = [int(np.count_nonzero(p > 1e-9 * np.max(p))) for p in (before, after)]
             reason = "the contact shrinks under more load"
             lost = max(cells[0] - cells[1], 0) / cells[0]
-            yield Finding("monotone area", one.name, float(cells[1]), float(cells[0]), lost, 0.02, reason)
+            yield checked("monotone area", one.name, float(cells[1]), float(cells[0]), lost, FEW_CELLS, reason)
 
-    def superposition(self) -> Iterator[Finding]:
+    def superposition(self) -> Iterator[JudgedPoint]:
         """A flat punch has one contact: twice the load, twice the pressure."""
         (flat,) = (one for one in problems() if one.name == "flat")
         single, double = self.pressure(flat), self.pressure(pressed(flat, 2.0))
-        if not isinstance(single, str) and not isinstance(double, str):
+        if not isinstance(single, Failed) and not isinstance(double, Failed):
             off = float(np.linalg.norm(double - 2 * single) / np.linalg.norm(2 * single))
             within = max(OF_PRESSURE, OF_ANSWER * self.residual)
-            yield Finding("superposition", flat.name, off, 0.0, off, within, "twice the load is not twice the pressure")
+            yield checked("superposition", flat.name, off, 0.0, off, within, "twice the load is not twice the pressure")
 
-    def convergence(self) -> Iterator[Finding]:
+    def convergence(self) -> Iterator[JudgedPoint]:
         """The approach of a flat punch goes to its limit with the cell size, to first order."""
         if not self.by_force:
             return
@@ -192,12 +170,12 @@ class Asked:
         for cells in (12, 24, 48):
             coarse = problem_on(flat.name, cells)
             p = self.pressure(coarse)
-            if isinstance(p, str):
+            if isinstance(p, Failed):
                 return
             errors.append(abs(self.left(coarse, p).approach - limit))
         order = math.log2(errors[0] / errors[2]) / 2 if min(errors) > 0 else math.nan
         reason = "the error does not fall with the cell size"
-        yield Finding("order of convergence", flat.name, order, 1.0, order - 1, 0.15, reason)
+        yield checked("order of convergence", flat.name, order, 1.0, order - 1, NEXT_TERM, reason)
 
 
 def diagnosed(problem: KnownContact, p: FloatArray) -> str:
@@ -276,7 +254,7 @@ def timed(asked: Asked, name: str = "rough, light load") -> list[Timed]:
         mine, ours = [], []
         for _ in range(3):
             begun = time.perf_counter()
-            if isinstance(asked.pressure(problem), str):
+            if isinstance(asked.pressure(problem), Failed):
                 return rows
             mine.append(time.perf_counter() - begun)
             ours.append(_seconds_of_ours(space, problem, asked.residual))
@@ -294,11 +272,3 @@ def _seconds_of_ours(space: bem3d.HalfSpace, problem: KnownContact, residual: fl
         warnings.simplefilter("ignore", bem3d.ContactWarning)
         bem3d.solve(space, problem.gap, force=problem.force, tolerance=residual)
     return time.perf_counter() - begun
-
-
-def growth(rows: Sequence[Timed]) -> float:
-    """p of seconds ~ cells^p, over all cells of the two finest grids; NaN where there is one."""
-    if len(rows) < 2:
-        return math.nan
-    before, after = rows[-2:]
-    return math.log(after.seconds / before.seconds) / math.log((after.cells / before.cells) ** 2)

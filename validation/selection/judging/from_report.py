@@ -26,6 +26,7 @@ from validation.selection.judging.laws import FEATURE, REGION, ends_of
 from validation.selection.judging.references import Reference, as_file, file_name
 from validation.selection.judging.rolling import ACROSS, ALONG, EACH, GRIDS, HEIGHTS, LIFT, SEED, strip_of
 from validation.selection.judging.spectra import HEIGHT, LEVEL, MEAN, RMS, SLOPE, bands_of, spectrum_of, variance_of
+from validation.simulation.model_names import BEM, FILTER_3D, SPRINGS
 from validation.simulation.rolling_strip import (
     HERTZ,
     RoughStrip,
@@ -36,12 +37,13 @@ from validation.simulation.rolling_strip import (
     roll_strip,
     roll_tracks,
 )
-from validation.simulation.rough_punch import BEM, MDR
 from validation.simulation.track_spectrum import PiecewisePowerLaw
 
 Rows = Iterator[Reference]
-SPRINGS_OVER, LINEAR_OVER = "springs over boundary elements", "linear theory, 3D over boundary elements"
+SPRINGS_OVER, LINEAR_OVER = (f"{model} over {BEM}" for model in (SPRINGS, FILTER_3D))
 FBAR, Q, BAND, ROLL_OFF = "Fbar", "q a", "q_max / q_min", "q_r L / 2π"
+FORMER = {"bem3d": BEM, "mdr": SPRINGS, f"linear theory, 3D over {BEM}": LINEAR_OVER, "nothing": "unchanged"}
+"""Words of reports that were made before each thing had one name."""
 TENTH = 1.2816
 """Of a Gaussian, its deviations to the highest tenth."""
 FEATURES = ("peak ω_eigen", "jump", "slope of region 3", "period of the oscillation")
@@ -71,8 +73,13 @@ class Report:
 
     def rows(self, case: str, quantity: str, **equal: float | str) -> list[dict[str, Any]]:
         table = from_csv(quantity, (self.folder / "data" / csv_name(case, quantity)).read_text("utf-8"))
-        rows = [dict(zip(table.columns, row, strict=True)) for row in zip(*table.columns.values(), strict=True)]
-        return [row for row in rows if equal.items() <= row.items()]
+        cells = zip(*table.columns.values(), strict=True)
+        named = [[FORMER.get(cell, cell) if isinstance(cell, str) else cell for cell in row] for row in cells]
+        rows = [dict(zip(table.columns, row, strict=True)) for row in named]
+        found = [row for row in rows if equal.items() <= row.items()]
+        if not found:
+            raise ValueError(f"--references needs a report with {quantity!r} of {case}, got {self.folder} without it")
+        return found
 
 
 @dataclass(frozen=True)
@@ -114,7 +121,7 @@ def _punch(statistic: str, ratio: str) -> Callable[[Report, Engine], Rows]:
     def found(report: Report, _: Engine) -> Rows:
         mine, springs = (
             {(row["H"], row[FBAR]): row for row in report.rows("fractal_punch", statistic, model=model)}
-            for model in (BEM, MDR)
+            for model in (BEM, SPRINGS)
         )
         for row in report.rows("fractal_punch", ratio, model=SPRINGS_OVER):
             key = row["H"], row[FBAR]
@@ -131,7 +138,7 @@ def _rolled_off(report: Report, _: Engine) -> Rows:
     waves, hurst = settings["pressed"]
     edges = tuple(2 * math.pi * q for q in (1, waves, settings["band"] * waves))
     gradient = PiecewisePowerLaw(edges=edges, exponents=(0.0, 2 * hurst + 2)).gradient
-    for row in report.rows("interface", "k h over F", model="boundary elements, punch"):
+    for row in report.rows("interface", "k h over F", model=f"{BEM}, punch"):
         force = gradient * float(erfinv(row["contact in Persson's theory [%]"] / 100)) / math.sqrt(2)
         where = {"H": hurst, ROLL_OFF: float(waves), FBAR: force}
         yield Reference(where, force * row["value"], _log_half(row), 0.0)
@@ -218,7 +225,7 @@ def _positions(name: str, solve: Callable[[Strip], Outcome]) -> Callable[[Report
 def _filters(report: Report, _: Engine) -> Rows:
     """alpha: zero of ridges, infinite of isotropic ground."""
     alpha = {"ridges": 0.0, "isotropic ground": math.inf}
-    for row in report.rows("across", "A3", model="boundary elements"):
+    for row in report.rows("across", "A3", model=BEM):
         load, diameter = (float(word.split()[0]) for word in row["wheel"].split(", "))
         across = alpha[row["across"]] if row["across"] in alpha else float(row["across"].split(" = ")[1])
         where = {LOAD: load, DIAMETER: diameter, OFFSET: float(row[OFFSET]), ALPHA: across, WAVE: float(row[WAVE])}
@@ -227,7 +234,7 @@ def _filters(report: Report, _: Engine) -> Rows:
 
 def _features(report: Report, _: Engine) -> Rows:
     for name in FEATURES:
-        (row,) = report.rows("wheel", name, changed="nothing")
+        (row,) = report.rows("wheel", name, changed="unchanged")
         yield Reference({"feature": name}, row["value"], abs(_half(row) / row["value"]), 0.0)
 
 
