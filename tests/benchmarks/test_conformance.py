@@ -1,4 +1,4 @@
-"""`pytest --pyargs validation.conformance` on functions of a file: right ones pass, a wrong one ends with an example."""
+"""`pytest --pyargs validation.conformance` on functions of a file: right ones pass, a wrong one has an example."""
 
 import subprocess
 import sys
