@@ -55,10 +55,7 @@ def notes(result: Outcomes) -> list[str]:
     if len(by_size) < MANY:
         return []
     said = listed([f"{by_size[size]} at {ROLL_OFF} = {size:g}" for size in sorted(by_size)])
-    return [
-        "Persson's theory is too soft whatever the size of the face: under the lightest load, "
-        f"H = {case.pressed[1]:g}, its stiffness is off by {said}."
-    ]
+    return [f"Under the lightest load, H = {case.pressed[1]:g}, the stiffness of Persson's theory is off by {said}."]
 
 
 of_interface = partial(

@@ -103,9 +103,9 @@ def notes(result: rolled.RolledFiltersResult) -> list[str]:
     numbers = [n for one in means_of_lines(case) for n in one.numbers if n.role is Role.FINDING]
     low = min(numbers, key=lambda number: number.value)
     return [
-        "Average the spectra of parallel lines, not their heights: the mean of the heights of "
-        f"{case.lines} lines {low.where[SPACING]:g} mm apart is {-low.value:.1f} dB too low over "
-        f"{low.where[ACROSS]}, at a wave of {low.where['worst at']:g} mm."
+        f"The mean of the heights of {case.lines} parallel lines {low.where[SPACING]:g} mm apart is off by "
+        f"{low.value:+.1f} dB over {low.where[ACROSS]}, at a wave of {low.where['worst at']:g} mm. "
+        "Average their spectra."
     ]
 
 

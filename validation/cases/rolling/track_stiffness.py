@@ -156,7 +156,7 @@ def exponential(log: Estimate, less: float = 0.0) -> Estimate:
 
 
 def notes(result: Outcomes) -> list[str]:
-    """Why springs fluctuate more: not by their spectrum, but where boundary elements no longer follow the roughness."""
+    """What tells whether springs fluctuate more by their spectrum, or where the half-space leaves the linear range."""
     case = result.case
     if len(case.forces) == 1:
         return []
@@ -175,12 +175,12 @@ def notes(result: Outcomes) -> list[str]:
         )
     }
     return [
-        f"Geike's spectrum is not the reason: at Fbar = {heavy:g}, the smoothest, springs fluctuate {over[heavy]:.2f} "
+        f"At Fbar = {heavy:g}, the smoothest, springs of Geike's spectrum fluctuate {over[heavy]:.2f} "
         f"times as much as boundary elements, at Fbar = {light:g} {over[light]:.2f} times. In between the roughness "
         f"grows {case.height(light) / case.height(heavy):.2g} times, the fluctuation of springs {times[SPRINGS]:.2g} "
         f"times and that of boundary elements {times[WHEEL]:.2g} times.",
-        f"The half-space leaves the linear range first: at Fbar = {light:g} its mean stiffness is {lost[WHEEL]:.1f} % "
-        f"below that of the smooth wheel, that of springs {lost[SPRINGS]:.1f} %.",
+        f"At Fbar = {light:g} the mean stiffness of the half-space is {lost[WHEEL]:.1f} % below that of the smooth "
+        f"wheel, that of springs {lost[SPRINGS]:.1f} %.",
     ]
 
 
