@@ -358,8 +358,8 @@ def test_a_full_disk_is_exit_4_and_names_the_path(says, what, tmp_path, capsys, 
     assert not [name for name in after if name.endswith(".part")]
 
 
-def test_only_may_be_given_more_than_once(tmp_path):
-    words = ["report", "--only", "geike", "geike", "--only", "hertz", "--out", str(tmp_path), "--workers", "1"]
+def test_only_may_be_given_more_than_once_and_with_commas(tmp_path):
+    words = ["report", "--only", "geike,geike", "geike", "--only", "hertz", "--out", str(tmp_path), "--workers", "1"]
     assert command.main(words) == command.Exit.MET
     assert list(json.loads((tmp_path / "results.json").read_text())["cases"]) == ["geike", "hertz"]
     assert (tmp_path / "exact.html").read_text().count('id="geike"') == 1

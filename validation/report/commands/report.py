@@ -8,7 +8,7 @@ from validation.analysis.evidence import Table
 from validation.benchmarks.peers import solvers_with
 from validation.engine.engine import LOCAL
 from validation.report.build import build
-from validation.report.commands.arguments import Exit, add_options, add_profile, add_workers, at_least
+from validation.report.commands.arguments import Exit, add_options, add_profile, add_workers, at_least, some_of
 from validation.report.contents import CASES, TIMED, timed_here
 from validation.report.formats import in_four_digits
 from validation.report.section import Section, total_of
@@ -27,7 +27,7 @@ def describe(making: argparse.ArgumentParser) -> None:
     )
     add_profile(making)
     if name in TIMED:
-        making.set_defaults(only=[name])
+        making.set_defaults(only=[(name,)])
         out = ("--out", "DIR", Path, f"folder (default: reports/{name}-quick or reports/{name})")
         add_options(making, out, ("--seed", "S", at_least(0), "seed of the rough surfaces"))
         if name == "race":
@@ -38,7 +38,7 @@ def describe(making: argparse.ArgumentParser) -> None:
         "--only",
         nargs="+",
         action="extend",
-        choices=[*CASES, *TIMED],
+        type=some_of([*CASES, *TIMED]),
         metavar="CASE",
         help="run only these cases; `cases` lists them",
     )
@@ -71,6 +71,7 @@ def report(arguments: argparse.Namespace) -> Exit:
     """Run cases, write their report, and say how it came out."""
     # what is timed is run last, when nothing else is; a race needs other solvers
     everything = [*CASES, *timed_here()] if arguments.scene is None else ["wheel"]
+    arguments.only = [name for some in arguments.only or () for name in some]
     names = list(dict.fromkeys(arguments.only or everything))
     if arguments.keep and not arguments.only:
         raise ValueError("--keep is for --only, got it alone: without --only no case is left to be kept")
