@@ -319,7 +319,7 @@ CASE = Case(
     place=2,
     answers="Our solver beside other packages that are installed, same problems, same residual",
     quick=SolverComparison(),
-    full=SolverComparison(cells=(128, 256, 512)),
+    full=SolverComparison(cells=(128, 256, 384)),
     run=run,
     study=STUDY,
     needs="–",
