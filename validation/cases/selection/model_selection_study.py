@@ -282,7 +282,7 @@ CASE = Case(
     answers="Calibration test of model selection on random scenes: estimated and true error, and the time saved",
     quick=CalibrationTest(punches=4, edges=CHEAP_EDGES),
     full=CalibrationTest(
-        punches=60, spheres=60, rolling=10, wheels=6, edges=EDGE_SCENES, tolerances=(0.03, 0.1, 0.3), seed=23
+        punches=60, spheres=60, rolling=16, wheels=10, edges=EDGE_SCENES, tolerances=(0.03, 0.1, 0.3), seed=23
     ),
     run=run,
     study=STUDY,
