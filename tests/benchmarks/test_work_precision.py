@@ -49,7 +49,7 @@ SMALL = Precision(
         grids=Grids(cells=(1, 3, 6), fixed=3, tolerances=(0.1,), per="to a radius"),
         springs=(1, 8),
     ),
-    cost=figure_cost.FigureCost(wheels=20, steps=20),
+    cost=figure_cost.FigureCost(wheels=20, steps=20, cells=16),
 )
 
 
@@ -168,6 +168,7 @@ def test_finished_scenes_are_kept_until_all_are(tmp_path, by_hand, monkeypatch):
     """Who is interrupted goes on; who is done times everything anew."""
     timed = timed_problem(named("right"))
     monkeypatch.setattr(Precision, "problems", lambda self: (timed.problem,))
+    monkeypatch.setattr(figure_cost, "alone", lambda function, *given: function(*given))
     engine = Engine(store=tmp_path)
     limits = {"slow": SMALL.slow, "enough": SMALL.enough}
     engine.map(precision.measure, [TimedProblem(problem=timed.problem, methods=all_methods(), **limits)])

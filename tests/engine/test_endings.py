@@ -165,7 +165,7 @@ def test_the_table_of_statuses_is_complete(capsys):
 @pytest.mark.slow
 def test_nobody_reads_what_is_printed():
     """As after `| head`: it ends without a word, as other commands do."""
-    words = [sys.executable, "-m", "validation", "cases"]
+    words = [sys.executable, "-m", "validation", "scene", "rail"]
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
     with subprocess.Popen(words, cwd=ROOT, env=ENVIRONMENT, text=True, **pipes) as run:
         run.stdout.close()
@@ -177,7 +177,7 @@ def test_nobody_reads_what_is_printed():
 @pytest.mark.slow
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no full device")
 def test_what_is_printed_goes_to_a_full_disk():
-    words = [sys.executable, "-m", "validation", "cases"]
+    words = [sys.executable, "-m", "validation", "scene", "rail"]
     with Path("/dev/full").open("w") as full:
         run = subprocess.run(words, cwd=ROOT, env=ENVIRONMENT, stdout=full, stderr=subprocess.PIPE, text=True)
     assert run.returncode == command.Exit.UNFINISHED
