@@ -49,7 +49,7 @@ SMALL = Precision(
         grids=Grids(cells=(1, 3, 6), fixed=3, tolerances=(0.1,), per="to a radius"),
         springs=(1, 8),
     ),
-    cost=figure_cost.FigureCost(wheels=20, steps=20, cells=16),
+    cost=figure_cost.FigureCost(wheels=20, steps=20, cells=24),
 )
 
 
