@@ -33,24 +33,27 @@ docs: $(DOCS)  ## the documentation: reports/docs/_build/html/index.html
 	$(RUN) sphinx --quiet --nitpicky --fail-on-warning --keep-going -d reports/docs/_build/doctrees \
 		reports/docs reports/docs/_build/html $(ARGS)
 
-# as many workers as cores: more threads in each would only wait for one another
+# as many workers as cores: more threads in each would only wait for one another; tests of a file on the same one, which
+# share their fixtures, until it takes what is left of another
+SHARED := -n auto --dist worksteal
 fast test oldest coverage verdicts: export OMP_NUM_THREADS := 1
 
 check: lint types fast  ## for the loop while one works, a minute: lint, types and the tests not marked slow
 
 fast: $(READY)
-	$(RUN) pytest -q -n auto -m "not slow" $(ARGS)
+	$(RUN) pytest -q $(SHARED) -m "not slow" $(ARGS)
 
 test: $(READY)  ## all tests
-	$(RUN) pytest -n auto $(ARGS)
+	$(RUN) pytest $(SHARED) $(ARGS)
 
 oldest-python:
 	@test -n "$(OLDEST_PYTHON)" || { echo "the oldest dependencies need a Python from 3.11 to 3.13, and none is installed"; exit 2; }
 
 oldest: oldest-python $(if $(OLDEST_PYTHON),$(OLDEST)/ready)  ## the tests not marked slow, on the oldest versions that pyproject.toml allows
 	# an old library says of its own imports that they are deprecated
-	# planted faults try the tests and cases what they say, not the libraries
-	$(OLDEST)/bin/python -m pytest -q -n auto -m "not slow" -W ignore::DeprecationWarning --ignore=tests/planted_faults --ignore=tests/cases $(ARGS)
+	# planted faults and mutants try the tests, cases what they say, the table of imports our own files: no library
+	$(OLDEST)/bin/python -m pytest -q $(SHARED) -m "not slow" -W ignore::DeprecationWarning \
+		$(addprefix --ignore=tests/,planted_faults cases mutation test_architecture.py) $(ARGS)
 
 accessibility: $(AXE)  ## the page of a report by axe-core in a headless chromium, which has to be there
 	$(RUN) pytest -q tests/report/test_axe.py $(ARGS)

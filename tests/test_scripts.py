@@ -13,15 +13,15 @@ import validation
 
 EXAMPLES = Path(validation.__file__).parent / "examples"
 NAMES = sorted(path.stem for path in EXAMPLES.glob("*.py"))
-JUDGED = {"own_draws", "own_filter", "own_model", "own_solver"}
-"""Half a minute: the documentation runs them, as all others, and fails where one fails."""
+LONG = {"own_draws", "own_filter", "own_model", "own_solver", "rolling_spectrum"}
+"""Most of a minute: the documentation runs them, as all others, and fails where one fails."""
 SECONDS = {"sphere", "own_rail", "own_lines"}
 """Those that take next to none; the others are slow."""
 
 
 @pytest.mark.parametrize(
     "name",
-    [pytest.param(name, marks=() if name in SECONDS else pytest.mark.slow) for name in NAMES if name not in JUDGED],
+    [pytest.param(name, marks=() if name in SECONDS else pytest.mark.slow) for name in NAMES if name not in LONG],
 )
 def test_an_example_asserts_its_result_and_draws_a_picture(name, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)

@@ -55,6 +55,7 @@ def test_intervals_hold_as_often_as_they_say(sizes, correlations, at_least):
         assert np.median([x.error for x in known]) == pytest.approx(np.std([x.value for x in known]), rel=0.3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("sizes", "correlations"), [((8, 4), (0.9,)), ((20, 10, 5), (0.5, 0.2))])
 def test_mean_and_variance_have_no_bias(sizes, correlations):
     """However few realisations, and however little the grids have in common: within 3.5 standard errors."""

@@ -1,9 +1,9 @@
 """The solver comparison: the same for all solvers, a row for each, and true where other packages are installed."""
 
 import dataclasses
-import multiprocessing
 import os
 import time
+from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -64,17 +64,6 @@ def warms_up(problem, tolerance):
 
 def other(name, prepare, package="numpy"):
     return PeerSolver(name, package, "for a test", prepare, (1.0, 0.1))
-
-
-@pytest.fixture(scope="module")
-def forked():
-    """Isolated processes are copies of one that has imported everything, which takes two seconds; fewest runs."""
-    server = multiprocessing.get_context("forkserver")
-    server.set_forkserver_preload([__name__])
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(alone, "multiprocessing", SimpleNamespace(get_context=lambda kind: server))
-        patch.setattr(comparison, "SETTLED", 0.0)
-        yield
 
 
 @pytest.mark.slow
@@ -203,7 +192,9 @@ def test_a_solver_that_is_placed_first_does_not_become_ours():
 
 
 @pytest.mark.slow
-def test_a_solver_of_a_file_races_where_it_serves(forked):
+def test_a_solver_of_a_file_races_where_it_serves(forked, monkeypatch):
+    # a process each time that it is asked for its functions
+    monkeypatch.setattr(peers, "offered_in", cache(peers.offered_in))
     own = Path(peers.__file__).parents[1] / "examples" / "own_solver.py"
     result = comparison.run(dataclasses.replace(SMALL, residual=1e-6, own=str(own)))
     found = {

@@ -12,7 +12,7 @@ from validation.simulation.method import Result, Solve
 
 
 @pytest.mark.slow
-def test_whoever_fails_is_a_row_with_its_reason_and_its_place_on_the_chart():
+def test_whoever_fails_is_a_row_with_its_reason_and_its_place_on_the_chart(forked):
     """In real processes: who dies takes no other's process along."""
     timed = timed_problem(
         named("right"), named("refuses"), named("raises"), named("dies", "a"), named("dies at once", "b")

@@ -49,7 +49,7 @@ SMALL = Precision(
         grids=Grids(cells=(1, 3, 6), fixed=3, tolerances=(0.1,), per="to a radius"),
         springs=(1, 8),
     ),
-    cost=figure_cost.FigureCost(wheels=20, steps=20),
+    cost=figure_cost.FigureCost(wheels=4, steps=4, cells=24),
 )
 
 
@@ -140,10 +140,10 @@ def test_errors_fall_with_the_order_of_theory(charts):
 
 @pytest.mark.slow
 def test_three_dimensions_cost_hours_and_not_days(result, found):
-    """dx = a / cells, 20 wheels over 0.65 m; planted, two days."""
+    """dx = a / cells, 4 wheels over 0.65 m; planted, two days."""
     table, a = found.table(figure_cost.COST_OF_STEPS), result.case.cost.scene.contact_radius
     np.testing.assert_allclose(table["one metre [s]"], table["one step [s]"] * table["a/dx"] / a)
-    np.testing.assert_allclose(table["Fig. 14.4 [h]"], table["one metre [s]"] * 0.65 * 20 / 3600)
+    np.testing.assert_allclose(table["Fig. 14.4 [h]"], table["one metre [s]"] * 0.65 * 4 / 3600)
     assert found.claims[-1].status == "contradicted"
     days = dict(table.columns, **{name: [1.0, 50.0] for name in figure_cost.HOURS})
     slow = dataclasses.replace(result, found={**result.found, "cost": Table(figure_cost.COST_OF_STEPS, days)})
@@ -168,6 +168,7 @@ def test_finished_scenes_are_kept_until_all_are(tmp_path, by_hand, monkeypatch):
     """Who is interrupted goes on; who is done times everything anew."""
     timed = timed_problem(named("right"))
     monkeypatch.setattr(Precision, "problems", lambda self: (timed.problem,))
+    monkeypatch.setattr(figure_cost, "alone", lambda function, *given: function(*given))
     engine = Engine(store=tmp_path)
     limits = {"slow": SMALL.slow, "enough": SMALL.enough}
     engine.map(precision.measure, [TimedProblem(problem=timed.problem, methods=all_methods(), **limits)])

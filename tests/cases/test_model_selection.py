@@ -16,10 +16,10 @@ from validation.cases.selection.random_scenes import KINDS
 
 @pytest.mark.slow
 def test_estimated_errors_hold_on_surfaces_that_no_model_has_seen():
-    case = ladder.CalibrationTest(punches=3, spheres=1, rolling=1, tolerances=(0.1, 0.3))
+    case = ladder.CalibrationTest(punches=3, spheres=1, rolling=0, tolerances=(0.1, 0.3))
     found = calibration.STUDY.evidence(ladder.run(case))
     scenes = found.table("scenes")
-    assert len(scenes["kind"]) == 2 * 5
+    assert len(scenes["kind"]) == 2 * 4
     met = scenes["met"] == 1
     assert met.any()
     assert (scenes["estimated error"][met] <= scenes["tolerance"][met]).all()

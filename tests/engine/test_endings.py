@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.engine.jobs import Job, die_at_once, lose_alone, stay
+from tests.engine.jobs import Job, case_of, die_at_once, lose_alone, stay
 from tests.engine.toys import ENVIRONMENT, ROOT
 from tests.report.test_command_line import SMALL
 from validation import __main__ as command
@@ -21,15 +21,6 @@ from validation.benchmarks.isolation import isolated_process
 from validation.engine.engine import Engine, WorkerLostError
 from validation.report import pictures
 from validation.report.contents import CASES
-
-
-def run_of(solve, folder):
-    """A run of a case that is nothing but these solves."""
-
-    def run(case, engine):
-        return engine.map(solve, [Job(i, str(folder)) for i in range(3)])
-
-    return replace(CASES["hertz"], run=run)
 
 
 def raising(error):
@@ -46,7 +37,7 @@ def report(folder, *words):
 @pytest.mark.slow
 def test_a_worker_that_is_killed_is_exit_4(tmp_path, monkeypatch, capsys):
     """In a sentence; and what was finished is kept."""
-    monkeypatch.setitem(CASES, "hertz", run_of(die_at_once, tmp_path))
+    monkeypatch.setitem(CASES, "hertz", case_of(die_at_once, tmp_path))
     assert report(tmp_path) == command.Exit.UNFINISHED == 4
     said = capsys.readouterr().err.splitlines()[-1]
     assert re.fullmatch(r"error: a worker was killed, .*; finished solves are kept, the same command goes on .*", said)
@@ -75,14 +66,14 @@ RUN = """
 import signal
 import sys
 from pathlib import Path
-from tests.engine import jobs, test_endings
+from tests.engine import jobs
 from validation import __main__ as command
 from validation.report.contents import CASES
 solve, folder, workers = sys.argv[1:]
 # whoever started the tests may have had them ignored
 signal.signal(signal.SIGHUP, signal.SIG_DFL)
 signal.signal(signal.SIGINT, signal.default_int_handler)
-CASES["hertz"] = test_endings.run_of(getattr(jobs, solve), Path(folder))
+CASES["hertz"] = jobs.case_of(getattr(jobs, solve), Path(folder))
 words = ["report", "--only", "hertz", "--out", folder + "/out", "--workers", workers]
 sys.exit(command.main(words))
 """
@@ -165,7 +156,7 @@ def test_the_table_of_statuses_is_complete(capsys):
 @pytest.mark.slow
 def test_nobody_reads_what_is_printed():
     """As after `| head`: it ends without a word, as other commands do."""
-    words = [sys.executable, "-m", "validation", "cases"]
+    words = [sys.executable, "-m", "validation", "scene", "rail"]
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
     with subprocess.Popen(words, cwd=ROOT, env=ENVIRONMENT, text=True, **pipes) as run:
         run.stdout.close()
@@ -177,7 +168,7 @@ def test_nobody_reads_what_is_printed():
 @pytest.mark.slow
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no full device")
 def test_what_is_printed_goes_to_a_full_disk():
-    words = [sys.executable, "-m", "validation", "cases"]
+    words = [sys.executable, "-m", "validation", "scene", "rail"]
     with Path("/dev/full").open("w") as full:
         run = subprocess.run(words, cwd=ROOT, env=ENVIRONMENT, stdout=full, stderr=subprocess.PIPE, text=True)
     assert run.returncode == command.Exit.UNFINISHED

@@ -207,6 +207,7 @@ def test_realisations_have_addresses():
     assert random_generator(8, 1, 700, 1).random() != draws[1, 700, 1]
 
 
+@pytest.mark.slow
 def test_fewer_surfaces_are_the_first_of_more():
     from tests.engine.small_punches import SMALL, fractal_punch
 

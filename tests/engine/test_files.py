@@ -127,6 +127,7 @@ def test_a_write_that_fails_leaves_the_file_that_is_there(tmp_path, monkeypatch)
     assert (path.read_bytes(), names(tmp_path)) == (b"before", ["old"])
 
 
+@pytest.mark.slow
 def test_every_option_that_names_a_file_follows_a_link(tmp_path):
     """None of them replaces what is no plain file."""
     words = ["compare", "rail", "--tolerance", "3 dB", "--models", "linear, on the line"]

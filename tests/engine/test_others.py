@@ -55,12 +55,12 @@ def test_what_a_function_does_wrong_is_said_in_words_and_the_next_call_is_served
 @pytest.mark.slow
 def test_a_hang_is_ended_and_after_three_nothing_is_asked(tmp_path):
     loops = f"{FACE}@stiffness_model('loops')\ndef loops(load):\n    while load > 1:\n        pass\n    return load\n"
-    with Visitor(written(tmp_path, loops), seconds=3.0) as visitor:
+    with Visitor(written(tmp_path, loops), seconds=1.0) as visitor:
         (caller,) = visitor.callers()
         assert caller.call(load=0.5) == 0.5
         found = caller.calls("load", [2.0, 0.5, 2.0, 2.0, 0.5], {})
         ended = visitor._process.pid
-    late = "no answer within 3 s"
+    late = "no answer within 1 s"
     assert [getattr(one, "reason", one) for one in found] == [
         late,
         0.5,

@@ -2,7 +2,7 @@
 
 import subprocess
 import sys
-from functools import partial
+from functools import cache, partial
 from importlib import import_module
 
 import pytest
@@ -13,26 +13,24 @@ from validation.engine.sources import modules_behind, version_behind
 PUNCH = "validation.simulation.rough_punch"
 
 
-REMEMBERED = (sources._tree, sources._meaning, sources._words, sources.version_of, sources.modules_behind)
-
-
 @pytest.fixture
 def edited(monkeypatch):
-    """A function that changes the bytes of a file in the eyes of the digests."""
+    """A function that changes the bytes of a file in the eyes of the digests; what they know of others stays known."""
 
     def edit(path, old, new):
         assert old in path.read_bytes()
         monkeypatch.setattr(
             sources, "_source", lambda p: p.read_bytes().replace(old, new) if p == path else p.read_bytes()
         )
-        forget()
+        for name in ("_tree", "_meaning", "_words"):
+            monkeypatch.setattr(sources, name, anew(getattr(sources, name), path))
+        for name in ("version_of", "modules_behind"):
+            monkeypatch.setattr(sources, name, cache(getattr(sources, name).__wrapped__))
 
-    def forget():
-        for digest in REMEMBERED:
-            digest.cache_clear()
+    def anew(known, path):
+        return lambda p: (known.__wrapped__ if p == path else known)(p)
 
-    yield edit
-    forget()
+    return edit
 
 
 def test_a_punch_rests_on_both_methods_and_on_no_page():
@@ -124,8 +122,7 @@ def test_a_solve_without_source_is_refused(version):
 @pytest.mark.slow
 def test_what_is_left_out_of_a_version_does_not_count(edited):
     without = ("validation.scenes", "validation.simulation.surface")
-    version = partial(sources.version_of, (PUNCH,))
-    some, whole = version(without), version()
+    some, whole = (sources.version_of((PUNCH,), left_out) for left_out in (without, ()))
     edited(sources.modules()["validation.simulation.surface"], b"def ", b"def other_")
-    assert version(without) == some
-    assert version() != whole
+    assert sources.version_of((PUNCH,), without) == some
+    assert sources.version_of((PUNCH,)) != whole

@@ -22,15 +22,11 @@ def test_any_number_of_workers_and_any_order_give_the_same_bits(tmp_path):
     from tests.engine.small_punches import SURFACES, press_surface
 
     alone = Engine().map(press_surface, SURFACES)
-    for workers in (2, 3):
-        store = tmp_path / str(workers)
-        assert same(alone, Engine(workers=workers, store=store).map(press_surface, SURFACES))
+    assert same(alone, Engine(workers=3, store=tmp_path / "3").map(press_surface, SURFACES))
     shuffled = np.random.default_rng(0).permutation(len(SURFACES))
-    store = tmp_path / "shuffled"
-    mixed = Engine(workers=2, store=store).map(press_surface, [SURFACES[i] for i in shuffled])
+    mixed = Engine(workers=2, store=tmp_path / "2").map(press_surface, [SURFACES[i] for i in shuffled])
     assert same([alone[i] for i in shuffled], mixed)
-    for folder in ("3", "shuffled"):
-        assert contents(tmp_path / folder) == contents(tmp_path / "2")
+    assert contents(tmp_path / "3") == contents(tmp_path / "2")
 
 
 RUN = """
@@ -120,22 +116,22 @@ def cluster(monkeypatch, request):
 
 @pytest.mark.slow
 def test_workers_of_a_scheduler_give_the_same_bits_and_one_may_die(cluster, tmp_path):
-    """One of three workers is killed in the middle: all results come, each as a single process would have it."""
+    """One of two workers is killed in the middle: all results come, each as a single process would have it."""
     from tests.engine.small_punches import SURFACES, press_surface
 
     address, worker, _ = cluster
-    workers = [worker(), worker(), worker(threads=2)]
+    workers = [worker(), worker(threads=2)]
     log = str(tmp_path / "log")
     problems = [Slow(i, log) for i in range(16)]
 
     with meanwhile(workers[0].kill, lambda: len(computed(log)) >= 6):
         remote = Engine(store=tmp_path / "remote", executor=address).map(slow, problems)
     assert workers[0].wait() != 0
-    assert all(other.poll() is None for other in workers[1:])
+    assert workers[1].poll() is None
     assert set(computed(log)) == set(range(16))
     assert same(Engine().map(slow, problems), remote)
     assert len(list((tmp_path / "remote").glob("*.npz"))) == 16
-    # the survivors still compute: surfaces this time, two at once on one of them
+    # the survivor still computes: surfaces this time, two at once
     here, there = tmp_path / "here", tmp_path / "there"
     assert same(
         Engine(store=here).map(press_surface, SURFACES),
@@ -155,6 +151,7 @@ def test_there_is_at_least_one_worker():
         Engine(workers=0)
 
 
+@pytest.mark.slow
 def test_an_address_where_nobody_answers(problems, monkeypatch):
     monkeypatch.setattr(ensemble, "TIMEOUT", 1)
     with pytest.raises(ValueError, match="executor must be a running scheduler"):
@@ -168,7 +165,7 @@ def test_a_scheduler_that_is_lost(cluster, tmp_path):
     worker()  # one is enough to compute there and not here
     store = tmp_path / "store"
 
-    problems = [Slow(i, str(tmp_path / "log")) for i in range(10**4)]
+    problems = [Slow(i, str(tmp_path / "log")) for i in range(300)]
     lost = pytest.raises(ConnectionError, match=r"scheduler at \S+ is gone; finished solves are kept")
     with lost, meanwhile(scheduler.kill, lambda: len(list(store.glob("*.npz"))) >= 3):
         Engine(store=store, executor=address).map(slow, problems)

@@ -167,11 +167,11 @@ FAULTS = [
     Fault("smooth levels that are smoothed").at(isotropic_line, "WHOLE_DECIBELS", -1.0),
     partial(HELD, SCATTERED.by_linear_theory, 6, 0, 0.95),
     Fault("levels that scatter taken as they are").at(isotropic_line, "graduated", as_they_are),
-    partial(HELD, SCATTERED.by_what_the_ground_leaves, 24, 0, 0.92),
+    partial(HELD, SCATTERED.by_what_the_ground_leaves, 12, 0, 0.92),
     Fault("no error of levels that scatter").at(
         RailQuantity, "smoothing_error", property(lambda quantity: 0 * quantity.wave)
     ),
-    partial(HELD, SCATTERED.by_linear_theory, 48, 5, 0.95),
+    partial(HELD, SCATTERED.by_linear_theory, 24, 5, 0.95),
     Fault("no error of a wide corrugation that is in part taken for ground").at(rail_quantity, "OF_SMOOTHING", 0.0),
     SCATTERED.test_a_corrugation_costs_its_own_bands_alone_and_they_lie_between_ridges_and_isotropic_ground,
     Fault("a corrugation taken for isotropic ground").at(RailQuantity, "between", lambda quantity, ends: ends[-1:]),

@@ -68,7 +68,7 @@ SMALL = {
     "ridges": ridges.RollingOverRidges(length=20, shortest=6.0, cells=(4, 6), springs=(8.5, 16.5)),
     "rolling": rolling.ForceSpectrum(heights=(0.01, 0.3), last=9.0, rough_strips=3, refined=3, **STRIPS, **TRACKS),
     "reduced_models": reduced_models.ReducedModels(
-        spectra=((0.7, 1.0, 6.0), (0.4, 2.0, 6.0)), strips=3, waves=3, width=6, cells=6
+        spectra=((0.7, 2.0, 6.0), (0.4, 2.0, 6.0)), strips=3, waves=3, length=10, width=6, cells=6
     ),
     "track_stiffness": track_stiffness.TrackStiffness(
         forces=(1.0,), waves=2, width=6, cells=4, strips=3, tracks=5, springs=16
@@ -80,7 +80,7 @@ SMALL = {
         parameters=False,
     ),
     "wheel_distance": wheel_distance.WheelDistance(
-        scene=replace(wheel.TABLE, distance=0.1, springs=40),
+        scene=replace(wheel.TABLE, distance=0.1, springs=24, rail=replace(wheel.TABLE.rail, shortest=0.5e-3)),
         doublings=2,
         wheels=4,
         fewest=4,
@@ -88,12 +88,12 @@ SMALL = {
         heights=(0.5, 1.0),
         groups=4,
     ),
-    "wheel_3d": wheel_3d.Wheel3D(strips=3, cells=6, shared=2, finer=2, wheels=6, groups=3),
+    "wheel_3d": wheel_3d.Wheel3D(strips=3, cells=5, shared=1, finer=2, wheels=6, groups=3),
     "wheel_stability": wheel_stability.WheelStability(turns=3, long_steps=2000, heights=(1e-3,)),
-    "across": Across(across=("alpha = 0.5", "isotropic ground"), cells=(4, 5)),
+    "across": Across(across=("isotropic ground",), cells=(4, 5)),
     "rough_rail": RoughRail(offsets=(20.0,), strips=3, cells=(4, 5)),
     "rail_dynamic": RailDynamic(
-        offsets=(0.0,), others=(), longest=0.05, periods=2, rounds=(0, 1), strips=3, compared=2
+        offsets=(0.0,), others=(), longest=0.05, periods=2, rounds=(0, 1), cells=5, coarse=4, strips=3, compared=2
     ),
     "rail_sound": RailSound(rail=shipped_rail(), seconds=0.02, repeats=2, cells=(4, 5), parts=2, blocks=5),
     "ladder": ladder.CalibrationTest(punches=3, spheres=1, rolling=0, tolerances=(0.3,)),
@@ -161,15 +161,17 @@ def read_back_whole(folder):
 
 NUMBERS = ("results.json", "data/*.csv", "sounds/*.wav")
 FIGURES = ("figures/*.svg",)
-REDRAWN = ("hertz", "geike")
-"""Of figures that are drawn twice: all are written by the same code, from tables that are equal."""
+SOLVES = ("realisations/*.npz",)
+REDRAWN = ("geike",)
+"""Whose figure is drawn twice: all are written by the same code, from tables that are equal."""
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", list(CASES))
 def test_a_case_gives_equal_bytes(name, small, tmp_path, monkeypatch, request):
-    """By any number of workers, and from stored results. No contact warns: a case avoids it, or is about it."""
-    one, two = tmp_path / "one", tmp_path / "two"
+    """By any number of workers, and as well from stored results, of which every third is solved anew. No contact warns:
+    a case avoids it, or is about it."""
+    one = tmp_path / "one"
     evidences = recorded(monkeypatch)
     with warnings.catch_warnings():
         warnings.simplefilter("error", bem3d.ContactWarning)
@@ -187,12 +189,12 @@ def test_a_case_gives_equal_bytes(name, small, tmp_path, monkeypatch, request):
     by_one, drawn = contents(one, *NUMBERS), contents(one, *FIGURES)
     if name not in REDRAWN:
         request.getfixturevalue("without_figures")
-    report("--only", name, "--out", str(two), "--workers", "2")
-    assert contents(two, *NUMBERS) == by_one
-    assert name not in REDRAWN or contents(two, *FIGURES) == drawn
+    solved = set(contents(one, *SOLVES))
+    lose_every_third(one)
+    assert report("--only", name, "--out", str(one), "--workers", "2") in (0, 1)
+    assert contents(one, *NUMBERS) == by_one and set(contents(one, *SOLVES)) == solved
+    assert name not in REDRAWN or contents(one, *FIGURES) == drawn
     request.getfixturevalue("without_figures")
-    report("--only", name, "--out", str(one), "--workers", "1")
-    assert contents(one, *NUMBERS) == by_one
     for place in one_of_each_solve_that_may_fail(one / "realisations"):
         whole = place.read_bytes()
         lose(place)
@@ -202,6 +204,15 @@ def test_a_case_gives_equal_bytes(name, small, tmp_path, monkeypatch, request):
             status = report("--only", name, "--out", str(one), "--workers", "1")
         assert status == command.Exit.NOT_CONVERGED, place.name
         place.write_bytes(whole)
+
+
+def lose_every_third(folder):
+    """Of the stored results of each kind of solve, in the order in which they were solved."""
+    found = {}
+    for place in sorted(folder.glob(*SOLVES), key=lambda place: place.stat().st_mtime_ns):
+        found.setdefault(place.name.rpartition("-")[0], []).append(place)
+    for place in (place for places in found.values() for place in places[::3]):
+        place.unlink()
 
 
 def one_of_each_solve_that_may_fail(store):

@@ -62,6 +62,7 @@ def test_the_page_of_a_rail_has_its_levels_its_force_and_the_seconds_of_its_mode
         assert words in text
 
 
+@pytest.mark.slow
 def test_the_page_needs_no_other_file():
     page = files_of(of_models(Finding()))[PAGE].decode()
     assert not re.findall(r"<script|<link|@import|url\(|src=\"(?!data:)|https?://", page)

@@ -35,6 +35,7 @@ def file(tmp_path):
     return path
 
 
+@pytest.mark.slow
 def test_a_formula_is_judged_and_written(file, tmp_path, capsys):
     places = [tmp_path / name for name in ("found.json", "found.csv", "found.png")]
     words = [word for pair in zip(("--json", "--csv", "--figure"), map(str, places), strict=True) for word in pair]
@@ -58,6 +59,7 @@ def test_a_formula_is_judged_and_written(file, tmp_path, capsys):
     assert (tmp_path / "out" / "summary.txt").read_text().splitlines()[2:] == printed.splitlines()[2:-1]
 
 
+@pytest.mark.slow
 def test_a_model_that_answers_nowhere_ends_with_three_unless_another_does(file, tmp_path, capsys):
     file.write_text(SERIES + NAN)
     assert main(["judge", str(file), "--only", "lost", "--json", str(tmp_path / "found.json")]) == 3

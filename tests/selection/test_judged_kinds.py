@@ -109,6 +109,7 @@ def test_a_closed_form_over_the_ground_is_a_filter_of_the_line_that_knows_alpha(
     assert {p.verdict for p in ridges} == {"refused"} and "alpha" in ridges[0].reason
 
 
+@pytest.mark.slow
 def test_a_wrong_filter_differs():
     right = judged("contact_filter", ellipse)
     assert verdicts(right, filters.FILTER) == {"agree"} == verdicts(right, filters.LONG)

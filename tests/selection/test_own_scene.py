@@ -31,6 +31,7 @@ def solved(scene, **settings):
     return validation.compare(scene, "contact-filter", "1 dB", models=CLOSED, **settings)
 
 
+@pytest.mark.slow
 def test_both_quantities_of_a_rail_are_solved_once():
     asked, found, quantities = [], ContactFilter.find, ("contact-filter", "equivalent-roughness")
     with pytest.MonkeyPatch.context() as patch:

@@ -55,6 +55,7 @@ def test_free_vibration_decays_by_the_exact_law_of_a_dashpot_at_second_order():
     assert -np.diff(np.log2(errors)) == pytest.approx(2, abs=0.05)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("frequency", [0.5, 1.0, 3.0])
 def test_a_sine_brings_the_wheel_into_its_steady_response(frequency):
     """From rest, after exp(-zeta t) is gone: y = -dF / (k - M w^2 + i c w), of second order in w dt; at w = 1 the
@@ -131,6 +132,7 @@ def gain(omega, dt, wheel, zeta):
     return s**2 / np.abs(wheel.stiffness - wheel.mass * s**2 + 1j * c * np.sin(omega * dt) / dt)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("linear_contact", [True, False], ids=["linear", "springs"])
 def test_a_scene_with_damping_damps_its_wheels_on_springs(linear_contact):
     """Waves that excite the resonance, on springs of little height: the gain is that of the dashpot within h/d."""

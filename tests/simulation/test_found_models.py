@@ -75,6 +75,7 @@ def test_a_model_that_is_found_is_on_the_charts(toy, monkeypatch):
     assert "toy" in all_methods()
 
 
+@pytest.mark.slow
 def test_a_rolling_model_that_is_found_is_on_the_chart_of_its_quantity(monkeypatch):
     """The rms force of linear theory is the same in one and in three dimensions, under whatever name."""
     use_a_clock_of_its_own(monkeypatch)

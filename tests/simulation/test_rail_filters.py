@@ -113,6 +113,7 @@ def test_contact_filters_are_models_of_a_rail_and_of_its_quantities_alone(name):
         assert len(found) == (11 if name == "rail" and quantity in RAIL_QUANTITIES else 0), quantity
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("model", ONE_SIDED)
 def test_one_sided_models_follow_their_linear_twin_on_a_smoother_rail(model):
     """Where no spring lets go, springs that do not pull are those that do, of first order in the cells and more."""
@@ -216,8 +217,10 @@ def test_levels_without_a_wave_of_the_length_of_the_contact_have_no_answer():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("across", ["ridges", "isotropic"])
-def test_springs_and_boundary_elements_agree_with_linear_theory_within_their_claims(across, monkeypatch):
+@pytest.mark.parametrize(
+    ("name", "across"), [("springs that read the surface", "ridges"), ("boundary elements", "isotropic")]
+)
+def test_springs_and_boundary_elements_agree_with_linear_theory_within_their_claims(name, across, monkeypatch):
     # coarser than those of an answer, in the same ratio: what the grid leaves is claimed with it
     monkeypatch.setattr(rail_models, "COARSE", COARSE * 3 // 4)
     monkeypatch.setattr(rail_models, "FINE", FINE * 3 // 4)
@@ -225,13 +228,12 @@ def test_springs_and_boundary_elements_agree_with_linear_theory_within_their_cla
     scene = replace(RAIL, across=across, roughness=curve("iso3095-2013"))
     quantity = RailQuantity(scene, "contact-filter")
     expected, counted = quantity.linear[0], quantity.counted(quantity.linear[0])
-    for name in ("boundary elements", "springs that read the surface"):
-        model = next(one for one in models_serving(scene, "contact-filter") if one.name == name)
-        target = Target(scene, "contact-filter", 0.1)
-        answer = RailSceneModel(model, target, model.resolutions(target)[0]).solve()
-        assert not answer.failed
-        claim = rail_models.linear_error(quantity) + answer.band_errors["grid"] + answer.band_errors["sample"]
-        assert (np.abs(20 * np.log10(answer.value) - expected) <= claim)[counted].all()
+    model = next(one for one in models_serving(scene, "contact-filter") if one.name == name)
+    target = Target(scene, "contact-filter", 0.1)
+    answer = RailSceneModel(model, target, model.resolutions(target)[0]).solve()
+    assert not answer.failed
+    claim = rail_models.linear_error(quantity) + answer.band_errors["grid"] + answer.band_errors["sample"]
+    assert (np.abs(20 * np.log10(answer.value) - expected) <= claim)[counted].all()
 
 
 def test_the_cost_of_a_closed_filter_goes_with_its_evaluations():
