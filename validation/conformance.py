@@ -9,8 +9,6 @@ example that hypothesis finds, as arrays that can be pasted.
 import math
 import runpy
 import sys
-from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -25,9 +23,10 @@ from validation.benchmarks.judging.discrete import ContactProblem, pressed
 from validation.benchmarks.judging.properties import PROPERTIES, Asked
 from validation.engine.offered import KINDS, FloatArray, Offered, offer
 from validation.engine.others import Called
-from validation.theory.gauss_legendre import on_panels
+from validation.selection.judging.laws import properties_of_rule
 
-Rule = Callable[..., FloatArray]
+OF_RULE = 1e-3
+"""Relative, the error of the quadrature included."""
 slow = settings(deadline=None, suppress_health_check=list(HealthCheck), max_examples=30)
 
 
@@ -115,50 +114,17 @@ def test_a_contact_solver_has_the_property(asked: Asked, name: str, problem: Con
 
 
 @pytest.fixture(scope="module")
-def rule(request: pytest.FixtureRequest) -> Rule:
+def rule(request: pytest.FixtureRequest) -> Called:
     """C_1D(q) of a roughness; Geike's rule without one."""
     place = request.config.getoption("--mapping", None)
-    return named_in(place, "profile_spectrum").function if place else lambda q, roughness: roughness.c1d(q)
-
-
-bands = st.builds(
-    lambda hurst, q_min, ratio, rms: mdr.SelfAffine(hurst=hurst, q_min=q_min, q_max=q_min * ratio, rms=rms),
-    *(st.floats(*ends) for ends in ((0.1, 1.0), (1e2, 1e5), (2.0, 100.0), (1e-8, 1e-4))),
-)
-
-
-def inside(roughness: mdr.SelfAffine) -> tuple[FloatArray, FloatArray]:
-    """Nodes and weights of an integral over the band."""
-    return on_panels(np.geomspace(roughness.q_min, roughness.q_max, 40), 10)
+    geike = offer("profile_spectrum", "Geike", {}, lambda q, roughness: roughness.c1d(q))
+    return Called(named_in(place, "profile_spectrum") if place else geike)
 
 
 @slow
-@given(bands)
-def test_a_profile_spectrum_is_finite_and_not_negative(rule: Rule, roughness: mdr.SelfAffine) -> None:
-    found = np.asarray(rule(q=inside(roughness)[0], roughness=roughness))
-    assert np.isfinite(found).all() and (found >= 0).all() and found.max() > 0
-
-
-@slow
-@given(bands, st.sampled_from([1e-2, 5.0]), st.sampled_from([1e-3, 1.0, 40.0]))
-def test_a_profile_spectrum_is_linear_in_that_of_the_surface_and_has_no_length_of_its_own(
-    rule: Rule, roughness: mdr.SelfAffine, factor: float, s: float
-) -> None:
-    """x -> s x and h -> s h takes C_1D(q) [m^3] to s^3 C_1D(s q), and f C_2D takes it to f C_1D."""
-    q, band = inside(roughness)[0], {"q_min": roughness.q_min / s, "q_max": roughness.q_max / s}
-    other = replace(roughness, rms=s * math.sqrt(factor) * roughness.rms, **band)
-    found, wanted = rule(q=q / s, roughness=other), factor * s**3 * np.asarray(rule(q=q, roughness=roughness))
-    np.testing.assert_allclose(found, wanted, rtol=1e-6)
-
-
-@slow
-@pytest.mark.parametrize(("moment", "name"), [(0, "height"), (2, "gradient"), (4, "curvature")])
-@given(roughness=bands)
-def test_the_profile_has_the_mean_square_of_the_surface(
-    rule: Rule, moment: int, name: str, roughness: mdr.SelfAffine
-) -> None:
-    """Geike's moments: int |q|^n C_1D dq over both signs is int |q|^n C_2D d²q, for the height, gradient, curvature."""
-    q, weight = inside(roughness)
-    line = 2 * (weight * q**moment * np.asarray(rule(q=q, roughness=roughness))).sum()
-    surface = 2 * math.pi * (weight * q ** (moment + 1) * roughness.c2d(q)).sum()
-    assert line == pytest.approx(surface, rel=1e-6), f"mean square {name} of the profile over that of the surface"
+@given(st.floats(0.1, 1.0), st.floats(1e2, 1e5), st.floats(2.0, 100.0), st.floats(1e-8, 1e-4))
+def test_a_rule_has_the_properties(rule: Called, hurst: float, q_min: float, ratio: float, rms: float) -> None:
+    """Of `judge`."""
+    roughness = mdr.SelfAffine(hurst=hurst, q_min=q_min, q_max=q_min * ratio, rms=rms)
+    for found in properties_of_rule(rule, roughness, OF_RULE):
+        assert found.verdict == AGREE, f"{found.quantity}: {found.shown}"

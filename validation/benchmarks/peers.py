@@ -46,10 +46,6 @@ class PeerSolver:
     by_force: bool = True
     file: str = ""
 
-    def residual(self, problem: ContactProblem, pressure: Field) -> float:
-        """What is left of the conditions of what it was given, by the operator that judges."""
-        return float(np.max([*problem.left(pressure, self.by_force)[0].values()]))
-
     @property
     def version(self) -> str | None:
         """None where it is not installed."""
@@ -59,6 +55,11 @@ class PeerSolver:
             return importlib.metadata.version(self.package)
         except importlib.metadata.PackageNotFoundError:
             return None
+
+
+def sides(problem: ContactProblem) -> list[float]:
+    """Of the grid [m]."""
+    return [n * d for n, d in zip(problem.gap.shape, problem.spacing, strict=True)]
 
 
 def bem3d_fast(problem: ContactProblem, tolerance: float) -> ColdSolve:
@@ -92,7 +93,7 @@ def tamaas(problem: ContactProblem, tolerance: float) -> ColdSolve:
     import tamaas as tm
 
     tm.set_log_level(tm.LogLevel.error)
-    model = tm.Model(tm.model_type.basic_2d, list(problem.sides), list(problem.gap.shape))
+    model = tm.Model(tm.model_type.basic_2d, sides(problem), list(problem.gap.shape))
     model.E, model.nu = problem.modulus, 0.0
     if not problem.periodic:
         # only after E is set: the operator is computed here
@@ -103,7 +104,7 @@ def tamaas(problem: ContactProblem, tolerance: float) -> ColdSolve:
     solver.max_iter = 10_000
 
     def solve() -> tuple[Field, float]:
-        error = solver.solve(problem.force / math.prod(problem.sides))
+        error = solver.solve(problem.force / math.prod(sides(problem)))
         if not error <= tolerance:
             raise RuntimeError(f"stopped at its own error {error:.3g}, asked for {tolerance:.3g}")
         return np.array(model.traction), math.nan
@@ -119,11 +120,11 @@ def contact_mechanics(problem: ContactProblem, tolerance: float) -> ColdSolve:
     from SurfaceTopography import Topography
 
     n, m = problem.gap.shape
-    topography = Topography(-problem.gap, problem.sides, periodic=problem.periodic)
+    topography = Topography(-problem.gap, sides(problem), periodic=problem.periodic)
     if problem.periodic:
-        substrate = PeriodicFFTElasticHalfSpace((n, m), problem.modulus, problem.sides, stiffness_q0=0.0)
+        substrate = PeriodicFFTElasticHalfSpace((n, m), problem.modulus, sides(problem), stiffness_q0=0.0)
     else:
-        substrate = FreeFFTElasticHalfSpace((n, m), problem.modulus, problem.sides)
+        substrate = FreeFFTElasticHalfSpace((n, m), problem.modulus, sides(problem))
     system = NonSmoothContactSystem(substrate, topography)
     calls: list[None] = []
     evaluate = substrate.evaluate_disp
@@ -236,7 +237,7 @@ def by_pressure(scene: Any, resolution: Resolution, solver: PeerSolver) -> Prepa
 
     def read(found: tuple[Field, float]) -> Result:
         pressure, applications = found
-        left = np.array(solver.residual(discrete, pressure))
+        left = np.array(discrete.worst(pressure, solver.by_force))
         return Result({"pressure": pressure, "residual": left}, applications * pressure.size)
 
     return lambda _: Solve(solver.prepare(discrete, tolerance), read, repeatable=False)
@@ -249,7 +250,7 @@ def find_tolerance(solver: PeerSolver, discrete: ContactProblem, residual: float
         pressure, _ = solver.prepare(discrete, part * residual)()
         if not np.isfinite(pressure).all():
             raise RuntimeError("pressure is not finite")
-        reached = solver.residual(discrete, pressure)
+        reached = discrete.worst(pressure, solver.by_force)
         if reached <= residual:
             return part * residual
     raise RuntimeError(f"residual {reached:.2g} at its tightest tolerance")

@@ -20,6 +20,9 @@ PARTS = (0.3, 0.6, 1.0)
 """Of a load that grows."""
 
 
+Way = Callable[[FloatArray], FloatArray]
+
+
 class UnansweredError(Exception):
     """A solver has no answer, for this reason."""
 
@@ -83,74 +86,66 @@ def conditions(asked: Asked, problem: ContactProblem, reason: str = "") -> Itera
         yield checked(name, problem, value, asked.residual, said)
 
 
-@dataclass(frozen=True)
-class Same:
-    """A contact that is told in another way has the same pressure, told in that way."""
-
-    quantity: str
-    other: Callable[[ContactProblem], ContactProblem]
-    back: Callable[[FloatArray], FloatArray]
-
-    def __call__(self, asked: Asked, problem: ContactProblem) -> Iterator[JudgedPoint]:
-        off = apart(self.back(asked.pressure(self.other(problem))), asked.pressure(problem))
-        yield checked(self.quantity, problem, off, 2 * asked.of_answer, "the pressure is another one")
-
-
-def scaled(problem: ContactProblem, *, modulus: float = 1.0, length: float = 1.0) -> ContactProblem:
-    """In other units; a pressure goes with the modulus."""
+def told(problem: ContactProblem, *, modulus: float = 1.0, length: float = 1.0, height: float = 1.0) -> ContactProblem:
+    """In other units, and over other heights: its pressure goes with modulus * height / length."""
+    dx, dy = problem.spacing
     return replace(
         problem,
-        gap=problem.gap * length,
-        spacing=(problem.spacing[0] * length, problem.spacing[1] * length),
-        modulus=problem.modulus * modulus,
-        force=problem.force * modulus * length**2,
-        approach=problem.approach * length,
+        gap=height * problem.gap,
+        spacing=(length * dx, length * dy),
+        modulus=modulus * problem.modulus,
+        force=modulus * length * height * problem.force,
+        approach=height * problem.approach,
     )
 
 
-def higher(problem: ContactProblem) -> ContactProblem:
-    """Twice the gap and the load have twice the pressure."""
-    return replace(problem, gap=2 * problem.gap, force=2 * problem.force, approach=2 * problem.approach)
+def loaded(problem: ContactProblem, part: float) -> ContactProblem:
+    """With a part of the force, or of the overlap."""
+    return replace(problem, force=part * problem.force, approach=problem.gap.min() + part * problem.overlap)
 
 
-def moved(problem: ContactProblem, way: Callable[[FloatArray], FloatArray]) -> ContactProblem:
-    return replace(problem, gap=np.ascontiguousarray(way(problem.gap)))
+def moved(problem: ContactProblem, way: Way) -> ContactProblem:
+    gap = np.ascontiguousarray(way(problem.gap))
+    return replace(problem, gap=gap, spacing=problem.spacing[:: 1 if way is not np.transpose else -1])
+
+
+def flat(problem: ContactProblem) -> ContactProblem:
+    return replace(problem, gap=0 * problem.gap, approach=problem.overlap)
 
 
 def rolled(a: FloatArray, cells: int = 1) -> FloatArray:
     return np.roll(a, (5 * cells, 3 * cells), axis=(0, 1))
 
 
+@dataclass(frozen=True)
+class Same:
+    """A contact that is told in another way has the same pressure, told in that way.
+
+    served: half-spaces of which this is true.
+    """
+
+    quantity: str
+    other: Callable[[ContactProblem], ContactProblem]
+    back: Way
+    first: Callable[[ContactProblem], ContactProblem] = lambda problem: problem
+    served: tuple[bool, ...] = (False, True)
+
+    def __call__(self, asked: Asked, problem: ContactProblem) -> Iterator[JudgedPoint]:
+        if problem.periodic in self.served:
+            off = apart(self.back(asked.pressure(self.other(problem))), asked.pressure(self.first(problem)))
+            yield checked(self.quantity, problem, off, 2 * asked.of_answer, "the pressure is another one")
+
+
 SAME = (
-    Same("scaling in E", lambda problem: scaled(problem, modulus=3.0), lambda p: p / 3.0),
-    Same("scaling in length", lambda problem: scaled(problem, length=7.0), lambda p: p),
-    Same("scaling in height", higher, lambda p: p / 2.0),
+    Same("scaling in E", lambda problem: told(problem, modulus=3.0), lambda p: p / 3.0),
+    Same("scaling in length", lambda problem: told(problem, length=7.0, height=7.0), lambda p: p),
+    Same("scaling in height", lambda problem: told(problem, height=2.0), lambda p: p / 2.0),
     Same("mirror", lambda problem: moved(problem, np.flipud), np.flipud),
-    Same(
-        "transposition",
-        lambda problem: replace(moved(problem, np.transpose), spacing=problem.spacing[::-1]),
-        np.transpose,
-    ),
+    Same("transposition", lambda problem: moved(problem, np.transpose), np.transpose),
+    Same("shift", lambda problem: moved(problem, rolled), lambda p: rolled(p, -1), served=(True,)),
+    # one contact, whatever the load
+    Same("superposition", lambda problem: loaded(flat(problem), 2.0), lambda p: p / 2.0, flat, served=(False,)),
 )
-SHIFT = Same("shift", lambda problem: moved(problem, rolled), lambda p: rolled(p, -1))
-TWICE = Same("superposition", lambda flat: loaded(flat, 2.0), lambda p: p / 2.0)
-
-
-def shift(asked: Asked, problem: ContactProblem) -> Iterator[JudgedPoint]:
-    """Of a periodic half-space."""
-    if problem.periodic:
-        yield from SHIFT(asked, problem)
-
-
-def superposition(asked: Asked, problem: ContactProblem) -> Iterator[JudgedPoint]:
-    """A flat punch has one contact: twice the load has twice the pressure."""
-    if not problem.periodic:
-        yield from TWICE(asked, replace(problem, gap=0 * problem.gap, approach=problem.overlap))
-
-
-def loaded(problem: ContactProblem, part: float) -> ContactProblem:
-    """With a part of the force, or of the overlap."""
-    return replace(problem, force=part * problem.force, approach=problem.gap.min() + part * problem.overlap)
 
 
 def monotone(asked: Asked, problem: ContactProblem) -> Iterator[JudgedPoint]:
@@ -170,7 +165,5 @@ Property = Callable[[Asked, ContactProblem], Iterator[JudgedPoint]]
 PROPERTIES: Mapping[str, Property] = {
     "conditions": conditions,
     **{same.quantity: same for same in SAME},
-    "shift": shift,
-    "superposition": superposition,
     "monotone": monotone,
 }
