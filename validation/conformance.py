@@ -96,7 +96,7 @@ def contacts(draw: st.DrawFn) -> ContactProblem:
     depth = gap.mean() - gap.min() if periodic else 1e-2 * spacing[0]
     assume(depth > 0)
     force = part * modulus * 1e-2 * math.sqrt(n * m) * spacing[0] * math.sqrt(spacing[0] * spacing[1])
-    known = {"gap": gap, "spacing": spacing, "modulus": modulus, "periodic": periodic, "force": force}
+    known: dict[str, Any] = {"gap": gap, "spacing": spacing, "modulus": modulus, "periodic": periodic, "force": force}
     return ContactProblem(name="drawn", approach=gap.min() + part * depth, **known)
 
 

@@ -94,7 +94,12 @@ class SurfaceProblem:
     def discrete(self) -> ContactProblem:
         """In plain values, with the approach that belongs to its force."""
         side = 1 / self.cells
-        known = {"gap": -self.height(), "spacing": (side, side), "modulus": 1.0, "periodic": self.periodic}
+        known: dict[str, Any] = {
+            "gap": -self.height(),
+            "spacing": (side, side),
+            "modulus": 1.0,
+            "periodic": self.periodic,
+        }
         problem = ContactProblem(name=self.name, force=self.load, **known)
         return replace(problem, approach=pressed(problem, 1e-10, force=self.load).approach)
 

@@ -194,7 +194,9 @@ STATED: Mapping[str, Stated] = {
 }
 
 
-def pressed(problem: ContactProblem, tolerance: float, **load: float) -> bem3d.Contact:
+def pressed(
+    problem: ContactProblem, tolerance: float, force: float | None = None, approach: float | None = None
+) -> bem3d.Contact:
     """By our solver, which few cells do not keep from it."""
     n, m = problem.gap.shape
     half_space = bem3d.HalfSpace(
@@ -202,7 +204,9 @@ def pressed(problem: ContactProblem, tolerance: float, **load: float) -> bem3d.C
     )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", bem3d.ContactWarning)
-        return bem3d.solve(half_space, problem.gap, tolerance=tolerance, indenter_ends_at_edge=True, **load)
+        return bem3d.solve(
+            half_space, problem.gap, force=force, approach=approach, tolerance=tolerance, indenter_ends_at_edge=True
+        )
 
 
 def answered(problem: ContactProblem) -> dict[str, Any]:

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -35,13 +36,13 @@ def findings(asked: Asked) -> Iterator[JudgedPoint]:
     """All of them; what a solver does not serve is not asked."""
     known = [problem for problem in problems() if asked.serves(problem)]
     for problem in known:
-        yield from _found("answer", problem, lambda problem=problem: answer(asked, problem))
-    for problem in (_rectangle(problem) for problem in known if problem.name in RECTANGLE):
+        yield from _found("answer", problem, partial(answer, asked, problem))
+    for part in (_rectangle(problem) for problem in known if problem.name in RECTANGLE):
         for name, has in PROPERTIES.items():
-            yield from _found(name, problem, lambda has=has, problem=problem: has(asked, problem))
+            yield from _found(name, part, partial(has, asked, part))
     for problem in known:
         if problem.name == FLAT:
-            yield from _found("order of convergence", problem, lambda problem=problem: convergence(asked, problem))
+            yield from _found("order of convergence", problem, partial(convergence, asked, problem))
 
 
 def _found(quantity: str, problem: ContactProblem, of: Callable[[], Iterator[JudgedPoint]]) -> Iterator[JudgedPoint]:
@@ -95,10 +96,10 @@ def timed(asked: Asked) -> Iterator[JudgedPoint]:
         seconds: list[tuple[float, float]] = []
         while len(seconds) < RUNS and sum(mine for mine, _ in seconds) < LONGEST:
             try:
-                _, mine = clocked(lambda problem=problem: asked.pressure(replace(problem)))
+                _, mine = clocked(partial(asked.pressure, replace(problem)))
             except UnansweredError:
                 return
-            _, ours = clocked(lambda problem=problem, load=load: pressed(problem, asked.residual, **load))
+            _, ours = clocked(partial(pressed, problem, asked.residual, **load))
             seconds.append((mine, ours))
         mine, ours = (float(median) for median in np.median(seconds, axis=0))
         yield JudgedPoint(TIME, {"cells": float(cells)}, mine, ours, mine / ours - 1, math.nan, "")

@@ -32,7 +32,7 @@ class Asked:
     """A solver with the residual that it names; each problem is solved once. Raises ValueError for no such residual."""
 
     solver: Caller
-    known: dict[ContactProblem, FloatArray] = field(default_factory=dict)
+    known: dict[ContactProblem, FloatArray] = field(default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:
         if not 0 < self.residual <= LOOSEST:
@@ -105,8 +105,8 @@ def loaded(problem: ContactProblem, part: float) -> ContactProblem:
 
 
 def moved(problem: ContactProblem, way: Way) -> ContactProblem:
-    gap = np.ascontiguousarray(way(problem.gap))
-    return replace(problem, gap=gap, spacing=problem.spacing[:: 1 if way is not np.transpose else -1])
+    gap, (dx, dy) = np.ascontiguousarray(way(problem.gap)), problem.spacing
+    return replace(problem, gap=gap, spacing=(dy, dx) if way is np.transpose else (dx, dy))
 
 
 def flat(problem: ContactProblem) -> ContactProblem:
@@ -158,7 +158,8 @@ def monotone(asked: Asked, problem: ContactProblem) -> Iterator[JudgedPoint]:
     approach = np.array([one.left(p, asked.by_force)[1] for one, p in zip(loads, found, strict=True)])
     # compliances over that of the chord from the first touch: a full periodic contact has none
     first, second = np.diff(approach) / np.diff(force) * force[-1] / (approach[-1] - problem.gap.min())
-    yield checked("monotone stiffness", problem, max(second - first, 0.0), asked.of_answer, "it falls under more load")
+    fall = max(second - first, -first, -second, 0.0)
+    yield checked("monotone stiffness", problem, fall, asked.of_answer, "it falls under more load")
 
 
 Property = Callable[[Asked, ContactProblem], Iterator[JudgedPoint]]
