@@ -19,19 +19,6 @@ def rule(q, roughness):
 """
 
 
-TAMAAS = """
-import numpy as np
-from validation import contact_solver
-from validation.benchmarks.judging.discrete import ContactProblem
-from validation.benchmarks.peers import tamaas
-
-@contact_solver("tamaas")
-def solve(gap, spacing, modulus, force, tolerance):
-    problem = ContactProblem(gap=gap, spacing=spacing, modulus=modulus, periodic=False, force=force)
-    return tamaas(problem, tolerance / 10, iterations=2000 if np.ptp(gap) else 200)()[0]
-"""
-
-
 def conformance(folder, text, *words):
     (folder / "own.py").write_text(text)
     told = [*["-q", "--pyargs", "validation.conformance", "--contact-solver", "own.py:solve"], *words]
@@ -45,11 +32,3 @@ def test_what_is_right_passes_and_what_is_wrong_fails_with_the_smallest_example(
     assert "force balance, 0.01 off: force not held" in run.stdout
     gap = next(line for line in run.stdout.splitlines() if "gap = np.array(" in line).partition("= ")[2]
     assert eval(gap.rstrip("\\"), {"np": np}).size == 4
-
-
-@pytest.mark.slow
-def test_tamaas_passes(tmp_path):
-    """Where it is installed, free: periodic, it has another answer for odd cells along the first axis (2.9.0)."""
-    pytest.importorskip("tamaas")
-    run = conformance(tmp_path, TAMAAS)
-    assert run.returncode == 0, run.stdout

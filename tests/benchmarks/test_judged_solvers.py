@@ -12,6 +12,7 @@ import bem3d
 from bem3d import kernel
 from tests import oracles
 from validation.analysis.judgement import AGREE
+from validation.benchmarks import peers
 from validation.benchmarks.judging import discrete, judged
 from validation.benchmarks.judging.discrete import STATED, ContactProblem, pressed
 from validation.benchmarks.judging.judged import findings
@@ -52,6 +53,18 @@ def test_a_solver_of_forty_lines_is_accepted_and_not_asked_what_it_does_not_serv
     assert not any("periodic" in finding.where["problem"] for finding in found)
     periodic = {one.where["problem"] for one in findings(asked(ours, free=False, periodic=True))}
     assert len(periodic) == 5 and all("periodic" in name for name in periodic)
+
+
+def test_tamaas_is_right_but_for_flat_bodies():
+    """Where it is installed: it measures its error by the rms height, and has none of a flat body."""
+    pytest.importorskip("tamaas")
+
+    def solve(tolerance, **given):
+        return peers.tamaas(ContactProblem(**given), tolerance / 3, iterations=300)()[0]
+
+    wrong = wrong_in(solve, periodic=True)
+    assert {one.quantity for one in wrong} <= {"answer", "pressure", "superposition", "order of convergence"}
+    assert {one.where["problem"] for one in wrong} <= {"flat", "rough, heavy load, 40 x 28 cells"}
 
 
 def changed(**factors):
