@@ -122,7 +122,7 @@ def test_a_planted_fault_is_caught_and_named(solve, quantity, reason):
 
 
 SOFTER = {
-    "softer": (lambda **given: ours(**given) / (given["approach"] - given["gap"].min()), "", "it falls under more")
+    "softer": (lambda **given: ours(**given) / (given["approach"] - given["gap"].min()) ** 3, "", "it falls under more")
 }
 
 
