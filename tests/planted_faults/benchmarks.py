@@ -69,7 +69,7 @@ FAULTS = [
     ),
     functools.partial(
         test_solvers.test_a_planted_fault_is_caught_and_named,
-        *test_solvers.FAULTS["a rectangle without padding along one axis"],
+        *test_solvers.FAULTS["cells of a rectangle in another order"],
     ),
     Fault("properties of nothing but a square").at(judging, "_rectangle", lambda problem: problem),
 ]
