@@ -7,9 +7,12 @@ import numpy as np
 
 from tests.benchmarks import test_chart_points as test_points
 from tests.benchmarks import test_fronts, test_peers
+from tests.benchmarks import test_judged_solvers as test_solvers
 from tests.planted_faults.wrong import Fault, Times
 from validation.benchmarks import solvers as comparison
 from validation.benchmarks import timing
+from validation.benchmarks.judging import discrete
+from validation.benchmarks.judging import judged as judging
 from validation.benchmarks.work_precision import case as precision_case
 from validation.benchmarks.work_precision import errors as precision_error
 from validation.benchmarks.work_precision import problem as precision
@@ -20,6 +23,7 @@ def at_first_order(answer, quantity, rows):
     return log_of_answer(answer, dataclasses.replace(quantity, order=1.0), rows)
 
 
+left = discrete.ContactProblem.left
 log_of_answer = precision_error.MethodValues.log
 
 
@@ -59,4 +63,13 @@ FAULTS = [
     Fault("first order for second in an extrapolation").at(precision_error.MethodValues, "log", at_first_order),
     test_points.test_levels_differ_by_the_root_mean_square_of_decibels,
     Fault("decibels of an amplitude for those of a power").at(precision.Quantity, "distance", Times(2.0)),
+    test_solvers.test_a_condition_that_is_left_has_its_size,
+    Fault("the approach of a contact for the one that is prescribed").at(
+        discrete.ContactProblem, "left", lambda problem, pressure, by_force: left(problem, pressure, True)
+    ),
+    functools.partial(
+        test_solvers.test_a_planted_fault_is_caught_and_named,
+        *test_solvers.FAULTS["cells of a rectangle in another order"],
+    ),
+    Fault("properties of nothing but a square").at(judging, "_rectangle", lambda problem: problem),
 ]

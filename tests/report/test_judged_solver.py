@@ -1,5 +1,9 @@
 """`judge` of a file with a contact solver: its exit status, and what a person reads."""
 
+import itertools
+import json
+from pathlib import Path
+
 import pytest
 
 from validation.__main__ import main
@@ -22,16 +26,20 @@ SOLVE = """
 @pytest.mark.parametrize(
     ("body", "status", "said"),
     [
-        (SOLVE.format(modulus="modulus"), 0, "contact solver, right in all 68 checks"),
+        (SOLVE.format(modulus="modulus"), 0, "contact solver, right in all 73 checks"),
         (SOLVE.format(modulus="modulus / 0.91"), 1, "the answer for 1.099 times the modulus"),
         ("    raise ArithmeticError('no luck')", 3, "raised ArithmeticError: no luck"),
     ],
 )
 def test_a_solver_ends_with_what_it_is(tmp_path, capsys, monkeypatch, body, status, said):
+    """Its times are a list of their own: they are no verdicts."""
     monkeypatch.setattr(solvers, "GRIDS", (24,))
     (tmp_path / "mine.py").write_text(HEAD + body)
-    assert main(["judge", str(tmp_path / "mine.py"), "--json", str(tmp_path / "mine.json")]) == status
+    files = {f"--{kind}": str(tmp_path / f"mine.{kind}") for kind in ("json", "csv")}
+    assert main(["judge", str(tmp_path / "mine.py"), *itertools.chain(*files.items())]) == status
     printed = capsys.readouterr().out
-    assert said in printed
-    assert (tmp_path / "mine.json").exists()
-    assert ("24²" in printed) == (status != 3), "times beside ours, where there are any"
+    assert said in printed and ("24²" in printed) == (status != 3)
+    written = json.loads(Path(files["--json"]).read_text())
+    assert {point["verdict"] for point in written["verdicts"]} <= {"agree", "differ", "failed"}
+    assert [set(time) for time in written.get("times", [])] == [{"cells", "seconds", "bem3d"}] * (status != 3)
+    assert ("time beside bem3d" in Path(files["--csv"]).read_text()) == (status != 3)

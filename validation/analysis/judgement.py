@@ -18,8 +18,8 @@ class JudgedPoint:
 
     where: the conditions, by name; difference: value over reference less one, of levels value less reference [dB];
     error: its 95 % half-width in the same unit, by sample and grid of the reference and the sample of the model;
-    verdict: one of `VERDICTS`; reason: why there is no number, or what it is judged by; decides: whether a solver is
-    wrong that differs or fails here.
+    verdict: one of `VERDICTS`, empty of a time; reason: why there is no number, or what it is judged by; decides:
+    whether a solver is wrong that differs or fails here.
     """
 
     quantity: str

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-import bem3d
 import mdr
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart
@@ -18,10 +17,10 @@ from validation.analysis.printed import times_source
 from validation.analysis.series import Margin, Series, single
 from validation.analysis.statistics import Interval
 from validation.analysis.study import Outcomes, Study
+from validation.benchmarks.judging.discrete import ContactProblem, pressed
 from validation.benchmarks.peers import (
     OUR_SOLVER,
     OURS,
-    DiscreteProblem,
     PeerSolver,
     all_methods,
     by_pressure,
@@ -39,7 +38,6 @@ from validation.benchmarks.timing import (
 )
 from validation.engine.engine import SERIAL, Engine, FloatArray, Outcome
 from validation.engine.random_numbers import random_generator
-from validation.simulation.method import Values
 from validation.simulation.surface import draw_surface
 
 SPHERE, ROUGH = "sphere", "rough"
@@ -93,15 +91,17 @@ class SurfaceProblem:
         rng = random_generator(self.seed)
         return draw_surface(band.c2d, shape=(n, n), spacing=1 / n, rng=rng, rms=ROUGH_HEIGHT)
 
-    def discrete(self) -> DiscreteProblem:
+    def discrete(self) -> ContactProblem:
         """In plain values, with the approach that belongs to its force."""
-        problem = DiscreteProblem(self.height(), 1 / self.cells, 1.0, self.periodic, self.load, 0.0)
-        contact = bem3d.solve(problem.half_space(), problem.gap, force=self.load, tolerance=1e-10)
-        return replace(problem, approach=contact.approach)
-
-    def read_pressure(self, discrete: DiscreteProblem, pressure: FloatArray) -> Values:
-        """The pressure and the residual that it leaves."""
-        return {"pressure": pressure, "residual": np.array(discrete.residual(pressure))}
+        side = 1 / self.cells
+        known: dict[str, Any] = {
+            "gap": -self.height(),
+            "spacing": (side, side),
+            "modulus": 1.0,
+            "periodic": self.periodic,
+        }
+        problem = ContactProblem(name=self.name, force=self.load, **known)
+        return replace(problem, approach=pressed(problem, 1e-10, force=self.load).approach)
 
     def configurations(self) -> tuple[Configuration, ...]:
         """Each solver that is installed, in a process of its own."""

@@ -43,6 +43,8 @@ class Judgement:
         A point each: quantity, where, value, reference, difference, error, verdict, reason.
     seconds : float
         That the judgement took.
+    times : tuple
+        Of a solver: seconds beside `bem3d`, value and reference, which are neither right nor wrong.
 
     Examples
     --------
@@ -59,6 +61,7 @@ class Judgement:
     tolerance: Tolerance
     verdicts: tuple[JudgedPoint, ...]
     seconds: float
+    times: tuple[JudgedPoint, ...] = ()
 
     @property
     def enough(self) -> list[Enough]:
@@ -78,7 +81,7 @@ class Judgement:
     def summary(self) -> str:
         """Where it is enough, the worst points and what they share, and a paragraph for a paper."""
         if self.kind == "contact_solver":
-            return "\n".join(solver_lines(self.model, self.verdicts, self.seconds))
+            return "\n".join(solver_lines(self.model, self.verdicts, self.times, self.seconds))
         return "\n".join(summary_lines(self.model, self.kind, str(self.tolerance), self.verdicts, self.seconds))
 
     def as_dict(self) -> dict[str, object]:
@@ -90,6 +93,7 @@ class Judgement:
             "verdicts": [_point(point) for point in self.verdicts],
             "enough": [_range(some) for some in self.enough],
             "seconds": round(self.seconds, 3),
+            **({"times": [_time(point) for point in self.times]} if self.times else {}),
         }
 
     def as_json(self) -> str:
@@ -155,7 +159,8 @@ def judged(model: Called, tolerance: Tolerance) -> Judgement:
     """Of one function, here or in another process."""
     begin = time.perf_counter()
     points = list(_points(model, tolerance.relative))
-    return Judgement(model.name, model.kind, tolerance, tuple(points), time.perf_counter() - begin)
+    verdicts, times = (tuple(point for point in points if bool(point.verdict) is judged) for judged in (True, False))
+    return Judgement(model.name, model.kind, tolerance, verdicts, time.perf_counter() - begin, times)
 
 
 def _points(model: Called, tolerance: float) -> Iterator[JudgedPoint]:
@@ -171,7 +176,7 @@ def _judge(kind: str) -> Judge:
 
 def points_as_csv(judgements: list[Judgement]) -> bytes:
     """A row a point of each; a condition that a point does not have is left empty."""
-    places = dict.fromkeys(name for one in judgements for point in one.verdicts for name in point.where)
+    places = dict.fromkeys(name for one in judgements for point in (*one.verdicts, *one.times) for name in point.where)
     rows = [
         {
             "model": one.model,
@@ -182,7 +187,7 @@ def points_as_csv(judgements: list[Judgement]) -> bytes:
             "reason": point.reason,
         }
         for one in judgements
-        for point in one.verdicts
+        for point in (*one.verdicts, *one.times)
     ]
     return as_csv(Table("verdicts", {name: [row[name] for row in rows] for name in rows[0]} if rows else {}))
 
@@ -191,6 +196,10 @@ def _point(point: JudgedPoint) -> dict[str, object]:
     numbers = {name: _known(getattr(point, name)) for name in ("value", "reference", "difference", "error")}
     words = {"unit": point.unit, "verdict": point.verdict, "reason": point.reason}
     return {"quantity": point.quantity, "where": dict(point.where), **numbers, **words}
+
+
+def _time(point: JudgedPoint) -> dict[str, object]:
+    return {**point.where, "seconds": point.value, "bem3d": point.reference}
 
 
 def _range(some: Enough) -> dict[str, object]:

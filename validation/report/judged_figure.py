@@ -26,7 +26,7 @@ def figure_of(judgements: Sequence["Judgement"], form: str) -> bytes:
         raise ValueError(f"a figure must be one of {', '.join(FORMATS)}, got {form!r}")
     panels: list[tuple[Judgement, str, list[Group]]] = []
     for one in judgements:
-        for quantity, some in groupby(groups_of(one.verdicts), lambda group: group[0]):
+        for quantity, some in groupby(groups_of(one.times or one.verdicts), lambda group: group[0]):
             curves = [group for group in some if group[2] and len(group[3]) > 1 and not is_property(group)]
             if curves and len(panels) < PANELS:
                 panels.append((one, quantity, curves))

@@ -12,26 +12,6 @@ FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Residual:
-    """What is left of the conditions of a contact, w = gap + u - approach; zero for the discrete answer.
-
-    tension: the most negative pressure over the largest; complementarity: sum(p abs(w)) / (s sum(p)), s the deepest
-    geometric overlap; penetration: max(-w) / s, both NaN without an overlap; approach: of the bodies [m], as prescribed
-    or as the contact has it.
-    """
-
-    tension: float
-    complementarity: float
-    penetration: float
-    approach: float
-
-    @property
-    def worst(self) -> float:
-        """NaN where one of them is."""
-        return float(np.max([self.tension, self.complementarity, self.penetration]))
-
-
-@dataclass(frozen=True)
 class LoveHalfSpace:
     """An elastic half-space under pressures that are constant on rectangles.
 
@@ -52,21 +32,6 @@ class LoveHalfSpace:
         n, m = self.shape
         return np.asarray(fft.irfft2(waves, padded)[:n, :m])
 
-    def residual(self, gap: FloatArray, pressure: FloatArray, approach: float | None = None) -> Residual:
-        """Of a pressure (n, m) under an approach [m]; without one under that which the contact has, as a force does."""
-        separation = gap + self.displacement(pressure)
-        total = float(pressure.sum())
-        if approach is None:
-            approach = float((pressure * separation).sum() / total)
-        w, overlap = separation - approach, approach - float(gap.min())
-        scale = overlap if overlap > 0 else math.nan  # pressure without an overlap is no answer
-        return Residual(
-            tension=max(-float(pressure.min()), 0.0) / float(np.abs(pressure).max()),
-            complementarity=float((np.abs(pressure) * np.abs(w)).sum()) / abs(scale * total),
-            penetration=max(-float(w.min()), 0.0) / scale,
-            approach=approach,
-        )
-
     @cached_property
     def _transfer(self) -> NDArray[np.complex128]:
         (n, m), (dx, dy) = self.shape, self.spacing
@@ -86,10 +51,8 @@ def love(x: FloatArray, y: FloatArray, dx: float, dy: float) -> FloatArray:
 
     def primitive(u: FloatArray, v: FloatArray) -> FloatArray:
         with np.errstate(divide="ignore", invalid="ignore"):
-            first, second = u * np.arcsinh(v / np.abs(u)), v * np.arcsinh(u / np.abs(v))
-        return np.asarray(np.where(u == 0, 0, first) + np.where(v == 0, 0, second))
+            terms = u * np.arcsinh(v / np.abs(u)), v * np.arcsinh(u / np.abs(v))
+        return np.asarray(np.where(u == 0, 0, terms[0]) + np.where(v == 0, 0, terms[1]))
 
-    right, left, above, below = x + dx / 2, x - dx / 2, y + dy / 2, y - dy / 2
-    return np.asarray(
-        primitive(right, above) - primitive(left, above) - primitive(right, below) + primitive(left, below)
-    )
+    ends = ((sign, x + sign * dx / 2) for sign in (1, -1))
+    return np.asarray(sum(i * j * primitive(u, y + j * dy / 2) for i, u in ends for j in (1, -1)))

@@ -8,7 +8,7 @@ import io
 import math
 import warnings
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -34,26 +34,21 @@ LIMITS = ("approach", "stiffness", "area")
 """What is extrapolated to cells of no size."""
 
 
-@dataclass(frozen=True, eq=False)
-class KnownContact:
-    """A discrete problem: a rigid indenter on an elastic half-space, p >= 0, w = gap + u - approach >= 0, p w = 0.
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ContactProblem:
+    """A rigid indenter on an elastic half-space: p >= 0, w = gap + u - approach >= 0, p w = 0, by force or by approach.
 
-    gap: undeformed separation (n, m) [m]; spacing: (dx, dy) [m]; modulus: E* [Pa]; periodic: half-space; force [N].
-    approach [m], pressure (n, m) [Pa], stiffness dF/dd of the fixed contact [N/m], area [m^2]: the discrete answer;
-    limits: approach, stiffness and area on cells of no size, and the half-widths that the grids leave, (3, 2).
+    gap: undeformed separation (n, m) [m]; spacing: (dx, dy) [m]; modulus: E* [Pa]; periodic: half-space; force [N];
+    approach [m].
     """
 
-    name: str
+    name: str = ""
     gap: FloatArray
     spacing: tuple[float, float]
     modulus: float
     periodic: bool
     force: float
-    approach: float
-    pressure: FloatArray
-    stiffness: float
-    area: float
-    limits: FloatArray
+    approach: float = math.nan
 
     @property
     def half_space(self) -> LoveHalfSpace:
@@ -61,9 +56,49 @@ class KnownContact:
         return LoveHalfSpace((n, m), self.spacing, self.modulus, self.periodic)
 
     @property
-    def cell(self) -> float:
-        """Area of a cell [m^2]."""
-        return self.spacing[0] * self.spacing[1]
+    def overlap(self) -> float:
+        """The deepest geometric one, by which residuals are scaled [m]."""
+        return self.approach - float(self.gap.min())
+
+    def force_of(self, pressure: FloatArray) -> float:
+        """F [N]."""
+        return float(pressure.sum()) * self.spacing[0] * self.spacing[1]
+
+    def left(self, pressure: FloatArray, by_force: bool) -> tuple[dict[str, float], float]:
+        """What is left of each condition, and the approach: that of the contact under a force, which is to be held.
+
+        Over the largest pressure, the deepest geometric overlap, or the force; NaN without an overlap.
+        """
+        separation, magnitude = self.gap + self.half_space.displacement(pressure), np.abs(pressure)
+        approach = float((pressure * separation).sum() / pressure.sum()) if by_force else self.approach
+        w, overlap = separation - approach, approach - float(self.gap.min())
+        scale = overlap if overlap > 0 else math.nan
+        found = {
+            "tension": max(-float(pressure.min()), 0.0) / float(magnitude.max()),
+            "complementarity": float((magnitude * np.abs(w)).sum() / abs(scale * pressure.sum())),
+            "penetration": max(-float(w.min()), 0.0) / scale,
+        }
+        if by_force:
+            found["force balance"] = abs(self.force_of(pressure) / self.force - 1)
+        return found, approach
+
+    def worst(self, pressure: FloatArray, by_force: bool) -> float:
+        """The most that is left, NaN where one of them is."""
+        return float(np.max([*self.left(pressure, by_force)[0].values()]))
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class KnownContact(ContactProblem):
+    """A problem with its discrete answer.
+
+    pressure (n, m) [Pa]; stiffness: dF/dd of the fixed contact [N/m]; area [m^2]; limits: approach, stiffness and area
+    on cells of no size, and the half-widths that the grids leave, (3, 2).
+    """
+
+    pressure: FloatArray
+    stiffness: float
+    area: float
+    limits: FloatArray
 
 
 def problems() -> tuple[KnownContact, ...]:
@@ -87,16 +122,14 @@ def problems() -> tuple[KnownContact, ...]:
 @cache
 def _stored() -> tuple[KnownContact, ...]:
     with np.load(TABLE) as stored:
-        names = dict.fromkeys(key.split(":")[0] for key in stored)
-        return tuple(_read(name, stored) for name in names)
-
-
-def _read(name: str, stored: Mapping[str, FloatArray]) -> KnownContact:
-    values: dict[str, Any] = {}
-    for field in fields(KnownContact)[1:]:
-        one = stored[f"{name}: {field.name}"]
-        values[field.name] = one if one.ndim > 1 else tuple(one.tolist()) if one.ndim else one.item()
-    return KnownContact(name=name, **values)
+        of: dict[str, dict[str, Any]] = {}
+        for key in stored:
+            name, what = key.split(": ")
+            value = stored[key]
+            of.setdefault(name, {})[what] = (
+                value if value.ndim > 1 else tuple(value.tolist()) if value.ndim else value.item()
+            )
+    return tuple(KnownContact(name=name, **values) for name, values in of.items())
 
 
 # --- shapes: the gap over L at x, y in (0, 1) ---
@@ -133,10 +166,12 @@ class Stated:
     periodic: bool = False
     across: int = 1
 
-    def gap(self, cells: int) -> FloatArray:
-        """On so many cells along the first axis [m]."""
+    def on(self, cells: int) -> ContactProblem:
+        """With so many cells along the first axis."""
         x, y = ((np.arange(n) + 0.5) / n for n in (cells, cells // self.across))
-        return LOW * SIDE * np.broadcast_to(self.shape(x[:, np.newaxis], y), (x.size, y.size))
+        gap = LOW * SIDE * np.broadcast_to(self.shape(x[:, np.newaxis], y), (x.size, y.size))
+        spacing, force = (SIDE / cells, SIDE / cells * self.across), LOW * self.force * MODULUS * SIDE**2
+        return ContactProblem(gap=gap, spacing=spacing, modulus=MODULUS, periodic=self.periodic, force=force)
 
 
 HERTZ = 4 / 3 / 5**3
@@ -159,45 +194,44 @@ STATED: Mapping[str, Stated] = {
 }
 
 
-def solved(name: str) -> dict[str, FloatArray | float | bool | tuple[float, float]]:
-    """The answer of a problem on its grid and, extrapolated from three grids, on cells of no size.
+def pressed(
+    problem: ContactProblem, tolerance: float, force: float | None = None, approach: float | None = None
+) -> bem3d.Contact:
+    """By our solver, which few cells do not keep from it."""
+    n, m = problem.gap.shape
+    half_space = bem3d.HalfSpace(
+        shape=(n, m), spacing=problem.spacing, modulus=problem.modulus, periodic=problem.periodic
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", bem3d.ContactWarning)
+        return bem3d.solve(
+            half_space, problem.gap, force=force, approach=approach, tolerance=tolerance, indenter_ends_at_edge=True
+        )
 
-    Raises RuntimeError where the operator that judges finds more than rounding in an answer.
-    """
-    stated = STATED[name]
-    grids = [_on(stated, CELLS * 2**i) for i in range(3)]
-    coarse, middle, fine = (np.array([grid[what] for what in LIMITS], dtype=float) for grid in grids)
+
+def answered(problem: ContactProblem) -> dict[str, Any]:
+    """Problem and answer by name. Raises RuntimeError where the operator that judges finds more than rounding in it."""
+    contact = pressed(problem, 1e-11, force=problem.force)
+    _, approach = problem.left(contact.pressure, by_force=True)
+    worst = problem.worst(contact.pressure, by_force=True)
+    if not worst <= EXACT or not math.isclose(approach, contact.approach, rel_tol=1e-7):
+        raise RuntimeError(f"the answer leaves a residual of {worst:.2g}, accepted: {EXACT:g}")
+    found = {"approach": contact.approach, "pressure": contact.pressure, "stiffness": contact.stiffness()}
+    return {**vars(problem), **found, "area": contact.area}
+
+
+def extrapolated(stated: Stated) -> dict[str, Any]:
+    """The answer on the first of three grids, with its limits on cells of no size."""
+    grids = [answered(stated.on(CELLS * 2**i)) for i in range(3)]
+    coarse, middle, fine = (np.array([grid[what] for what in LIMITS]) for grid in grids)
     limit = 2 * fine - middle
     return {**grids[0], "limits": np.stack([limit, np.abs(limit - (2 * middle - coarse))], axis=1)}
 
 
-def _on(stated: Stated, cells: int) -> dict[str, FloatArray | float | bool | tuple[float, float]]:
-    gap, force = stated.gap(cells), LOW * stated.force * MODULUS * SIDE**2
-    (n, m), spacing = gap.shape, (SIDE / cells, SIDE / cells * stated.across)
-    half_space = bem3d.HalfSpace(shape=(n, m), spacing=spacing, modulus=MODULUS, periodic=stated.periodic)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", bem3d.ContactWarning)  # few cells are what a problem is about
-        contact = bem3d.solve(half_space, gap, force=force, tolerance=1e-11, indenter_ends_at_edge=True)
-    left = LoveHalfSpace((n, m), spacing, MODULUS, stated.periodic).residual(gap, contact.pressure)
-    if not left.worst <= EXACT or not math.isclose(left.approach, contact.approach, rel_tol=1e-7):
-        raise RuntimeError(f"the answer leaves a residual of {left.worst:.2g}, accepted: {EXACT:g}")
-    return {
-        **{"gap": gap, "spacing": spacing, "modulus": MODULUS, "periodic": stated.periodic, "force": force},
-        **{"approach": contact.approach, "pressure": contact.pressure, "stiffness": contact.stiffness()},
-        "area": contact.area,
-    }
-
-
-@cache
-def problem_on(name: str, cells: int) -> KnownContact:
-    """One of them with so many cells along the first axis, without a limit."""
-    return KnownContact(name=name, limits=np.full((len(LIMITS), 2), math.nan), **_on(STATED[name], cells))  # type: ignore[arg-type]
-
-
 def main() -> None:
-    answers = {f"{name}: {what}": value for name in STATED for what, value in solved(name).items()}
+    found = {name: extrapolated(stated) for name, stated in STATED.items()}
+    arrays = {f"{name}: {what}": v for name, of in found.items() for what, v in of.items() if what != "name"}
     whole = io.BytesIO()
-    arrays: dict[str, Any] = {key: np.asarray(value) for key, value in answers.items()}
     np.savez_compressed(whole, **arrays)
     write_whole(TABLE, whole.getvalue())
 

@@ -31,8 +31,8 @@ from validation.simulation.wheel_on_springs import band_edges
 from validation.theory.gauss_legendre import on_panels
 from validation.theory.rolling import force_spectrum_1d
 
-FIRST, MIDDLE, LAST, HEIGHT = 1e3, 8e3, 64e3, 1e-6
-"""Band of the roughness of which a rule must have the properties, and where it is parted [rad/m]; rms [m]."""
+FIRST, LAST, HEIGHT = 1e3, 64e3, 1e-6
+"""Band of the roughness of which a rule must have the properties [rad/m]; rms [m]."""
 HURSTS = (0.4, 0.7, 1.0)
 MOMENTS = {0: "rms height", 1: "moment 1", 2: "rms gradient", 3: "moment 3", 4: "moment 4"}
 ROUNDING = 1e-9
@@ -50,7 +50,8 @@ AT_REST = 1e-6
 def judged_profile_spectrum(model: Caller, tolerance: float) -> Iterator[JudgedPoint]:
     """Properties; then springs with that spectrum beside Fig. 14.1, and their linear rolling levels."""
     for hurst in HURSTS:
-        yield from _properties(model, hurst, tolerance)
+        ground = mdr.SelfAffine(hurst=hurst, q_min=FIRST, q_max=LAST, rms=HEIGHT)
+        yield from properties_of_rule(model, ground, tolerance)
     for hurst in HURSTS:
         yield from _springs(model, hurst, tolerance)
 
@@ -63,19 +64,19 @@ def judged_profile_spectrum(model: Caller, tolerance: float) -> Iterator[JudgedP
     yield from judged_density(density, tolerance)
 
 
-def _properties(model: Caller, hurst: float, tolerance: float) -> Iterator[JudgedPoint]:
+def properties_of_rule(model: Caller, whole: mdr.SelfAffine, tolerance: float) -> Iterator[JudgedPoint]:
     """Moments of the surface; not negative; linear in C_2D; scaling with the length. Each a ratio that is one."""
-    ground = partial(mdr.SelfAffine, hurst=hurst)
-    whole = ground(q_min=FIRST, q_max=LAST, rms=HEIGHT)
+    hurst, first, last, height = whole.hurst, whole.q_min, whole.q_max, whole.rms
     # below the band a line has waves too
-    ends = [*np.linspace(0, FIRST, 5), *np.geomspace(FIRST, LAST, 25)[1:]]
+    ends = [*np.linspace(0, first, 5), *np.geomspace(first, last, 25)[1:]]
     q, dq = on_panels(ends, 8)
-    level = FIRST ** (-2 * hurst) - LAST ** (-2 * hurst)
+    level, middle = first ** (-2 * hurst) - last ** (-2 * hurst), math.sqrt(first * last)
     parts = [
-        ground(q_min=a, q_max=b, rms=HEIGHT * math.sqrt((a ** (-2 * hurst) - b ** (-2 * hurst)) / level))
-        for a, b in ((FIRST, MIDDLE), (MIDDLE, LAST))
+        replace(whole, q_min=a, q_max=b, rms=height * math.sqrt((a ** (-2 * hurst) - b ** (-2 * hurst)) / level))
+        for a, b in ((first, middle), (middle, last))
     ]
-    twice, longer = replace(whole, rms=math.sqrt(2) * HEIGHT), ground(q_min=FIRST / 2, q_max=LAST / 2, rms=2 * HEIGHT)
+    twice = replace(whole, rms=math.sqrt(2) * height)
+    longer = replace(whole, q_min=first / 2, q_max=last / 2, rms=2 * height)
     asked = [(q, whole), *((q, part) for part in parts), (q, twice), (q / 2, longer)]
     found = [model.call(q=at, roughness=one) for at, one in asked]
     where = {"H": hurst}
