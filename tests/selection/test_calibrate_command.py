@@ -29,8 +29,16 @@ def here(tmp_path, monkeypatch):
 
 
 def made_up(point):
+    return {"error": np.full(len(point.cheap), 0.1), **answered(point)}
+
+
+def answered(point):
+    """By boundary elements, as mean of two realisations."""
     SOLVED.append(point.number)
-    return {"error": np.full(len(point.cheap), 0.1), "reference": np.array(0.01), "failed": np.array(0.0)}
+    value = np.array([1.0 + point.number])
+    return {"value": value, "each": np.array([0.9 * value, 1.1 * value])} | {
+        name: np.array(number) for name, number in (("reference", 0.01), ("failed", float(point.number == 1)))
+    }
 
 
 @pytest.mark.slow
@@ -42,6 +50,7 @@ def test_a_table_is_written_into_a_folder_of_the_users(tmp_path, capsys):
     assert "not in the table of the calibration: wheel acceleration-rms" in printed.splitlines()[0]
     assert sorted(path.name for path in (tmp_path / "calibration").iterdir() if path.is_file()) == [
         "calibration.csv",
+        "calibration_answers.npz",
         "manifest.json",
     ]
 

@@ -1,6 +1,8 @@
 """Measure the errors that cheap models claim, beside boundary elements."""
 
 import argparse
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from validation.engine.engine import Engine
@@ -10,14 +12,16 @@ from validation.report.commands.arguments import Exit, add_options, add_workers,
 from validation.report.folder import CALIBRATION, REALISATIONS, REFERENCES, Folder
 from validation.scenes.printable import printable
 from validation.selection.calibrate import (
-    CalibrationRun,
     calibration_lines,
     check_calibration,
     check_installable,
     install,
     measured_table,
+    provenance_of,
     table_in,
 )
+from validation.selection.calibration_answers import ANSWERS, measured_answers, merged
+from validation.selection.calibration_scenes import CalibrationRun
 from validation.selection.judging.from_report import references_of
 from validation.selection.judging.references import FOLDER as INSTALLED
 
@@ -51,6 +55,12 @@ def describe(calibrating: argparse.ArgumentParser) -> None:
     alone = calibrating.add_mutually_exclusive_group()
     alone.add_argument("--show", action="store_true", help="show what the table holds, and measure nothing")
     alone.add_argument(
+        "--answers",
+        action="store_true",
+        help="make the answers of boundary elements alone, which models of somebody's own are measured beside; those "
+        "of kinds of which no scene is asked stay",
+    )
+    alone.add_argument(
         "--check", type=at_least(1), metavar="N", help="measure N scenes of each kind again, and report which differ"
     )
     alone.add_argument(
@@ -67,6 +77,8 @@ def calibrate(arguments: argparse.Namespace) -> Exit:
     """Measure the errors of cheap models beside boundary elements, or check or show those that were measured."""
     if arguments.references:
         return _references(arguments)
+    if arguments.answers:
+        return _answers(arguments)
     table = table_in(arguments.out)
     if arguments.install and (arguments.show or (arguments.check and arguments.out is not None)):
         raise ValueError("--install is for a table that is measured, or for --check of that of the package")
@@ -94,20 +106,51 @@ def _check(table: Path, arguments: argparse.Namespace) -> Exit:
 
 def _measure(arguments: argparse.Namespace) -> Path:
     """The table, in a folder of the user's own, and in the place of that of the package if asked for."""
-    run = CalibrationRun(seed=arguments.seed, **{name: getattr(arguments, name) for name in COUNTED})
+    run = _run_of(arguments)
     if arguments.install:
         check_installable(run)
     arguments.out = arguments.out or OUT
-    table = table_in(arguments.out)
+    table, answers = table_in(arguments.out), arguments.out / ANSWERS.name
+    with _folder(arguments) as (folder, engine):
+        measured, made = measured_table(run, engine)
+        folder.replace({table.name: measured, answers.name: merged(answers, made)})
+    if arguments.install:
+        install(table)
+        write_whole(ANSWERS, merged(ANSWERS, made))
+    return table
+
+
+def _answers(arguments: argparse.Namespace) -> Exit:
+    """In a folder of the user's own, beside those of other kinds, and in the package if asked for."""
+    run = _run_of(arguments)
+    arguments.out = arguments.out or OUT
+    place, table = arguments.out / ANSWERS.name, table_in(arguments.out)
+    about = provenance_of(run)
+    about["command"] = about["command"].replace("calibrate", "calibrate --answers")
+    with _folder(arguments) as (folder, engine):
+        made = measured_answers(run.points, about, engine)
+        kept = {table.name: table.read_bytes()} if table.exists() else {}
+        folder.replace({**kept, place.name: merged(place, made)})
+    if arguments.install:
+        write_whole(ANSWERS, merged(ANSWERS, made))
+    for group, answers in made.items():
+        print(f"{' '.join(group)}: {answers.number.size} answers, {answers.each.size} numbers of realisations")
+    print(printable(f"answers: {ANSWERS if arguments.install else place}"))
+    return Exit.MET
+
+
+def _run_of(arguments: argparse.Namespace) -> CalibrationRun:
+    return CalibrationRun(seed=arguments.seed, **{name: getattr(arguments, name) for name in COUNTED})
+
+
+@contextmanager
+def _folder(arguments: argparse.Namespace) -> Iterator[tuple[Folder, Engine]]:
+    """That of the table and of finished solves."""
     with (
         Folder(arguments.out, kind=CALIBRATION) as folder,
         progress_of("calibration", arguments.workers) as progress,
     ):
-        engine = Engine(workers=arguments.workers, store=arguments.out / REALISATIONS, progress=progress)
-        folder.replace({table.name: measured_table(run, engine)})
-    if arguments.install:
-        install(table)
-    return table
+        yield folder, Engine(workers=arguments.workers, store=arguments.out / REALISATIONS, progress=progress)
 
 
 def _references(arguments: argparse.Namespace) -> Exit:
