@@ -9,6 +9,7 @@ import math
 import os
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from datetime import UTC, date, datetime
 from pathlib import Path
 from typing import Any
@@ -19,7 +20,7 @@ from numpy.typing import NDArray
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.engine.files import write_given
 from validation.scenes.printable import printable
-from validation.selection.calibration_answers import Answers, Group, answers_of
+from validation.selection.calibration_answers import Answers, Group, answers_in, answers_of
 from validation.selection.calibration_scenes import CalibrationRun, CalibrationScene, cheap_models, reference_answer
 from validation.selection.hierarchy import try_to_solve
 from validation.selection.scene_model import SceneModel
@@ -45,6 +46,54 @@ def measure_errors(point: CalibrationScene) -> Outcome:
     reference = reference_answer(point)
     truth = reference["value"]
     return {**reference, "error": np.array([_error(model, point.target(), truth) for model in point.cheap])}
+
+
+@dataclass(frozen=True)
+class MeasuredAlone:
+    """A model, a scene, and the stored answer of boundary elements, with the error that this leaves."""
+
+    model: str
+    point: CalibrationScene
+    truth: tuple[float, ...]
+    reference: float
+
+
+def measure_alone(alone: MeasuredAlone) -> Outcome:
+    """As `measure_errors`, NaN for all other models."""
+    point, truth = alone.point, np.array(alone.truth)
+    errors = [_error(one, point.target(), truth) if one.name == alone.model else math.nan for one in point.cheap]
+    return {"error": np.array(errors), "reference": np.array(alone.reference), "failed": np.array(0.0)}
+
+
+def measured_alone(name: str, engine: Engine = SERIAL, path: Path = TABLE) -> bytes:
+    """A table in which this model is measured anew, beside the answers that are stored; no other row changes.
+
+    Raises ValueError for a model that no calibrated scene has.
+    """
+    every = [
+        (CalibrationScene(kind=kind, number=number, quantity=quantity, seed=answers.seed), value, float(reference))
+        for (kind, quantity), answers in answers_in().items()
+        for (number, value, _), reference in zip(answers, answers.reference, strict=True)
+    ]
+    known = {one.name: None for point, _, _ in every for one in point.cheap}
+    if name not in known:
+        names = ", ".join(known) or "none, since no answers of boundary elements are stored"
+        raise ValueError(f"--model must be a Python file or one of {names}, got {printable(name)}")
+    problems = [
+        MeasuredAlone(name, point, tuple(value.tolist()), reference)
+        for point, value, reference in every
+        if any(one.name == name for one in point.cheap)
+    ]
+    outcomes = engine.map(measure_alone, problems)
+    rows = {_place(row): dict[str, Any](row) for row in calibration.rows_of(path)}
+    for alone, outcome in zip(problems, outcomes, strict=True):
+        rows |= {_place(row): row for row in rows_of_point(alone.point, outcome)}
+    about = {**calibration.provenance(path), "measured alone": f"{name}, {today().isoformat()}"}
+    return as_table(about, list(rows.values()))
+
+
+def _place(row: Mapping[str, Any]) -> tuple[str, ...]:
+    return tuple(str(row[name]) for name in ("kind", "quantity", "number", "model"))
 
 
 def _error(model: Model, target: Target, truth: NDArray[np.float64]) -> float:
@@ -106,10 +155,14 @@ def rows_of_point(point: CalibrationScene, outcome: Outcome) -> list[dict[str, A
 
 def calibration_lines(path: Path = TABLE) -> list[str]:
     """What the table holds: its age, its code, and how well claims cover scenes that are left out of it."""
-    head = f"{'scene':10s}{'quantity':18s}{'model':20s}{'scenes':>7s}{'covered':>9s}{'claim/error':>13s}"
     calibration.table.cache_clear()  # which may have been written since
-    lines = [calibration_age(path), head]
-    for (kind, quantity, model), measured in calibration.table(path).items():
+    return [calibration_age(path), *errors_as_lines(calibration.table(path))]
+
+
+def errors_as_lines(table: Mapping[Key, calibration.MeasuredErrors]) -> list[str]:
+    """A line a model."""
+    lines = [f"{'scene':10s}{'quantity':18s}{'model':20s}{'scenes':>7s}{'covered':>9s}{'claim/error':>13s}"]
+    for (kind, quantity, model), measured in table.items():
         count, shown = len(measured.errors), f"{'—':>9s}{'—':>13s}"
         if count > 1:
             claimed = measured.factor * measured.left_out()

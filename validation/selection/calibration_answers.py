@@ -64,6 +64,11 @@ class Answers:
         for number, value, rows in zip(self.number.tolist(), values, each, strict=bool(self.number.size)):
             yield number, value, rows.reshape(-1, value.size)
 
+    @property
+    def seed(self) -> int:
+        """Of the scenes."""
+        return int(self.about["command"].rsplit(" ", 1)[1])
+
     @cached_property
     def digest(self) -> str:
         """Of all numbers."""
