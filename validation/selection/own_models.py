@@ -122,7 +122,7 @@ class OwnModel:
         if not self.digest:
             return "a function without a file is not calibrated: its error is unknown"
         if known is None:
-            return f"no answers are stored that @{self.kind} is calibrated by here: its error is unknown"
+            return "no answers of boundary elements are stored for such scenes: its error is unknown"
         return f"it answers fewer than {FEWEST_SCENES} scenes of the calibration: its error is unknown"
 
 
@@ -181,11 +181,15 @@ def of_functions(functions: Iterable[Offered], scene: Scene, quantity: str) -> t
     for one in functions:
         if one.kind not in SERVED:
             raise TypeError(f"models must be of @{', @'.join(SERVED)}, got {quoted(one.name)} of @{one.kind}")
-        path = Path(one.function.__code__.co_filename) if hasattr(one.function, "__code__") else None
-        digest = digest_of(sources_of(path)) if path is not None and path.is_file() else ""
-        own = OwnModel(one.kind, one.name, one.asks, digest, function=one)
+        own = OwnModel(one.kind, one.name, one.asks, _digest_of_file(one), function=one)
         found.append(calibrated(own, groups_of([(scene, quantity)])))
     return tuple(found)
+
+
+def _digest_of_file(offered: Offered) -> str:
+    """Of that which defines a function, and of what is loaded from its folder; empty where there is none."""
+    path = Path(getattr(getattr(offered.function, "__code__", None), "co_filename", ""))
+    return digest_of(sources_of(path)) if path.is_file() else ""
 
 
 @dataclass(frozen=True)

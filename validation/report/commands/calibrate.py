@@ -180,7 +180,7 @@ def _own(path: Path, arguments: argparse.Namespace) -> Exit:
     print(printable("\n".join(lines), lines=True))
     for one in found:
         if not any(one.name == name for *_, name in errors):
-            print(printable(f"no answers of boundary elements are stored for {one.serves}: its error is unknown"))
+            print(printable(f"{one.serves}; no answers are stored for that: its error is unknown"))
     print(printable(f"errors: in {store}, by the bytes of {path.name} and of what it has loaded from its folder"))
     return Exit.MET
 
