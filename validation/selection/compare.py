@@ -5,7 +5,6 @@ import json
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
-from pkgutil import resolve_name
 from typing import Any
 
 import numpy as np
@@ -20,7 +19,7 @@ from validation.scenes.rail import RailScene
 from validation.scenes.rolling import RollingScene
 from validation.selection.hierarchy import Candidate, Selection, select_model
 from validation.selection.named_models import ComparedModels, models_named
-from validation.selection.own_candidates import Own, own_candidates
+from validation.selection.own_candidates import Own, names_and_own, own_candidates
 from validation.selection.quantities import BY_NAME, LEVELS, REFERENCES, UNITS, models_of, quantities_of
 from validation.selection.scene_model import SceneModel, Shared
 from validation.selection.swept import Swept
@@ -30,8 +29,6 @@ from validation.simulation.rolling_quantity import RollingQuantity
 
 LONGEST_BEYOND_RANGE = 60.0
 """Seconds that a model may take whose error is unknown."""
-OF_FUNCTIONS = "validation.selection.own_models:of_functions"
-"""By name: what is stored of scenes without such models must not be keyed by their code."""
 
 
 @dataclass(frozen=True)
@@ -261,10 +258,7 @@ def compare(
         raise TypeError(f"scene must be what load_scene returns, got {type(scene).__name__}")
     count("seed", seed, least=0)
     asked = quantity or quantities_of(scene)[0]
-    listed = models if isinstance(models, Sequence) else (models,)
-    functions = [one for one in listed if isinstance(one, Offered)]
-    own = resolve_name(OF_FUNCTIONS)(functions, scene, asked) if functions else ()
-    names = tuple(one.name if isinstance(one, Offered) else one for one in listed) if functions else models
+    names, own = names_and_own(models, scene, asked)
     return SceneProblem(scene, (asked,), tolerance, seed, solve_all, names, own).compared(callback)[asked]
 
 

@@ -1,8 +1,11 @@
 """Models of somebody's own beside those of a scene."""
 
 from collections.abc import Sequence
+from pkgutil import resolve_name
 from typing import Protocol
 
+from validation.engine.offered import Offered
+from validation.scenes.load import Scene
 from validation.scenes.printable import quoted
 from validation.scenes.rail import RailScene
 from validation.selection.rail_model import RailSceneModel
@@ -11,18 +14,30 @@ from validation.simulation.method import Resolution
 from validation.simulation.model import Model, Target
 from validation.simulation.model_names import SHORT
 
+OF_FUNCTIONS = "validation.selection.own_models:of_functions"
+"""By name: what is stored of scenes without such models must not be keyed by their code."""
+
 
 class Own(Protocol):
-    """What `own_models` makes of a function; serves: in words.
-
-    It is known by this alone: what is stored of scenes without such models must not be keyed by their code.
-    """
+    """What `own_models` makes of a function; serves: in words."""
 
     @property
     def name(self) -> str: ...
     @property
     def serves(self) -> str: ...
     def model(self) -> Model: ...
+
+
+def names_and_own(
+    models: str | Offered | Sequence[str | Offered], scene: Scene, quantity: str
+) -> tuple[Sequence[str], tuple[Own, ...]]:
+    """Names of all that are asked, and functions as models."""
+    if isinstance(models, str):
+        return models, ()
+    asked = [models] if isinstance(models, Offered) else models
+    functions = [one for one in asked if isinstance(one, Offered)]
+    own = resolve_name(OF_FUNCTIONS)(functions, scene, quantity) if functions else ()
+    return tuple(one.name if isinstance(one, Offered) else one for one in asked), own
 
 
 def own_candidates(own: Sequence[Own], target: Target, others: Sequence[SceneModel]) -> list[SceneModel]:
