@@ -16,7 +16,7 @@ from validation.analysis import graduation
 from validation.analysis.nominal_bands import NominalBands
 from validation.cases.rail import across, filters, rolled_filters
 from validation.scenes import isotropic_line
-from validation.selection import calibrate, contact_force, exported, rail_model, side_by_side
+from validation.selection import calibration_scenes, contact_force, exported, rail_model, side_by_side
 from validation.selection.scene_model import Answer
 from validation.simulation import equivalent_displacement, rail_across, rail_models, rail_quantity, rail_strip
 from validation.simulation.model_names import ONE_SIDED_BED
@@ -114,7 +114,7 @@ FAULTS = [
         lambda model, quantity, a3: model_error(model, quantity, a3) - quantity.left_by_ground,
     ),
     test_calibration.test_the_reference_has_surfaces_of_its_own_on_its_finest_grid,
-    Fault("a reference of the calibration with the surfaces of the models").at(calibrate, "OTHER_SEED", 0),
+    Fault("a reference of the calibration with the surfaces of the models").at(calibration_scenes, "OTHER_SEED", 0),
     test_graduation.test_errors_of_slopes_cover_those_of_a_line_with_known_scatter,
     Fault("one standard error of a slope").at(graduation.Graduation, "quantile", 1.0),
     partial(test_graduation.test_lone_values_lose_their_weight, 10, 3),

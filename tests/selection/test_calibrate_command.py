@@ -7,8 +7,10 @@ import pytest
 
 from validation.__main__ import main
 from validation.report.commands import calibrate as command
-from validation.selection import calibrate
+from validation.selection import calibrate, calibration_answers
 from validation.selection.calibrate import CalibrationRun, as_table, check_installable, install
+from validation.selection.calibration_answers import Answers, answers_in, as_file, merged
+from validation.selection.calibration_scenes import CalibrationScene
 from validation.simulation import calibration
 
 ONE_PUNCH = ("calibrate", "--spheres", "0", "--rolling", "0", "--wheels", "0", "--workers", "1", "--punches", "1")
@@ -23,14 +25,24 @@ def here(tmp_path, monkeypatch):
     before = calibration.TABLE.read_bytes()
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(calibrate, "measure_errors", made_up)
+    monkeypatch.setattr(calibration_answers, "reference_answer", answered)
+    monkeypatch.setattr(command, "ANSWERS", tmp_path / "package" / "calibration_answers.npz")
     SOLVED.clear()
     yield
     assert calibration.TABLE.read_bytes() == before
 
 
 def made_up(point):
+    return {"error": np.full(len(point.cheap), 0.1), **answered(point)}
+
+
+def answered(point):
+    """By boundary elements, as mean of two realisations."""
     SOLVED.append(point.number)
-    return {"error": np.full(len(point.cheap), 0.1), "reference": np.array(0.01), "failed": np.array(0.0)}
+    value = np.array([1.0 + point.number])
+    return {"value": value, "each": np.array([0.9 * value, 1.1 * value])} | {
+        name: np.array(number) for name, number in (("reference", 0.01), ("failed", float(point.number == 1)))
+    }
 
 
 @pytest.mark.slow
@@ -42,6 +54,7 @@ def test_a_table_is_written_into_a_folder_of_the_users(tmp_path, capsys):
     assert "not in the table of the calibration: wheel acceleration-rms" in printed.splitlines()[0]
     assert sorted(path.name for path in (tmp_path / "calibration").iterdir() if path.is_file()) == [
         "calibration.csv",
+        "calibration_answers.npz",
         "manifest.json",
     ]
 
@@ -148,3 +161,62 @@ def test_what_cannot_be_done_is_refused_before_anything_is_measured(words, said,
     assert main(["calibrate", *words]) == 2
     assert said in capsys.readouterr().err
     assert [path.name for path in tmp_path.iterdir()] == ["calibration.csv"]
+
+
+ANSWERS = ("calibrate", "--answers", *ONE_PUNCH[1:-1], "3")
+
+
+@pytest.mark.slow
+def test_answers_alone_are_made_and_each_kind_is_installed_beside_the_others(tmp_path, capsys):
+    """Readable with numpy alone; scenes without an answer are left out; a table in the folder stays."""
+    (tmp_path / "package").mkdir()
+    assert main([*ONE_PUNCH]) == main([*ANSWERS, "--install"]) == 0
+    assert main([*ANSWERS, "--punches", "0", "--spheres", "2", "--install"]) == 0
+    assert "sphere stiffness: 1 answers, 2 numbers" in capsys.readouterr().out
+    assert (tmp_path / "calibration" / "calibration.csv").exists()
+    with np.load(tmp_path / "package" / "calibration_answers.npz") as arrays:
+        assert arrays["punch stiffness number"].tolist() == [0, 2] and arrays["punch stiffness value"].tolist() == [
+            1,
+            3,
+        ]
+        assert arrays["sphere stiffness each"].tolist() == [0.9, 1.1]
+        assert "--answers --punches 3" in str(arrays["punch stiffness about"])
+    assert main([*ANSWERS[:-1], "1", "--install"]) == 2
+    assert "must leave as many answers as there are, 2 of punch stiffness" in capsys.readouterr().err
+
+
+def test_answers_of_several_bands_are_read_as_they_were_written(tmp_path):
+    """Scenes may have other numbers of bands and of realisations."""
+    points = [CalibrationScene(kind="rolling", number=i, quantity="force-spectrum", seed=7) for i in range(3)]
+    each = [np.arange(1.0, 1 + 2 * (i + 1)).reshape(2, i + 1) for i in range(3)]
+    found = [
+        (point, {"value": rows.mean(axis=0), "each": rows, "reference": np.array(0.1), "failed": np.array(0.0)})
+        for point, rows in zip(points, each, strict=True)
+    ]
+    made = Answers.of(found, {"command": "mdr-validation calibrate --seed 7"})
+    group = "rolling", "force-spectrum"
+    (tmp_path / "answers.npz").write_bytes(as_file({group: made}))
+    read = answers_in(tmp_path / "answers.npz")[group]
+    assert (read.digest, read.seed) == (made.digest, 7)
+    for (number, value, rows), (point, outcome) in zip(read, found, strict=True):
+        assert number == point.number and (value == outcome["value"]).all() and (rows == outcome["each"]).all()
+    assert answers_in(tmp_path / "none.npz") == {} and merged(tmp_path / "none.npz", {group: made})
+
+
+@pytest.mark.slow
+def test_a_model_that_is_measured_alone_touches_no_other_row(tmp_path, monkeypatch):
+    """Beside the stored answer: the fit is off by as much as the table has where that is the answer of the table."""
+    points = [CalibrationScene(kind="punch", number=i, quantity="stiffness", seed=19) for i in range(2)]
+    made = Answers.of([(point, answered(point)) for point in points], {"command": "--seed 19"})
+    monkeypatch.setattr(calibrate, "answers_in", lambda: {("punch", "stiffness"): made})
+    assert main(["calibrate", "--model", "fit", "--workers", "1"]) == 0
+    before, after = (
+        {tuple(row[name] for name in ("kind", "quantity", "number", "model")): row for row in calibration.rows_of(path)}
+        for path in (calibration.TABLE, tmp_path / "calibration" / "calibration.csv")
+    )
+    changed = [key for key in after if after[key] != before[key]]
+    assert list(after) == list(before) and changed == [("punch", "stiffness", "0", "fit")]
+    (fit,) = (one for one in points[0].cheap if one.name == "fit")
+    value = fit.prepare(points[0].target(), fit.resolutions(points[0].target())[0])(0)().values["stiffness"]
+    assert float(after[changed[0]]["error"]) == pytest.approx(abs(np.log(value)), rel=1e-4)
+    assert main(["calibrate", "--model", "own"]) == 2

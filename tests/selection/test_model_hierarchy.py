@@ -18,7 +18,7 @@ from validation.cases.selection.random_scenes import KINDS, random_scene
 from validation.report.contents import CASES
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
-from validation.selection import calibrate
+from validation.selection import calibration_scenes
 from validation.selection.columns import bands_of
 from validation.selection.compare import compare
 from validation.selection.hierarchy import needed, select_model
@@ -290,7 +290,7 @@ def test_force_of_low_roughness_needs_a_filter_and_of_high_boundary_elements():
 @given(kind=st.sampled_from(KINDS), number=st.integers(0, 10**6), tolerance=st.floats(0.01, 1.0))
 def test_models_are_asked_in_the_order_of_their_cost(kind, number, tolerance):
     scene = random_scene(kind, number, 0)
-    for quantity in calibrate.QUANTITIES[kind]:
+    for quantity in calibration_scenes.QUANTITIES[kind]:
         costs = [model.cost().seconds for model in models_of(scene, quantity, tolerance, 0)]
         solved = costs[-3 if kind in ("punch", "sphere") else -2 :]
         assert solved == sorted(solved)

@@ -10,18 +10,10 @@ import numpy as np
 import pytest
 
 from tests.selection.planted_answers import punch, waves, wheel
-from validation.selection import calibrate
-from validation.selection.calibrate import (
-    QUANTITIES,
-    RESONANCES,
-    CalibrationRun,
-    CalibrationScene,
-    as_table,
-    calibration_age,
-    check_calibration,
-    measured_table,
-)
-from validation.selection.scene_model import Answer
+from validation.selection import calibrate, calibration_scenes
+from validation.selection.calibrate import as_table, calibration_age, check_calibration, measured_table
+from validation.selection.calibration_scenes import QUANTITIES, RESONANCES, CalibrationRun, CalibrationScene
+from validation.selection.scene_model import Answer, Realisations
 from validation.simulation import calibration
 from validation.simulation.calibrated_range import HEIGHT, HURST, LOAD, LONG, RATIO, WAVES
 from validation.simulation.calibration import MeasuredErrors, calibrated, conditions_by_kind
@@ -258,8 +250,12 @@ def test_each_row_is_a_scene_of_the_design():
 
 def test_a_table_has_a_row_a_scene_and_model_with_its_error(monkeypatch):
     run = CalibrationRun(punches=2, spheres=0, rolling=0, wheels=0, seed=4)
-    monkeypatch.setitem(calibrate.DESIGNS, "punch", ((0.0, 1.0), (0.0, 0.0), (0.5, 0.9), (0.5, 0.9)))
-    rows = list(csv.DictReader(line for line in measured_table(run).decode().splitlines() if line[0] != "#"))
+    monkeypatch.setitem(calibration_scenes.DESIGNS, "punch", ((0.0, 1.0), (0.0, 0.0), (0.5, 0.9), (0.5, 0.9)))
+    table, answers = measured_table(run)
+    rows = list(csv.DictReader(line for line in table.decode().splitlines() if line[0] != "#"))
+    found = answers["punch", "stiffness"]
+    left = [float(row["reference"]) for row in rows[::2]]
+    assert found.number.tolist() == [0, 1] and found.reference == pytest.approx(left, rel=0.01)
     assert [(row["number"], row["model"]) for row in rows] == [(n, model) for n in "01" for model in ("fit", "springs")]
     assert all(0 < float(row["error"]) < 0.5 and float(row["reference"]) < 0.1 for row in rows)
 
@@ -282,10 +278,12 @@ def test_the_reference_has_surfaces_of_its_own_on_its_finest_grid():
         seeds[isinstance(one.model, GridModel)].add(one.target.seed)
         grids = one.model.resolutions(one.target)
         assert one.resolution == max(grids, key=lambda grid: one.model.cost(one.target, grid).seconds)
+        one.shared[one.model, one.resolution] = Realisations(prepare=None)
         return Answer(value=np.array([1.0]), cost=Cost(work=1, seconds=1.0))
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(calibrate, "try_to_solve", noted)
+        for module in (calibrate, calibration_scenes):
+            patch.setattr(module, "try_to_solve", noted)
         for point in CalibrationRun(punches=9, spheres=9, rolling=3, wheels=3).points:
             calibrate.measure_errors(point)
     assert seeds[True] and seeds[False] and not seeds[True] & seeds[False]

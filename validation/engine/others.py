@@ -9,7 +9,7 @@ import sys
 import tempfile
 import traceback
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, redirect_stdout, suppress
 from dataclasses import dataclass, field
 from importlib.machinery import SourceFileLoader
@@ -163,8 +163,7 @@ class Visitor:
     @property
     def digest(self) -> str:
         """Of the bytes of the file, and of every module that it has loaded from its folder."""
-        sources = b"".join(hashlib.sha256(path.read_bytes()).digest() for path in self.sources)
-        return hashlib.sha256(sources).hexdigest()
+        return digest_of(self.sources)
 
     def calls(
         self, offered: Offered, name: str, values: Sequence[Any], arguments: Mapping[str, Any]
@@ -237,6 +236,11 @@ class Visitor:
         self._pipe.close()
 
 
+def digest_of(sources: Iterable[Path]) -> str:
+    """Of the bytes of these files."""
+    return hashlib.sha256(b"".join(hashlib.sha256(path.read_bytes()).digest() for path in sources)).hexdigest()
+
+
 def _elsewhere(**_: Any) -> None:
     raise NotImplementedError("the function is in another process")
 
@@ -271,7 +275,7 @@ def serve(handle: int) -> None:
             os.dup2(printed.fileno(), stream)
         try:
             offered = _loaded(path)
-            pipe.send(([(one.kind, one.name, one.asks, one.options) for one in offered], _sources(path)))
+            pipe.send(([(one.kind, one.name, one.asks, one.options) for one in offered], sources_of(path)))
         except OthersError as error:
             pipe.send(str(error))
             return
@@ -281,7 +285,7 @@ def serve(handle: int) -> None:
                 for value in values:
                     loaded = len(sys.modules)
                     found = called(offered[index], {**arguments, name: value})
-                    sources = _sources(path) if len(sys.modules) > loaded else ()
+                    sources = sources_of(path) if len(sys.modules) > loaded else ()
                     pipe.send((found, _printed(printed), sources))
 
 
@@ -319,7 +323,7 @@ def _loaded(path: Path) -> list[Offered]:
     return found
 
 
-def _sources(path: Path) -> tuple[Path, ...]:
+def sources_of(path: Path) -> tuple[Path, ...]:
     """The file and the modules that are loaded from its folder, but for installed packages."""
     files = {
         Path(file) for one in list(sys.modules.values()) if isinstance(file := getattr(one, "__file__", None), str)

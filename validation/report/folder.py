@@ -32,7 +32,7 @@ REFERENCES = "mdr-validation references"
 """Kinds of the folders of `compare --report`, `sound` and `calibrate`, with and without `--references`: none takes the
 place of another."""
 NAME = re.compile(
-    r"(?:(?:figures|data|sounds)/)?[^./\\\x00-\x1f\x7f][^/\\\x00-\x1f\x7f]*\.(?:html|json|svg|pdf|csv|wav)"
+    r"(?:(?:figures|data|sounds)/)?[^./\\\x00-\x1f\x7f][^/\\\x00-\x1f\x7f]*\.(?:html|json|svg|pdf|csv|npz|wav)"
 )
 """Names that files of a report may have; a list with other names is none of a report."""
 

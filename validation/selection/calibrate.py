@@ -19,112 +19,81 @@ from numpy.typing import NDArray
 
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.engine.files import write_given
-from validation.engine.random_numbers import random_generator
-from validation.scenes.indentation import IndentationScene
-from validation.scenes.load import Scene
 from validation.scenes.printable import printable
-from validation.scenes.rolling import RollingScene
-from validation.scenes.roughness import Roughness
+from validation.selection.calibration_answers import Answers, Group, answers_in, answers_of
+from validation.selection.calibration_scenes import CalibrationRun, CalibrationScene, cheap_models, reference_answer
 from validation.selection.hierarchy import try_to_solve
-from validation.selection.quantities import MOVING, PRESSED, ROLLING
 from validation.selection.scene_model import SceneModel
 from validation.simulation import calibration
 from validation.simulation.calibrated_range import CONDITIONS
 from validation.simulation.calibration import TABLE, Key
-from validation.simulation.model import GridModel, Model, Target, models_serving
+from validation.simulation.model import Model, Target
 from validation.simulation.sampling import distance
-from validation.theory.closed_forms import hertz_force
 
-REFERENCE_TOLERANCE = {"stiffness": 0.06, "force-rms": 0.1, "acceleration-rms": 0.1}
-SPECTRUM_TOLERANCE = 0.15
-"""Of the references, by their quantity, and of spectra: half of it is left to their samples."""
-MODEL_TOLERANCE = 0.05
-"""Of the models that are measured: their samples leave a fifth of it or less."""
-OTHER_SEED = 1_000_003
-"""Added to the seed of a scene: the reference has surfaces of its own."""
-RADIUS, APPROACH = 1.0, 1e-4
-"""Of spheres and wheels: no error depends on units."""
-HEIGHT = 1e-3
-"""Of the roughness of punches, over their side."""
-QUANTITIES = {"punch": PRESSED, "sphere": PRESSED, "rolling": ROLLING, "wheel": MOVING[::-1]}
-DESIGNS: Mapping[str, tuple[tuple[float, float], ...]] = {
-    "punch": ((-2.2, 2.0), (0.0, math.log10(5.4)), (math.log10(3), math.log10(48)), (0.2, 1.2)),
-    "sphere": ((-2.5, 0.0), (math.log10(0.3), math.log10(2)), (math.log10(2), math.log10(12)), (0.2, 1.2)),
-    "rolling": ((-2.5, 0.0), (math.log10(0.5), math.log10(2)), (math.log10(2), math.log10(12)), (0.2, 1.2)),
-    "wheel": ((-2.5, -0.5), (math.log10(0.5), math.log10(2)), (math.log10(2), math.log10(12)), (0.2, 1.2)),
-}
-"""Ranges of lg Fbar or lg h/d; of lg of the longest waves on a side, or of q a of the longest wave; of lg of the
-longest over the shortest wave; and of the Hurst exponent."""
-SHORTEST = {"punch": 48, "sphere": 16, "rolling": 12, "wheel": 12}
-"""Of the shortest wave: as many on a side at the most, and q a."""
 COLUMNS = ("kind", "quantity", "number", "model", *CONDITIONS, "shape", "error", "reference", "code")
 """Of the table; code: digest of what a row was measured with, and of what gave the same numbers since."""
-RESONANCES, IN_BAND = (math.log10(1.2), math.log10(6)), 3.5
-"""lg of the frequency of the longest wave over the resonance of a dynamic wheel; of the shortest, at the least."""
-
 SAME = 1e-3
 """Relative difference of an error measured again: the last bits of a solve are those of the machine, and its residual
 leaves more than they do."""
 Row = dict[str, str]
 
 
-@dataclass(frozen=True, kw_only=True)
-class CalibrationScene:
-    """A point of the design: the first of a kind are the same, however many there are."""
-
-    kind: str
-    number: int
-    quantity: str
-    seed: int
-
-    @property
-    def scene(self) -> Scene:
-        """Drawn evenly from the ranges."""
-        low, high = np.array(DESIGNS[self.kind]).T
-        rng = random_generator(self.seed, list(DESIGNS).index(self.kind), self.number)
-        power, first, ratio, hurst = rng.uniform(low, high).tolist()
-        common: dict[str, Any] = {"name": f"{self.kind} {self.number}", "modulus": 1.0}
-        if self.kind == "punch":
-            waves = round(10**first)
-            last = max(min(round(waves * 10**ratio), SHORTEST[self.kind]), 3 * waves)
-            ground = Roughness(rms=HEIGHT, hurst=hurst, longest=1 / waves, shortest=1 / last)
-            return IndentationScene(shape="punch", size=1.0, load=10**power * HEIGHT, ground=ground, **common)
-        d = APPROACH * RADIUS
-        a, common["load"] = math.sqrt(RADIUS * d), hertz_force(radius=RADIUS, modulus=1.0, approach=d)
-        longest, shortest = 10**first, min(10 ** (first + ratio), SHORTEST[self.kind])
-        ground = Roughness(
-            rms=10**power * d, hurst=hurst, longest=2 * math.pi * a / longest, shortest=2 * math.pi * a / shortest
-        )
-        if self.kind == "sphere":
-            return IndentationScene(shape="sphere", size=RADIUS, ground=ground, **common)
-        if self.kind == "wheel":
-            over = max(10 ** rng.uniform(*RESONANCES), IN_BAND * ground.q_min / ground.q_max)
-            common |= {"mass": 1.0, "speed": over * math.sqrt(2 * a) / ground.q_min}
-        return RollingScene(radius=RADIUS, ground=ground, **common)
-
-    def target(self, tolerance: float = MODEL_TOLERANCE, seed: int = 0) -> Target:
-        """seed: added to that of the design."""
-        return Target(self.scene, self.quantity, tolerance, self.seed + self.number + seed)
-
-    @property
-    def cheap(self) -> tuple[Model, ...]:
-        """The models that are measured."""
-        return cheap_models(self.target())
-
-
 def measure_errors(point: CalibrationScene) -> Outcome:
     """Distance of each cheap model from fine boundary elements, NaN where one has no answer.
 
-    reference: the error that the reference itself leaves; failed: one where it has no answer.
+    With all of the reference, see `reference_answer`.
     """
-    target = point.target(REFERENCE_TOLERANCE.get(point.quantity, SPECTRUM_TOLERANCE), OTHER_SEED)
-    (judge,) = (model for model in models_serving(point.scene, point.quantity) if isinstance(model, GridModel))
-    reference = try_to_solve(SceneModel(judge, target, judge.resolutions(target)[-1]))
-    return {
-        "error": np.array([_error(model, point.target(), reference.value) for model in point.cheap]),
-        "reference": np.array(reference.error),
-        "failed": np.array(float(bool(reference.failed))),
-    }
+    reference = reference_answer(point)
+    truth = reference["value"]
+    return {**reference, "error": np.array([_error(model, point.target(), truth) for model in point.cheap])}
+
+
+@dataclass(frozen=True)
+class MeasuredAlone:
+    """A model, a scene, and the stored answer of boundary elements, with the error that this leaves."""
+
+    model: str
+    point: CalibrationScene
+    truth: tuple[float, ...]
+    reference: float
+
+
+def measure_alone(alone: MeasuredAlone) -> Outcome:
+    """As `measure_errors`, NaN for all other models."""
+    point, truth = alone.point, np.array(alone.truth)
+    errors = [_error(one, point.target(), truth) if one.name == alone.model else math.nan for one in point.cheap]
+    return {"error": np.array(errors), "reference": np.array(alone.reference), "failed": np.array(0.0)}
+
+
+def measured_alone(name: str, engine: Engine = SERIAL, path: Path = TABLE) -> bytes:
+    """A table in which this model is measured anew, beside the answers that are stored; no other row changes.
+
+    Raises ValueError for a model that no calibrated scene has.
+    """
+    every = [
+        (CalibrationScene(kind=kind, number=number, quantity=quantity, seed=answers.seed), value, float(reference))
+        for (kind, quantity), answers in answers_in().items()
+        for (number, value, _), reference in zip(answers, answers.reference, strict=True)
+    ]
+    known = {one.name: None for point, _, _ in every for one in point.cheap}
+    if name not in known:
+        names = ", ".join(known) or "none, since no answers of boundary elements are stored"
+        raise ValueError(f"--model must be a Python file or one of {names}, got {printable(name)}")
+    problems = [
+        MeasuredAlone(name, point, tuple(value.tolist()), reference)
+        for point, value, reference in every
+        if any(one.name == name for one in point.cheap)
+    ]
+    outcomes = engine.map(measure_alone, problems)
+    rows = {_place(row): dict[str, Any](row) for row in calibration.rows_of(path)}
+    for alone, outcome in zip(problems, outcomes, strict=True):
+        rows |= {_place(row): row for row in rows_of_point(alone.point, outcome)}
+    about = {**calibration.provenance(path), "measured alone": f"{name}, {today().isoformat()}"}
+    return as_table(about, list(rows.values()))
+
+
+def _place(row: Mapping[str, Any]) -> tuple[str, ...]:
+    return tuple(str(row[name]) for name in ("kind", "quantity", "number", "model"))
 
 
 def _error(model: Model, target: Target, truth: NDArray[np.float64]) -> float:
@@ -132,41 +101,24 @@ def _error(model: Model, target: Target, truth: NDArray[np.float64]) -> float:
     return math.nan if answer.failed or not np.isfinite(truth).all() else distance(answer.value, truth)
 
 
-@dataclass(frozen=True, kw_only=True)
-class CalibrationRun:
-    """How many scenes of each kind; each of a wheel is solved for both of its quantities."""
-
-    punches: int = 200
-    spheres: int = 120
-    rolling: int = 60
-    wheels: int = 70
-    seed: int = 19
-
-    @property
-    def points(self) -> list[CalibrationScene]:
-        """All of them; what takes longest first."""
-        counts = {"wheel": self.wheels, "rolling": self.rolling, "punch": self.punches, "sphere": self.spheres}
-        return [
-            CalibrationScene(kind=kind, number=number, quantity=quantity, seed=self.seed)
-            for kind, count in counts.items()
-            for quantity in QUANTITIES[kind]
-            for number in range(count)
-        ]
-
-
 def table_in(folder: Path | None) -> Path:
     """Of a folder of a user's own; without one, that of the package."""
     return TABLE if folder is None else folder / TABLE.name
 
 
-def measured_table(run: CalibrationRun, engine: Engine = SERIAL) -> bytes:
-    """Measure all errors: the table of them."""
+def measured_table(run: CalibrationRun, engine: Engine = SERIAL) -> tuple[bytes, dict[Group, Answers]]:
+    """Measure all errors: the table of them, and the answers of boundary elements that they are measured beside."""
     points = run.points
     outcomes = engine.map(measure_errors, points)
     rows = [row for point, outcome in zip(points, outcomes, strict=True) for row in rows_of_point(point, outcome)]
+    about = provenance_of(run)
+    return as_table(about, rows), answers_of(points, outcomes, about)
+
+
+def provenance_of(run: CalibrationRun) -> dict[str, str]:
+    """Date and command."""
     counts = f"--punches {run.punches} --spheres {run.spheres} --rolling {run.rolling} --wheels {run.wheels}"
-    about = {"measured": today().isoformat(), "command": f"mdr-validation calibrate {counts} --seed {run.seed}"}
-    return as_table(about, rows)
+    return {"measured": today().isoformat(), "command": f"mdr-validation calibrate {counts} --seed {run.seed}"}
 
 
 def as_table(about: Mapping[str, str], rows: Sequence[Mapping[str, object]]) -> bytes:
@@ -203,10 +155,14 @@ def rows_of_point(point: CalibrationScene, outcome: Outcome) -> list[dict[str, A
 
 def calibration_lines(path: Path = TABLE) -> list[str]:
     """What the table holds: its age, its code, and how well claims cover scenes that are left out of it."""
-    head = f"{'scene':10s}{'quantity':18s}{'model':20s}{'scenes':>7s}{'covered':>9s}{'claim/error':>13s}"
     calibration.table.cache_clear()  # which may have been written since
-    lines = [calibration_age(path), head]
-    for (kind, quantity, model), measured in calibration.table(path).items():
+    return [calibration_age(path), *errors_as_lines(calibration.table(path))]
+
+
+def errors_as_lines(table: Mapping[Key, calibration.MeasuredErrors]) -> list[str]:
+    """A line a model."""
+    lines = [f"{'scene':10s}{'quantity':18s}{'model':20s}{'scenes':>7s}{'covered':>9s}{'claim/error':>13s}"]
+    for (kind, quantity, model), measured in table.items():
         count, shown = len(measured.errors), f"{'—':>9s}{'—':>13s}"
         if count > 1:
             claimed = measured.factor * measured.left_out()
@@ -251,11 +207,6 @@ def _names(some: Sequence[Key], every: Iterable[Key], target: Target | None) -> 
     others = {key[:2] for key in every if key not in some}
     names = (f"{kind} {of}, {model}" if (kind, of) in others else f"{kind} {of}" for kind, of, model in some)
     return "; ".join(dict.fromkeys(names))
-
-
-def cheap_models(target: Target) -> tuple[Model, ...]:
-    """Those that claim errors, and are selected among."""
-    return tuple(one for one in models_serving(target.scene, target.quantity) if not isinstance(one, GridModel))
 
 
 def today() -> date:

@@ -12,16 +12,19 @@ import numpy as np
 from mdr.checks import count
 from validation.analysis.nominal_bands import MANTISSAS
 from validation.engine.engine import FloatArray
+from validation.engine.offered import Offered
 from validation.scenes.load import Scene
 from validation.scenes.printable import shortened
 from validation.scenes.rail import RailScene
 from validation.scenes.rolling import RollingScene
 from validation.selection.hierarchy import Candidate, Selection, select_model
 from validation.selection.named_models import ComparedModels, models_named
+from validation.selection.own_candidates import Own, names_and_own, own_candidates
 from validation.selection.quantities import BY_NAME, LEVELS, REFERENCES, UNITS, models_of, quantities_of
 from validation.selection.scene_model import SceneModel, Shared
 from validation.selection.swept import Swept
 from validation.selection.tolerance import Tolerance, decibels, tolerance_of
+from validation.simulation.model import Target
 from validation.simulation.rolling_quantity import RollingQuantity
 
 LONGEST_BEYOND_RANGE = 60.0
@@ -204,7 +207,7 @@ def compare(
     seed: int = 0,
     *,
     solve_all: bool = False,
-    models: Sequence[str] = (),
+    models: str | Offered | Sequence[str | Offered] = (),
     callback: Callable[[SceneModel], None] = lambda _: None,
 ) -> Comparison:
     """Select the cheapest model of a scene whose error is within the tolerance.
@@ -223,8 +226,10 @@ def compare(
     solve_all : bool, optional
         Whether all models are solved and timed, to see them side by side. The selected one stays. Out of its range a
         model is solved where that takes a minute at the most; the error of what it finds is unknown.
-    models : str or sequence of str, optional
-        Solve these models and no others: "mdr", "bem", or names of models of this scene, in one text with commas too.
+    models : str, function or sequence of these, optional
+        Solve these models and no others: "mdr", "bem", or names of models of this scene, in one text with commas too;
+        functions of your own with a decorator, as `stiffness_model`. One that a file defines is measured first, beside
+        stored answers of boundary elements, and has an error then; of any other, that is unknown.
     callback : callable, optional
         Called with each model before its solve, as for a note that it takes a while.
 
@@ -253,14 +258,16 @@ def compare(
         raise TypeError(f"scene must be what load_scene returns, got {type(scene).__name__}")
     count("seed", seed, least=0)
     asked = quantity or quantities_of(scene)[0]
-    return SceneProblem(scene, (asked,), tolerance, seed, solve_all, models).compared(callback)[asked]
+    names, own = names_and_own(models, scene, asked)
+    return SceneProblem(scene, (asked,), tolerance, seed, solve_all, names, own).compared(callback)[asked]
 
 
 @dataclass(frozen=True)
 class SceneProblem:
     """What `compare` is asked of one scene, of each quantity.
 
-    content: digest of all that the scene is made of, since its repr leaves out most of an array.
+    own: models of somebody's own; content: digest of all that the scene is made of, since its repr leaves out most of
+    an array.
     """
 
     scene: Scene = field(repr=False)
@@ -269,6 +276,7 @@ class SceneProblem:
     seed: int = 0
     solve_all: bool = False
     models: Sequence[str] = ()
+    own: tuple[Own, ...] = ()
     content: str = field(init=False)
 
     def __post_init__(self) -> None:
@@ -279,9 +287,11 @@ class SceneProblem:
         return tolerance_of(self.tolerance)
 
     def offered(self, quantity: str, shared: Shared | None = None) -> tuple[list[SceneModel], list[SceneModel]]:
-        """The models that are listed, the cheapest first, and those of them that may be solved."""
+        """The models that are listed, the cheapest first, and those of them that may be solved. Raises ValueError."""
         tolerance = self.wanted.relative
         every = models_of(self.scene, quantity, tolerance, self.seed, shared, every=bool(self.models))
+        own = own_candidates(self.own, Target(self.scene, quantity, tolerance, self.seed), every)
+        every = sorted([*every, *own], key=lambda one: one.cost().seconds)
         only = models_named(every, self.models, tolerance) if self.models else every
         return [one for one in every if one.kind not in BY_NAME or any(one is named for named in only)], only
 
@@ -297,6 +307,7 @@ class SceneProblem:
                 callback=(lambda _: None) if announced else callback,
                 solve_all=self.solve_all or bool(self.models),
                 only=only,
+                also=lambda one: not self.models and any(one.kind == own.name for own in self.own),
                 beyond=_beyond,
             )
             found[asked] = Comparison(self.scene, asked, selection, self.wanted.in_decibels, timed=self.solve_all)

@@ -91,17 +91,18 @@ def select_model(
     callback: Callable[[SceneModel], None] = lambda _: None,
     solve_all: bool = False,
     only: Sequence[SceneModel] | None = None,
+    also: Callable[[SceneModel], bool] = lambda _: False,
     beyond: Callable[[SceneModel], bool] = lambda _: False,
 ) -> Selection:
     """Solve with models from the cheapest on, until the error of one is within the tolerance.
 
-    models: in the order of their cost; tolerance: relative, positive; callback: called with each model
-    before its solve; solve_all: whether those that were not needed or skipped are solved, too, which selects no other
-    model; only: of these, None for all; beyond: which of those out of range are solved, too, where all are: the errors
-    of their answers stay unknown. A model without an estimate is out of range and not solved; one that expects to
-    miss the tolerance is skipped. Where all miss it, the skipped one with the smallest estimate is solved, too, as
-    long as that is below the errors of the others; where the scene alone leaves more, the cheapest, and no other. A
-    solve that raises one of `REFUSALS` has failed.
+    models: in the order of their cost; tolerance: relative, positive; callback: called with each model before its
+    solve; solve_all: whether those that were not needed or skipped are solved, too, which selects no other model; only:
+    of these, None for all; also: which are solved like this in any case; beyond: which of those out of range are
+    solved, too, where all are: the errors of their answers stay unknown. A model without an estimate is out of range
+    and not solved; one that expects to miss the tolerance is skipped. Where all miss it, the skipped one with the
+    smallest estimate is solved, too, as long as that is below the errors of the others; where the scene alone leaves
+    more, the cheapest, and no other. A solve that raises one of `REFUSALS` has failed.
     """
     found = Selection(tolerance, ())
     for model in models:
@@ -117,7 +118,10 @@ def select_model(
     def is_left(one: Candidate) -> bool:
         return one.status in ("skipped", "not needed") or (one.status == "out of range" and beyond(one.model))
 
-    every = tuple(_solved(one, callback) if solve_all and is_left(one) else one for one in found.candidates)
+    def beside(one: Candidate) -> bool:
+        return is_left(one) and (solve_all or also(one.model))
+
+    every = tuple(_solved(one, callback) if beside(one) else one for one in found.candidates)
     return Selection(tolerance, every)
 
 

@@ -38,7 +38,8 @@ class RailSceneModel(SceneModel):
         at = int(np.argmax(np.where(counts, error, -1.0)))
         grid, sample = (relative(float(answer.band_errors[name][at]) * counts[at]) for name in ("grid", "sample"))
         left = relative(worst(asked, a3, error)) - math.hypot(grid, sample)
-        return replace(answer, model=max(left, 0.0), grid=grid, sample=sample, reason=reason_of(asked, a3, error))
+        reason = reason_of(asked, a3, error) if np.isfinite(error).any() else ""
+        return replace(answer, model=max(left, 0.0), grid=grid, sample=sample, reason=reason)
 
 
 def what_would_state_the_ground(asked: RailQuantity) -> str:

@@ -16,7 +16,7 @@ from validation.scenes.rail import Across, RailScene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.scenes.roughness_levels import MOST, RoughnessLevels
-from validation.selection.calibrate import QUANTITIES
+from validation.selection.calibration_scenes import QUANTITIES
 from validation.simulation.surface import draw_surface
 from validation.theory.closed_forms import hertz_force
 

@@ -19,7 +19,7 @@ from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.measured import MeasuredHeights
-from validation.selection.calibrate import OTHER_SEED, QUANTITIES
+from validation.selection.calibration_scenes import OTHER_SEED, QUANTITIES
 from validation.selection.hierarchy import REFUSALS, select_model, try_to_solve, unsolved
 from validation.selection.quantities import models_of
 from validation.selection.scene_model import Answer, SceneModel, Shared

@@ -8,7 +8,7 @@ from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
-from validation.selection.calibrate import QUANTITIES
+from validation.selection.calibration_scenes import QUANTITIES
 from validation.theory.closed_forms import hertz_force
 
 KINDS = tuple(QUANTITIES)

@@ -18,8 +18,7 @@ from validation.scenes.printable import printable
 from validation.selection.cells import format_seconds
 from validation.selection.compare import Comparison, SceneProblem
 from validation.selection.exported import filter_table, table_of_several, to_json_of
-from validation.selection.named_models import models_named
-from validation.selection.quantities import QUANTITIES, models_of, quantities_of
+from validation.selection.quantities import QUANTITIES, quantities_of
 from validation.selection.scene_model import SceneModel
 from validation.selection.several_scenes import compare_scenes
 from validation.selection.summary import findings, heading, summary
@@ -56,6 +55,13 @@ def describe(comparing: argparse.ArgumentParser) -> None:
     )
     add_options(
         comparing,
+        (
+            "--models-from",
+            "FILE",
+            Path,
+            "models of your own beside the others: a Python file with decorated functions, as @stiffness_model; it is "
+            "run as a program, with your rights",
+        ),
         ("--sweep", "KEY=A,B,C", _sweep, 'the scene with each value, as wheel.load="5 kN,10 kN"'),
         ("--seed", "S", at_least(0), "seed of the random roughness (default: 0)"),
         (
@@ -85,7 +91,10 @@ def describe(comparing: argparse.ArgumentParser) -> None:
 def compare(arguments: argparse.Namespace) -> Exit:
     """Select the cheapest model of a scene that meets the tolerance, and say why."""
     scenes = [scene for name in arguments.scene for scene in _scenes_of(name, arguments)]
-    problems = [_problem(scene, arguments) for scene, _ in scenes]
+    problems = _with_own([_problem(scene, arguments) for scene, _ in scenes], arguments)
+    for problem in problems:
+        for quantity in problem.quantities:
+            problem.offered(quantity)  # or an error, before anything is solved
     _check_files(problems, arguments)
     swept = [of for (_, of), problem in zip(scenes, problems, strict=True) for _ in problem.quantities]
     found = _reported(problems, swept, arguments) if arguments.report else _found(problems, swept, arguments)
@@ -104,13 +113,28 @@ def _scenes_of(name: str, arguments: argparse.Namespace) -> list[tuple[Scene, Sw
 
 
 def _problem(scene: Scene, arguments: argparse.Namespace) -> SceneProblem:
-    """What is asked of a scene. Raises ValueError for a quantity or a model that it has not."""
-    quantities, seed = arguments.quantity or quantities_of(scene)[:1], arguments.seed or 0
-    tolerance, names = tolerance_of(arguments.tolerance).relative, () if arguments.models is None else arguments.models
-    for quantity in quantities:
-        models_named(models_of(scene, quantity, tolerance, seed, every=True), names, tolerance)
+    """What is asked of a scene."""
+    quantities, seed = tuple(arguments.quantity or quantities_of(scene)[:1]), arguments.seed or 0
+    names = () if arguments.models is None else arguments.models or ("",)
     timed = arguments.all or arguments.over is not None
-    return SceneProblem(scene, tuple(quantities), arguments.tolerance, seed, timed, names)
+    return SceneProblem(scene, quantities, arguments.tolerance, seed, timed, names)
+
+
+def _with_own(problems: list[SceneProblem], arguments: argparse.Namespace) -> list[SceneProblem]:
+    """And the models of a file, whose errors are measured first where they are not in the store."""
+    if arguments.models_from is None:
+        return problems
+    from validation.selection.own_models import calibrated, groups_of, models_in  # imported where there is such a file
+
+    groups = groups_of((one.scene, quantity) for one in problems for quantity in one.quantities)
+    engine = Engine(store=_store_of(arguments) / "realisations")
+    own = tuple(calibrated(one, groups, engine) for one in models_in(arguments.models_from))
+    return [replace(one, own=own) for one in problems]
+
+
+def _store_of(arguments: argparse.Namespace) -> Path:
+    place: Path = arguments.store or arguments.report or STORE
+    return place
 
 
 def _check_files(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> None:
@@ -131,6 +155,8 @@ def _check_files(problems: Sequence[SceneProblem], arguments: argparse.Namespace
 def _check_places(arguments: argparse.Namespace) -> None:
     """Raises ValueError where a result would replace a file that is read, or another result."""
     taken = {os.path.realpath(file): "the scene reads" for name in arguments.scene for file in files_of(name)}
+    if arguments.models_from is not None:
+        taken[os.path.realpath(arguments.models_from)] = "is --models-from"
     for key in ("json", "csv", "cnossos", "figure"):
         path = getattr(arguments, key)
         if path is None or path.parent == Path("/dev"):
@@ -158,7 +184,7 @@ def _solved(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> 
         print(heading(problem.scene, problem.quantities, problem.wanted), flush=True)
         return list(problem.compared(_announce).values())
     # a run that ends before its time says that what is finished is kept
-    arguments.out = arguments.store or arguments.report or STORE
+    arguments.out = _store_of(arguments)
     with progress_of("scenes", arguments.workers) as progress:
         engine = Engine(workers=arguments.workers, store=arguments.out / "realisations", progress=progress)
         return compare_scenes(problems, engine)

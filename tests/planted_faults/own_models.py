@@ -1,0 +1,30 @@
+"""Faults planted in how models of somebody's own are calibrated and chosen, and the test that must catch each."""
+
+from tests.planted_faults.wrong import Fault
+from tests.selection import test_own_models
+from validation.engine import others
+from validation.selection import own_models
+from validation.simulation.model import ErrorEstimate
+
+point_of = own_models._point
+
+
+FAULTS = [
+    test_own_models.test_the_key_has_the_bytes_of_a_module_that_a_call_loads,
+    Fault("a key without the bytes of a module that the file loads").at(
+        others.Visitor, "digest", property(lambda visitor: others.digest_of([visitor.path]))
+    ),
+    Fault("a key that is taken before a call loads a module").at(own_models, "_probe", lambda called: None),
+    test_own_models.test_without_references_an_error_is_unknown_and_nothing_is_chosen,
+    Fault("a model without references that is chosen").at(
+        own_models.OwnModel, "_claim", lambda own, *_: ErrorEstimate(reason="none is known")
+    ),
+    test_own_models.test_each_error_is_that_of_its_own_scene,
+    Fault("the error of the next scene of the calibration").at(
+        own_models, "_point", lambda group, answers, number: point_of(group, answers, number + 1)
+    ),
+    test_own_models.test_surfaces_are_those_that_boundary_elements_have,
+    Fault("surfaces of another seed than those of the reference").at(own_models, "OTHER_SEED", 0),
+    test_own_models.test_a_function_without_a_file_is_neither_calibrated_nor_stored,
+    Fault("a function without a file that is stored").at(own_models, "_digest_of_file", lambda offered: "a file"),
+]

@@ -1,0 +1,264 @@
+"""Models of somebody's own as candidates of `compare`: functions with decorators, calibrated on the stored scenes.
+
+A function of a file is measured beside the answers of boundary elements that the package has. Its errors are kept in a
+store, keyed by the bytes of the file and of the modules that this has loaded from its folder.
+"""
+
+import atexit
+import math
+import time
+from collections.abc import Collection, Iterable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from validation.engine.engine import SERIAL, Engine, FloatArray, Outcome
+from validation.engine.offered import Offered
+from validation.engine.others import Called, OthersError, Visitor, digest_of, sources_of
+from validation.scenes.load import Scene, load_scene
+from validation.scenes.printable import quoted
+from validation.scenes.rail import RailScene
+from validation.selection.calibration_answers import Answers, Group, answers_in
+from validation.selection.calibration_scenes import OTHER_SEED, CalibrationScene
+from validation.selection.own_kinds import CALIBRATED, SERVED, SURFACES, result_of
+from validation.simulation.calibrated_range import CONDITIONS, HURST, beyond_spectrum
+from validation.simulation.calibration import MeasuredErrors, conditions_by_kind, kind_of
+from validation.simulation.method import Resolution, Result
+from validation.simulation.model import Cost, ErrorEstimate, Model, Target, model
+from validation.simulation.sampling import distance
+
+CALL = 1e-4
+"""Seconds of a realisation where none was timed."""
+FEWEST_SCENES = 20
+"""On which a model must have an answer, for its error to be known."""
+LEAST = 1e-9
+"""Error of a scene at the least: logarithms are taken."""
+VISITORS: dict[tuple[Path, str], Visitor] = {}
+"""Processes of files, by what these had been when they were run."""
+
+
+@dataclass(frozen=True)
+class OwnErrors:
+    """Of one model beside the answers of one kind of scene and quantity.
+
+    digest: of the answers; measured: None where a model answers too few scenes; seconds: of the
+    fastest realisation, rounded up to a power of ten, so that the order of models does not go with what else runs.
+    """
+
+    digest: str
+    measured: MeasuredErrors | None = field(repr=False)
+    seconds: float = field(repr=False)
+
+
+@dataclass(frozen=True)
+class OwnModel:
+    """A function of somebody's own, as workers get it.
+
+    digest: of its file and of the modules that this has loaded; empty for a function without a file, which is neither
+    calibrated nor stored. path, sources: of the file; function: of this process, in the place of its file; errors: by
+    kind of scene and quantity.
+    """
+
+    kind: str
+    name: str
+    asks: tuple[str, ...]
+    digest: str
+    path: Path | None = field(default=None, repr=False)
+    sources: tuple[Path, ...] = field(default=(), repr=False)
+    function: Offered | None = field(default=None, repr=False)
+    errors: Mapping[Group, OwnErrors] = field(default_factory=dict, compare=False)
+
+    @property
+    def serves(self) -> str:
+        """In words."""
+        return f"{quoted(self.name)} (@{self.kind}) serves {SERVED[self.kind].what}"
+
+    def called(self) -> Called:
+        """Raises OthersError where a file was changed since."""
+        if self.function is not None:
+            return Called(self.function)
+        assert self.path is not None  # in the place of a function
+        visitor = VISITORS.get((self.path, self.digest)) or _kept(Visitor(self.path), self.digest)
+        if digest_of(self.sources) != self.digest:
+            raise OthersError(f"{self.path.name} was changed while its models were compared")
+        return next(one for one in visitor.callers() if one.name == self.name)
+
+    def model(self) -> Model:
+        """Of the house."""
+        declare = model(
+            name=self.name,
+            setting=f"@{self.kind}",
+            serves=SERVED[self.kind].serves,
+            cost=self._cost,
+            claim=self._claim,
+            charted=False,
+        )
+        return declare(self._solve)
+
+    def _solve(self, target: Target, resolution: Resolution) -> Result:
+        return result_of(self.called(), target, SERVED[self.kind].draws(self.asks, target)[0])
+
+    def _cost(self, target: Target, resolution: Resolution) -> Cost:
+        (count, _), known = SERVED[self.kind].draws(self.asks, target), self.errors.get(_group(target))
+        return Cost(work=count, seconds=count * (known.seconds if known else CALL))
+
+    def _claim(self, _: Model, target: Target, resolution: Resolution) -> ErrorEstimate:
+        """As measured, what the sample leaves, and what one measured surface has beside all that have its spectrum."""
+        known, own = self.errors.get(_group(target)), SERVED[self.kind].own
+        if known is None or known.measured is None:
+            return ErrorEstimate.out_of_range(self._unknown(known))
+        ground = target.scene.ground
+        of_spectrum = beyond_spectrum(ground) if own is not None else ""
+        if reason := of_spectrum or (_group(target)[0] in ("rolling", "wheel") and target.rolling.no_answer):
+            return ErrorEstimate.out_of_range(reason)
+        found = known.measured.estimate(conditions_by_kind(target)[1])
+        scatters = own or 0.0 if ground.is_single else 0.0
+        return replace(found, model=found.model + scatters, sample=SERVED[self.kind].draws(self.asks, target)[1])
+
+    def _unknown(self, known: OwnErrors | None) -> str:
+        if not self.digest:
+            return "a function without a file is not calibrated: its error is unknown"
+        if known is None:
+            return "no answers of boundary elements are stored for such scenes: its error is unknown"
+        return f"it answers fewer than {FEWEST_SCENES} scenes of the calibration: its error is unknown"
+
+
+def _group(target: Target) -> Group:
+    rail = isinstance(target.scene, RailScene)
+    return ("rail" if rail else kind_of(target)), target.quantity
+
+
+def groups_of(scenes: Iterable[tuple[Scene, str]]) -> set[Group]:
+    """Of scenes and quantities."""
+    return {_group(Target(scene, quantity)) for scene, quantity in scenes}
+
+
+def _kept(visitor: Visitor, digest: str) -> Visitor:
+    """Until this process ends."""
+    if before := VISITORS.get((visitor.path, digest)):
+        before.__exit__(None, None, None)
+    VISITORS[visitor.path, digest] = visitor
+    return visitor
+
+
+@atexit.register
+def _end() -> None:
+    for visitor in VISITORS.values():
+        visitor.__exit__(None, None, None)
+
+
+def models_in(path: Path) -> list[OwnModel]:
+    """What a file offers to scenes, none of it calibrated yet. The file is run as a program.
+
+    Raises OthersError for a broken one and one without such a model, OSError where it cannot be read.
+    """
+    visitor = Visitor(path)
+    callers = [one for one in visitor.callers() if one.kind in SERVED]
+    for one in callers:
+        _probe(one)  # it may load modules of its folder when it is called
+    _kept(visitor, visitor.digest)
+    if not callers:
+        raise OthersError(f"{path.name}: no function serves a scene, as @{', @'.join(SERVED)} do")
+    files = {"digest": visitor.digest, "path": visitor.path, "sources": visitor.sources}
+    return [OwnModel(one.kind, one.name, one.asks, **files) for one in callers]  # type: ignore[arg-type]
+
+
+def _probe(called: Called) -> None:
+    points = (("punch", "stiffness"), ("rolling", "force-rms"))
+    drawn = [CalibrationScene(kind=kind, number=0, quantity=of, seed=0).target() for kind, of in points]
+    for target in (*drawn, Target(load_scene("rail"), "contact-filter")):
+        if SERVED[called.kind].serves(target.scene, target.quantity):
+            with suppress(ValueError):
+                result_of(called, target, 1)
+
+
+def of_functions(functions: Iterable[Offered], scene: Scene, quantity: str) -> tuple[OwnModel, ...]:
+    """Functions of this process, those of files calibrated. Raises TypeError for a kind that has no scenes."""
+    found = []
+    for one in functions:
+        if one.kind not in SERVED:
+            raise TypeError(f"models must be of @{', @'.join(SERVED)}, got {quoted(one.name)} of @{one.kind}")
+        own = OwnModel(one.kind, one.name, one.asks, _digest_of_file(one), function=one)
+        found.append(calibrated(own, groups_of([(scene, quantity)])))
+    return tuple(found)
+
+
+def _digest_of_file(offered: Offered) -> str:
+    """Of that which defines a function, and of what is loaded from its folder; empty where there is none."""
+    path = Path(getattr(getattr(offered.function, "__code__", None), "co_filename", ""))
+    return digest_of(sources_of(path)) if path.is_file() else ""
+
+
+@dataclass(frozen=True)
+class OwnPart:
+    """What is measured: a model beside the answers of a group; digest: of these."""
+
+    own: OwnModel
+    group: Group
+    digest: str
+
+
+def calibrated(own: OwnModel, groups: Collection[Group], engine: Engine = SERIAL) -> OwnModel:
+    """With its errors of these groups, of those for which answers are stored; those that are known are taken."""
+    answers = answers_in()
+    parts = [
+        OwnPart(own, group, answers[group].digest)
+        for group in sorted(groups)
+        if own.digest and group in answers and SERVED[own.kind].serves(_scene_of(group), group[1])
+    ]
+    return replace(own, errors={part.group: _errors(part, engine) for part in parts})
+
+
+def _scene_of(group: Group) -> Scene:
+    return CalibrationScene(kind=group[0], number=0, quantity=group[1], seed=0).scene
+
+
+@cache
+def _errors(part: OwnPart, engine: Engine) -> OwnErrors:
+    (outcome,) = engine.map(measure_own, [part])
+    answers, errors = answers_in()[part.group], outcome["error"]
+    known = np.isfinite(errors)
+    measured = None
+    if known.sum() >= FEWEST_SCENES:
+        targets = [_point(part.group, answers, int(number)).target() for number in answers.number[known]]
+        every = [conditions_by_kind(target)[1] for target in targets]
+        names = tuple(name for name in CONDITIONS if name in every[0])
+        at = [[one[name] if name == HURST else math.log10(one[name]) for name in names] for one in every]
+        measured = MeasuredErrors(names, np.array(at), errors[known], np.ones(len(at)))
+    return OwnErrors(part.digest, measured, float(outcome["seconds"]))
+
+
+def _point(group: Group, answers: Answers, number: int) -> CalibrationScene:
+    return CalibrationScene(kind=group[0], number=number, quantity=group[1], seed=answers.seed)
+
+
+def measure_own(part: OwnPart) -> Outcome:
+    """Distance from boundary elements on each scene, NaN where the model has no answer; seconds of a realisation."""
+    answers, called = answers_in()[part.group], part.own.called()
+    errors, seconds = [], []
+    for number, value, each in answers:
+        begin = time.perf_counter()
+        error, count = _error(called, _point(part.group, answers, number), value, each)
+        seconds.append((time.perf_counter() - begin) / count)
+        errors.append(error)
+    return {"error": np.array(errors), "seconds": np.array(10.0 ** math.ceil(math.log10(min(seconds))))}
+
+
+def _error(called: Called, point: CalibrationScene, value: FloatArray, each: FloatArray) -> tuple[float, int]:
+    """And of how many realisations: on the surfaces of the reference where a model is given them."""
+    given = SERVED[called.kind].given
+    target, count = point.target(seed=OTHER_SEED if given else 0), min(SURFACES, len(each)) if given else CALIBRATED
+    try:
+        found = result_of(called, target, count).values[point.quantity]
+    except (ValueError, ArithmeticError):
+        return math.nan, 1
+    truth = _mean(each[:count], point.quantity) if given else value
+    return max(distance(_mean(found, point.quantity), truth), LEAST), len(found)
+
+
+def _mean(rows: FloatArray, quantity: str) -> FloatArray:
+    """As of a sample: of a stiffness itself, of levels of their logarithms."""
+    return np.asarray(rows.mean(axis=0) if quantity == "stiffness" else np.exp(np.log(rows).mean(axis=0)))
