@@ -10,16 +10,22 @@ from tests.planted_faults.wrong import with_math
 from tests.selection import test_judged_stiffness
 from validation.analysis import judgement
 from validation.selection.judging import stiffness
+from validation.selection.judging.judge import Answer
+from validation.simulation.rough_punch import PlateauSpectrum
 
-given, verdict_of = stiffness.AskedPunch.arguments.fget, judgement._judged
+given, verdict_of = stiffness.AskedPunch.arguments.fget, judgement.verdict_of
 
 
 def under_twice_the_load(asked):
     return {**given(asked), "load": 2 * given(asked)["load"]}
 
 
-def without_its_interval(quantity, where, pair, apart, half, *others):
-    return verdict_of(quantity, where, pair, apart, 0.0, *others)
+def without_its_interval(apart, half, within):
+    return verdict_of(apart, 0.0, within)
+
+
+def without_the_error_of_the_sample(values):
+    return stiffness.Stiffness(Answer(np.mean(values)), Answer(np.std(values) / np.mean(values)))
 
 
 FAULTS = {
@@ -28,11 +34,11 @@ FAULTS = {
         test_judged_stiffness.test_what_boundary_elements_have_agrees_and_what_is_twice_as_far_differs,
     ),
     "the level of a power law for that of its plateau": (
-        (stiffness.PlateauRoughness, "_share", property(lambda rough: 1.0)),
+        (stiffness.PlateauRoughness, "c2d", PlateauSpectrum.c2d),
         test_judged_stiffness.test_a_plateau_is_given_with_its_own_rms_height,
     ),
     "a verdict without its interval": (
-        (judgement, "_judged", without_its_interval),
+        (judgement, "verdict_of", without_its_interval),
         partial(
             test_judgement.test_the_whole_interval_lies_inside_or_outside_of_the_tolerance, 1.05, 0.06, "undecided"
         ),
@@ -42,7 +48,7 @@ FAULTS = {
         partial(test_judgement.test_a_ratio_of_ten_per_cent_is_0_83_decibels_of_a_level, 0.8, 0.02, "agree"),
     ),
     "realisations without the error of their sample": (
-        (stiffness, "sampled", lambda values: stiffness.Found(values.mean(), np.std(values) / np.mean(values))),
+        (stiffness, "sampled", without_the_error_of_the_sample),
         test_judged_stiffness.test_realisations_have_their_mean_and_deviation_with_the_error_of_the_sample,
     ),
 }

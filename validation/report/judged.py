@@ -2,27 +2,19 @@
 
 import math
 import time
-from collections.abc import Iterator
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from pkgutil import resolve_name
 
 from validation.analysis.contents import as_csv, as_json
 from validation.analysis.evidence import Table
-from validation.analysis.judgement import (
-    DIFFER,
-    FAILED,
-    REFUSED,
-    Enough,
-    JudgedPoint,
-    enough,
-    not_compared,
-)
+from validation.analysis.judgement import DIFFER, FAILED, REFUSED, Enough, JudgedPoint, enough, not_compared
 from validation.engine.files import write_whole
 from validation.engine.others import Called, visited
 from validation.report.judged_solver import solver_lines
 from validation.report.judged_words import summary_lines
-from validation.selection.judging.judge import JUDGES, Judge, judge_of
+from validation.selection.judging.judge import JUDGES, points_of
 from validation.selection.tolerance import Tolerance, tolerance_of
 
 OF_SOLVER = "validation.benchmarks.judging.judged:judged"
@@ -154,43 +146,30 @@ def judge(model: object, tolerance: float | str = 0.1) -> Judgement:
 def judged(model: Called, tolerance: Tolerance) -> Judgement:
     """Of one function, here or in another process."""
     begin = time.perf_counter()
-    points = list(_points(model, tolerance.relative))
+    judge = points_of if model.kind in JUDGES else resolve_name(OF_SOLVER)
+    points = list(judge(model, tolerance.relative))
+    if model.printed:
+        points.append(not_compared("printing", {}, FAILED, f"printed {model.printed!r}"))
     return Judgement(model.name, model.kind, tolerance, tuple(points), time.perf_counter() - begin)
 
 
-def _points(model: Called, tolerance: float) -> Iterator[JudgedPoint]:
-    yield from _judge(model.kind)(model, tolerance)
-    if model.printed:
-        yield not_compared("printing", {}, FAILED, f"printed {model.printed!r}")
+NUMBERS, WORDS = ("value", "reference", "difference", "error"), ("unit", "verdict", "reason")
 
 
-def _judge(kind: str) -> Judge:
-    judge: Judge = judge_of(kind) if kind in JUDGES else resolve_name(OF_SOLVER)
-    return judge
-
-
-def points_as_csv(judgements: list[Judgement]) -> bytes:
+def points_as_csv(judgements: Sequence[Judgement]) -> bytes:
     """A row a point of each; a condition that a point does not have is left empty."""
-    places = dict.fromkeys(name for one in judgements for point in one.verdicts for name in point.where)
-    rows = [
-        {
-            "model": one.model,
-            "quantity": point.quantity,
-            **{name: point.where.get(name, math.nan) for name in places},
-            **{name: getattr(point, name) for name in ("value", "reference", "difference", "error", "unit")},
-            "verdict": point.verdict,
-            "reason": point.reason,
-        }
-        for one in judgements
-        for point in one.verdicts
-    ]
-    return as_csv(Table("verdicts", {name: [row[name] for row in rows] for name in rows[0]} if rows else {}))
+    points = [(one.model, point) for one in judgements for point in one.verdicts]
+    places = dict.fromkeys(name for _, point in points for name in point.where)
+    columns: dict[str, list[object]] = {"model": [model for model, _ in points]} if points else {}
+    columns |= {"quantity": [point.quantity for _, point in points]}
+    columns |= {name: [point.where.get(name, math.nan) for _, point in points] for name in places}
+    columns |= {name: [getattr(point, name) for _, point in points] for name in (*NUMBERS, *WORDS)}
+    return as_csv(Table("verdicts", columns))
 
 
 def _point(point: JudgedPoint) -> dict[str, object]:
-    numbers = {name: _known(getattr(point, name)) for name in ("value", "reference", "difference", "error")}
-    words = {"unit": point.unit, "verdict": point.verdict, "reason": point.reason}
-    return {"quantity": point.quantity, "where": dict(point.where), **numbers, **words}
+    numbers = {name: _known(getattr(point, name)) for name in NUMBERS}
+    return {"quantity": point.quantity, "where": dict(point.where), **numbers, **{n: getattr(point, n) for n in WORDS}}
 
 
 def _range(some: Enough) -> dict[str, object]:

@@ -11,6 +11,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from validation.analysis.judgement import DEVIATION, LEVEL, RATIO
+
 FOLDER = Path(__file__).with_suffix("")
 VALUES = "value", "sample", "grid"
 Place = float | str
@@ -22,29 +24,26 @@ class Reference:
 
     where: the conditions, by name; sample, grid: half-widths of 95 % that the surfaces and the cells leave, over the
     value, of levels in decibels. Where the report has both in one interval, that is the sample, and the grid is zero.
+    unit: by which a number is compared with it.
     """
 
     where: Mapping[str, Place]
     value: float
     sample: float
     grid: float
-
-    @property
-    def error(self) -> float:
-        """Both together, as the report adds them."""
-        return self.sample + self.grid
+    unit: str = RATIO
 
 
 @cache
 def curve(quantity: str) -> Sequence[Reference]:
     """All that is known of a quantity, point by point. Raises LookupError for one without a file."""
     rows = csv.DictReader(line for line in _lines(quantity) if not line.startswith("#"))
-    return [Reference(*_parted({name: _cell(word) for name, word in row.items()})) for row in rows]
-
-
-def _parted(row: dict[str, Place]) -> tuple[Mapping[str, Place], float, float, float]:
-    value, sample, grid = (float(row.pop(name)) for name in VALUES)
-    return row, value, sample, grid
+    stated = str(about(quantity).get("unit"))
+    unit = LEVEL if stated.startswith(LEVEL) else DEVIATION if stated == DEVIATION else RATIO
+    return [
+        Reference({n: _cell(row[n]) for n in row if n not in VALUES}, *(float(row[n]) for n in VALUES), unit)
+        for row in rows
+    ]
 
 
 @cache
