@@ -8,6 +8,7 @@ import pytest
 from validation.engine.engine import SERIAL
 from validation.selection.judging import from_report, references
 from validation.selection.judging.from_report import SOURCES, Report
+from validation.selection.judging.own import ERRORS
 from validation.selection.judging.references import about, as_file, curve, file_name
 from validation.selection.judging.rolling import EACH, GRIDS, HEIGHTS, LIFT, MEAN
 from validation.selection.judging.surfaces import OF_SURFACE
@@ -15,7 +16,7 @@ from validation.simulation.model_names import BEM, SPRINGS
 from validation.simulation.rolling_strip import roll_strip
 
 REPORT = Path(__file__).parents[2] / "reports" / "reference"
-SOLVED = (MEAN, EACH, LIFT, OF_SURFACE)
+SOLVED = (MEAN, EACH, LIFT, OF_SURFACE, ERRORS)
 """Take solves that the report does not keep."""
 
 

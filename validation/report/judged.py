@@ -3,7 +3,7 @@
 import math
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from pkgutil import resolve_name
 
@@ -15,10 +15,14 @@ from validation.engine.others import Called, visited
 from validation.report.judged_solver import solver_lines
 from validation.report.judged_words import summary_lines
 from validation.selection.judging.judge import JUDGES, points_of
+from validation.selection.judging.own import MAIN, Cost, costs_of
 from validation.selection.tolerance import Tolerance, tolerance_of
 
 OF_SOLVER = "validation.benchmarks.judging.judged:judged"
 """Of a contact solver; it imports all solvers."""
+COLUMNS = ("value", "reference", "difference", "error", "unit", "verdict", "reason")
+NAMES = {"start": "from", "stop": "to"}
+"""Of a range in JSON: words that Python keeps for itself."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +39,8 @@ class Judgement:
         A point each: quantity, where, value, reference, difference, error, verdict, reason.
     seconds : float
         That the judgement took.
+    costs : tuple
+        Error against seconds of one call: of the model, and of the suite's own of its kind.
 
     Examples
     --------
@@ -51,6 +57,7 @@ class Judgement:
     tolerance: Tolerance
     verdicts: tuple[JudgedPoint, ...]
     seconds: float
+    costs: tuple[Cost, ...] = ()
 
     @property
     def enough(self) -> list[Enough]:
@@ -67,38 +74,35 @@ class Judgement:
         """Of a solver: whether it differs or fails where that decides."""
         return any(point.decides and point.verdict in (DIFFER, FAILED, REFUSED) for point in self.verdicts)
 
+    @property
+    def unit_of_costs(self) -> str:
+        """Of the error that is beside seconds."""
+        return next(point.unit for point in self.verdicts if point.quantity == MAIN[self.kind])
+
     def summary(self) -> str:
         """Where it is enough, the worst points and what they share, and a paragraph for a paper."""
         if self.kind == "contact_solver":
             return "\n".join(solver_lines(self.model, self.verdicts, self.seconds))
-        return "\n".join(summary_lines(self.model, self.kind, str(self.tolerance), self.verdicts, self.seconds))
+        return "\n".join(summary_lines(self))
 
     def as_dict(self) -> dict[str, object]:
-        """What `as_json` writes; None for what is no number."""
+        """Of JSON: None for what is no number."""
         return {
             "model": self.model,
             "kind": self.kind,
             "tolerance": self.tolerance.relative,
-            "verdicts": [_point(point) for point in self.verdicts],
-            "enough": [_range(some) for some in self.enough],
+            "verdicts": [_as_dict(point) for point in self.verdicts],
+            "enough": [_as_dict(some) for some in self.enough],
             "seconds": round(self.seconds, 3),
         }
-
-    def as_json(self) -> str:
-        """All of it as strict JSON."""
-        return as_json(self.as_dict()).decode()
-
-    def as_csv(self) -> bytes:
-        """A row a point, a column a condition."""
-        return points_as_csv([self])
 
     def save(self, folder: str | Path) -> None:
         """Write judgement.json, verdicts.csv, summary.txt and judgement.svg into a folder, which is made."""
         from validation.report.judged_figure import figure_of  # which takes half a second to import
 
         files = {
-            "judgement.json": self.as_json().encode(),
-            "verdicts.csv": self.as_csv(),
+            "judgement.json": as_json(self.as_dict()),
+            "verdicts.csv": points_as_csv([self]),
             "summary.txt": f"{self.summary()}\n".encode(),
             "judgement.svg": figure_of([self], "svg"),
         }
@@ -150,32 +154,21 @@ def judged(model: Called, tolerance: Tolerance) -> Judgement:
     points = list(judge(model, tolerance.relative))
     if model.printed:
         points.append(not_compared("printing", {}, FAILED, f"printed {model.printed!r}"))
-    return Judgement(model.name, model.kind, tolerance, tuple(points), time.perf_counter() - begin)
-
-
-NUMBERS, WORDS = ("value", "reference", "difference", "error"), ("unit", "verdict", "reason")
+    costs = tuple(costs_of(model, points))
+    return Judgement(model.name, model.kind, tolerance, tuple(points), time.perf_counter() - begin, costs)
 
 
 def points_as_csv(judgements: Sequence[Judgement]) -> bytes:
     """A row a point of each; a condition that a point does not have is left empty."""
     points = [(one.model, point) for one in judgements for point in one.verdicts]
     places = dict.fromkeys(name for _, point in points for name in point.where)
-    columns: dict[str, list[object]] = {"model": [model for model, _ in points]} if points else {}
+    columns: dict[str, list[object]] = {"model": [model for model, _ in points]}
     columns |= {"quantity": [point.quantity for _, point in points]}
     columns |= {name: [point.where.get(name, math.nan) for _, point in points] for name in places}
-    columns |= {name: [getattr(point, name) for _, point in points] for name in (*NUMBERS, *WORDS)}
+    columns |= {name: [getattr(point, name) for _, point in points] for name in COLUMNS}
     return as_csv(Table("verdicts", columns))
 
 
-def _point(point: JudgedPoint) -> dict[str, object]:
-    numbers = {name: _known(getattr(point, name)) for name in NUMBERS}
-    return {"quantity": point.quantity, "where": dict(point.where), **numbers, **{n: getattr(point, n) for n in WORDS}}
-
-
-def _range(some: Enough) -> dict[str, object]:
-    ends = {"along": some.along, "from": _known(some.start), "to": _known(some.stop)}
-    return {"quantity": some.quantity, "where": dict(some.where), **ends, "verdict": some.verdict}
-
-
-def _known(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None
+def _as_dict(part: JudgedPoint | Enough) -> dict[str, object]:
+    known = {name: None if isinstance(v, float) and not math.isfinite(v) else v for name, v in asdict(part).items()}
+    return {NAMES.get(name, name): value for name, value in known.items() if name != "decides"}

@@ -5,6 +5,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from importlib import metadata
 from itertools import groupby
+from typing import TYPE_CHECKING
 
 from validation.analysis.judgement import (
     AGREE,
@@ -21,6 +22,11 @@ from validation.analysis.judgement import (
     shared,
     worst,
 )
+from validation.selection.judging.own import MAIN
+from validation.selection.judging.sweeps import SWEPT
+
+if TYPE_CHECKING:
+    from validation.report.judged import Judgement
 
 SIGN = {AGREE: "=", DIFFER: "#", UNDECIDED: "?", REFUSED: "r", FAILED: "x"}
 WORD = {AGREE: "yes", DIFFER: "no", UNDECIDED: "open", REFUSED: "refused", FAILED: "failed"}
@@ -28,14 +34,13 @@ COLUMNS, CURVES = 110, 24
 """Of a line, and groups of a quantity that are shown."""
 
 
-def summary_lines(
-    model: str, kind: str, tolerance: str, points: Sequence[JudgedPoint], seconds: float
-) -> Iterator[str]:
+def summary_lines(judgement: "Judgement") -> Iterator[str]:
     """Of one model."""
+    points, tolerance = judgement.verdicts, str(judgement.tolerance)
     count = Counter(point.verdict for point in points)
     counted = ", ".join(f"{count[verdict]} {verdict}" for verdict in VERDICTS if count[verdict]) or "none"
-    what = kind.replace("_", " ")
-    yield f"{model}: {what}, tolerance {tolerance}, {len(points)} points in {seconds:.1f} s: {counted}"
+    what, took = judgement.kind.replace("_", " "), f"{len(points)} points in {judgement.seconds:.1f} s"
+    yield f"{judgement.model}: {what}, tolerance {tolerance}, {took}: {counted}"
     yield f"strips: {', '.join(f'{SIGN[verdict]} {WORD[verdict]}' for verdict in VERDICTS)}"
     for curves in curves_of(points):
         along = curves[0].along if len(curves[0].points) > 1 else ""
@@ -43,13 +48,42 @@ def summary_lines(
         yield from (_strip(curve) for curve in curves[:CURVES])
         if len(curves) > CURVES:
             yield f"  and {len(curves) - CURVES} more"
-    if found := worst(points):
+    scenes = [point for point in points if point.quantity not in SWEPT]
+    if found := worst(scenes):
         yield f"\nThe worst{f' {len(found)}' if len(found) > 1 else ''}:"
         yield from (f"  {point.quantity}, {point.place or 'everywhere'}: {point.shown}" for point in found)
-        if found[0].verdict == DIFFER and (common := shared(found, points)):
+        if found[0].verdict == DIFFER and (common := shared(found, scenes)):
             yield f"  They share: {common}."
+    yield from _breaks(points)
+    if judgement.costs:
+        yield f"\nMedian error of the {MAIN[judgement.kind]}, and seconds of the call that took longest:"
+        unit = judgement.unit_of_costs
+        yield from (f"  {one.model:32s}{in_unit(one.error, unit):>10s}{one.seconds:10.2g} s" for one in judgement.costs)
     yield "\nFor a paper:"
-    yield from textwrap.wrap(paragraph(model, tolerance, points), COLUMNS, initial_indent="  ", subsequent_indent="  ")
+    said = paragraph(judgement.model, tolerance, points)
+    yield from textwrap.wrap(said, COLUMNS, initial_indent="  ", subsequent_indent="  ")
+
+
+def _breaks(points: Sequence[JudgedPoint]) -> Iterator[str]:
+    """Rules that it does not follow, and ends at which it is no closed form, and whether it warned of that."""
+    found = [line for curves in curves_of(points) for curve in curves if curve.is_rule for line in _broken(curve)]
+    asked = [curves[0].quantity for curves in curves_of(points) if curves[0].quantity in SWEPT]
+    if found or asked:
+        yield "\nWhere it breaks:"
+        yield from found or [f"  nowhere {', '.join(asked)}"]
+
+
+def _broken(curve: JudgedCurve) -> Iterator[str]:
+    for some in (some for some in curve.enough if some.verdict in (DIFFER, REFUSED, FAILED)):
+        mine = [
+            p for p, x in zip(curve.points, curve.at, strict=True) if some.start <= x <= some.stop or len(curve.at) == 1
+        ]
+        where = f"{curve.along} = {_range(some.start, some.stop)}" if curve.along else placed(curve.where)
+        warned = next(
+            (f", {p.reason}" for p in mine if p.reason), ", without a warning" if curve.quantity in SWEPT else ""
+        )
+        shown = max(mine, key=lambda p: abs(p.difference)).shown
+        yield f"  {curve.quantity}, {where}: {shown}{warned if some.verdict == DIFFER else ''}"
 
 
 def _strip(curve: JudgedCurve) -> str:
@@ -77,8 +111,9 @@ def paragraph(model: str, tolerance: str, points: Sequence[JudgedPoint]) -> str:
     count = Counter(point.verdict for point in points)
     if known := count[AGREE] + count[DIFFER] + count[UNDECIDED]:
         said.append(f"Of {known} points {count[AGREE]} agree, {count[DIFFER]} differ and the others are open.")
-    if (most := worst(points, 1)) and most[0].verdict == DIFFER:
-        said.append(f"The largest difference is {in_unit(most[0].difference, most[0].unit, '+')} at {most[0].place}.")
+    if (most := worst([point for point in points if point.quantity not in SWEPT], 1)) and most[0].verdict == DIFFER:
+        apart = in_unit(most[0].difference, most[0].unit, "+")
+        said.append(f"The largest difference, of its {most[0].quantity}, is {apart} at {most[0].place}.")
     if lost := len(points) - known:
         said.append(f"It has no value at {lost} of {len(points)} points.")
     return " ".join(said)

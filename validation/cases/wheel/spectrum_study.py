@@ -94,8 +94,8 @@ STUDY = Study(
         "interpolated between lines of Hann's spectrum. The jump is where that spectrum reaches half of the level "
         "above it. The slope comes from means over periods of the oscillation. The period is sought from "
         f"{wheel_features.THIRD_FIRST:g} q_min v₀ to {wheel_features.OSCILLATION_LAST:g} q_max v₀. The book varies "
-        "q_min, q_max, v₀ and H; the height h₀ is varied by us, and no claim takes it in. Errors: jackknife over groups "
-        "of wheels."
+        "q_min, q_max, v₀ and H; the height h₀ is varied by us, and no claim takes it in. Errors: jackknife over "
+        "groups of wheels."
     ),
     series=spectrum.series,
     claims=(

@@ -21,7 +21,7 @@ from validation.analysis.judgement import DEVIATION
 from validation.analysis.statistics import DECIBEL
 from validation.engine.engine import Engine, Outcome
 from validation.scenes.dynamic_wheel import load_wheel_scene
-from validation.selection.judging import rolling, stiffness, surfaces
+from validation.selection.judging import own, rolling, stiffness, surfaces
 from validation.selection.judging.filters import ALPHA, DIAMETER, FILTER, LOAD, OFFSET, WAVE
 from validation.selection.judging.laws import FEATURE, REGION, ends_of
 from validation.selection.judging.references import Reference, as_file, file_name
@@ -261,5 +261,6 @@ SOURCES: Mapping[str, ReferenceFile] = {
     surfaces.OF_SURFACE: _of("k / (E* L)", "judging/surfaces", lambda _, engine: surfaces.solved(engine), OF_SURFACES),
     FILTER: _of("dB, A3", "across", _filters),
     FEATURE: _of("rad/s, but for the slope", "wheel", _features),
+    own.ERRORS: _of("over the reference, of levels in dB", "judging/own", lambda *_: own.errors(), {}),
     REGION: _of("dB re 1 (m/s^2)^2 s", "wheel", _regions),
 }

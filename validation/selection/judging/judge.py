@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterator, Mapping
+from itertools import chain
 from pkgutil import resolve_name
 from typing import Any, NamedTuple, TypeVar
 
@@ -62,9 +63,10 @@ def rule(
 
 
 def points_of(model: Caller, tolerance: float) -> Iterator[JudgedPoint]:
-    """Of a reduced model."""
+    """Of a reduced model: by its judge, and past the scenes of that."""
     judge: Callable[[Caller], Iterator[Finding]] = resolve_name(f"{__package__}.{JUDGES[model.kind]}")
-    yield from (one.judged(tolerance) for one in judge(model))
+    sweep: Callable[[Caller], Iterator[Finding]] = resolve_name(f"{__package__}.sweeps:swept")
+    yield from (one.judged(tolerance) for one in chain(judge(model), sweep(model)))
 
 
 class LostError(ArithmeticError):

@@ -4,6 +4,7 @@
 """
 
 import csv
+import io
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -41,8 +42,9 @@ def curve(quantity: str) -> Sequence[Reference]:
     stated = str(about(quantity).get("unit"))
     unit = LEVEL if stated.startswith(LEVEL) else DEVIATION if stated == DEVIATION else RATIO
     return [
-        Reference({n: _cell(row[n]) for n in row if n not in VALUES}, *(float(row[n]) for n in VALUES), unit)
+        Reference({n: _cell(w) for n, w in row.items() if n not in VALUES}, value, sample, grid, unit)
         for row in rows
+        for value, sample, grid in [[float(row[name]) for name in VALUES]]
     ]
 
 
@@ -82,7 +84,9 @@ def as_file(head: Mapping[str, Any], rows: Sequence[Reference]) -> bytes:
     cells = [
         [*map(_word, row.where.values()), f"{row.value:.7g}", f"{row.sample:.4g}", f"{row.grid:.4g}"] for row in rows
     ]
-    return ("\n".join([*lines, *(",".join(row) for row in [[*rows[0].where, *VALUES], *cells])]) + "\n").encode()
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows([[*rows[0].where, *VALUES], *cells])
+    return "\n".join([*lines, text.getvalue()]).encode()
 
 
 def _word(place: Place) -> str:

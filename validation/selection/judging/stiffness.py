@@ -23,7 +23,7 @@ SIDE, MODULUS, HEIGHT = 1e-2, 1e9, 1e-3
 """L [m], E* [Pa] and h / L at which a model is asked: k / (E* L) is that of any others."""
 WAVES = 64
 """q_max / q_min of Fig. 14.1, and where nothing else is said."""
-MOST, SECONDS, BATCH, FEWEST = 1000, 25.0, 20, 8
+MOST, SECONDS, BATCH, FEWEST = 300, 15.0, 20, 8
 """Realisations under one load, or as many as come in so many seconds, whole batches of them; fewer have no error."""
 SEED, DRAWS = 14, 3
 H, FORCE, ROLL_OFF, BAND = "H", "Fbar", "q_r L / 2π", "q_max / q_min"
@@ -95,7 +95,7 @@ def judged(model: Caller) -> Iterator[Finding]:
         for quantity in (MEAN, ROLLED_OFF, DEVIATION, BY_BAND)
     }
     asked = dict.fromkeys(AskedPunch.at(row.where) for rows in known.values() for row in rows)
-    found = _drawn(model, asked) if drawn else {one: _formula(model, one) for one in asked}
+    found = answers_of(model, asked)
     for quantity, rows in known.items():
         yield from beside(quantity, rows, found)
     if not drawn:
@@ -132,17 +132,22 @@ def _formula(model: Caller, asked: AskedPunch) -> Stiffness | Failed:
     return Stiffness(Answer(mean / asked.unit), *(Answer(one / mean) for one in others))
 
 
-def _drawn(model: Caller, asked: Iterable[AskedPunch]) -> Answers:
+def answers_of(model: Caller, asked: Iterable[AskedPunch], most: int = MOST) -> Answers:
+    """By a formula, or by so many realisations at most."""
+    return _drawn(model, asked, most) if "rng" in model.asks else {one: _formula(model, one) for one in asked}
+
+
+def _drawn(model: Caller, asked: Iterable[AskedPunch], most: int) -> Answers:
     """Realisations of each, in turn, until there are enough, or the time is over; one that fails is not asked again."""
     values: dict[AskedPunch, list[float]] = {one: [] for one in asked}
     lost: dict[AskedPunch, Failed] = {}
     end = time.perf_counter() + SECONDS
-    for first in range(0, MOST, BATCH):
+    for first in range(0, most, BATCH):
         for one in values:
             late = time.perf_counter() > end
             if one in lost or (late and first):
                 continue
-            rngs = [random_generator(SEED, DRAWS, first + i) for i in range(FEWEST if late else BATCH)]
+            rngs = [random_generator(SEED, DRAWS, first + i) for i in range(FEWEST if late else min(BATCH, most))]
             for value in model.calls("rng", rngs, one.arguments):
                 if isinstance(value, Failed):
                     lost.setdefault(one, value)
