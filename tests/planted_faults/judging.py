@@ -7,13 +7,14 @@ import numpy as np
 
 from tests.analysis import test_judgement
 from tests.planted_faults.wrong import with_math
-from tests.selection import test_judged_stiffness
+from tests.selection import test_judged_ends, test_judged_kinds, test_judged_stiffness
 from validation.analysis import judgement
-from validation.selection.judging import stiffness
+from validation.engine import others
+from validation.selection.judging import laws, own, stiffness, sweeps
 from validation.selection.judging.judge import Answer
 from validation.simulation.rough_punch import PlateauSpectrum
 
-given, verdict_of = stiffness.AskedPunch.arguments.fget, judgement.verdict_of
+given, verdict_of, swept_by = stiffness.AskedPunch.arguments.fget, judgement.verdict_of, sweeps._swept
 
 
 def under_twice_the_load(asked):
@@ -28,7 +29,31 @@ def without_the_error_of_the_sample(values):
     return stiffness.Stiffness(Answer(np.mean(values)), Answer(np.std(values) / np.mean(values)))
 
 
+def of_the_last_point(model, quantity, along, at, ratio, grid=0.0):
+    yield from swept_by(model, quantity, along, at[:1] * len(at), ratio, grid)
+
+
 FAULTS = {
+    "a sweep that stays where it begins": (
+        (sweeps, "_swept", of_the_last_point),
+        partial(test_judged_ends.test_where_a_model_breaks_is_found, *test_judged_ends.WRONG[5]),
+    ),
+    "a warning that is not heard": (
+        (others.Called, "warned", property(lambda called: "")),
+        test_judged_ends.test_a_warning_stands_beside_the_number,
+    ),
+    "a bound for a closed form": (
+        (sweeps, "EXACT", None),
+        partial(test_judged_ends.test_where_a_model_breaks_is_found, *test_judged_ends.WRONG[7]),
+    ),
+    "another quantity on the chart of errors": (
+        (own, "MAIN", dict.fromkeys(own.MAIN, "contact filter of a long wave")),
+        test_judged_ends.test_errors_are_medians_of_the_quantity_of_their_kind,
+    ),
+    "a path that is not rolled again": (
+        (laws, "NEAR", math.inf),
+        test_judged_kinds.test_the_wheel_rolls_on_the_law_itself,
+    ),
     "a model asked under twice the load": (
         (stiffness.AskedPunch, "arguments", property(under_twice_the_load)),
         test_judged_stiffness.test_what_boundary_elements_have_agrees_and_what_is_twice_as_far_differs,

@@ -9,7 +9,6 @@ from validation import stiffness_model, stiffness_of_surface
 from validation.analysis.judgement import enough
 from validation.engine.others import Called
 from validation.selection.judging import stiffness, surfaces
-from validation.selection.judging.judge import points_of
 from validation.selection.judging.references import Reference, curve
 from validation.selection.judging.stiffness import AskedPunch
 from validation.theory.closed_forms import SQUARE_PUNCH
@@ -22,7 +21,7 @@ def series(load, side, modulus, roughness):
 
 
 def judged(function, tolerance=0.1):
-    return list(points_of(Called(stiffness_model("mine")(function)), tolerance))
+    return [one.judged(tolerance) for one in stiffness.judged(Called(stiffness_model("mine")(function)))]
 
 
 def verdicts(points, quantity=MEAN, **where):
@@ -183,7 +182,7 @@ def summits(monkeypatch):
 
 
 def judged_surfaces(function):
-    return list(points_of(Called(stiffness_of_surface("mine")(function)), 0.1))
+    return [one.judged(0.1) for one in surfaces.judged(Called(stiffness_of_surface("mine")(function)))]
 
 
 def test_surfaces_are_judged_one_by_one_and_in_their_mean_and_deviation(summits):

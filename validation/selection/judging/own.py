@@ -116,6 +116,6 @@ def costs_of(model: Called, points: Sequence[JudgedPoint]) -> list[Cost]:
 
 
 def _seconds(model: Called, given: dict[str, object]) -> float:
-    """The least of three calls."""
+    """The least of three calls; NaN of one that is not asked any more."""
     model.calls("", [None] * 3, given)
-    return min(reply.seconds for reply in model.replies if not isinstance(reply.value, Failed))
+    return min((reply.seconds for reply in model.replies if not isinstance(reply.value, Failed)), default=math.nan)

@@ -95,7 +95,7 @@ def judged(model: Caller) -> Iterator[Finding]:
         for quantity in (MEAN, ROLLED_OFF, DEVIATION, BY_BAND)
     }
     asked = dict.fromkeys(AskedPunch.at(row.where) for rows in known.values() for row in rows)
-    found = answers_of(model, asked)
+    found = answers_of(model, asked, MOST)
     for quantity, rows in known.items():
         yield from beside(quantity, rows, found)
     if not drawn:
@@ -132,7 +132,7 @@ def _formula(model: Caller, asked: AskedPunch) -> Stiffness | Failed:
     return Stiffness(Answer(mean / asked.unit), *(Answer(one / mean) for one in others))
 
 
-def answers_of(model: Caller, asked: Iterable[AskedPunch], most: int = MOST) -> Answers:
+def answers_of(model: Caller, asked: Iterable[AskedPunch], most: int) -> Answers:
     """By a formula, or by so many realisations at most."""
     return _drawn(model, asked, most) if "rng" in model.asks else {one: _formula(model, one) for one in asked}
 

@@ -9,14 +9,14 @@ import numpy as np
 
 from validation.analysis import judgement
 from validation.analysis.judgement import RATIO
-from validation.analysis.statistics import FloatArray, jackknifed, ratio_of_means
+from validation.analysis.statistics import FloatArray, jackknifed, ratio_of_means, student
 from validation.engine.engine import Engine
 from validation.engine.offered import Caller, Failed
 from validation.selection.judging.judge import Answer, Finding
 from validation.selection.judging.references import Reference, curve
 from validation.selection.judging.stiffness import DEVIATION, FORCE, HEIGHT, MEAN, MODULUS, SIDE, WAVES, H
 from validation.simulation.light_punch import press_lightly
-from validation.simulation.rough_punch import FEW_CELLS, PunchRoughness, Surface, force_levels
+from validation.simulation.rough_punch import PunchRoughness, Surface, force_levels
 
 CELLS, SEED, TOLERANCE = 256, 14, 1e-4
 """On a side, four to the shortest wave; of the surfaces of Fig. 14.1; residual of the solver."""
@@ -82,10 +82,11 @@ def roughness(hurst: float) -> PunchRoughness:
 
 
 def solved(engine: Engine) -> list[Reference]:
-    """The references: k / (E* L) of each surface on cells of no size, to first order, in three minutes of one core.
+    """The references: k / (E* L) of each surface on the finer of two grids, in three minutes of one core.
 
-    As much as lies between the finer grid and no size is the grid error. Loads under which fewer than 30 cells touch
-    are left out: an order of convergence cannot be told there.
+    On single surfaces the error of the cells has either sign and is of no order, where few cells touch least of all:
+    an answer on cells of no size cannot be told. As much is left as the finer grid and that which a model is given
+    differ, by the root mean square over the surfaces of one H and load, with Student's quantile.
     """
     groups = {
         (hurst, cells): [
@@ -99,10 +100,8 @@ def solved(engine: Engine) -> list[Reference]:
     rows = []
     for hurst in HURSTS:
         coarse, fine = (np.log([one["stiffness"] for one in found[hurst, n]]) for n in (CELLS, 2 * CELLS))
-        touching = CELLS**2 * np.mean([one["area"] for one in found[hurst, CELLS]], axis=0)
-        for (i, j), finer in np.ndenumerate(fine - coarse):
-            if touching[j] < FEW_CELLS:
-                continue
+        left = student(SURFACES) * np.sqrt(np.mean((fine - coarse) ** 2, axis=0))
+        for (i, j), value in np.ndenumerate(fine):
             where: dict[str, float | str] = {H: hurst, REALISATION: f"surface {i}", FORCE: FORCES[j]}
-            rows.append(Reference(where, math.exp(fine[i, j] + finer), 0.0, abs(finer)))
+            rows.append(Reference(where, math.exp(value), 0.0, float(left[j])))
     return rows
