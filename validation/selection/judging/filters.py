@@ -41,7 +41,7 @@ def judged(model: Caller) -> Iterator[Finding]:
         if not _serves(model, alpha):
             continue
         scene, across = scene_of(load, diameter), alpha if "k_y" in model.asks else 0.0
-        found = attempted(partial(a3, scene, across, _transfer(model, scene, alpha)))
+        found = attempted(partial(_in_one_call, partial(a3, scene, across), _transfer(model, scene, alpha)))
         wheel = f"{scene.name}, {offset:+g} dB" if offset else scene.name
         waves = np.round(1000 * strip_bands(scene).nominal, 2).tolist()
         for one in rows:
@@ -75,11 +75,21 @@ def _transfer(model: Caller, scene: RailScene, alpha: float) -> Transfer:
     contact = scene.contact
     given = {"a_x": contact.along, "a_y": contact.across, "approach": contact.approach, "alpha": alpha}
 
-    def transfer(k_x: FloatArray, k_y: FloatArray) -> FloatArray:
-        k_x, k_y = np.broadcast_arrays(k_x, k_y)
-        return asked(model, k_x=k_x.ravel(), k_y=k_y.ravel(), **given).reshape(k_x.shape)
+    return lambda k_x, k_y: asked(model, k_x=k_x, k_y=k_y, **given)
 
-    return transfer
+
+def _in_one_call(integral: Callable[[Transfer], FloatArray], transfer: Transfer) -> FloatArray:
+    """Of a function that is asked for all waves at once: they are noted first."""
+    waves: list[tuple[FloatArray, ...]] = []
+
+    def noted(k_x: FloatArray, k_y: FloatArray) -> FloatArray:
+        waves.append(tuple(np.broadcast_arrays(k_x, k_y)))
+        return np.ones(waves[-1][0].shape)
+
+    integral(noted)
+    k_x, k_y = (np.concatenate([one.ravel() for one in some]) for some in zip(*waves, strict=True))
+    values = iter(np.split(transfer(k_x, k_y), np.cumsum([one.size for one, _ in waves])[:-1]))
+    return integral(lambda k_x, k_y: next(values).reshape(np.broadcast_shapes(k_x.shape, k_y.shape)))
 
 
 @cache

@@ -120,21 +120,30 @@ def beside(quantity: str, rows: Iterable[Reference], found: Answers) -> Iterator
             yield Finding(quantity, row, mine.deviation)
 
 
-def _formula(model: Caller, asked: AskedPunch) -> Stiffness | Failed:
-    value = model.call(**asked.arguments)
-    if isinstance(value, Failed):
-        return value
-    mean, *others = np.atleast_1d(value).tolist()
+def _by_formula(model: Caller, asked: Iterable[AskedPunch]) -> Iterator[tuple[AskedPunch, Stiffness | Failed]]:
+    """All loads of a roughness at once."""
+    of: dict[AskedPunch, list[AskedPunch]] = {}
+    for one in asked:
+        of.setdefault(replace(one, force=0.0), []).append(one)
+    for punches in of.values():
+        loads = [one.arguments["load"] for one in punches]
+        for one, value in zip(punches, model.calls("load", loads, punches[0].arguments), strict=True):
+            yield one, value if isinstance(value, Failed) else _stiffness(one, *np.atleast_1d(value).tolist())
+
+
+def _stiffness(asked: AskedPunch, mean: float, deviation: float | None = None) -> Stiffness | Failed:
     if not mean > 0:
         return Failed(f"a stiffness of {mean:.3g} N/m")
-    if others and others[0] < 0:
-        return Failed(f"a deviation of {others[0]:.3g} N/m")
-    return Stiffness(Answer(mean / asked.unit), *(Answer(one / mean) for one in others))
+    if deviation is None:
+        return Stiffness(Answer(mean / asked.unit))
+    if deviation < 0:
+        return Failed(f"a deviation of {deviation:.3g} N/m")
+    return Stiffness(Answer(mean / asked.unit), Answer(deviation / mean))
 
 
 def answers_of(model: Caller, asked: Iterable[AskedPunch], most: int) -> Answers:
     """By a formula, or by so many realisations at most."""
-    return _drawn(model, asked, most) if "rng" in model.asks else {one: _formula(model, one) for one in asked}
+    return _drawn(model, asked, most) if "rng" in model.asks else dict(_by_formula(model, asked))
 
 
 def _drawn(model: Caller, asked: Iterable[AskedPunch], most: int) -> Answers:
@@ -176,6 +185,6 @@ def _rules(model: Caller, found: Answers) -> Iterator[Finding]:
         yield rule("rise with the load, at the least", {H: hurst}, min(least, 1.0), within=1e-9)
     for one in (one for one in plain if one.force == 0.1):
         for quantity, scale in (("scaling with the modulus", (1.0, 10.0)), ("scaling with the length", (2.0, 1.0))):
-            there = _formula(model, replace(one, scale=scale))
+            (there,) = answers_of(model, [replace(one, scale=scale)], 1).values()
             ratio = there if isinstance(there, Failed) else there.mean.value / plain[one]
             yield rule(quantity, {H: one.hurst}, ratio)

@@ -23,7 +23,7 @@ CELLS, SEED, TOLERANCE = 256, 14, 1e-4
 HURSTS, SURFACES = (0.4, 0.7, 1.0), 8
 """Surfaces of each H."""
 FORCES = force_levels((-3, 1), 3)[::2]
-SECONDS, FEWEST = 40.0, 3
+SECONDS, FEWEST = 20.0, 3
 """After so long nothing more is asked; fewer surfaces have no error bar."""
 OF_SURFACE, REALISATION = "stiffness of a surface", "surface"
 Key = tuple[float, float]
