@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from validation.engine.engine import SERIAL
-from validation.selection.judging import from_report, references
+from validation.selection.judging import from_report, references, surfaces
 from validation.selection.judging.from_report import SOURCES, Report
 from validation.selection.judging.own import ERRORS
 from validation.selection.judging.references import about, as_file, curve, file_name
@@ -80,6 +80,28 @@ def test_positions_are_extrapolated_to_cells_of_no_size():
     assert [row.value for row in rows] == pytest.approx([2.0] * len(rows))
     assert [row.grid for row in rows] == pytest.approx([0.1 / GRIDS[1] / 2] * len(rows))
     assert len(rows) == len(curve(EACH)) and [row.where for row in rows] == [row.where for row in curve(EACH)]
+
+
+class Pressed:
+    """An engine whose finer grid is 10 % stiffer on one half of the surfaces, and 10 % less stiff on the other."""
+
+    def map_groups(self, solve, groups):
+        sign = {surfaces.CELLS: 0.0, 2 * surfaces.CELLS: 1.0}
+        return {
+            (hurst, cells): [
+                {"stiffness": np.full(len(surfaces.FORCES), np.exp(0.1 * sign[cells] * (-1) ** i))}
+                for i in range(len(of))
+            ]
+            for (hurst, cells), of in groups.items()
+        }
+
+
+def test_a_surface_is_known_as_well_as_its_two_grids_agree():
+    """All loads are asked, and a right answer on the cells that a model is given does not differ."""
+    rows = surfaces.solved(Pressed())
+    assert len(rows) == 3 * 8 * len(surfaces.FORCES) == len(curve(OF_SURFACE))
+    assert [row.value for row in rows[:: len(surfaces.FORCES)][:2]] == pytest.approx(np.exp([0.1, -0.1]))
+    assert [row.grid for row in rows] == pytest.approx([2.306 * 0.1] * len(rows), rel=1e-3)
 
 
 def test_what_is_written_is_read_and_what_is_unknown_is_refused(tmp_path, monkeypatch):

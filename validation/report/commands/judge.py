@@ -46,8 +46,8 @@ def describe(judging: argparse.ArgumentParser) -> None:
 def judge(arguments: argparse.Namespace) -> Exit:
     """Judge what a file, or an installed package, offers."""
     if arguments.list:
-        names = [f"{one.name}: {one.value}" for one in installed().values()]
-        print(printable("\n".join(names) or f"no installed package has the entry points {GROUP}", lines=True))
+        lines = [f"{one.name}: {one.value}" for one in installed().values()]
+        print(printable("\n".join(lines) or f"no installed package has the entry points {GROUP}", lines=True))
         return Exit.MET
     if arguments.file is None:
         raise ValueError("judge needs a FILE with decorated functions, or a name of judge --list")

@@ -258,7 +258,9 @@ SOURCES: Mapping[str, ReferenceFile] = {
     rolling.MEAN: _of("over F_Hertz", "rolling", _mean),
     rolling.EACH: _of("over F_Hertz", "judging/rolling", _positions("force", roll_strip), OF_STRIPS),
     rolling.LIFT: _of("over d", "judging/rolling", _positions("approach", roll_under_load), OF_STRIPS),
-    surfaces.OF_SURFACE: _of("k / (E* L)", "judging/surfaces", lambda _, engine: surfaces.solved(engine), OF_SURFACES),
+    surfaces.OF_SURFACE: _of(
+        "k / (E* L)", "judging/surfaces", lambda _, engine: iter(surfaces.solved(engine)), OF_SURFACES
+    ),
     FILTER: _of("dB, A3", "across", _filters),
     FEATURE: _of("rad/s, but for the slope", "wheel", _features),
     own.ERRORS: _of("over the reference, of levels in dB", "judging/own", lambda *_: own.errors(), {}),

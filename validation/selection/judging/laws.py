@@ -100,6 +100,7 @@ def rolled(model: Caller, scene: WheelScene) -> Motion:
             motion = simulate(scene.body, law, time_step=scene.time_step, steps=scene.points, approach=start, path=True)
         except ValueError as error:
             raise LostError(Failed(str(error))) from None
+        assert motion.path is not None  # which was asked for
         before, path = path, np.vstack([motion.path, motion.approach])
         if np.abs(path - before).max() < NEAR * scene.approach:
             return motion
