@@ -23,7 +23,7 @@ from validation.benchmarks.judging.discrete import ContactProblem, pressed
 from validation.benchmarks.judging.properties import PROPERTIES, Asked
 from validation.engine.offered import KINDS, FloatArray, Offered, offer
 from validation.engine.others import Called
-from validation.selection.judging.laws import properties_of_rule
+from validation.selection.judging.profiles import properties_of_rule
 
 OF_RULE = 1e-3
 """Relative, the error of the quadrature included."""
@@ -126,5 +126,6 @@ def rule(request: pytest.FixtureRequest) -> Called:
 def test_a_rule_has_the_properties(rule: Called, hurst: float, q_min: float, ratio: float, rms: float) -> None:
     """Of `judge`."""
     roughness = mdr.SelfAffine(hurst=hurst, q_min=q_min, q_max=q_min * ratio, rms=rms)
-    for found in properties_of_rule(rule, roughness, OF_RULE):
+    for finding in properties_of_rule(rule, roughness):
+        found = finding.judged(OF_RULE)
         assert found.verdict == AGREE, f"{found.quantity}: {found.shown}"

@@ -5,15 +5,7 @@ import math
 import pytest
 
 from validation.analysis import judgement
-from validation.analysis.judgement import (
-    compared,
-    compared_deviations,
-    compared_levels,
-    enough,
-    not_compared,
-    shared,
-    worst,
-)
+from validation.analysis.judgement import DEVIATION, LEVEL, compared, enough, not_compared, shared, worst
 
 
 @pytest.mark.parametrize(
@@ -39,8 +31,8 @@ def test_the_whole_interval_lies_inside_or_outside_of_the_tolerance(value, half,
     ("apart", "half", "verdict"), [(0.8, 0.02, "agree"), (0.8, 0.03, "undecided"), (-0.9, 0.07, "differ")]
 )
 def test_a_ratio_of_ten_per_cent_is_0_83_decibels_of_a_level(apart, half, verdict):
-    assert compared_levels("level", {}, 60 + apart, 60.0, half, 0.1).verdict == verdict
-    assert compared_levels("level", {}, 61.0, 60.0, 0.0, 10 ** (1 / 20) - 1).verdict == "agree"
+    assert compared("level", {}, 60 + apart, 60.0, half, 0.1, unit=LEVEL).verdict == verdict
+    assert compared("level", {}, 61.0, 60.0, 0.0, 10 ** (1 / 20) - 1, unit=LEVEL).verdict == "agree"
 
 
 @pytest.mark.parametrize(
@@ -49,7 +41,7 @@ def test_a_ratio_of_ten_per_cent_is_0_83_decibels_of_a_level(apart, half, verdic
 )
 def test_deviations_below_one_per_cent_are_judged_by_their_absolute_difference(value, reference, verdict):
     """A tenth of one per cent at most."""
-    assert compared_deviations("deviation", {}, value, reference, 0.0, 0.1).verdict == verdict
+    assert compared("deviation", {}, value, reference, 0.0, 0.1, unit=DEVIATION).verdict == verdict
 
 
 def points(verdicts, hurst=0.4):

@@ -7,32 +7,63 @@ import numpy as np
 
 from tests.analysis import test_judgement
 from tests.planted_faults.wrong import with_math
-from tests.selection import test_judged_stiffness
+from tests.selection import test_judged_ends, test_judged_kinds, test_judged_stiffness
 from validation.analysis import judgement
-from validation.selection.judging import stiffness
+from validation.engine import others
+from validation.selection.judging import laws, own, stiffness, sweeps
+from validation.selection.judging.judge import Answer
+from validation.simulation.rough_punch import PlateauSpectrum
 
-given, verdict_of = stiffness.AskedPunch.arguments.fget, judgement._judged
+given, verdict_of, swept_by = stiffness.AskedPunch.arguments.fget, judgement.verdict_of, sweeps._swept
 
 
 def under_twice_the_load(asked):
     return {**given(asked), "load": 2 * given(asked)["load"]}
 
 
-def without_its_interval(quantity, where, pair, apart, half, *others):
-    return verdict_of(quantity, where, pair, apart, 0.0, *others)
+def without_its_interval(apart, half, within):
+    return verdict_of(apart, 0.0, within)
+
+
+def without_the_error_of_the_sample(values):
+    return stiffness.Stiffness(Answer(np.mean(values)), Answer(np.std(values) / np.mean(values)))
+
+
+def of_the_last_point(model, quantity, along, at, ratio, grid=0.0):
+    yield from swept_by(model, quantity, along, at[:1] * len(at), ratio, grid)
 
 
 FAULTS = {
+    "a sweep that stays where it begins": (
+        (sweeps, "_swept", of_the_last_point),
+        partial(test_judged_ends.test_where_a_model_breaks_is_found, *test_judged_ends.WRONG[5]),
+    ),
+    "a warning that is not heard": (
+        (others.Called, "warned", property(lambda called: "")),
+        test_judged_ends.test_a_warning_stands_beside_the_number,
+    ),
+    "a bound for a closed form": (
+        (sweeps, "EXACT", None),
+        partial(test_judged_ends.test_where_a_model_breaks_is_found, *test_judged_ends.WRONG[7]),
+    ),
+    "another quantity on the chart of errors": (
+        (own, "MAIN", dict.fromkeys(own.MAIN, "contact filter of a long wave")),
+        test_judged_ends.test_errors_are_medians_of_the_quantity_of_their_kind,
+    ),
+    "a path that is not rolled again": (
+        (laws, "NEAR", math.inf),
+        test_judged_kinds.test_the_wheel_rolls_on_the_law_itself,
+    ),
     "a model asked under twice the load": (
         (stiffness.AskedPunch, "arguments", property(under_twice_the_load)),
         test_judged_stiffness.test_what_boundary_elements_have_agrees_and_what_is_twice_as_far_differs,
     ),
     "the level of a power law for that of its plateau": (
-        (stiffness.PlateauRoughness, "_share", property(lambda rough: 1.0)),
+        (stiffness.PlateauRoughness, "c2d", PlateauSpectrum.c2d),
         test_judged_stiffness.test_a_plateau_is_given_with_its_own_rms_height,
     ),
     "a verdict without its interval": (
-        (judgement, "_judged", without_its_interval),
+        (judgement, "verdict_of", without_its_interval),
         partial(
             test_judgement.test_the_whole_interval_lies_inside_or_outside_of_the_tolerance, 1.05, 0.06, "undecided"
         ),
@@ -42,7 +73,7 @@ FAULTS = {
         partial(test_judgement.test_a_ratio_of_ten_per_cent_is_0_83_decibels_of_a_level, 0.8, 0.02, "agree"),
     ),
     "realisations without the error of their sample": (
-        (stiffness, "sampled", lambda values: stiffness.Found(values.mean(), np.std(values) / np.mean(values))),
+        (stiffness, "sampled", without_the_error_of_the_sample),
         test_judged_stiffness.test_realisations_have_their_mean_and_deviation_with_the_error_of_the_sample,
     ),
 }

@@ -4,6 +4,7 @@ import csv
 import json
 import subprocess
 import sys
+from dataclasses import replace
 
 import pytest
 
@@ -103,12 +104,56 @@ def test_what_cannot_be_judged_is_refused_in_one_sentence(body, words, sentence,
     assert printed.err.count("\n") == 1 and not printed.out
 
 
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    """An installed one that offers a model by its entry point, and another that is broken."""
+    (tmp_path / "contact_pack.py").write_text(SERIES + "\nprint('imported')\n")
+    about = tmp_path / "contact_pack-1.dist-info"
+    about.mkdir()
+    (about / "METADATA").write_text("Metadata-Version: 2.1\nName: contact-pack\nVersion: 1\n")
+    lines = "[mdr_validation.models]\nseries = contact_pack:series\nlost = no_such_pack\ncontact_pack = contact_pack\n"
+    (about / "entry_points.txt").write_text(lines)
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+
+
+def test_what_a_package_offers_is_listed_unread_and_judged_by_its_name(package, capsys):
+    assert main(["judge", "--list"]) == 0
+    assert capsys.readouterr().out.splitlines() == [
+        "contact_pack: contact_pack",
+        "lost: no_such_pack",
+        "series: contact_pack:series",
+    ]
+    for name in ("series", "contact_pack"):
+        assert main(["judge", name]) == 0
+        assert capsys.readouterr().out.startswith("in series: stiffness model")
+    assert main(["judge", "lost"]) == 2
+    assert "model lost.py: ModuleNotFoundError: No module named 'no_such_pack'" in capsys.readouterr().err
+    assert "contact_pack" not in sys.modules
+    assert main(["judge"]) == 2
+    assert "judge needs a FILE with decorated functions, or a name" in capsys.readouterr().err
+
+
+def test_where_a_model_breaks_and_what_it_costs_is_said(file, tmp_path, capsys):
+    """A stiffness that falls, and an end of another law: which loads, how far off, and that nothing was said of it."""
+    file.write_text(
+        SERIES.replace("    return 1", "    return 1 / (1 + load / (modulus * side**2))").replace("/ (0.49", "/ (0.49")
+    )
+    assert main(["judge", str(file), "--figure", str(tmp_path / "found.svg")]) == 0
+    printed = " ".join(capsys.readouterr().out.split())
+    assert "Where it breaks: rise with the load, at the least, H = 0.4 to 1: -" in printed
+    assert "under a heavy load, Fbar = 1e+03 to 1e+04: -" in printed and "%, without a warning" in printed
+    assert "Median error of the mean stiffness, and seconds of the call that took longest: in series" in printed
+    assert "springs 5.26 %" in printed
+    assert b"seconds of a call" in (tmp_path / "found.svg").read_bytes()
+
+
 def solver(*points):
     """What a solver is judged to be by these points."""
     return judged.Judgement("mine", "contact_solver", judged.tolerance_of(0.1), points, 1.0)
 
 
-RIGHT = compared("approach", {"problem": "sphere"}, 1.0, 1.0, 0.0, 0.1, decides=True)
+RIGHT = replace(compared("approach", {"problem": "sphere"}, 1.0, 1.0, 0.0, 0.1), decides=True)
 SLOW = compared("speed", {"cells": 64.0}, 3.0, 1.0, 0.0, 0.1)
 LOST = not_compared("approach", {"problem": "rough"}, "failed", "raised MemoryError", decides=True)
 

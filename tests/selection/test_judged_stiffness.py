@@ -21,7 +21,7 @@ def series(load, side, modulus, roughness):
 
 
 def judged(function, tolerance=0.1):
-    return list(stiffness.judged(Called(stiffness_model("mine")(function)), tolerance))
+    return [one.judged(tolerance) for one in stiffness.judged(Called(stiffness_model("mine")(function)))]
 
 
 def verdicts(points, quantity=MEAN, **where):
@@ -182,7 +182,7 @@ def summits(monkeypatch):
 
 
 def judged_surfaces(function):
-    return list(surfaces.judged(Called(stiffness_of_surface("mine")(function)), 0.1))
+    return [one.judged(0.1) for one in surfaces.judged(Called(stiffness_of_surface("mine")(function)))]
 
 
 def test_surfaces_are_judged_one_by_one_and_in_their_mean_and_deviation(summits):

@@ -6,23 +6,35 @@ import numpy as np
 import pytest
 
 from validation.engine.engine import SERIAL
-from validation.selection.judging import from_report, references
+from validation.selection.judging import from_report, references, surfaces
 from validation.selection.judging.from_report import SOURCES, Report
+from validation.selection.judging.own import ERRORS
 from validation.selection.judging.references import about, as_file, curve, file_name
-from validation.selection.judging.rolling import EACH, GRIDS, HEIGHTS, LIFT
-from validation.selection.judging.spectra import MEAN
+from validation.selection.judging.rolling import EACH, GRIDS, HEIGHTS, LIFT, MEAN
 from validation.selection.judging.surfaces import OF_SURFACE
+from validation.simulation.model_names import BEM, SPRINGS
 from validation.simulation.rolling_strip import roll_strip
 
 REPORT = Path(__file__).parents[2] / "reports" / "reference"
-SOLVED = (MEAN, EACH, LIFT, OF_SURFACE)
+SOLVED = (MEAN, EACH, LIFT, OF_SURFACE, ERRORS)
 """Take solves that the report does not keep."""
+
+
+@pytest.fixture(autouse=True)
+def names_of_today(monkeypatch):
+    """The committed report may be older than one name for each thing."""
+    read = from_report.from_csv
+    monkeypatch.setattr(
+        from_report,
+        "from_csv",
+        lambda name, text: read(name, text.replace(",bem3d,", f",{BEM},").replace(",mdr,", f",{SPRINGS},")),
+    )
 
 
 @pytest.mark.parametrize("quantity", [name for name in SOURCES if name not in SOLVED])
 def test_a_file_is_what_the_committed_report_shows(quantity):
     """Otherwise the report was made anew: `mdr-validation calibrate --references reports/reference --install`."""
-    rows = [row for row in SOURCES[quantity].found(Report(REPORT), SERIAL) if np.isfinite(row.value)]
+    rows = [row for row in SOURCES[quantity].find(Report(REPORT), SERIAL) if np.isfinite(row.value)]
     assert [row.where for row in curve(quantity)] == [
         {name: place if isinstance(place, str) else float(f"{place:.7g}") for name, place in row.where.items()}
         for row in rows
@@ -64,17 +76,39 @@ class Made:
 
 
 def test_positions_are_extrapolated_to_cells_of_no_size():
-    rows = list(SOURCES[EACH].found(None, Made()))
+    rows = list(SOURCES[EACH].find(None, Made()))
     assert [row.value for row in rows] == pytest.approx([2.0] * len(rows))
     assert [row.grid for row in rows] == pytest.approx([0.1 / GRIDS[1] / 2] * len(rows))
     assert len(rows) == len(curve(EACH)) and [row.where for row in rows] == [row.where for row in curve(EACH)]
+
+
+class Pressed:
+    """An engine whose finer grid is 10 % stiffer on one half of the surfaces, and 10 % less stiff on the other."""
+
+    def map_groups(self, solve, groups):
+        sign = {surfaces.CELLS: 0.0, 2 * surfaces.CELLS: 1.0}
+        return {
+            (hurst, cells): [
+                {"stiffness": np.full(len(surfaces.FORCES), np.exp(0.1 * sign[cells] * (-1) ** i))}
+                for i in range(len(of))
+            ]
+            for (hurst, cells), of in groups.items()
+        }
+
+
+def test_a_surface_is_known_as_well_as_its_two_grids_agree():
+    """All loads are asked, and a right answer on the cells that a model is given does not differ."""
+    rows = surfaces.solved(Pressed())
+    assert len(rows) == 3 * 8 * len(surfaces.FORCES) == len(curve(OF_SURFACE))
+    assert [row.value for row in rows[:: len(surfaces.FORCES)][:2]] == pytest.approx(np.exp([0.1, -0.1]))
+    assert [row.grid for row in rows] == pytest.approx([2.306 * 0.1] * len(rows), rel=1e-3)
 
 
 def test_what_is_written_is_read_and_what_is_unknown_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(references, "FOLDER", tmp_path)
     row = references.Reference({"H": 0.7, "across": "ridges"}, 2.0, 0.5, 0.25)
     (tmp_path / file_name("a level, of mine")).write_bytes(as_file({"quantity": "a level, of mine"}, [row]))
-    assert curve("a level, of mine") == [row] and row.error == 0.75
+    assert curve("a level, of mine") == [row]
     with pytest.raises(LookupError, match="a level, of mine, got 'mass'"):
         curve("mass")
 

@@ -4,9 +4,12 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
+from operator import attrgetter
 
 AGREE, DIFFER, UNDECIDED, REFUSED, FAILED = "agree", "differ", "undecided", "refused", "failed"
 VERDICTS = (AGREE, DIFFER, UNDECIDED, REFUSED, FAILED)
+RATIO, LEVEL, DEVIATION = "-", "dB", "over the mean"
+"""Units, by which a number is compared with its reference."""
 SMALL = 0.01
 """A deviation below it is judged by how far off it is in parts of it."""
 Conditions = Mapping[str, float | str]
@@ -63,42 +66,28 @@ def compared(
     half_width: float,
     tolerance: float,
     *,
-    unit: str = "-",
+    unit: str = RATIO,
     reason: str = "",
-    decides: bool = False,
 ) -> JudgedPoint:
-    """By the ratio. half_width: 95 %, relative, of both together; agree or differ where the whole interval does."""
-    ratio = value / reference
-    return _judged(
-        quantity, where, (value, reference), ratio - 1, abs(ratio) * half_width, tolerance, unit, reason, decides
-    )
+    """By the ratio; by the difference of levels, of which a tolerance t is 20 lg(1 + t) dB; and deviations by the ratio
+    from 1 % on, below by their absolute difference, as a part of 1 %.
+
+    half_width: 95 %, over the value, or in dB, of both together; agree or differ where the whole interval does.
+    """
+    apart, half = value / reference - 1, abs(value / reference) * half_width
+    if unit == LEVEL:
+        apart, half, tolerance = value - reference, half_width, 20 * math.log10(1 + tolerance)
+    elif unit == DEVIATION and reference < SMALL:
+        apart, half = (value - reference) / SMALL, max(value, reference) / SMALL * half_width
+        reason = "below 1 %: the absolute difference, in parts of 1 %"
+    verdict, shown_in = verdict_of(apart, half, tolerance), LEVEL if unit == LEVEL else RATIO
+    return JudgedPoint(quantity, where, value, reference, apart, half, verdict, reason, shown_in)
 
 
-def compared_levels(
-    quantity: str,
-    where: Conditions,
-    value: float,
-    reference: float,
-    half_width: float,
-    tolerance: float,
-    *,
-    reason: str = "",
-    decides: bool = False,
-) -> JudgedPoint:
-    """Levels and half-width [dB]; a tolerance t, a ratio, is 20 lg(1 + t) dB."""
-    within, apart = 20 * math.log10(1 + tolerance), value - reference
-    return _judged(quantity, where, (value, reference), apart, half_width, within, "dB", reason, decides)
-
-
-def compared_deviations(
-    quantity: str, where: Conditions, value: float, reference: float, half_width: float, tolerance: float
-) -> JudgedPoint:
-    """Relative deviations; below 1 % by their absolute difference, as a part of 1 %. half_width: relative."""
-    if reference >= SMALL:
-        return compared(quantity, where, value, reference, half_width, tolerance)
-    apart, reason = (value - reference) / SMALL, "below 1 %: the absolute difference, in parts of 1 %"
-    half = max(value, reference) / SMALL * half_width
-    return _judged(quantity, where, (value, reference), apart, half, tolerance, "-", reason, False)
+def verdict_of(apart: float, half: float, within: float) -> str:
+    """Whether all of an interval is near, or far; what is equal to rounding is equal."""
+    near, far = abs(apart) + half <= within * (1 + 1e-9), abs(apart) - half > within * (1 + 1e-9)
+    return AGREE if near else DIFFER if far else UNDECIDED
 
 
 def not_compared(
@@ -108,28 +97,11 @@ def not_compared(
     reason: str,
     *,
     reference: float = math.nan,
-    unit: str = "-",
+    unit: str = RATIO,
     decides: bool = False,
 ) -> JudgedPoint:
     """Without a number of the model."""
     return JudgedPoint(quantity, where, math.nan, reference, math.nan, math.nan, verdict, reason, unit, decides)
-
-
-def _judged(
-    quantity: str,
-    where: Conditions,
-    pair: tuple[float, float],
-    apart: float,
-    half: float,
-    within: float,
-    unit: str,
-    reason: str,
-    decides: bool,
-) -> JudgedPoint:
-    # what is equal to rounding is equal
-    near, far = abs(apart) + half <= within * (1 + 1e-9), abs(apart) - half > within * (1 + 1e-9)
-    verdict = AGREE if near else DIFFER if far else UNDECIDED
-    return JudgedPoint(quantity, where, *pair, apart, half, verdict, reason, unit, decides)
 
 
 @dataclass(frozen=True)
@@ -144,39 +116,54 @@ class Enough:
     verdict: str
 
 
-Group = tuple[str, Conditions, str, Sequence[JudgedPoint]]
+@dataclass(frozen=True)
+class JudgedCurve:
+    """Points of a quantity under equal conditions, ascending along the number that decides, which has most values."""
+
+    quantity: str
+    where: Conditions
+    along: str
+    points: Sequence[JudgedPoint]
+
+    @property
+    def at(self) -> list[float]:
+        return [float(point.where.get(self.along, math.nan)) for point in self.points]
+
+    @property
+    def is_rule(self) -> bool:
+        """Whether every model must follow it, as its references say, which are one; no result that a paper states."""
+        return all(point.reference == 1 for point in self.points)
+
+    @property
+    def enough(self) -> list[Enough]:
+        runs = [list(run) for _, run in groupby(zip(self.at, self.points, strict=True), lambda pair: pair[1].verdict)]
+        return [Enough(self.quantity, self.where, self.along, r[0][0], r[-1][0], r[0][1].verdict) for r in runs]
 
 
-def is_property(group: Group) -> bool:
-    """Whether it is a rule that every model must follow, as its references say, which are one."""
-    return all(point.reference == 1 for point in group[3])
-
-
-def groups_of(points: Iterable[JudgedPoint]) -> Iterator[Group]:
-    """Quantity, conditions and the number that decides, which has most values, and the points along it, ascending."""
-    of: dict[str, list[JudgedPoint]] = {}
+def curves_of(points: Iterable[JudgedPoint]) -> Iterator[list[JudgedCurve]]:
+    """Those of each quantity."""
+    of: dict[tuple[str, ...], list[JudgedPoint]] = {}
     for point in points:
-        of.setdefault(f"{point.quantity}{sorted(point.where)}", []).append(point)
-    for mine in of.values():
-        names = [name for name, value in mine[0].where.items() if not isinstance(value, str)]
-        along = max(names, key=lambda name: len({point.where[name] for point in mine}), default="")
-        curves: dict[str, list[JudgedPoint]] = {}
-        for point in mine:
-            curves.setdefault(placed({n: v for n, v in point.where.items() if n != along}), []).append(point)
-        for curve in curves.values():
-            ordered = sorted(curve, key=lambda point: float(point.where.get(along, 0.0)))
-            where = {name: value for name, value in ordered[0].where.items() if name != along}
-            yield ordered[0].quantity, where, along, ordered
+        of.setdefault((point.quantity, *sorted(point.where)), []).append(point)
+    found = [curve for mine in of.values() for curve in _curves(mine)]
+    yield from (list(some) for _, some in groupby(found, attrgetter("quantity")))
+
+
+def _curves(points: Sequence[JudgedPoint]) -> Iterator[JudgedCurve]:
+    names = [name for name, value in points[0].where.items() if not isinstance(value, str)]
+    along = max(names, key=lambda name: len({point.where[name] for point in points}), default="")
+    curves: dict[str, list[JudgedPoint]] = {}
+    for point in points:
+        curves.setdefault(placed({n: v for n, v in point.where.items() if n != along}), []).append(point)
+    for curve in curves.values():
+        ordered = sorted(curve, key=lambda point: float(point.where.get(along, 0.0)))
+        where = {name: value for name, value in ordered[0].where.items() if name != along}
+        yield JudgedCurve(points[0].quantity, where, along, ordered)
 
 
 def enough(points: Iterable[JudgedPoint]) -> list[Enough]:
     """Where a model agrees, differs, and where neither is known."""
-    found = []
-    for quantity, where, along, ordered in groups_of(points):
-        for verdict, run in groupby(ordered, lambda point: point.verdict):
-            ends = [float(point.where.get(along, math.nan)) for point in run]
-            found.append(Enough(quantity, where, along, ends[0], ends[-1], verdict))
-    return found
+    return [some for curves in curves_of(points) for curve in curves for some in curve.enough]
 
 
 def worst(points: Iterable[JudgedPoint], count: int = 5) -> list[JudgedPoint]:

@@ -25,7 +25,8 @@ class Caller(Protocol):
     """An offered function as a judge sees it, in this process or in one of its own.
 
     `call` takes all that there is and passes on what the function asks for. It returns finite numbers of the right
-    shape, or Failed. `calls` does so for each value of one argument, which takes less time.
+    shape, or Failed. `calls` does so for each value of one argument, which takes less time; `warned` is what the
+    function warned of in the last ones.
     """
 
     @property
@@ -36,6 +37,8 @@ class Caller(Protocol):
     def asks(self) -> tuple[str, ...]: ...
     @property
     def options(self) -> Given: ...
+    @property
+    def warned(self) -> str: ...
     def call(self, **arguments: Any) -> FloatArray | Failed: ...
     def calls(self, name: str, values: Sequence[Any], arguments: Given) -> list[FloatArray | Failed]: ...
 

@@ -2,11 +2,13 @@
 
 import hashlib
 import importlib.util
+import math
 import os
 import signal
 import subprocess
 import sys
 import tempfile
+import time
 import traceback
 import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -17,10 +19,11 @@ from io import StringIO
 from multiprocessing.connection import Connection, Pipe
 from pathlib import Path
 from types import TracebackType
-from typing import IO, Any
+from typing import IO, Any, NamedTuple
 
 import numpy as np
 
+from validation.engine.installed import file_of
 from validation.engine.offered import KINDS, Failed, FloatArray, Offered
 from validation.engine.workers import ONE_THREAD
 
@@ -39,7 +42,25 @@ class OthersError(ValueError):
     """A file cannot be judged, in one sentence."""
 
 
-def called(offered: Offered, arguments: Mapping[str, Any]) -> FloatArray | Failed:
+class Reply(NamedTuple):
+    """value: or what is wrong; warned: the first warning; seconds: that the function took."""
+
+    value: FloatArray | Failed
+    warned: str = ""
+    seconds: float = math.nan
+
+
+def called(offered: Offered, arguments: Mapping[str, Any]) -> Reply:
+    """What a function says to these arguments."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        begin = time.perf_counter()
+        value = _value(offered, arguments)
+        seconds = time.perf_counter() - begin
+    return Reply(value, " ".join(str(caught[0].message).split())[:SHOWN] if caught else "", seconds)
+
+
+def _value(offered: Offered, arguments: Mapping[str, Any]) -> FloatArray | Failed:
     """The value, finite and of the right shape, or what is wrong. Arrays are read-only copies, compared afterwards."""
     given = {name: arguments[name] for name in offered.asks if name in arguments}
     arrays = {name: value.copy() for name, value in given.items() if isinstance(value, np.ndarray)}
@@ -47,8 +68,7 @@ def called(offered: Offered, arguments: Mapping[str, Any]) -> FloatArray | Faile
     for value in lent.values():
         value.setflags(write=False)
     try:
-        with warnings.catch_warnings(), np.errstate(all="ignore"):
-            warnings.simplefilter("ignore")
+        with np.errstate(all="ignore"):
             # a view of what cannot be written cannot be made writeable
             value = offered.function(**{**given, **{name: value[...] for name, value in lent.items()}})
     except (Exception, SystemExit) as error:
@@ -97,11 +117,17 @@ def _is_raised_on_purpose(error: BaseException) -> bool:
 
 @dataclass
 class Called:
-    """An offered function as a `Caller`: in this process, or by a visitor. printed: the first of what it printed."""
+    """An offered function as a `Caller`: in this process, or by a visitor.
+
+    printed: the first of what it printed; replies: to the last calls; longest: arguments that took it longest.
+    """
 
     offered: Offered
     visitor: "Visitor | None" = None
     printed: str = field(default="", init=False)
+    replies: list[Reply] = field(default_factory=list, init=False)
+    longest: dict[str, Any] = field(default_factory=dict, init=False)
+    _seconds: float = field(default=0.0, init=False)
 
     @property
     def kind(self) -> str:
@@ -119,18 +145,26 @@ class Called:
     def options(self) -> Mapping[str, Any]:
         return self.offered.options
 
+    @property
+    def warned(self) -> str:
+        """The first warning of the last calls."""
+        return next((reply.warned for reply in self.replies if reply.warned), "")
+
     def call(self, **arguments: Any) -> FloatArray | Failed:
         return self.calls("", [None], arguments)[0]
 
     def calls(self, name: str, values: Sequence[Any], arguments: Mapping[str, Any]) -> list[FloatArray | Failed]:
         if self.visitor:
-            found, printed = self.visitor.calls(self.offered, name, values, arguments)
+            self.replies, printed = self.visitor.calls(self.offered, name, values, arguments)
         else:
             with redirect_stdout(StringIO()) as text:
-                found = [called(self.offered, {**arguments, name: value}) for value in values]
+                self.replies = [called(self.offered, {**arguments, name: value}) for value in values]
             printed = text.getvalue()
         self.printed = self.printed or " ".join(printed.split())[:SHOWN]
-        return found
+        for value, reply in zip(values, self.replies, strict=True):
+            if reply.seconds > self._seconds:
+                self._seconds, self.longest = reply.seconds, {**arguments, name: value}
+        return [reply.value for reply in self.replies]
 
 
 class Visitor:
@@ -167,15 +201,15 @@ class Visitor:
 
     def calls(
         self, offered: Offered, name: str, values: Sequence[Any], arguments: Mapping[str, Any]
-    ) -> tuple[list[FloatArray | Failed], str]:
-        """The value, or what is wrong, for each value of one argument, and what was printed."""
+    ) -> tuple[list[Reply], str]:
+        """What it says for each value of one argument, and what was printed."""
         given = {one: arguments[one] for one in offered.asks if one in arguments}
-        found: list[FloatArray | Failed] = []
+        found: list[Reply] = []
         printed = ""
         while len(found) < len(values):
             if self._hangs >= HANGS:
                 reason = f"no answer within {self.seconds:g} s, {HANGS} times: not asked any more"
-                return found + [Failed(reason)] * (len(values) - len(found)), printed
+                return found + [Reply(Failed(reason))] * (len(values) - len(found)), printed
             if self._process.poll() is not None:
                 self._start()
             try:
@@ -187,12 +221,12 @@ class Visitor:
             except TimeoutError:
                 self._hangs += 1
                 self._end()
-                found.append(Failed(f"no answer within {self.seconds:g} s"))
+                found.append(Reply(Failed(f"no answer within {self.seconds:g} s")))
             except (EOFError, OSError):
-                found.append(Failed(f"ended its process{self._how()}"))
+                found.append(Reply(Failed(f"ended its process{self._how()}")))
         return found, printed
 
-    def _answer(self) -> tuple[FloatArray | Failed, str]:
+    def _answer(self) -> tuple[Reply, str]:
         if not self._pipe.poll(self.seconds):
             raise TimeoutError
         found, printed, sources = self._pipe.recv()
@@ -247,12 +281,12 @@ def _elsewhere(**_: Any) -> None:
 
 @contextmanager
 def visited(model: object) -> Iterator[list[Called]]:
-    """What a file offers, or the one function that is given.
+    """What a file offers, or an installed package under that name, or the one function that is given.
 
     Raises TypeError for what is neither, OthersError for a file that cannot be judged.
     """
     if isinstance(model, str | Path):
-        with Visitor(Path(model)) as visitor:
+        with file_of(model) as path, Visitor(path) as visitor:
             yield visitor.callers()
     elif isinstance(model, Offered):
         yield [Called(model)]

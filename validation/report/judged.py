@@ -2,31 +2,27 @@
 
 import math
 import time
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from pkgutil import resolve_name
 
 from validation.analysis.contents import as_csv, as_json
 from validation.analysis.evidence import Table
-from validation.analysis.judgement import (
-    DIFFER,
-    FAILED,
-    REFUSED,
-    Enough,
-    JudgedPoint,
-    enough,
-    not_compared,
-)
+from validation.analysis.judgement import DIFFER, FAILED, REFUSED, Enough, JudgedPoint, enough, not_compared
 from validation.engine.files import write_whole
 from validation.engine.others import Called, visited
 from validation.report.judged_solver import solver_lines
 from validation.report.judged_words import summary_lines
-from validation.selection.judging.judge import JUDGES, Judge, judge_of
+from validation.selection.judging.judge import JUDGES, points_of
+from validation.selection.judging.own import MAIN, Cost, costs_of
 from validation.selection.tolerance import Tolerance, tolerance_of
 
 OF_SOLVER = "validation.benchmarks.judging.judged:judged"
 """Of a contact solver; it imports all solvers."""
+COLUMNS = ("value", "reference", "difference", "error", "unit", "verdict", "reason")
+NAMES = {"start": "from", "stop": "to"}
+"""Of a range in JSON: words that Python keeps for itself."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,6 +41,8 @@ class Judgement:
         That the judgement took.
     times : tuple
         Of a solver: seconds beside `bem3d`, value and reference, which are neither right nor wrong.
+    costs : tuple
+        Error against seconds of one call: of the model, and of the suite's own of its kind.
 
     Examples
     --------
@@ -62,6 +60,7 @@ class Judgement:
     verdicts: tuple[JudgedPoint, ...]
     seconds: float
     times: tuple[JudgedPoint, ...] = ()
+    costs: tuple[Cost, ...] = ()
 
     @property
     def enough(self) -> list[Enough]:
@@ -78,39 +77,36 @@ class Judgement:
         """Of a solver: whether it differs or fails where that decides."""
         return any(point.decides and point.verdict in (DIFFER, FAILED, REFUSED) for point in self.verdicts)
 
+    @property
+    def unit_of_costs(self) -> str:
+        """Of the error that is beside seconds."""
+        return next(point.unit for point in self.verdicts if point.quantity == MAIN[self.kind])
+
     def summary(self) -> str:
         """Where it is enough, the worst points and what they share, and a paragraph for a paper."""
         if self.kind == "contact_solver":
             return "\n".join(solver_lines(self.model, self.verdicts, self.times, self.seconds))
-        return "\n".join(summary_lines(self.model, self.kind, str(self.tolerance), self.verdicts, self.seconds))
+        return "\n".join(summary_lines(self))
 
     def as_dict(self) -> dict[str, object]:
-        """What `as_json` writes; None for what is no number."""
+        """Of JSON: None for what is no number."""
         return {
             "model": self.model,
             "kind": self.kind,
             "tolerance": self.tolerance.relative,
-            "verdicts": [_point(point) for point in self.verdicts],
-            "enough": [_range(some) for some in self.enough],
+            "verdicts": [_as_dict(point) for point in self.verdicts],
+            "enough": [_as_dict(some) for some in self.enough],
             "seconds": round(self.seconds, 3),
             **({"times": [_time(point) for point in self.times]} if self.times else {}),
         }
-
-    def as_json(self) -> str:
-        """All of it as strict JSON."""
-        return as_json(self.as_dict()).decode()
-
-    def as_csv(self) -> bytes:
-        """A row a point, a column a condition."""
-        return points_as_csv([self])
 
     def save(self, folder: str | Path) -> None:
         """Write judgement.json, verdicts.csv, summary.txt and judgement.svg into a folder, which is made."""
         from validation.report.judged_figure import figure_of  # which takes half a second to import
 
         files = {
-            "judgement.json": self.as_json().encode(),
-            "verdicts.csv": self.as_csv(),
+            "judgement.json": as_json(self.as_dict()),
+            "verdicts.csv": points_as_csv([self]),
             "summary.txt": f"{self.summary()}\n".encode(),
             "judgement.svg": figure_of([self], "svg"),
         }
@@ -158,54 +154,30 @@ def judge(model: object, tolerance: float | str = 0.1) -> Judgement:
 def judged(model: Called, tolerance: Tolerance) -> Judgement:
     """Of one function, here or in another process."""
     begin = time.perf_counter()
-    points = list(_points(model, tolerance.relative))
-    verdicts, times = (tuple(point for point in points if bool(point.verdict) is judged) for judged in (True, False))
-    return Judgement(model.name, model.kind, tolerance, verdicts, time.perf_counter() - begin, times)
-
-
-def _points(model: Called, tolerance: float) -> Iterator[JudgedPoint]:
-    yield from _judge(model.kind)(model, tolerance)
+    judge = points_of if model.kind in JUDGES else resolve_name(OF_SOLVER)
+    points = list(judge(model, tolerance.relative))
     if model.printed:
-        yield not_compared("printing", {}, FAILED, f"printed {model.printed!r}")
+        points.append(not_compared("printing", {}, FAILED, f"printed {model.printed!r}"))
+    verdicts, times = (tuple(point for point in points if bool(point.verdict) is judged) for judged in (True, False))
+    costs = tuple(costs_of(model, verdicts))
+    return Judgement(model.name, model.kind, tolerance, verdicts, time.perf_counter() - begin, times, costs)
 
 
-def _judge(kind: str) -> Judge:
-    judge: Judge = judge_of(kind) if kind in JUDGES else resolve_name(OF_SOLVER)
-    return judge
-
-
-def points_as_csv(judgements: list[Judgement]) -> bytes:
+def points_as_csv(judgements: Sequence[Judgement]) -> bytes:
     """A row a point of each; a condition that a point does not have is left empty."""
-    places = dict.fromkeys(name for one in judgements for point in (*one.verdicts, *one.times) for name in point.where)
-    rows = [
-        {
-            "model": one.model,
-            "quantity": point.quantity,
-            **{name: point.where.get(name, math.nan) for name in places},
-            **{name: getattr(point, name) for name in ("value", "reference", "difference", "error", "unit")},
-            "verdict": point.verdict,
-            "reason": point.reason,
-        }
-        for one in judgements
-        for point in (*one.verdicts, *one.times)
-    ]
-    return as_csv(Table("verdicts", {name: [row[name] for row in rows] for name in rows[0]} if rows else {}))
-
-
-def _point(point: JudgedPoint) -> dict[str, object]:
-    numbers = {name: _known(getattr(point, name)) for name in ("value", "reference", "difference", "error")}
-    words = {"unit": point.unit, "verdict": point.verdict, "reason": point.reason}
-    return {"quantity": point.quantity, "where": dict(point.where), **numbers, **words}
+    points = [(one.model, point) for one in judgements for point in (*one.verdicts, *one.times)]
+    places = dict.fromkeys(name for _, point in points for name in point.where)
+    columns: dict[str, list[object]] = {"model": [model for model, _ in points]}
+    columns |= {"quantity": [point.quantity for _, point in points]}
+    columns |= {name: [point.where.get(name, math.nan) for _, point in points] for name in places}
+    columns |= {name: [getattr(point, name) for _, point in points] for name in COLUMNS}
+    return as_csv(Table("verdicts", columns))
 
 
 def _time(point: JudgedPoint) -> dict[str, object]:
     return {**point.where, "seconds": point.value, "bem3d": point.reference}
 
 
-def _range(some: Enough) -> dict[str, object]:
-    ends = {"along": some.along, "from": _known(some.start), "to": _known(some.stop)}
-    return {"quantity": some.quantity, "where": dict(some.where), **ends, "verdict": some.verdict}
-
-
-def _known(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None
+def _as_dict(part: JudgedPoint | Enough) -> dict[str, object]:
+    known = {name: None if isinstance(v, float) and not math.isfinite(v) else v for name, v in asdict(part).items()}
+    return {NAMES.get(name, name): value for name, value in known.items() if name != "decides"}

@@ -14,14 +14,16 @@ from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, 
 from validation.engine.engine import Outcome
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.scenes.roughness import Roughness
+from validation.simulation import wheel_features
 from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
 
 TABLE = load_wheel_scene("table_14_1")
 decibels = partial(Series, scale=POWER_DECIBEL, unit="dB")
 
-PEAK, JUMP, SLOPE, PERIOD, FLOOR, BREAK = "peak", "jump", "slope", "period", "floor", "break"
-FEATURES = (PEAK, JUMP, SLOPE, PERIOD, FLOOR, BREAK)
+PEAK, JUMP, SLOPE, PERIOD = wheel_features.NAMES
+FLOOR, BREAK = "floor", "break"
+FEATURES = (*wheel_features.NAMES, FLOOR, BREAK)
 QUANTITIES = {
     PEAK: "peak ω_eigen",
     JUMP: "jump",
@@ -32,15 +34,8 @@ QUANTITIES = {
 LEVEL, OMEGA, DENSITY = "level", "ω [rad/s]", "A [(m/s²)² s]"
 HALF_BAND = 1 / 24
 """Of a period of an oscillation: half of the band about a maximum or a zero."""
-THIRD_FIRST, THIRD_LAST, OSCILLATION_LAST = 1.1, 0.9, 0.5
-"""Region 3 begins at this multiple of the jump, and ends at this of q_max v_0; the oscillation ends earlier, since
-roughness at the edge of the contact smears it from the end."""
 FLOOR_BAND = (1.3, 2.6)
 """Where the floor is measured, over q_max v_0."""
-MIN_PERIODS = 3
-PEAK_LAST, FREE_MASS = 1.5, 3.0
-"""Over the eigenfrequency: a jump below the first is part of the peak; above the second the wheel moves as a free mass,
-and power laws of the force are those of the acceleration."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,10 +129,10 @@ def expected(spectrum: Spectrum) -> dict[str, float]:
     ) / (scene.mass**2 * scene.cutoff**exponent)
     if scene.rail and scene.wheel and _shape(scene.rail) != _shape(scene.wheel):
         # no power law: what the same rule finds in linear theory
-        first, last = _third(scene, scene.jump)
+        first, last = wheel_features.third_region(scene, scene.jump)
         fine = np.arange(1, math.ceil(1.1 * scene.cutoff / spectrum.omega[0])) * spectrum.omega[0]
         linear = linear_spectrum(scene, fine)
-        if last - first >= MIN_PERIODS * period:
+        if last - first >= wheel_features.MIN_PERIODS * period:
             exponent = regions.slope(fine, linear, first, last, period)
             power = np.asarray(regions.power_level(fine, linear, first, last, period, exponent))
     return {
@@ -158,38 +153,23 @@ def hurst(scene: WheelScene) -> float:
     return rough.hurst
 
 
-def _third(scene: WheelScene, jump: float) -> tuple[float, float]:
-    """Where region 3 is looked at, clear of its ends and of the resonance."""
-    return max(THIRD_FIRST * jump, FREE_MASS * scene.eigenfrequency), THIRD_LAST * scene.cutoff
-
-
 def _shape(rough: Roughness) -> tuple[float, float, float]:
     return rough.hurst, rough.longest, rough.shortest
 
 
 def _features(spectrum: Spectrum, plain: FloatArray, hann: FloatArray) -> dict[str, float]:
-    """Those of one mean spectrum, as far as the scene has room for them: a jump apart from the peak, enough periods of
-    the oscillation in region 3, frequencies beyond the roughness."""
-    scene, omega = spectrum.scene, spectrum.omega
-    between = math.sqrt(scene.eigenfrequency * scene.jump)
-    apart = scene.jump > PEAK_LAST * scene.eigenfrequency
-    values = {PEAK: regions.peak(omega, hann, between if apart else PEAK_LAST * scene.eigenfrequency)}
-    if apart:
-        values[JUMP] = regions.jump(omega, hann, between, 0.5 * scene.cutoff)
-    expect = expected(spectrum)
+    """Those of one mean spectrum, as far as the scene has room for them: frequencies beyond the roughness, too."""
+    scene, omega, expect = spectrum.scene, spectrum.omega, expected(spectrum)
+    values = wheel_features.features_of(scene, omega, hann)
     first, last = (beyond * scene.cutoff for beyond in FLOOR_BAND)
-    last = min(last, THIRD_LAST * float(omega[-1]))
-    if first < THIRD_LAST * last:
+    last = min(last, wheel_features.THIRD_LAST * float(omega[-1]))
+    if first < wheel_features.THIRD_LAST * last:
         values[FLOOR] = regions.floor_level(omega, plain, first, last, spectrum.time_step)
-    first, last = _third(scene, values.get(JUMP, scene.jump))
-    period = expect[PERIOD]
-    if last - first < MIN_PERIODS * period:
-        return values
-    values[SLOPE] = regions.slope(omega, hann, first, last, period)
-    values[PERIOD] = regions.oscillation_period(omega, hann, first, OSCILLATION_LAST * scene.cutoff, MIN_PERIODS)
-    power = regions.power_level(omega, hann, first, last, period, expect[SLOPE])
-    if FLOOR in values:
-        values[BREAK] = regions.crossing(power, expect[SLOPE], values[FLOOR])
+    if SLOPE in values:
+        ends = wheel_features.third_region(scene, values.get(JUMP, scene.jump))
+        power = regions.power_level(omega, hann, *ends, expect[PERIOD], expect[SLOPE])
+        if FLOOR in values:
+            values[BREAK] = regions.crossing(power, expect[SLOPE], values[FLOOR])
     return values
 
 

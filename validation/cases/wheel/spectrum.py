@@ -17,6 +17,7 @@ from validation.cases.wheel.features import TABLE, decibels
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene
+from validation.simulation import wheel_features
 from validation.simulation.wheel_on_springs import WheelEnsemble, simulate_ensemble
 from validation.theory import wheel as wheel_theory
 
@@ -153,7 +154,7 @@ def features_by_scene(result: Outcomes) -> list[Series]:
 def levels_over_linear(spectrum: features.Spectrum) -> list[Series]:
     """One-third octaves of region 3 over (14.12) through the resonator, up to where the floor is far below."""
     scene, omega = spectrum.scene, spectrum.omega
-    first = max(1.2 * scene.jump, features.FREE_MASS * scene.eigenfrequency)
+    first = max(1.2 * scene.jump, wheel_features.FREE_MASS * scene.eigenfrequency)
     last = min(0.7 * features.expected(spectrum)[features.BREAK], 0.9 * scene.cutoff)
     edges = one_third_octaves(first, last) if first < last else np.empty(0)
     if edges.size < 2:

@@ -11,10 +11,11 @@ from validation.analysis.claims import NOT_THIS_CURVE, Claim, Matrix
 from validation.analysis.evidence import Table, Whose
 from validation.analysis.study import Outcomes, Study
 from validation.cases.wheel import features, spectrum
-from validation.cases.wheel.features import DENSITY, OMEGA, PEAK_LAST, QUANTITIES, TABLE
+from validation.cases.wheel.features import DENSITY, OMEGA, QUANTITIES, TABLE
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.selection import model_needed
+from validation.simulation import wheel_features
 from validation.simulation.wheel_on_springs import WAVES_APART
 
 PARAMETERS = Matrix(
@@ -38,13 +39,14 @@ def notes(result: Outcomes) -> Sequence[str]:
     book = "Table 14.1 prints E, ν, R, M and h₀; all else is our choice." if is_of_the_book(scene) else ""
     hidden = (
         f"q_min v₀ = {scene.jump:.4g} rad/s is not above ω_eigen = {scene.eigenfrequency:.4g} rad/s by a factor of "
-        f"{PEAK_LAST:g}: the roughness excites the resonance itself, and there is no plateau and no jump to find."
+        f"{wheel_features.PEAK_LAST:g}: the roughness excites the resonance itself, and there is no plateau and no "
+        "jump to find."
     )
     flight = (
         f"Approaches of all wheels lay between {lowest:.3g} and {highest:.3g} d; wheels had no contact for "
         f"{airborne:.2g} % of the time."
     )
-    hides = scene.jump <= PEAK_LAST * scene.eigenfrequency
+    hides = scene.jump <= wheel_features.PEAK_LAST * scene.eigenfrequency
     return [*filter(None, (book, hidden if hides else "", flight, scene.no_steady_answer(), *scene.diagnose()))]
 
 
@@ -91,8 +93,9 @@ STUDY = Study(
         "<a²> = int A df. It has no window, as in the book, or Hann's where leakage would hide a feature. The peak is "
         "interpolated between lines of Hann's spectrum. The jump is where that spectrum reaches half of the level "
         "above it. The slope comes from means over periods of the oscillation. The period is sought from "
-        f"{features.THIRD_FIRST:g} q_min v₀ to {features.OSCILLATION_LAST:g} q_max v₀. The book varies q_min, q_max, "
-        "v₀ and H; the height h₀ is varied by us, and no claim takes it in. Errors: jackknife over groups of wheels."
+        f"{wheel_features.THIRD_FIRST:g} q_min v₀ to {wheel_features.OSCILLATION_LAST:g} q_max v₀. The book varies "
+        "q_min, q_max, v₀ and H; the height h₀ is varied by us, and no claim takes it in. Errors: jackknife over "
+        "groups of wheels."
     ),
     series=spectrum.series,
     claims=(

@@ -6,7 +6,8 @@ from pathlib import Path
 
 from validation.analysis.contents import as_json
 from validation.engine.files import write_given
-from validation.engine.others import Visitor
+from validation.engine.installed import GROUP, installed
+from validation.engine.others import visited
 from validation.report.commands.arguments import Exit, add_options
 from validation.report.judged import Judgement, judged, points_as_csv
 from validation.scenes.printable import printable
@@ -19,8 +20,12 @@ def describe(judging: argparse.ArgumentParser) -> None:
     judging.add_argument(
         "file",
         metavar="FILE",
-        type=Path,
-        help="a Python file with decorated functions, as @stiffness_model; it is run as a program, with your rights",
+        nargs="?",
+        help="a Python file with decorated functions, as @stiffness_model, or the name of what an installed package "
+        "offers; it is run as a program, with your rights",
+    )
+    judging.add_argument(
+        "--list", action="store_true", help=f"print what installed packages offer, by the entry points {GROUP}"
     )
     add_options(
         judging,
@@ -39,17 +44,23 @@ def describe(judging: argparse.ArgumentParser) -> None:
 
 
 def judge(arguments: argparse.Namespace) -> Exit:
-    """Judge what a file offers."""
+    """Judge what a file, or an installed package, offers."""
+    if arguments.list:
+        lines = [f"{one.name}: {one.value}" for one in installed().values()]
+        print(printable("\n".join(lines) or f"no installed package has the entry points {GROUP}", lines=True))
+        return Exit.MET
+    if arguments.file is None:
+        raise ValueError("judge needs a FILE with decorated functions, or a name of judge --list")
     tolerance = tolerance_of(arguments.tolerance)
     if arguments.figure is not None and arguments.figure.suffix not in FIGURES:
         raise ValueError(f"--figure must end in {', '.join(FIGURES)}, got {printable(arguments.figure)}")
     found: list[Judgement] = []
-    with Visitor(arguments.file) as visitor:
-        for caller in visitor.callers():
+    with visited(arguments.file) as callers:
+        for caller in callers:
             if arguments.only in (None, caller.name):
                 found.append(judged(caller, tolerance))
                 print(printable(found[-1].summary(), lines=True), end="\n\n", flush=True)
-        names = ", ".join(caller.name for caller in visitor.callers())
+    names = ", ".join(caller.name for caller in callers)
     if not found:
         raise ValueError(f"--only must be one of {printable(names)}, got {printable(arguments.only)}")
     _write(found, arguments)

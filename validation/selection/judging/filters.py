@@ -1,21 +1,24 @@
 """A contact filter of others beside boundary elements: A3 of five wheels on a rail, over what lies across."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import cache, partial
+from itertools import groupby
 
 import numpy as np
 
-from validation.analysis.judgement import JudgedPoint, compared, compared_levels
 from validation.analysis.statistics import FloatArray
 from validation.engine.offered import Caller, Failed
 from validation.scenes.level_files import curve as levels_of
 from validation.scenes.rail import RailScene
-from validation.selection.judging.references import Place, about, curve
-from validation.selection.judging.spectra import unanswered
-from validation.simulation.rail_strip import StatedAcross, line_of, strip_bands, structure_of
+from validation.selection.judging.judge import Answer, Finding, asked, attempted, rule
+from validation.selection.judging.references import Reference, about, curve
+from validation.simulation.rail_strip import line_of, strip_bands, structure_of
 from validation.theory.contact_filters import half_space_filter
 
+Transfer = Callable[[FloatArray, FloatArray], FloatArray]
+"""abs(H)(k_x, k_y)."""
 FILTER, LONG = "contact filter", "contact filter of a long wave"
 LOAD, DIAMETER, OFFSET, ALPHA, WAVE = "load [kN]", "diameter [mm]", "over ISO 3095 [dB]", "alpha", "wavelength [mm]"
 STEEL = 210e9 / (2 * (1 - 0.3**2))
@@ -28,30 +31,30 @@ LONG_WAVE = 1e-4
 """Its wavenumber times the semi-axis along."""
 
 
-def judged(model: Caller, tolerance: float) -> Iterator[JudgedPoint]:
+def judged(model: Caller) -> Iterator[Finding]:
     """In one-third octaves from ridges to isotropic ground; boundary elements rolled over rougher rails too."""
-    known = curve(FILTER)
-    yield _long_wave(model, scene_of(known[0].where), tolerance)
-    # the filter is the same at all levels of the roughness
-    found: dict[tuple[Place, ...], FloatArray | Failed] = {}
-    for one in known:
-        where, scene, alpha = one.where, scene_of(one.where), float(one.where[ALPHA])
-        key = where[LOAD], where[DIAMETER], alpha
-        band = _waves(scene).index(float(where[WAVE]))
-        if _linear(scene, alpha)[: band + 1].min() <= COUNTED or not _serves(model, alpha):
+    scene = scene_of(*_ground(curve(FILTER)[0])[:2])
+    k_x = np.array([LONG_WAVE / scene.contact.along])
+    long = attempted(lambda: float(np.abs(_transfer(model, scene, 1.0)(k_x, 0 * k_x)[0])))
+    yield rule(LONG, {"k_x a_x": LONG_WAVE}, long, LONG_WAVE)
+    for (load, diameter, offset, alpha), rows in groupby(curve(FILTER), _ground):
+        if not _serves(model, alpha):
             continue
-        if key not in found:
-            found[key] = a3(model, scene, alpha)
-        rougher = f", {where[OFFSET]:+g} dB" if where[OFFSET] else ""
-        stated: dict[str, Place] = {
-            "wheel": f"{scene.name}{rougher}",
-            ALPHA: "isotropic" if math.isinf(alpha) else alpha,
-            WAVE: where[WAVE],
-        }
-        if isinstance(mine := found[key], Failed):
-            yield unanswered(FILTER, stated, mine, one.value, "dB")
-        else:
-            yield compared_levels(FILTER, stated, float(mine[band]), one.value, one.error, tolerance)
+        scene, across = scene_of(load, diameter), alpha if "k_y" in model.asks else 0.0
+        found = attempted(partial(_in_one_call, partial(a3, scene, across), _transfer(model, scene, alpha)))
+        wheel = f"{scene.name}, {offset:+g} dB" if offset else scene.name
+        waves = np.round(1000 * strip_bands(scene).nominal, 2).tolist()
+        for one in rows:
+            band = waves.index(one.where[WAVE])
+            if _linear(scene, alpha)[: band + 1].min() > COUNTED:
+                where = {"wheel": wheel, ALPHA: "isotropic" if math.isinf(alpha) else alpha, WAVE: waves[band]}
+                mine = found if isinstance(found, Failed) else Answer(float(found[band]))
+                yield Finding(FILTER, replace(one, where=where), mine)
+
+
+def _ground(one: Reference) -> tuple[float, float, float, float]:
+    load, diameter, offset, alpha = (float(one.where[name]) for name in (LOAD, DIAMETER, OFFSET, ALPHA))
+    return load, diameter, offset, alpha
 
 
 def _serves(model: Caller, alpha: float) -> bool:
@@ -59,62 +62,43 @@ def _serves(model: Caller, alpha: float) -> bool:
     return math.isfinite(alpha) or "k_y" in model.asks or ALPHA not in model.asks
 
 
-def _waves(scene: RailScene) -> list[float]:
-    """Nominal, of a strip [mm]."""
-    return [float(one) for one in np.round(1000 * strip_bands(scene).nominal, 2)]
-
-
-def a3(model: Caller, scene: RailScene, alpha: float) -> FloatArray | Failed:
-    """10 lg of int abs(H)^2 C_line dq over int C_line dq in the bands of a strip [dB].
-
-    A filter that does not ask for k_y is one of the line itself, whatever lies across.
-    """
-    line, contact, bands = line_of(scene), scene.contact, strip_bands(scene)
-    structure = structure_of(_across(alpha) if "k_y" in model.asks else "ridges", line)
-    power = partial(structure.band_power, line, edges=bands.edges, semi_axes=contact.semi_axes)
-    asked: list[tuple[FloatArray, FloatArray]] = []
-
-    def noted(k_x: FloatArray, k_y: FloatArray) -> FloatArray:
-        asked.append(
-            (np.broadcast_to(k_x, shape := np.broadcast_shapes(k_x.shape, k_y.shape)), np.broadcast_to(k_y, shape))
-        )
-        return np.ones(shape)
-
-    power(noted)
-    k_x, k_y = (np.concatenate([one.ravel() for one in some]) for some in zip(*asked, strict=True))
-    found = model.call(k_x=k_x, k_y=k_y, **_contact(scene), alpha=alpha)
-    if isinstance(found, Failed):
-        return found
-    answers = iter(np.split(found, np.cumsum([one.size for one, _ in asked])[:-1]))
-    share = power(lambda k_x, k_y: next(answers).reshape(np.broadcast_shapes(k_x.shape, k_y.shape)))
+def a3(scene: RailScene, alpha: float, transfer: Transfer) -> FloatArray:
+    """10 lg of int abs(H)^2 C_line dq over int C_line dq in the bands of a strip, over ground of that alpha [dB]."""
+    structure = structure_of("isotropic" if math.isinf(alpha) else alpha or "ridges", line := line_of(scene))
+    edges, axes = strip_bands(scene).edges, scene.contact.semi_axes
+    share = structure.band_power(line, transfer, edges=edges, semi_axes=axes)
     return np.asarray(10 * np.log10(np.maximum(share, NOTHING)))
 
 
-def _contact(scene: RailScene) -> dict[str, float]:
+def _transfer(model: Caller, scene: RailScene, alpha: float) -> Transfer:
+    """What a model has for the amplitude; one that does not ask for k_y is a filter of the line, as over ridges."""
     contact = scene.contact
-    return {"a_x": contact.along, "a_y": contact.across, "approach": contact.approach}
+    given = {"a_x": contact.along, "a_y": contact.across, "approach": contact.approach, "alpha": alpha}
+
+    return lambda k_x, k_y: asked(model, k_x=k_x, k_y=k_y, **given)
 
 
-def _across(alpha: float) -> StatedAcross:
-    return "isotropic" if math.isinf(alpha) else alpha or "ridges"
+def _in_one_call(integral: Callable[[Transfer], FloatArray], transfer: Transfer) -> FloatArray:
+    """Of a function that is asked for all waves at once: they are noted first."""
+    waves: list[tuple[FloatArray, ...]] = []
+
+    def noted(k_x: FloatArray, k_y: FloatArray) -> FloatArray:
+        waves.append(tuple(np.broadcast_arrays(k_x, k_y)))
+        return np.ones(waves[-1][0].shape)
+
+    integral(noted)
+    k_x, k_y = (np.concatenate([one.ravel() for one in some]) for some in zip(*waves, strict=True))
+    values = iter(np.split(transfer(k_x, k_y), np.cumsum([one.size for one, _ in waves])[:-1]))
+    return integral(lambda k_x, k_y: next(values).reshape(np.broadcast_shapes(k_x.shape, k_y.shape)))
 
 
 @cache
 def _linear(scene: RailScene, alpha: float) -> FloatArray:
-    line, axes = line_of(scene), scene.contact.semi_axes
-    transfer = partial(half_space_filter, semi_axes=axes)
-    found = structure_of(_across(alpha), line).band_power(
-        line, transfer, edges=strip_bands(scene).edges, semi_axes=axes
-    )
-    return np.asarray(10 * np.log10(found))
-
-
-def scene_of(where: Mapping[str, Place]) -> RailScene:
-    return _scene(float(where[LOAD]), float(where[DIAMETER]))
+    return a3(scene, alpha, partial(half_space_filter, semi_axes=scene.contact.semi_axes))
 
 
 @cache
-def _scene(load: float, diameter: float) -> RailScene:
+def scene_of(load: float, diameter: float) -> RailScene:
     """A conical wheel on a crowned rail of the roughness of ISO 3095."""
     return RailScene(
         name=f"{load:g} kN, {diameter:g} mm",
@@ -124,12 +108,3 @@ def _scene(load: float, diameter: float) -> RailScene:
         roughness=levels_of("iso3095-2013"),
         crown_radius=about(FILTER)["settings"]["crown"],
     )
-
-
-def _long_wave(model: Caller, scene: RailScene, tolerance: float) -> JudgedPoint:
-    k_x = np.array([LONG_WAVE / scene.contact.along])
-    found = model.call(k_x=k_x, k_y=0 * k_x, **_contact(scene), alpha=1.0)
-    where: dict[str, Place] = {"k_x a_x": LONG_WAVE}
-    if isinstance(found, Failed):
-        return unanswered(LONG, where, found, 1.0)
-    return compared(LONG, where, float(np.abs(found[0])), 1.0, LONG_WAVE, tolerance)

@@ -4,12 +4,15 @@
 """
 
 import csv
+import io
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
+
+from validation.analysis.judgement import DEVIATION, LEVEL, RATIO
 
 FOLDER = Path(__file__).with_suffix("")
 VALUES = "value", "sample", "grid"
@@ -22,29 +25,27 @@ class Reference:
 
     where: the conditions, by name; sample, grid: half-widths of 95 % that the surfaces and the cells leave, over the
     value, of levels in decibels. Where the report has both in one interval, that is the sample, and the grid is zero.
+    unit: by which a number is compared with it.
     """
 
     where: Mapping[str, Place]
     value: float
     sample: float
     grid: float
-
-    @property
-    def error(self) -> float:
-        """Both together, as the report adds them."""
-        return self.sample + self.grid
+    unit: str = RATIO
 
 
 @cache
 def curve(quantity: str) -> Sequence[Reference]:
     """All that is known of a quantity, point by point. Raises LookupError for one without a file."""
     rows = csv.DictReader(line for line in _lines(quantity) if not line.startswith("#"))
-    return [Reference(*_parted({name: _cell(word) for name, word in row.items()})) for row in rows]
-
-
-def _parted(row: dict[str, Place]) -> tuple[Mapping[str, Place], float, float, float]:
-    value, sample, grid = (float(row.pop(name)) for name in VALUES)
-    return row, value, sample, grid
+    stated = str(about(quantity).get("unit"))
+    unit = LEVEL if stated.startswith(LEVEL) else DEVIATION if stated == DEVIATION else RATIO
+    return [
+        Reference({n: _cell(w) for n, w in row.items() if n not in VALUES}, value, sample, grid, unit)
+        for row in rows
+        for value, sample, grid in [[float(row[name]) for name in VALUES]]
+    ]
 
 
 @cache
@@ -83,7 +84,9 @@ def as_file(head: Mapping[str, Any], rows: Sequence[Reference]) -> bytes:
     cells = [
         [*map(_word, row.where.values()), f"{row.value:.7g}", f"{row.sample:.4g}", f"{row.grid:.4g}"] for row in rows
     ]
-    return ("\n".join([*lines, *(",".join(row) for row in [[*rows[0].where, *VALUES], *cells])]) + "\n").encode()
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows([[*rows[0].where, *VALUES], *cells])
+    return "\n".join([*lines, text.getvalue()]).encode()
 
 
 def _word(place: Place) -> str:

@@ -1,40 +1,37 @@
-"""A rolling model of others beside boundary elements: levels, variance and mean of the force, and each position."""
+"""The force of a wheel that rolls, of others, beside boundary elements: its spectrum, or its value at each position.
+
+Wheels here have a contact radius of 2 mm; all is compared over the force of Hertz, so that no scale matters.
+"""
 
 import math
-from collections.abc import Iterator
-from functools import cache
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import cache, partial
+from typing import Any
 
 import numpy as np
 
-from validation.analysis.judgement import JudgedPoint, compared
+import mdr
 from validation.analysis.series import Estimates
-from validation.analysis.spectra import levels, waves
+from validation.analysis.spectra import Bands, levels, waves
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, mean_estimate
 from validation.engine.offered import Caller, Failed
-from validation.selection.judging.references import about, curve
-from validation.selection.judging.spectra import (
-    APPROACH,
-    CONTACT,
-    FORCE,
-    HEIGHT,
-    LEVEL,
-    MEAN,
-    NOTHING,
-    RMS,
-    SMOOTH_WHEEL,
-    Levels,
-    bands_of,
-    beside,
-    heights,
-    octaves,
-    spectrum_of,
-    unanswered,
-    variance_of,
-)
-from validation.simulation.rolling_strip import HERTZ, SMOOTH, RoughStrip, crop_to_reach, level_3d
-from validation.simulation.track_spectrum import self_affine
-from validation.theory.rolling import linear_force
+from validation.selection.judging.judge import Answer, Finding, asked, attempted
+from validation.selection.judging.references import Reference, about, curve
+from validation.simulation.rolling_strip import HERTZ, SMOOTH, RoughStrip, crop_to_reach, level_3d, over_bands
+from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
+from validation.theory.rolling import force_variance, linear_force
 
+LEVEL, RMS, MEAN = "force level", "rms force", "mean force"
+HEIGHT, SLOPE, Q = "h/d", "h' a/d", "q a"
+RADIUS, CONTACT, MODULUS = 0.5, 2e-3, 1.15e11
+APPROACH = CONTACT**2 / RADIUS
+FORCE = 4 / 3 * MODULUS * CONTACT * APPROACH
+SMOOTH_WHEEL = {"radius": RADIUS, "modulus": MODULUS, "approach": APPROACH, "load": FORCE}
+FINE = 800
+"""Of the midpoint rule from zero to the end of the roughness."""
+NOTHING = 1e-30
+"""Power that has a logarithm; less than nothing is as nothing."""
 EACH, LIFT = "force at a position", "approach at a position"
 APART, OF_APART = "{}, position by position", "rms of the fluctuation, and that with the rms of the difference on top"
 STRIPS, LENGTH, WIDTH, CELLS = 6, 64.0, 16.0, 16
@@ -42,60 +39,91 @@ STRIPS, LENGTH, WIDTH, CELLS = 6, 64.0, 16.0, 16
 HEIGHTS, GRIDS, ALONG, ACROSS, SEED = (0.03, 0.1, 0.3), (8, 24), 32.0, 16.0, 351
 """Of the strips for each position: h/d; cells to a contact radius, an odd ratio, so that centres meet; sides over a."""
 
-
-def strip_of(height: float) -> RoughStrip:
-    """For each position, of rms height h/d."""
-    return RoughStrip(spectrum=self_affine(0.7, 1.0, 10.0), height=height, length=ALONG, width=ACROSS, seed=SEED)
+Density = Callable[[FloatArray, mdr.SelfAffine], FloatArray]
+"""Two-sided C_F(q, roughness) of the force [N^2 m]."""
 
 
-def judged(model: Caller, tolerance: float) -> Iterator[JudgedPoint]:
+def judged(model: Caller) -> Iterator[Finding]:
     """Position by position on short strips; at a given approach levels, variance and mean on strips of the case too."""
     for height in HEIGHTS:
-        yield _position_by_position(model, height, tolerance)
+        yield _position_by_position(model, height)
     if "approach" in model.asks:
-        for height in heights():
-            yield from beside((LEVEL, RMS, MEAN), height, _of_strips(model, height), tolerance)
+        for height in _heights():
+            yield from _beside((LEVEL, RMS, MEAN), height, attempted(partial(_of_strips, model, height)))
 
 
-def _position_by_position(model: Caller, height: float, tolerance: float) -> JudgedPoint:
-    """The rms of what boundary elements fluctuate beside the same with the rms of what is apart added."""
-    under_load, cells = "approach" not in model.asks, GRIDS[1]
-    rows = [one for one in curve(LIFT if under_load else EACH) if one.where[HEIGHT] == height]
-    known = np.array([one.value for one in rows])
-    grid, fluctuation = known * [one.grid for one in rows], float(known.std())
-    quantity, where = APART.format("approach" if under_load else "force"), {HEIGHT: height}
-    found = _rolled(model, strip_of(height).surface(cells, 0), cells)
-    if isinstance(found, Failed):
-        return unanswered(quantity, where, found, fluctuation)
-    times = cells // GRIDS[0]
-    apart, left = (
-        math.sqrt(float(np.mean(one**2)))
-        for one in (found[times // 2 :: times] / (APPROACH if under_load else FORCE) - known, grid)
-    )
-    value = fluctuation + apart
-    return compared(quantity, where, value, fluctuation, left / value, tolerance, reason=OF_APART)
+def judged_spectrum(model: Caller) -> Iterator[Finding]:
+    """Octaves of the force along the track, and its variance."""
+    yield from of_density(lambda q, ground: asked(model, q=q, roughness=ground, contact_radius=CONTACT, **SMOOTH_WHEEL))
 
 
-def _of_strips(model: Caller, height: float) -> Levels | Failed:
-    """Over linear theory on the half-space on the same strips, so that most of the scatter drops out."""
+def of_density(density: Density) -> Iterator[Finding]:
+    for height in _heights():
+        yield from _beside((LEVEL, RMS), height, attempted(partial(_of_density, density, height)))
+
+
+def spectrum_of(settings: Mapping[str, Any]) -> PiecewisePowerLaw:
+    """The roughness of the case, of unit height and contact radius."""
+    return self_affine(settings["hurst"], settings["first"], settings["last"])
+
+
+def bands_of(settings: Mapping[str, Any]) -> Bands:
+    return Bands.around(math.pi, settings["lowest"], settings["last"]).on(settings["length"])
+
+
+def variance_of(spectrum: PiecewisePowerLaw) -> float:
+    """Of linear theory, over F_Hertz^2 (h/d)^2; Geike's rule keeps it."""
+    return force_variance(spectrum.c2d, edges=spectrum.edges, contact_radius=1.0, modulus=1.0) / HERTZ**2
+
+
+def _heights() -> list[float]:
+    """h/d of the case."""
+    return list(dict.fromkeys(float(one.where[HEIGHT]) for one in curve(LEVEL)))
+
+
+def _octaves(thirds: FloatArray) -> FloatArray:
+    """Of levels in thirds of octaves, (..., bands), those of the octaves that are known."""
+    bands, centres = bands_of(about(LEVEL)["settings"]), dict.fromkeys(float(one.where[Q]) for one in curve(LEVEL))
+    middle = [int(np.argmin(np.abs(np.log(bands.centres / q)))) for q in centres]
+    return np.stack([thirds[..., i - 1 : i + 2].sum(axis=-1) for i in middle], axis=-1)
+
+
+def _beside(quantities: Sequence[str], height: float, found: Sequence[Estimate] | Failed) -> Iterator[Finding]:
+    """At one height all that is known of each quantity, in the order of what is found."""
+    rows = [(quantity, one) for quantity in quantities for one in curve(quantity) if one.where[HEIGHT] == height]
+    for i, (quantity, row) in enumerate(rows):
+        known = replace(row, where={name: place for name, place in row.where.items() if name != HEIGHT})
+        yield Finding(quantity, known, found if isinstance(found, Failed) else Answer.of(found[i], row.unit))
+
+
+def _of_density(density: Density, height: float) -> Sequence[Estimate]:
+    """Octaves and variance by quadrature [dB over F_Hertz^2 (h/d)^2]."""
+    settings = about(LEVEL)["settings"]
+    first, last = settings["first"], settings["last"]
+    ground = mdr.SelfAffine(hurst=settings["hurst"], q_min=first / CONTACT, q_max=last / CONTACT, rms=height * APPROACH)
+
+    def power(q: FloatArray) -> FloatArray:
+        return density(q.ravel() / CONTACT, ground).reshape(q.shape) / CONTACT / (FORCE * height) ** 2
+
+    octaves = _octaves(over_bands(power, bands_of(settings)))
+    variance = 2 * power((np.arange(FINE) + 0.5) * last / FINE).sum() * last / FINE
+    return Estimates.exact(POWER_DECIBEL * np.log(np.maximum([*octaves, variance], NOTHING)))
+
+
+def _of_strips(model: Caller, height: float) -> Sequence[Estimate]:
+    """Octaves and variance over linear theory on the same strips, so that most of the scatter drops out; the mean."""
     settings, rows = about(LEVEL)["settings"], []
     spectrum, bands = spectrum_of(settings), bands_of(settings)
     for surface, linear in _strips():
-        found = _rolled(model, height * surface, CELLS)
-        if isinstance(found, Failed):
-            return found
-        both = np.stack([found / FORCE, height * linear])
+        both = np.stack([_rolled(model, height * surface, CELLS) / FORCE, height * linear])
         thirds = levels(waves(both, spacing=1 / CELLS), bands)
-        rows.append(np.column_stack([octaves(thirds), both.var(axis=1), both.mean(axis=1)]))
+        rows.append(np.column_stack([_octaves(thirds), both.var(axis=1), both.mean(axis=1)]))
     mine, of_linear = np.maximum(np.moveaxis(np.array(rows), 1, 0), NOTHING)
-    exact = [*octaves(level_3d(spectrum, bands)), variance_of(spectrum)]
-    over = Estimates.ratios(mine[:, :-1], of_linear[:, :-1])
     # over (h/d)^2, as linear theory is
-    in_decibels = [
-        Estimate(POWER_DECIBEL * (one.value + math.log(of)), POWER_DECIBEL * one.error, one.samples)
-        for one, of in zip(over, exact, strict=True)
-    ]
-    return {LEVEL: in_decibels[:-1], RMS: in_decibels[-1:], MEAN: [mean_estimate(mine[:, -1])]}
+    exact = Estimates.exact(np.log([*_octaves(level_3d(spectrum, bands)), variance_of(spectrum)]))
+    over = Estimates.ratios(mine[:, :-1], of_linear[:, :-1]) + exact
+    decibels = [Estimate(POWER_DECIBEL * one.value, POWER_DECIBEL * one.error, one.samples) for one in over]
+    return [*decibels, mean_estimate(mine[:, -1])]
 
 
 @cache
@@ -107,15 +135,30 @@ def _strips() -> list[tuple[FloatArray, FloatArray]]:
     return [(one, linear_force(one, spacing=1 / CELLS, **SMOOTH) / HERTZ - 1) for one in surfaces]
 
 
-def _rolled(model: Caller, surface: FloatArray, cells: int) -> FloatArray | Failed:
+def strip_of(height: float) -> RoughStrip:
+    """For each position, of rms height h/d."""
+    return RoughStrip(spectrum=self_affine(0.7, 1.0, 10.0), height=height, length=ALONG, width=ACROSS, seed=SEED)
+
+
+def _position_by_position(model: Caller, height: float) -> Finding:
+    """The rms of what boundary elements fluctuate beside the same with the rms of what is apart added."""
+    quantity, unit, name = (EACH, FORCE, "force") if "approach" in model.asks else (LIFT, APPROACH, "approach")
+    rows = [one for one in curve(quantity) if one.where[HEIGHT] == height]
+    known, grid = np.array([(one.value, one.value * one.grid) for one in rows]).T
+    cells, times = GRIDS[1], GRIDS[1] // GRIDS[0]
+    found = attempted(lambda: _rolled(model, strip_of(height).surface(cells, 0), cells)[times // 2 :: times] / unit)
+    fluctuation = Reference({HEIGHT: height}, float(known.std()), 0.0, 0.0)
+    if isinstance(found, Failed):
+        return Finding(APART.format(name), fluctuation, found)
+    apart, left = np.sqrt(np.mean([(found - known) ** 2, grid**2], axis=1)).tolist()
+    value = fluctuation.value + apart
+    return Finding(APART.format(name), replace(fluctuation, grid=left / value), Answer(value, reason=OF_APART))
+
+
+def _rolled(model: Caller, surface: FloatArray, cells: int) -> FloatArray:
     """What a model makes of a strip in units of a and d, in metres."""
-    spacing = CONTACT / cells
-    given = {
-        "height": APPROACH * crop_to_reach(surface, 1 / cells),
-        "line": APPROACH * middle_line(surface),
-        "spacing": (spacing, spacing),
-    }
-    return model.call(**given, **SMOOTH_WHEEL)
+    height, line = APPROACH * crop_to_reach(surface, 1 / cells), APPROACH * middle_line(surface)
+    return asked(model, height=height, line=line, spacing=(CONTACT / cells,) * 2, **SMOOTH_WHEEL)
 
 
 def middle_line(surface: FloatArray) -> FloatArray:

@@ -5,15 +5,17 @@ import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 import mdr
-from validation.analysis.judgement import FAILED, REFUSED, JudgedPoint, compared, compared_deviations, not_compared
-from validation.analysis.multilevel import Moments, moments
+from validation.analysis import judgement
+from validation.analysis.multilevel import moments
 from validation.engine.offered import Caller, Failed, FloatArray
 from validation.engine.random_numbers import random_generator
+from validation.selection.judging.judge import Answer, Finding, rule
 from validation.selection.judging.references import Reference, curve
 from validation.simulation.rough_punch import PlateauSpectrum
 
@@ -21,7 +23,7 @@ SIDE, MODULUS, HEIGHT = 1e-2, 1e9, 1e-3
 """L [m], E* [Pa] and h / L at which a model is asked: k / (E* L) is that of any others."""
 WAVES = 64
 """q_max / q_min of Fig. 14.1, and where nothing else is said."""
-MOST, SECONDS, BATCH, FEWEST = 1000, 25.0, 20, 8
+MOST, SECONDS, BATCH, FEWEST = 300, 15.0, 20, 8
 """Realisations under one load, or as many as come in so many seconds, whole batches of them; fewer have no error."""
 SEED, DRAWS = 14, 3
 H, FORCE, ROLL_OFF, BAND = "H", "Fbar", "q_r L / 2π", "q_max / q_min"
@@ -34,16 +36,10 @@ class PlateauRoughness(PlateauSpectrum):
     """What a stranger gets: with its own rms height, constant below the roll-off."""
 
     def c2d(self, q: ArrayLike) -> FloatArray:
-        """C_2D [m^4], whose integral is the mean square height."""
-        return np.asarray(self._share * super().c2d(q))
-
-    @property
-    def _share(self) -> float:
-        """The mean square height of the band without a plateau over that with it, at one level."""
+        """C_2D [m^4], whose integral is the mean square height; that of the draw has the level without a plateau."""
         n, first, last, bend = -2 * self.hurst, self.q_min, self.q_max, self.q_roll_off
-        tail = (last**n - bend**n) / n
-        plateau = bend ** (n - 2) * (bend**2 - first**2) / 2
-        return float(((last**n - first**n) / n) / (plateau + tail))
+        tail, plateau = (last**n - bend**n) / n, bend ** (n - 2) * (bend**2 - first**2) / 2
+        return np.asarray((last**n - first**n) / n / (plateau + tail) * super().c2d(q))
 
 
 @dataclass(frozen=True)
@@ -58,18 +54,22 @@ class AskedPunch:
 
     @classmethod
     def at(cls, where: Mapping[str, float | str]) -> "AskedPunch":
-        waves, roll_off = int(where.get(BAND, WAVES)), int(where.get(ROLL_OFF, 0))
-        return cls(float(where[H]), float(where[FORCE]), waves, roll_off)
+        return cls(float(where[H]), float(where[FORCE]), int(where.get(BAND, WAVES)), int(where.get(ROLL_OFF, 0)))
 
     @property
-    def arguments(self) -> dict[str, object]:
-        """Of a model, in SI units; scale: of lengths and of the modulus."""
+    def plain(self) -> bool:
+        """Whether it is one of Fig. 14.1."""
+        return self.waves == WAVES and not self.roll_off
+
+    @property
+    def arguments(self) -> dict[str, Any]:
+        """Of a model, in SI units."""
         side, modulus = SIDE * self.scale[0], MODULUS * self.scale[1]
-        band = {"q_min": 2 * math.pi / side, "q_max": 2 * math.pi * self.waves / side, "rms": HEIGHT * side}
-        rough = mdr.SelfAffine(hurst=self.hurst, **band)
-        if self.roll_off:
-            rough = PlateauRoughness(hurst=self.hurst, **band, q_roll_off=2 * math.pi * self.roll_off / side)
-        return {"load": self.force * modulus * HEIGHT * side**2, "side": side, "modulus": modulus, "roughness": rough}
+        q, rms = 2 * math.pi / side, HEIGHT * side
+        band = {"hurst": self.hurst, "q_min": q, "q_max": q * self.waves, "rms": rms}
+        rough = PlateauRoughness(**band, q_roll_off=q * self.roll_off) if self.roll_off else mdr.SelfAffine(**band)
+        load = self.force * modulus * HEIGHT * side**2
+        return {"load": load, "side": side, "modulus": modulus, "roughness": rough}
 
     @property
     def unit(self) -> float:
@@ -77,130 +77,114 @@ class AskedPunch:
         return SIDE * self.scale[0] * MODULUS * self.scale[1]
 
 
-@dataclass(frozen=True)
-class Found:
-    """Mean and relative deviation of k / (E* L), NaN where a model has none, and their relative half-widths of 95 %."""
+class Stiffness(NamedTuple):
+    """Mean of k / (E* L), and its relative deviation where a model has one."""
 
-    mean: float
-    deviation: float = math.nan
-    mean_half: float = 0.0
-    deviation_half: float = 0.0
-    sample: str = ""
+    mean: Answer
+    deviation: Answer | None = None
 
 
-Answers = dict[AskedPunch, Found | Failed]
+Answers = Mapping[AskedPunch, Stiffness | Failed]
 
 
-def judged(model: Caller, tolerance: float) -> Iterator[JudgedPoint]:
+def judged(model: Caller) -> Iterator[Finding]:
     """Mean and deviation over Fbar and H, with a roll-off, over the bandwidth; and what every stiffness must do."""
-    known = {quantity: curve(quantity) for quantity in (MEAN, DEVIATION, ROLLED_OFF, BY_BAND)}
-    if drawn := "rng" in model.asks:
-        known = {quantity: _fewer(rows) for quantity, rows in known.items()}
-    asked = {
-        quantity: list(dict.fromkeys(AskedPunch.at(row.where) for row in rows)) for quantity, rows in known.items()
+    drawn = "rng" in model.asks
+    known = {
+        quantity: _fewer(curve(quantity)) if drawn else curve(quantity)
+        for quantity in (MEAN, ROLLED_OFF, DEVIATION, BY_BAND)
     }
-    first = list(dict.fromkeys(asked[MEAN] + asked[ROLLED_OFF]))
-    if drawn:
-        found = _drawn(model, list(dict.fromkeys(first + asked[BY_BAND])))
-    else:
-        found = {one: _formula(model, one) for one in first}
-        if any(isinstance(one, Found) and math.isfinite(one.deviation) for one in found.values()):
-            found |= {one: _formula(model, one) for one in asked[BY_BAND]}
-    for quantity in (MEAN, ROLLED_OFF):
-        yield from means(known[quantity], found, quantity, tolerance)
-    for quantity in (DEVIATION, BY_BAND):
-        yield from deviations(known[quantity], found, quantity, tolerance)
+    asked = dict.fromkeys(AskedPunch.at(row.where) for rows in known.values() for row in rows)
+    found = answers_of(model, asked, MOST)
+    for quantity, rows in known.items():
+        yield from beside(quantity, rows, found)
     if not drawn:
-        yield from _properties(model, found, tolerance)
+        yield from _rules(model, found)
 
 
 def _fewer(rows: Sequence[Reference]) -> list[Reference]:
     """Of the lowest, the middle and the highest H; of several bandwidths every second load: each takes many calls."""
-    hursts = sorted({row.where[H] for row in rows})
-    forces = sorted({row.where[FORCE] for row in rows})
+    hursts, forces = (sorted({float(row.where[name]) for row in rows}) for name in (H, FORCE))
     kept = {hursts[0], hursts[len(hursts) // 2], hursts[-1]}
     loads = forces[::2] if BAND in rows[0].where else forces
     return [row for row in rows if row.where[H] in kept and row.where[FORCE] in loads]
 
 
-def means(rows: Iterable[Reference], found: Answers, quantity: str, tolerance: float) -> Iterator[JudgedPoint]:
-    """Means, point by point."""
+def beside(quantity: str, rows: Iterable[Reference], found: Answers) -> Iterator[Finding]:
+    """Point by point: means, or deviations of models that have them."""
     for row in rows:
-        one = found[AskedPunch.at(row.where)]
-        if isinstance(one, Failed):
-            yield not_compared(quantity, row.where, REFUSED if one.refused else FAILED, one.reason, reference=row.value)
-            continue
-        half = row.grid + math.hypot(row.sample, one.mean_half)
-        yield compared(quantity, row.where, one.mean, row.value, half, tolerance, reason=one.sample)
+        mine = found[AskedPunch.at(row.where)]
+        if row.unit != judgement.DEVIATION:
+            yield Finding(quantity, row, mine if isinstance(mine, Failed) else mine.mean)
+        elif not isinstance(mine, Failed) and mine.deviation:
+            yield Finding(quantity, row, mine.deviation)
 
 
-def deviations(rows: Iterable[Reference], found: Answers, quantity: str, tolerance: float) -> Iterator[JudgedPoint]:
-    """Deviations, of models that have them."""
-    for row in rows:
-        one = found.get(AskedPunch.at(row.where))
-        if isinstance(one, Found) and math.isfinite(one.deviation):
-            half = row.grid + math.hypot(row.sample, one.deviation_half)
-            yield compared_deviations(quantity, row.where, one.deviation, row.value, half, tolerance)
+def _by_formula(model: Caller, asked: Iterable[AskedPunch]) -> Iterator[tuple[AskedPunch, Stiffness | Failed]]:
+    """All loads of a roughness at once."""
+    of: dict[AskedPunch, list[AskedPunch]] = {}
+    for one in asked:
+        of.setdefault(replace(one, force=0.0), []).append(one)
+    for punches in of.values():
+        loads = [one.arguments["load"] for one in punches]
+        for one, value in zip(punches, model.calls("load", loads, punches[0].arguments), strict=True):
+            yield one, value if isinstance(value, Failed) else _stiffness(one, *np.atleast_1d(value).tolist())
 
 
-def _formula(model: Caller, asked: AskedPunch) -> Found | Failed:
-    value = model.call(**asked.arguments)
-    if isinstance(value, Failed):
-        return value
-    mean, deviation = (float(value), math.nan) if value.ndim == 0 else (float(value[0]), float(value[1]))
+def _stiffness(asked: AskedPunch, mean: float, deviation: float | None = None) -> Stiffness | Failed:
     if not mean > 0:
         return Failed(f"a stiffness of {mean:.3g} N/m")
+    if deviation is None:
+        return Stiffness(Answer(mean / asked.unit))
     if deviation < 0:
         return Failed(f"a deviation of {deviation:.3g} N/m")
-    return Found(mean / asked.unit, deviation / mean)
+    return Stiffness(Answer(mean / asked.unit), Answer(deviation / mean))
 
 
-def _drawn(model: Caller, asked: Sequence[AskedPunch]) -> Answers:
+def answers_of(model: Caller, asked: Iterable[AskedPunch], most: int) -> Answers:
+    """By a formula, or by so many realisations at most."""
+    return _drawn(model, asked, most) if "rng" in model.asks else dict(_by_formula(model, asked))
+
+
+def _drawn(model: Caller, asked: Iterable[AskedPunch], most: int) -> Answers:
     """Realisations of each, in turn, until there are enough, or the time is over; one that fails is not asked again."""
     values: dict[AskedPunch, list[float]] = {one: [] for one in asked}
     lost: dict[AskedPunch, Failed] = {}
-    given = {one: one.arguments for one in asked}
     end = time.perf_counter() + SECONDS
-    for first in range(0, MOST, BATCH):
-        for one in asked:
-            if one in lost or (time.perf_counter() > end and first):
+    for first in range(0, most, BATCH):
+        for one in values:
+            late = time.perf_counter() > end
+            if one in lost or (late and first):
                 continue
-            count = BATCH if time.perf_counter() < end else FEWEST
-            some = model.calls("rng", [random_generator(SEED, DRAWS, first + i) for i in range(count)], given[one])
-            if failed := next((value for value in some if isinstance(value, Failed)), None):
-                lost[one] = failed
-            values[one] += [float(value) / one.unit for value in some if not isinstance(value, Failed)]
-    return {one: lost[one] if one in lost else sampled(np.array(values[one])) for one in asked}
+            rngs = [random_generator(SEED, DRAWS, first + i) for i in range(FEWEST if late else min(BATCH, most))]
+            for value in model.calls("rng", rngs, one.arguments):
+                if isinstance(value, Failed):
+                    lost.setdefault(one, value)
+                else:
+                    values[one].append(float(value) / one.unit)
+    return {one: lost.get(one) or sampled(np.array(some)) for one, some in values.items()}
 
 
-def sampled(values: FloatArray) -> Found | Failed:
+def sampled(values: FloatArray) -> Stiffness | Failed:
     """Mean and deviation of a sample with their errors, by the moments of the realisations."""
     if values.mean() <= 0:
         return Failed(f"a mean stiffness of {values.mean():.3g} E* L")
-    of: Moments = moments(values, np.isfinite(values))
-    mean, deviation = of.log_mean, of.log_relative_deviation
-    halves = mean.half_width, deviation.half_width
-    return Found(float(values.mean()), math.exp(deviation.value), *halves, f"{values.size} realisations")
+    of = moments(values, np.isfinite(values))
+    deviation = of.log_relative_deviation
+    half = deviation.half_width if math.isfinite(deviation.value) else 0.0
+    mean = Answer(float(values.mean()), of.log_mean.half_width, f"{values.size} realisations")
+    return Stiffness(mean, Answer(math.exp(deviation.value), half))
 
 
-def _properties(model: Caller, found: Answers, tolerance: float) -> Iterator[JudgedPoint]:
+def _rules(model: Caller, found: Answers) -> Iterator[Finding]:
     """k goes with E* at one load over E*, with L at one shape, and does not fall under a load that grows."""
-    curves: dict[float, list[tuple[float, float]]] = {}
-    for one, value in found.items():
-        if isinstance(value, Found) and one.waves == WAVES and not one.roll_off:
-            curves.setdefault(one.hurst, []).append((one.force, value.mean))
-    for hurst, points in curves.items():
-        rises = [after[1] / before[1] for before, after in pairwise(sorted(points))]
-        falls = min(rises, default=1.0)
-        yield compared("rise with the load, at the least", {H: hurst}, min(falls, 1.0), 1.0, 0.0, 1e-9)
-    middle = [one for one in found if one.force == 0.1 and one.waves == WAVES and not one.roll_off]
-    for one in middle:
-        here = found[one]
-        if isinstance(here, Failed):
-            continue
+    plain = {one: mine.mean.value for one, mine in found.items() if one.plain and not isinstance(mine, Failed)}
+    for hurst in sorted({one.hurst for one in plain}):
+        means = [plain[one] for one in sorted(plain, key=lambda one: one.force) if one.hurst == hurst]
+        least = min((after / before for before, after in pairwise(means)), default=1.0)
+        yield rule("rise with the load, at the least", {H: hurst}, min(least, 1.0), within=1e-9)
+    for one in (one for one in plain if one.force == 0.1):
         for quantity, scale in (("scaling with the modulus", (1.0, 10.0)), ("scaling with the length", (2.0, 1.0))):
-            there = _formula(model, replace(one, scale=scale))
-            if isinstance(there, Failed):
-                yield not_compared(quantity, {H: one.hurst}, FAILED, there.reason, reference=1.0)
-            else:
-                yield compared(quantity, {H: one.hurst}, there.mean / here.mean, 1.0, 0.0, tolerance)
+            (there,) = answers_of(model, [replace(one, scale=scale)], 1).values()
+            ratio = there if isinstance(there, Failed) else there.mean.value / plain[one]
+            yield rule(quantity, {H: one.hurst}, ratio)

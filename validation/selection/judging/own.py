@@ -1,0 +1,121 @@
+"""The suite's own models, offered as anyone offers theirs: their errors are kept, and they are timed beside another."""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+import mdr
+from validation.analysis.judgement import JudgedPoint
+from validation.analysis.statistics import FloatArray
+from validation.engine import offered
+from validation.engine.offered import Failed, Offered
+from validation.engine.others import Called
+from validation.selection.judging.filters import FILTER
+from validation.selection.judging.judge import points_of
+from validation.selection.judging.references import Reference, curve
+from validation.selection.judging.rolling import LEVEL
+from validation.selection.judging.stiffness import MEAN
+from validation.simulation.model_names import BED, FILTER_1D, FILTER_3D, LINEAR, LINEAR_ON_LINE, SPRINGS
+from validation.theory import rolling
+from validation.theory.contact_filters import half_space_filter, spring_bed_filter
+
+ERRORS = "median error of the suite's own models"
+MAIN = {"stiffness_model": MEAN, "contact_filter": FILTER} | dict.fromkeys(
+    ("force_spectrum", "rolling_model", "profile_spectrum"), LEVEL
+)
+"""The quantity by whose median error models of a kind are ranked."""
+
+
+@offered.stiffness_model(SPRINGS)
+def springs(load: float, side: float, modulus: float, roughness: mdr.SelfAffine, rng: np.random.Generator) -> float:
+    profile = mdr.rough_profile(roughness.c1d, length=side, points=2048, rng=rng, rms=roughness.rms)
+    return float(mdr.load_curve(profile, length=side, modulus=modulus).at_force(load).stiffness)
+
+
+@offered.contact_filter(LINEAR)
+def ellipse(k_x: FloatArray, k_y: FloatArray, a_x: float, a_y: float) -> FloatArray:
+    return half_space_filter(k_x, k_y, semi_axes=(a_x, a_y))
+
+
+@offered.contact_filter(LINEAR_ON_LINE)
+def line(k_x: FloatArray, a_x: float) -> FloatArray:
+    return np.asarray(np.sinc(k_x * a_x / math.pi))
+
+
+@offered.contact_filter(BED)
+def bed(k_x: FloatArray, k_y: FloatArray, a_x: float, a_y: float) -> FloatArray:
+    return spring_bed_filter(k_x, k_y, semi_axes=(a_x, a_y))
+
+
+@offered.force_spectrum(FILTER_1D)
+def in_1d(q: FloatArray, contact_radius: float, modulus: float, roughness: mdr.SelfAffine) -> FloatArray:
+    return rolling.force_spectrum_1d(q, roughness.c1d, contact_radius=contact_radius, modulus=modulus)
+
+
+@offered.force_spectrum(FILTER_3D)
+def in_3d(q: FloatArray, contact_radius: float, modulus: float, roughness: mdr.SelfAffine) -> FloatArray:
+    edges = roughness.q_min, roughness.q_max
+    return rolling.force_spectrum_3d(q, roughness.c2d, edges=edges, contact_radius=contact_radius, modulus=modulus)
+
+
+@offered.rolling_model(FILTER_3D)
+def half_space(
+    height: FloatArray, spacing: tuple[float, float], radius: float, modulus: float, approach: float
+) -> FloatArray:
+    return rolling.linear_force(height, spacing=spacing[0], radius=radius, modulus=modulus, approach=approach)
+
+
+@offered.profile_spectrum("Geike's rule")
+def geike(q: FloatArray, roughness: mdr.SelfAffine) -> FloatArray:
+    return np.asarray(math.pi * q * roughness.c2d(q))
+
+
+@offered.profile_spectrum("line trace")
+def trace(q: FloatArray, roughness: mdr.SelfAffine) -> FloatArray:
+    return roughness.line(q)
+
+
+OWN: Sequence[Offered] = (springs, ellipse, line, bed, in_1d, in_3d, half_space, geike, trace)
+
+
+class Cost(NamedTuple):
+    """A point of the chart of error against seconds. error: the median, over the reference, of levels in dB."""
+
+    model: str
+    error: float
+    seconds: float
+
+
+def error_of(kind: str, points: Sequence[JudgedPoint]) -> float:
+    """NaN where there is none."""
+    known = [abs(p.difference) for p in points if p.quantity == MAIN.get(kind) and math.isfinite(p.difference)]
+    return float(np.median(known)) if known else math.nan
+
+
+def errors() -> Iterator[Reference]:
+    """Of all of them, by their judges; half a minute."""
+    for one in OWN:
+        error = error_of(one.kind, list(points_of(Called(one), 0.1)))
+        yield Reference({"kind": one.kind, "model": one.name}, error, 0.0, 0.0)
+
+
+def costs_of(model: Called, points: Sequence[JudgedPoint]) -> list[Cost]:
+    """The model, and those of its kind, timed by the same arguments: those that it took longest for."""
+    mine = error_of(model.kind, points)
+    if not math.isfinite(mine):
+        return []
+    known = {str(row.where["model"]): row.value for row in curve(ERRORS) if row.where["kind"] == model.kind}
+    given = {"rng": np.random.default_rng(0), **model.longest}
+    found = [Cost(model.name, mine, _seconds(model, given))]
+    for one in OWN:
+        if one.kind == model.kind:
+            found.append(Cost(one.name, known[one.name], _seconds(Called(one), given)))
+    return found
+
+
+def _seconds(model: Called, given: dict[str, object]) -> float:
+    """The least of three calls; NaN of one that is not asked any more."""
+    model.calls("", [None] * 3, given)
+    return min((reply.seconds for reply in model.replies if not isinstance(reply.value, Failed)), default=math.nan)

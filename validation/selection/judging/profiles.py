@@ -1,0 +1,104 @@
+"""A rule for the spectrum of a profile, of others: what it keeps, and springs and wheels with it."""
+
+import math
+import warnings
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+import mdr
+from validation.analysis.statistics import FloatArray
+from validation.engine.offered import Caller, Failed
+from validation.engine.random_numbers import random_generator
+from validation.selection.judging.judge import Finding, LostError, asked, attempted, rule
+from validation.selection.judging.references import curve
+from validation.selection.judging.rolling import CONTACT, MODULUS, of_density
+from validation.selection.judging.stiffness import DEVIATION, MEAN, AskedPunch, beside, sampled
+from validation.theory.gauss_legendre import on_panels
+from validation.theory.rolling import force_spectrum_1d
+
+FIRST, LAST, HEIGHT = 1e3, 64e3, 1e-6
+"""Band of the roughness of which a rule must have the properties [rad/m]; rms [m]."""
+HURSTS = (0.4, 0.7, 1.0)
+MOMENTS = {0: "rms height", 1: "moment 1", 2: "rms gradient", 3: "moment 3", 4: "moment 4"}
+ROUNDING, QUADRATURE = 1e-9, 1e-4
+POINTS, PROFILES, SEED = 2048, 500, 145
+"""Of the profiles that springs are pressed on; how many, and their seed."""
+
+
+def judged(model: Caller) -> Iterator[Finding]:
+    """Properties; then springs with that spectrum beside Fig. 14.1, and their linear rolling levels."""
+    for hurst in HURSTS:
+        yield from properties_of_rule(model, mdr.SelfAffine(hurst=hurst, q_min=FIRST, q_max=LAST, rms=HEIGHT))
+    for hurst in HURSTS:
+        rows = {name: [one for one in curve(name) if one.where["H"] == hurst] for name in (MEAN, DEVIATION)}
+        punches = [AskedPunch.at(one.where) for one in rows[MEAN]]
+        pressed = attempted(partial(_pressed, model, punches))
+        columns = [pressed] * len(punches) if isinstance(pressed, Failed) else map(sampled, pressed.T)
+        found = dict(zip(punches, columns, strict=True))
+        for name in rows:
+            yield from beside(name, rows[name], found)
+
+    def density(q: FloatArray, ground: mdr.SelfAffine) -> FloatArray:
+        c1d = asked(model, q=q, roughness=ground)
+        return force_spectrum_1d(q, lambda _: c1d, contact_radius=CONTACT, modulus=MODULUS)
+
+    yield from of_density(density)
+
+
+def properties_of_rule(model: Caller, whole: mdr.SelfAffine) -> Iterator[Finding]:
+    """Moments of the surface; not negative; linear in C_2D; scaling with the length. Each a ratio that is one."""
+    hurst, first, last, height = whole.hurst, whole.q_min, whole.q_max, whole.rms
+    # below the band a line has waves too
+    ends = [*np.linspace(0, first, 5), *np.geomspace(first, last, 25)[1:]]
+    q, dq = on_panels(ends, 8)
+    level, middle = first ** (-2 * hurst) - last ** (-2 * hurst), math.sqrt(first * last)
+    parts = [
+        replace(whole, q_min=a, q_max=b, rms=height * math.sqrt((a ** (-2 * hurst) - b ** (-2 * hurst)) / level))
+        for a, b in ((first, middle), (middle, last))
+    ]
+    twice = replace(whole, rms=math.sqrt(2) * height)
+    longer = replace(whole, q_min=first / 2, q_max=last / 2, rms=2 * height)
+    arguments = [(q, whole), *((q, part) for part in parts), (q, twice), (q / 2, longer)]
+    found = attempted(lambda: [asked(model, q=at, roughness=one) for at, one in arguments])
+    ratio = partial(rule, where={"H": hurst}, grid=QUADRATURE)
+    if isinstance(found, Failed):
+        yield ratio(MOMENTS[0], value=found)
+        return
+    mine, lower, upper, doubled, scaled = found
+    for n, name in MOMENTS.items():
+        share = float(2 * mine * q**n @ dq / (2 * math.pi * whole.c2d(q) * q ** (n + 1) @ dq))
+        yield ratio(name, value=math.sqrt(max(share, 0.0)) if name.startswith("rms") else share)
+    least = min(float(mine.min() / np.abs(mine).max()), 0.0)
+    yield ratio("not negative", value=1 + least, grid=0.0, within=ROUNDING)
+    total = float(np.abs(mine) @ dq)
+    apart = np.abs(mine - lower - upper) + np.abs(doubled - 2 * mine)
+    yield ratio("linear in C_2D", value=1 + float(apart @ dq) / total)
+    yield ratio("scaling with the length", value=1 + float(np.abs(scaled - 8 * mine) @ dq) / (8 * total))
+
+
+def _pressed(model: Caller, punches: list[AskedPunch]) -> FloatArray:
+    """k / (E* L) of each profile under the load of each punch, of one roughness: springs with L_1D = L."""
+    load, side, modulus, ground = punches[0].arguments.values()
+    first, count = ground.q_min, punches[0].waves
+    waves = first * np.arange(1, count + 1)
+    found = asked(model, q=waves, roughness=ground)
+    if found.min() < 0 or not found.any():
+        raise LostError(Failed("no profile has a spectrum that is negative, or zero"))
+
+    def c1d(q: FloatArray) -> FloatArray:
+        number = np.rint(np.asarray(q) / first).astype(int)
+        return np.where((number >= 1) & (number <= count), found[np.clip(number, 1, count) - 1], 0.0)
+
+    # a band that begins at the first wave counts it whole, as that of Geike's rule, which has the rms of the surface
+    rms = ground.rms * math.sqrt(float(found.sum() / ground.c1d(waves).sum()))
+    rng = random_generator(SEED, round(1000 * ground.hurst))
+    drawn = mdr.rough_profiles(c1d, length=side, points=POINTS, count=PROFILES, rng=rng, rms=rms)
+    with warnings.catch_warnings():
+        # as in Fig. 14.1, the lightest loads stand on few springs
+        warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
+        curves = [mdr.load_curve(height, length=side, modulus=modulus) for height in drawn]
+        loads = load / punches[0].force * np.array([one.force for one in punches])
+        return np.array([curve.at_force(loads).stiffness for curve in curves]) / punches[0].unit
