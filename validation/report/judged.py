@@ -15,7 +15,7 @@ from validation.engine.others import Called, visited
 from validation.report.judged_solver import solver_lines
 from validation.report.judged_words import summary_lines
 from validation.selection.judging.judge import JUDGES, points_of
-from validation.selection.judging.own import MAIN, Cost, costs_of
+from validation.selection.judging.own import MAIN, ErrorOfCall, costs_of
 from validation.selection.tolerance import Tolerance, tolerance_of
 
 OF_SOLVER = "validation.benchmarks.judging.judged:judged"
@@ -60,7 +60,7 @@ class Judgement:
     verdicts: tuple[JudgedPoint, ...]
     seconds: float
     times: tuple[JudgedPoint, ...] = ()
-    costs: tuple[Cost, ...] = ()
+    costs: tuple[ErrorOfCall, ...] = ()
 
     @property
     def enough(self) -> list[Enough]:

@@ -12,7 +12,7 @@ from validation.analysis.statistics import FloatArray
 from validation.engine.offered import Caller, Failed
 from validation.scenes.level_files import curve as levels_of
 from validation.scenes.rail import RailScene
-from validation.selection.judging.judge import Answer, Finding, asked, attempted, rule
+from validation.selection.judging.judge import Finding, ModelAnswer, asked, attempted, rule
 from validation.selection.judging.references import Reference, about, curve
 from validation.simulation.rail_strip import line_of, strip_bands, structure_of
 from validation.theory.contact_filters import half_space_filter
@@ -48,7 +48,7 @@ def judged(model: Caller) -> Iterator[Finding]:
             band = waves.index(one.where[WAVE])
             if _linear(scene, alpha)[: band + 1].min() > COUNTED:
                 where = {"wheel": wheel, ALPHA: "isotropic" if math.isinf(alpha) else alpha, WAVE: waves[band]}
-                mine = found if isinstance(found, Failed) else Answer(float(found[band]))
+                mine = found if isinstance(found, Failed) else ModelAnswer(float(found[band]))
                 yield Finding(FILTER, replace(one, where=where), mine)
 
 

@@ -24,7 +24,7 @@ JUDGES: Mapping[str, str] = {
 """Module beside this one, and its function, by the decorator; a contact solver is judged among the benchmarks."""
 
 
-class Answer(NamedTuple):
+class ModelAnswer(NamedTuple):
     """A number of a model. half: of the 95 % interval of its sample, over the value, of levels in decibels."""
 
     value: float
@@ -32,7 +32,7 @@ class Answer(NamedTuple):
     reason: str = ""
 
     @classmethod
-    def of(cls, one: Estimate, unit: str) -> "Answer":
+    def of(cls, one: Estimate, unit: str) -> "ModelAnswer":
         return cls(one.value, one.half_width / (1.0 if unit == LEVEL else abs(one.value)))
 
 
@@ -41,7 +41,7 @@ class Finding(NamedTuple):
 
     quantity: str
     known: Reference
-    mine: Answer | Failed
+    mine: ModelAnswer | Failed
     within: float | None = None
 
     def judged(self, tolerance: float) -> JudgedPoint:
@@ -58,7 +58,7 @@ def rule(
     quantity: str, where: Mapping[str, Place], value: float | Failed, grid: float = 0.0, within: float | None = None
 ) -> Finding:
     """What every model must follow: a number that is one."""
-    mine = value if isinstance(value, Failed) else Answer(value)
+    mine = value if isinstance(value, Failed) else ModelAnswer(value)
     return Finding(quantity, Reference(where, 1.0, 0.0, grid), mine, within)
 
 

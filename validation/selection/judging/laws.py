@@ -11,7 +11,7 @@ from validation.analysis.spectra import band_means, record_spectra
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed
 from validation.engine.offered import Caller, Failed
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
-from validation.selection.judging.judge import Answer, Finding, LostError, asked, attempted
+from validation.selection.judging.judge import Finding, LostError, ModelAnswer, asked, attempted
 from validation.selection.judging.references import curve
 from validation.simulation.motion import Motion, simulate
 from validation.simulation.wheel_features import features_of
@@ -36,7 +36,7 @@ def judged(model: Caller) -> Iterator[Finding]:
             mine = found if isinstance(found, Failed) else next(answers)
             if isinstance(mine, Estimate):
                 unseen = Failed("the spectrum does not show it")
-                yield Finding(quantity, one, Answer.of(mine, one.unit) if math.isfinite(mine.value) else unseen)
+                yield Finding(quantity, one, ModelAnswer.of(mine, one.unit) if math.isfinite(mine.value) else unseen)
             else:
                 yield Finding(quantity, one, mine)
 

@@ -80,7 +80,7 @@ def trace(q: FloatArray, roughness: mdr.SelfAffine) -> FloatArray:
 OWN: Sequence[Offered] = (springs, ellipse, line, bed, in_1d, in_3d, half_space, geike, trace)
 
 
-class Cost(NamedTuple):
+class ErrorOfCall(NamedTuple):
     """A point of the chart of error against seconds. error: the median, over the reference, of levels in dB."""
 
     model: str
@@ -101,17 +101,17 @@ def errors() -> Iterator[Reference]:
         yield Reference({"kind": one.kind, "model": one.name}, error, 0.0, 0.0)
 
 
-def costs_of(model: Called, points: Sequence[JudgedPoint]) -> list[Cost]:
+def costs_of(model: Called, points: Sequence[JudgedPoint]) -> list[ErrorOfCall]:
     """The model, and those of its kind, timed by the same arguments: those that it took longest for."""
     mine = error_of(model.kind, points)
     if not math.isfinite(mine):
         return []
     known = {str(row.where["model"]): row.value for row in curve(ERRORS) if row.where["kind"] == model.kind}
     given = {"rng": np.random.default_rng(0), **model.longest}
-    found = [Cost(model.name, mine, _seconds(model, given))]
+    found = [ErrorOfCall(model.name, mine, _seconds(model, given))]
     for one in OWN:
         if one.kind == model.kind:
-            found.append(Cost(one.name, known[one.name], _seconds(Called(one), given)))
+            found.append(ErrorOfCall(one.name, known[one.name], _seconds(Called(one), given)))
     return found
 
 

@@ -16,7 +16,7 @@ from validation.analysis.series import Estimates
 from validation.analysis.spectra import Bands, levels, waves
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, mean_estimate
 from validation.engine.offered import Caller, Failed
-from validation.selection.judging.judge import Answer, Finding, asked, attempted
+from validation.selection.judging.judge import Finding, ModelAnswer, asked, attempted
 from validation.selection.judging.references import Reference, about, curve
 from validation.simulation.rolling_strip import HERTZ, SMOOTH, RoughStrip, crop_to_reach, level_3d, over_bands
 from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
@@ -93,7 +93,7 @@ def _beside(quantities: Sequence[str], height: float, found: Sequence[Estimate] 
     rows = [(quantity, one) for quantity in quantities for one in curve(quantity) if one.where[HEIGHT] == height]
     for i, (quantity, row) in enumerate(rows):
         known = replace(row, where={name: place for name, place in row.where.items() if name != HEIGHT})
-        yield Finding(quantity, known, found if isinstance(found, Failed) else Answer.of(found[i], row.unit))
+        yield Finding(quantity, known, found if isinstance(found, Failed) else ModelAnswer.of(found[i], row.unit))
 
 
 def _of_density(density: Density, height: float) -> Sequence[Estimate]:
@@ -152,7 +152,7 @@ def _position_by_position(model: Caller, height: float) -> Finding:
         return Finding(APART.format(name), fluctuation, found)
     apart, left = np.sqrt(np.mean([(found - known) ** 2, grid**2], axis=1)).tolist()
     value = fluctuation.value + apart
-    return Finding(APART.format(name), replace(fluctuation, grid=left / value), Answer(value, reason=OF_APART))
+    return Finding(APART.format(name), replace(fluctuation, grid=left / value), ModelAnswer(value, reason=OF_APART))
 
 
 def _rolled(model: Caller, surface: FloatArray, cells: int) -> FloatArray:

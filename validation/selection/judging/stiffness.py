@@ -15,7 +15,7 @@ from validation.analysis import judgement
 from validation.analysis.multilevel import moments
 from validation.engine.offered import Caller, Failed, FloatArray
 from validation.engine.random_numbers import random_generator
-from validation.selection.judging.judge import Answer, Finding, rule
+from validation.selection.judging.judge import Finding, ModelAnswer, rule
 from validation.selection.judging.references import Reference, curve
 from validation.simulation.rough_punch import PlateauSpectrum
 
@@ -80,8 +80,8 @@ class AskedPunch:
 class Stiffness(NamedTuple):
     """Mean of k / (E* L), and its relative deviation where a model has one."""
 
-    mean: Answer
-    deviation: Answer | None = None
+    mean: ModelAnswer
+    deviation: ModelAnswer | None = None
 
 
 Answers = Mapping[AskedPunch, Stiffness | Failed]
@@ -135,10 +135,10 @@ def _stiffness(asked: AskedPunch, mean: float, deviation: float | None = None) -
     if not mean > 0:
         return Failed(f"a stiffness of {mean:.3g} N/m")
     if deviation is None:
-        return Stiffness(Answer(mean / asked.unit))
+        return Stiffness(ModelAnswer(mean / asked.unit))
     if deviation < 0:
         return Failed(f"a deviation of {deviation:.3g} N/m")
-    return Stiffness(Answer(mean / asked.unit), Answer(deviation / mean))
+    return Stiffness(ModelAnswer(mean / asked.unit), ModelAnswer(deviation / mean))
 
 
 def answers_of(model: Caller, asked: Iterable[AskedPunch], most: int) -> Answers:
@@ -172,8 +172,8 @@ def sampled(values: FloatArray) -> Stiffness | Failed:
     of = moments(values, np.isfinite(values))
     deviation = of.log_relative_deviation
     half = deviation.half_width if math.isfinite(deviation.value) else 0.0
-    mean = Answer(float(values.mean()), of.log_mean.half_width, f"{values.size} realisations")
-    return Stiffness(mean, Answer(math.exp(deviation.value), half))
+    mean = ModelAnswer(float(values.mean()), of.log_mean.half_width, f"{values.size} realisations")
+    return Stiffness(mean, ModelAnswer(math.exp(deviation.value), half))
 
 
 def _rules(model: Caller, found: Answers) -> Iterator[Finding]:

@@ -12,7 +12,7 @@ from validation.analysis.judgement import RATIO
 from validation.analysis.statistics import FloatArray, jackknifed, ratio_of_means, student
 from validation.engine.engine import Engine
 from validation.engine.offered import Caller, Failed
-from validation.selection.judging.judge import Answer, Finding
+from validation.selection.judging.judge import Finding, ModelAnswer
 from validation.selection.judging.references import Reference, curve
 from validation.selection.judging.stiffness import DEVIATION, FORCE, HEIGHT, MEAN, MODULUS, SIDE, WAVES, H
 from validation.simulation.light_punch import press_lightly
@@ -38,7 +38,7 @@ def judged(model: Caller) -> Iterator[Finding]:
         height = SIDE * roughness(hurst).surface(CELLS, int(realisation.split()[-1]))
         for row in rows:
             if time.perf_counter() > end:
-                yield Finding(OF_SURFACE, row, Answer(math.nan, reason=f"not asked: {SECONDS:g} s are over"))
+                yield Finding(OF_SURFACE, row, ModelAnswer(math.nan, reason=f"not asked: {SECONDS:g} s are over"))
                 continue
             force = float(row.where[FORCE])
             load = force * MODULUS * HEIGHT * SIDE**2
@@ -49,7 +49,7 @@ def judged(model: Caller) -> Iterator[Finding]:
                 yield Finding(OF_SURFACE, row, value)
                 continue
             found.setdefault((hurst, force), []).append((float(value) / (MODULUS * SIDE), row))
-            yield Finding(OF_SURFACE, row, Answer(found[hurst, force][-1][0]))
+            yield Finding(OF_SURFACE, row, ModelAnswer(found[hurst, force][-1][0]))
     for key, pairs in sorted(found.items()):
         if len(pairs) >= FEWEST:
             yield from _over_surfaces(key, pairs)
@@ -73,7 +73,7 @@ def _over_surfaces(key: Key, pairs: Sequence[tuple[float, Reference]]) -> Iterat
         (MEAN, RATIO, both.mean(axis=0), ratio.half_width / ratio.value),
         (DEVIATION, judgement.DEVIATION, both.std(axis=0, ddof=1) / both.mean(axis=0), min(apart.half_width, 10.0)),
     ):
-        yield Finding(quantity, Reference(where, float(known), 0.0, grid, unit), Answer(float(mine), half))
+        yield Finding(quantity, Reference(where, float(known), 0.0, grid, unit), ModelAnswer(float(mine), half))
 
 
 def roughness(hurst: float) -> PunchRoughness:

@@ -13,7 +13,7 @@ import mdr
 from validation.analysis.statistics import FloatArray
 from validation.engine.offered import Caller, Failed
 from validation.selection.judging import rolling
-from validation.selection.judging.judge import Answer, Finding, LostError, asked, attempted
+from validation.selection.judging.judge import Finding, LostError, ModelAnswer, asked, attempted
 from validation.selection.judging.references import Reference, curve
 from validation.selection.judging.stiffness import FEWEST, FORCE, MEAN, MODULUS, SIDE, AskedPunch, H, answers_of
 from validation.theory.closed_forms import SQUARE_PUNCH
@@ -33,7 +33,7 @@ def _swept(
     for x in at:
         found = attempted(partial(ratio, x))
         warned = f"it warned: {model.warned}" if model.warned else ""
-        mine = found if isinstance(found, Failed) else Answer(found, reason=warned)
+        mine = found if isinstance(found, Failed) else ModelAnswer(found, reason=warned)
         yield Finding(
             quantity, Reference({along: x}, 1.0, 0.0, grid), mine, EXACT if quantity in (LIGHT, SHORT) else None
         )
