@@ -31,7 +31,7 @@ POINTS, PROFILES, SEED = 2048, 500, 145
 def judged(model: Caller) -> Iterator[Finding]:
     """Properties; then springs with that spectrum beside Fig. 14.1, and their linear rolling levels."""
     for hurst in HURSTS:
-        yield from properties_of_rule(model, mdr.SelfAffine(hurst=hurst, q_min=FIRST, q_max=LAST, rms=HEIGHT))
+        yield from properties_of_rule(model, hurst, FIRST, LAST, HEIGHT)
     for hurst in HURSTS:
         rows = {name: [one for one in curve(name) if one.where["H"] == hurst] for name in (MEAN, DEVIATION)}
         punches = [AskedPunch.at(one.where) for one in rows[MEAN]]
@@ -48,9 +48,12 @@ def judged(model: Caller) -> Iterator[Finding]:
     yield from of_density(density)
 
 
-def properties_of_rule(model: Caller, whole: mdr.SelfAffine) -> Iterator[Finding]:
-    """Moments of the surface; not negative; linear in C_2D; scaling with the length. Each a ratio that is one."""
-    hurst, first, last, height = whole.hurst, whole.q_min, whole.q_max, whole.rms
+def properties_of_rule(model: Caller, hurst: float, first: float, last: float, height: float) -> Iterator[Finding]:
+    """Moments of the surface; not negative; linear in C_2D; scaling with the length. Each a ratio that is one.
+
+    first, last: of the band [rad/m]; height: rms [m].
+    """
+    whole = mdr.SelfAffine(hurst=hurst, q_min=first, q_max=last, rms=height)
     # below the band a line has waves too
     ends = [*np.linspace(0, first, 5), *np.geomspace(first, last, 25)[1:]]
     q, dq = on_panels(ends, 8)
