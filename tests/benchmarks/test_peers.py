@@ -46,7 +46,7 @@ solved_before = []
 
 
 def returns_nan(problem, tolerance):
-    return lambda: (np.full(problem.height.shape, np.nan), 1)
+    return lambda: (np.full(problem.gap.shape, np.nan), 1)
 
 
 def warms_up(problem, tolerance):

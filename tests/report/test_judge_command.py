@@ -152,12 +152,12 @@ def solver(*points):
 
 
 RIGHT = replace(compared("approach", {"problem": "sphere"}, 1.0, 1.0, 0.0, 0.1), decides=True)
-SLOW = compared("speed", {"cells": 64.0}, 3.0, 1.0, 0.0, 0.1)
+BESIDE = compared("order of convergence", {"problem": "flat"}, 3.0, 1.0, 0.0, 0.1)
 LOST = not_compared("approach", {"problem": "rough"}, "failed", "raised MemoryError", decides=True)
 
 
 @pytest.mark.parametrize(
-    ("points", "status"), [([RIGHT, RIGHT, SLOW], 0), ([RIGHT, LOST], 1), ([LOST], 3), ([], 3), ([SLOW], 0)]
+    ("points", "status"), [([RIGHT, RIGHT, BESIDE], 0), ([RIGHT, LOST], 1), ([LOST], 3), ([], 3), ([BESIDE], 0)]
 )
 def test_a_solver_that_differs_where_that_decides_ends_with_one(points, status, monkeypatch, file, capsys):
     monkeypatch.setattr("validation.report.commands.judge.judged", lambda model, tolerance: solver(*points))
