@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 
 from tests.analysis import test_judgement
-from tests.planted_faults.wrong import with_math
+from tests.planted_faults.wrong import Fault, with_math
 from tests.selection import test_judged_ends, test_judged_kinds, test_judged_stiffness
 from validation.analysis import judgement
 from validation.engine import others
@@ -33,47 +33,31 @@ def of_the_last_point(model, quantity, along, at, ratio, grid=0.0):
     yield from swept_by(model, quantity, along, at[:1] * len(at), ratio, grid)
 
 
-FAULTS = {
-    "a sweep that stays where it begins": (
-        (sweeps, "_swept", of_the_last_point),
-        partial(test_judged_ends.test_where_a_model_breaks_is_found, *test_judged_ends.WRONG[5]),
+FAULTS = [
+    partial(test_judged_ends.test_where_a_model_breaks_is_found, *test_judged_ends.WRONG[5]),
+    Fault("a sweep that stays where it begins").at(sweeps, "_swept", of_the_last_point),
+    test_judged_ends.test_a_warning_stands_beside_the_number,
+    Fault("a warning that is not heard").at(others.Called, "warned", property(lambda called: "")),
+    partial(test_judged_ends.test_where_a_model_breaks_is_found, *test_judged_ends.WRONG[7]),
+    Fault("a bound for a closed form").at(sweeps, "EXACT", None),
+    test_judged_ends.test_errors_are_medians_of_the_quantity_of_their_kind,
+    Fault("another quantity on the chart of errors").at(
+        own, "MAIN", dict.fromkeys(own.MAIN, "contact filter of a long wave")
     ),
-    "a warning that is not heard": (
-        (others.Called, "warned", property(lambda called: "")),
-        test_judged_ends.test_a_warning_stands_beside_the_number,
+    test_judged_kinds.test_the_wheel_rolls_on_the_law_itself,
+    Fault("a path that is not rolled again").at(laws, "NEAR", math.inf),
+    test_judged_stiffness.test_what_boundary_elements_have_agrees_and_what_is_twice_as_far_differs,
+    Fault("a model asked under twice the load").at(stiffness.AskedPunch, "arguments", property(under_twice_the_load)),
+    test_judged_stiffness.test_a_plateau_is_given_with_its_own_rms_height,
+    Fault("the level of a power law for that of its plateau").at(
+        stiffness.PlateauRoughness, "c2d", PlateauSpectrum.c2d
     ),
-    "a bound for a closed form": (
-        (sweeps, "EXACT", None),
-        partial(test_judged_ends.test_where_a_model_breaks_is_found, *test_judged_ends.WRONG[7]),
+    partial(test_judgement.test_the_whole_interval_lies_inside_or_outside_of_the_tolerance, 1.05, 0.06, "undecided"),
+    Fault("a verdict without its interval").at(judgement, "verdict_of", without_its_interval),
+    partial(test_judgement.test_a_ratio_of_ten_per_cent_is_0_83_decibels_of_a_level, 0.8, 0.02, "agree"),
+    Fault("decibels of a power for those of an amplitude").at(
+        judgement, "math", with_math(log10=lambda x: math.log10(x) / 2)
     ),
-    "another quantity on the chart of errors": (
-        (own, "MAIN", dict.fromkeys(own.MAIN, "contact filter of a long wave")),
-        test_judged_ends.test_errors_are_medians_of_the_quantity_of_their_kind,
-    ),
-    "a path that is not rolled again": (
-        (laws, "NEAR", math.inf),
-        test_judged_kinds.test_the_wheel_rolls_on_the_law_itself,
-    ),
-    "a model asked under twice the load": (
-        (stiffness.AskedPunch, "arguments", property(under_twice_the_load)),
-        test_judged_stiffness.test_what_boundary_elements_have_agrees_and_what_is_twice_as_far_differs,
-    ),
-    "the level of a power law for that of its plateau": (
-        (stiffness.PlateauRoughness, "c2d", PlateauSpectrum.c2d),
-        test_judged_stiffness.test_a_plateau_is_given_with_its_own_rms_height,
-    ),
-    "a verdict without its interval": (
-        (judgement, "verdict_of", without_its_interval),
-        partial(
-            test_judgement.test_the_whole_interval_lies_inside_or_outside_of_the_tolerance, 1.05, 0.06, "undecided"
-        ),
-    ),
-    "decibels of a power for those of an amplitude": (
-        (judgement, "math", with_math(log10=lambda x: math.log10(x) / 2)),
-        partial(test_judgement.test_a_ratio_of_ten_per_cent_is_0_83_decibels_of_a_level, 0.8, 0.02, "agree"),
-    ),
-    "realisations without the error of their sample": (
-        (stiffness, "sampled", without_the_error_of_the_sample),
-        test_judged_stiffness.test_realisations_have_their_mean_and_deviation_with_the_error_of_the_sample,
-    ),
-}
+    test_judged_stiffness.test_realisations_have_their_mean_and_deviation_with_the_error_of_the_sample,
+    Fault("realisations without the error of their sample").at(stiffness, "sampled", without_the_error_of_the_sample),
+]
