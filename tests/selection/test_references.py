@@ -12,23 +12,11 @@ from validation.selection.judging.own import ERRORS
 from validation.selection.judging.references import about, as_file, curve, file_name
 from validation.selection.judging.rolling import EACH, GRIDS, HEIGHTS, LIFT, MEAN
 from validation.selection.judging.surfaces import OF_SURFACE
-from validation.simulation.model_names import BEM, SPRINGS
 from validation.simulation.rolling_strip import roll_strip
 
 REPORT = Path(__file__).parents[2] / "reports" / "reference"
 SOLVED = (MEAN, EACH, LIFT, OF_SURFACE, ERRORS)
 """Take solves that the report does not keep."""
-
-
-@pytest.fixture(autouse=True)
-def names_of_today(monkeypatch):
-    """The committed report may be older than one name for each thing."""
-    read = from_report.from_csv
-    monkeypatch.setattr(
-        from_report,
-        "from_csv",
-        lambda name, text: read(name, text.replace(",bem3d,", f",{BEM},").replace(",mdr,", f",{SPRINGS},")),
-    )
 
 
 @pytest.mark.parametrize("quantity", [name for name in SOURCES if name not in SOLVED])
