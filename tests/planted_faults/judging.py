@@ -38,7 +38,7 @@ FAULTS = [
     Fault("a sweep that stays where it begins").at(sweeps, "_swept", of_the_last_point),
     test_judged_ends.test_a_warning_stands_beside_the_number,
     Fault("a warning that is not heard").at(others.Called, "warned", property(lambda called: "")),
-    partial(test_judged_ends.test_where_a_model_breaks_is_found, *test_judged_ends.WRONG[6]),
+    partial(test_judged_ends.test_where_a_model_breaks_is_found, *test_judged_ends.WRONG[-1]),
     Fault("a bound for a closed form").at(sweeps, "EXACT", None),
     test_judged_ends.test_errors_are_medians_of_the_quantity_of_their_kind,
     Fault("another quantity on the chart of errors").at(

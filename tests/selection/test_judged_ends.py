@@ -84,6 +84,7 @@ WRONG = [
         sweeps.LONG,
         ["differ"] * 2,
     ),
+    ("contact_filter", lambda k_x: 1.05 + 0 * k_x, sweeps.SHORT, ["differ"] * 3),
 ]
 
 
