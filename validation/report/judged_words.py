@@ -70,7 +70,7 @@ def _breaks(points: Sequence[JudgedPoint]) -> Iterator[str]:
     asked = [curves[0].quantity for curves in curves_of(points) if curves[0].quantity in SWEPT]
     if found or asked:
         yield "\nWhere it breaks:"
-        yield from found or [f"  nowhere {', '.join(asked)}"]
+        yield from found or [f"  nowhere, as far as it was led: {', '.join(asked)}"]
 
 
 def _broken(curve: JudgedCurve) -> Iterator[str]:

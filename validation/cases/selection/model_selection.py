@@ -39,8 +39,9 @@ ROLLED = (ROLLING, WHEEL, *TRACKS, RAIL)
 CHEAP_EDGES = tuple((kind, 1) for kind in (PUNCH, SPHERE, ROLLING, MEASURED + PUNCH, MEASURED + SPHERE))
 """Kinds of scenes at the edges whose references take seconds."""
 MANY, ENOUGH, SOME, FEW = 36, 18, 4, 4
-"""Scenes of a kind at the edges: all together decide that 97 % of the answers hold. Moving wheels on measured tracks
-take 20 s each, so that there are fewer; rails have cases of their own: a few are to find a false claim."""
+"""Scenes of a kind at the edges: all together decide that 97 % of the answers hold, if all do. Moving wheels on
+measured tracks take 20 s each, so that there are fewer; rails have cases of their own: a few are to find a false
+claim."""
 EDGE_SCENES = (
     *((kind, MANY) for kind in (PUNCH, SPHERE, ROLLING, MEASURED + PUNCH, MEASURED + SPHERE)),
     *((kind, ENOUGH) for kind in (WHEEL, MEASURED + ROLLING)),
