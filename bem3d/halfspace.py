@@ -16,6 +16,10 @@ from bem3d.checks import FloatArray, OneOrTwo, boolean, field, grid_shape, grid_
 from bem3d.convolution import Convolution, PlainConvolution, Planning, padded_convolution
 
 KEEPING = threading.Lock()
+ONE_LEVEL = 512 * 512
+"""Cells up to which the preconditioner has no second level."""
+BLOCK = 16
+"""Cells along a side of the blocks of the second level; the near field reaches half as far."""
 GRIDS_KEPT = 4
 """Windows and coarser grids that a half-space keeps ready."""
 
@@ -133,8 +137,35 @@ class HalfSpace:
     @cached_property
     def inverse(self) -> Convolution:
         """Displacement to pressure, nearly: the preconditioner of the solvers, without padding."""
-        symbol = kernel.inverse_symbol(self.shape, self.steps, self.modulus)
+        symbol = kernel.inverse_symbol(self.shape, self.steps, self.modulus, self.near_wave)
         return PlainConvolution(symbol, shape=self.shape, planning=self.planning)
+
+    @property
+    def has_far_field(self) -> bool:
+        """Whether the preconditioner has a second level: on grids that are large enough to gain by it."""
+        return self.shape[0] * self.shape[1] > ONE_LEVEL
+
+    @property
+    def near_wave(self) -> float:
+        """q_c, below which the preconditioner leaves waves to the far field; without one q_0 [rad/m]."""
+        if self.has_far_field:
+            return 2 / (BLOCK * max(self.steps))
+        sides = (n * step for n, step in zip(self.shape, self.steps, strict=True))
+        return kernel.WAVE_OF_UNIFORM_PRESSURE * 2 * np.pi / max(sides)
+
+    @cached_property
+    def far(self) -> Convolution:
+        """Sums of pressure over blocks of cells to the far field of the displacement, on the blocks."""
+        blocks = -(-self.shape[0] // BLOCK), -(-self.shape[1] // BLOCK)
+        steps = self.shape[0] / blocks[0] * self.steps[0], self.shape[1] / blocks[1] * self.steps[1]
+        if self.periodic:
+            symbol = kernel.far_periodic_symbol(blocks, steps, self.modulus, self.near_wave)
+            symbol *= self.cell_area / (steps[0] * steps[1])
+            return PlainConvolution(symbol, shape=blocks, planning=self.planning)
+        padded = _doubled(blocks[0]), _doubled(blocks[1])
+        table = kernel.far_table((padded[0] // 2 + 1, padded[1] // 2 + 1), steps, self.near_wave)
+        symbol = kernel.free_space_symbol(table, (self.cell_area, 0.0), self.modulus)
+        return padded_convolution(symbol, shape=blocks, padded=padded, planning=self.planning)
 
     def like(self, *, shape: tuple[int, int], spacing: OneOrTwo | None = None) -> HalfSpace:
         """Half-space of the same material on another grid. The last few are kept, with their plans."""

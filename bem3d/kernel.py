@@ -64,17 +64,34 @@ def periodic_symbol(shape: tuple[int, int], spacing: tuple[float, float], modulu
     return np.asarray(2 / (modulus * q))
 
 
-def inverse_symbol(shape: tuple[int, int], spacing: tuple[float, float], modulus: float) -> FloatArray:
+def far_table(blocks: tuple[int, int], spacing: tuple[float, float], wave: float) -> FloatArray:
+    """(1 - exp(-q_c r)) / r at the centres of the blocks of a quadrant [1/m]: `love` over dA without its near field."""
+    r = np.hypot(spacing[0] * np.arange(blocks[0])[:, np.newaxis], spacing[1] * np.arange(blocks[1]))
+    r[0, 0] = np.inf
+    table = -np.expm1(-wave * r) / r
+    table[0, 0] = wave
+    return np.asarray(table)
+
+
+def far_periodic_symbol(
+    shape: tuple[int, int], spacing: tuple[float, float], modulus: float, wave: float
+) -> FloatArray:
+    """2 / E* (1/|q| - 1 / sqrt(q^2 + q_c^2)), its quadrant [m/Pa]."""
+    q = wavenumbers(shape, spacing)
+    q[0, 0] = np.inf
+    return np.asarray(2 / modulus * (1 / q - 1 / np.hypot(q, wave)))
+
+
+def inverse_symbol(
+    shape: tuple[int, int], spacing: tuple[float, float], modulus: float, wave: float
+) -> FloatArray:
     """E*/2 sqrt(q^2 + q_0^2), the quadrant of a symbol that nearly inverts the half-space [Pa/m].
 
     q_0 is a part of 2 pi over the longer side: a half-space in free space yields to a uniform pressure as if to a wave
     longer than the grid. Without padding its images touch, which a preconditioner may ignore.
     Source: the inverse of Stanley and Kato's symbol, as used by Vollebregt, J. Comput. Phys. 257 (2014) 269.
     """
-    longest = max(shape[0] * spacing[0], shape[1] * spacing[1])
-    return np.asarray(
-        modulus / 2 * np.hypot(wavenumbers(shape, spacing), WAVE_OF_UNIFORM_PRESSURE * 2 * np.pi / longest)
-    )
+    return np.asarray(modulus / 2 * np.hypot(wavenumbers(shape, spacing), wave))
 
 
 def wavenumbers(shape: tuple[int, int], spacing: tuple[float, float]) -> FloatArray:
