@@ -1,6 +1,5 @@
 """What contacts far apart do to each other, on a coarse grid: the second level of the approximate inverse."""
 
-import math
 from collections.abc import Callable
 
 import numpy as np

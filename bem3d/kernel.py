@@ -82,9 +82,7 @@ def far_periodic_symbol(
     return np.asarray(2 / modulus * (1 / q - 1 / np.hypot(q, wave)))
 
 
-def inverse_symbol(
-    shape: tuple[int, int], spacing: tuple[float, float], modulus: float, wave: float
-) -> FloatArray:
+def inverse_symbol(shape: tuple[int, int], spacing: tuple[float, float], modulus: float, wave: float) -> FloatArray:
     """E*/2 sqrt(q^2 + q_0^2), the quadrant of a symbol that nearly inverts the half-space [Pa/m].
 
     q_0 is a part of 2 pi over the longer side: a half-space in free space yields to a uniform pressure as if to a wave

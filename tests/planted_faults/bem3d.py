@@ -11,6 +11,7 @@ import bem3d
 from bem3d import (
     contact,
     convolution,
+    far_field,
     few_cells,
     halfspace,
     kernel,
@@ -36,6 +37,7 @@ from tests.bem3d import test_load_paths as paths
 from tests.bem3d import test_operator_against_dense_twin as dense_twin
 from tests.bem3d import test_rolling_contact as rolled
 from tests.bem3d import test_rolling_frame as frames
+from tests.bem3d import test_second_level as levels
 from tests.bem3d import test_transverse_profile as profiles
 from tests.bem3d import test_warnings as doubts
 from tests.bem3d import test_windows_and_starts as windows
@@ -108,6 +110,16 @@ def yielding_mean_plane(shape, spacing, modulus):
 
 
 FAULTS = [
+    partial(levels.test_far_away_a_block_is_felt_as_the_pressure_on_it, 1.0),
+    Fault("a far field of half the blocks").at(kernel, "far_table", Times(0.5)),
+    levels.test_waves_of_a_period_are_near_or_far,
+    Fault("a far field that is all of K").at(
+        kernel, "far_periodic_symbol", lambda shape, steps, modulus, _: periodic_symbol(shape, steps, modulus)
+    ),
+    partial(levels.test_work_on_a_contact_does_not_grow_with_the_grid, False),
+    Fault("a near field alone").at(far_field.FarField, "_settled", lambda self, pressed, stiffness: 0 * pressed),
+    levels.test_the_system_on_the_blocks_is_solved_within_its_accuracy,
+    Fault("one step on the blocks").at(far_field, "MOST_STEPS", 1),
     partial(interfaces.test_a_wave_has_the_stiffness_and_the_approach_of_westergaard, 0.3),
     Fault("a mean plane of a periodic half-space that yields").at(kernel, "periodic_symbol", yielding_mean_plane),
     partial(interfaces.test_the_stiffness_of_an_interface_is_what_closes_its_mean_gap, 5e-3),
