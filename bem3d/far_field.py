@@ -41,12 +41,13 @@ class FarField:
             self._free, self._springs = free, np.maximum(self._near(free.astype(np.float64)), 0.0)
         springs = self._springs * free
         y = self._settled(self._sums(springs * displacement), self._sums(springs))
-        return self._near(displacement) - springs * y.ravel()[self._block]
+        return np.asarray(self._near(displacement) - springs * y.ravel()[self._block])
 
     def _sums(self, vector: FloatArray) -> FloatArray:
         """Z^T v."""
         blocks = self._far.shape
-        return np.bincount(self._block, vector, minlength=blocks[0] * blocks[1]).reshape(blocks)
+        sums = np.bincount(self._block, vector, minlength=blocks[0] * blocks[1])
+        return np.asarray(sums.reshape(blocks), dtype=np.float64)
 
     def _settled(self, pressed: FloatArray, stiffness: FloatArray) -> FloatArray:
         """y of (C^-1 + D) y = b: y = C g, where (1 + sqrt(D) C sqrt(D)) h = b / sqrt(D) and g = sqrt(D) h."""
