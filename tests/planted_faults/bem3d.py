@@ -9,6 +9,7 @@ import scipy
 
 import bem3d
 from bem3d import (
+    blocked_convolution,
     contact,
     convolution,
     far_field,
@@ -18,6 +19,7 @@ from bem3d import (
     problem,
     projected_cg,
     rolling_frame,
+    threads,
     window,
     window_solve,
 )
@@ -38,12 +40,14 @@ from tests.bem3d import test_operator_against_dense_twin as dense_twin
 from tests.bem3d import test_rolling_contact as rolled
 from tests.bem3d import test_rolling_frame as frames
 from tests.bem3d import test_second_level as levels
+from tests.bem3d import test_threads as threaded
 from tests.bem3d import test_transverse_profile as profiles
 from tests.bem3d import test_warnings as doubts
 from tests.bem3d import test_windows_and_starts as windows
 from tests.planted_faults.wrong import E_FOR_E_STAR, Fault, Times
 from validation.theory import closed_forms
 
+blocks = blocked_convolution.blocks
 periodic_symbol = kernel.periodic_symbol
 
 
@@ -164,11 +168,18 @@ FAULTS = [
     rates.test_wave_pressure_at_first_order,
     Fault("pi lost in the pressure that closes a wave").at(closed_forms, "westergaard_full_pressure", Times(1 / np.pi)),
     Fault("factor 2 lost in the periodic symbol").at(kernel, "periodic_symbol", Times(0.5)),
-    dense_twin.test_displacement_by_some_columns_at_a_time,
-    Fault("a symbol that repeats instead of mirroring").at(convolution, "_halfplane", repeated),
+    dense_twin.test_displacement_by_blocks,
+    Fault("blocks of rows that leave one out").at(
+        blocked_convolution, "blocks", lambda length, most: blocks(length, most)[:-1] or blocks(length, most)
+    ),
     partial(dense_twin.test_rows_of_a_block_of_columns_are_not_a_power_of_two_apart, 1024),
-    Fault("columns a power of two apart").at(convolution, "COLUMNS_AT_ONCE", 32),
+    Fault("columns a power of two apart").at(blocked_convolution, "COLUMNS_AT_ONCE", 32),
+    partial(threaded.test_bits_of_a_displacement_are_equal_for_any_threads, False),
+    Fault("threads that share a buffer").at(
+        blocked_convolution, "Team", lambda buffers: threads.Team([buffers[0]] * len(buffers))
+    ),
     dense_twin.test_displacement,
+    Fault("a symbol that repeats instead of mirroring").at(convolution, "_halfplane", repeated),
     # 2n - 2 points would do, since the kernel is even: the two farthest distances may share a point
     Fault("padding two points short").at(
         halfspace, "_doubled", lambda points: max(points + points % 2, 2 * points - 4)
