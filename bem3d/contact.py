@@ -18,6 +18,8 @@ from bem3d.tangent_stiffness import FixedContactArea, solve_fixed_area
 
 Level = tuple[tuple[int, int], int]
 """Shape of a coarser grid, and the operator applications on it."""
+CELLS_AT_ONCE = 2**18
+"""Cells over which is summed at a time, at the most: a large field needs no copy of itself."""
 
 
 class Status(StrEnum):
@@ -194,7 +196,10 @@ def residual(pressure: FloatArray, w: FloatArray, overlap: float) -> float:
         return math.nan
     if overlap <= 0:
         return 0.0 if total == 0 else math.inf
-    open_under_pressure = float((pressure * np.abs(w)).sum()) / total if total > 0 else 0.0
+    rows = max(CELLS_AT_ONCE // pressure[0].size, 1)
+    parts = [slice(first, first + rows) for first in range(0, len(pressure), rows)]
+    weighted = sum(float((pressure[part] * np.abs(w[part])).sum()) for part in parts)
+    open_under_pressure = weighted / total if total > 0 else 0.0
     penetration = -float(w.min())
     # the built-in max loses a NaN
     if math.isnan(open_under_pressure) or math.isnan(penetration):

@@ -13,7 +13,7 @@ import scipy
 from numpy.typing import ArrayLike
 
 from bem3d import kernel
-from bem3d.blocked_convolution import BlockedConvolution
+from bem3d.blocked_convolution import BlockedConvolution, SpectrumMemory
 from bem3d.checks import FloatArray, OneOrTwo, boolean, field, grid_shape, grid_spacing, positive, thread_count
 from bem3d.convolution import CachedConvolution, Convolution, PlainConvolution, Planning
 from bem3d.threads import cores
@@ -154,8 +154,14 @@ class HalfSpace:
             return PlainConvolution(symbol, shape=self.shape, planning=self.planning)
         if padded != self.shape and padded[0] * (padded[1] // 2 + 1) <= CACHED_NUMBERS:
             return CachedConvolution(symbol, shape=self.shape, padded=padded, planning=self.planning)
-        threads = cores() if self.threads == "all" else self.threads
-        return BlockedConvolution(symbol, shape=self.shape, padded=padded, planning=self.planning, threads=threads)
+        return BlockedConvolution(
+            symbol,
+            shape=self.shape,
+            padded=padded,
+            planning=self.planning,
+            threads=cores() if self.threads == "all" else self.threads,
+            memory=self._memory,
+        )
 
     def like(self, *, shape: tuple[int, int], spacing: OneOrTwo | None = None) -> HalfSpace:
         """Half-space of the same material on another grid. The last few are kept, with their plans."""
@@ -168,6 +174,16 @@ class HalfSpace:
             while len(self._relatives) > GRIDS_KEPT:
                 del self._relatives[next(iter(self._relatives))]
         return kept
+
+    def release(self, relative: HalfSpace) -> None:
+        """Keep a relative no longer, if it is so large that its plans cost less than their memory."""
+        if relative.shape[0] * relative.shape[1] > CACHED_CELLS:
+            with KEEPING:
+                self._relatives.pop(relative, None)
+
+    @cached_property
+    def _memory(self) -> SpectrumMemory:
+        return SpectrumMemory()
 
     @cached_property
     def _relatives(self) -> dict[HalfSpace, HalfSpace]:
