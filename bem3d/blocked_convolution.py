@@ -1,13 +1,14 @@
 """Convolution on grids that no cache holds: rows and columns go through it in blocks, which threads share out."""
 
 import math
+import threading
 from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from bem3d.checks import FloatArray, IndexArray
-from bem3d.convolution import Convolution, Planning, aligned, planned
-from bem3d.threads import Team
+from bem3d.convolution import ComplexArray, Convolution, Planning, aligned, planned
+from bem3d.threads import share
 
 COLUMNS_AT_ONCE = 28
 """Columns transformed at a time, at the most: few enough to stay in the cache, forwards, times the symbol, and back.
@@ -19,6 +20,21 @@ Fill = Callable[[FloatArray, slice], None]
 """Copies rows of a grid to the padded rows of a block, or back."""
 
 
+class SpectrumMemory:
+    """Complex numbers for the spectra of convolutions that wait for each other."""
+
+    def __init__(self) -> None:
+        self.lock = threading.Lock()
+        self._numbers = np.empty(0, dtype=np.complex128)
+
+    def array(self, shape: tuple[int, int, int]) -> ComplexArray:
+        """Numbers of this shape and any value."""
+        size = math.prod(shape)
+        if self._numbers.size < size:
+            self._numbers = np.empty(size, dtype=np.complex128)
+        return self._numbers[:size].reshape(shape)
+
+
 class BlockedConvolution(Convolution):
     """Transforms in one dimension, which leave out rows of the padding; the padded grid never exists as a whole.
 
@@ -26,7 +42,7 @@ class BlockedConvolution(Convolution):
     symbol, and back in one buffer. The grid alone fixes the blocks, so that the bits are equal for any threads.
 
     symbol: quadrant of the real Fourier transform of the kernel, shape (padded[0] // 2 + 1, padded[1] // 2 + 1);
-    threads: at the most.
+    threads: at the most; memory: of the spectrum, which other convolutions may share.
     """
 
     def __init__(
@@ -36,20 +52,21 @@ class BlockedConvolution(Convolution):
         shape: tuple[int, int],
         padded: tuple[int, int],
         planning: Planning,
-        threads: int = 1,
+        threads: int,
+        memory: SpectrumMemory,
     ):
         super().__init__(shape, padded)
+        self._memory = memory
         self._row_blocks = blocks(shape[0], max(NUMBERS_AT_ONCE // padded[1], 1))
         column_blocks = blocks(symbol.shape[1], COLUMNS_AT_ONCE)
-        self._column_blocks = range(len(column_blocks))
         # the last block may have fewer columns: its others are zero
         self._symbols = np.zeros((len(column_blocks), symbol.shape[0], column_blocks[0].stop))
         for block, quadrant in zip(column_blocks, self._symbols, strict=True):
             np.divide(symbol[:, block], padded[0] * padded[1], out=quadrant[:, : symbol[:, block].shape[1]])
         count, _, width = self._symbols.shape
-        self._spectrum = np.empty((count, shape[0], width), dtype=np.complex128)
         threads = min(threads, len(self._row_blocks), count)
-        self._team = Team([_Buffers(padded, self._row_blocks[0].stop, count, width, planning) for _ in range(threads)])
+        rows = self._row_blocks[0].stop
+        self._buffers = [_Buffers(padded, rows, count, width, planning) for _ in range(threads)]
 
     def __call__(self, field: FloatArray) -> FloatArray:
         result, width = np.empty(self.shape), self.shape[1]
@@ -81,34 +98,38 @@ class BlockedConvolution(Convolution):
         return result
 
     def _convolve(self, fill: Fill, read: Fill) -> None:
-        with self._lock:
-            self._team.share(lambda buffers, block: self._forward(buffers, block, fill), self._row_blocks)
-            self._team.share(self._multiply, self._column_blocks)
-            self._team.share(lambda buffers, block: self._back(buffers, block, read), self._row_blocks)
+        with self._memory.lock:
+            count, _, width = self._symbols.shape
+            spectrum = self._memory.array((count, self.shape[0], width))
 
-    def _forward(self, buffers: "_Buffers", block: slice, fill: Fill) -> None:
-        buffers.rows[:] = 0.0
-        fill(buffers.rows, block)
-        buffers.forward()
-        self._spectrum[:, block] = buffers.by_columns[:, : block.stop - block.start]
+            def forward(buffers: _Buffers, block: slice) -> None:
+                buffers.rows[:] = 0.0
+                fill(buffers.rows, block)
+                buffers.forward()
+                spectrum[:, block] = buffers.by_columns[:, : block.stop - block.start]
 
-    def _multiply(self, buffers: "_Buffers", block: int) -> None:
-        columns, spectrum, quadrant = buffers.columns, self._spectrum[block], self._symbols[block]
-        columns[: self.shape[0]] = spectrum
-        columns[self.shape[0] :] = 0.0
+            def back(buffers: _Buffers, block: slice) -> None:
+                rows = block.stop - block.start
+                buffers.by_columns[:, :rows] = spectrum[:, block]
+                # what is transformed again and again would grow without bound
+                buffers.by_columns[:, rows:] = 0.0
+                buffers.back()
+                read(buffers.rows, block)
+
+            share(forward, self._row_blocks, self._buffers)
+            share(self._multiply, list(zip(spectrum, self._symbols, strict=True)), self._buffers)
+            share(back, self._row_blocks, self._buffers)
+
+    def _multiply(self, buffers: "_Buffers", block: tuple[ComplexArray, FloatArray]) -> None:
+        """A block of columns forwards, times the symbol, and back."""
+        columns, (spectrum, quadrant), filled = buffers.columns, block, self.shape[0]
+        columns[:filled] = spectrum
+        columns[filled:] = 0.0
         buffers.down()
         columns[: len(quadrant)] *= quadrant
         columns[len(quadrant) :] *= quadrant[(self.padded[0] - 1) // 2 : 0 : -1]
         buffers.up()
-        spectrum[:] = columns[: self.shape[0]]
-
-    def _back(self, buffers: "_Buffers", block: slice, read: Fill) -> None:
-        rows = block.stop - block.start
-        buffers.by_columns[:, :rows] = self._spectrum[:, block]
-        # what is transformed again and again would grow without bound
-        buffers.by_columns[:, rows:] = 0.0
-        buffers.back()
-        read(buffers.rows, block)
+        spectrum[:] = columns[:filled]
 
 
 class _Buffers:

@@ -20,12 +20,12 @@ class Convolution(ABC):
     """Circular convolution with an even kernel on a padded grid, read back on the part that was filled.
 
     shape: the filled part; padded: the grid. Calls from several threads wait for each other, since the buffers are
-    shared.
+    shared. planning: "estimate" plans give the same bits in every process, "measure" plans are somewhat faster and do
+    not.
     """
 
     def __init__(self, shape: tuple[int, int], padded: tuple[int, int]):
         self.shape, self.padded = shape, padded
-        self._lock = threading.Lock()
 
     @abstractmethod
     def __call__(self, field: FloatArray) -> FloatArray:
@@ -41,13 +41,11 @@ class Convolution(ABC):
 
 
 class SmallConvolution(Convolution):
-    """All rows in one buffer, in one thread.
-
-    planning: "estimate" plans give the same bits in every process, "measure" plans are somewhat faster and do not.
-    """
+    """All rows in one buffer, in one thread."""
 
     def __init__(self, shape: tuple[int, int], padded: tuple[int, int]):
         super().__init__(shape, padded)
+        self._lock = threading.Lock()
         # the padding along the first axis is not stored
         self._rows = aligned((shape[0], padded[1]), np.float64)
 

@@ -13,7 +13,7 @@ import scipy
 from numpy.typing import ArrayLike
 
 from bem3d import kernel
-from bem3d.blocked_convolution import BlockedConvolution
+from bem3d.blocked_convolution import BlockedConvolution, SpectrumMemory
 from bem3d.checks import FloatArray, OneOrTwo, boolean, field, grid_shape, grid_spacing, positive, thread_count
 from bem3d.convolution import CachedConvolution, Convolution, PlainConvolution, Planning
 from bem3d.threads import cores
@@ -158,8 +158,14 @@ class HalfSpace:
             return PlainConvolution(symbol, shape=shape, planning=self.planning)
         if padded != shape and padded[0] * (padded[1] // 2 + 1) <= CACHED_NUMBERS:
             return CachedConvolution(symbol, shape=shape, padded=padded, planning=self.planning)
-        threads = cores() if self.threads == "all" else self.threads
-        return BlockedConvolution(symbol, shape=shape, padded=padded, planning=self.planning, threads=threads)
+        return BlockedConvolution(
+            symbol,
+            shape=shape,
+            padded=padded,
+            planning=self.planning,
+            threads=cores() if self.threads == "all" else self.threads,
+            memory=self._memory,
+        )
 
     @property
     def has_far_field(self) -> bool:
@@ -199,6 +205,16 @@ class HalfSpace:
             while len(self._relatives) > GRIDS_KEPT:
                 del self._relatives[next(iter(self._relatives))]
         return kept
+
+    def release(self, relative: HalfSpace) -> None:
+        """Keep a relative no longer, if it is so large that its plans cost less than their memory."""
+        if relative.shape[0] * relative.shape[1] > CACHED_CELLS:
+            with KEEPING:
+                self._relatives.pop(relative, None)
+
+    @cached_property
+    def _memory(self) -> SpectrumMemory:
+        return SpectrumMemory()
 
     @cached_property
     def _relatives(self) -> dict[HalfSpace, HalfSpace]:

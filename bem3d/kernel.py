@@ -8,6 +8,8 @@ from bem3d.checks import FloatArray
 
 WAVE_OF_UNIFORM_PRESSURE = 0.3
 """The wave, as a part of the longest, to whose pressure a contact yields about as to a uniform one."""
+ROWS_AT_ONCE = 256
+"""Rows of a table that are computed at a time."""
 
 
 def corner(x: ArrayLike, y: ArrayLike) -> FloatArray:
@@ -39,7 +41,11 @@ def love_table(cells: tuple[int, int], aspect: float) -> FloatArray:
     """
     x = np.arange(cells[0] + 1)[:, np.newaxis] - 0.5
     y = aspect * (np.arange(cells[1] + 1)[np.newaxis, :] - 0.5)
-    return np.diff(np.diff(corner(x, y), axis=0), axis=1)
+    table = np.empty(cells)
+    # a large table is not there several times at once
+    for i in range(0, cells[0], ROWS_AT_ONCE):
+        table[i : i + ROWS_AT_ONCE] = np.diff(np.diff(corner(x[i : i + ROWS_AT_ONCE + 1], y), axis=0), axis=1)
+    return table
 
 
 def free_space_symbol(table: FloatArray, spacing: tuple[float, float], modulus: float) -> FloatArray:
@@ -47,9 +53,11 @@ def free_space_symbol(table: FloatArray, spacing: tuple[float, float], modulus: 
 
     table: `love_table` of shape (m, n) for the padded grid of (2m - 2, 2n - 2) points. With at least 2n - 1 points
     a side, no cell meets the image of another. The kernel is even along both axes, so its transform is a cosine
-    transform of one quadrant, of the same shape.
+    transform of one quadrant, of the same shape, in whose memory it stands afterwards.
     """
-    return np.asarray(spacing[0] / (np.pi * modulus) * scipy.fft.dctn(table, type=1))
+    symbol = np.asarray(scipy.fft.dctn(table, type=1, overwrite_x=True))
+    symbol *= spacing[0] / (np.pi * modulus)
+    return symbol
 
 
 def periodic_symbol(shape: tuple[int, int], spacing: tuple[float, float], modulus: float) -> FloatArray:

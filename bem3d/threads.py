@@ -5,7 +5,7 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from functools import lru_cache
-from typing import Generic, TypeVar
+from typing import TypeVar
 
 Block = TypeVar("Block")
 Buffers = TypeVar("Buffers")
@@ -17,39 +17,30 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-class Team(Generic[Buffers]):
-    """The calling thread and others, each with buffers of its own.
+def share(work: Callable[[Buffers, Block], None], blocks: Sequence[Block], buffers: Sequence[Buffers]) -> None:
+    """work(buffers, block) for each block, in any order; returns when all is done.
 
-    buffers: those of each thread; where there are no others, no thread is started.
+    buffers: those of each thread, the caller's first; where there are no others, no thread is started.
+    After an exception, such as that of Ctrl-C, no further block is begun.
     """
+    left = iter(blocks)
 
-    def __init__(self, buffers: Sequence[Buffers]):
-        self._buffers = buffers
-        self._others: list[Future[None]] = []
+    def part(own: Buffers) -> None:
+        for block in left:
+            work(own, block)
 
-    def share(self, work: Callable[[Buffers, Block], None], blocks: Sequence[Block]) -> None:
-        """work(buffers, block) for each block, in any order; returns when all is done.
-
-        After an exception, such as that of Ctrl-C, no further block is begun.
-        """
-        # an exception may have ended the wait for them
-        wait(self._others)
-        left, self._others = iter(blocks), []
-
-        def part(buffers: Buffers) -> None:
-            for block in left:
-                work(buffers, block)
-
-        caller, *others = self._buffers
-        try:
-            for buffers in others:
-                self._others.append(_pool(len(others), os.getpid()).submit(part, buffers))
-            part(caller)
-        finally:
-            deque(left, maxlen=0)
-            for other in self._others:
-                # one that has not begun has nothing left to do
-                other.cancel() or other.result()
+    caller, *more = buffers
+    others: list[Future[None]] = []
+    try:
+        for own in more:
+            others.append(_pool(len(more), os.getpid()).submit(part, own))
+        part(caller)
+        for other in others:
+            # one that has not begun has nothing left to do
+            other.cancel() or other.result()
+    finally:
+        deque(left, maxlen=0)
+        wait([other for other in others if not other.cancel()])
 
 
 @lru_cache

@@ -19,7 +19,6 @@ from bem3d import (
     problem,
     projected_cg,
     rolling_frame,
-    threads,
     window,
     window_solve,
 )
@@ -47,7 +46,7 @@ from tests.bem3d import test_windows_and_starts as windows
 from tests.planted_faults.wrong import E_FOR_E_STAR, Fault, Times
 from validation.theory import closed_forms
 
-blocks = blocked_convolution.blocks
+blocks, share = blocked_convolution.blocks, blocked_convolution.share
 periodic_symbol = kernel.periodic_symbol
 
 
@@ -176,7 +175,7 @@ FAULTS = [
     Fault("columns a power of two apart").at(blocked_convolution, "COLUMNS_AT_ONCE", 32),
     partial(threaded.test_bits_of_a_displacement_are_equal_for_any_threads, False),
     Fault("threads that share a buffer").at(
-        blocked_convolution, "Team", lambda buffers: threads.Team([buffers[0]] * len(buffers))
+        blocked_convolution, "share", lambda work, blocks, buffers: share(work, blocks, [buffers[0]] * len(buffers))
     ),
     dense_twin.test_displacement,
     Fault("a symbol that repeats instead of mirroring").at(convolution, "_halfplane", repeated),
