@@ -21,13 +21,16 @@ def share(work: Callable[[Buffers, Block], None], blocks: Sequence[Block], buffe
     """work(buffers, block) for each block, in any order; returns when all is done.
 
     buffers: those of each thread, the caller's first; where there are no others, no thread is started.
-    After an exception, such as that of Ctrl-C, no further block is begun.
+    After an exception in one of them, such as that of Ctrl-C, no further block is begun.
     """
     left = iter(blocks)
 
     def part(own: Buffers) -> None:
-        for block in left:
-            work(own, block)
+        try:
+            for block in left:
+                work(own, block)
+        finally:
+            deque(left, maxlen=0)
 
     caller, *more = buffers
     others: list[Future[None]] = []
@@ -39,7 +42,6 @@ def share(work: Callable[[Buffers, Block], None], blocks: Sequence[Block], buffe
             # one that has not begun has nothing left to do
             other.cancel() or other.result()
     finally:
-        deque(left, maxlen=0)
         wait([other for other in others if not other.cancel()])
 
 
