@@ -9,11 +9,16 @@ from validation.simulation.model import ErrorEstimate
 point_of = own_models._point
 
 
+def code_of(visitor):
+    return others.digest_of(path for path in visitor.sources if path.suffix == ".py")
+
+
 FAULTS = [
-    test_own_models.test_the_key_has_the_bytes_of_a_module_that_a_call_loads,
+    test_own_models.test_the_key_has_the_bytes_of_modules_and_data_that_a_call_reads,
     Fault("a key without the bytes of a module that the file loads").at(
         others.Visitor, "digest", property(lambda visitor: others.digest_of([visitor.path]))
     ),
+    Fault("a key without the bytes of data that the file reads").at(others.Visitor, "digest", property(code_of)),
     Fault("a key that is taken before a call loads a module").at(own_models, "_probe", lambda called: None),
     test_own_models.test_without_references_an_error_is_unknown_and_nothing_is_chosen,
     Fault("a model without references that is chosen").at(

@@ -121,12 +121,14 @@ def test_the_table_of_the_package_was_measured_beside_the_stored_answers():
 
 
 FILE = """
+from pathlib import Path
 from validation import stiffness_model
 
 @stiffness_model("mine")
 def mine(load, side, modulus, roughness):
     from own_constants import HALF
-    return 1 / (HALF * roughness.rms / load + 1 / (1.1523 * modulus * side))
+    square = float(Path(__file__).with_name("square.txt").read_text())
+    return 1 / (HALF * roughness.rms / load + 1 / (square * modulus * side))
 
 @stiffness_model("no number")
 def no_number(load):
@@ -138,17 +140,19 @@ def raises(load):
 """
 
 
-def written(folder, half=0.48):
+def written(folder, half=0.48, square=1.1523):
     (folder / "own_constants.py").write_text(f"HALF = {half}\n")
+    (folder / "square.txt").write_text(f"{square}\n")
     (folder / "mine.py").write_text(FILE)
     return folder / "mine.py"
 
 
 @pytest.mark.slow
-def test_the_key_has_the_bytes_of_a_module_that_a_call_loads():
+def test_the_key_has_the_bytes_of_modules_and_data_that_a_call_reads():
     with tempfile.TemporaryDirectory() as folder:
-        before, again, other = (models_in(written(Path(folder), half))[0].digest for half in (0.48, 0.48, 0.5))
-    assert before == again and before != other
+        constants = (0.48, 1.15), (0.48, 1.15), (0.5, 1.15), (0.48, 1.16)
+        first, again, *others = (models_in(written(Path(folder), *some))[0].digest for some in constants)
+    assert first == again and len({first, *others}) == 3
 
 
 @pytest.mark.slow

@@ -1,7 +1,7 @@
 """Models of somebody's own as candidates of `compare`: functions with decorators, calibrated on the stored scenes.
 
 A function of a file is measured beside the answers of boundary elements that the package has. Its errors are kept in a
-store, keyed by the bytes of the file and of the modules that this has loaded from its folder.
+store, keyed by the bytes of the file and of the modules and data that this has had from its folder.
 """
 
 import atexit
@@ -17,7 +17,8 @@ import numpy as np
 
 from validation.engine.engine import SERIAL, Engine, FloatArray, Outcome
 from validation.engine.offered import Offered
-from validation.engine.others import Called, OthersError, Visitor, digest_of, sources_of
+from validation.engine.others import Called, OthersError, Visitor
+from validation.engine.read_files import digest_of, sources_of
 from validation.scenes.load import Scene, load_scene
 from validation.scenes.printable import quoted
 from validation.scenes.rail import RailScene
@@ -57,9 +58,9 @@ class OwnErrors:
 class OwnModel:
     """A function of somebody's own, as workers get it.
 
-    digest: of its file and of the modules that this has loaded; empty for a function without a file, which is neither
-    calibrated nor stored. path, sources: of the file; function: of this process, in the place of its file; errors: by
-    kind of scene and quantity.
+    digest: of its file and of the modules and data that this has had; empty for a function without a file, which is
+    neither calibrated nor stored. path, sources: of the file; function: of this process, in the place of its file;
+    errors: by kind of scene and quantity.
     """
 
     kind: str
