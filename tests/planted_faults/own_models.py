@@ -1,12 +1,19 @@
 """Faults planted in how models of somebody's own are calibrated and chosen, and the test that must catch each."""
 
+from dataclasses import replace
+
 from tests.planted_faults.wrong import Fault
 from tests.selection import test_own_models
 from validation.engine import others
 from validation.selection import own_models
+from validation.selection.calibration_answers import Answers
 from validation.simulation.model import ErrorEstimate
 
-point_of = own_models._point
+scenes_of = Answers.scenes
+
+
+def next_scenes(answers, group):
+    return ((replace(point, number=point.number + 1), *rest) for point, *rest in scenes_of(answers, group))
 
 
 def code_of(visitor):
@@ -25,9 +32,7 @@ FAULTS = [
         own_models.OwnModel, "_claim", lambda own, *_: ErrorEstimate(reason="none is known")
     ),
     test_own_models.test_each_error_is_that_of_its_own_scene,
-    Fault("the error of the next scene of the calibration").at(
-        own_models, "_point", lambda group, answers, number: point_of(group, answers, number + 1)
-    ),
+    Fault("the error of the next scene of the calibration").at(Answers, "scenes", next_scenes),
     test_own_models.test_surfaces_are_those_that_boundary_elements_have,
     Fault("surfaces of another seed than those of the reference").at(own_models, "OTHER_SEED", 0),
     test_own_models.test_a_function_without_a_file_is_neither_calibrated_nor_stored,

@@ -112,11 +112,11 @@ def test_the_table_of_the_package_was_measured_beside_the_stored_answers():
     for (kind, quantity), found in answers_in().items():
         name = {"punch": "fit", "sphere": "closed form"}.get(kind)
         rows = {int(row["number"]): row for row in calibration.rows_of(calibration.TABLE) if row["model"] == name}
-        for number, value, each in found if name else ():
-            target = CalibrationScene(kind=kind, number=number, quantity=quantity, seed=found.seed).target()
+        for point, value, each in found.scenes((kind, quantity)) if name else ():
+            target = point.target()
             (form,) = (one for one in models_serving(target.scene, quantity) if one.name == name)
             mine = form.prepare(target, form.resolutions(target)[0])(0)().values[quantity]
-            assert abs(math.log(mine / value[0])) == pytest.approx(float(rows[number]["error"]), rel=1e-3)
+            assert abs(math.log(mine / value[0])) == pytest.approx(float(rows[point.number]["error"]), rel=1e-3)
             assert each.mean(axis=0) == pytest.approx(value)
 
 
