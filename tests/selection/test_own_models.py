@@ -89,6 +89,20 @@ def test_a_calibrated_function_is_chosen_like_any_other():
     assert found.models["springs"].status == "not asked"
 
 
+@pytest.mark.parametrize("off", [1.3, 0.7])
+def test_a_law_that_is_wrong_by_thirty_per_cent_claims_that_and_is_not_chosen(off):
+    """Of its own value: what is right lies inside."""
+
+    def right(point):
+        scene = point.scene
+        return np.full((1, 1), series(scene.load, scene.size, scene.modulus, scene.ground.spectrum) / off)
+
+    with stored((PUNCH, answers(right))):
+        found = validation.compare(ROUGH, models=series)
+    (alone,) = found.selection.solved
+    assert alone.error == pytest.approx(max(off, 1 / off) - 1) and not found.met
+
+
 def test_without_references_an_error_is_unknown_and_nothing_is_chosen():
     with stored():
         found = validation.compare(ROUGH, models=series)
