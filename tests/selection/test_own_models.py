@@ -189,6 +189,15 @@ def test_a_sweep_takes_what_is_stored_until_a_module_of_the_file_is_another(caps
     assert "Traceback" not in "".join(capsys.readouterr())
 
 
+@pytest.mark.slow
+def test_the_errors_of_a_file_are_shown_and_why_there_are_none(capsys):
+    with stored((PUNCH, answers())) as folder:
+        assert main(["calibrate", "--model", str(written(folder))]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[1].split()[:4] == ["punch", "stiffness", "mine", str(SCENES - 1)]
+    assert [line.split('"')[1] for line in lines if "answers fewer than 20 scenes" in line] == ["no number", "raises"]
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [

@@ -37,5 +37,6 @@ def sources_of(path: Path) -> tuple[Path, ...]:
 
 
 def digest_of(sources: Iterable[Path]) -> str:
-    """Of the bytes of these files."""
-    return hashlib.sha256(b"".join(hashlib.sha256(path.read_bytes()).digest() for path in sources)).hexdigest()
+    """Of the bytes of these files; one that is gone has none."""
+    contents = (path.read_bytes() if path.is_file() else b"" for path in sources)
+    return hashlib.sha256(b"".join(hashlib.sha256(some).digest() for some in contents)).hexdigest()

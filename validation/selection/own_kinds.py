@@ -135,6 +135,16 @@ def _quadratures(quantity: RollingQuantity) -> Iterator[tuple[FloatArray, FloatA
         yield on_panels(np.unique(np.concatenate([waves, powers, below])), NODES)
 
 
+def rms_of_profile(c1d: FloatArray, waves: FloatArray, ground: RoughSurface) -> float:
+    """Of a rule: a band that begins at the first wave counts it whole, as that of Geike's, whose rms is the surface's.
+
+    Raises ValueError for a spectrum that is negative, or zero.
+    """
+    if c1d.min() < 0 or not c1d.any():
+        raise ValueError("no profile has a spectrum that is negative, or zero")
+    return float(ground.rms * math.sqrt(c1d.sum() / mdr.geike(waves, ground.c2d).sum()))
+
+
 def _of_rule(caller: Caller, target: Target, count: int) -> FloatArray:
     """Springs under profiles of that spectrum, L_1D = L; linear theory of a wheel on such a line."""
     scene, roughness = target.scene, roughness_of(target.scene.ground)
@@ -146,12 +156,8 @@ def _of_rule(caller: Caller, target: Target, count: int) -> FloatArray:
         contact = {"contact_radius": scene.contact_radius, "modulus": scene.modulus}
         return _of_density(target.rolling, lambda q: force_spectrum_1d(q, c1d, **contact))
     points = max(256, math.ceil(NODES * scene.size * scene.ground.q_max / (2 * math.pi)))
-    # a band that begins at the first wave counts it whole, as that of Geike's rule, which has the rms of the surface
     waves = 2 * math.pi / scene.size * np.arange(1, points // 2)
-    share = float(c1d(waves).sum() / mdr.geike(waves, scene.ground.c2d).sum())
-    if not share > 0:
-        raise ValueError("no profile has a spectrum that is negative, or zero")
-    rms, rng = scene.ground.rms * math.sqrt(share), random_generator(target.seed, DRAWS)
+    rms, rng = rms_of_profile(c1d(waves), waves, scene.ground), random_generator(target.seed, DRAWS)
     drawn = mdr.rough_profiles(c1d, length=scene.size, points=points, count=count, rng=rng, rms=rms)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", mdr.SpringResolutionWarning)

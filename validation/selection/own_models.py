@@ -110,7 +110,7 @@ class OwnModel:
         """As measured, what the sample leaves, and what one measured surface has beside all that have its spectrum."""
         known, own = self.errors.get(_group(target)), SERVED[self.kind].own
         if known is None or known.measured is None:
-            return ErrorEstimate.out_of_range(self._unknown(known))
+            return ErrorEstimate.out_of_range(self.unknown(known))
         ground = target.scene.ground
         of_spectrum = beyond_spectrum(ground) if own is not None else ""
         if reason := of_spectrum or (_group(target)[0] in ("rolling", "wheel") and target.rolling.no_answer):
@@ -120,7 +120,8 @@ class OwnModel:
         # a distance of logarithms: 0.7 of what is right is off by 43 % of itself
         return replace(found, model=math.expm1(found.model) + scatters, sample=self._sample(target)[1])
 
-    def _unknown(self, known: OwnErrors | None) -> str:
+    def unknown(self, known: OwnErrors | None) -> str:
+        """Why an error is unknown."""
         if not self.digest:
             return "a function without a file is not calibrated: its error is unknown"
         if known is None:
@@ -188,12 +189,12 @@ class OwnPart:
     digest: str
 
 
-def calibrated(own: OwnModel, groups: Iterable[Group], engine: Engine = SERIAL) -> OwnModel:
-    """With its errors of these groups, of those for which answers are stored; those that are known are taken."""
+def calibrated(own: OwnModel, groups: Iterable[Group] | None = None, engine: Engine = SERIAL) -> OwnModel:
+    """With its errors of these groups, or of all, for which answers are stored; those that are known are taken."""
     stored = answers_in()
     parts = [
         OwnPart(own, group, stored[group].digest)
-        for group in groups
+        for group in (stored if groups is None else groups)
         if own.digest and group in stored and SERVED[own.kind].serves(_first_of(group).scene, group[1])
     ]
     return replace(own, errors={part.group: _errors(part, engine) for part in parts})

@@ -22,7 +22,7 @@ from validation.selection.calibrate import (
     measured_table,
     table_in,
 )
-from validation.selection.calibration_answers import ANSWERS, Answers, Group, answers_in, merged
+from validation.selection.calibration_answers import ANSWERS, Answers, Group, merged
 from validation.selection.calibration_scenes import CalibrationRun
 from validation.selection.judging.from_report import references_of
 from validation.selection.judging.references import FOLDER as INSTALLED
@@ -159,16 +159,17 @@ def _own(path: Path, arguments: argparse.Namespace) -> Exit:
 
     if arguments.install:
         raise ValueError("--install is for models of the package, whose table has no rows of others")
-    store, answers = arguments.out or STORE, answers_in()
+    store = arguments.out or STORE
     engine = Engine(store=store / REALISATIONS)
-    found = [calibrated(one, answers.keys(), engine) for one in models_in(path)]
+    found = [calibrated(one, None, engine) for one in models_in(path)]
     errors = {(*group, one.name): known.measured for one in found for group, known in one.errors.items()}
-    lines = errors_as_lines({key: measured for key, measured in errors.items() if measured})
-    print(printable("\n".join(lines), lines=True))
+    known = {key: measured for key, measured in errors.items() if measured}
+    lines = errors_as_lines(known)
     for one in found:
-        if not any(one.name == name for *_, name in errors):
-            print(printable(f"{one.serves}; no answers are stored for that: its error is unknown"))
-    print(printable(f"errors: in {store}, by the bytes of {path.name} and of what it has loaded from its folder"))
+        if not any(one.name == name for *_, name in known):
+            lines.append(f"{one.serves}; {one.unknown(next(iter(one.errors.values()), None))}")
+    lines.append(f"errors: in {store}, by the bytes of {path.name} and of what it has from its folder")
+    print(printable("\n".join(lines), lines=True))
     return Exit.MET
 
 
