@@ -6,11 +6,16 @@ from functools import partial
 from tests.planted_faults.wrong import Fault, with_math
 from tests.selection import test_own_models
 from validation.engine import others
-from validation.selection import own_models
+from validation.selection import own_kinds, own_models
 from validation.selection.calibration_answers import Answers
 from validation.simulation.model import ErrorEstimate
+from validation.simulation.rail_models import ContactFilter
 
 scenes_of = Answers.scenes
+
+
+def as_reference(name, a3):
+    return ContactFilter(name=name, closed=lambda quantity: a3, is_reference=True)
 
 
 def next_scenes(answers, group):
@@ -40,4 +45,6 @@ FAULTS = [
     Fault("surfaces of another seed than those of the reference").at(own_models, "OTHER_SEED", 0),
     test_own_models.test_a_function_without_a_file_is_neither_calibrated_nor_stored,
     Fault("a function without a file that is stored").at(own_models, "_digest_of_file", lambda offered: "a file"),
+    test_own_models.test_a_filter_of_a_rail_claims_what_the_same_one_of_the_package_does,
+    Fault("a filter of somebody's own that is the reference").at((own_kinds, own_models), "filter_of", as_reference),
 ]

@@ -22,10 +22,10 @@ from validation.selection.judging.judge import asked
 from validation.selection.judging.rolling import middle_line
 from validation.simulation.calibrated_range import SCATTER
 from validation.simulation.indentation import cells_wanted, ground_of, height_of, is_rough, side_of
-from validation.simulation.method import Result
+from validation.simulation.method import Resolution, Result
 from validation.simulation.model import Target
 from validation.simulation.models import boundary_elements_pressed, boundary_elements_rolling
-from validation.simulation.rail_models import rail_quantity
+from validation.simulation.rail_models import ContactFilter, rail_quantity
 from validation.simulation.rail_quantity import RAIL_QUANTITIES
 from validation.simulation.rail_strip import structure_of
 from validation.simulation.rolling_levels import by_linear_theory, levels_of, strip_of
@@ -43,7 +43,7 @@ STEPS, RATIO, NODES = 5, 1.4, 8
 """Panels of a quadrature below the roughness, the ratio of the ends of one in it, and nodes of each."""
 
 Rows = Callable[[Caller, Target, int], FloatArray]
-"""(realisations, numbers) of a quantity, of a rail (1, bands) [dB]; the last argument is how many are drawn."""
+"""(realisations, numbers) of a quantity, of a rail (ends, bands) [dB]; the last argument is how many are drawn."""
 
 
 @dataclass(frozen=True)
@@ -183,7 +183,7 @@ def _rolled(caller: Caller, target: Target, count: int) -> FloatArray:
 
 
 def _filtered(caller: Caller, target: Target, count: int) -> FloatArray:
-    """A3 in bands, in the middle of both ends where the ground is not stated [dB]."""
+    """A3 in bands, at both ends where the ground is not stated [dB]."""
     quantity, contact, found = rail_quantity(target), target.scene.contact, []
     bands = {"edges": quantity.bands.edges, "semi_axes": contact.semi_axes}
     given = {"a_x": contact.along, "a_y": contact.across, "approach": contact.approach}
@@ -191,7 +191,12 @@ def _filtered(caller: Caller, target: Target, count: int) -> FloatArray:
         given["alpha"] = {"ridges": 0.0, "isotropic": math.inf}.get(str(across), across)
         ground = structure_of(across if "k_y" in caller.asks else "ridges", quantity.line)
         found.append(ground.band_power(quantity.line, partial(_amplitude, caller, given), **bands))
-    return np.asarray(quantity.between(10 * np.log10(found)).mean(axis=0, keepdims=True))
+    return quantity.between(10 * np.log10(found))
+
+
+def filter_of(name: str, a3: FloatArray) -> ContactFilter:
+    """Whose error is its distance from linear theory, and that of linear theory. a3: (ends, bands) [dB]."""
+    return ContactFilter(name=name, closed=lambda quantity: a3)
 
 
 def _amplitude(caller: Caller, given: Given, k_x: FloatArray, k_y: FloatArray) -> FloatArray:
@@ -253,9 +258,7 @@ def result_of(caller: Caller, target: Target, count: int) -> Result:
     """So many realisations. Raises ArithmeticError for no answer, ValueError for one that is not positive."""
     rows = SERVED[caller.kind].rows(caller, target, count)
     if isinstance(target.scene, RailScene):
-        # nothing is known of its error, in any band
-        halves = {"model": np.full(rows[0].shape, math.inf), "grid": 0 * rows[0], "sample": 0 * rows[0]}
-        return Result({target.quantity: rail_quantity(target).amplitude(rows[0]), "a3": rows[0], **halves})
+        return filter_of(caller.name, rows).solve(target, Resolution())
     if not (rows > 0).all():
         raise ValueError(f"a {target.quantity} of {rows.min():.3g}, must be positive")
     return Result({target.quantity: rows}, count=len(rows))

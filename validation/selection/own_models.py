@@ -1,7 +1,8 @@
 """Models of somebody's own as candidates of `compare`: functions with decorators, calibrated on the stored scenes.
 
 A function of a file is measured beside the answers of boundary elements that the package has. Its errors are kept in a
-store, keyed by the bytes of the file and of the modules and data that this has had from its folder.
+store, keyed by the bytes of the file and of the modules and data that this has had from its folder. The error of a
+contact filter is known on each rail, as of those of the package.
 """
 
 import atexit
@@ -24,7 +25,7 @@ from validation.scenes.printable import quoted
 from validation.scenes.rail import RailScene
 from validation.selection.calibration_answers import Group, answers_in
 from validation.selection.calibration_scenes import OTHER_SEED, CalibrationScene
-from validation.selection.own_kinds import CALIBRATED, SERVED, SURFACES, result_of
+from validation.selection.own_kinds import CALIBRATED, SERVED, SURFACES, filter_of, result_of
 from validation.simulation.calibrated_range import CONDITIONS, HURST, beyond_spectrum
 from validation.simulation.calibration import MeasuredErrors, conditions_by_kind, kind_of
 from validation.simulation.method import Resolution, Result
@@ -106,8 +107,14 @@ class OwnModel:
         (count, _), known = self._sample(target), self.errors.get(_group(target))
         return Cost(work=count, seconds=count * (known.seconds if known else CALL))
 
-    def _claim(self, _: Model, target: Target, resolution: Resolution) -> ErrorEstimate:
+    def _claim(self, of: Model, target: Target, resolution: Resolution) -> ErrorEstimate:
         """As measured, what the sample leaves, and what one measured surface has beside all that have its spectrum."""
+        if isinstance(target.scene, RailScene):
+            try:
+                a3 = SERVED[self.kind].rows(self.called(), target, 1)
+            except (ValueError, ArithmeticError) as problem:
+                return ErrorEstimate.out_of_range(str(problem))
+            return filter_of(self.name, a3).claim(of, target, resolution)
         known, own = self.errors.get(_group(target)), SERVED[self.kind].own
         if known is None or known.measured is None:
             return ErrorEstimate.out_of_range(self.unknown(known))
@@ -122,6 +129,8 @@ class OwnModel:
 
     def unknown(self, known: OwnErrors | None) -> str:
         """Why an error is unknown."""
+        if self.kind == "contact_filter":
+            return "its error is known on each rail, beside linear theory"
         if not self.digest:
             return "a function without a file is not calibrated: its error is unknown"
         if known is None:
