@@ -44,10 +44,10 @@ class Called:
 
     offered: Offered
     visitor: "Visitor | None" = None
-    printed: str = field(default="", init=False)
-    replies: list[Reply] = field(default_factory=list, init=False)
-    longest: dict[str, Any] = field(default_factory=dict, init=False)
-    _seconds: float = field(default=0.0, init=False)
+    printed: str = field(default="", init=False, repr=False)
+    replies: list[Reply] = field(default_factory=list, init=False, repr=False)
+    longest: dict[str, Any] = field(default_factory=dict, init=False, repr=False)
+    _seconds: float = field(default=0.0, init=False, repr=False)
 
     @property
     def kind(self) -> str:
