@@ -14,7 +14,6 @@ from importlib.machinery import SourceFileLoader
 from io import StringIO
 from multiprocessing.connection import Connection, Pipe
 from pathlib import Path
-from types import TracebackType
 from typing import IO, Any
 
 from validation.engine.installed import file_of
@@ -105,9 +104,7 @@ class Visitor:
     def __enter__(self) -> "Visitor":
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         self._end()
 
     def callers(self) -> list[Called]:

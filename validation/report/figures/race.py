@@ -13,8 +13,9 @@ MARKS: dict[str, Style] = {
     "tamaas": {"color": "#D55E00", "marker": "s", "markerfacecolor": "none"},
     "ContactMechanics": {"color": "#009E73", "marker": "^"},
 }
-OTHER: Style = {"color": "#777777", "marker": "v", "markerfacecolor": "none"}
-"""Of a solver that has no style of its own."""
+OTHER: Style = {"color": "#777777", "markerfacecolor": "none"}
+OTHERS = "vP*Xpd"
+"""Of solvers that have no style of their own, in turn."""
 
 
 def draw(heats: Table) -> Figure:
@@ -23,12 +24,14 @@ def draw(heats: Table) -> Figure:
     figure, (time, ratio) = panels(1, 2, width=11.0, height=1.4 + 0.3 * len(problems), sharey="all")
     ours = heats.where(solver="bem3d")
     mine = dict(zip(ours["problem"], ours["median [s]"], strict=True))
+    others = [name for name in names if name not in MARKS]
+    marks = MARKS | {name: {**OTHER, "marker": OTHERS[i % len(OTHERS)]} for i, name in enumerate(others)}
     for shift, name in zip(np.linspace(-0.3, 0.3, len(names)), names, strict=True):
         rows = heats.where(solver=name, status="finished")
         unit = np.array([mine[problem] for problem in rows["problem"]])
         place = np.array([problems.index(problem) for problem in rows["problem"]]) + shift
         bars = np.abs(np.array([rows["fastest [s]"], rows["slowest [s]"]]) - rows["median [s]"])
-        style = {**MARKS.get(name, OTHER), "linestyle": "none", "label": name}
+        style = {**marks[name], "linestyle": "none", "label": name}
         time.errorbar(rows["median [s]"], place, xerr=bars, **style)
         if name != "bem3d" and place.size:
             ratio.errorbar(rows["median [s]"] / unit, place, xerr=bars / unit, **style)
