@@ -22,28 +22,6 @@ class Failed:
     refused: bool = False
 
 
-class Caller(Protocol):
-    """An offered function as a judge sees it, in this process or in one of its own.
-
-    `call` takes all that there is and passes on what the function asks for. It returns finite numbers of the right
-    shape, or Failed. `calls` does so for each value of one argument, which takes less time; `warned` is what the
-    function warned of in the last ones.
-    """
-
-    @property
-    def kind(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def asks(self) -> tuple[str, ...]: ...
-    @property
-    def options(self) -> Given: ...
-    @property
-    def warned(self) -> str: ...
-    def call(self, **arguments: Any) -> FloatArray | Failed: ...
-    def calls(self, name: str, values: Sequence[Any], arguments: Given) -> list[FloatArray | Failed]: ...
-
-
 def _one(given: Given) -> tuple[Shape, ...]:
     return ((),)
 
@@ -149,6 +127,41 @@ class Offered:
 
     def __call__(self, *arguments: Any, **named: Any) -> Any:
         return self.function(*arguments, **named)
+
+
+class Caller(Protocol):
+    """An offered function as a judge sees it, in this process or in one of its own.
+
+    `call` takes all that there is and passes on what the function asks for. It returns finite numbers of the right
+    shape, or Failed. `calls` does so for each value of one argument, which takes less time; `warned` is what the
+    function warned of in the last ones.
+    """
+
+    offered: Offered
+
+    @property
+    def kind(self) -> str:
+        return self.offered.kind
+
+    @property
+    def name(self) -> str:
+        return self.offered.name
+
+    @property
+    def asks(self) -> tuple[str, ...]:
+        return self.offered.asks
+
+    @property
+    def options(self) -> Given:
+        return self.offered.options
+
+    @property
+    def warned(self) -> str: ...
+
+    def calls(self, name: str, values: Sequence[Any], arguments: Given) -> list[FloatArray | Failed]: ...
+
+    def call(self, **arguments: Any) -> FloatArray | Failed:
+        return self.calls("", [None], arguments)[0]
 
 
 Decorator = Callable[[Callable[..., Any]], Offered]

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from validation.engine.installed import file_of
-from validation.engine.offered import KINDS, Failed, FloatArray, Offered
+from validation.engine.offered import KINDS, Caller, Failed, FloatArray, Offered
 from validation.engine.replies import SHOWN, Reply, called, raised
 from validation.engine.workers import ONE_THREAD
 
@@ -35,8 +35,8 @@ class OthersError(ValueError):
 
 
 @dataclass
-class Called:
-    """An offered function as a `Caller`: in this process, or by a visitor.
+class Called(Caller):
+    """An offered function, in this process or by a visitor.
 
     printed: the first of what it printed; replies: to the last calls; longest: arguments that took it longest.
     """
@@ -49,28 +49,9 @@ class Called:
     _seconds: float = field(default=0.0, init=False, repr=False)
 
     @property
-    def kind(self) -> str:
-        return self.offered.kind
-
-    @property
-    def name(self) -> str:
-        return self.offered.name
-
-    @property
-    def asks(self) -> tuple[str, ...]:
-        return self.offered.asks
-
-    @property
-    def options(self) -> Mapping[str, Any]:
-        return self.offered.options
-
-    @property
     def warned(self) -> str:
         """The first warning of the last calls."""
         return next((reply.warned for reply in self.replies if reply.warned), "")
-
-    def call(self, **arguments: Any) -> FloatArray | Failed:
-        return self.calls("", [None], arguments)[0]
 
     def calls(self, name: str, values: Sequence[Any], arguments: Mapping[str, Any]) -> list[FloatArray | Failed]:
         if self.visitor:
