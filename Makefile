@@ -15,7 +15,7 @@ OLDEST := .venv-oldest
 RECORD := .coverage-times.xml
 RECORD_OF_VERDICTS := .coverage-verdicts-times.xml
 
-.PHONY: report full-report reference race docs check fast test accessibility oldest-python oldest thorough coverage verdicts mutation lint types format clean
+.PHONY: report full-report reference race peers docs check fast test accessibility oldest-python oldest thorough coverage verdicts mutation lint types format clean
 
 report: $(READY)  ## the validation report, small: reports/quick/index.html
 	$(RUN) validation report $(ARGS)
@@ -28,6 +28,8 @@ reference: $(PEERS)  ## the committed one, with the race: reports/reference/inde
 
 race: $(PEERS)  ## beside the peers, which it installs: reports/race-quick/index.html
 	$(RUN) validation race $(ARGS)
+
+peers: $(PEERS)  ## the packages of the solver comparison; tests beside them are skipped without
 
 docs: $(DOCS)  ## the documentation: reports/docs/_build/html/index.html
 	$(RUN) sphinx --quiet --nitpicky --fail-on-warning --keep-going -d reports/docs/_build/doctrees \

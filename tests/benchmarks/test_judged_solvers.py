@@ -55,16 +55,20 @@ def test_a_solver_of_forty_lines_is_accepted_and_not_asked_what_it_does_not_serv
     assert len(periodic) == 5 and all("periodic" in name for name in periodic)
 
 
-def test_tamaas_is_right_but_for_flat_bodies():
-    """Where it is installed: it measures its error by the rms height, and has none of a flat body."""
-    pytest.importorskip("tamaas")
+@pytest.mark.parametrize(
+    ("package", "solver", "load"),
+    [("tamaas", peers.tamaas, "force"), ("ContactMechanics", peers.contact_mechanics, "approach")],
+)
+def test_the_solvers_of_other_packages_are_right(package, solver, load):
+    """Where they are installed; flat bodies, few cells and odd numbers of them included."""
+    pytest.importorskip(package)
 
     def solve(tolerance, **given):
-        return peers.tamaas(ContactProblem(**given), tolerance / 3, iterations=300)()[0]
+        return solver(ContactProblem(**{"force": math.nan, **given}), tolerance / 10)()[0]
 
-    wrong = wrong_in(solve, periodic=True)
-    assert {one.quantity for one in wrong} <= {"answer", "pressure", "superposition", "order of convergence"}
-    assert {one.where["problem"] for one in wrong} <= {"flat", "rough, heavy load, 40 x 28 cells"}
+    found = list(findings(asked(solve, load, periodic=True)))
+    assert {finding.where["problem"] for finding in found} > set(STATED)
+    assert [finding for finding in found if finding.verdict != AGREE] == []
 
 
 def changed(**factors):

@@ -14,6 +14,7 @@ from validation.analysis.series import numbers_of
 from validation.benchmarks import isolation as alone
 from validation.benchmarks import peers, timing
 from validation.benchmarks import solvers as comparison
+from validation.benchmarks.judging.discrete import ContactProblem, pressed
 from validation.benchmarks.peers import OURS, SOLVERS, PeerSolver
 from validation.benchmarks.solvers import AREA, CASE, FORCE, PRESSURE, SurfaceProblem
 from validation.benchmarks.timing import TimedProblem
@@ -231,3 +232,18 @@ def test_peers_find_the_same_pressure(name, evidence):
 def test_a_difference_of_answers_is_a_missed_criterion(result):
     off = with_rows(result, {"bem3d, Polonsky-Keer": {PRESSURE: 2e-4, FORCE: 2e-6, AREA: 0.0}}, {}, {}, {})
     assert sum(not number.met for number in CASE.evidence(off).numbers) == 2
+
+
+@pytest.mark.parametrize(
+    ("gap", "periodic", "shape"),
+    [(np.zeros((5, 3)), False, (6, 4)), (np.array([[0.0, 2.0], [1.0, 0.5], [2.0, 1.0]]), True, (6, 2))],
+)
+def test_where_tamaas_has_no_answer_another_contact_stands_in(gap, periodic, shape):
+    """A rim beside a flat body, two periods of an odd number of cells: the same pressure."""
+    problem = ContactProblem(gap=1e-3 * gap, spacing=(1.0, 0.5), modulus=3.0, periodic=periodic, force=5e-3)
+    gap, force = peers.equivalent_for_tamaas(problem)
+    other = dataclasses.replace(problem, gap=gap, force=force)
+    p, q = (pressed(one, 1e-10, force=one.force).pressure for one in (problem, other))
+    n, m = p.shape
+    assert q.shape == shape and q[:n, :m] == pytest.approx(p, rel=1e-8)
+    assert q.sum() == pytest.approx((1 + periodic) * p.sum())

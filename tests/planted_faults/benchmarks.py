@@ -2,6 +2,7 @@
 
 import dataclasses
 import functools
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -21,6 +22,10 @@ from validation.benchmarks.work_precision.pareto import Point
 
 def at_first_order(answer, quantity, rows):
     return log_of_answer(answer, dataclasses.replace(quantity, order=1.0), rows)
+
+
+def rigid(problem):
+    return SimpleNamespace(displacement=lambda pressure: 0 * pressure)
 
 
 left = discrete.ContactProblem.left
@@ -43,6 +48,10 @@ FAULTS = [
     Fault("a median without an interval").at(
         timing, "interval_of_median", lambda times: (np.median(times), np.median(times))
     ),
+    functools.partial(
+        test_peers.test_where_tamaas_has_no_answer_another_contact_stands_in, np.zeros((5, 3)), False, (6, 4)
+    ),
+    Fault("a rim that touches").at(discrete.ContactProblem, "half_space", property(rigid)),
     test_peers.test_a_solver_that_is_placed_first_does_not_become_ours,
     Fault("our solver for the first of the list").at(comparison, "OUR_SOLVER", "theirs"),
     test_fronts.test_the_front_is_what_nothing_beats_and_ends_in_the_band,

@@ -3,6 +3,7 @@
 import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -21,43 +22,22 @@ class Failed:
     refused: bool = False
 
 
-class Caller(Protocol):
-    """An offered function as a judge sees it, in this process or in one of its own.
-
-    `call` takes all that there is and passes on what the function asks for. It returns finite numbers of the right
-    shape, or Failed. `calls` does so for each value of one argument, which takes less time; `warned` is what the
-    function warned of in the last ones.
-    """
-
-    @property
-    def kind(self) -> str: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def asks(self) -> tuple[str, ...]: ...
-    @property
-    def options(self) -> Given: ...
-    @property
-    def warned(self) -> str: ...
-    def call(self, **arguments: Any) -> FloatArray | Failed: ...
-    def calls(self, name: str, values: Sequence[Any], arguments: Given) -> list[FloatArray | Failed]: ...
+def _one(given: Given) -> tuple[Shape, ...]:
+    return ((),)
 
 
 class OfferedKind(NamedTuple):
-    """arguments: that a function may ask for; needs: must; either: one of each pair, or both where both are None by
-    default; returns: in words; shapes: that a value may have; options: of the decorator, by default."""
+    """arguments: that a function may ask for; returns: in words; needs: arguments that it must ask for; either: one of
+    each pair, or both where both are None by default; shapes: that a value may have; options: of the decorator, by
+    default."""
 
     arguments: tuple[str, ...]
-    needs: tuple[str, ...]
-    either: tuple[tuple[str, str], ...]
     returns: str
-    shapes: Callable[[Given], tuple[Shape, ...]]
-    options: Given
     example: str
-
-
-def _one(given: Given) -> tuple[Shape, ...]:
-    return ((),)
+    needs: tuple[str, ...] = ()
+    either: tuple[tuple[str, str], ...] = ()
+    shapes: Callable[[Given], tuple[Shape, ...]] = _one
+    options: Given = MappingProxyType({})
 
 
 def _mean_and_deviation(given: Given) -> tuple[Shape, ...]:
@@ -75,78 +55,62 @@ def _as(*names: str) -> Callable[[Given], tuple[Shape, ...]]:
 KINDS: Mapping[str, OfferedKind] = {
     "stiffness_model": OfferedKind(
         ("load", "side", "modulus", "roughness", "rng"),
-        (),
-        (),
         "mean stiffness [N/m], or (mean, standard deviation); with rng that of one realisation a call",
-        _mean_and_deviation,
-        {},
         "def half(load, side, modulus, roughness):\n    return 1 / (1 / (modulus * side) + roughness.rms / load)",
+        shapes=_mean_and_deviation,
     ),
     "stiffness_of_surface": OfferedKind(
         ("height", "spacing", "modulus", "load"),
-        ("height",),
-        (),
         "stiffness of that surface [N/m]; height (n, n) is positive towards the other body",
-        _one,
-        {},
         "def highest(height, spacing, modulus, load):\n    return 2 * modulus * spacing * (height > 0).sum() ** 0.5",
+        needs=("height",),
     ),
     "force_spectrum": OfferedKind(
         ("q", "contact_radius", "approach", "radius", "modulus", "roughness"),
-        ("q",),
-        (),
         "two-sided density [N² m] at q > 0 [rad/m]; its integral over all q is the variance of the force",
-        _as("q"),
-        {},
         "def linear(q, contact_radius, modulus, roughness):\n"
         "    return (2 * modulus * contact_radius) ** 2 * roughness.c1d(q)",
+        needs=("q",),
+        shapes=_as("q"),
     ),
     "rolling_model": OfferedKind(
         ("height", "line", "spacing", "radius", "modulus", "approach", "load"),
-        (),
-        (("height", "line"), ("approach", "load")),
         "force (nx,) [N] at an approach from the mean plane, entry i with the wheel above cell i; or under a load the "
         "approach (nx,) [m]. height (nx, ny) is periodic along axis 0, line (nx,) is its middle",
-        _along,
-        {},
         "def stiff(line, radius, modulus, approach):\n"
         "    return 4 / 3 * modulus * radius**0.5 * (approach + line).clip(0) ** 1.5",
+        either=(("height", "line"), ("approach", "load")),
+        shapes=_along,
     ),
     "contact_filter": OfferedKind(
         ("k_x", "k_y", "a_x", "a_y", "approach", "alpha"),
-        ("k_x",),
-        (),
         "amplitude abs(H) of waves k_x, k_y [rad/m], not its square, one for long waves; without k_y that of the line",
-        _as("k_x", "k_y"),
-        {},
         "def smooth(k_x, a_x):\n    return 1 / (1 + (k_x * a_x) ** 2 / 4) ** 0.5",
+        needs=("k_x",),
+        shapes=_as("k_x", "k_y"),
     ),
     "profile_spectrum": OfferedKind(
         ("q", "roughness"),
-        ("q", "roughness"),
-        (),
         "C_1D [m³] at q [rad/m]: a rule like Geike's",
-        _as("q"),
-        {},
         "def like_geike(q, roughness):\n    return 3 * q * roughness.c2d(q)",
+        needs=("q", "roughness"),
+        shapes=_as("q"),
     ),
     "contact_law": OfferedKind(
         ("approach", "position"),
-        ("approach",),
-        (),
         "force [N] of a wheel with a mass",
-        _as("approach", "position"),
-        {},
         "def linear_law(approach):\n    return 1e8 * approach",
+        needs=("approach",),
+        shapes=_as("approach", "position"),
     ),
     "contact_solver": OfferedKind(
         ("gap", "spacing", "modulus", "periodic", "tolerance", "force", "approach"),
-        ("gap",),
-        (("force", "approach"),),
         "pressure (n, m) [Pa]; gap (n, m) is read-only",
-        _as("gap"),
-        {"free": True, "periodic": False, "residual": 1e-4},
         "def even(gap, spacing, force):\n    return gap * 0 + force / (gap.size * spacing[0] * spacing[1])",
+        needs=("gap",),
+        either=(("force", "approach"),),
+        shapes=_as("gap"),
+        options={"free": True, "periodic": False, "residual": 1e-4},
     ),
 }
 
@@ -163,6 +127,41 @@ class Offered:
 
     def __call__(self, *arguments: Any, **named: Any) -> Any:
         return self.function(*arguments, **named)
+
+
+class Caller(Protocol):
+    """An offered function as a judge sees it, in this process or in one of its own.
+
+    `call` takes all that there is and passes on what the function asks for. It returns finite numbers of the right
+    shape, or Failed. `calls` does so for each value of one argument, which takes less time; `warned` is what the
+    function warned of in the last ones.
+    """
+
+    offered: Offered
+
+    @property
+    def kind(self) -> str:
+        return self.offered.kind
+
+    @property
+    def name(self) -> str:
+        return self.offered.name
+
+    @property
+    def asks(self) -> tuple[str, ...]:
+        return self.offered.asks
+
+    @property
+    def options(self) -> Given:
+        return self.offered.options
+
+    @property
+    def warned(self) -> str: ...
+
+    def calls(self, name: str, values: Sequence[Any], arguments: Given) -> list[FloatArray | Failed]: ...
+
+    def call(self, **arguments: Any) -> FloatArray | Failed:
+        return self.calls("", [None], arguments)[0]
 
 
 Decorator = Callable[[Callable[..., Any]], Offered]
@@ -192,7 +191,7 @@ def _asked(kind: str, function: Callable[..., Any]) -> tuple[str, ...]:
 def offer(kind: str, name: str, options: Given, function: Callable[..., Any]) -> Offered:
     """The function under its name. Raises TypeError or ValueError in one sentence that begins with the name."""
     try:
-        return Offered(kind, name, function, _asked(kind, function), options)
+        return Offered(kind, name, function, _asked(kind, function), dict(options))
     except TypeError as error:
         raise TypeError(f"{name!r}: {error}") from None
 

@@ -13,11 +13,10 @@ from importlib.machinery import SourceFileLoader
 from io import StringIO
 from multiprocessing.connection import Connection, Pipe
 from pathlib import Path
-from types import TracebackType
 from typing import IO, Any
 
 from validation.engine.installed import file_of
-from validation.engine.offered import KINDS, Failed, FloatArray, Offered
+from validation.engine.offered import KINDS, Caller, Failed, FloatArray, Offered
 from validation.engine.read_files import OPENED, digest_of, sources_of, watch_opened
 from validation.engine.replies import SHOWN, Reply, called, raised
 from validation.engine.workers import ONE_THREAD
@@ -36,42 +35,23 @@ class OthersError(ValueError):
 
 
 @dataclass
-class Called:
-    """An offered function as a `Caller`: in this process, or by a visitor.
+class Called(Caller):
+    """An offered function, in this process or by a visitor.
 
     printed: the first of what it printed; replies: to the last calls; longest: arguments that took it longest.
     """
 
     offered: Offered
     visitor: "Visitor | None" = None
-    printed: str = field(default="", init=False)
-    replies: list[Reply] = field(default_factory=list, init=False)
-    longest: dict[str, Any] = field(default_factory=dict, init=False)
-    _seconds: float = field(default=0.0, init=False)
-
-    @property
-    def kind(self) -> str:
-        return self.offered.kind
-
-    @property
-    def name(self) -> str:
-        return self.offered.name
-
-    @property
-    def asks(self) -> tuple[str, ...]:
-        return self.offered.asks
-
-    @property
-    def options(self) -> Mapping[str, Any]:
-        return self.offered.options
+    printed: str = field(default="", init=False, repr=False)
+    replies: list[Reply] = field(default_factory=list, init=False, repr=False)
+    longest: dict[str, Any] = field(default_factory=dict, init=False, repr=False)
+    _seconds: float = field(default=0.0, init=False, repr=False)
 
     @property
     def warned(self) -> str:
         """The first warning of the last calls."""
         return next((reply.warned for reply in self.replies if reply.warned), "")
-
-    def call(self, **arguments: Any) -> FloatArray | Failed:
-        return self.calls("", [None], arguments)[0]
 
     def calls(self, name: str, values: Sequence[Any], arguments: Mapping[str, Any]) -> list[FloatArray | Failed]:
         if self.visitor:
@@ -105,9 +85,7 @@ class Visitor:
     def __enter__(self) -> "Visitor":
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         self._end()
 
     def callers(self) -> list[Called]:

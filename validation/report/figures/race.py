@@ -1,5 +1,7 @@
 """Figure of the solver comparison."""
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -14,15 +16,18 @@ MARKS: dict[str, Style] = {
     "tamaas": {"color": "#D55E00", "marker": "s", "markerfacecolor": "none"},
     "ContactMechanics": {"color": "#009E73", "marker": "^"},
 }
-OTHER: Style = {"color": "#777777", "marker": "v", "markerfacecolor": "none"}
-"""Of a solver that has no style of its own."""
+OTHER: Style = {"color": "#777777", "markerfacecolor": "none"}
+OTHERS = "vP*Xpd"
+"""Of solvers that have no style of their own, in turn."""
 
 
-def style_of(name: str) -> Style:
-    """With threads as without, larger and open."""
-    alone = name.partition(" threads")[0].rpartition(",")[0] if name.endswith(" threads") else name
-    threads: Style = {} if alone == name else {"markersize": 9, "markerfacecolor": "none"}
-    return {**MARKS.get(alone, OTHER), **threads, "linestyle": "none", "label": name}
+def styles_of(names: Sequence[str]) -> dict[str, Style]:
+    """By name: with threads as without, larger and open; others than those known in turn."""
+    others = [name for name in names if name not in MARKS and not name.endswith(" threads")]
+    known = MARKS | {name: {**OTHER, "marker": OTHERS[i % len(OTHERS)]} for i, name in enumerate(others)}
+    threads: Style = {"markersize": 9, "markerfacecolor": "none"}
+    found = {name: known.get(name) or {**known[name.rpartition(", ")[0]], **threads} for name in names}
+    return {name: {**style, "linestyle": "none", "label": name} for name, style in found.items()}
 
 
 def draw(heats: Table) -> Figure:
@@ -33,12 +38,13 @@ def draw(heats: Table) -> Figure:
     ratio.tick_params(labelleft=False)
     ours = heats.where(solver="bem3d")
     mine = dict(zip(ours["problem"], ours["median [s]"], strict=True))
+    styles = styles_of(names)
     for shift, name in zip(np.linspace(-0.3, 0.3, len(names)), names, strict=True):
         rows = heats.where(solver=name, status="finished")
         unit = np.array([mine[problem] for problem in rows["problem"]])
         place = np.array([problems.index(problem) for problem in rows["problem"]]) + shift
         bars = np.abs(np.array([rows["fastest [s]"], rows["slowest [s]"]]) - rows["median [s]"])
-        style = style_of(name)
+        style = styles[name]
         time.errorbar(rows["median [s]"], place, xerr=bars, **style)
         if name != "bem3d" and place.size:
             ratio.errorbar(rows["median [s]"] / unit, place, xerr=bars / unit, **style)
@@ -49,20 +55,20 @@ def draw(heats: Table) -> Figure:
         axis.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         axis.xaxis.set_major_formatter("{x:g}")
         axis.minorticks_off()
-    _draw_growth(growth, heats)
+    _draw_growth(growth, heats, styles)
     time.set_yticks(range(len(problems)), problems)
     time.invert_yaxis()
     figure.legend(*time.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return figure
 
 
-def _draw_growth(axis: Axes, heats: Table) -> None:
+def _draw_growth(axis: Axes, heats: Table, styles: Mapping[str, Style]) -> None:
     """Of the light rough contact in free space, which the largest grids have; t ~ n^exponent over the cells n."""
     free = heats.where(surface="rough", **{"half-space": "free", "status": "finished"})
     rows = free.where(name=free["name"][0]) if len(free["name"]) else free
     for name in dict.fromkeys(rows["solver"].tolist()):
         mine = rows.where(solver=name)
-        cells, seconds, style = mine["cells"].astype(float) ** 2, mine["median [s]"], style_of(name)
+        cells, seconds, style = mine["cells"].astype(float) ** 2, mine["median [s]"], styles[name]
         line = axis.plot(cells, seconds, **{**style, "linestyle": "-", "linewidth": 0.8})
         if len(cells) > 1:
             exponent = np.polyfit(np.log(cells), np.log(seconds), 1)[0]
