@@ -9,7 +9,7 @@ from validation import stiffness_model, stiffness_of_surface
 from validation.analysis.judgement import enough
 from validation.engine.others import Called
 from validation.selection.judging import stiffness, surfaces
-from validation.selection.judging.references import Reference, curve
+from validation.selection.judging.references import Reference, known
 from validation.selection.judging.stiffness import AskedPunch
 from validation.theory.closed_forms import SQUARE_PUNCH
 
@@ -30,11 +30,11 @@ def verdicts(points, quantity=MEAN, **where):
 
 
 @cache
-def known():
+def solved():
     """Fbar, mean and deviation of boundary elements by H, bandwidth and roll-off; constants where one is not known."""
     found = {}
     for quantity, column in ((MEAN, 0), (stiffness.ROLLED_OFF, 0), (DEVIATION, 1), (stiffness.BY_BAND, 1)):
-        for row in curve(quantity):
+        for row in known(quantity):
             one = AskedPunch.at(row.where)
             of = found.setdefault((one.hurst, one.waves, one.roll_off), {})
             of.setdefault(one.force, [0.1, 0.3])[column] = row.value
@@ -45,7 +45,7 @@ def as_known(load, side, modulus, roughness):
     """Mean and deviation of boundary elements, by what a model is given."""
     waves = round(roughness.q_max / roughness.q_min)
     roll_off = round(getattr(roughness, "q_roll_off", 0.0) * side / (2 * np.pi))
-    force, mean, deviation = known()[roughness.hurst, waves, roll_off]
+    force, mean, deviation = solved()[roughness.hurst, waves, roll_off]
     at = np.log(load / (modulus * roughness.rms * side))
     mean = modulus * side * np.exp(np.interp(at, force, mean))
     return mean, mean * np.exp(np.interp(at, force, deviation))
@@ -171,14 +171,16 @@ def by_the_summit(height, spacing, modulus, load):
 def summits(monkeypatch):
     """References by that law, on six surfaces."""
     rows = [
-        Reference({"H": 0.7, "surface": f"surface {i}", "Fbar": force}, value, 0.0, 0.01)
+        Reference(
+            {"H": 0.7, "surface": f"surface {i}", "Fbar": force}, value, 0.0, 0.01, quantity="stiffness of a surface"
+        )
         for i in range(6)
         for height in [stiffness.SIDE * surfaces.roughness(0.7).surface(256, i)]
         for force in FORCES
         for load in [force * stiffness.MODULUS * stiffness.HEIGHT * stiffness.SIDE**2]
         for value in [by_the_summit(height, stiffness.SIDE / 256, 1.0, load / stiffness.MODULUS) / stiffness.SIDE]
     ]
-    monkeypatch.setattr(surfaces, "curve", lambda quantity: rows)
+    monkeypatch.setattr(surfaces, "known", lambda quantity: rows)
 
 
 def judged_surfaces(function):
@@ -199,7 +201,7 @@ def test_surfaces_are_judged_one_by_one_and_in_their_mean_and_deviation(summits)
 
 
 def test_a_law_without_the_surface_has_no_deviation(summits):
-    mean = {force: np.mean([row.value for row in surfaces.curve("") if row.where["Fbar"] == force]) for force in FORCES}
+    mean = {force: np.mean([row.value for row in surfaces.known("") if row.where["Fbar"] == force]) for force in FORCES}
 
     def blind(height, load):
         force = load / (stiffness.MODULUS * stiffness.HEIGHT * stiffness.SIDE**2)

@@ -14,7 +14,7 @@ from validation.engine.offered import Failed, Offered
 from validation.engine.others import Called
 from validation.selection.judging.filters import FILTER
 from validation.selection.judging.judge import points_of
-from validation.selection.judging.references import Reference, curve
+from validation.selection.judging.references import Reference, known
 from validation.selection.judging.rolling import LEVEL
 from validation.selection.judging.stiffness import MEAN
 from validation.simulation.model_names import BED, FILTER_1D, FILTER_3D, LINEAR, LINEAR_ON_LINE, SPRINGS
@@ -98,7 +98,7 @@ def errors() -> Iterator[Reference]:
     """Of all of them, by their judges; half a minute."""
     for one in OWN:
         error = error_of(one.kind, list(points_of(Called(one), 0.1)))
-        yield Reference({"kind": one.kind, "model": one.name}, error, 0.0, 0.0)
+        yield Reference({"kind": one.kind, "model": one.name}, error)
 
 
 def costs_of(model: Called, points: Sequence[JudgedPoint]) -> list[ErrorOfCall]:
@@ -106,13 +106,13 @@ def costs_of(model: Called, points: Sequence[JudgedPoint]) -> list[ErrorOfCall]:
     mine = error_of(model.kind, points)
     if not math.isfinite(mine):
         return []
-    known = {str(row.where["model"]): row.value for row in curve(ERRORS) if row.where["kind"] == model.kind}
     given = {"rng": np.random.default_rng(0), **model.longest}
-    found = [ErrorOfCall(model.name, mine, _seconds(model, given))]
-    for one in OWN:
-        if one.kind == model.kind:
-            found.append(ErrorOfCall(one.name, known[one.name], _seconds(Called(one), given)))
-    return found
+    kept = {row.where["model"]: row.value for row in known(ERRORS, where={"kind": model.kind})}
+    others = [one for one in OWN if one.kind == model.kind]
+    return [
+        ErrorOfCall(model.name, mine, _seconds(model, given)),
+        *(ErrorOfCall(one.name, kept[one.name], _seconds(Called(one), given)) for one in others),
+    ]
 
 
 def _seconds(model: Called, given: dict[str, object]) -> float:
