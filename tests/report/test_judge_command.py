@@ -54,10 +54,17 @@ def test_a_formula_is_judged_and_written(file, tmp_path, capsys):
     assert [row["verdict"] for row in rows] == [p["verdict"] for p in found["verdicts"]]
     assert places[2].read_bytes()[1:4] == b"PNG"
     assert "H = 0.7                          ########=====  yes 0.464 to 10; no 0.001 to 0.215" in printed
-    assert "Its mean stiffness is within 10 % for Fbar = 0.464 to 10 at every H." in " ".join(printed.split())
+    said = " ".join(printed.split())
+    assert "compared with boundary elements, the references of mdr-validation" in said
+    assert "A number agrees where its 95 % interval, of both, lies within 10 % of the reference." in said
+    assert "Its mean stiffness is within 10 % for Fbar = 0.464 to 10 at every H (compared: H = 0.4, 0.55, " in said
+    assert "1, Fbar = 0.001 to 10)." in said
     assert "They share: Fbar up to 0.00215" in printed
     names = {path.name for path in (tmp_path / "out").iterdir()}
-    assert names == {"judgement.json", "verdicts.csv", "summary.txt", "judgement.svg"}
+    assert names == {"judgement.json", "verdicts.csv", "summary.txt", "judgement.svg", "costs.csv"}
+    costs = list(csv.DictReader((tmp_path / "out" / "costs.csv").read_text().splitlines()))
+    assert [(cost["model"], cost["unit"]) for cost in costs] == [("in series", "-"), ("springs", "-")]
+    assert all(0 < float(cost["error"]) < 1 and 0 < float(cost["seconds"]) < 10 for cost in costs)
     assert (tmp_path / "out" / "summary.txt").read_text().splitlines()[2:] == printed.splitlines()[2:-1]
 
 

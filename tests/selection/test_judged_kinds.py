@@ -8,11 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from validation.analysis.contents import csv_name, from_csv
+from tests.selection.judged_points import judged, of, verdicts
 from validation.engine.offered import offer
 from validation.engine.others import Called
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.selection.judging import filters, laws, profiles, rolling
+from validation.selection.judging.from_report import Report
 from validation.selection.judging.own import bed, ellipse, geike, half_space, in_1d, in_3d, line, trace
 from validation.simulation.wheel_on_springs import WheelEnsemble, linear_law_1d
 from validation.theory import closed_forms, contact_filters
@@ -22,29 +23,10 @@ REPORT = Path(__file__).parents[2] / "reports" / "reference"
 ONE_DECIBEL = 10 ** (1 / 20) - 1
 
 
-JUDGES = {
-    "contact_filter": filters.judged,
-    "force_spectrum": rolling.judged_spectrum,
-    "rolling_model": rolling.judged,
-    "profile_spectrum": profiles.judged,
-    "contact_law": laws.judged,
-}
-
-
-def judged(kind, function, tolerance=0.1):
-    function = getattr(function, "function", function)
-    return [one.judged(tolerance) for one in JUDGES[kind](Called(offer(kind, "mine", {}, function)))]
-
-
-def verdicts(points, quantity, **where):
-    return {p.verdict for p in points if p.quantity == quantity and where.items() <= p.where.items()}
-
-
 @cache
 def shown(case, quantity):
     """Rows of a table of the report."""
-    table = from_csv(quantity, (REPORT / "data" / csv_name(case, quantity)).read_text("utf-8"))
-    return [dict(zip(table.columns, row, strict=True)) for row in zip(*table.columns.values(), strict=True)]
+    return Report(REPORT).rows(case, quantity)
 
 
 # --- contact filters ---
@@ -118,7 +100,7 @@ def test_a_wrong_filter_differs():
 
 def assert_levels_as_shown(points, model, within=1e-3):
     rows = [row for row in shown("rolling", "level of an octave") if row["model"].startswith(model)]
-    mine = [p for p in points if p.quantity == rolling.LEVEL]
+    mine = of(points, rolling.LEVEL)
     assert len(rows) == len(mine) > 10
     for row, point in zip(rows, mine, strict=True):
         assert point.where["q a"] == pytest.approx(row["q a"], rel=1e-5)
@@ -177,8 +159,8 @@ def test_a_filter_on_the_line_has_the_levels_of_the_line_trace_within_the_error_
 
     rows = [r for r in shown("rolling", "level of an octave by input spectrum") if r["surface"] == "H = 0.7"]
     trace = [r["value"] for r in rows if r["model"] == "line trace"]
-    exact = [p for p in judged("force_spectrum", in_3d) if p.quantity == rolling.LEVEL]
-    found = [p for p in judged("rolling_model", on_line) if p.quantity == rolling.LEVEL]
+    exact = of(judged("force_spectrum", in_3d), rolling.LEVEL)
+    found = of(judged("rolling_model", on_line), rolling.LEVEL)
     for over, of_3d, point in zip(trace, exact[:4], found[:4], strict=True):
         assert point.value - of_3d.value == pytest.approx(over, abs=point.error)
         assert 0.2 < point.error < 2
@@ -222,7 +204,7 @@ def test_geikes_rule_has_all_properties_and_the_levels_of_the_report(few_profile
 def test_a_line_trace_keeps_the_height_and_half_of_the_mean_square_gradient(few_profiles):
     points = judged("profile_spectrum", trace)
     assert failed(points) == set(profiles.MOMENTS.values()) - {"rms height"}
-    gradient = [p for p in points if p.quantity == "rms gradient"]
+    gradient = of(points, "rms gradient")
     assert all(p.value == pytest.approx(math.sqrt(0.5), rel=1e-4) for p in gradient)
     rows = [r for r in shown("rolling", "level of an octave by input spectrum") if r["surface"] == "H = 0.7"]
     known, exact = ([r["value"] for r in rows if r["model"] == name] for name in ("line trace", "Geike's spectrum"))

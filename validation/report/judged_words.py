@@ -1,5 +1,6 @@
 """What a person reads of a judgement: strips by range, the worst points, and a paragraph for a paper."""
 
+import math
 import textwrap
 from collections import Counter
 from collections.abc import Iterator, Sequence
@@ -61,8 +62,7 @@ def summary_lines(judgement: "Judgement") -> Iterator[str]:
     yield from _breaks(points)
     if judgement.costs:
         yield f"\nMedian error of the {MAIN[judgement.kind]}, and seconds of the call that took longest:"
-        unit = judgement.unit_of_costs
-        yield from (f"  {one.model:32s}{in_unit(one.error, unit):>10s}{one.seconds:10.2g} s" for one in judgement.costs)
+        yield from (f"  {c.model:32s}{in_unit(c.error, c.unit):>10s}{c.seconds:10.2g} s" for c in judgement.costs)
     yield "\nFor a paper:"
     yield from textwrap.wrap(paragraph(judgement), COLUMNS, initial_indent="  ", subsequent_indent="  ")
 
@@ -105,12 +105,13 @@ def _broken(curve: JudgedCurve, at: Sequence[float], run: Sequence[JudgedPoint])
 def paragraph(judgement: "Judgement") -> str:
     """Sentences that could stand in a paper: beside what, how near, over which conditions, and what was found."""
     points, tolerance = judgement.verdicts, judgement.tolerance
+    compared = [point for point in points if math.isfinite(point.reference)]
     beside, version = REFERENCES.get(judgement.kind, "boundary elements"), metadata.version("mdr-validation")
     said = [
         f"The model {judgement.model!r} was compared with {beside}, the references of mdr-validation {version}.",
         f"A number agrees where its 95 % interval, of both, lies within {tolerance} of the reference.",
     ]
-    said += [_of_quantity(tolerance, curves) for curves in curves_of(points) if not curves[0].is_rule]
+    said += [_of_quantity(tolerance, curves) for curves in curves_of(compared) if not curves[0].is_rule]
     count = Counter(point.verdict for point in points)
     if known := count[AGREE] + count[DIFFER] + count[UNDECIDED]:
         said.append(f"Of {known} points {count[AGREE]} agree, {count[DIFFER]} differ and the others are open.")
@@ -125,7 +126,7 @@ def paragraph(judgement: "Judgement") -> str:
 def _of_quantity(tolerance: Tolerance, curves: Sequence[JudgedCurve]) -> str:
     """Where it agrees in all of its curves; of many curves, or of points apart, at how many."""
     first, points = curves[0], [point for curve in curves for point in curve.points]
-    compared = ", ".join(_values(name, points) for name in dict.fromkeys(name for p in points for name in p.where))
+    compared = "; ".join(_values(name, points) for name in dict.fromkeys(name for p in points for name in p.where))
     compared = f" (compared: {compared})" if compared else ""
     if not first.along or len(curves) > CURVES // 2 or min(len(curve.points) for curve in curves) == 1:
         agree = sum(point.verdict == AGREE for point in points)
@@ -146,7 +147,6 @@ def _values(name: str, points: Sequence[JudgedPoint]) -> str:
     found = list(dict.fromkeys(point.where[name] for point in points if name in point.where))
     numbers = sorted(value for value in found if isinstance(value, float))
     if len(numbers) < len(found):
-        shown = ", ".join(map(str, found)) if len(found) <= LISTED else f"{len(found)} of them"
-        return f"{name}: {shown}"
-    listed = ", ".join(f"{x:.3g}" for x in numbers)
+        return ", ".join(map(str, found)) if len(found) <= LISTED else f"{len(found)} values of {name}"
+    listed = ", ".join(f"{x:.0f}" if x.is_integer() else f"{x:.3g}" for x in numbers)
     return f"{name} = {listed if len(numbers) <= LISTED else _range(numbers[0], numbers[-1])}"

@@ -85,6 +85,7 @@ class ErrorOfCall(NamedTuple):
 
     model: str
     error: float
+    unit: str
     seconds: float
 
 
@@ -97,8 +98,7 @@ def error_of(kind: str, points: Sequence[JudgedPoint]) -> float:
 def errors() -> Iterator[Reference]:
     """Of all of them, by their judges; half a minute."""
     for one in OWN:
-        error = error_of(one.kind, list(points_of(Called(one), 0.1)))
-        yield Reference({"kind": one.kind, "model": one.name}, error)
+        yield Reference({"kind": one.kind, "model": one.name}, error_of(one.kind, list(points_of(Called(one), 0.1))))
 
 
 def costs_of(model: Called, points: Sequence[JudgedPoint]) -> list[ErrorOfCall]:
@@ -106,13 +106,11 @@ def costs_of(model: Called, points: Sequence[JudgedPoint]) -> list[ErrorOfCall]:
     mine = error_of(model.kind, points)
     if not math.isfinite(mine):
         return []
+    unit = next(point.unit for point in points if point.quantity == MAIN[model.kind])
     given = {"rng": np.random.default_rng(0), **model.longest}
     kept = {row.where["model"]: row.value for row in known(ERRORS, where={"kind": model.kind})}
-    others = [one for one in OWN if one.kind == model.kind]
-    return [
-        ErrorOfCall(model.name, mine, _seconds(model, given)),
-        *(ErrorOfCall(one.name, kept[one.name], _seconds(Called(one), given)) for one in others),
-    ]
+    others = [(kept[one.name], Called(one)) for one in OWN if one.kind == model.kind]
+    return [ErrorOfCall(one.name, error, unit, _seconds(one, given)) for error, one in [(mine, model), *others]]
 
 
 def _seconds(model: Called, given: dict[str, object]) -> float:

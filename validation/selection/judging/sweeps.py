@@ -24,7 +24,7 @@ EXACT, SPHERE = 1e-9, 64
 """Tolerance of a bound; cells on a side below a sphere."""
 
 
-def _stiffness(model: Caller, force: float) -> float:
+def stiffness(model: Caller, force: float) -> float:
     """k / (E* L)."""
     punch = AskedPunch(0.7, force)
     found = answers_of(model, [punch], FEWEST)[punch]
@@ -33,19 +33,9 @@ def _stiffness(model: Caller, force: float) -> float:
     return found.mean.value
 
 
-def flattened(model: Caller, force: float) -> float:
-    """k = 1.1523 E* L."""
-    return _stiffness(model, force) / SQUARE_PUNCH
-
-
 def left_by_the_heaviest() -> float:
     """How far from flat boundary elements are under the heaviest load that is known."""
     return abs(known(MEAN, where={H: 0.7})[-1].value / SQUARE_PUNCH - 1)
-
-
-def rising(model: Caller, force: float) -> float:
-    """k does not fall with the load."""
-    return min(_stiffness(model, 2 * force) / _stiffness(model, force), 1.0)
 
 
 def below_a_sphere(model: Caller, cells: float) -> float:
@@ -74,36 +64,24 @@ def amplitude(model: Caller, qa: float) -> float:
     return float(np.abs(asked(model, k_x=k, k_y=0 * k, **axes)[0]))
 
 
-def not_raised(model: Caller, qa: float) -> float:
-    """Not above one for the shortest."""
-    return 2 - max(amplitude(model, qa), 1.0)
-
-
-def _rolled(model: Caller, cells: float, line: FloatArray) -> FloatArray:
+def rolled(model: Caller, cells: float, line: FloatArray) -> FloatArray:
     """Force, or approach, over that of Hertz; line: of ridges, over d."""
     height = rolling.APPROACH * np.broadcast_to(line[:, np.newaxis], (line.size, round(8 * cells)))
     spacing, unit = (rolling.CONTACT / cells,) * 2, rolling.FORCE if "approach" in model.asks else rolling.APPROACH
     return asked(model, height=height, line=height[:, 0], spacing=spacing, **rolling.SMOOTH_WHEEL) / unit
 
 
-def smooth(model: Caller, cells: float) -> float:
-    """Hertz, on so many cells to a contact radius."""
-    return float(_rolled(model, cells, np.zeros(16)).mean())
-
-
 def followed(model: Caller, length: float) -> float:
     """The wheel follows a wave much longer than the contact; on top of one, the rms of what is apart from Hertz."""
     wave = 0.1 * np.cos(2 * math.pi * np.arange(4 * length) / (4 * length))
     exact = (1 + wave) ** 1.5 if "approach" in model.asks else 1 - wave
-    found = _rolled(model, 4.0, wave) / float(_rolled(model, 4.0, 0 * wave)[0])
+    found = rolled(model, 4.0, wave) / float(rolled(model, 4.0, 0 * wave)[0])
     return 1 + float(np.std(found - exact) / np.std(exact))
 
 
 class Sweep(NamedTuple):
-    """ratio: of a model at each place, over a closed form, or over a bound that it must keep and realisations need not.
-
-    left: by the form, or the cells.
-    """
+    """ratio: of a model at each, over a closed form, or over a bound, which realisations need not keep; left: by the
+    form, or the cells."""
 
     quantity: str
     along: str
@@ -113,20 +91,21 @@ class Sweep(NamedTuple):
     bound: bool = False
 
 
+CELLS = "cells in the contact", "cells to a contact radius"
 SWEEPS: Mapping[str, Sequence[Sweep]] = {
     "stiffness_model": (
-        Sweep(HEAVY, FORCE, (30.0, 1e2, 1e3, 1e4), flattened, left_by_the_heaviest),
-        Sweep(LIGHT, FORCE, (1e-8, 1e-6, 1e-4), rising, bound=True),
+        Sweep(HEAVY, FORCE, (30, 1e2, 1e3, 1e4), lambda m, x: stiffness(m, x) / SQUARE_PUNCH, left_by_the_heaviest),
+        Sweep(LIGHT, FORCE, (1e-8, 1e-6, 1e-4), lambda m, x: min(stiffness(m, 2 * x) / stiffness(m, x), 1), bound=True),
     ),
-    "stiffness_of_surface": (Sweep(FEW, "cells in the contact", (3.0, 10.0, 30.0, 100.0, 300.0), below_a_sphere),),
+    "stiffness_of_surface": (Sweep(FEW, CELLS[0], (3, 10, 30, 100, 300), below_a_sphere),),
     "force_spectrum": (Sweep(LONG, "q a", (1e-4, 1e-3, 1e-2), rms_of_long_waves, 1e-2),),
     "contact_filter": (
-        Sweep(LONG, "q a", (0.0, 1e-6, 1e-3), amplitude, 1e-3),
-        Sweep(SHORT, "q a", (1e2, 1e3, 1e4), not_raised, bound=True),
+        Sweep(LONG, "q a", (0, 1e-6, 1e-3), amplitude, 1e-3),
+        Sweep(SHORT, "q a", (1e2, 1e3, 1e4), lambda m, x: 2 - max(amplitude(m, x), 1), bound=True),
     ),
     "rolling_model": (
-        Sweep(SMOOTH, "cells to a contact radius", (1.0, 2.0, 4.0, 8.0, 16.0), smooth),
-        Sweep(LONG, "wavelength over a", (32.0, 128.0), followed, 1e-2),
+        Sweep(SMOOTH, CELLS[1], (1, 2, 4, 8, 16), lambda m, x: float(rolled(m, x, np.zeros(16)).mean())),
+        Sweep(LONG, "wavelength over a", (32, 128), followed, 1e-2),
     ),
 }
 """Of the kinds that can be asked that."""
@@ -137,7 +116,7 @@ def swept(model: Caller) -> Iterator[Finding]:
     """Each number, and whether the model warned."""
     for one in SWEEPS.get(model.kind, ()):
         left = one.left() if callable(one.left) else one.left
-        for x in () if one.bound and "rng" in model.asks else one.at:
+        for x in () if one.bound and "rng" in model.asks else map(float, one.at):
             found = attempted(one.ratio, model, x)
             warned = f"it warned: {model.warned}" if model.warned else ""
             yield rule(one.quantity, {one.along: x}, found, left, EXACT if one.bound else None, warned)
