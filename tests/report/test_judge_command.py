@@ -57,8 +57,8 @@ def test_a_formula_is_judged_and_written(file, tmp_path, capsys):
     said = " ".join(printed.split())
     assert "compared with boundary elements, the references of mdr-validation" in said
     assert "A number agrees where its 95 % interval, of both, lies within 10 % of the reference." in said
-    assert "Its mean stiffness is within 10 % for Fbar = 0.464 to 10 at every H (compared: H = 0.4, 0.55, " in said
-    assert "1, Fbar = 0.001 to 10)." in said
+    assert "Its mean stiffness is within 10 % for Fbar = 0.464 to 10 at every H (compared: H = 0.4, 0.55, 0.7, " in said
+    assert "1; Fbar = 0.001 to 10)." in said
     assert "They share: Fbar up to 0.00215" in printed
     names = {path.name for path in (tmp_path / "out").iterdir()}
     assert names == {"judgement.json", "verdicts.csv", "summary.txt", "judgement.svg", "costs.csv"}

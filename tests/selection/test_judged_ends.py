@@ -1,6 +1,7 @@
 """Past the scenes of its judge a model is led until it breaks; and it stands beside the suite's own by its seconds."""
 
 import math
+import time
 import warnings
 
 import numpy as np
@@ -102,6 +103,21 @@ def test_its_point_on_the_chart_is_beside_those_of_the_suite():
     assert model.longest["k_x"].size > 100
     assert all(0 < one.seconds < 10 for one in (mine, *others))
     assert not own.costs_of(Called(ellipse), [])
+
+
+def test_seconds_are_of_a_call_that_was_answered():
+    """What is refused may take longer, and has no time."""
+
+    def but_for_long_waves(k_x, a_x):
+        if k_x.min() * a_x < 1e-3:
+            time.sleep(0.05)
+            raise ValueError("too long")
+        return divides(k_x, a_x)
+
+    model = Called(offer("contact_filter", "mine", {}, but_for_long_waves))
+    points = list(points_of(model, 0.1))
+    assert {point.verdict for point in points} >= {"refused", "differ"}
+    assert 0 < own.costs_of(model, points)[0].seconds < 0.05
 
 
 def test_errors_are_medians_of_the_quantity_of_their_kind():

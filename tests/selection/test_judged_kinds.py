@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import mdr
 from tests.selection.judged_points import judged, of, verdicts
 from validation.engine.offered import offer
 from validation.engine.others import Called
@@ -226,6 +227,20 @@ def test_a_line_trace_keeps_the_height_and_half_of_the_mean_square_gradient(few_
 )
 def test_a_wrong_rule_breaks_its_property(caught, rule, few_profiles):
     assert verdicts(judged("profile_spectrum", rule), caught) == {"differ"}
+
+
+@pytest.mark.parametrize("factor", [0.0, -1.0])
+def test_a_rule_that_is_zero_or_negative_has_no_profile(factor, few_profiles):
+    points = judged("profile_spectrum", lambda q, roughness: factor * geike(q, roughness))
+    assert {p.reason for p in of(points, "mean stiffness")} == {profiles.NO_PROFILE}
+    assert verdicts(points, "rms height") == {"failed" if factor == 0 else "differ"}
+
+
+def test_the_rms_of_a_rule_is_that_of_the_surface_by_geike():
+    ground = mdr.SelfAffine(hurst=0.7, q_min=1e3, q_max=64e3, rms=1e-6)
+    q = 1e3 * np.arange(1, 65)
+    assert profiles.rms_of_profile(geike(q, ground), q, ground) == pytest.approx(1e-6)
+    assert profiles.rms_of_profile(4 * geike(q, ground), q, ground) == pytest.approx(2e-6)
 
 
 @pytest.mark.slow

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from validation.engine.engine import SERIAL
-from validation.selection.judging import from_report, references, surfaces
+from validation.selection.judging import from_report, references, rolling, surfaces
 from validation.selection.judging.from_report import SOURCES, Report
 from validation.selection.judging.own import ERRORS
 from validation.selection.judging.references import about, as_file, file_name, known
@@ -46,7 +46,7 @@ def test_all_of_them_are_small_and_complete():
 def test_positions_are_those_of_boundary_elements_on_the_strip():
     """The coarse grid is three times as far off as what the two grids leave."""
     height, coarse = HEIGHTS[-1], GRIDS[0]
-    (strip,) = from_report.strip_of(height).strips(coarse, 1e-4 * height, 1)
+    (strip,) = rolling.strip_of(height).strips(coarse, 1e-4 * height, 1)
     force = roll_strip(strip)["force"]
     rows = [row for row in known(EACH) if row.where["h/d"] == height]
     left = np.array([2 * abs(row.value) * row.grid for row in rows])

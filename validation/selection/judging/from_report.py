@@ -6,11 +6,11 @@ boundary elements over three short strips and press some surfaces. That takes mi
 
 import json
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.special import erfinv
@@ -25,7 +25,7 @@ from validation.selection.judging import own, rolling, stiffness, surfaces
 from validation.selection.judging.filters import ALPHA, DIAMETER, FILTER, LOAD, OFFSET, WAVE
 from validation.selection.judging.laws import FEATURE, REGION, by_region
 from validation.selection.judging.references import Reference, as_file, file_name, rows_of
-from validation.selection.judging.rolling import GRIDS, HEIGHT, HEIGHTS, SLOPE, bands_of, spectrum_of, strip_of
+from validation.selection.judging.rolling import GRIDS, HEIGHT, HEIGHTS, SLOPE, Q, bands_of, spectrum_of
 from validation.selection.judging.stiffness import BAND, FORCE, ROLL_OFF, H
 from validation.simulation.model_names import BEM, FILTER_3D, SPRINGS
 from validation.simulation.rolling_strip import (
@@ -41,7 +41,7 @@ from validation.simulation.rolling_strip import (
 from validation.simulation.track_spectrum import PiecewisePowerLaw
 
 Row = Mapping[str, Any]
-Find = Callable[["Report", Engine], Iterator[Reference]]
+Find = Callable[["Report", Engine], Iterable[Reference]]
 SPRINGS_OVER = f"{SPRINGS} over {BEM}"
 CONTACT = "contact in Persson's theory [%]"
 TENTH = 1.2816
@@ -83,8 +83,7 @@ class Report:
         return [Reference({name: float(row[name]) for name in names}, row["value"], _log_half(row)) for row in rows]
 
 
-@dataclass(frozen=True)
-class ReferenceFile:
+class ReferenceFile(NamedTuple):
     """unit; case: of the report; find: its rows; settings: of solves that the report does not have."""
 
     unit: str
@@ -92,18 +91,16 @@ class ReferenceFile:
     find: Find
     settings: Mapping[str, Any] | None = None
 
-    def head(self, report: Report) -> dict[str, Any]:
-        if self.settings is not None:
-            return {"case": self.case, "commit": "as this file", "settings": dict(self.settings)}
-        return {"case": self.case, "commit": report.commit(self.case), "settings": report.settings(self.case)}
-
 
 def references_of(folder: Path, engine: Engine) -> dict[str, bytes]:
     """Contents of all files, by their names. Raises ValueError for what is no full report."""
     report, files = Report(folder), {}
-    for quantity, source in SOURCES.items():
-        rows = [row for row in source.find(report, engine) if math.isfinite(row.value)]
-        files[file_name(quantity)] = as_file({"quantity": quantity, "unit": source.unit, **source.head(report)}, rows)
+    for quantity, (unit, case, find, settings) in SOURCES.items():
+        rows = [row for row in find(report, engine) if math.isfinite(row.value)]
+        commit = "as this file" if settings is not None else report.commit(case)
+        head = {"quantity": quantity, "unit": unit, "case": case, "commit": commit}
+        about = settings if settings is not None else report.settings(case)
+        files[file_name(quantity)] = as_file({**head, "settings": about}, rows)
     return files
 
 
@@ -147,20 +144,11 @@ def _by_band(report: Report, _: Engine) -> Iterator[Reference]:
     return (one for one in rows if one[BAND] != stiffness.WAVES)
 
 
-def _interface(report: Report, _: Engine) -> Iterator[Reference]:
-    return iter(report.references("interface", "K h over p", ROLL_OFF, H, CONTACT))
-
-
 def _levels(report: Report, _: Engine) -> Iterator[Reference]:
     """Of octaves."""
     bands = bands_of(settings := report.settings("rolling"))
     exact = level_3d(spectrum_of(settings), bands)
-
-    def power(row: Row) -> float:
-        middle = int(np.argmin(np.abs(np.log(bands.centres / row[rolling.Q]))))
-        return float(exact[middle - 1 : middle + 2].sum())
-
-    return _over_linear(report, "level of an octave", power, rolling.Q)
+    return _over_linear(report, "level of an octave", lambda row: float(rolling.octave(exact, bands, row[Q])), Q)
 
 
 def _rms(report: Report, _: Engine) -> Iterator[Reference]:
@@ -199,7 +187,7 @@ def _positions(name: str, solve: Callable[[Strip], Outcome]) -> Find:
 
     def find(_: Report, engine: Engine) -> Iterator[Reference]:
         coarse, fine = GRIDS
-        problems = {(h, n): strip_of(h).strips(n, 1e-4 * h, 1) for h in HEIGHTS for n in GRIDS}
+        problems = {(h, n): rolling.strip_of(h).strips(n, 1e-4 * h, 1) for h in HEIGHTS for n in GRIDS}
         on = {key: one[0][name] for key, one in engine.map_groups(solve, problems).items()}
         for h in HEIGHTS:
             there = on[h, fine][fine // coarse // 2 :: fine // coarse]
@@ -246,7 +234,9 @@ SOURCES: Mapping[str, ReferenceFile] = {
     stiffness.DEVIATION: _of(DEVIATION, "fractal_punch", _punch("relative deviation of k", "relative deviation")),
     stiffness.ROLLED_OFF: _of("k / (E* L)", "interface", _rolled_off),
     stiffness.BY_BAND: _of(DEVIATION, "bandwidth", _by_band),
-    "stiffness of an interface": _of("K h / p", "interface", _interface),
+    "stiffness of an interface": _of(
+        "K h / p", "interface", lambda report, _: report.references("interface", "K h over p", ROLL_OFF, H, CONTACT)
+    ),
     rolling.LEVEL: _of(f"{_over}, of an octave", "rolling", _levels),
     rolling.RMS: _of(_over, "rolling", _rms),
     rolling.MEAN: _of("over F_Hertz", "rolling", _mean),

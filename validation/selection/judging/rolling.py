@@ -84,11 +84,16 @@ def variance_of(spectrum: PiecewisePowerLaw) -> float:
     return force_variance(spectrum.c2d, edges=spectrum.edges, contact_radius=1.0, modulus=1.0) / HERTZ**2
 
 
+def octave(thirds: FloatArray, bands: Bands, q: float) -> FloatArray:
+    """Of levels in thirds of octaves, (..., bands), the octave about q."""
+    i = int(np.argmin(np.abs(np.log(bands.centres / q))))
+    return np.asarray(thirds[..., i - 1 : i + 2].sum(axis=-1))
+
+
 def _octaves(thirds: FloatArray) -> FloatArray:
-    """Of levels in thirds of octaves, (..., bands), those of the octaves that are known."""
-    centres = np.log(bands_of(about(LEVEL)["settings"]).centres)
-    middle = [int(np.argmin(np.abs(centres - math.log(q)))) for q in dict.fromkeys(row[Q] for row in known(LEVEL))]
-    return np.stack([thirds[..., i - 1 : i + 2].sum(axis=-1) for i in middle], axis=-1)
+    """Those that are known."""
+    bands = bands_of(about(LEVEL)["settings"])
+    return np.stack([octave(thirds, bands, q) for q in dict.fromkeys(row[Q] for row in known(LEVEL))], axis=-1)
 
 
 def _of_density(density: Density, height: float) -> list[Answer]:
