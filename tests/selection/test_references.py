@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from validation.engine.engine import SERIAL
-from validation.selection.judging import from_report, references, rolling, surfaces
+from validation.selection.judging import references, rolling, surfaces
 from validation.selection.judging.from_report import SOURCES, Report
 from validation.selection.judging.own import ERRORS
 from validation.selection.judging.references import about, as_file, file_name, known

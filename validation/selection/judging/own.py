@@ -34,21 +34,6 @@ def springs(load: float, side: float, modulus: float, roughness: mdr.SelfAffine,
     return float(mdr.load_curve(profile, length=side, modulus=modulus).at_force(load).stiffness)
 
 
-@offered.contact_filter(LINEAR)
-def ellipse(k_x: FloatArray, k_y: FloatArray, a_x: float, a_y: float) -> FloatArray:
-    return half_space_filter(k_x, k_y, semi_axes=(a_x, a_y))
-
-
-@offered.contact_filter(LINEAR_ON_LINE)
-def line(k_x: FloatArray, a_x: float) -> FloatArray:
-    return np.asarray(np.sinc(k_x * a_x / math.pi))
-
-
-@offered.contact_filter(BED)
-def bed(k_x: FloatArray, k_y: FloatArray, a_x: float, a_y: float) -> FloatArray:
-    return spring_bed_filter(k_x, k_y, semi_axes=(a_x, a_y))
-
-
 @offered.force_spectrum(FILTER_1D)
 def in_1d(q: FloatArray, contact_radius: float, modulus: float, roughness: mdr.SelfAffine) -> FloatArray:
     return rolling.force_spectrum_1d(q, roughness.c1d, contact_radius=contact_radius, modulus=modulus)
@@ -67,16 +52,11 @@ def half_space(
     return rolling.linear_force(height, spacing=spacing[0], radius=radius, modulus=modulus, approach=approach)
 
 
-@offered.profile_spectrum("Geike's rule")
-def geike(q: FloatArray, roughness: mdr.SelfAffine) -> FloatArray:
-    return np.asarray(math.pi * q * roughness.c2d(q))
-
-
-@offered.profile_spectrum("line trace")
-def trace(q: FloatArray, roughness: mdr.SelfAffine) -> FloatArray:
-    return roughness.line(q)
-
-
+ellipse = offered.contact_filter(LINEAR)(lambda k_x, k_y, a_x, a_y: half_space_filter(k_x, k_y, semi_axes=(a_x, a_y)))
+line = offered.contact_filter(LINEAR_ON_LINE)(lambda k_x, a_x: np.sinc(k_x * a_x / math.pi))
+bed = offered.contact_filter(BED)(lambda k_x, k_y, a_x, a_y: spring_bed_filter(k_x, k_y, semi_axes=(a_x, a_y)))
+geike = offered.profile_spectrum("Geike's rule")(lambda q, roughness: math.pi * q * roughness.c2d(q))
+trace = offered.profile_spectrum("line trace")(lambda q, roughness: roughness.line(q))
 OWN: Sequence[Offered] = (springs, ellipse, line, bed, in_1d, in_3d, half_space, geike, trace)
 
 
