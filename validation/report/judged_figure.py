@@ -31,9 +31,10 @@ def figure_of(judgements: Sequence["Judgement"], form: str) -> bytes:
     panels = tuple(panel for panel, _ in drawn) or (Panel("", "nothing to draw", log=""),)
     columns, rows = min(len(panels), 2), -(-len(panels) // 2)
     chart = Chart("judgement", panels=panels, columns=columns, width=4.6 * columns, height=3.2 * rows)
-    tables, nothing = tuple(table for _, table in drawn), {"numbers": (), "conclusions": (), "captions": {}}
+    tables = tuple(table for _, table in drawn)
+    evidence = Evidence(title="", method="", numbers=(), tables=tables, conclusions=(), captions={})
     with matplotlib.rc_context(SETTINGS):
-        figure = draw(chart, Evidence(title="", method="", tables=tables, **nothing))
+        figure = draw(chart, evidence)
     plain_figure(figure)
     return picture(figure, form)
 

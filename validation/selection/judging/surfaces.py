@@ -98,5 +98,5 @@ def solved(engine: Engine) -> Iterator[Reference]:
         coarse, fine = (np.log([one["stiffness"] for one in found[hurst, n]]) for n in (CELLS, 2 * CELLS))
         left = student(SURFACES) * np.sqrt(np.mean((fine - coarse) ** 2, axis=0))
         for (i, j), value in np.ndenumerate(fine):
-            where = {H: hurst, REALISATION: f"surface {i}", FORCE: FORCES[j]}
+            where: Conditions = {H: hurst, REALISATION: f"surface {i}", FORCE: FORCES[j]}
             yield Reference(where, math.exp(value), grid=float(left[j]))
