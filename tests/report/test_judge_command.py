@@ -12,8 +12,10 @@ import pytest
 import validation
 from validation.__main__ import main
 from validation.analysis.judgement import compared, not_compared
+from validation.benchmarks.judging.judged import SolverTime
 from validation.report import judged
 from validation.report.judged_figure import figure_of
+from validation.selection.judging.own import ErrorOfCall
 
 SERIES = """
 from validation import stiffness_model
@@ -194,6 +196,17 @@ def test_a_figure_has_a_form():
     with pytest.raises(ValueError, match="a figure must be one of svg, png, pdf, got 'gif'"):
         figure_of([solver(RIGHT)], "gif")
     assert b"<svg" in figure_of([solver(RIGHT)], "svg")
+
+
+def test_seconds_are_drawn_with_plain_ticks():
+    """Two errors within a tenth of a decade have a tick; a solver and ours are two curves."""
+    costs = tuple(ErrorOfCall(name, error, "dB", 1e-5) for name, error in (("mine", 5.9), ("other", 6.1)))
+    near = judged.Judgement("mine", "contact_filter", judged.tolerance_of(0.1), (), 1.0, costs=costs)
+    timed = replace(solver(RIGHT), times=(SolverTime(32.0, 0.1, 0.2), SolverTime(64.0, 0.4, 0.6)))
+    drawn = figure_of([near, timed], "svg").decode()
+    for text in ("median error [dB]", "seconds, one thread", "bem3d", "other"):
+        assert text in drawn
+    assert re.search(r">\s*5\s*<", drawn) and "×" not in drawn and "10^" not in drawn
 
 
 @pytest.mark.slow

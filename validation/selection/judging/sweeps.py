@@ -95,13 +95,15 @@ CELLS = "cells in the contact", "cells to a contact radius"
 SWEEPS: Mapping[str, Sequence[Sweep]] = {
     "stiffness_model": (
         Sweep(HEAVY, FORCE, (30, 1e2, 1e3, 1e4), lambda m, x: stiffness(m, x) / SQUARE_PUNCH, left_by_the_heaviest),
-        Sweep(LIGHT, FORCE, (1e-8, 1e-6, 1e-4), lambda m, x: min(stiffness(m, 2 * x) / stiffness(m, x), 1), bound=True),
+        Sweep(
+            LIGHT, FORCE, (1e-8, 1e-6, 1e-4), lambda m, x: min(stiffness(m, 2 * x) / stiffness(m, x), 1.0), bound=True
+        ),
     ),
     "stiffness_of_surface": (Sweep(FEW, CELLS[0], (3, 10, 30, 100, 300), below_a_sphere),),
     "force_spectrum": (Sweep(LONG, "q a", (1e-4, 1e-3, 1e-2), rms_of_long_waves, 1e-2),),
     "contact_filter": (
         Sweep(LONG, "q a", (0, 1e-6, 1e-3), amplitude, 1e-3),
-        Sweep(SHORT, "q a", (1e2, 1e3, 1e4), lambda m, x: 2 - max(amplitude(m, x), 1), bound=True),
+        Sweep(SHORT, "q a", (1e2, 1e3, 1e4), lambda m, x: 2 - max(amplitude(m, x), 1.0), bound=True),
     ),
     "rolling_model": (
         Sweep(SMOOTH, CELLS[1], (1, 2, 4, 8, 16), lambda m, x: float(rolled(m, x, np.zeros(16)).mean())),
