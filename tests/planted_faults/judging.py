@@ -11,7 +11,7 @@ from tests.selection import test_judged_ends, test_judged_kinds, test_judged_sti
 from validation.analysis import judgement
 from validation.engine import others
 from validation.selection.judging import laws, own, stiffness, sweeps
-from validation.selection.judging.judge import Answer
+from validation.selection.judging.judge import ModelAnswer
 from validation.simulation.rough_punch import PlateauSpectrum
 
 given, verdict_of = stiffness.AskedPunch.arguments.fget, judgement.verdict_of
@@ -26,7 +26,7 @@ def without_its_interval(apart, half, within):
 
 
 def without_the_error_of_the_sample(values):
-    return stiffness.Stiffness(Answer(np.mean(values)), Answer(np.std(values) / np.mean(values)))
+    return stiffness.Stiffness(ModelAnswer(np.mean(values)), ModelAnswer(np.std(values) / np.mean(values)))
 
 
 STAYING = {kind: [one._replace(at=one.at[:1] * len(one.at)) for one in some] for kind, some in sweeps.SWEEPS.items()}

@@ -12,7 +12,7 @@ from validation.analysis.statistics import FloatArray
 from validation.engine.offered import Caller, Failed
 from validation.scenes.level_files import curve as levels_of
 from validation.scenes.rail import RailScene
-from validation.selection.judging.judge import Answer, Finding, asked, attempted, rule
+from validation.selection.judging.judge import Finding, ModelAnswer, asked, attempted, rule
 from validation.selection.judging.references import Reference, about, known
 from validation.simulation.rail_strip import line_of, strip_bands, structure_of
 from validation.theory.contact_filters import half_space_filter
@@ -59,7 +59,9 @@ def _over(model: Caller, scene: RailScene, offset: float, alpha: float, rows: It
         band = waves.index(row[WAVE])
         if lowest[band] > COUNTED:
             where = {"wheel": wheel, ALPHA: "isotropic" if math.isinf(alpha) else alpha, WAVE: waves[band]}
-            yield Finding(replace(row, where=where), found if isinstance(found, Failed) else Answer(float(found[band])))
+            yield Finding(
+                replace(row, where=where), found if isinstance(found, Failed) else ModelAnswer(float(found[band]))
+            )
 
 
 def a3(scene: RailScene, alpha: float, transfer: Transfer) -> FloatArray:

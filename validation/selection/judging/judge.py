@@ -24,7 +24,7 @@ JUDGES: Mapping[str, str] = {
 """Module beside this one, and its function, by the decorator; a contact solver is judged among the benchmarks."""
 
 
-class Answer(NamedTuple):
+class ModelAnswer(NamedTuple):
     """A number of a model. half: of the 95 % interval of its sample, over the value, of levels in decibels."""
 
     value: float
@@ -32,7 +32,7 @@ class Answer(NamedTuple):
     reason: str = ""
 
     @classmethod
-    def of(cls, one: Estimate, unit: str) -> "Answer":
+    def of(cls, one: Estimate, unit: str) -> "ModelAnswer":
         return cls(one.value, one.half_width / (1.0 if unit == LEVEL else abs(one.value)))
 
 
@@ -40,7 +40,7 @@ class Finding(NamedTuple):
     """An answer, or why there is none, beside its reference. within: the tolerance of what is exact."""
 
     known: Reference
-    mine: Answer | Failed
+    mine: ModelAnswer | Failed
     within: float | None = None
 
     def judged(self, tolerance: float) -> JudgedPoint:
@@ -53,7 +53,7 @@ class Finding(NamedTuple):
         return compared(*given, unit=known.unit, reason=mine.reason)
 
 
-def beside(known: Iterable[Reference], found: Iterable[Answer | Failed | None] | Failed) -> Iterator[Finding]:
+def beside(known: Iterable[Reference], found: Iterable[ModelAnswer | Failed | None] | Failed) -> Iterator[Finding]:
     """An answer each, or one failure for all; None is a number that the model does not have."""
     answers = repeat(found) if isinstance(found, Failed) else found
     return (Finding(row, mine) for row, mine in zip(known, answers, strict=False) if mine is not None)
@@ -68,7 +68,7 @@ def rule(
     reason: str = "",
 ) -> Finding:
     """What every model must follow: a number that is one."""
-    mine = value if isinstance(value, Failed) else Answer(value, reason=reason)
+    mine = value if isinstance(value, Failed) else ModelAnswer(value, reason=reason)
     return Finding(Reference(where, 1.0, grid=grid, quantity=quantity), mine, within)
 
 

@@ -10,7 +10,7 @@ from validation.analysis.spectra import band_means, record_spectra
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed
 from validation.engine.offered import Caller, Failed
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
-from validation.selection.judging.judge import Answer, Finding, LostError, asked, attempted, beside
+from validation.selection.judging.judge import Finding, LostError, ModelAnswer, asked, attempted, beside
 from validation.selection.judging.references import known
 from validation.simulation.motion import Motion, simulate
 from validation.simulation.wheel_features import features_of
@@ -32,7 +32,7 @@ def judged(model: Caller) -> Iterator[Finding]:
     if isinstance(found, Failed):
         return beside(rows, found)
     unseen = Failed("the spectrum does not show it")
-    answers = (Answer.of(one, row.unit) for row, one in zip(rows, found, strict=True))
+    answers = (ModelAnswer.of(one, row.unit) for row, one in zip(rows, found, strict=True))
     return beside(rows, (one if math.isfinite(one.value) else unseen for one in answers))
 
 

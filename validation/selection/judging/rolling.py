@@ -18,7 +18,7 @@ from validation.analysis.series import Estimates
 from validation.analysis.spectra import Bands, levels, waves
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, mean_estimate
 from validation.engine.offered import Caller, Failed
-from validation.selection.judging.judge import Answer, Finding, asked, attempted, beside
+from validation.selection.judging.judge import Finding, ModelAnswer, asked, attempted, beside
 from validation.selection.judging.references import Reference, about, known
 from validation.simulation.rolling_strip import HERTZ, SMOOTH, RoughStrip, crop_to_reach, level_3d, over_bands
 from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
@@ -62,7 +62,7 @@ def of_density(density: Density) -> Iterator[Finding]:
     return _at_heights((LEVEL, RMS), partial(_of_density, density))
 
 
-def _at_heights(quantities: Sequence[str], find: Callable[[float], list[Answer]]) -> Iterator[Finding]:
+def _at_heights(quantities: Sequence[str], find: Callable[[float], list[ModelAnswer]]) -> Iterator[Finding]:
     """At each h/d of the case all that is known of each quantity, in the order of what is found."""
     for height in dict.fromkeys(row[HEIGHT] for row in known(LEVEL)):
         rows = known(*quantities, where={HEIGHT: height})
@@ -96,7 +96,7 @@ def _octaves(thirds: FloatArray) -> FloatArray:
     return np.stack([octave(thirds, bands, q) for q in dict.fromkeys(row[Q] for row in known(LEVEL))], axis=-1)
 
 
-def _of_density(density: Density, height: float) -> list[Answer]:
+def _of_density(density: Density, height: float) -> list[ModelAnswer]:
     """Octaves and variance by quadrature [dB over F_Hertz^2 (h/d)^2]."""
     settings = about(LEVEL)["settings"]
     first, last = settings["first"], settings["last"]
@@ -107,10 +107,10 @@ def _of_density(density: Density, height: float) -> list[Answer]:
 
     octaves = _octaves(over_bands(power, bands_of(settings)))
     variance = 2 * power((np.arange(FINE) + 0.5) * last / FINE).sum() * last / FINE
-    return [Answer(value) for value in POWER_DECIBEL * np.log(np.maximum([*octaves, variance], NOTHING))]
+    return [ModelAnswer(value) for value in POWER_DECIBEL * np.log(np.maximum([*octaves, variance], NOTHING))]
 
 
-def _of_strips(model: Caller, height: float) -> list[Answer]:
+def _of_strips(model: Caller, height: float) -> list[ModelAnswer]:
     """Octaves and variance over linear theory on the same strips, so that most of the scatter drops out; the mean."""
     settings, rows = about(LEVEL)["settings"], []
     spectrum, bands = spectrum_of(settings), bands_of(settings)
@@ -123,7 +123,7 @@ def _of_strips(model: Caller, height: float) -> list[Answer]:
     exact = Estimates.exact(np.log([*_octaves(level_3d(spectrum, bands)), variance_of(spectrum)]))
     over = Estimates.ratios(mine[:, :-1], of_linear[:, :-1]) + exact
     decibels = (Estimate(POWER_DECIBEL * one.value, POWER_DECIBEL * one.error, one.samples) for one in over)
-    return [*(Answer.of(one, DECIBELS) for one in decibels), Answer.of(mean_estimate(mine[:, -1]), RATIO)]
+    return [*(ModelAnswer.of(one, DECIBELS) for one in decibels), ModelAnswer.of(mean_estimate(mine[:, -1]), RATIO)]
 
 
 @cache
@@ -153,7 +153,7 @@ def _position_by_position(model: Caller, height: float) -> Finding:
     apart = found[times // 2 :: times] / unit - values
     value = fluctuation.value + math.sqrt(np.mean(apart**2))
     left = math.sqrt(np.mean(grid**2)) / value
-    return Finding(replace(fluctuation, grid=left), Answer(value, reason=OF_APART))
+    return Finding(replace(fluctuation, grid=left), ModelAnswer(value, reason=OF_APART))
 
 
 def _rolled(model: Caller, surface: FloatArray, cells: int) -> FloatArray:

@@ -16,7 +16,7 @@ from validation.analysis.judgement import Conditions
 from validation.analysis.multilevel import moments
 from validation.engine.offered import Caller, Failed, FloatArray
 from validation.engine.random_numbers import random_generator
-from validation.selection.judging.judge import Answer, Finding, beside, rule
+from validation.selection.judging.judge import Finding, ModelAnswer, beside, rule
 from validation.selection.judging.references import Reference, known
 from validation.simulation.rough_punch import PlateauSpectrum
 
@@ -81,8 +81,8 @@ class AskedPunch:
 class Stiffness(NamedTuple):
     """Mean of k / (E* L), and its relative deviation where a model has one."""
 
-    mean: Answer
-    deviation: Answer | None = None
+    mean: ModelAnswer
+    deviation: ModelAnswer | None = None
 
 
 Answers = Mapping[AskedPunch, Stiffness | Failed]
@@ -113,7 +113,7 @@ def beside_punches(rows: Sequence[Reference], found: Answers) -> Iterator[Findin
     return beside(rows, [_answer(found[AskedPunch.at(row.where)], row.unit == judgement.DEVIATION) for row in rows])
 
 
-def _answer(one: Stiffness | Failed, deviates: bool) -> Answer | Failed | None:
+def _answer(one: Stiffness | Failed, deviates: bool) -> ModelAnswer | Failed | None:
     if isinstance(one, Failed):
         return None if deviates else one
     return one.deviation if deviates else one.mean
@@ -134,7 +134,7 @@ def _by_formula(model: Caller, punch: AskedPunch) -> Stiffness | Failed:
         return Failed(f"a stiffness of {mean:.3g} N/m")
     if min(deviation, default=0.0) < 0:
         return Failed(f"a deviation of {deviation[0]:.3g} N/m")
-    return Stiffness(Answer(mean / punch.unit), *(Answer(one / mean) for one in deviation))
+    return Stiffness(ModelAnswer(mean / punch.unit), *(ModelAnswer(one / mean) for one in deviation))
 
 
 def _drawn(model: Caller, punches: Iterable[AskedPunch], most: int) -> Answers:
@@ -163,8 +163,8 @@ def sampled(values: FloatArray) -> Stiffness | Failed:
     of = moments(values, np.isfinite(values))
     deviation = of.log_relative_deviation
     half = deviation.half_width if math.isfinite(deviation.value) else 0.0
-    mean = Answer(float(values.mean()), of.log_mean.half_width, f"{values.size} realisations")
-    return Stiffness(mean, Answer(math.exp(deviation.value), half))
+    mean = ModelAnswer(float(values.mean()), of.log_mean.half_width, f"{values.size} realisations")
+    return Stiffness(mean, ModelAnswer(math.exp(deviation.value), half))
 
 
 def _rules(model: Caller, found: Answers) -> Iterator[Finding]:

@@ -12,7 +12,7 @@ from validation.analysis.judgement import RATIO, Conditions
 from validation.analysis.statistics import FloatArray, jackknifed, ratio_of_means, student
 from validation.engine.engine import Engine
 from validation.engine.offered import Caller, Failed
-from validation.selection.judging.judge import Answer, Finding
+from validation.selection.judging.judge import Finding, ModelAnswer
 from validation.selection.judging.references import Reference, known
 from validation.selection.judging.stiffness import DEVIATION, FORCE, HEIGHT, MEAN, MODULUS, SIDE, WAVES, H
 from validation.simulation.light_punch import press_lightly
@@ -37,14 +37,14 @@ def judged(model: Caller) -> Iterator[Finding]:
         height = SIDE * roughness(hurst).surface(CELLS, int(realisation.split()[-1]))
         for row in rows:
             if time.perf_counter() > end:
-                yield Finding(row, Answer(math.nan, reason=f"not asked: {SECONDS:g} s are over"))
+                yield Finding(row, ModelAnswer(math.nan, reason=f"not asked: {SECONDS:g} s are over"))
                 continue
             load = row[FORCE] * MODULUS * HEIGHT * SIDE**2
             value = model.call(height=height, spacing=SIDE / CELLS, modulus=MODULUS, load=load)
             if not isinstance(value, Failed) and value > 0:
                 mine = float(value) / (MODULUS * SIDE)
                 found.setdefault((hurst, row[FORCE]), []).append((mine, row))
-                yield Finding(row, Answer(mine))
+                yield Finding(row, ModelAnswer(mine))
             else:
                 yield Finding(row, value if isinstance(value, Failed) else Failed(f"a stiffness of {value:.3g} N/m"))
     for (hurst, force), pairs in sorted(found.items()):
@@ -71,7 +71,7 @@ def _over_surfaces(where: Conditions, pairs: Sequence[tuple[float, Reference]]) 
         (DEVIATION, judgement.DEVIATION, both.std(axis=0, ddof=1) / both.mean(axis=0), min(apart.half_width, 10.0)),
     ):
         row = Reference(where, float(exact), grid=grid, unit=unit, quantity=quantity)
-        yield Finding(row, Answer(float(mine), half))
+        yield Finding(row, ModelAnswer(float(mine), half))
 
 
 def roughness(hurst: float) -> PunchRoughness:

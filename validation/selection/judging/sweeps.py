@@ -79,7 +79,7 @@ def followed(model: Caller, length: float) -> float:
     return 1 + float(np.std(found - exact) / np.std(exact))
 
 
-class Sweep(NamedTuple):
+class ModelSweep(NamedTuple):
     """ratio: of a model at each, over a closed form, or over a bound, which realisations need not keep; left: by the
     form, or the cells."""
 
@@ -92,22 +92,24 @@ class Sweep(NamedTuple):
 
 
 CELLS = "cells in the contact", "cells to a contact radius"
-SWEEPS: Mapping[str, Sequence[Sweep]] = {
+SWEEPS: Mapping[str, Sequence[ModelSweep]] = {
     "stiffness_model": (
-        Sweep(HEAVY, FORCE, (30, 1e2, 1e3, 1e4), lambda m, x: stiffness(m, x) / SQUARE_PUNCH, left_by_the_heaviest),
-        Sweep(
+        ModelSweep(
+            HEAVY, FORCE, (30, 1e2, 1e3, 1e4), lambda m, x: stiffness(m, x) / SQUARE_PUNCH, left_by_the_heaviest
+        ),
+        ModelSweep(
             LIGHT, FORCE, (1e-8, 1e-6, 1e-4), lambda m, x: min(stiffness(m, 2 * x) / stiffness(m, x), 1.0), bound=True
         ),
     ),
-    "stiffness_of_surface": (Sweep(FEW, CELLS[0], (3, 10, 30, 100, 300), below_a_sphere),),
-    "force_spectrum": (Sweep(LONG, "q a", (1e-4, 1e-3, 1e-2), rms_of_long_waves, 1e-2),),
+    "stiffness_of_surface": (ModelSweep(FEW, CELLS[0], (3, 10, 30, 100, 300), below_a_sphere),),
+    "force_spectrum": (ModelSweep(LONG, "q a", (1e-4, 1e-3, 1e-2), rms_of_long_waves, 1e-2),),
     "contact_filter": (
-        Sweep(LONG, "q a", (0, 1e-6, 1e-3), amplitude, 1e-3),
-        Sweep(SHORT, "q a", (1e2, 1e3, 1e4), lambda m, x: 2 - max(amplitude(m, x), 1.0), bound=True),
+        ModelSweep(LONG, "q a", (0, 1e-6, 1e-3), amplitude, 1e-3),
+        ModelSweep(SHORT, "q a", (1e2, 1e3, 1e4), lambda m, x: 2 - max(amplitude(m, x), 1.0), bound=True),
     ),
     "rolling_model": (
-        Sweep(SMOOTH, CELLS[1], (1, 2, 4, 8, 16), lambda m, x: float(rolled(m, x, np.zeros(16)).mean())),
-        Sweep(LONG, "wavelength over a", (32, 128), followed, 1e-2),
+        ModelSweep(SMOOTH, CELLS[1], (1, 2, 4, 8, 16), lambda m, x: float(rolled(m, x, np.zeros(16)).mean())),
+        ModelSweep(LONG, "wavelength over a", (32, 128), followed, 1e-2),
     ),
 }
 """Of the kinds that can be asked that."""
