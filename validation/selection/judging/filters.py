@@ -9,10 +9,10 @@ from itertools import groupby
 import numpy as np
 
 from validation.analysis.statistics import FloatArray
-from validation.engine.offered import Caller, Failed
+from validation.engine.offered import Caller
 from validation.scenes.level_files import curve as levels_of
 from validation.scenes.rail import RailScene
-from validation.selection.judging.judge import Finding, ModelAnswer, asked, attempted, rule
+from validation.selection.judging.judge import Finding, asked, attempted, beside, rule
 from validation.selection.judging.references import Reference, about, known
 from validation.simulation.rail_strip import line_of, strip_bands, structure_of
 from validation.theory.contact_filters import half_space_filter
@@ -36,8 +36,8 @@ def judged(model: Caller) -> Iterator[Finding]:
     rows = known(FILTER)
     scene = scene_of(rows[0][LOAD], rows[0][DIAMETER])
     k_x = np.array([LONG_WAVE / scene.contact.along])
-    long = attempted(_transfer(model, scene, 1.0), k_x, 0 * k_x)
-    yield rule(LONG, {"k_x a_x": LONG_WAVE}, long if isinstance(long, Failed) else float(np.abs(long[0])), LONG_WAVE)
+    long = attempted(lambda: float(np.abs(_transfer(model, scene, 1.0)(k_x, 0 * k_x)[0])))
+    yield rule(LONG, {"k_x a_x": LONG_WAVE}, long, LONG_WAVE)
     for (load, diameter, offset, alpha), ground in groupby(rows, _ground):
         # a filter of the line that goes by alpha has none for isotropic ground
         if math.isfinite(alpha) or "k_y" in model.asks or ALPHA not in model.asks:
@@ -51,17 +51,15 @@ def _ground(row: Reference) -> tuple[float, ...]:
 def _over(model: Caller, scene: RailScene, offset: float, alpha: float, rows: Iterator[Reference]) -> Iterator[Finding]:
     """One ground, in the bands that count."""
     across = alpha if "k_y" in model.asks else 0.0
-    found = attempted(_in_one_call, partial(a3, scene, across), _transfer(model, scene, alpha))
     wheel = f"{scene.name}, {offset:+g} dB" if offset else scene.name
     waves = np.round(1000 * strip_bands(scene).nominal, 2).tolist()
     lowest = np.minimum.accumulate(_linear(scene, alpha))
-    for row in rows:
-        band = waves.index(row[WAVE])
-        if lowest[band] > COUNTED:
-            where = {"wheel": wheel, ALPHA: "isotropic" if math.isinf(alpha) else alpha, WAVE: waves[band]}
-            yield Finding(
-                replace(row, where=where), found if isinstance(found, Failed) else ModelAnswer(float(found[band]))
-            )
+    counted = [row for row in rows if lowest[waves.index(row[WAVE])] > COUNTED]
+    bands = [waves.index(row[WAVE]) for row in counted]
+    ground = {"wheel": wheel, ALPHA: "isotropic" if math.isinf(alpha) else alpha}
+    transfer = _transfer(model, scene, alpha)
+    found = attempted(lambda: _in_one_call(partial(a3, scene, across), transfer)[bands])
+    yield from beside([replace(row, where={**ground, WAVE: row[WAVE]}) for row in counted], found)
 
 
 def a3(scene: RailScene, alpha: float, transfer: Transfer) -> FloatArray:

@@ -36,40 +36,36 @@ class ModelAnswer(NamedTuple):
         return cls(one.value, one.half_width / (1.0 if unit == LEVEL else abs(one.value)))
 
 
+Found = ModelAnswer | Failed | float
+
+
 class Finding(NamedTuple):
     """An answer, or why there is none, beside its reference. within: the tolerance of what is exact."""
 
     known: Reference
-    mine: ModelAnswer | Failed
+    found: Found
     within: float | None = None
 
     def judged(self, tolerance: float) -> JudgedPoint:
-        known, mine = self.known, self.mine
-        if isinstance(mine, Failed):
-            verdict, unit = REFUSED if mine.refused else FAILED, LEVEL if known.unit == LEVEL else "-"
-            return not_compared(known.quantity, known.where, verdict, mine.reason, reference=known.value, unit=unit)
+        known, found = self.known, self.found
+        if isinstance(found, Failed):
+            verdict, unit = REFUSED if found.refused else FAILED, LEVEL if known.unit == LEVEL else "-"
+            return not_compared(known.quantity, known.where, verdict, found.reason, reference=known.value, unit=unit)
+        mine = found if isinstance(found, ModelAnswer) else ModelAnswer(float(found))
         half, within = known.grid + math.hypot(known.sample, mine.half), self.within or tolerance
         given = known.quantity, known.where, mine.value, known.value, half, within
         return compared(*given, unit=known.unit, reason=mine.reason)
 
 
-def beside(known: Iterable[Reference], found: Iterable[ModelAnswer | Failed | None] | Failed) -> Iterator[Finding]:
+def beside(known: Iterable[Reference], found: Iterable[Found | None] | Failed) -> Iterator[Finding]:
     """An answer each, or one failure for all; None is a number that the model does not have."""
     answers = repeat(found) if isinstance(found, Failed) else found
     return (Finding(row, mine) for row, mine in zip(known, answers, strict=False) if mine is not None)
 
 
-def rule(
-    quantity: str,
-    where: Conditions,
-    value: float | Failed,
-    grid: float = 0.0,
-    within: float | None = None,
-    reason: str = "",
-) -> Finding:
+def rule(quantity: str, where: Conditions, found: Found, grid: float = 0.0, within: float | None = None) -> Finding:
     """What every model must follow: a number that is one."""
-    mine = value if isinstance(value, Failed) else ModelAnswer(value, reason=reason)
-    return Finding(Reference(where, 1.0, grid=grid, quantity=quantity), mine, within)
+    return Finding(Reference(where, 1.0, grid=grid, quantity=quantity), found, within)
 
 
 def points_of(model: Caller, tolerance: float) -> Iterator[JudgedPoint]:

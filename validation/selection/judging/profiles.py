@@ -69,18 +69,18 @@ def properties_of_rule(model: Caller, hurst: float, first: float, last: float, h
     found = attempted(lambda: [asked(model, q=at, roughness=one) for at, one in arguments])
     ratio = partial(rule, where={H: hurst}, grid=QUADRATURE)
     if isinstance(found, Failed) or not found[0].any():
-        yield ratio(MOMENTS[0], value=found if isinstance(found, Failed) else Failed(NO_PROFILE))
+        yield ratio(MOMENTS[0], found=found if isinstance(found, Failed) else Failed(NO_PROFILE))
         return
     mine, lower, upper, doubled, scaled = found
     for n, name in MOMENTS.items():
         share = float(2 * mine * q**n @ dq / (2 * math.pi * whole.c2d(q) * q ** (n + 1) @ dq))
-        yield ratio(name, value=math.sqrt(max(share, 0.0)) if name.startswith("rms") else share)
+        yield ratio(name, found=math.sqrt(max(share, 0.0)) if name.startswith("rms") else share)
     least = min(float(mine.min() / np.abs(mine).max()), 0.0)
-    yield ratio("not negative", value=1 + least, grid=0.0, within=ROUNDING)
+    yield ratio("not negative", found=1 + least, grid=0.0, within=ROUNDING)
     total = float(np.abs(mine) @ dq)
     apart = np.abs(mine - lower - upper) + np.abs(doubled - 2 * mine)
-    yield ratio("linear in C_2D", value=1 + float(apart @ dq) / total)
-    yield ratio("scaling with the length", value=1 + float(np.abs(scaled - 8 * mine) @ dq) / (8 * total))
+    yield ratio("linear in C_2D", found=1 + float(apart @ dq) / total)
+    yield ratio("scaling with the length", found=1 + float(np.abs(scaled - 8 * mine) @ dq) / (8 * total))
 
 
 def rms_of_profile(c1d: FloatArray, waves: FloatArray, ground: Any) -> float:

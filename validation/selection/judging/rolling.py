@@ -4,7 +4,7 @@ Wheels here have a contact radius of 2 mm; all is compared over the force of Her
 """
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache, partial
 from typing import Any
@@ -62,7 +62,7 @@ def of_density(density: Density) -> Iterator[Finding]:
     return _at_heights((LEVEL, RMS), partial(_of_density, density))
 
 
-def _at_heights(quantities: Sequence[str], find: Callable[[float], list[ModelAnswer]]) -> Iterator[Finding]:
+def _at_heights(quantities: Sequence[str], find: Callable[[float], Iterable[ModelAnswer | float]]) -> Iterator[Finding]:
     """At each h/d of the case all that is known of each quantity, in the order of what is found."""
     for height in dict.fromkeys(row[HEIGHT] for row in known(LEVEL)):
         rows = known(*quantities, where={HEIGHT: height})
@@ -96,7 +96,7 @@ def _octaves(thirds: FloatArray) -> FloatArray:
     return np.stack([octave(thirds, bands, q) for q in dict.fromkeys(row[Q] for row in known(LEVEL))], axis=-1)
 
 
-def _of_density(density: Density, height: float) -> list[ModelAnswer]:
+def _of_density(density: Density, height: float) -> FloatArray:
     """Octaves and variance by quadrature [dB over F_Hertz^2 (h/d)^2]."""
     settings = about(LEVEL)["settings"]
     first, last = settings["first"], settings["last"]
@@ -107,7 +107,7 @@ def _of_density(density: Density, height: float) -> list[ModelAnswer]:
 
     octaves = _octaves(over_bands(power, bands_of(settings)))
     variance = 2 * power((np.arange(FINE) + 0.5) * last / FINE).sum() * last / FINE
-    return [ModelAnswer(value) for value in POWER_DECIBEL * np.log(np.maximum([*octaves, variance], NOTHING))]
+    return np.asarray(POWER_DECIBEL * np.log(np.maximum([*octaves, variance], NOTHING)))
 
 
 def _of_strips(model: Caller, height: float) -> list[ModelAnswer]:

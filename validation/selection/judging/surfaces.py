@@ -44,7 +44,7 @@ def judged(model: Caller) -> Iterator[Finding]:
             if not isinstance(value, Failed) and value > 0:
                 mine = float(value) / (MODULUS * SIDE)
                 found.setdefault((hurst, row[FORCE]), []).append((mine, row))
-                yield Finding(row, ModelAnswer(mine))
+                yield Finding(row, mine)
             else:
                 yield Finding(row, value if isinstance(value, Failed) else Failed(f"a stiffness of {value:.3g} N/m"))
     for (hurst, force), pairs in sorted(found.items()):
