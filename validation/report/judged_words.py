@@ -109,7 +109,7 @@ def paragraph(judgement: "Judgement") -> str:
     beside, version = REFERENCES.get(judgement.kind, "boundary elements"), metadata.version("mdr-validation")
     said = [
         f"The model {judgement.model!r} was compared with {beside}, the references of mdr-validation {version}.",
-        f"A number agrees where its 95 % interval, of both, lies within {tolerance} of the reference.",
+        f"A number is within {tolerance} where its whole 95 % interval is, by the errors of both.",
     ]
     said += [_of_quantity(tolerance, curves) for curves in curves_of(compared) if not curves[0].is_rule]
     count = Counter(point.verdict for point in points)
@@ -128,10 +128,10 @@ def _of_quantity(tolerance: Tolerance, curves: Sequence[JudgedCurve]) -> str:
     first, points = curves[0], [point for curve in curves for point in curve.points]
     compared = "; ".join(_values(name, points) for name in dict.fromkeys(name for p in points for name in p.where))
     compared = f" (compared: {compared})" if compared else ""
+    within = f"{decibels(tolerance.relative):.2g} dB" if points[0].unit == LEVEL else str(tolerance)
     if not first.along or len(curves) > CURVES // 2 or min(len(curve.points) for curve in curves) == 1:
         agree = sum(point.verdict == AGREE for point in points)
-        return f"Its {first.quantity} agrees at {agree} of {len(points)} points{compared}."
-    within = f"{decibels(tolerance.relative):.2g} dB" if points[0].unit == LEVEL else str(tolerance)
+        return f"Its {first.quantity} is within {within} at {agree} of {len(points)} points{compared}."
     wrong = {point.where[first.along] for point in points if point.verdict != AGREE}
     at = sorted({x for curve in curves for x in curve.at})
     runs = [(right, list(run)) for right, run in groupby(at, lambda x: x not in wrong)]

@@ -13,7 +13,7 @@ import mdr
 from validation.analysis.statistics import FloatArray
 from validation.engine.offered import Caller, Failed
 from validation.selection.judging import rolling
-from validation.selection.judging.judge import Finding, LostError, ModelAnswer, asked, attempted, rule
+from validation.selection.judging.judge import Finding, Found, LostError, ModelAnswer, asked, attempted, rule
 from validation.selection.judging.references import known
 from validation.selection.judging.stiffness import FEWEST, FORCE, MEAN, MODULUS, SIDE, AskedPunch, H, answers_of
 from validation.theory.closed_forms import SQUARE_PUNCH
@@ -121,7 +121,7 @@ def swept(model: Caller) -> Iterator[Finding]:
     for one in SWEEPS.get(model.kind, ()):
         left = one.left() if callable(one.left) else one.left
         for x in () if one.bound and "rng" in model.asks else map(float, one.at):
-            found = attempted(one.ratio, model, x)
+            found: Found = attempted(one.ratio, model, x)
             if model.warned and isinstance(found, float):
                 found = ModelAnswer(found, reason=f"it warned: {model.warned}")
             yield rule(one.quantity, {one.along: x}, found, left, EXACT if one.bound else None)
