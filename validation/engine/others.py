@@ -38,7 +38,7 @@ class OthersError(ValueError):
 class Called(Caller):
     """An offered function, in this process or by a visitor.
 
-    printed: the first of what it printed; replies: to the last calls; longest: arguments that took it longest.
+    printed: the first of what it printed; replies: to the last calls; longest: arguments of the slowest answer.
     """
 
     offered: Offered
@@ -62,7 +62,7 @@ class Called(Caller):
             printed = text.getvalue()
         self.printed = self.printed or " ".join(printed.split())[:SHOWN]
         for value, reply in zip(values, self.replies, strict=True):
-            if reply.seconds > self._seconds:
+            if reply.seconds > self._seconds and not isinstance(reply.value, Failed):
                 self._seconds, self.longest = reply.seconds, {**arguments, name: value}
         return [reply.value for reply in self.replies]
 
