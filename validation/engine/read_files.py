@@ -11,7 +11,7 @@ from typing import Any
 OPENED: set[Path] = set()
 """What this process has opened for reading since it is watched."""
 BEGUN = time.time()
-"""What is younger was written by the file itself, or by what it has started."""
+"""What was written since is by the file itself, or by what it has started; a date in the future is that of data."""
 
 
 def watch_opened() -> None:
@@ -29,9 +29,9 @@ def sources_of(path: Path) -> tuple[Path, ...]:
     """The file, the modules loaded from its folder and the data read there, but for installed packages."""
     modules = (getattr(one, "__file__", None) for one in list(sys.modules.values()))
     loaded = {Path(file) for file in modules if isinstance(file, str)}
-    data = {file for file in OPENED if file.is_file() and file.stat().st_mtime < BEGUN}
+    data = (one for one in list(OPENED) if one.is_file() and not BEGUN <= one.stat().st_mtime <= time.time())
     folders = path.parent, path.parent.resolve()
-    near = (file for file in loaded | data if any(file.is_relative_to(folder) for folder in folders))
+    near = (file for file in (*loaded, *data) if any(file.is_relative_to(folder) for folder in folders))
     without = {"site-packages", "__pycache__"}
     return tuple(sorted({path.resolve(), *(file.resolve() for file in near if without.isdisjoint(file.parts))}))
 
