@@ -173,6 +173,10 @@ FAULTS = [
     ),
     partial(dense_twin.test_rows_of_a_block_of_columns_are_not_a_power_of_two_apart, 1024),
     Fault("columns a power of two apart").at(blocked_convolution, "COLUMNS_AT_ONCE", 32),
+    threaded.test_memory_of_the_operators,
+    Fault("a spectrum for each convolution").at(
+        halfspace.HalfSpace, "_memory", property(lambda body: blocked_convolution.SpectrumMemory())
+    ),
     partial(threaded.test_bits_of_a_displacement_are_equal_for_any_threads, False),
     Fault("threads that share a buffer").at(
         blocked_convolution, "share", lambda work, blocks, buffers: share(work, blocks, [buffers[0]] * len(buffers))
