@@ -110,7 +110,7 @@ class SurfaceProblem:
         return tuple(each for by in methods for each in along(by, self, **sizes, worker=by.name))
 
 
-NOT_INSTALLED = "not installed"
+NOT_INSTALLED, NOT_SERVED = "not installed", "not served"
 PRESSURE, FORCE, AREA = (f"{what} difference to ours" for what in ("pressure", "force", "area"))
 """Relative, of the pressure field in L2."""
 
@@ -266,14 +266,14 @@ def tables(result: Outcomes) -> tuple[Table, ...]:
     versions = [{"solver": s.name, "mode": s.mode, "version": s.version or NOT_INSTALLED} for s in solvers]
     return (
         table_of("heats", list(itertools.chain(*timed))),
-        _seconds(timed),
+        _seconds(timed, [s.name for s in solvers]),
         table_of(PEERS, versions),
     )
 
 
-def _seconds(solved: Rows) -> Table:
+def _seconds(solved: Rows, solvers: Sequence[str]) -> Table:
     known = [{"problem": rows[0]["problem"], "area": f"{rows[0]['area']:.1%}"} for rows in solved]
-    said = [{row["solver"]: _said(row) for row in rows} for rows in solved]
+    said = [dict.fromkeys(solvers, NOT_SERVED) | {row["solver"]: _said(row) for row in rows} for rows in solved]
     return table_of(SECONDS, [mine | theirs for mine, theirs in zip(known, said, strict=True)])
 
 
