@@ -205,7 +205,10 @@ def test_a_solver_of_a_file_races_where_it_serves(forked, monkeypatch):
     }
     assert set(found.values()) == {"finished"}
     assert len(found) == 2 and all("free" in problem for problem in found)
-    assert "own_solver.py" in comparison.tables(result)[2]["version"]
+    _, seconds, versions = comparison.tables(result)
+    assert "own_solver.py" in versions["version"]
+    periodic = np.array(["periodic" in problem for problem in seconds["problem"]])
+    assert ((seconds["conjugate gradients"] == "not asked") == periodic).all() and periodic.any()
 
 
 def test_the_median_lies_between_order_statistics():

@@ -39,7 +39,7 @@ FAULTS = [
     Fault("a model without references that is chosen").at(
         own_models.OwnModel, "_claim", lambda own, *_: ErrorEstimate(reason="none is known")
     ),
-    test_own_models.test_each_error_is_that_of_its_own_scene,
+    test_own_models.test_each_error_is_that_of_its_own_scene_and_no_less_than_the_answer_leaves,
     Fault("the error of the next scene of the calibration").at(Answers, "scenes", next_scenes),
     test_own_models.test_surfaces_are_those_that_boundary_elements_have,
     Fault("surfaces of another seed than those of the reference").at(own_models, "OTHER_SEED", 0),

@@ -28,7 +28,9 @@ from validation.simulation.sampling import distance
 from validation.theory.closed_forms import rough_punch_stiffness
 
 PUNCH = ("punch", "stiffness")
-SCENES, UNANSWERED = 26, 3
+SCENES, UNANSWERED, OPEN = 26, 3, 7
+LEAVES = 0.01
+"""Of every answer but one, of which it is not known."""
 ROUGH = validation.load_scene("rough_punch")
 
 
@@ -56,7 +58,8 @@ def answers(value: Callable[[CalibrationScene], np.ndarray] | None = None) -> An
         scene = point.scene
         law = rough_punch_stiffness(side=1.0, modulus=1.0, force=scene.load, height=scene.ground.rms)
         each = value(point) if value else np.full((8, 1), factor(number) * law)
-        about = {"each": each, "reference": np.array(0.01), "failed": np.array(number == UNANSWERED)}
+        reference = np.array(math.inf if number == OPEN else LEAVES)
+        about = {"each": each, "reference": reference, "failed": np.array(number == UNANSWERED)}
         found.append((point, {"value": each.mean(axis=0), **about}))
     return Answers.of(found, {"command": "mdr-validation calibrate --answers --punches 26 --seed 19"})
 
@@ -70,15 +73,17 @@ def stored(*groups):
         yield Path(folder)
 
 
-def test_each_error_is_that_of_its_own_scene():
+def test_each_error_is_that_of_its_own_scene_and_no_less_than_the_answer_leaves():
+    """So that a model that was fitted to the answers is not known to be nearer."""
     with stored((PUNCH, known := answers())):
         (own,) = own_models.of_functions([series], ROUGH, "stiffness")
         measured = own.errors[PUNCH].measured
-    numbers = [number for number in range(SCENES) if number != UNANSWERED]
-    np.testing.assert_allclose(measured.errors, np.log([factor(number) for number in numbers]), rtol=1e-9)
+    numbers = [number for number in range(SCENES) if number not in (UNANSWERED, OPEN)]
+    apart = np.log([factor(number) for number in numbers])
+    np.testing.assert_allclose(measured.errors, np.maximum(apart, LEAVES), rtol=1e-9)
     scenes = [CalibrationScene(kind="punch", number=number, quantity="stiffness", seed=19).scene for number in numbers]
     np.testing.assert_allclose(measured.points[:, 0], np.log10([scene.reduced_load for scene in scenes]))
-    assert known.number.tolist() == numbers
+    assert sorted({*known.number.tolist()} - {OPEN}) == numbers
 
 
 def test_a_calibrated_function_is_chosen_like_any_other():
@@ -195,7 +200,7 @@ def test_the_errors_of_a_file_are_shown_and_why_there_are_none(capsys):
     with stored((PUNCH, answers())) as folder:
         assert main(["calibrate", "--model", str(written(folder))]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert lines[1].split()[:4] == ["punch", "stiffness", "mine", str(SCENES - 1)]
+    assert lines[1].split()[:4] == ["punch", "stiffness", "mine", str(SCENES - 2)]
     assert [line.split('"')[1] for line in lines if "answers fewer than 20 scenes" in line] == ["no number", "raises"]
 
 
@@ -268,7 +273,7 @@ def test_surfaces_are_those_that_boundary_elements_have():
     with stored((PUNCH, few)):
         (own,) = own_models.of_functions([by_the_highest], ROUGH, "stiffness")
         outcome = measure_own(OwnPart(own, PUNCH, few.digest))
-    assert outcome["error"].max() <= own_models.LEAST
+    assert (outcome["error"] == few.reference).all()
 
 
 def test_a_filter_of_a_rail_claims_what_the_same_one_of_the_package_does():

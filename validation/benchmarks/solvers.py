@@ -35,7 +35,7 @@ from validation.benchmarks.timing import (
 )
 from validation.engine.engine import SERIAL, Engine, FloatArray, Outcome
 
-NOT_INSTALLED, TOO_LONG = "not installed", "not timed: it would take minutes"
+NOT_INSTALLED, NOT_ASKED, TOO_LONG = "not installed", "not asked", "not timed: it would take minutes"
 PRESSURE, FORCE, AREA = (f"{what} difference to ours" for what in ("pressure", "force", "area"))
 """Relative, of the pressure field in L2."""
 
@@ -214,14 +214,14 @@ def tables(result: Outcomes) -> tuple[Table, ...]:
     versions = [{"solver": s.name, "mode": s.mode, "version": s.version or NOT_INSTALLED} for s in solvers]
     return (
         table_of("heats", list(itertools.chain(*timed))),
-        _seconds(timed),
+        _seconds(timed, list(dict.fromkeys(row["solver"] for row in itertools.chain(*timed)))),
         table_of(PEERS, versions),
     )
 
 
-def _seconds(solved: Rows) -> Table:
+def _seconds(solved: Rows, solvers: Sequence[str]) -> Table:
     known = [{"problem": rows[0]["problem"], "area": f"{rows[0]['area']:.1%}"} for rows in solved]
-    said = [{row["solver"]: _said(row) for row in rows} for rows in solved]
+    said = [dict.fromkeys(solvers, NOT_ASKED) | {row["solver"]: _said(row) for row in rows} for rows in solved]
     return table_of(SECONDS, [mine | theirs for mine, theirs in zip(known, said, strict=True)])
 
 

@@ -19,6 +19,7 @@ from validation.scenes.rail import RailScene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness, RoughSurface
 from validation.selection.judging.judge import asked
+from validation.selection.judging.profiles import rms_of_profile
 from validation.selection.judging.rolling import middle_line
 from validation.simulation.calibrated_range import SCATTER
 from validation.simulation.indentation import cells_wanted, ground_of, height_of, is_rough, side_of
@@ -133,16 +134,6 @@ def _quadratures(quantity: RollingQuantity) -> Iterator[tuple[FloatArray, FloatA
         powers = np.geomspace(first, last, 2 + math.floor(math.log(last / first) / math.log(RATIO)))
         below = np.linspace(low, first, STEPS)
         yield on_panels(np.unique(np.concatenate([waves, powers, below])), NODES)
-
-
-def rms_of_profile(c1d: FloatArray, waves: FloatArray, ground: RoughSurface) -> float:
-    """Of a rule: a band that begins at the first wave counts it whole, as that of Geike's, whose rms is the surface's.
-
-    Raises ValueError for a spectrum that is negative, or zero.
-    """
-    if c1d.min() < 0 or not c1d.any():
-        raise ValueError("no profile has a spectrum that is negative, or zero")
-    return float(ground.rms * math.sqrt(c1d.sum() / mdr.geike(waves, ground.c2d).sum()))
 
 
 def _of_rule(caller: Caller, target: Target, count: int) -> FloatArray:

@@ -36,8 +36,6 @@ CALL = 1e-4
 """Seconds of a realisation where none was timed."""
 FEWEST_SCENES = 20
 """On which a model must have an answer, for its error to be known."""
-LEAST = 1e-9
-"""Error of a scene at the least: logarithms are taken."""
 VISITORS: dict[tuple[Path, str], Visitor] = {}
 """Processes of files, by what these had been when they were run."""
 RUNNING = ExitStack()
@@ -227,12 +225,13 @@ def _errors(part: OwnPart, engine: Engine) -> OwnErrors:
 
 def measure_own(part: OwnPart) -> Outcome:
     """Distance from boundary elements on each scene, NaN where the model has no answer; seconds of a realisation."""
-    called, errors, seconds = part.own.called(), [], []
-    for point, value, each in answers_in()[part.group].scenes(part.group):
+    called, errors, seconds, answers = part.own.called(), [], [], answers_in()[part.group]
+    for (point, value, each), reference in zip(answers.scenes(part.group), answers.reference, strict=True):
         begin = time.perf_counter()
         error, count = _error(called, point, value, each)
         seconds.append((time.perf_counter() - begin) / count)
-        errors.append(error)
+        # no model is known to be nearer than what it is measured beside, not even one that was fitted to that
+        errors.append(np.maximum(error, reference))
     return {"error": np.array(errors), "seconds": np.array(10.0 ** math.ceil(math.log10(min(seconds))))}
 
 
@@ -247,7 +246,7 @@ def _error(called: Called, point: CalibrationScene, value: FloatArray, each: Flo
     except (ValueError, ArithmeticError):
         return math.nan, 1
     truth = _mean(each[:count], point.quantity) if of.given else value
-    return max(distance(_mean(found, point.quantity), truth), LEAST), count
+    return distance(_mean(found, point.quantity), truth), count
 
 
 def _mean(rows: FloatArray, quantity: str) -> FloatArray:
