@@ -13,14 +13,14 @@ from tests.bem3d.test_iteration_counts import self_affine
 from tests.oracles import dense_operator, displacement
 
 
-def with_levels(test, *, one_level=0, block=4):
-    """A test with a second level on grids of more cells than these, of blocks of so many."""
+def with_levels(test):
+    """A test with a second level on all grids, of blocks of 4 x 4 cells, and convolutions that threads share out."""
 
     @functools.wraps(test)
     def run(*given, **named):
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(halfspace, "ONE_LEVEL", one_level)
-            patch.setattr(halfspace, "BLOCK", block)
+            for name, small in {"ONE_LEVEL": 0, "BLOCK": 4, "CACHED_NUMBERS": 0, "CACHED_CELLS": 0}.items():
+                patch.setattr(halfspace, name, small)
             test(*given, **named)
 
     return run
@@ -91,7 +91,8 @@ def test_hostile_contacts_are_solved_or_refused(part):
         rng = np.random.default_rng(seed)
         shape = tuple(rng.integers(3, 26, size=2).tolist())
         dx, aspect, modulus = 10.0 ** rng.uniform([-6, -0.5, -3], [1, 0.5, 11])
-        body = bem3d.HalfSpace(shape=shape, spacing=(dx, aspect * dx), modulus=modulus, periodic=bool(seed % 2))
+        cells = {"shape": shape, "spacing": (dx, aspect * dx), "threads": seed % 3 + 1}
+        body = bem3d.HalfSpace(**cells, modulus=modulus, periodic=bool(seed % 2))
         gap = HOSTILE_GAPS[seed // 2 % len(HOSTILE_GAPS)](rng, shape) * dx * 10.0 ** rng.uniform(-5, 0)
         force = modulus * max(float(np.ptp(gap)), 1e-9 * dx) * dx * max(shape) * 10.0 ** rng.uniform(-4, 1)
         contact = checked(bem3d.solve(body, gap, force=force, tolerance=1e-8))
