@@ -2,12 +2,13 @@
 
 import math
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
 from bem3d.checks import FloatArray, IndexArray
-from bem3d.convolution import ComplexArray, Convolution, Planning, aligned, planned
+from bem3d.convolution import ComplexArray, Convolution, Planning, Shape, aligned, planned
 from bem3d.threads import share
 
 COLUMNS_AT_ONCE = 28
@@ -16,8 +17,8 @@ Rows of 16 or 32 numbers, a power of two apart, would displace each other from t
 NUMBERS_AT_ONCE = 2**16
 """Numbers of the padded rows that are transformed at a time, at the most."""
 
-Fill = Callable[[FloatArray, slice], None]
-"""Copies rows of a grid to the padded rows of a block, or back."""
+Part = tuple[Any, slice]
+"""Where numbers of a block of rows stand in its buffer, and where among the values."""
 
 
 class SpectrumMemory:
@@ -49,14 +50,13 @@ class BlockedConvolution(Convolution):
         self,
         symbol: FloatArray,
         *,
-        shape: tuple[int, int],
-        padded: tuple[int, int],
+        shape: Shape,
+        padded: Shape,
         planning: Planning,
         threads: int,
         memory: SpectrumMemory,
     ):
         super().__init__(shape, padded)
-        self._memory = memory
         self._row_blocks = blocks(shape[0], max(NUMBERS_AT_ONCE // padded[1], 1))
         column_blocks = blocks(symbol.shape[1], COLUMNS_AT_ONCE)
         # the last block may have fewer columns: its others are zero
@@ -64,61 +64,46 @@ class BlockedConvolution(Convolution):
         for block, quadrant in zip(column_blocks, self._symbols, strict=True):
             np.divide(symbol[:, block], padded[0] * padded[1], out=quadrant[:, : symbol[:, block].shape[1]])
         count, _, width = self._symbols.shape
-        threads = min(threads, len(self._row_blocks), count)
-        rows = self._row_blocks[0].stop
-        self._buffers = [_Buffers(padded, rows, count, width, planning) for _ in range(threads)]
+        self._memory, rows = memory, self._row_blocks[0].stop
+        self._buffers = [_Buffers(padded, rows, count, width, planning) for _ in range(min(threads, count))]
 
     def __call__(self, field: FloatArray) -> FloatArray:
-        result, width = np.empty(self.shape), self.shape[1]
-
-        def fill(rows: FloatArray, block: slice) -> None:
-            rows[: block.stop - block.start, :width] = field[block]
-
-        def read(rows: FloatArray, block: slice) -> None:
-            result[block] = rows[: block.stop - block.start, :width]
-
-        self._convolve(fill, read)
-        return result
+        return self._convolve(field, lambda block: (np.s_[: block.stop - block.start, : self.shape[1]], block))
 
     def at(self, places: IndexArray, values: FloatArray) -> FloatArray:
+        def of(block: slice) -> Part:
+            first, end = block.start * self.padded[1], block.stop * self.padded[1]
+            part = slice(*np.searchsorted(places, (first, end)))
+            return places[part] - first, part
+
+        return self._convolve(values, of)
+
+    def _convolve(self, values: FloatArray, of: Callable[[slice], Part]) -> FloatArray:
+        """Values of the whole field, or in one dimension of some cells; of: those of a block of rows."""
         result = np.empty(values.shape)
+        count, _, width = self._symbols.shape
 
-        def of(block: slice) -> slice:
-            return slice(*np.searchsorted(places, (block.start * self.padded[1], block.stop * self.padded[1])))
+        def forward(buffers: _Buffers, block: slice) -> None:
+            inside, part = of(block)
+            buffers.rows[:] = 0.0
+            buffers.rows.reshape(-1 if values.ndim == 1 else buffers.rows.shape)[inside] = values[part]
+            buffers.forward()
+            spectrum[:, block] = buffers.by_columns[:, : block.stop - block.start]
 
-        def fill(rows: FloatArray, block: slice) -> None:
-            part = of(block)
-            rows.ravel()[places[part] - block.start * self.padded[1]] = values[part]
+        def back(buffers: _Buffers, block: slice) -> None:
+            (inside, part), rows = of(block), block.stop - block.start
+            buffers.by_columns[:, :rows] = spectrum[:, block]
+            # what is transformed again and again would grow without bound
+            buffers.by_columns[:, rows:] = 0.0
+            buffers.back()
+            result[part] = buffers.rows.reshape(-1 if values.ndim == 1 else buffers.rows.shape)[inside]
 
-        def read(rows: FloatArray, block: slice) -> None:
-            part = of(block)
-            result[part] = rows.ravel()[places[part] - block.start * self.padded[1]]
-
-        self._convolve(fill, read)
-        return result
-
-    def _convolve(self, fill: Fill, read: Fill) -> None:
         with self._memory.lock:
-            count, _, width = self._symbols.shape
             spectrum = self._memory.array((count, self.shape[0], width))
-
-            def forward(buffers: _Buffers, block: slice) -> None:
-                buffers.rows[:] = 0.0
-                fill(buffers.rows, block)
-                buffers.forward()
-                spectrum[:, block] = buffers.by_columns[:, : block.stop - block.start]
-
-            def back(buffers: _Buffers, block: slice) -> None:
-                rows = block.stop - block.start
-                buffers.by_columns[:, :rows] = spectrum[:, block]
-                # what is transformed again and again would grow without bound
-                buffers.by_columns[:, rows:] = 0.0
-                buffers.back()
-                read(buffers.rows, block)
-
             share(forward, self._row_blocks, self._buffers)
             share(self._multiply, list(zip(spectrum, self._symbols, strict=True)), self._buffers)
             share(back, self._row_blocks, self._buffers)
+        return result
 
     def _multiply(self, buffers: "_Buffers", block: tuple[ComplexArray, FloatArray]) -> None:
         """A block of columns forwards, times the symbol, and back."""
@@ -135,7 +120,7 @@ class BlockedConvolution(Convolution):
 class _Buffers:
     """What a thread transforms: rows and their spectrum, in place a block of columns."""
 
-    def __init__(self, padded: tuple[int, int], rows: int, count: int, width: int, planning: Planning):
+    def __init__(self, padded: Shape, rows: int, count: int, width: int, planning: Planning):
         self.rows = aligned((rows, padded[1]), np.float64)
         spectrum = aligned((rows, count * width), np.complex128)
         spectrum[:] = 0.0
@@ -145,7 +130,7 @@ class _Buffers:
         self.down, self.up = planned(self.columns, self.columns, (0,), planning)
 
 
-def blocks(length: int, most: int) -> Sequence[slice]:
+def blocks(length: int, most: int) -> list[slice]:
     """Equal parts, but for the last, of so many at the most."""
     part = math.ceil(length / math.ceil(length / most))
     return [slice(first, min(first + part, length)) for first in range(0, length, part)]

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from bem3d.checks import FloatArray, IndexArray
 
 Planning = Literal["estimate", "measure"]
+Shape = tuple[int, int]
 ComplexArray = NDArray[np.complex128]
 PLANNER = threading.Lock()
 """FFTW has one planner, and one memory of what it has measured, in a process."""
@@ -24,7 +25,7 @@ class Convolution(ABC):
     not.
     """
 
-    def __init__(self, shape: tuple[int, int], padded: tuple[int, int]):
+    def __init__(self, shape: Shape, padded: Shape):
         self.shape, self.padded = shape, padded
 
     @abstractmethod
@@ -43,7 +44,7 @@ class Convolution(ABC):
 class SmallConvolution(Convolution):
     """All rows in one buffer, in one thread."""
 
-    def __init__(self, shape: tuple[int, int], padded: tuple[int, int]):
+    def __init__(self, shape: Shape, padded: Shape):
         super().__init__(shape, padded)
         self._lock = threading.Lock()
         # the padding along the first axis is not stored
@@ -76,7 +77,7 @@ class PlainConvolution(SmallConvolution):
     symbol: quadrant of the real Fourier transform of the kernel, shape (shape[0] // 2 + 1, shape[1] // 2 + 1).
     """
 
-    def __init__(self, symbol: FloatArray, *, shape: tuple[int, int], planning: Planning):
+    def __init__(self, symbol: FloatArray, *, shape: Shape, planning: Planning):
         super().__init__(shape, shape)
         self._symbol = _halfplane(symbol, shape)
         self._spectrum = aligned(self._symbol.shape, np.complex128)
@@ -94,7 +95,7 @@ class CachedConvolution(SmallConvolution):
     symbol: quadrant of the real Fourier transform of the kernel, shape (padded[0] // 2 + 1, padded[1] // 2 + 1).
     """
 
-    def __init__(self, symbol: FloatArray, *, shape: tuple[int, int], padded: tuple[int, int], planning: Planning):
+    def __init__(self, symbol: FloatArray, *, shape: Shape, padded: Shape, planning: Planning):
         super().__init__(shape, padded)
         self._symbol = _halfplane(symbol, padded)
         self._spectrum = aligned(self._symbol.shape, np.complex128)
@@ -130,13 +131,13 @@ def planned(
     return forward.execute, inverse.execute
 
 
-def aligned(shape: tuple[int, int], dtype: type[np.float64] | type[np.complex128]) -> NDArray[Any]:
+def aligned(shape: Shape, dtype: type[np.float64] | type[np.complex128]) -> NDArray[Any]:
     """Numbers where FFTW is fastest. Its package is imported here alone: that takes longer than all others."""
     import pyfftw
 
     return np.asarray(pyfftw.empty_aligned(shape, dtype=dtype))
 
 
-def _halfplane(quadrant: FloatArray, padded: tuple[int, int]) -> FloatArray:
+def _halfplane(quadrant: FloatArray, padded: Shape) -> FloatArray:
     """The symbol of all rows, since it is even, over the points: FFTW's transforms there and back multiply by them."""
     return np.concatenate([quadrant, quadrant[(padded[0] - 1) // 2 : 0 : -1]]) / (padded[0] * padded[1])

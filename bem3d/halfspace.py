@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from bem3d import kernel
 from bem3d.blocked_convolution import BlockedConvolution, SpectrumMemory
-from bem3d.checks import FloatArray, OneOrTwo, boolean, field, grid_shape, grid_spacing, positive, thread_count
+from bem3d.checks import FloatArray, OneOrTwo, boolean, count, field, grid_shape, grid_spacing, positive
 from bem3d.convolution import CachedConvolution, Convolution, PlainConvolution, Planning
 from bem3d.threads import cores
 
@@ -89,7 +89,8 @@ class HalfSpace:
         boolean("periodic", self.periodic)
         if self.planning not in ("estimate", "measure"):
             raise ValueError(f'planning must be "estimate" or "measure", got {self.planning!r}')
-        object.__setattr__(self, "threads", thread_count("threads", self.threads))
+        if self.threads != "all":
+            object.__setattr__(self, "threads", count('threads, unless "all",', self.threads))
 
     def displacement(self, pressure: ArrayLike) -> FloatArray:
         """Displacement under a pressure: one application of the operator.
@@ -158,13 +159,9 @@ class HalfSpace:
             return PlainConvolution(symbol, shape=shape, planning=self.planning)
         if padded != shape and padded[0] * (padded[1] // 2 + 1) <= CACHED_NUMBERS:
             return CachedConvolution(symbol, shape=shape, padded=padded, planning=self.planning)
+        threads = cores() if self.threads == "all" else self.threads
         return BlockedConvolution(
-            symbol,
-            shape=shape,
-            padded=padded,
-            planning=self.planning,
-            threads=cores() if self.threads == "all" else self.threads,
-            memory=self._memory,
+            symbol, shape=shape, padded=padded, planning=self.planning, threads=threads, memory=self._memory
         )
 
     @property

@@ -112,7 +112,7 @@ def test_a_half_space_keeps_its_threads_and_is_equal_without_them():
 
 @pytest.mark.parametrize("given", [0, -1, 1.5, True, "two", None])
 def test_threads_are_a_whole_number_or_all(given):
-    with pytest.raises((ValueError, TypeError), match=r"^threads must be"):
+    with pytest.raises((ValueError, TypeError), match=r"^threads.* must be"):
         bem3d.HalfSpace(shape=(2, 2), spacing=1.0, modulus=1.0, threads=given)
 
 
