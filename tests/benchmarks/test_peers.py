@@ -241,11 +241,11 @@ def test_a_difference_of_answers_is_a_missed_criterion(result):
 
 @pytest.mark.parametrize(
     ("gap", "periodic", "shape"),
-    [(np.zeros((5, 3)), False, (6, 4)), (np.array([[0.0, 2.0], [1.0, 0.5], [2.0, 1.0]]), True, (6, 2))],
+    [([[0.0] * 3] * 5, False, (6, 4)), ([[0.0, 2.0], [1.0, 0.5], [2.0, 1.0]], True, (6, 2))],
 )
 def test_where_tamaas_has_no_answer_another_contact_stands_in(gap, periodic, shape):
     """A rim beside a flat body, two periods of an odd number of cells: the same pressure."""
-    problem = ContactProblem(gap=1e-3 * gap, spacing=(1.0, 0.5), modulus=3.0, periodic=periodic, force=5e-3)
+    problem = ContactProblem(gap=1e-3 * np.array(gap), spacing=(1.0, 0.5), modulus=3.0, periodic=periodic, force=5e-3)
     gap, force = peers.equivalent_for_tamaas(problem)
     other = dataclasses.replace(problem, gap=gap, force=force)
     p, q = (pressed(one, 1e-10, force=one.force).pressure for one in (problem, other))

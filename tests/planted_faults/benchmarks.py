@@ -49,7 +49,7 @@ FAULTS = [
         timing, "interval_of_median", lambda times: (np.median(times), np.median(times))
     ),
     functools.partial(
-        test_peers.test_where_tamaas_has_no_answer_another_contact_stands_in, np.zeros((5, 3)), False, (6, 4)
+        test_peers.test_where_tamaas_has_no_answer_another_contact_stands_in, [[0.0] * 3] * 5, False, (6, 4)
     ),
     Fault("a rim that touches").at(discrete.ContactProblem, "half_space", property(rigid)),
     test_peers.test_a_solver_that_is_placed_first_does_not_become_ours,
