@@ -89,6 +89,21 @@ def test_a_calibrated_function_is_chosen_like_any_other():
     assert found.models["springs"].status == "not asked"
 
 
+@pytest.mark.parametrize(
+    ("models", "said"),
+    [
+        ([], r"functions with a decorator, or left out for all, got \[\]"),
+        (series.function, "functions with a decorator, or left out for all, got <function series"),
+        ("", 'must be mdr, bem or names of models of this scene, .*, got ""'),
+        ([series, "fit", series], "two functions are offered as 'interface in series'"),
+    ],
+)
+def test_no_model_and_one_twice_are_refused_before_any_is_measured(models, said, monkeypatch):
+    monkeypatch.setattr(own_models, "of_functions", None)
+    with pytest.raises(ValueError, match=said):
+        validation.compare(ROUGH, models=models)
+
+
 def test_without_references_an_error_is_unknown_and_nothing_is_chosen():
     with stored():
         found = validation.compare(ROUGH, models=series)

@@ -102,6 +102,8 @@ class Judgement:
 
     def save(self, folder: str | Path) -> None:
         """Write judgement.json, verdicts.csv, summary.txt and judgement.svg into a folder, which is made."""
+        if not isinstance(folder, str | Path):
+            raise TypeError(f"folder must be a path, got {folder!r}")
         from validation.report.judged_figure import figure_of  # which takes half a second to import
 
         files = {
