@@ -194,7 +194,6 @@ def test_a_sweep_takes_what_is_stored_until_a_module_of_the_file_is_another(caps
         (["compare", "rough_punch", "--models-from", "mine.py", "--models", "yours"], '"mine"'),
         (["compare", "rough_punch", "--models-from", "taken.py"], "must have a name that no other has"),
         (["compare", "rough_punch", "--models-from", "law.py"], "no function serves a scene, as @stiffness_model"),
-        (["compare", "rough_punch", "--models-from", "mine.py", "--json", "mine.py"], "which is --models-from"),
         (["calibrate", "--model", "mine.py", "--install"], "--install is for models of the package"),
         (["calibrate", "--model", "mine"], "--model must be a Python file or one of"),
     ],
