@@ -85,8 +85,9 @@ def describe(calibrating: argparse.ArgumentParser) -> None:
 
 def calibrate(arguments: argparse.Namespace) -> Exit:
     """Measure the errors of cheap models beside boundary elements, or check or show those that were measured."""
-    check_places(arguments, {})
     arguments.keeps = not (arguments.show or arguments.check)
+    if arguments.keeps:
+        check_places(arguments, {})
     if arguments.references:
         return _references(arguments)
     if arguments.answers:
