@@ -51,7 +51,7 @@ def main(words: Sequence[str] | None = None) -> int:
             # what is left in the buffer would be written, and fail, once more
             os.dup2(os.open(os.devnull, os.O_WRONLY), STDOUT)
             return Exit.UNFINISHED
-        status, sentence = _ended(error, f"; {RESUME_NOTE}" if "out" in arguments else "")
+        status, sentence = _ended(error, f"; {RESUME_NOTE}" if getattr(arguments, "keeps", False) else "")
         if status is Exit.FAULT:
             traceback.print_exc()
         with suppress(OSError):
@@ -100,7 +100,10 @@ class _CommandParser(_Parser):
         command = self.prog.split()[-1]
         module = "report" if command in OF_REPORT else command
         import_module(f"validation.report.commands.{module}").describe(self)
-        return super().parse_known_args(args, namespace)
+        found, unknown = super().parse_known_args(args, namespace)
+        if unknown:
+            self.error(f"unrecognized arguments: {' '.join(unknown)}")
+        return found, unknown
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -141,6 +141,30 @@ def test_every_end_has_its_status_and_its_sentence(error, status, said, tmp_path
     assert ("Traceback" in told) == (status == command.Exit.FAULT)
 
 
+@pytest.mark.parametrize(
+    ("words", "called", "kept"),
+    [
+        ("judge mine.py --out out", "judge.visited", False),
+        ("sound rail --out out", "sound.run", False),
+        ("compare sphere", "compare.findings", False),
+        ("compare sphere rough_punch", "compare.compare_scenes", True),
+        ("calibrate --check 1", "calibrate.check_calibration", False),
+        ("calibrate", "calibrate.measured_table", True),
+        ("race --out out", "report.build", True),
+    ],
+)
+def test_what_is_kept_is_said_by_commands_that_keep_it(words, called, kept, tmp_path, monkeypatch, capsys):
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.py").touch()
+    monkeypatch.setattr(f"validation.report.commands.{called}", interrupted)
+    assert command.main(words.split()) == command.Exit.INTERRUPTED
+    note = "; finished solves are kept, the same command goes on from there" if kept else ""
+    assert capsys.readouterr().err.splitlines()[-1] == f"interrupted{note}"
+
+
 def test_the_table_of_statuses_is_complete(capsys):
     """In --help and in the README of the reports."""
     with pytest.raises(SystemExit):

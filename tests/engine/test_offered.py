@@ -58,6 +58,8 @@ def test_both_of_a_pair_are_served_where_both_are_none_by_default():
     ("name", "options", "sentence"),
     [
         ((len,), {}, r"must have a name, as @stiffness_model\(.my model.\), got <built-in function len>"),
+        ((), {}, r"must have a name, as @stiffness_model\(.my model.\), got none"),
+        (("a", "b"), {}, "must have a name, as .*, got 'a', 'b'"),
         (("",), {}, "must have a name"),
         (("a\nb",), {}, "must have a name"),
         (("mine",), {"periodic": True}, "option periodic is unknown: @stiffness_model has none"),

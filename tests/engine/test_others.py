@@ -132,7 +132,7 @@ BROKEN = {
     "import os; os._exit(7)\n": "bad.py: ended its process with status 7",
     "\0": "bad.py: SyntaxError: source code string cannot contain null bytes",
     f"{FACE}stiffness_model('a')(lambda load: 1)\n": "no function has a decorator",
-    f"{FACE}a = stiffness_model('a')(lambda loda: 1)\n": "bad.py: TypeError: 'a': loda is unknown: @",
+    f"{FACE}a = stiffness_model('a')(lambda loda: 1)\n": "bad.py: line 2 of bad.py: 'a': loda is unknown: @",
     f"{FACE}a = stiffness_model('a')(lambda load: 1)\nb = stiffness_model('a')(lambda: 1)\n": "are offered as 'a'",
 }
 

@@ -87,7 +87,8 @@ def test_a_model_that_answers_nowhere_ends_with_three_unless_another_does(file, 
 @pytest.mark.parametrize(
     ("body", "words", "sentence"),
     [
-        (None, [], "error: {path}: No such file or directory"),
+        (None, [], "error: FILE must be a Python file, or a name of judge --list, got '{path}'"),
+        (SERIES, ["--list"], "--list judges nothing, got it beside {path}: leave one of them out"),
         ("x = 1", [], "mine.py: no function has a decorator, which is one of @stiffness_model, @stiffness_of_surface"),
         (
             "import nothing_of_the_kind",
@@ -98,11 +99,10 @@ def test_a_model_that_answers_nowhere_ends_with_three_unless_another_does(file, 
         (
             SERIES.replace("load,", "laod,"),
             [],
-            "'in series': laod is unknown: @stiffness_model may ask for load, side, ",
+            "mine.py: line 4 of mine.py: 'in series': laod is unknown: @stiffness_model may ask for load, side, ",
         ),
         (SERIES, ["--only", "other"], "--only must be one of in series, got other"),
         (SERIES, ["--tolerance", "ten"], "tolerance must be as"),
-        (SERIES, ["--figure", "found.gif"], "--figure must end in .svg, .png, .pdf, got found.gif"),
     ],
 )
 def test_what_cannot_be_judged_is_refused_in_one_sentence(body, words, sentence, file, capsys):
@@ -116,6 +116,14 @@ def test_what_cannot_be_judged_is_refused_in_one_sentence(body, words, sentence,
     assert printed.err.count("\n") == 1 and not printed.out
 
 
+OFFERS = """bro/ken.law = broken_pack:series
+contact_pack = contact_pack
+lost = no_such_pack
+no name = contact_pack:nobody
+series = contact_pack:series
+wrong = wrong_pack:series"""
+
+
 @pytest.fixture
 def package(tmp_path, monkeypatch):
     """An installed one that offers a model by its entry point, and another that is broken."""
@@ -123,27 +131,42 @@ def package(tmp_path, monkeypatch):
     about = tmp_path / "contact_pack-1.dist-info"
     about.mkdir()
     (about / "METADATA").write_text("Metadata-Version: 2.1\nName: contact-pack\nVersion: 1\n")
-    lines = "[mdr_validation.models]\nseries = contact_pack:series\nlost = no_such_pack\ncontact_pack = contact_pack\n"
-    (about / "entry_points.txt").write_text(lines)
+    (tmp_path / "broken_pack.py").write_text("import this_is_no_module\n" + SERIES)
+    (tmp_path / "wrong_pack.py").write_text(SERIES.replace("load,", "laod,"))
+    (about / "entry_points.txt").write_text(f"[mdr_validation.models]\n{OFFERS}\n")
     monkeypatch.syspath_prepend(tmp_path)
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
 
 
 def test_what_a_package_offers_is_listed_unread_and_judged_by_its_name(package, capsys):
     assert main(["judge", "--list"]) == 0
-    assert capsys.readouterr().out.splitlines() == [
-        "contact_pack: contact_pack",
-        "lost: no_such_pack",
-        "series: contact_pack:series",
-    ]
+    assert capsys.readouterr().out.splitlines() == OFFERS.replace(" = ", ": ").splitlines()
     for name in ("series", "contact_pack"):
         assert main(["judge", name]) == 0
         assert capsys.readouterr().out.startswith("in series: stiffness model")
-    assert main(["judge", "lost"]) == 2
-    assert "model lost.py: ModuleNotFoundError: No module named 'no_such_pack'" in capsys.readouterr().err
     assert "contact_pack" not in sys.modules
     assert main(["judge"]) == 2
     assert "judge needs a FILE with decorated functions, or a name" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("lost", "entry point 'lost' (no_such_pack): ModuleNotFoundError: No module named 'no_such_pack'"),
+        (
+            "bro/ken.law",
+            "entry point 'bro ken.law' (broken_pack:series): ModuleNotFoundError: No module named 'this_is_no_module', "
+            "line 1 of broken_pack.py",
+        ),
+        ("no name", "entry point 'no name' (contact_pack:nobody): ImportError: cannot import name 'nobody' from 'co"),
+        ("wrong", "entry point 'wrong' (wrong_pack:series): line 4 of wrong_pack.py: 'in series': laod is unknown"),
+    ],
+)
+def test_an_entry_point_that_is_broken_is_named_with_the_line_of_its_package(name, said, package, capsys):
+    assert main(["judge", name]) == 2
+    line = capsys.readouterr().err
+    assert line.startswith(f"error: {said}") and len(line.splitlines()) == 1
+    assert "of entry point" not in line
 
 
 def test_where_a_model_breaks_and_what_it_costs_is_said(file, tmp_path, capsys):
@@ -189,6 +212,8 @@ def test_the_functions_take_what_is_decorated_and_a_file(file):
     file.write_text(SERIES + NAN)
     with pytest.raises(ValueError, match="model must be one, got 'in series', 'lost'"):
         validation.judge(file)
+    with pytest.raises(TypeError, match="folder must be a path, got 3"):
+        solver(RIGHT).save(3)
     for wrong in (flat.function, 3, None):
         with pytest.raises(TypeError, match="must be a function with a decorator"):
             validation.judge(wrong)

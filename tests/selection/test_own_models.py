@@ -109,6 +109,21 @@ def test_a_law_that_is_wrong_by_thirty_per_cent_claims_that_and_is_not_chosen(of
     assert alone.error == pytest.approx(max(off, 1 / off) - 1) and not found.met
 
 
+@pytest.mark.parametrize(
+    ("models", "said"),
+    [
+        ([], r"functions with a decorator, or left out for all, got \[\]"),
+        (series.function, "functions with a decorator, or left out for all, got <function series"),
+        ("", 'must be mdr, bem or names of models of this scene, .*, got ""'),
+        ([series, "fit", series], "two functions are offered as 'interface in series'"),
+    ],
+)
+def test_no_model_and_one_twice_are_refused_before_any_is_measured(models, said, monkeypatch):
+    monkeypatch.setattr(own_models, "of_functions", None)
+    with pytest.raises(ValueError, match=said):
+        validation.compare(ROUGH, models=models)
+
+
 def test_without_references_an_error_is_unknown_and_nothing_is_chosen():
     with stored():
         found = validation.compare(ROUGH, models=series)
@@ -212,7 +227,6 @@ def test_the_errors_of_a_file_are_shown_and_why_there_are_none(capsys):
         (["compare", "rough_punch", "--models-from", "mine.py", "--models", "yours"], '"mine"'),
         (["compare", "rough_punch", "--models-from", "taken.py"], "must have a name that no other has"),
         (["compare", "rough_punch", "--models-from", "law.py"], "no function serves a scene, as @stiffness_model"),
-        (["compare", "rough_punch", "--models-from", "mine.py", "--json", "mine.py"], "which is --models-from"),
         (["calibrate", "--model", "mine.py", "--install"], "--install is for models of the package"),
         (["calibrate", "--model", "mine"], "--model must be a Python file or one of"),
     ],

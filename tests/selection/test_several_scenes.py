@@ -94,7 +94,7 @@ def test_a_stored_comparison_is_the_one_that_was_solved(tmp_path):
     for found in (compare_scenes(problems, engine), compare_scenes(problems, engine)):
         for one, comparison in zip(problems, found, strict=True):
             comparison = replace(comparison, timed=False)
-            alone = validation.compare(one.scene, *one.quantities, one.tolerance, models=one.models)
+            alone = validation.compare(one.scene, *one.quantities, one.tolerance, models=one.models or None)
             assert (summary(comparison), validation.to_json(comparison)) == (summary(alone), validation.to_json(alone))
 
 

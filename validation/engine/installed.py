@@ -1,6 +1,5 @@
 """Models that installed packages offer under names of their own, by entry points; each is imported only when named."""
 
-import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib.metadata import EntryPoint, entry_points
@@ -8,6 +7,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 GROUP = "mdr_validation.models"
+ENTRY = "entry point "
+"""How the name of a file begins that imports what an installed package offers: no module is called so."""
 
 
 def installed() -> dict[str, EntryPoint]:
@@ -18,12 +19,11 @@ def installed() -> dict[str, EntryPoint]:
 @contextmanager
 def file_of(model: str | Path) -> Iterator[Path]:
     """The file itself; of a name that an installed package offers, and no file has, a file that imports its models."""
-    if Path(model).exists() or str(model) not in installed():
+    if Path(model).is_file() or str(model) not in installed():
         yield Path(model)
         return
     one = installed()[str(model)]
     with TemporaryDirectory() as folder:
-        # a name with a space is that of no package, so the file stands before none
-        path = Path(folder, f"model {re.sub(r'[^A-Za-z0-9]+', ' ', one.name)}.py")
+        path = Path(folder, f"{ENTRY}{one.name!r} ({one.value})".replace("/", " "))
         path.write_text(f"from {one.module} import {one.attr or '*'}\n", encoding="utf-8")
         yield path

@@ -14,6 +14,10 @@ Given = Mapping[str, Any]
 Shape = tuple[int, ...]
 
 
+class OfferedError(TypeError):
+    """A function cannot be offered, in one sentence."""
+
+
 @dataclass(frozen=True)
 class Failed:
     """What stands in the place of a value: the reason, in words; refused: whether the function itself says so."""
@@ -189,24 +193,26 @@ def _asked(kind: str, function: Callable[..., Any]) -> tuple[str, ...]:
 
 
 def offer(kind: str, name: str, options: Given, function: Callable[..., Any]) -> Offered:
-    """The function under its name. Raises TypeError or ValueError in one sentence that begins with the name."""
+    """The function under its name. Raises OfferedError in one sentence that begins with the name."""
     try:
         return Offered(kind, name, function, _asked(kind, function), dict(options))
     except TypeError as error:
-        raise TypeError(f"{name!r}: {error}") from None
+        raise OfferedError(f"{name!r}: {error}") from None
 
 
 def _decorator(kind: str) -> Callable[..., Decorator]:
     of = KINDS[kind]
 
-    def decorate(name: str, /, **options: Any) -> Decorator:
+    def decorate(*names: str, **options: Any) -> Decorator:
+        name = names[0] if len(names) == 1 else ""
         if not isinstance(name, str) or not name.strip() or not name.isprintable():
-            raise TypeError(f'@{kind} must have a name, as @{kind}("my model"), got {name!r}')
+            got = ", ".join(map(repr, names)) or "none"
+            raise OfferedError(f'@{kind} must have a name, as @{kind}("my model"), got {got}')
         if unknown := [option for option in options if option not in of.options]:
-            raise TypeError(f"option {unknown[0]} is unknown: @{kind} has {', '.join(of.options) or 'none'}")
+            raise OfferedError(f"option {unknown[0]} is unknown: @{kind} has {', '.join(of.options) or 'none'}")
         for option, value in options.items():
             if not isinstance(value, bool if isinstance(of.options[option], bool) else float):
-                raise TypeError(f"option {option} must be as {of.options[option]}, got {value!r}")
+                raise OfferedError(f"option {option} must be as {of.options[option]}, got {value!r}")
         return lambda function: offer(kind, name, {**of.options, **options}, function)
 
     keyword = inspect.Parameter.KEYWORD_ONLY

@@ -10,10 +10,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from validation.engine.offered import KINDS, Failed, FloatArray, Offered
+from validation.engine.installed import ENTRY
+from validation.engine.offered import KINDS, Failed, FloatArray, Offered, OfferedError
 
 SHOWN = 160
 """Characters of what was printed or raised."""
+NOT_THEIRS = (Path(__file__).parent, Path())
+"""Folders of files of ours, and of what is no file, as <frozen importlib>."""
 
 
 class Reply(NamedTuple):
@@ -74,13 +77,20 @@ def _number(value: Any, shapes: tuple[tuple[int, ...], ...]) -> FloatArray | Fai
 
 
 def raised(error: BaseException, path: Path | None = None) -> str:
-    """Its name, its words, and the last line of the file, or of any, that it went through."""
+    """Its name, its words, and the last line of the file, or of any, that it went through.
+
+    Of a decorator the line comes first, before names that are listed.
+    """
     said = " ".join(str(error).split())
-    frames = traceback.extract_tb(error.__traceback__)
-    mine = [frame for frame in frames if Path(frame.filename).is_relative_to(path.parent)] if path else frames[1:]
-    where = f", line {mine[-1].lineno} of {Path(mine[-1].filename).name}" if mine else ""
+    lines = [(Path(frame.filename), frame.lineno) for frame in traceback.extract_tb(error.__traceback__)]
+    mine = [(file, line) for file, line in lines if file.parent not in NOT_THEIRS and not file.name.startswith(ENTRY)]
+    if path and not path.name.startswith(ENTRY):
+        mine = [(file, line) for file, line in mine if file.is_relative_to(path.parent)]
+    where = f"line {mine[-1][1]} of {mine[-1][0].name}" if mine else ""
     said = said if len(said) <= SHOWN else f"{said[:SHOWN]}..."
-    return f"{type(error).__name__}{f': {said}' if said else ''}{where}"
+    if isinstance(error, OfferedError):
+        return f"{where}: {said}" if where else said
+    return f"{type(error).__name__}{f': {said}' if said else ''}{where and f', {where}'}"
 
 
 def _is_raised_on_purpose(error: BaseException) -> bool:

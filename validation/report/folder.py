@@ -107,8 +107,6 @@ class Folder(ExitStack):
         if "\0" in str(folder):
             raise ValueError(f"{self.option} must be a name that a folder can have, got {str(folder)!r}")
         if not folder.is_dir():
-            if is_there(folder):
-                raise ValueError(f"{self.option} must be a folder, got a file, or a link to nothing: {folder}")
             return {}
         if not is_there(folder / MANIFEST):
             if any(entry.name != LOCK and not PARTIAL_FILE.fullmatch(entry.name) for entry in folder.iterdir()):

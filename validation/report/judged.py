@@ -104,6 +104,8 @@ class Judgement:
 
         Seconds that the figure shows are in costs.csv: of calls with the error, of a solver by the cells on a side.
         """
+        if not isinstance(folder, str | Path):
+            raise TypeError(f"folder must be a path, got {folder!r}")
         from validation.report.judged_figure import figure_of  # which takes half a second to import
 
         files = {

@@ -207,7 +207,7 @@ def compare(
     seed: int = 0,
     *,
     solve_all: bool = False,
-    models: str | Offered | Sequence[str | Offered] = (),
+    models: str | Offered | Sequence[str | Offered] | None = None,
     callback: Callable[[SceneModel], None] = lambda _: None,
 ) -> Comparison:
     """Select the cheapest model of a scene whose error is within the tolerance.

@@ -1,6 +1,6 @@
 """Models of somebody's own beside those of a scene."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pkgutil import resolve_name
 from typing import Protocol
 
@@ -29,13 +29,21 @@ class Own(Protocol):
 
 
 def names_and_own(
-    models: str | Offered | Sequence[str | Offered], scene: Scene, quantity: str
+    models: str | Offered | Sequence[str | Offered] | None, scene: Scene, quantity: str
 ) -> tuple[Sequence[str], tuple[Own, ...]]:
-    """Names of all that are asked, and functions as models."""
-    if isinstance(models, str):
-        return models, ()
+    """Names of all that are asked, and functions as models; none for None.
+
+    Raises ValueError for what is no list, or an empty one, and for a name that two functions have.
+    """
+    if models is None or isinstance(models, str):
+        return () if models is None else models or ("",), ()
     asked = [models] if isinstance(models, Offered) else models
+    if not isinstance(asked, Collection) or len(asked) == 0:
+        raise ValueError(f"models must be names, functions with a decorator, or left out for all, got {quoted(asked)}")
     functions = [one for one in asked if isinstance(one, Offered)]
+    names = [one.name for one in functions]
+    if twice := next((name for name in names if names.count(name) > 1), ""):
+        raise ValueError(f"two functions are offered as {twice!r}")
     own = resolve_name(OF_FUNCTIONS)(functions, scene, quantity) if functions else ()
     return tuple(one.name if isinstance(one, Offered) else one for one in asked), own
 

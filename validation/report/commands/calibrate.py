@@ -9,6 +9,7 @@ from validation.engine.files import write_whole
 from validation.engine.progress import progress_of
 from validation.report.commands.arguments import Exit, add_options, add_workers, at_least
 from validation.report.commands.compare import STORE
+from validation.report.commands.places import check_places
 from validation.report.folder import CALIBRATION, REALISATIONS, REFERENCES, Folder
 from validation.scenes.printable import printable
 from validation.selection.calibrate import (
@@ -83,6 +84,9 @@ def describe(calibrating: argparse.ArgumentParser) -> None:
 
 def calibrate(arguments: argparse.Namespace) -> Exit:
     """Measure the errors of cheap models beside boundary elements, or check or show those that were measured."""
+    arguments.keeps = not (arguments.show or arguments.check)
+    if arguments.keeps:
+        check_places(arguments, {})
     if arguments.references:
         return _references(arguments)
     if arguments.model and (arguments.model.endswith(".py") or Path(arguments.model).is_file()):

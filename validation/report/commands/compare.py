@@ -1,7 +1,6 @@
 """Select the cheapest model of a scene that meets a tolerance."""
 
 import argparse
-import os
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
@@ -13,6 +12,7 @@ from validation.engine.engine import Engine
 from validation.engine.files import write_given
 from validation.engine.progress import progress_of
 from validation.report.commands.arguments import Exit, add_options, add_workers, at_least, some_of
+from validation.report.commands.places import check_places
 from validation.scenes.load import Scene, bundled_for_compare, files_of, load_scene, load_varied
 from validation.scenes.printable import printable
 from validation.selection.cells import format_seconds
@@ -25,7 +25,6 @@ from validation.selection.summary import findings, heading, summary
 from validation.selection.swept import Swept, swept_values
 from validation.selection.tolerance import tolerance_of
 
-FIGURES = (".svg", ".png", ".pdf")
 STORE = Path("reports", "compared")
 """Where finished scenes of several are kept, below the working folder."""
 KEPT = f"default: {STORE}, or in the folder of --report"
@@ -91,11 +90,12 @@ def describe(comparing: argparse.ArgumentParser) -> None:
 def compare(arguments: argparse.Namespace) -> Exit:
     """Select the cheapest model of a scene that meets the tolerance, and say why."""
     scenes = [scene for name in arguments.scene for scene in _scenes_of(name, arguments)]
-    problems = _with_own([_problem(scene, arguments) for scene, _ in scenes], arguments)
+    problems = [_problem(scene, arguments) for scene, _ in scenes]
+    _check_files(problems, arguments)
+    problems = _with_own(problems, arguments)
     for problem in problems:
         for quantity in problem.quantities:
             problem.offered(quantity)  # or an error, before anything is solved
-    _check_files(problems, arguments)
     swept = [of for (_, of), problem in zip(scenes, problems, strict=True) for _ in problem.quantities]
     found = _reported(problems, swept, arguments) if arguments.report else _found(problems, swept, arguments)
     return Exit.MET if all(one.met for one in found) else Exit.NOT_CONVERGED
@@ -139,31 +139,15 @@ def _store_of(arguments: argparse.Namespace) -> Path:
 
 def _check_files(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> None:
     """Raises ValueError before anything is solved."""
-    _check_places(arguments)
+    read = {file: "the scene reads" for name in arguments.scene for file in files_of(name)}
+    check_places(arguments, read | ({arguments.models_from: "is --models-from"} if arguments.models_from else {}))
     quantities = list(dict.fromkeys(name for problem in problems for name in problem.quantities))
-    figure = arguments.figure
-    if figure is not None and figure.suffix not in FIGURES:
-        raise ValueError(f"--figure must end in {', '.join(FIGURES)}, got {printable(figure)}")
-    if arguments.over is not None and (figure is None or not (arguments.all or arguments.models)):
+    if arguments.over is not None and (arguments.figure is None or not (arguments.all or arguments.models)):
         raise ValueError("--over seconds must have --figure, and --all or --models, which say what is solved and timed")
     if arguments.over is not None and (len(problems) > 1 or len(quantities) > 1):
         raise ValueError(f"--over seconds is for one quantity of one scene, got {len(problems) * len(quantities)}")
     if arguments.cnossos is not None and "contact-filter" not in quantities:
         raise ValueError(f"--cnossos is for the quantity contact-filter of a rail, got {', '.join(quantities)}")
-
-
-def _check_places(arguments: argparse.Namespace) -> None:
-    """Raises ValueError where a result would replace a file that is read, or another result."""
-    taken = {os.path.realpath(file): "the scene reads" for name in arguments.scene for file in files_of(name)}
-    if arguments.models_from is not None:
-        taken[os.path.realpath(arguments.models_from)] = "is --models-from"
-    for key in ("json", "csv", "cnossos", "figure"):
-        path = getattr(arguments, key)
-        if path is None or path.parent == Path("/dev"):
-            continue
-        if by := taken.get(os.path.realpath(path)):
-            raise ValueError(f"--{key} must be a file of its own, got {printable(path)}, which {by}")
-        taken[os.path.realpath(path)] = f"--{key} writes"
 
 
 def _found(
@@ -183,10 +167,9 @@ def _solved(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> 
         (problem,) = problems
         print(heading(problem.scene, problem.quantities, problem.wanted), flush=True)
         return list(problem.compared(_announce).values())
-    # a run that ends before its time says that what is finished is kept
-    arguments.out = _store_of(arguments)
+    arguments.keeps = True
     with progress_of("scenes", arguments.workers) as progress:
-        engine = Engine(workers=arguments.workers, store=arguments.out / "realisations", progress=progress)
+        engine = Engine(workers=arguments.workers, store=_store_of(arguments) / "realisations", progress=progress)
         return compare_scenes(problems, engine)
 
 

@@ -9,11 +9,10 @@ from validation.engine.files import write_given
 from validation.engine.installed import GROUP, installed
 from validation.engine.others import visited
 from validation.report.commands.arguments import Exit, add_options
+from validation.report.commands.places import check_places
 from validation.report.judged import Judgement, judged, points_as_csv
 from validation.scenes.printable import printable
 from validation.selection.tolerance import tolerance_of
-
-FIGURES = (".svg", ".png", ".pdf")
 
 
 def describe(judging: argparse.ArgumentParser) -> None:
@@ -45,15 +44,18 @@ def describe(judging: argparse.ArgumentParser) -> None:
 
 def judge(arguments: argparse.Namespace) -> Exit:
     """Judge what a file, or an installed package, offers."""
-    if arguments.list:
+    if arguments.list and arguments.file is None:
         lines = [f"{one.name}: {one.value}" for one in installed().values()]
         print(printable("\n".join(lines) or f"no installed package has the entry points {GROUP}", lines=True))
         return Exit.MET
+    if arguments.list:
+        raise ValueError(f"--list judges nothing, got it beside {arguments.file}: leave one of them out")
     if arguments.file is None:
         raise ValueError("judge needs a FILE with decorated functions, or a name of judge --list")
+    if not Path(arguments.file).is_file() and arguments.file not in installed():
+        raise ValueError(f"FILE must be a Python file, or a name of judge --list, got {arguments.file!r}")
     tolerance = tolerance_of(arguments.tolerance)
-    if arguments.figure is not None and arguments.figure.suffix not in FIGURES:
-        raise ValueError(f"--figure must end in {', '.join(FIGURES)}, got {printable(arguments.figure)}")
+    check_places(arguments, {Path(arguments.file): "is the model"})
     found: list[Judgement] = []
     with visited(arguments.file) as callers:
         for caller in callers:

@@ -9,6 +9,7 @@ from validation.benchmarks.peers import solvers_with
 from validation.engine.engine import LOCAL
 from validation.report.build import build
 from validation.report.commands.arguments import Exit, add_options, add_profile, add_workers, at_least, some_of
+from validation.report.commands.places import check_places
 from validation.report.contents import CASES, TIMED, timed_here
 from validation.report.formats import in_four_digits
 from validation.report.section import Section, total_of
@@ -75,7 +76,9 @@ def report(arguments: argparse.Namespace) -> Exit:
     names = list(dict.fromkeys(arguments.only or everything))
     if arguments.keep and not arguments.only:
         raise ValueError("--keep is for --only, got it alone: without --only no case is left to be kept")
-    out = arguments.out or Path("reports") / _folder(names, arguments)
+    out = arguments.out = arguments.out or Path("reports") / _folder(names, arguments)
+    check_places(arguments, {})
+    arguments.keeps = True
     scene = _scene_of(arguments, names)
     if scene is not None:
         print("\n".join([scene.name, *description_lines(scene), ""]), flush=True)
