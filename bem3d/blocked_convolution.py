@@ -84,11 +84,12 @@ class BlockedConvolution(Convolution):
         """Values of the whole field, or in one dimension of some cells; of: those of a block of rows."""
         result = np.empty(values.shape)
         count, _, width = self._symbols.shape
+        view = (-1,) if values.ndim == 1 else self._buffers[0].rows.shape
 
         def forward(buffers: _Buffers, block: slice) -> None:
             inside, part = of(block)
             buffers.rows[:] = 0.0
-            buffers.rows.reshape(-1 if values.ndim == 1 else buffers.rows.shape)[inside] = values[part]
+            buffers.rows.reshape(view)[inside] = values[part]
             buffers.forward()
             spectrum[:, block] = buffers.by_columns[:, : block.stop - block.start]
 
@@ -98,7 +99,7 @@ class BlockedConvolution(Convolution):
             # what is transformed again and again would grow without bound
             buffers.by_columns[:, rows:] = 0.0
             buffers.back()
-            result[part] = buffers.rows.reshape(-1 if values.ndim == 1 else buffers.rows.shape)[inside]
+            result[part] = buffers.rows.reshape(view)[inside]
 
         with self._memory.lock:
             spectrum = self._memory.array((count, self.shape[0], width))
