@@ -14,6 +14,8 @@ from bem3d.threads import share
 COLUMNS_AT_ONCE = 28
 """Columns transformed at a time, at the most: few enough to stay in the cache, forwards, times the symbol, and back.
 Rows of 16 or 32 numbers, a power of two apart, would displace each other from the cache; measured."""
+LEAST_AT_ONCE = 2000
+"""Numbers of these columns, at the least: a long and narrow grid would have many blocks of few numbers."""
 NUMBERS_AT_ONCE = 2**16
 """Numbers of the padded rows that are transformed at a time, at the most."""
 
@@ -58,7 +60,7 @@ class BlockedConvolution(Convolution):
     ):
         super().__init__(shape, padded)
         self._row_blocks = blocks(shape[0], max(NUMBERS_AT_ONCE // padded[1], 1))
-        column_blocks = blocks(symbol.shape[1], COLUMNS_AT_ONCE)
+        column_blocks = blocks(symbol.shape[1], max(COLUMNS_AT_ONCE, LEAST_AT_ONCE // padded[0]))
         # the last block may have fewer columns: its others are zero
         self._symbols = np.zeros((len(column_blocks), symbol.shape[0], column_blocks[0].stop))
         for block, quadrant in zip(column_blocks, self._symbols, strict=True):
@@ -82,11 +84,12 @@ class BlockedConvolution(Convolution):
         """Values of the whole field, or in one dimension of some cells; of: those of a block of rows."""
         result = np.empty(values.shape)
         count, _, width = self._symbols.shape
+        view = (-1,) if values.ndim == 1 else self._buffers[0].rows.shape
 
         def forward(buffers: _Buffers, block: slice) -> None:
             inside, part = of(block)
             buffers.rows[:] = 0.0
-            buffers.rows.reshape(-1 if values.ndim == 1 else buffers.rows.shape)[inside] = values[part]
+            buffers.rows.reshape(view)[inside] = values[part]
             buffers.forward()
             spectrum[:, block] = buffers.by_columns[:, : block.stop - block.start]
 
@@ -96,7 +99,7 @@ class BlockedConvolution(Convolution):
             # what is transformed again and again would grow without bound
             buffers.by_columns[:, rows:] = 0.0
             buffers.back()
-            result[part] = buffers.rows.reshape(-1 if values.ndim == 1 else buffers.rows.shape)[inside]
+            result[part] = buffers.rows.reshape(view)[inside]
 
         with self._memory.lock:
             spectrum = self._memory.array((count, self.shape[0], width))

@@ -24,6 +24,7 @@ def in_blocks(patch, columns, numbers):
     patch.setattr(halfspace, "CACHED_NUMBERS", 0)
     patch.setattr(halfspace, "CACHED_CELLS", 0)
     patch.setattr(blocked_convolution, "COLUMNS_AT_ONCE", columns)
+    patch.setattr(blocked_convolution, "LEAST_AT_ONCE", 0)
     patch.setattr(blocked_convolution, "NUMBERS_AT_ONCE", numbers)
 
 
