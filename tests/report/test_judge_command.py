@@ -84,6 +84,36 @@ def test_a_model_that_answers_nowhere_ends_with_three_unless_another_does(file, 
     assert [one["model"] for one in json.loads((tmp_path / "found.json").read_text())] == ["in series", "lost"]
 
 
+def broken(model, *_):
+    raise ZeroDivisionError("planted")
+
+
+@pytest.mark.parametrize(
+    "place",
+    [
+        "validation.selection.judging.stiffness._rules",
+        "validation.selection.judging.sweeps.swept",
+        "validation.report.judged.costs_of",
+        "validation.benchmarks.judging.judged.judged",
+    ],
+)
+def test_an_error_of_ours_is_a_row_and_takes_no_other_model_with_it(place, file, tmp_path, capsys, monkeypatch):
+    solver = "@contact_solver('solver')\ndef solver(gap, force): return gap\n" if "benchmarks" in place else ""
+    law = "@contact_law('no force')\ndef law(approach): return 0 * approach\n"
+    file.write_text(f"{SERIES}\nfrom validation import contact_law, contact_solver\n{law}{solver}")
+    monkeypatch.setattr(place, broken)
+    assert main(["judge", str(file), "--json", str(tmp_path / "found.json")]) == 0
+    assert "Traceback" not in capsys.readouterr().err
+    found = {one["model"]: one["verdicts"] for one in json.loads((tmp_path / "found.json").read_text())}
+    reason = "mdr-validation could not go on, which is its own error: ZeroDivisionError: planted, line "
+    rows = [row for rows in found.values() for row in rows if row["quantity"] == "judging"]
+    assert {row["verdict"] for row in rows} == {"failed"} and rows[0]["reason"].startswith(reason)
+    assert {row["reason"].partition(";")[0] for row in found["no force"] if row["where"]} == {
+        "at an approach of 0.032 m it bears less than the load"
+    }
+    assert len(found["in series"]) > 50
+
+
 @pytest.mark.parametrize(
     ("body", "words", "sentence"),
     [

@@ -61,6 +61,12 @@ def twice(q, roughness):
     return 2 * in_3d(q, 2e-3, 1.15e11, roughness)
 
 
+def springs(line, spacing, radius, modulus, approach):
+    """Under a smooth wheel, within half a period: their sum is that of Hertz where cells are small and the track long."""
+    x = spacing[0] * (np.arange(line.size) - line.size // 2)
+    return 0 * line + modulus * spacing[0] * (approach - x**2 / radius).clip(0).sum()
+
+
 def upside_down(line, radius, modulus, approach):
     return smooth(-line, radius, modulus, approach)
 
@@ -74,6 +80,7 @@ WRONG = [
     ("contact_filter", divides, sweeps.LONG, ["failed", "agree", "agree"]),
     ("contact_filter", lambda k_x, a_x: 1 + (k_x * a_x) ** 2, sweeps.SHORT, ["differ"] * 3),
     ("rolling_model", lambda line, approach: 0 * line + approach, sweeps.SMOOTH, ["differ"] * 5),
+    ("rolling_model", springs, sweeps.SMOOTH, ["differ", "agree", "agree", "agree", "agree"]),
     ("rolling_model", upside_down, sweeps.LONG, ["differ"] * 2),
     ("contact_filter", lambda k_x: 1.05 + 0 * k_x, sweeps.SHORT, ["differ"] * 3),
 ]

@@ -33,7 +33,7 @@ class ModelAnswer(NamedTuple):
 
     @classmethod
     def of(cls, one: Estimate, unit: str) -> "ModelAnswer":
-        return cls(one.value, one.half_width / (1.0 if unit == LEVEL else abs(one.value)))
+        return cls(one.value, one.half_width / (1.0 if unit == LEVEL else abs(one.value) or 1.0))
 
 
 Found = ModelAnswer | Failed | float

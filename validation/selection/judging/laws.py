@@ -17,6 +17,7 @@ from validation.simulation.wheel_features import features_of
 from validation.simulation.wheel_on_springs import band_edges
 
 FEATURE, REGION = "feature of the wheel", "level of the acceleration"
+WHEEL = "table_14_1"
 WHEELS, APART, DOUBLINGS, HALVINGS = 20, 10.0, 12, 60
 """Wheels that roll, metres from one to the next; steps of the search for the load."""
 AT_REST = 1e-6
@@ -39,7 +40,7 @@ def judged(model: Caller) -> Iterator[Finding]:
 def _found(model: Caller) -> list[Estimate]:
     """Features and levels, by the jackknife over the wheels."""
     # half as many cells as the case has, which are five to the shortest wave
-    scene = replace(table := load_wheel_scene("table_14_1"), springs=table.springs // 2)
+    scene = replace(table := load_wheel_scene(WHEEL), springs=table.springs // 2)
     motion = rolled(model, scene)
     plain, hann = (record_spectra(motion.acceleration, time_step=motion.time_step, window=w) for w in ("none", "hann"))
     edges = band_edges(plain.omega)
@@ -89,7 +90,9 @@ def rolled(model: Caller, scene: WheelScene) -> Motion:
     for _ in range(ROUNDS):
         at_path = force(path)
         if np.allclose(at_path, scene.load, rtol=AT_REST):
-            raise LostError(Failed("the wheel stays at rest: the force does not change with the position"))
+            raise LostError(
+                Failed(f"the wheel stays at rest: the force does not change with the position; {in_words(scene)}")
+            )
         stiffness = (force(path + (step := DIFFERENCE * scene.approach)) - at_path) / step
         law = LawAlongPaths(path, at_path, stiffness)
         try:
@@ -103,12 +106,23 @@ def rolled(model: Caller, scene: WheelScene) -> Motion:
     raise LostError(Failed(f"no motion is found in {ROUNDS} attempts: the force jumps with the approach"))
 
 
+def in_words(scene: WheelScene) -> str:
+    """Which wheel a law must bear."""
+    wheel = f"R = {scene.radius:g} m, E* = {scene.modulus / 1e9:g} GPa, {scene.load:g} N, {scene.mass:g} kg"
+    return f"the wheel has {wheel}, {scene.speed:g} m/s, a smooth approach of {1e6 * scene.approach:.3g} um"
+
+
 def _at_rest(force: Callable[[FloatArray], FloatArray], scene: WheelScene) -> FloatArray:
     """By halves, between approaches at which it bears less and more."""
     low, high = (np.full(WHEELS, sign * scene.approach) for sign in (-1.0, 1.0))
     for _ in range(DOUBLINGS):
         high = np.where(force(high) < scene.load, 2 * high, high)
         low = np.where(force(low) > scene.load, 2 * low, low)
+    for d, wrong, word in ((high, force(high) < scene.load, "less"), (low, force(low) > scene.load, "more")):
+        if wrong.any():
+            raise LostError(
+                Failed(f"at an approach of {d[wrong][0]:.2g} m it bears {word} than the load; {in_words(scene)}")
+            )
     for _ in range(HALVINGS):
         middle = (low + high) / 2
         heavy = force(middle) > scene.load
