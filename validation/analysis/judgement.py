@@ -75,7 +75,7 @@ def compared(
         apart, half, tolerance = value - reference, half_width, 20 * math.log10(1 + tolerance)
     elif unit == DEVIATION and reference < SMALL:
         apart, half = (value - reference) / SMALL, max(value, reference) / SMALL * half_width
-        reason = "below 1 %: the absolute difference, in parts of 1 %"
+        reason = reason or "below 1 %: the absolute difference, in parts of 1 %"
     verdict, shown_in = verdict_of(apart, half, tolerance), LEVEL if unit == LEVEL else RATIO
     return JudgedPoint(quantity, where, value, reference, apart, half, verdict, reason, shown_in)
 

@@ -52,7 +52,7 @@ def rms_of_long_waves(model: Caller, qa: float) -> float:
     last, rms = qa / rolling.CONTACT, 1e-3 * rolling.APPROACH
     ground = mdr.SelfAffine(hurst=0.7, q_min=last / 4, q_max=last, rms=rms)
     q = (np.arange(rolling.FINE) + 0.5) / rolling.FINE * last
-    density = asked(model, q=q, roughness=ground, contact_radius=rolling.CONTACT, **rolling.SMOOTH_WHEEL)
+    density = asked(model, **rolling.over(q, ground))
     variance = 2 * float(density.sum()) * last / rolling.FINE
     return math.sqrt(max(variance, 0.0)) / (2 * rolling.MODULUS * rolling.CONTACT * rms)
 
