@@ -75,13 +75,13 @@ def properties_of_rule(model: Caller, hurst: float, first: float, last: float, h
     for n, name in MOMENTS.items():
         share = float(2 * mine * q**n @ dq / (2 * math.pi * whole.c2d(q) * q ** (n + 1) @ dq))
         yield ratio(name, found=math.sqrt(max(share, 0.0)) if name.startswith("rms") else share)
-    exact = partial(ratio, grid=0.0, within=EXACT)
     least = min(float(mine.min() / np.abs(mine).max()), 0.0)
     yield ratio("not negative", found=1 + least, grid=0.0, within=ROUNDING)
     total = float(np.abs(mine) @ dq)
     apart = np.abs(mine - lower - upper) + np.abs(doubled - 2 * mine)
-    yield exact("linear in C_2D", found=1 + float(apart @ dq) / total)
-    yield exact("scaling with the length", found=1 + float(np.abs(scaled - 8 * mine) @ dq) / (8 * total))
+    yield ratio("linear in C_2D", found=1 + float(apart @ dq) / total)
+    apart = np.abs(scaled - 8 * mine)
+    yield ratio("scaling with the length", found=1 + float(apart @ dq) / (8 * total), grid=0.0, within=EXACT)
 
 
 def rms_of_profile(c1d: FloatArray, waves: FloatArray, ground: Any) -> float:
