@@ -102,8 +102,8 @@ def test_realisations_are_of_one_of_three_numbers_and_equal_ones_have_no_deviati
         monkeypatch.setattr(stiffness, "seconds_of", lambda model, punch, took=seconds * factor: took)
         points = judged(lambda load, side, modulus, roughness, rng: 1.5 * as_known(load, side, modulus, roughness)[0])
         assert verdicts(points, MEAN) == {"differ"} and verdicts(points, DEVIATION) == {"undecided"}
-        assert {p.reason for p in points if p.quantity == MEAN} == {f"{count} realisations"}
-        assert {p.reason for p in of(points, DEVIATION)} == {f"{count} equal draws: no deviation is known"}
+        assert {p.reason for p in of(points, MEAN)} == {f"{count} equal realisations"}
+        assert {p.reason for p in of(points, DEVIATION)} == {f"{count} equal realisations: no deviation is known"}
 
 
 def test_the_fastest_call_is_counted():

@@ -71,7 +71,8 @@ class AskedPunch:
         q, rms = 2 * math.pi / SIDE, HEIGHT * SIDE
         band = {"hurst": self.hurst, "q_min": q, "q_max": q * self.waves, "rms": rms}
         rough = PlateauRoughness(**band, q_roll_off=q * self.roll_off) if self.roll_off else mdr.SelfAffine(**band)
-        return {"load": self.force * MODULUS * rms * SIDE, "side": SIDE, "modulus": MODULUS, "roughness": rough}
+        load = self.force * MODULUS * HEIGHT * SIDE**2
+        return {"load": load, "side": SIDE, "modulus": MODULUS, "roughness": rough}
 
 
 class Stiffness(NamedTuple):
@@ -163,10 +164,11 @@ def sampled(values: FloatArray) -> Stiffness | Failed:
     of = moments(values, np.isfinite(values))
     deviation = of.log_relative_deviation
     mean = ModelAnswer(float(values.mean()), of.log_mean.half_width, f"{values.size} realisations")
-    if not math.isfinite(deviation.value):
-        # as one in a hundred that is apart may leave them, too
-        return Stiffness(mean, ModelAnswer(math.nan, reason=f"{values.size} equal draws: no deviation is known"))
-    return Stiffness(mean, ModelAnswer(math.exp(deviation.value), deviation.half_width))
+    if math.isfinite(deviation.value):
+        return Stiffness(mean, ModelAnswer(math.exp(deviation.value), deviation.half_width))
+    # one draw in a hundred that is apart may leave the others equal, too
+    equal = f"{values.size} equal realisations"
+    return Stiffness(mean._replace(reason=equal), ModelAnswer(math.nan, reason=f"{equal}: no deviation is known"))
 
 
 def _rise(model: Caller, rows: Sequence[Reference]) -> Iterator[Finding]:
