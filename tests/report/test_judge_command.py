@@ -238,12 +238,12 @@ def test_a_paragraph_says_beside_what_how_near_and_over_which_conditions():
     filters = [level("contact filter", where, reference=1 + 4 * where["alpha"]) for where in places]
     regions = [level("level", {"region": f"region {i}"}, reference=1.1) for i in (1, 2)]
     said = paragraph(judged.Judgement("mine", "contact_law", judged.tolerance_of(0.1), (*filters, *regions), 1.0))
-    assert "compared with springs (MDR) under a wheel with a mass" in said
+    assert (
+        "with springs (MDR) under the wheel of Table 14.1 (R = 0.5 m, E* = 236.25 GPa, 4905 N, 500 kg, 20 m/s, " in said
+    )
     filter_ = "Its contact filter is within 0.83 dB for alpha = 0 at every wheel compared there"
     assert f"{filter_} (compared: 13 values of wheel; alpha = 0, 0.5)." in said
-    assert (
-        "Of 28 points 15 agree and 13 differ. The largest difference, of its contact filter, is -2 dB ± 0.1 dB" in said
-    )
+    assert "Of 28 points 15 agree, 13 differ. The largest difference, of its contact filter, is -2 dB ± 0.1 dB" in said
     assert "Its level is within 0.83 dB at 2 of 2 points (compared: region 1, region 2)." in said
 
 
@@ -281,6 +281,7 @@ def test_ends_at_which_a_model_agrees_are_not_where_it_breaks():
         broken = compared("scaling with the length", {"Fbar": 3.0}, last / 2, 1.0, 0.0, 1e-6)
         points = (*pointed([3, 3]), *ends, broken)
         found = judged.Judgement("mine", "stiffness_model", judged.tolerance_of(0.1), points, 1.0)
+        assert ("closed form: scaling with the length." in paragraph(found)) == (last == 3.0)
         assert words in " ".join(found.summary().split()) and "nowhere" not in found.summary()
 
 

@@ -24,6 +24,7 @@ from validation.analysis.judgement import (
     shared,
     worst,
 )
+from validation.selection.judging.laws import in_words, table_14_1
 from validation.selection.judging.own import MAIN
 from validation.selection.judging.rolling import APART
 from validation.selection.judging.stiffness import BAND, DEVIATION, MEAN, ROLLED_OFF, WAVES
@@ -35,7 +36,7 @@ if TYPE_CHECKING:
 
 SIGN = {AGREE: "=", DIFFER: "#", UNDECIDED: "?", REFUSED: "r", FAILED: "x"}
 WORD = {AGREE: "yes", DIFFER: "no", UNDECIDED: "open", REFUSED: "refused", FAILED: "failed"}
-POINTS = {AGREE: "agree", DIFFER: "differ", UNDECIDED: "are open"}
+POINTS = {AGREE: "agree", DIFFER: "differ", UNDECIDED: "left open"}
 COLUMNS, CURVES, LISTED = 110, 24, 6
 """Of a line; groups of a quantity that are shown; values of a condition that a paper lists."""
 NOTES = dict.fromkeys((MEAN, DEVIATION, ROLLED_OFF), f"all at {BAND} = {WAVES}") | {
@@ -43,8 +44,6 @@ NOTES = dict.fromkeys((MEAN, DEVIATION, ROLLED_OFF), f"all at {BAND} = {WAVES}")
     for name in ("force", "approach")
 }
 """What is asked of a quantity that its conditions do not say."""
-REFERENCES = {"contact_law": "springs (MDR) under a wheel with a mass"}
-"""Of a kind whose references are not boundary elements."""
 
 
 def summary_lines(judgement: "Judgement") -> Iterator[str]:
@@ -96,10 +95,10 @@ def _breaks(points: Sequence[JudgedPoint]) -> Iterator[str]:
     if found := list(filter(None, (_broken(curve, *zip(*run, strict=True)) for curve in curves for run in curve.runs))):
         yield "\nWhere it breaks:"
         yield from found
-    elif asked := [curve.quantity for curve in curves if curve.quantity in SWEPT]:
-        open_ = dict.fromkeys(point.quantity for point in points if point.verdict == UNDECIDED)
+    elif asked := [curve for curve in curves if curve.quantity in SWEPT]:
         yield "\nBeyond these scenes:"
-        yield from (f"  {WORD[UNDECIDED] if one in open_ else 'agrees'} {one}" for one in asked)
+        agrees = [all(point.verdict == AGREE for point in curve.points) for curve in asked]
+        yield from (f"  {'agrees' if a else 'open'} {curve.quantity}" for a, curve in zip(agrees, asked, strict=True))
 
 
 def _broken(curve: JudgedCurve, at: Sequence[float], run: Sequence[JudgedPoint]) -> str:
@@ -117,7 +116,8 @@ def paragraph(judgement: "Judgement") -> str:
     """Sentences that could stand in a paper: beside what, how near, over which conditions, and what was found."""
     points, tolerance = judgement.verdicts, judgement.tolerance
     compared = [point for point in points if math.isfinite(point.reference)]
-    beside, version = REFERENCES.get(judgement.kind, "boundary elements"), metadata.version("mdr-validation")
+    of_wheel, version = judgement.kind == "contact_law", metadata.version("mdr-validation")
+    beside = f"springs (MDR) under {in_words(table_14_1())}" if of_wheel else "boundary elements"
     said = [
         f"The model {judgement.model!r} was compared with {beside}, the references of mdr-validation {version}.",
         f"A number is within {tolerance} where its whole 95 % interval is, by the errors of both.",
@@ -125,8 +125,11 @@ def paragraph(judgement: "Judgement") -> str:
     said += [_of_quantity(tolerance, curves) for curves in curves_of(compared) if not curves[0].is_rule]
     count = Counter(point.verdict for point in points)
     if known := count[AGREE] + count[DIFFER] + count[UNDECIDED]:
-        parts = [f"{count[verdict]} {word}" for verdict, word in POINTS.items() if count[verdict]]
-        said.append(f"Of {known} points {' and '.join(filter(None, (', '.join(parts[:-1]), parts[-1])))}.")
+        parts = (f"{count[verdict]} {word}" for verdict, word in POINTS.items() if count[verdict])
+        said.append(f"Of {known} points {', '.join(parts)}.")
+    rules = (curve for some in curves_of(points) for curve in some if curve.is_rule)
+    if broken := dict.fromkeys(curve.quantity for curve in rules if any(p.verdict == DIFFER for p in curve.points)):
+        said.append(f"It does not keep to what is known in closed form: {', '.join(broken)}.")
     if (most := worst([point for point in points if point.quantity not in SWEPT], 1)) and most[0].verdict == DIFFER:
         where = placed(most[0].where)
         said.append(

@@ -17,7 +17,6 @@ from validation.simulation.wheel_features import features_of
 from validation.simulation.wheel_on_springs import band_edges
 
 FEATURE, REGION = "feature of the wheel", "level of the acceleration"
-WHEEL = "table_14_1"
 WHEELS, APART, DOUBLINGS, HALVINGS = 20, 10.0, 12, 60
 """Wheels that roll, metres from one to the next; steps of the search for the load."""
 AT_REST = 1e-6
@@ -37,10 +36,14 @@ def judged(model: Caller) -> Iterator[Finding]:
     return beside(rows, (one if math.isfinite(one.value) else unseen for one in answers))
 
 
+def table_14_1() -> WheelScene:
+    """On half as many cells as the case has, which are five to the shortest wave."""
+    return replace(table := load_wheel_scene("table_14_1"), springs=table.springs // 2)
+
+
 def _found(model: Caller) -> list[Estimate]:
     """Features and levels, by the jackknife over the wheels."""
-    # half as many cells as the case has, which are five to the shortest wave
-    scene = replace(table := load_wheel_scene(WHEEL), springs=table.springs // 2)
+    scene = table_14_1()
     motion = rolled(model, scene)
     plain, hann = (record_spectra(motion.acceleration, time_step=motion.time_step, window=w) for w in ("none", "hann"))
     edges = band_edges(plain.omega)
@@ -91,7 +94,7 @@ def rolled(model: Caller, scene: WheelScene) -> Motion:
         at_path = force(path)
         if np.allclose(at_path, scene.load, rtol=AT_REST):
             raise LostError(
-                Failed(f"the wheel stays at rest: the force does not change with the position; {in_words(scene)}")
+                Failed(f"the wheel stays at rest: the force does not change with the position under {in_words(scene)}")
             )
         stiffness = (force(path + (step := DIFFERENCE * scene.approach)) - at_path) / step
         law = LawAlongPaths(path, at_path, stiffness)
@@ -109,7 +112,7 @@ def rolled(model: Caller, scene: WheelScene) -> Motion:
 def in_words(scene: WheelScene) -> str:
     """Which wheel a law must bear."""
     wheel = f"R = {scene.radius:g} m, E* = {scene.modulus / 1e9:g} GPa, {scene.load:g} N, {scene.mass:g} kg"
-    return f"the wheel has {wheel}, {scene.speed:g} m/s, a smooth approach of {1e6 * scene.approach:.3g} um"
+    return f"the wheel of {scene.name} ({wheel}, {scene.speed:g} m/s, {1e6 * scene.approach:.3g} um on smooth ground)"
 
 
 def _at_rest(force: Callable[[FloatArray], FloatArray], scene: WheelScene) -> FloatArray:

@@ -13,7 +13,7 @@ from validation.analysis.statistics import FloatArray, ratio_of_means
 from validation.engine.offered import Caller, Failed
 from validation.selection.judging import rolling, surfaces
 from validation.selection.judging.judge import Finding, LostError, asked, attempted, rule
-from validation.selection.judging.stiffness import FEWEST, FORCE, HEIGHT, MODULUS, SIDE, AskedPunch, H, draws
+from validation.selection.judging.stiffness import FEWEST, FORCE, MODULUS, SIDE, AskedPunch, H, draws, load_of
 
 EXACT, OF_SAMPLE = 1e-6, 2.0
 """Tolerance; of a mean of draws so many half-widths of its 95 % interval, so that chance breaks none of many rules."""
@@ -94,8 +94,8 @@ def _places(model: Caller) -> Iterator[tuple[Conditions, dict[str, Any]]]:
     if model.kind == "stiffness_of_surface":
         surface, spacing = SIDE * surfaces.roughness(HURSTS[0]).surface(surfaces.CELLS, 0), SIDE / surfaces.CELLS
         for force in LOADS:
-            load = force * MODULUS * HEIGHT * SIDE**2
-            yield {FORCE: force}, {"height": surface, "spacing": spacing, "modulus": MODULUS, "load": load}
+            given = {"height": surface, "spacing": spacing, "modulus": MODULUS, "load": load_of(force)}
+            yield {FORCE: force}, given
     if model.kind == "force_spectrum":
         for height, qa in product(HEIGHTS, WAVES):
             given = rolling.over(np.array([qa / rolling.CONTACT]), rolling.ground_of(height))

@@ -22,6 +22,7 @@ from validation.simulation.rough_punch import PlateauSpectrum
 SIDE, MODULUS, HEIGHT = 1e-2, 1e9, 1e-3
 """L [m], E* [Pa] and h / L at which a model is asked: k / (E* L) is that of any others."""
 UNIT = MODULUS * SIDE
+"""E* L [N/m]."""
 WAVES = 64
 """q_max / q_min of Fig. 14.1, and where nothing else is said."""
 FEWEST, FAST = 8, 5e-3
@@ -71,8 +72,12 @@ class AskedPunch:
         q, rms = 2 * math.pi / SIDE, HEIGHT * SIDE
         band = {"hurst": self.hurst, "q_min": q, "q_max": q * self.waves, "rms": rms}
         rough = PlateauRoughness(**band, q_roll_off=q * self.roll_off) if self.roll_off else mdr.SelfAffine(**band)
-        load = self.force * MODULUS * HEIGHT * SIDE**2
-        return {"load": load, "side": SIDE, "modulus": MODULUS, "roughness": rough}
+        return {"load": load_of(self.force), "side": SIDE, "modulus": MODULUS, "roughness": rough}
+
+
+def load_of(force: float) -> float:
+    """F = Fbar E* h L [N]."""
+    return force * MODULUS * HEIGHT * SIDE**2
 
 
 class Stiffness(NamedTuple):
