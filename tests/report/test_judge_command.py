@@ -285,6 +285,12 @@ def test_ends_at_which_a_model_agrees_are_not_where_it_breaks():
         assert words in " ".join(found.summary().split()) and "nowhere" not in found.summary()
 
 
+def test_a_paragraph_on_a_model_that_answers_nowhere_says_that_alone():
+    lost = tuple(not_compared("k", {"Fbar": 10.0**i}, "failed", "no number", reference=1.1) for i in range(3))
+    said = paragraph(judged.Judgement("mine", "stiffness_model", judged.tolerance_of(0.1), lost, 1.0))
+    assert said.endswith("by the errors of both. It has no value at 3 of 3 points.")
+
+
 def test_seconds_are_drawn_with_plain_ticks():
     """Two errors within a tenth of a decade have a tick; a solver and ours are two curves."""
     costs = tuple(ErrorOfCall(name, error, "dB", 1e-5) for name, error in (("mine", 5.9), ("other", 6.1)))

@@ -115,14 +115,14 @@ def _broken(curve: JudgedCurve, at: Sequence[float], run: Sequence[JudgedPoint])
 def paragraph(judgement: "Judgement") -> str:
     """Sentences that could stand in a paper: beside what, how near, over which conditions, and what was found."""
     points, tolerance = judgement.verdicts, judgement.tolerance
-    compared = [point for point in points if math.isfinite(point.reference)]
+    quantities = [some for some in curves_of(points) if not some[0].is_rule and any(map(_has_a_number, some))]
     of_wheel, version = judgement.kind == "contact_law", metadata.version("mdr-validation")
     beside = f"springs (MDR) under {in_words(table_14_1())}" if of_wheel else "boundary elements"
     said = [
         f"The model {judgement.model!r} was compared with {beside}, the references of mdr-validation {version}.",
         f"A number is within {tolerance} where its whole 95 % interval is, by the errors of both.",
     ]
-    said += [_of_quantity(tolerance, curves) for curves in curves_of(compared) if not curves[0].is_rule]
+    said += [_of_quantity(tolerance, curves) for curves in quantities]
     count = Counter(point.verdict for point in points)
     if known := count[AGREE] + count[DIFFER] + count[UNDECIDED]:
         parts = (f"{count[verdict]} {word}" for verdict, word in POINTS.items() if count[verdict])
@@ -138,6 +138,10 @@ def paragraph(judgement: "Judgement") -> str:
     if lost := len(points) - known:
         said.append(f"It has no value at {lost} of {len(points)} points.")
     return " ".join(said)
+
+
+def _has_a_number(curve: JudgedCurve) -> bool:
+    return any(math.isfinite(point.difference) for point in curve.points)
 
 
 def _of_quantity(tolerance: Tolerance, curves: Sequence[JudgedCurve]) -> str:

@@ -127,8 +127,9 @@ def answers_of(model: Caller, punches: Iterable[AskedPunch], count: int = 0) -> 
         return {one: _by_formula(model, one) for one in punches}
     punches = list(punches)
     count = count or next(n for seconds, n in REALISATIONS.items() if seconds_of(model, punches[0]) <= seconds)
+    slow = "" if count == REALISATIONS[FAST] else ", since a call takes long"
     found = {one: attempted(draws, model, one.arguments, count) for one in punches}
-    return {one: some if isinstance(some, Failed) else sampled(some / UNIT) for one, some in found.items()}
+    return {one: some if isinstance(some, Failed) else sampled(some / UNIT, slow) for one, some in found.items()}
 
 
 def seconds_of(model: Caller, punch: AskedPunch) -> float:
@@ -162,17 +163,17 @@ def _by_formula(model: Caller, punch: AskedPunch) -> Stiffness | Failed:
     return Stiffness(ModelAnswer(mean / UNIT), *(ModelAnswer(one / mean) for one in deviation))
 
 
-def sampled(values: FloatArray) -> Stiffness | Failed:
+def sampled(values: FloatArray, so_few: str = "") -> Stiffness | Failed:
     """Mean and deviation of a sample with their errors, by the moments of the realisations."""
     if values.mean() <= 0:
         return Failed(f"a mean stiffness of {values.mean():.3g} E* L")
     of = moments(values, np.isfinite(values))
     deviation = of.log_relative_deviation
-    mean = ModelAnswer(float(values.mean()), of.log_mean.half_width, f"{values.size} realisations")
+    mean = ModelAnswer(float(values.mean()), of.log_mean.half_width, f"{values.size} realisations{so_few}")
     if math.isfinite(deviation.value):
         return Stiffness(mean, ModelAnswer(math.exp(deviation.value), deviation.half_width))
     # one draw in a hundred that is apart may leave the others equal, too
-    equal = f"{values.size} equal realisations"
+    equal = f"{values.size} equal realisations{so_few}"
     return Stiffness(mean._replace(reason=equal), ModelAnswer(math.nan, reason=f"{equal}: no deviation is known"))
 
 
