@@ -137,6 +137,8 @@ UNSCALED = [
     ("rolling_model", lambda line, radius, approach: smooth(line, radius, 1.15e11, approach), "modulus", {"differ"}),
     ("rolling_model", lambda line, modulus, approach: smooth(line, 0.5, modulus, approach), "length", {"differ"}),
     ("rolling_model", lambda line, radius, modulus, load: under_load(line, 0.5, modulus, load), "length", {"differ"}),
+    ("force_spectrum", lambda q: 1e300 + 0 * q, "length", {"differ"}),
+    ("force_spectrum", lambda q: 1e-300 + 0 * q, "length", {"differ"}),
     ("rolling_model", lambda line, load: [][1], "length", {"failed"}),
     ("stiffness_model", lambda side: -side, "height", {"failed"}),
 ]

@@ -82,7 +82,8 @@ def _ratio(model: Caller, before: FloatArray, given: Mapping[str, Any], factor: 
     if "rng" in model.asks:
         ratio = ratio_of_means(after, before)
         return ratio.value, max(EXACT, OF_SAMPLE * ratio.half_width)
-    apart, size = after - before, float(np.linalg.norm(before)) or 1.0
+    peak = float(np.abs(before).max()) or 1.0
+    apart, size = (after - before) / peak, float(np.linalg.norm(before / peak)) or 1.0
     return 1 + float(apart[0] if apart.size == 1 else np.linalg.norm(apart)) / size, EXACT
 
 
