@@ -76,6 +76,8 @@ def test_the_worst_points_are_the_farthest_and_say_what_they_share():
     far = [compared("k", {"H": h}, v, 1.0, 0.0, 0.1) for h, v in ((0.1, 0.05), (0.2, 10.0), (0.3, -1.0))]
     assert [point.where["H"] for point in worst(far)] == [0.3, 0.1, 0.2]
     assert worst(points("==")) == []
+    unsure, sure = (compared("k", {"H": h}, v, 1.0, half, 0.1) for h, v, half in ((0.1, 1.66, 0.15), (0.2, 1.5, 0.0)))
+    assert worst([unsure, sure]) == [sure, unsure]
 
 
 def test_a_point_without_a_number_has_its_reason():

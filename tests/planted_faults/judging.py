@@ -10,7 +10,7 @@ from tests.planted_faults.wrong import Fault, with_math
 from tests.selection import test_judged_ends, test_judged_kinds, test_judged_stiffness
 from validation.analysis import judgement
 from validation.engine import others
-from validation.selection.judging import laws, own, stiffness, sweeps
+from validation.selection.judging import laws, own, scaling, stiffness, sweeps
 from validation.selection.judging.judge import ModelAnswer
 from validation.simulation.rough_punch import PlateauSpectrum
 
@@ -29,10 +29,19 @@ def without_the_error_of_the_sample(values):
     return stiffness.Stiffness(ModelAnswer(np.mean(values)), ModelAnswer(np.std(values) / np.mean(values)))
 
 
+ONE = scaling.Powers(1, 1, 1)
 STAYING = {kind: [one._replace(at=one.at[:1] * len(one.at)) for one in some] for kind, some in sweeps.SWEEPS.items()}
 FAULTS = [
     partial(test_judged_ends.test_where_a_model_breaks_is_found, *test_judged_ends.WRONG[5]),
     Fault("a sweep that stays where it begins").at(sweeps, "SWEEPS", STAYING),
+    partial(test_judged_ends.test_what_is_right_in_some_units_alone_is_found, *test_judged_ends.UNSCALED[0]),
+    Fault("a rule of scaling by the tolerance of a user").at(scaling, "EXACT", 0.5),
+    partial(test_judged_ends.test_what_is_right_in_some_units_alone_is_found, *test_judged_ends.UNSCALED[6]),
+    Fault("heights that never change").at(scaling, "RULES", {**scaling.RULES, "scaling with the height": ONE}),
+    partial(test_judged_ends.test_where_a_model_breaks_is_found, *test_judged_ends.WRONG[8]),
+    Fault("a track shorter than the contact").at(sweeps, "TRACK", 1),
+    partial(test_judged_stiffness.test_a_stiffness_that_falls_between_loads_that_are_known_is_found, 0.3),
+    Fault("no load between those that are known").at(stiffness, "BETWEEN", 0),
     test_judged_ends.test_a_warning_stands_beside_the_number,
     Fault("a warning that is not heard").at(others.Called, "warned", property(lambda called: "")),
     partial(test_judged_ends.test_where_a_model_breaks_is_found, *test_judged_ends.WRONG[-1]),

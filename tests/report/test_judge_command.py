@@ -18,6 +18,7 @@ from validation.report import judged
 from validation.report.judged_figure import figure_of
 from validation.report.judged_words import paragraph
 from validation.selection.judging.own import ErrorOfCall
+from validation.selection.judging.sweeps import HEAVY, LIGHT
 
 SERIES = """
 from validation import stiffness_model
@@ -62,7 +63,7 @@ def test_a_formula_is_judged_and_written(file, tmp_path, capsys):
     assert "compared with boundary elements, the references of mdr-validation" in said
     assert "A number is within 10 % where its whole 95 % interval is, by the errors of both." in said
     assert "Its mean stiffness is within 10 % for Fbar = 0.464 to 10 at every H (compared: H = 0.4, 0.55, 0.7, " in said
-    assert "1; Fbar = 0.001 to 10)." in said
+    assert "1; Fbar = 0.001 to 10; all at q_max / q_min = 64)." in said
     assert "They share: Fbar up to 0.00215" in printed
     names = {path.name for path in (tmp_path / "out").iterdir()}
     assert names == {"judgement.json", "verdicts.csv", "summary.txt", "judgement.svg", "costs.csv"}
@@ -82,6 +83,36 @@ def test_a_model_that_answers_nowhere_ends_with_three_unless_another_does(file, 
     assert last["reason"].startswith("printed 'lost at ")
     assert main(["judge", str(file), "--json", str(tmp_path / "found.json")]) == 0
     assert [one["model"] for one in json.loads((tmp_path / "found.json").read_text())] == ["in series", "lost"]
+
+
+def broken(model, *_):
+    raise ZeroDivisionError("planted")
+
+
+@pytest.mark.parametrize(
+    "place",
+    [
+        "validation.selection.judging.stiffness._rise",
+        "validation.selection.judging.sweeps.swept",
+        "validation.report.judged.costs_of",
+        "validation.benchmarks.judging.judged.judged",
+    ],
+)
+def test_an_error_of_ours_is_a_row_and_takes_no_other_model_with_it(place, file, tmp_path, capsys, monkeypatch):
+    solver = "@contact_solver('solver')\ndef solver(gap, force): return gap\n" if "benchmarks" in place else ""
+    law = "@contact_law('no force')\ndef law(approach): return 0 * approach\n"
+    file.write_text(f"{SERIES}\nfrom validation import contact_law, contact_solver\n{law}{solver}")
+    monkeypatch.setattr(place, broken)
+    assert main(["judge", str(file), "--json", str(tmp_path / "found.json")]) == 0
+    assert "Traceback" not in capsys.readouterr().err
+    found = {one["model"]: one["verdicts"] for one in json.loads((tmp_path / "found.json").read_text())}
+    reason = "mdr-validation could not go on, which is its own error: ZeroDivisionError: planted, line "
+    rows = [row for rows in found.values() for row in rows if row["quantity"] == "judging"]
+    assert {row["verdict"] for row in rows} == {"failed"} and rows[0]["reason"].startswith(reason)
+    assert {row["reason"].partition(";")[0] for row in found["no force"] if row["where"]} == {
+        "at an approach of 0.032 m it bears less than the load"
+    }
+    assert len(found["in series"]) > 50
 
 
 @pytest.mark.parametrize(
@@ -232,11 +263,57 @@ def test_a_paragraph_says_beside_what_how_near_and_over_which_conditions():
     filters = [level("contact filter", where, reference=1 + 4 * where["alpha"]) for where in places]
     regions = [level("level", {"region": f"region {i}"}, reference=1.1) for i in (1, 2)]
     said = paragraph(judged.Judgement("mine", "contact_law", judged.tolerance_of(0.1), (*filters, *regions), 1.0))
-    assert "compared with springs (MDR) under a wheel with a mass" in said
     assert (
-        "Its contact filter is within 0.83 dB at 13 of 26 points (compared: 13 values of wheel; alpha = 0, 0.5)" in said
+        "with springs (MDR) under the wheel of Table 14.1 (R = 0.5 m, E* = 236.25 GPa, 4905 N, 500 kg, 20 m/s, " in said
     )
+    filter_ = "Its contact filter is within 0.83 dB for alpha = 0 at every wheel compared there"
+    assert f"{filter_} (compared: 13 values of wheel; alpha = 0, 0.5)." in said
+    assert "Of 28 points 15 agree, 13 differ. The largest difference, of its contact filter, is -2 dB ± 0.1 dB" in said
     assert "Its level is within 0.83 dB at 2 of 2 points (compared: region 1, region 2)." in said
+
+
+def pointed(values, **common):
+    """Along Fbar, one where the number is 1."""
+    return [compared("k", {**common, "Fbar": 10.0**i}, value, 2.0, 0.0, 0.1) for i, value in enumerate(values)]
+
+
+@pytest.mark.parametrize(
+    ("groups", "said"),
+    [
+        ({16.0: [2, 2, 2], 64.0: [2, 2]}, "Its k is within 10 % for Fbar = 1 to 10 at every band"),
+        ({16.0: [3, 3, 2], 64.0: [3, 3]}, "Its k is within 10 % for Fbar = 100 at band = 16 ("),
+        (
+            {16.0: [2, 3, 2], 64.0: [3, 2, 3]},
+            "Its k is within 10 % for Fbar = 1 and 100 at band = 16; 10 at band = 64 (",
+        ),
+        ({"old": [3, 3, 2], "new": [3, 3]}, "Its k is within 10 % for Fbar = 100 at every band compared there"),
+        ({16.0: [3, 3, 3], 64.0: [3, 3]}, "For no Fbar its k is within 10 % for certain"),
+    ],
+)
+def test_a_range_ends_where_a_reference_does_and_what_is_good_somewhere_is_said(groups, said):
+    points = tuple(point for band, values in groups.items() for point in pointed(values, band=band))
+    words = paragraph(judged.Judgement("mine", "stiffness_model", judged.tolerance_of(0.1), points, 1.0))
+    assert said in words
+
+
+def test_ends_at_which_a_model_agrees_are_not_where_it_breaks():
+    """Not even where it differs in its own scenes."""
+    ends = [compared(HEAVY, {"Fbar": 30.0}, 1.0, 1.0, 0.0, 0.1), compared(LIGHT, {"Fbar": 1e-6}, 1.0, 1.0, 0.2, 0.1)]
+    for last, words in (
+        (2.0, "Beyond these scenes: agrees under a heavy load open under a light load"),
+        (3.0, "breaks"),
+    ):
+        broken = compared("scaling with the length", {"Fbar": 3.0}, last / 2, 1.0, 0.0, 1e-6)
+        points = (*pointed([3, 3]), *ends, broken)
+        found = judged.Judgement("mine", "stiffness_model", judged.tolerance_of(0.1), points, 1.0)
+        assert ("closed form: scaling with the length." in paragraph(found)) == (last == 3.0)
+        assert words in " ".join(found.summary().split()) and "nowhere" not in found.summary()
+
+
+def test_a_paragraph_on_a_model_that_answers_nowhere_says_that_alone():
+    lost = tuple(not_compared("k", {"Fbar": 10.0**i}, "failed", "no number", reference=1.1) for i in range(3))
+    said = paragraph(judged.Judgement("mine", "stiffness_model", judged.tolerance_of(0.1), lost, 1.0))
+    assert said.endswith("by the errors of both. It has no value at 3 of 3 points.")
 
 
 def test_seconds_are_drawn_with_plain_ticks():

@@ -6,11 +6,11 @@ from validation.engine.offered import offer
 from validation.engine.others import Called
 from validation.selection.judging.judge import JUDGES
 
-SWEEPS = "sweeps:swept"
+SWEEPS, SCALING = "sweeps:swept", "scaling:judged"
 
 
 def judged(kind, function, tolerance=0.1, by=None):
-    """By the judge of the kind, or past its scenes."""
+    """By the judge of the kind, by rules of scaling, or past its scenes."""
     model = Called(offer(kind, "mine", {}, getattr(function, "function", function)))
     judge = resolve_name(f"validation.selection.judging.{by or JUDGES[kind]}")
     return [one.judged(tolerance) for one in judge(model)]

@@ -7,7 +7,7 @@ import warnings
 import numpy as np
 import pytest
 
-from tests.selection.judged_points import SWEEPS, judged, of
+from tests.selection.judged_points import SCALING, SWEEPS, judged, of, verdicts
 from validation.engine.offered import offer
 from validation.engine.others import Called
 from validation.selection.judging import own, sweeps
@@ -61,6 +61,12 @@ def twice(q, roughness):
     return 2 * in_3d(q, 2e-3, 1.15e11, roughness)
 
 
+def springs(line, spacing, radius, modulus, approach):
+    """Under a smooth wheel, within half a period: their sum is that of Hertz on small cells."""
+    x = spacing[0] * (np.arange(line.size) - line.size // 2)
+    return 0 * line + modulus * spacing[0] * (approach - x**2 / radius).clip(0).sum()
+
+
 def upside_down(line, radius, modulus, approach):
     return smooth(-line, radius, modulus, approach)
 
@@ -74,6 +80,7 @@ WRONG = [
     ("contact_filter", divides, sweeps.LONG, ["failed", "agree", "agree"]),
     ("contact_filter", lambda k_x, a_x: 1 + (k_x * a_x) ** 2, sweeps.SHORT, ["differ"] * 3),
     ("rolling_model", lambda line, approach: 0 * line + approach, sweeps.SMOOTH, ["differ"] * 5),
+    ("rolling_model", springs, sweeps.SMOOTH, ["differ", "agree", "agree", "agree", "agree"]),
     ("rolling_model", upside_down, sweeps.LONG, ["differ"] * 2),
     ("contact_filter", lambda k_x: 1.05 + 0 * k_x, sweeps.SHORT, ["differ"] * 3),
 ]
@@ -82,6 +89,65 @@ WRONG = [
 @pytest.mark.parametrize(("kind", "function", "quantity", "expected"), WRONG)
 def test_where_a_model_breaks_is_found(kind, function, quantity, expected):
     assert [p.verdict for p in of(judged(kind, function, by=SWEEPS), quantity)] == expected
+
+
+def rooted(height, spacing, modulus, load):
+    """As the root of what the load is over the one that flattens the surface."""
+    return (modulus * spacing * len(height) * load / height.std()) ** 0.5
+
+
+@pytest.mark.parametrize(
+    ("kind", "function"), [case for case in CASES if case[1] != hertz] + [("stiffness_of_surface", rooted)]
+)
+def test_what_closed_forms_say_scales(kind, function):
+    found = judged(kind, function, tolerance=1e-9, by=SCALING)
+    assert {point.verdict for point in found} == (set() if kind == "contact_filter" else {"agree"})
+
+
+def steel(modulus):
+    """Another power of E*, which is right for one material."""
+    return (modulus / 1.15e11) ** 1e-4
+
+
+def when_heavy(load, side, modulus, roughness):
+    return flat(load, side, modulus) * (steel(modulus) if load > modulus * roughness.rms * side else 1)
+
+
+def unlike(load, side, modulus, rng):
+    return flat(load, side, modulus) * (modulus / 1e9) ** 0.04 * rng.normal(1, 1e-3)
+
+
+UNSCALED = [
+    ("stiffness_model", lambda side, modulus: modulus * side * steel(modulus), "modulus", {"differ"}),
+    ("stiffness_model", when_heavy, "modulus", {"agree", "differ"}),
+    ("stiffness_model", unlike, "modulus", {"differ"}),
+    ("stiffness_model", lambda side, modulus, rng: flat(0, side, modulus) * rng.normal(1, 0.3), "length", {"agree"}),
+    ("stiffness_model", lambda modulus, load: (modulus * load) ** 0.5, "length", {"agree"}),
+    ("stiffness_model", lambda side, modulus: modulus * side**1.1, "length", {"differ"}),
+    ("stiffness_model", lambda load, side: load / (1e-3 * side), "height", {"differ"}),
+    (
+        "stiffness_of_surface",
+        lambda height, modulus, spacing: modulus * spacing * steel(modulus),
+        "modulus",
+        {"differ"},
+    ),
+    ("stiffness_of_surface", lambda height, modulus: modulus * 4e-5 * len(height), "length", {"differ"}),
+    ("force_spectrum", lambda q, modulus, roughness: in_3d(q, 2e-3, 1.15e11, roughness), "modulus", {"differ"}),
+    ("force_spectrum", lambda q, modulus, roughness: in_3d(q, 2e-3, modulus, roughness), "length", {"differ"}),
+    ("rolling_model", lambda line, radius, approach: smooth(line, radius, 1.15e11, approach), "modulus", {"differ"}),
+    ("rolling_model", lambda line, modulus, approach: smooth(line, 0.5, modulus, approach), "length", {"differ"}),
+    ("rolling_model", lambda line, radius, modulus, load: under_load(line, 0.5, modulus, load), "length", {"differ"}),
+    ("force_spectrum", lambda q: 1e300 + 0 * q, "length", {"differ"}),
+    ("force_spectrum", lambda q: 1e-300 + 0 * q, "length", {"differ"}),
+    ("rolling_model", lambda line, load: [][1], "length", {"failed"}),
+    ("stiffness_model", lambda side: -side, "height", {"failed"}),
+]
+
+
+@pytest.mark.parametrize(("kind", "function", "what", "expected"), UNSCALED)
+def test_what_is_right_in_some_units_alone_is_found(kind, function, what, expected):
+    """Whatever the tolerance of a user."""
+    assert verdicts(judged(kind, function, tolerance=0.5, by=SCALING), f"scaling with the {what}") == expected
 
 
 def test_a_warning_stands_beside_the_number():

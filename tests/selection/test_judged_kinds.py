@@ -287,6 +287,16 @@ def test_a_linear_contact_of_the_wheel_has_the_features_of_springs_and_a_stiff_o
     )
 
 
+def test_the_page_has_the_numbers_of_the_wheel():
+    page, scene = (REPORT.parent / "docs" / "own_model.md").read_text(encoding="utf-8"), laws.table_14_1()
+    heights = f"rms {1e6 * scene.rail.rms:g} um, H = {scene.rail.hurst:g}, waves of {1e3 * scene.rail.longest:g} mm"
+    rolled = f"10, ... {laws.APART * (laws.WHEELS - 1):g} m and roll {scene.distance:g} m each"
+    omega = [f"{one:.0f} rad/s" for one in (scene.eigenfrequency, scene.jump, scene.cutoff, scene.oscillation_period)]
+    wheel = f"R = {scene.radius:g} m, E* = {scene.modulus / 1e9:g} GPa, M = {scene.mass:g} kg, F = {scene.load:g} N"
+    for words in (wheel, heights, rolled, f"at {1e6 * scene.approach:.3g} um", f"{1e3 * scene.spacing:.2f} mm", *omega):
+        assert words in page
+
+
 def test_a_law_without_roughness_is_told_that_its_wheel_stays_at_rest():
     points = judged("contact_law", lambda approach: 1e8 * approach)
     assert {p.verdict for p in points} == {"failed"} and "stays at rest" in points[0].reason

@@ -75,7 +75,7 @@ def compared(
         apart, half, tolerance = value - reference, half_width, 20 * math.log10(1 + tolerance)
     elif unit == DEVIATION and reference < SMALL:
         apart, half = (value - reference) / SMALL, max(value, reference) / SMALL * half_width
-        reason = "below 1 %: the absolute difference, in parts of 1 %"
+        reason = reason or "below 1 %: the absolute difference, in parts of 1 %"
     verdict, shown_in = verdict_of(apart, half, tolerance), LEVEL if unit == LEVEL else RATIO
     return JudgedPoint(quantity, where, value, reference, apart, half, verdict, reason, shown_in)
 
@@ -169,10 +169,11 @@ def enough(points: Iterable[JudgedPoint]) -> list[Enough]:
 
 
 def worst(points: Iterable[JudgedPoint], count: int = 5) -> list[JudgedPoint]:
-    """Those that differ most for certain, in what each unit is worth, then those without a number."""
+    """Those that differ most, less their errors, in what each unit is worth; then those without a number."""
 
     def apart(point: JudgedPoint) -> float:
-        factor = 10 ** (abs(point.difference) / 20) if point.unit == LEVEL else 1 + point.difference
+        certain = math.copysign(max(abs(point.difference) - point.error, 0.0), point.difference)
+        factor = 10 ** (abs(certain) / 20) if point.unit == LEVEL else 1 + certain
         return abs(math.log(max(factor, 1e-12)))
 
     points = list(points)

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 
 from validation.analysis.contents import as_csv, as_json
 from validation.analysis.evidence import Table, table_of
-from validation.analysis.judgement import DIFFER, FAILED, REFUSED, Enough, JudgedPoint, enough, not_compared
+from validation.analysis.judgement import DIFFER, FAILED, REFUSED, Conditions, Enough, JudgedPoint, enough, not_compared
 from validation.engine.files import write_whole
 from validation.engine.others import Called, visited
+from validation.engine.replies import raised
 from validation.report.judged_solver import solver_lines
 from validation.report.judged_words import summary_lines
 from validation.selection.judging.judge import JUDGES, points_of
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 
 OF_SOLVER = "validation.benchmarks.judging.judged:judged"
 """Of a contact solver; it imports all solvers."""
+BROKEN = "mdr-validation could not go on, which is its own error"
 COLUMNS = ("value", "reference", "difference", "error", "unit", "verdict", "reason")
 NAMES = {"start": "from", "stop": "to"}
 """Of a range in JSON: words that Python keeps for itself."""
@@ -160,14 +162,22 @@ def judge(model: object, tolerance: float | str = 0.1) -> Judgement:
 def judged(model: Called, tolerance: Tolerance) -> Judgement:
     """Of one function, here or in another process."""
     begin = time.perf_counter()
+    everywhere: Conditions = {} if model.kind in JUDGES else {"problem": "any"}
+    points: list[JudgedPoint] = []
     times: Sequence[SolverTime] = ()
-    if model.kind in JUDGES:
-        points = list(points_of(model, tolerance.relative))
-    else:
-        points, times = resolve_name(OF_SOLVER)(model)
+    costs: Sequence[ErrorOfCall] = ()
+    try:
+        if model.kind in JUDGES:
+            for point in points_of(model, tolerance.relative):
+                points.append(point)
+            costs = costs_of(model, points)
+        else:
+            points, times = resolve_name(OF_SOLVER)(model)
+    except Exception as error:
+        # one model of a file takes nothing from the others, nor from what was found of it
+        points.append(not_compared("judging", everywhere, FAILED, f"{BROKEN}: {raised(error)}"))
     if model.printed:
-        points.append(not_compared("printing", {}, FAILED, f"printed {model.printed!r}"))
-    costs = costs_of(model, points)
+        points.append(not_compared("printing", everywhere, FAILED, f"printed {model.printed!r}"))
     seconds = time.perf_counter() - begin
     return Judgement(model.name, model.kind, tolerance, tuple(points), seconds, tuple(times), tuple(costs))
 

@@ -24,7 +24,10 @@ from validation.analysis.judgement import (
     shared,
     worst,
 )
+from validation.selection.judging.laws import in_words, table_14_1
 from validation.selection.judging.own import MAIN
+from validation.selection.judging.rolling import APART
+from validation.selection.judging.stiffness import BAND, DEVIATION, MEAN, ROLLED_OFF, WAVES
 from validation.selection.judging.sweeps import SWEPT
 from validation.selection.tolerance import Tolerance, decibels
 
@@ -33,10 +36,14 @@ if TYPE_CHECKING:
 
 SIGN = {AGREE: "=", DIFFER: "#", UNDECIDED: "?", REFUSED: "r", FAILED: "x"}
 WORD = {AGREE: "yes", DIFFER: "no", UNDECIDED: "open", REFUSED: "refused", FAILED: "failed"}
+POINTS = {AGREE: "agree", DIFFER: "differ", UNDECIDED: "left open"}
 COLUMNS, CURVES, LISTED = 110, 24, 6
 """Of a line; groups of a quantity that are shown; values of a condition that a paper lists."""
-REFERENCES = {"contact_law": "springs (MDR) under a wheel with a mass"}
-"""Of a kind whose references are not boundary elements."""
+NOTES = dict.fromkeys((MEAN, DEVIATION, ROLLED_OFF), f"all at {BAND} = {WAVES}") | {
+    APART.format(name): "rms of the difference over that of the fluctuation, which has no sign"
+    for name in ("force", "approach")
+}
+"""What is asked of a quantity that its conditions do not say."""
 
 
 def summary_lines(judgement: "Judgement") -> Iterator[str]:
@@ -49,10 +56,11 @@ def summary_lines(judgement: "Judgement") -> Iterator[str]:
     yield f"strips: {', '.join(f'{SIGN[verdict]} {WORD[verdict]}' for verdict in VERDICTS)}"
     for curves in curves_of(points):
         along = curves[0].along if len(curves[0].points) > 1 else ""
-        yield f"\n{curves[0].quantity}{f', along {along}' if along else ''}"
+        note = NOTES.get(curves[0].quantity, "")
+        yield f"\n{curves[0].quantity}{f', along {along}' if along else ''}{f' ({note})' if note else ''}"
         yield from (_strip(curve) for curve in curves[:CURVES])
         if len(curves) > CURVES:
-            yield f"  and {len(curves) - CURVES} more"
+            yield f"  and {len(curves) - CURVES} more, which --csv writes"
     scenes = [point for point in points if point.quantity not in SWEPT]
     if found := worst(scenes):
         yield f"\nThe worst{f' {len(found)}' if len(found) > 1 else ''}:"
@@ -84,11 +92,13 @@ def _range(start: float, stop: float) -> str:
 def _breaks(points: Sequence[JudgedPoint]) -> Iterator[str]:
     """Rules that it does not follow, and ends at which it is no closed form, and whether it warned of that."""
     curves = [curve for some in curves_of(points) for curve in some if curve.is_rule]
-    found = [_broken(curve, *zip(*run, strict=True)) for curve in curves for run in curve.runs]
-    asked = [curve.quantity for curve in curves if curve.quantity in SWEPT]
-    if any(found) or asked:
+    if found := list(filter(None, (_broken(curve, *zip(*run, strict=True)) for curve in curves for run in curve.runs))):
         yield "\nWhere it breaks:"
-        yield from filter(None, found) if any(found) else [f"  nowhere, as far as it was led: {', '.join(asked)}"]
+        yield from found
+    elif asked := [curve for curve in curves if curve.quantity in SWEPT]:
+        yield "\nBeyond these scenes:"
+        agrees = [all(point.verdict == AGREE for point in curve.points) for curve in asked]
+        yield from (f"  {'agrees' if a else 'open'} {curve.quantity}" for a, curve in zip(agrees, asked, strict=True))
 
 
 def _broken(curve: JudgedCurve, at: Sequence[float], run: Sequence[JudgedPoint]) -> str:
@@ -105,41 +115,79 @@ def _broken(curve: JudgedCurve, at: Sequence[float], run: Sequence[JudgedPoint])
 def paragraph(judgement: "Judgement") -> str:
     """Sentences that could stand in a paper: beside what, how near, over which conditions, and what was found."""
     points, tolerance = judgement.verdicts, judgement.tolerance
-    compared = [point for point in points if math.isfinite(point.reference)]
-    beside, version = REFERENCES.get(judgement.kind, "boundary elements"), metadata.version("mdr-validation")
+    quantities = [some for some in curves_of(points) if not some[0].is_rule and any(map(_has_a_number, some))]
+    of_wheel, version = judgement.kind == "contact_law", metadata.version("mdr-validation")
+    beside = f"springs (MDR) under {in_words(table_14_1())}" if of_wheel else "boundary elements"
     said = [
         f"The model {judgement.model!r} was compared with {beside}, the references of mdr-validation {version}.",
         f"A number is within {tolerance} where its whole 95 % interval is, by the errors of both.",
     ]
-    said += [_of_quantity(tolerance, curves) for curves in curves_of(compared) if not curves[0].is_rule]
+    said += [_of_quantity(tolerance, curves) for curves in quantities]
     count = Counter(point.verdict for point in points)
     if known := count[AGREE] + count[DIFFER] + count[UNDECIDED]:
-        said.append(f"Of {known} points {count[AGREE]} agree, {count[DIFFER]} differ and the others are open.")
+        parts = (f"{count[verdict]} {word}" for verdict, word in POINTS.items() if count[verdict])
+        said.append(f"Of {known} points {', '.join(parts)}.")
+    rules = (curve for some in curves_of(points) for curve in some if curve.is_rule)
+    if broken := dict.fromkeys(curve.quantity for curve in rules if any(p.verdict == DIFFER for p in curve.points)):
+        said.append(f"It does not keep to what is known in closed form: {', '.join(broken)}.")
     if (most := worst([point for point in points if point.quantity not in SWEPT], 1)) and most[0].verdict == DIFFER:
-        apart = in_unit(most[0].difference, most[0].unit, "+")
-        said.append(f"The largest difference, of its {most[0].quantity}, is {apart} at {placed(most[0].where)}.")
+        where = placed(most[0].where)
+        said.append(
+            f"The largest difference, of its {most[0].quantity}, is {most[0].shown}{f' at {where}' if where else ''}."
+        )
     if lost := len(points) - known:
         said.append(f"It has no value at {lost} of {len(points)} points.")
     return " ".join(said)
 
 
+def _has_a_number(curve: JudgedCurve) -> bool:
+    return any(math.isfinite(point.difference) for point in curve.points)
+
+
 def _of_quantity(tolerance: Tolerance, curves: Sequence[JudgedCurve]) -> str:
-    """Where it agrees in all of its curves; of many curves, or of points apart, at how many."""
+    """Where it agrees in all of its curves, or in those that share a condition; of points apart, at how many."""
     first, points = curves[0], [point for curve in curves for point in curve.points]
     compared = "; ".join(_values(name, points) for name in dict.fromkeys(name for p in points for name in p.where))
+    compared = "; ".join(filter(None, (compared, NOTES.get(first.quantity))))
     compared = f" (compared: {compared})" if compared else ""
     within = f"{decibels(tolerance.relative):.2g} dB" if points[0].unit == LEVEL else str(tolerance)
-    if not first.along or len(curves) > CURVES // 2 or min(len(curve.points) for curve in curves) == 1:
+    if not first.along or max(len(curve.points) for curve in curves) == 1:
         agree = sum(point.verdict == AGREE for point in points)
         return f"Its {first.quantity} is within {within} at {agree} of {len(points)} points{compared}."
-    wrong = {point.where[first.along] for point in points if point.verdict != AGREE}
-    at = sorted({x for curve in curves for x in curve.at})
-    runs = [(right, list(run)) for right, run in groupby(at, lambda x: x not in wrong)]
-    ranges = " and ".join(_range(run[0], run[-1]) for right, run in runs if right)
-    every = f" at every {', '.join(first.where)}" if first.where and len(curves) > 1 else ""
-    if not ranges:
-        return f"For no {first.along} its {first.quantity} is within {within}{every} for certain{compared}."
-    return f"Its {first.quantity} is within {within} for {first.along} = {ranges}{every}{compared}."
+    others = [name for name in first.where if len({curve.where[name] for curve in curves}) > 1]
+    numbers = [name for name in others if any(isinstance(curve.where[name], float) for curve in curves)]
+    groups, by = {"": list(curves)}, ""
+    if numbers and not _right(curves, numbers):
+        by = numbers.pop()
+        others.remove(by)
+        groups = {
+            _value(x): [c for c in curves if c.where[by] == x] for x in dict.fromkeys(c.where[by] for c in curves)
+        }
+    found: dict[str, list[str]] = {}
+    for value, some in groups.items():
+        if ranges := _right(some, numbers):
+            found.setdefault(ranges, []).append(value)
+    each = " and ".join(f"every {name}{'' if name in numbers else ' compared there'}" for name in others)
+    each = f"{',' if by else ''} at {each}" if each else ""
+    if not found:
+        return f"For no {first.along} its {first.quantity} is within {within}{each} for certain{compared}."
+    at = "; ".join(f"{ranges}{f' at {by} = ' if by else ''}{', '.join(values)}" for ranges, values in found.items())
+    return f"Its {first.quantity} is within {within} for {first.along} = {at}{each}{compared}."
+
+
+def _right(curves: Sequence[JudgedCurve], numbers: Sequence[str]) -> str:
+    """Ranges in which all of these agree; one ends where there is no reference for a value of these conditions."""
+    known: dict[tuple[float | str, ...], set[float]] = {}
+    for curve in curves:
+        known.setdefault(tuple(curve.where[name] for name in numbers), set()).update(curve.at)
+    wrong = {x for curve in curves for x, point in zip(curve.at, curve.points, strict=True) if point.verdict != AGREE}
+    at, right = sorted(set().union(*known.values())), set.intersection(*known.values()) - wrong
+    runs = [list(run) for is_right, run in groupby(at, lambda x: x in right) if is_right]
+    return " and ".join(_range(run[0], run[-1]) for run in runs)
+
+
+def _value(x: float | str) -> str:
+    return f"{x:.3g}" if isinstance(x, float) else x
 
 
 def _values(name: str, points: Sequence[JudgedPoint]) -> str:

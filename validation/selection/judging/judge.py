@@ -33,7 +33,7 @@ class ModelAnswer(NamedTuple):
 
     @classmethod
     def of(cls, one: Estimate, unit: str) -> "ModelAnswer":
-        return cls(one.value, one.half_width / (1.0 if unit == LEVEL else abs(one.value)))
+        return cls(one.value, one.half_width / (1.0 if unit == LEVEL else abs(one.value) or 1.0))
 
 
 Found = ModelAnswer | Failed | float
@@ -69,8 +69,8 @@ def rule(quantity: str, where: Conditions, found: Found, grid: float = 0.0, with
 
 
 def points_of(model: Caller, tolerance: float) -> Iterator[JudgedPoint]:
-    """Of a reduced model: by its judge, and past the scenes of that."""
-    for place in (JUDGES[model.kind], "sweeps:swept"):
+    """Of a reduced model: by its judge, by rules of scaling, and past these scenes."""
+    for place in (JUDGES[model.kind], "scaling:judged", "sweeps:swept"):
         judge: Callable[[Caller], Iterator[Finding]] = resolve_name(f"{__package__}.{place}")
         yield from (one.judged(tolerance) for one in judge(model))
 

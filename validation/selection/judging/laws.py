@@ -36,10 +36,14 @@ def judged(model: Caller) -> Iterator[Finding]:
     return beside(rows, (one if math.isfinite(one.value) else unseen for one in answers))
 
 
+def table_14_1() -> WheelScene:
+    """On half as many cells as the case has, which are five to the shortest wave."""
+    return replace(table := load_wheel_scene("table_14_1"), springs=table.springs // 2)
+
+
 def _found(model: Caller) -> list[Estimate]:
     """Features and levels, by the jackknife over the wheels."""
-    # half as many cells as the case has, which are five to the shortest wave
-    scene = replace(table := load_wheel_scene("table_14_1"), springs=table.springs // 2)
+    scene = table_14_1()
     motion = rolled(model, scene)
     plain, hann = (record_spectra(motion.acceleration, time_step=motion.time_step, window=w) for w in ("none", "hann"))
     edges = band_edges(plain.omega)
@@ -89,7 +93,9 @@ def rolled(model: Caller, scene: WheelScene) -> Motion:
     for _ in range(ROUNDS):
         at_path = force(path)
         if np.allclose(at_path, scene.load, rtol=AT_REST):
-            raise LostError(Failed("the wheel stays at rest: the force does not change with the position"))
+            raise LostError(
+                Failed(f"the wheel stays at rest: the force does not change with the position under {in_words(scene)}")
+            )
         stiffness = (force(path + (step := DIFFERENCE * scene.approach)) - at_path) / step
         law = LawAlongPaths(path, at_path, stiffness)
         try:
@@ -103,12 +109,23 @@ def rolled(model: Caller, scene: WheelScene) -> Motion:
     raise LostError(Failed(f"no motion is found in {ROUNDS} attempts: the force jumps with the approach"))
 
 
+def in_words(scene: WheelScene) -> str:
+    """Which wheel a law must bear."""
+    wheel = f"R = {scene.radius:g} m, E* = {scene.modulus / 1e9:g} GPa, {scene.load:g} N, {scene.mass:g} kg"
+    return f"the wheel of {scene.name} ({wheel}, {scene.speed:g} m/s, {1e6 * scene.approach:.3g} um on smooth ground)"
+
+
 def _at_rest(force: Callable[[FloatArray], FloatArray], scene: WheelScene) -> FloatArray:
     """By halves, between approaches at which it bears less and more."""
     low, high = (np.full(WHEELS, sign * scene.approach) for sign in (-1.0, 1.0))
     for _ in range(DOUBLINGS):
         high = np.where(force(high) < scene.load, 2 * high, high)
         low = np.where(force(low) > scene.load, 2 * low, low)
+    for d, wrong, word in ((high, force(high) < scene.load, "less"), (low, force(low) > scene.load, "more")):
+        if wrong.any():
+            raise LostError(
+                Failed(f"at an approach of {d[wrong][0]:.2g} m it bears {word} than the load; {in_words(scene)}")
+            )
     for _ in range(HALVINGS):
         middle = (low + high) / 2
         heavy = force(middle) > scene.load

@@ -17,7 +17,7 @@ from validation.engine.random_numbers import random_generator
 from validation.selection.judging.judge import Finding, LostError, asked, attempted, rule
 from validation.selection.judging.references import known
 from validation.selection.judging.rolling import CONTACT, MODULUS, of_density
-from validation.selection.judging.stiffness import DEVIATION, MEAN, AskedPunch, H, beside_punches, sampled
+from validation.selection.judging.stiffness import DEVIATION, MEAN, UNIT, AskedPunch, H, beside_punches, sampled
 from validation.theory.gauss_legendre import on_panels
 from validation.theory.rolling import force_spectrum_1d
 
@@ -25,7 +25,7 @@ FIRST, LAST, HEIGHT = 1e3, 64e3, 1e-6
 """Band of the roughness of which a rule must have the properties [rad/m]; rms [m]."""
 HURSTS = (0.4, 0.7, 1.0)
 MOMENTS = {0: "rms height", 1: "moment 1", 2: "rms gradient", 3: "moment 3", 4: "moment 4"}
-ROUNDING, QUADRATURE = 1e-9, 1e-4
+ROUNDING, EXACT, QUADRATURE = 1e-9, 1e-6, 1e-4
 POINTS, PROFILES, SEED = 2048, 500, 145
 """Of the profiles that springs are pressed on; how many, and their seed."""
 NO_PROFILE = "no profile has a spectrum that is negative, or zero"
@@ -80,7 +80,8 @@ def properties_of_rule(model: Caller, hurst: float, first: float, last: float, h
     total = float(np.abs(mine) @ dq)
     apart = np.abs(mine - lower - upper) + np.abs(doubled - 2 * mine)
     yield ratio("linear in C_2D", found=1 + float(apart @ dq) / total)
-    yield ratio("scaling with the length", found=1 + float(np.abs(scaled - 8 * mine) @ dq) / (8 * total))
+    apart = np.abs(scaled - 8 * mine)
+    yield ratio("scaling with the length", found=1 + float(apart @ dq) / (8 * total), grid=0.0, within=EXACT)
 
 
 def rms_of_profile(c1d: FloatArray, waves: FloatArray, ground: Any) -> float:
@@ -113,4 +114,4 @@ def _pressed(model: Caller, punches: list[AskedPunch]) -> FloatArray:
         warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
         curves = [mdr.load_curve(height, length=side, modulus=modulus) for height in drawn]
         loads = load / punches[0].force * np.array([one.force for one in punches])
-        return np.array([curve.at_force(loads).stiffness for curve in curves]) / punches[0].unit
+        return np.array([curve.at_force(loads).stiffness for curve in curves]) / UNIT

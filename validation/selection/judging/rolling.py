@@ -55,7 +55,7 @@ def judged(model: Caller) -> Iterator[Finding]:
 
 def judged_spectrum(model: Caller) -> Iterator[Finding]:
     """Octaves of the force along the track, and its variance."""
-    return of_density(lambda q, ground: asked(model, q=q, roughness=ground, contact_radius=CONTACT, **SMOOTH_WHEEL))
+    return of_density(lambda q, ground: asked(model, **over(q, ground)))
 
 
 def of_density(density: Density) -> Iterator[Finding]:
@@ -96,11 +96,22 @@ def _octaves(thirds: FloatArray) -> FloatArray:
     return np.stack([octave(thirds, bands, q) for q in dict.fromkeys(row[Q] for row in known(LEVEL))], axis=-1)
 
 
+def ground_of(height: float) -> mdr.SelfAffine:
+    """The roughness of the case, of rms height h/d."""
+    settings = about(LEVEL)["settings"]
+    first, last = settings["first"] / CONTACT, settings["last"] / CONTACT
+    return mdr.SelfAffine(hurst=settings["hurst"], q_min=first, q_max=last, rms=height * APPROACH)
+
+
+def over(q: FloatArray, ground: mdr.SelfAffine) -> dict[str, Any]:
+    """What a spectrum may ask for."""
+    return {"q": q, "roughness": ground, "contact_radius": CONTACT, **SMOOTH_WHEEL}
+
+
 def _of_density(density: Density, height: float) -> FloatArray:
     """Octaves and variance by quadrature [dB over F_Hertz^2 (h/d)^2]."""
-    settings = about(LEVEL)["settings"]
-    first, last = settings["first"], settings["last"]
-    ground = mdr.SelfAffine(hurst=settings["hurst"], q_min=first / CONTACT, q_max=last / CONTACT, rms=height * APPROACH)
+    settings, ground = about(LEVEL)["settings"], ground_of(height)
+    last = settings["last"]
 
     def power(q: FloatArray) -> FloatArray:
         return density(q.ravel() / CONTACT, ground).reshape(q.shape) / CONTACT / (FORCE * height) ** 2
@@ -157,9 +168,14 @@ def _position_by_position(model: Caller, height: float) -> Finding:
 
 
 def _rolled(model: Caller, surface: FloatArray, cells: int) -> FloatArray:
-    """What a model makes of a strip in units of a and d, in metres."""
+    """What a model makes of a strip."""
+    return asked(model, **on(surface, cells))
+
+
+def on(surface: FloatArray, cells: int) -> dict[str, Any]:
+    """What it may ask for, of a strip in units of a and d, in metres."""
     height, line = APPROACH * crop_to_reach(surface, 1 / cells), APPROACH * middle_line(surface)
-    return asked(model, height=height, line=line, spacing=(CONTACT / cells,) * 2, **SMOOTH_WHEEL)
+    return {"height": height, "line": line, "spacing": (CONTACT / cells,) * 2, **SMOOTH_WHEEL}
 
 
 def middle_line(surface: FloatArray) -> FloatArray:

@@ -14,7 +14,7 @@ from validation.engine.engine import Engine
 from validation.engine.offered import Caller, Failed
 from validation.selection.judging.judge import Finding, ModelAnswer
 from validation.selection.judging.references import Reference, known
-from validation.selection.judging.stiffness import DEVIATION, FORCE, HEIGHT, MEAN, MODULUS, SIDE, WAVES, H
+from validation.selection.judging.stiffness import DEVIATION, FORCE, HEIGHT, MEAN, MODULUS, SIDE, WAVES, H, load_of
 from validation.simulation.light_punch import press_lightly
 from validation.simulation.rough_punch import PunchRoughness, Surface, force_levels
 
@@ -39,8 +39,7 @@ def judged(model: Caller) -> Iterator[Finding]:
             if time.perf_counter() > end:
                 yield Finding(row, ModelAnswer(math.nan, reason=f"not asked: {SECONDS:g} s are over"))
                 continue
-            load = row[FORCE] * MODULUS * HEIGHT * SIDE**2
-            value = model.call(height=height, spacing=SIDE / CELLS, modulus=MODULUS, load=load)
+            value = model.call(height=height, spacing=SIDE / CELLS, modulus=MODULUS, load=load_of(row[FORCE]))
             if not isinstance(value, Failed) and value > 0:
                 mine = float(value) / (MODULUS * SIDE)
                 found.setdefault((hurst, row[FORCE]), []).append((mine, row))

@@ -20,8 +20,8 @@ from validation.theory.closed_forms import SQUARE_PUNCH
 
 HEAVY, LIGHT, FEW = "under a heavy load", "under a light load", "on few cells"
 LONG, SHORT, SMOOTH = "for long waves", "for short waves", "smooth wheel on few cells"
-EXACT, SPHERE = 1e-9, 64
-"""Tolerance of a bound; cells on a side below a sphere."""
+EXACT, SPHERE, TRACK = 1e-9, 64, 8
+"""Tolerance of a bound; cells on a side below a sphere; contact radii along and across a track."""
 
 
 def stiffness(model: Caller, force: float) -> float:
@@ -52,7 +52,7 @@ def rms_of_long_waves(model: Caller, qa: float) -> float:
     last, rms = qa / rolling.CONTACT, 1e-3 * rolling.APPROACH
     ground = mdr.SelfAffine(hurst=0.7, q_min=last / 4, q_max=last, rms=rms)
     q = (np.arange(rolling.FINE) + 0.5) / rolling.FINE * last
-    density = asked(model, q=q, roughness=ground, contact_radius=rolling.CONTACT, **rolling.SMOOTH_WHEEL)
+    density = asked(model, **rolling.over(q, ground))
     variance = 2 * float(density.sum()) * last / rolling.FINE
     return math.sqrt(max(variance, 0.0)) / (2 * rolling.MODULUS * rolling.CONTACT * rms)
 
@@ -66,7 +66,7 @@ def amplitude(model: Caller, qa: float) -> float:
 
 def rolled(model: Caller, cells: float, line: FloatArray) -> FloatArray:
     """Force, or approach, over that of Hertz; line: of ridges, over d."""
-    height = rolling.APPROACH * np.broadcast_to(line[:, np.newaxis], (line.size, round(8 * cells)))
+    height = rolling.APPROACH * np.broadcast_to(line[:, np.newaxis], (line.size, round(TRACK * cells)))
     spacing, unit = (rolling.CONTACT / cells,) * 2, rolling.FORCE if "approach" in model.asks else rolling.APPROACH
     return asked(model, height=height, line=height[:, 0], spacing=spacing, **rolling.SMOOTH_WHEEL) / unit
 
@@ -108,7 +108,9 @@ SWEEPS: Mapping[str, Sequence[ModelSweep]] = {
         ModelSweep(SHORT, "q a", (1e2, 1e3, 1e4), lambda m, x: 2 - max(amplitude(m, x), 1.0), bound=True),
     ),
     "rolling_model": (
-        ModelSweep(SMOOTH, CELLS[1], (1, 2, 4, 8, 16), lambda m, x: float(rolled(m, x, np.zeros(16)).mean())),
+        ModelSweep(
+            SMOOTH, CELLS[1], (1, 2, 4, 8, 16), lambda m, x: float(rolled(m, x, np.zeros(round(TRACK * x))).mean())
+        ),
         ModelSweep(LONG, "wavelength over a", (32, 128), followed, 1e-2),
     ),
 }
