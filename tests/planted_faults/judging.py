@@ -25,7 +25,7 @@ def without_its_interval(apart, half, within):
     return verdict_of(apart, 0.0, within)
 
 
-def without_the_error_of_the_sample(values):
+def without_the_error_of_the_sample(values, so_few):
     return stiffness.Stiffness(ModelAnswer(np.mean(values)), ModelAnswer(np.std(values) / np.mean(values)))
 
 

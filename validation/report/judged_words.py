@@ -168,9 +168,10 @@ def _of_quantity(tolerance: Tolerance, curves: Sequence[JudgedCurve]) -> str:
         if ranges := _right(some, numbers):
             found.setdefault(ranges, []).append(value)
     each = " and ".join(f"every {name}{'' if name in numbers else ' compared there'}" for name in others)
-    each = f"{',' if by else ''} at {each}" if each else ""
+    each = f" at {each}" if each else ""
     if not found:
         return f"For no {first.along} its {first.quantity} is within {within}{each} for certain{compared}."
+    each = f",{each}" if by and each else each
     at = "; ".join(f"{ranges}{f' at {by} = ' if by else ''}{', '.join(values)}" for ranges, values in found.items())
     return f"Its {first.quantity} is within {within} for {first.along} = {at}{each}{compared}."
 
