@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -59,6 +60,15 @@ def count(name: str, value: object, *, least: int = 1) -> int:
     if value < least:
         raise ValueError(f"{name} must be at least {least}, got {value}")
     return int(value)
+
+
+def thread_count(name: str, value: object) -> int | Literal["all"]:
+    """A whole number of at least one, or "all"."""
+    if isinstance(value, str) and value == "all":
+        return "all"
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
+        raise TypeError(f'{name} must be a whole number or "all", got {value!r}')
+    return count(name, value)
 
 
 def boolean(name: str, value: object) -> bool:

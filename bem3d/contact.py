@@ -194,7 +194,9 @@ def residual(pressure: FloatArray, w: FloatArray, overlap: float) -> float:
         return math.nan
     if overlap <= 0:
         return 0.0 if total == 0 else math.inf
-    open_under_pressure = float((pressure * np.abs(w)).sum()) / total if total > 0 else 0.0
+    product = np.abs(w)
+    product *= pressure
+    open_under_pressure = float(product.sum()) / total if total > 0 else 0.0
     penetration = -float(w.min())
     # the built-in max loses a NaN
     if math.isnan(open_under_pressure) or math.isnan(penetration):

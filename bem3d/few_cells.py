@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bem3d import kernel
-from bem3d.checks import FloatArray, IndexArray, Loads, count, field, finite_row, fraction
+from bem3d.checks import BoolArray, FloatArray, IndexArray, Loads, count, field, finite_row, fraction
 from bem3d.contact import residual
 from bem3d.convergence import ConvergenceError
 from bem3d.formatting import span
@@ -209,7 +209,7 @@ class _Dense:
         self.products += self.matrix.size
         return dots(self.matrix, pressure)
 
-    def inverse(self, displacement: FloatArray) -> FloatArray:
+    def inverse(self, displacement: FloatArray, free: BoolArray) -> FloatArray:
         return self.stiffness * displacement
 
 

@@ -2,22 +2,33 @@
 
 from __future__ import annotations
 
+import dataclasses
 import threading
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import scipy
 from numpy.typing import ArrayLike
 
 from bem3d import kernel
-from bem3d.checks import FloatArray, OneOrTwo, boolean, field, grid_shape, grid_spacing, positive
-from bem3d.convolution import Convolution, PlainConvolution, Planning, padded_convolution
+from bem3d.blocked_convolution import BlockedConvolution, SpectrumMemory
+from bem3d.checks import FloatArray, OneOrTwo, boolean, field, grid_shape, grid_spacing, positive, thread_count
+from bem3d.convolution import CachedConvolution, Convolution, PlainConvolution, Planning
+from bem3d.threads import cores
 
 KEEPING = threading.Lock()
+ONE_LEVEL = 512 * 512
+"""Cells up to which the preconditioner has no second level."""
+BLOCK = 16
+"""Cells along a side of the blocks of the second level; the near field reaches half as far."""
 GRIDS_KEPT = 4
 """Windows and coarser grids that a half-space keeps ready."""
+CACHED_NUMBERS = 2**16
+"""A padded spectrum of no more numbers stays in the cache as a whole: `CachedConvolution`."""
+CACHED_CELLS = 2**18
+"""A grid without padding of no more cells is transformed as a whole: `PlainConvolution`."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,6 +47,9 @@ class HalfSpace:
         Whether the surface repeats beyond the grid. By default it is free space.
     planning : {"estimate", "measure"}, optional
         Plans of the FFT: equal bits in every process, or faster transforms.
+    threads : int or "all", optional
+        Threads that share out the transforms of large grids, at the most; "all" is one for each core that this process
+        may use. They change no bit of an estimated plan.
 
     Raises
     ------
@@ -66,6 +80,7 @@ class HalfSpace:
     modulus: float
     periodic: bool = False
     planning: Planning = "estimate"
+    threads: int | Literal["all"] = dataclasses.field(default=1, compare=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "shape", grid_shape(self.shape))
@@ -74,6 +89,7 @@ class HalfSpace:
         boolean("periodic", self.periodic)
         if self.planning not in ("estimate", "measure"):
             raise ValueError(f'planning must be "estimate" or "measure", got {self.planning!r}')
+        object.__setattr__(self, "threads", thread_count("threads", self.threads))
 
     def displacement(self, pressure: ArrayLike) -> FloatArray:
         """Displacement under a pressure: one application of the operator.
@@ -124,17 +140,59 @@ class HalfSpace:
         """Pressure to displacement, u = K p."""
         if self.periodic:
             symbol = kernel.periodic_symbol(self.shape, self.steps, self.modulus)
-            return PlainConvolution(symbol, shape=self.shape, planning=self.planning)
+            return self._convolution(symbol, self.shape, self.shape)
         padded = _doubled(self.shape[0]), _doubled(self.shape[1])
         table = kernel.love_table((padded[0] // 2 + 1, padded[1] // 2 + 1), self.steps[1] / self.steps[0])
         symbol = kernel.free_space_symbol(table, self.steps, self.modulus)
-        return padded_convolution(symbol, shape=self.shape, padded=padded, planning=self.planning)
+        return self._convolution(symbol, self.shape, padded)
 
     @cached_property
     def inverse(self) -> Convolution:
         """Displacement to pressure, nearly: the preconditioner of the solvers, without padding."""
-        symbol = kernel.inverse_symbol(self.shape, self.steps, self.modulus)
-        return PlainConvolution(symbol, shape=self.shape, planning=self.planning)
+        symbol = kernel.inverse_symbol(self.shape, self.steps, self.modulus, self.near_wave)
+        return self._convolution(symbol, self.shape, self.shape)
+
+    def _convolution(self, symbol: FloatArray, shape: tuple[int, int], padded: tuple[int, int]) -> Convolution:
+        """The fastest for this grid."""
+        if padded == shape and padded[0] * padded[1] <= CACHED_CELLS:
+            return PlainConvolution(symbol, shape=shape, planning=self.planning)
+        if padded != shape and padded[0] * (padded[1] // 2 + 1) <= CACHED_NUMBERS:
+            return CachedConvolution(symbol, shape=shape, padded=padded, planning=self.planning)
+        return BlockedConvolution(
+            symbol,
+            shape=shape,
+            padded=padded,
+            planning=self.planning,
+            threads=cores() if self.threads == "all" else self.threads,
+            memory=self._memory,
+        )
+
+    @property
+    def has_far_field(self) -> bool:
+        """Whether the preconditioner has a second level: on grids that are large enough to gain by it."""
+        return self.shape[0] * self.shape[1] > ONE_LEVEL
+
+    @property
+    def near_wave(self) -> float:
+        """q_c, below which the preconditioner leaves waves to the far field; without one q_0 [rad/m]."""
+        if self.has_far_field:
+            return 2 / (BLOCK * max(self.steps))
+        sides = (n * step for n, step in zip(self.shape, self.steps, strict=True))
+        return kernel.WAVE_OF_UNIFORM_PRESSURE * 2 * np.pi / max(sides)
+
+    @cached_property
+    def far(self) -> Convolution:
+        """Sums of pressure over blocks of cells to the far field of the displacement, on the blocks."""
+        blocks = -(-self.shape[0] // BLOCK), -(-self.shape[1] // BLOCK)
+        steps = self.shape[0] / blocks[0] * self.steps[0], self.shape[1] / blocks[1] * self.steps[1]
+        if self.periodic:
+            symbol = kernel.far_periodic_symbol(blocks, steps, self.modulus, self.near_wave)
+            symbol *= self.cell_area / (steps[0] * steps[1])
+            return self._convolution(symbol, blocks, blocks)
+        padded = _doubled(blocks[0]), _doubled(blocks[1])
+        table = kernel.far_table((padded[0] // 2 + 1, padded[1] // 2 + 1), steps, self.near_wave)
+        symbol = kernel.free_space_symbol(table, (self.cell_area, 0.0), self.modulus)
+        return self._convolution(symbol, blocks, padded)
 
     def like(self, *, shape: tuple[int, int], spacing: OneOrTwo | None = None) -> HalfSpace:
         """Half-space of the same material on another grid. The last few are kept, with their plans."""
@@ -147,6 +205,16 @@ class HalfSpace:
             while len(self._relatives) > GRIDS_KEPT:
                 del self._relatives[next(iter(self._relatives))]
         return kept
+
+    def release(self, relative: HalfSpace) -> None:
+        """Keep a relative no longer, if it is so large that its plans cost less than their memory."""
+        if relative.shape[0] * relative.shape[1] > CACHED_CELLS:
+            with KEEPING:
+                self._relatives.pop(relative, None)
+
+    @cached_property
+    def _memory(self) -> SpectrumMemory:
+        return SpectrumMemory()
 
     @cached_property
     def _relatives(self) -> dict[HalfSpace, HalfSpace]:

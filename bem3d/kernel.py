@@ -8,6 +8,8 @@ from bem3d.checks import FloatArray
 
 WAVE_OF_UNIFORM_PRESSURE = 0.3
 """The wave, as a part of the longest, to whose pressure a contact yields about as to a uniform one."""
+ROWS_AT_ONCE = 256
+"""Rows of a table that are computed at a time."""
 
 
 def corner(x: ArrayLike, y: ArrayLike) -> FloatArray:
@@ -39,7 +41,11 @@ def love_table(cells: tuple[int, int], aspect: float) -> FloatArray:
     """
     x = np.arange(cells[0] + 1)[:, np.newaxis] - 0.5
     y = aspect * (np.arange(cells[1] + 1)[np.newaxis, :] - 0.5)
-    return np.diff(np.diff(corner(x, y), axis=0), axis=1)
+    table = np.empty(cells)
+    # a large table is not there several times at once
+    for i in range(0, cells[0], ROWS_AT_ONCE):
+        table[i : i + ROWS_AT_ONCE] = np.diff(np.diff(corner(x[i : i + ROWS_AT_ONCE + 1], y), axis=0), axis=1)
+    return table
 
 
 def free_space_symbol(table: FloatArray, spacing: tuple[float, float], modulus: float) -> FloatArray:
@@ -47,9 +53,11 @@ def free_space_symbol(table: FloatArray, spacing: tuple[float, float], modulus: 
 
     table: `love_table` of shape (m, n) for the padded grid of (2m - 2, 2n - 2) points. With at least 2n - 1 points
     a side, no cell meets the image of another. The kernel is even along both axes, so its transform is a cosine
-    transform of one quadrant, of the same shape.
+    transform of one quadrant, of the same shape, in whose memory it stands afterwards.
     """
-    return np.asarray(spacing[0] / (np.pi * modulus) * scipy.fft.dctn(table, type=1))
+    symbol = np.asarray(scipy.fft.dctn(table, type=1, overwrite_x=True))
+    symbol *= spacing[0] / (np.pi * modulus)
+    return symbol
 
 
 def periodic_symbol(shape: tuple[int, int], spacing: tuple[float, float], modulus: float) -> FloatArray:
@@ -64,17 +72,32 @@ def periodic_symbol(shape: tuple[int, int], spacing: tuple[float, float], modulu
     return np.asarray(2 / (modulus * q))
 
 
-def inverse_symbol(shape: tuple[int, int], spacing: tuple[float, float], modulus: float) -> FloatArray:
+def far_table(blocks: tuple[int, int], spacing: tuple[float, float], wave: float) -> FloatArray:
+    """(1 - exp(-q_c r)) / r at the centres of the blocks of a quadrant [1/m]: `love` over dA without its near field."""
+    r = np.hypot(spacing[0] * np.arange(blocks[0])[:, np.newaxis], spacing[1] * np.arange(blocks[1]))
+    r[0, 0] = np.inf
+    table = -np.expm1(-wave * r) / r
+    table[0, 0] = wave
+    return np.asarray(table)
+
+
+def far_periodic_symbol(
+    shape: tuple[int, int], spacing: tuple[float, float], modulus: float, wave: float
+) -> FloatArray:
+    """2 / E* (1/|q| - 1 / sqrt(q^2 + q_c^2)), its quadrant [m/Pa]."""
+    q = wavenumbers(shape, spacing)
+    q[0, 0] = np.inf
+    return np.asarray(2 / modulus * (1 / q - 1 / np.hypot(q, wave)))
+
+
+def inverse_symbol(shape: tuple[int, int], spacing: tuple[float, float], modulus: float, wave: float) -> FloatArray:
     """E*/2 sqrt(q^2 + q_0^2), the quadrant of a symbol that nearly inverts the half-space [Pa/m].
 
     q_0 is a part of 2 pi over the longer side: a half-space in free space yields to a uniform pressure as if to a wave
     longer than the grid. Without padding its images touch, which a preconditioner may ignore.
     Source: the inverse of Stanley and Kato's symbol, as used by Vollebregt, J. Comput. Phys. 257 (2014) 269.
     """
-    longest = max(shape[0] * spacing[0], shape[1] * spacing[1])
-    return np.asarray(
-        modulus / 2 * np.hypot(wavenumbers(shape, spacing), WAVE_OF_UNIFORM_PRESSURE * 2 * np.pi / longest)
-    )
+    return np.asarray(modulus / 2 * np.hypot(wavenumbers(shape, spacing), wave))
 
 
 def wavenumbers(shape: tuple[int, int], spacing: tuple[float, float]) -> FloatArray:

@@ -22,6 +22,7 @@ def initial_guess_from_coarse_grids(problem: Problem, max_iterations: int) -> tu
     start, levels = initial_guess_from_coarse_grids(coarse, max_iterations)
     attempt = solve_on_window(coarse, start, COARSE_TOLERANCE * min(start.error, 1.0), max_iterations)
     levels = (*levels, (coarse.half_space.shape, attempt.operator_applications))
+    problem.half_space.release(coarse.half_space)
     pressure = prolong(attempt.pressure, problem.half_space)
     overlap = attempt.overlap + coarse.first_touch - problem.first_touch
     if not np.isfinite(overlap) or not np.isfinite(pressure).all() or not pressure.any():

@@ -140,8 +140,8 @@ class Operator(Protocol):
     def displacement(self, pressure: FloatArray) -> FloatArray:
         """u = K p."""
 
-    def inverse(self, displacement: FloatArray) -> FloatArray:
-        """Nearly the pressure that makes this displacement, were it zero elsewhere."""
+    def inverse(self, displacement: FloatArray, free: BoolArray) -> FloatArray:
+        """Nearly the pressure on the free cells that makes this displacement."""
 
 
 def projected_cg(
@@ -186,7 +186,7 @@ def _downhill(
     """The first of three steps that gains energy: conjugate, preconditioned, plain. None if none does."""
     free = (pressure > 0) | (w < 0)
     downhill = -w * free
-    preconditioned = length * load.balanced(cells.inverse(downhill) * free, pressure)
+    preconditioned = length * load.balanced(cells.inverse(downhill, free) * free, pressure)
     step = _step(memory.improve(preconditioned, downhill), pressure, w, free, load)
     if not step.gain > 0:
         memory.forget()

@@ -149,7 +149,7 @@ def _pressing(
     """From a pressure that pulls somewhere, one preconditioned step to one that does not, and its separation."""
     w = separation - load.overlap_of(pressure, separation)
     free = (pressure > 0) | (w < 0)
-    step = FIRST_STEP * load.balanced(cells.inverse(-w * free), pressure)
+    step = FIRST_STEP * load.balanced(cells.inverse(-w * free, free), pressure)
     pressing = np.maximum((pressure + step) * free, 0.0)
     if load.total is not None and not pressing.any():
         pressing[:] = 1.0

@@ -149,7 +149,7 @@ def _conjugate_gradients(
     box = smallest_box(half_space, contact)
     inside = contact[box]
     cells = Candidates(half_space.like(shape=(inside.shape[0], inside.shape[1])), inside)
-    remainder = np.ones(np.count_nonzero(inside))
+    remainder, everywhere = np.ones(np.count_nonzero(inside)), np.ones(np.count_nonzero(inside), dtype=np.bool_)
     pressure = np.zeros(remainder.size) if start is None else cells.compress(start[box])
     applications = 0
     if pressure.any():
@@ -158,7 +158,7 @@ def _conjugate_gradients(
     direction, along_before = np.zeros(remainder.size), 1.0
     history = [_length(remainder)]
     while history[-1] > tolerance and len(history) <= max_iterations:
-        preconditioned = cells.inverse(remainder)
+        preconditioned = cells.inverse(remainder, everywhere)
         along = dot(remainder, preconditioned)
         direction = preconditioned + along / along_before * direction
         yielding = cells.displacement(direction)

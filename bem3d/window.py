@@ -3,6 +3,7 @@
 import numpy as np
 
 from bem3d.checks import BoolArray, FloatArray
+from bem3d.far_field import FarField
 from bem3d.halfspace import HalfSpace
 
 Box = tuple[slice, slice]
@@ -47,6 +48,7 @@ class Candidates:
         self._direct, self._inverse = half_space.convolution, half_space.inverse
         self._in_direct = self._direct.places(self._cells)
         self._in_inverse = self._inverse.places(self._cells)
+        self._far = FarField(half_space, self._cells, self._near) if half_space.has_far_field else None
 
     @property
     def stiffness(self) -> float:
@@ -57,8 +59,11 @@ class Candidates:
         """u = K p."""
         return self._direct.at(self._in_direct, pressure)
 
-    def inverse(self, displacement: FloatArray) -> FloatArray:
-        """Nearly the pressure that makes this displacement, were it zero elsewhere."""
+    def inverse(self, displacement: FloatArray, free: BoolArray) -> FloatArray:
+        """Nearly the pressure on the free cells that makes this displacement."""
+        return self._near(displacement) if self._far is None else self._far(displacement, free)
+
+    def _near(self, displacement: FloatArray) -> FloatArray:
         return self._inverse.at(self._in_inverse, displacement)
 
     def compress(self, field: FloatArray) -> FloatArray:

@@ -80,7 +80,8 @@ def _press_window(
     while True:
         # the force is held to the last digit, which many small steps would lose
         pressure = load.scaled(pressure)
-        separation = near + window.apply(pressure)
+        separation = window.apply(pressure)
+        separation += near
         attempt.operator_applications += 1
         attempt.overlap = load.overlap_of(pressure, separation)
         w = separation - attempt.overlap
@@ -93,7 +94,11 @@ def _press_window(
             attempt.status = Status.STAGNATION
         if attempt.status is not None:
             break
-        pressure = _iterate(Candidates(window, marked), pressure, separation, load, attempt, tolerance, max_iterations)
+        cells = Candidates(window, marked)
+        start = cells.compress(pressure), cells.compress(separation)
+        # fields of a large grid, which the iteration does not need
+        del pressure, separation, w
+        pressure = cells.spread(_iterate(cells, *start, load, attempt, tolerance, max_iterations))
     attempt.pressure = np.zeros(problem.half_space.shape)
     attempt.pressure[box] = pressure
 
@@ -108,7 +113,7 @@ def _iterate(
     max_iterations: int,
 ) -> FloatArray:
     """The pressure at which the running residual on the candidate cells is small enough, or nothing more is gained."""
-    states = projected_cg(cells, cells.compress(pressure), cells.compress(separation), load)
+    states = projected_cg(cells, pressure, separation, load)
     state = next(states)
     best, since = state.residual, 0
     for state in states:
@@ -119,7 +124,7 @@ def _iterate(
             break
     # only a fresh application decides how it has ended
     attempt.status = None
-    return cells.spread(state.pressure)
+    return state.pressure
 
 
 def contact_candidates(pressure: FloatArray, w: FloatArray) -> BoolArray:

@@ -158,7 +158,8 @@ def test_numerics_neither_print_nor_write():
             node.func.id for node in nodes(source) if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
         }
         assert not calls & {"print", "open"}, source
-        assert not rooms(source) & {"os", "pathlib", "logging"}, source
+        assert not rooms(source) & {"pathlib", "logging"}, source
+        assert "os" not in rooms(source) or source.name == "threads.py", source
         assert "warnings" not in rooms(source) or source.name == "diagnostics.py", source
         assert not re.search(r"\bstd(out|err)\b", source.read_text()) or source.name == "progress.py", source
 

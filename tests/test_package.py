@@ -60,7 +60,7 @@ def test_the_wheel_has_all_files_of_the_packages(wheel):
     }
     found = {name: data for name, data in files(wheel).items() if ".dist-info" not in name}
     assert found == expected
-    assert {Path(name).suffix for name in found} >= {".py", ".pyi", ".typed", ".html", ".css", ".toml", ".csv"}
+    assert {Path(name).suffix for name in found} >= {".py", ".pyi", ".typed", ".html", ".css", ".toml", ".csv", ".npz"}
 
 
 def test_the_sdist_builds_the_same_wheel(wheel, tmp_path):

@@ -40,7 +40,8 @@ def test_patience_ends_where_the_residual_has_not_halved(monkeypatch):
         monkeypatch.setattr(module, "projected_cg", forever)
     half_space, field = bem3d.HalfSpace(shape=(4, 4), spacing=1.0, modulus=1.0), np.ones((4, 4))
     attempt = window_solve.IterationState(np.zeros((4, 4)), 0.0)
-    window_solve._iterate(Candidates(half_space, field > 0), field, field, Load(overlap=1.0), attempt, 1e-9, 10**6)
+    cells, vector = Candidates(half_space, field > 0), np.ones(16)
+    window_solve._iterate(cells, vector, vector, Load(overlap=1.0), attempt, 1e-9, 10**6)
     track = bem3d.Track(height=np.zeros((40, 40)), spacing=1 / 8, radius=1.0, modulus=1.0)
     on_frame = solve_on(rolling_solve.Frame(track, ((0, 4), (18, 22))))
     on_frame._iterated(field > 0, field, field)
@@ -63,7 +64,7 @@ def rounds_of_press(monkeypatch, errors):
     """Of a punch with a flat face, which all cells touch: iterations that leave an error of so much, in turn."""
     half_space, depth = bem3d.HalfSpace(shape=(4, 4), spacing=1.0, modulus=1.0), 1.0
     exact = np.linalg.solve(oracles.dense_operator(half_space), np.full(16, depth)).reshape(4, 4)
-    monkeypatch.setattr(window_solve, "_iterate", lambda *_: (1 + next(errors)) * exact)
+    monkeypatch.setattr(window_solve, "_iterate", lambda *_: (1 + next(errors)) * exact.ravel())
     problem = bem3d.problem.Problem(half_space=half_space, gap=np.zeros((4, 4)), approach=depth)
     attempt = window_solve.solve_on_window(problem, window_solve.InitialGuess((1 + next(errors)) * exact), 1e-6, 99)
     return attempt.operator_applications, str(attempt.status)

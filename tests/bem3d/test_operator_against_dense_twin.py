@@ -1,5 +1,6 @@
 """The FFT operator against a matrix written out cell by cell, and the kernel against quadrature."""
 
+import dataclasses
 import pickle
 
 import numpy as np
@@ -9,13 +10,21 @@ from hypothesis import strategies as st
 from scipy import integrate
 
 import bem3d
-from bem3d import convolution, kernel
+from bem3d import blocked_convolution, halfspace, kernel
 from tests.oracles import dense_operator, love_by_logarithms
 from tests.strategies import half_spaces
 
 
 def random_pressure(half_space, seed):
     return np.random.default_rng(seed).standard_normal(half_space.shape)
+
+
+def in_blocks(patch, columns, numbers):
+    """So many columns, and numbers in rows, at a time, on the smallest grids."""
+    patch.setattr(halfspace, "CACHED_NUMBERS", 0)
+    patch.setattr(halfspace, "CACHED_CELLS", 0)
+    patch.setattr(blocked_convolution, "COLUMNS_AT_ONCE", columns)
+    patch.setattr(blocked_convolution, "NUMBERS_AT_ONCE", numbers)
 
 
 def assert_dense(half_space, seed):
@@ -32,21 +41,24 @@ def test_displacement(half_space, seed):
 
 
 @pytest.mark.slow
-@given(half_space=half_spaces(most=8, periodic=False), seed=st.integers(0, 1000), at_once=st.integers(1, 5))
-def test_displacement_by_some_columns_at_a_time(half_space, seed, at_once):
-    """However many; the last block has fewer."""
+@given(
+    half_space=half_spaces(most=8),
+    seed=st.integers(0, 1000),
+    columns=st.integers(1, 5),
+    numbers=st.integers(1, 60),
+    threads=st.integers(1, 3),
+)
+def test_displacement_by_blocks(half_space, seed, columns, numbers, threads):
+    """However many columns and rows they have, and the last of them fewer; by any threads."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(convolution, "CACHED_NUMBERS", 0)
-        patch.setattr(convolution, "COLUMNS_AT_ONCE", at_once)
-        assert_dense(half_space, seed)
+        in_blocks(patch, columns, numbers)
+        assert_dense(dataclasses.replace(half_space, threads=threads), seed)
 
 
 @pytest.mark.parametrize("n", [256, 512, 1024])
 def test_rows_of_a_block_of_columns_are_not_a_power_of_two_apart(n):
     """Or they would share a few places of the cache, and displace each other."""
-    symbol, padded = np.ones((n + 1, n + 1)), (2 * n, 2 * n)
-    columns = convolution.padded_convolution(symbol, shape=(2, n), padded=padded, planning="estimate")._columns
-    apart = columns.strides[0] // columns.itemsize
+    apart = blocked_convolution.blocks(n + 1, blocked_convolution.COLUMNS_AT_ONCE)[0].stop
     assert apart & (apart - 1), f"{apart} numbers"
 
 

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import bem3d
-from bem3d import convolution
+from bem3d.blocked_convolution import BlockedConvolution
+from bem3d.convolution import CachedConvolution
 from validation.theory.rolling import linear_force, response
 
 TOLERANCE = 1e-6
@@ -261,9 +262,9 @@ def test_wherever_the_wheel_goes_each_position_is_that_of_a_cold_solve(walk):
 def test_applications_are_counted(by, monkeypatch):
     """All of them, whether on a frame or on a window of it; but for one that scales the first pressure."""
     calls = []
-    for kind in (convolution.CachedConvolution, convolution.PaddedConvolution):
+    for kind in (CachedConvolution, BlockedConvolution):
         apply = kind._convolve
-        monkeypatch.setattr(kind, "_convolve", lambda self, apply=apply: calls.append(apply(self)))
+        monkeypatch.setattr(kind, "_convolve", lambda *given, apply=apply: calls.append(apply(*given)))
     wheel = bem3d.RollingContact(bem3d.Track(height=bumpy(row=3), spacing=1 / 6, **SPHERE), tolerance=TOLERANCE)
     for position in range(20):
         calls.clear()

@@ -1,6 +1,7 @@
 """The solver comparison: the same for all solvers, a row for each, and true where other packages are installed."""
 
 import dataclasses
+import math
 import os
 import time
 from functools import cache
@@ -15,8 +16,9 @@ from validation.benchmarks import isolation as alone
 from validation.benchmarks import peers, timing
 from validation.benchmarks import solvers as comparison
 from validation.benchmarks.judging.discrete import ContactProblem, pressed
-from validation.benchmarks.peers import OURS, SOLVERS, PeerSolver
-from validation.benchmarks.solvers import AREA, CASE, FORCE, PRESSURE, SurfaceProblem
+from validation.benchmarks.peers import OURS, SOLVERS, PeerSolver, is_ours
+from validation.benchmarks.solvers import AREA, CASE, FORCE, PRESSURE
+from validation.benchmarks.surface_problem import SurfaceProblem
 from validation.benchmarks.timing import TimedProblem
 from validation.simulation.method import Result
 
@@ -250,3 +252,31 @@ def test_where_tamaas_has_no_answer_another_contact_stands_in(gap, periodic, sha
     n, m = p.shape
     assert q.shape == shape and q[:n, :m] == pytest.approx(p, rel=1e-8)
     assert q.sum() == pytest.approx((1 + periodic) * p.sum())
+
+
+def test_on_large_grids_solvers_that_share_their_work_out_have_threads_too():
+    """With the same bits; the speed is that of the faster of ours."""
+    (problem,) = (one for one in comparison.SolverComparison(cells=(), large=(40,)).problems() if not one.periodic)
+    outcome = comparison.time_problem(dataclasses.replace(RUN, problem=dataclasses.replace(problem, threads=2)))
+    rows = {row["solver"]: row for row in comparison.rows_of(outcome)}
+    assert rows["bem3d, 2 threads"]["status"] == "finished" and rows["bem3d, 2 threads"][PRESSURE] == 0
+    slower = {**rows, "bem3d": {**rows["bem3d"], "median [s]": 10.0, "low [s]": 9.0, "high [s]": 11.0}}
+    (number,) = numbers_of(comparison._speed([comparison._finished(list(slower.values()))]))
+    rival = min(row["median [s]"] for name, row in rows.items() if not is_ours(name) and row["status"] == "finished")
+    assert number.value == pytest.approx(rows["bem3d, 2 threads"]["median [s]"] / rival)
+
+
+def test_who_would_take_minutes_on_the_next_grid_is_left_out():
+    """Times the cells, from the grid before; who was left out, failed or is not installed is not expected anew."""
+    case = comparison.SolverComparison(cells=(64,), large=(128, 256))
+    *_, first, last = (dataclasses.replace(one, threads=2) for one in case.problems() if not one.periodic)
+    known = {"bem3d": 1.0, "bem3d, Polonsky-Keer": 9.0, "tamaas": 11.0, "ContactMechanics": math.nan}
+    rows = [
+        {"name": first.name, "cells": 64, "solver": solver, "median [s]": median, "status": "finished"}
+        for solver, median in known.items()
+    ]
+    rows[-1]["status"] = comparison.NOT_INSTALLED
+    assert comparison.too_slow(first, [rows]) == ("tamaas", "tamaas, 2 threads")
+    left = [{**row, "cells": 128, "status": comparison.TOO_LONG, "median [s]": math.nan} for row in rows[2:3]]
+    assert comparison.too_slow(last, [rows, left]) == ("tamaas", "tamaas, 2 threads")
+    assert comparison.too_slow(first, []) == ()

@@ -90,6 +90,39 @@ def test_a_file_is_run_with_its_folder_and_its_printing_is_caught(tmp_path, capf
         assert visitor.digest != before
 
 
+READS = """
+from pathlib import Path
+import numpy as np
+HERE = Path(__file__).parent
+A = float((HERE / "a.txt").read_text())
+@stiffness_model('a name')
+def bad(load):
+    (HERE / "log.txt").open("a").write("called")
+    np.savetxt(HERE / "scratch.txt", [load])
+    return A * np.loadtxt(HERE / "b" / "c.csv") * np.loadtxt(HERE / "scratch.txt")
+"""
+
+
+@pytest.mark.parametrize("place", ["mine", "link", "link/../mine"])
+def test_data_that_a_file_reads_from_its_folder_belong_to_it_and_what_it_writes_does_not(place, tmp_path):
+    """Read when it is loaded, or when it is called."""
+    folder = tmp_path / "mine"
+    (folder / "b").mkdir(parents=True)
+    (tmp_path / "link").symlink_to(folder)
+    (folder / "bad.py").write_text(FACE + READS)
+    (folder / "b" / "c.csv").write_text("3.0")
+    os.utime(folder / "b" / "c.csv", (2**32, 2**32))  # a clock that is ahead
+    digests = []
+    for a in (2.0, 2.0, 2.5):
+        (folder / "a.txt").write_text(str(a))
+        with Visitor(tmp_path / place / "bad.py") as visitor:
+            assert [source.name for source in visitor.sources] == ["a.txt", "bad.py"]
+            assert visitor.callers()[0].call(load=2.0) == 6 * a
+            assert [source.name for source in visitor.sources] == ["a.txt", "c.csv", "bad.py"]
+            digests.append(visitor.digest)
+    assert digests[0] == digests[1] != digests[2]
+
+
 BROKEN = {
     "x = 1\n": "bad.py: no function has a decorator, which is one of @stiffness_model, ",
     "def f(:\n": r"bad.py: SyntaxError: ",

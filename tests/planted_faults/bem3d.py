@@ -9,8 +9,10 @@ import scipy
 
 import bem3d
 from bem3d import (
+    blocked_convolution,
     contact,
     convolution,
+    far_field,
     few_cells,
     halfspace,
     kernel,
@@ -36,12 +38,15 @@ from tests.bem3d import test_load_paths as paths
 from tests.bem3d import test_operator_against_dense_twin as dense_twin
 from tests.bem3d import test_rolling_contact as rolled
 from tests.bem3d import test_rolling_frame as frames
+from tests.bem3d import test_second_level as levels
+from tests.bem3d import test_threads as threaded
 from tests.bem3d import test_transverse_profile as profiles
 from tests.bem3d import test_warnings as doubts
 from tests.bem3d import test_windows_and_starts as windows
 from tests.planted_faults.wrong import E_FOR_E_STAR, Fault, Times
 from validation.theory import closed_forms
 
+blocks, share = blocked_convolution.blocks, blocked_convolution.share
 periodic_symbol = kernel.periodic_symbol
 
 
@@ -108,6 +113,16 @@ def yielding_mean_plane(shape, spacing, modulus):
 
 
 FAULTS = [
+    partial(levels.test_far_away_a_block_is_felt_as_the_pressure_on_it, 1.0),
+    Fault("a far field of half the blocks").at(kernel, "far_table", Times(0.5)),
+    levels.test_waves_of_a_period_are_near_or_far,
+    Fault("a far field that is all of K").at(
+        kernel, "far_periodic_symbol", lambda shape, steps, modulus, _: periodic_symbol(shape, steps, modulus)
+    ),
+    partial(levels.test_work_on_a_contact_does_not_grow_with_the_grid, False),
+    Fault("a near field alone").at(far_field.FarField, "_settled", lambda self, pressed, stiffness: 0 * pressed),
+    levels.test_the_system_on_the_blocks_is_solved_within_its_accuracy,
+    Fault("one step on the blocks").at(far_field, "MOST_STEPS", 1),
     partial(interfaces.test_a_wave_has_the_stiffness_and_the_approach_of_westergaard, 0.3),
     Fault("a mean plane of a periodic half-space that yields").at(kernel, "periodic_symbol", yielding_mean_plane),
     partial(interfaces.test_the_stiffness_of_an_interface_is_what_closes_its_mean_gap, 5e-3),
@@ -152,11 +167,22 @@ FAULTS = [
     rates.test_wave_pressure_at_first_order,
     Fault("pi lost in the pressure that closes a wave").at(closed_forms, "westergaard_full_pressure", Times(1 / np.pi)),
     Fault("factor 2 lost in the periodic symbol").at(kernel, "periodic_symbol", Times(0.5)),
-    dense_twin.test_displacement_by_some_columns_at_a_time,
-    Fault("a symbol that repeats instead of mirroring").at(convolution, "_halfplane", repeated),
+    dense_twin.test_displacement_by_blocks,
+    Fault("blocks of rows that leave one out").at(
+        blocked_convolution, "blocks", lambda length, most: blocks(length, most)[:-1] or blocks(length, most)
+    ),
     partial(dense_twin.test_rows_of_a_block_of_columns_are_not_a_power_of_two_apart, 1024),
-    Fault("columns a power of two apart").at(convolution, "COLUMNS_AT_ONCE", 32),
+    Fault("columns a power of two apart").at(blocked_convolution, "COLUMNS_AT_ONCE", 32),
+    threaded.test_memory_of_the_operators,
+    Fault("a spectrum for each convolution").at(
+        halfspace.HalfSpace, "_memory", property(lambda body: blocked_convolution.SpectrumMemory())
+    ),
+    partial(threaded.test_bits_of_a_displacement_are_equal_for_any_threads, False),
+    Fault("threads that share a buffer").at(
+        blocked_convolution, "share", lambda work, blocks, buffers: share(work, blocks, [buffers[0]] * len(buffers))
+    ),
     dense_twin.test_displacement,
+    Fault("a symbol that repeats instead of mirroring").at(convolution, "_halfplane", repeated),
     # 2n - 2 points would do, since the kernel is even: the two farthest distances may share a point
     Fault("padding two points short").at(
         halfspace, "_doubled", lambda points: max(points + points % 2, 2 * points - 4)

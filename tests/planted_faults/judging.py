@@ -14,7 +14,7 @@ from validation.selection.judging import laws, own, stiffness, sweeps
 from validation.selection.judging.judge import ModelAnswer
 from validation.simulation.rough_punch import PlateauSpectrum
 
-given, verdict_of, swept_by = stiffness.AskedPunch.arguments.fget, judgement.verdict_of, sweeps._swept
+given, verdict_of = stiffness.AskedPunch.arguments.fget, judgement.verdict_of
 
 
 def under_twice_the_load(asked):
@@ -29,13 +29,10 @@ def without_the_error_of_the_sample(values):
     return stiffness.Stiffness(ModelAnswer(np.mean(values)), ModelAnswer(np.std(values) / np.mean(values)))
 
 
-def of_the_last_point(model, quantity, along, at, ratio, grid=0.0):
-    yield from swept_by(model, quantity, along, at[:1] * len(at), ratio, grid)
-
-
+STAYING = {kind: [one._replace(at=one.at[:1] * len(one.at)) for one in some] for kind, some in sweeps.SWEEPS.items()}
 FAULTS = [
     partial(test_judged_ends.test_where_a_model_breaks_is_found, *test_judged_ends.WRONG[5]),
-    Fault("a sweep that stays where it begins").at(sweeps, "_swept", of_the_last_point),
+    Fault("a sweep that stays where it begins").at(sweeps, "SWEEPS", STAYING),
     test_judged_ends.test_a_warning_stands_beside_the_number,
     Fault("a warning that is not heard").at(others.Called, "warned", property(lambda called: "")),
     partial(test_judged_ends.test_where_a_model_breaks_is_found, *test_judged_ends.WRONG[-1]),

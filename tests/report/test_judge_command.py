@@ -6,14 +6,18 @@ import re
 import subprocess
 import sys
 from dataclasses import replace
+from functools import partial
 
 import pytest
 
 import validation
 from validation.__main__ import main
-from validation.analysis.judgement import compared, not_compared
+from validation.analysis.judgement import LEVEL, compared, not_compared
+from validation.benchmarks.judging.judged import SolverTime
 from validation.report import judged
 from validation.report.judged_figure import figure_of
+from validation.report.judged_words import paragraph
+from validation.selection.judging.own import ErrorOfCall
 
 SERIES = """
 from validation import stiffness_model
@@ -54,10 +58,17 @@ def test_a_formula_is_judged_and_written(file, tmp_path, capsys):
     assert [row["verdict"] for row in rows] == [p["verdict"] for p in found["verdicts"]]
     assert places[2].read_bytes()[1:4] == b"PNG"
     assert "H = 0.7                          ########=====  yes 0.464 to 10; no 0.001 to 0.215" in printed
-    assert "Its mean stiffness is within 10 % for Fbar = 0.464 to 10 at every H." in " ".join(printed.split())
+    said = " ".join(printed.split())
+    assert "compared with boundary elements, the references of mdr-validation" in said
+    assert "A number is within 10 % where its whole 95 % interval is, by the errors of both." in said
+    assert "Its mean stiffness is within 10 % for Fbar = 0.464 to 10 at every H (compared: H = 0.4, 0.55, 0.7, " in said
+    assert "1; Fbar = 0.001 to 10)." in said
     assert "They share: Fbar up to 0.00215" in printed
     names = {path.name for path in (tmp_path / "out").iterdir()}
-    assert names == {"judgement.json", "verdicts.csv", "summary.txt", "judgement.svg"}
+    assert names == {"judgement.json", "verdicts.csv", "summary.txt", "judgement.svg", "costs.csv"}
+    costs = list(csv.DictReader((tmp_path / "out" / "costs.csv").read_text().splitlines()))
+    assert [(cost["model"], cost["unit"]) for cost in costs] == [("in series", "-"), ("springs", "-")]
+    assert all(0 < float(cost["error"]) < 1 and 0 < float(cost["seconds"]) < 10 for cost in costs)
     assert (tmp_path / "out" / "summary.txt").read_text().splitlines()[2:] == printed.splitlines()[2:-1]
 
 
@@ -187,6 +198,31 @@ def test_a_figure_has_a_form():
     with pytest.raises(ValueError, match="a figure must be one of svg, png, pdf, got 'gif'"):
         figure_of([solver(RIGHT)], "gif")
     assert b"<svg" in figure_of([solver(RIGHT)], "svg")
+
+
+def test_a_paragraph_says_beside_what_how_near_and_over_which_conditions():
+    """Of levels in decibels; of points apart how many are near."""
+    level = partial(compared, value=1.0, half_width=0.1, tolerance=0.1, unit=LEVEL)
+    places = [{"wheel": f"wheel {i}", "alpha": a} for i in range(13) for a in (0.0, 0.5)]
+    filters = [level("contact filter", where, reference=1 + 4 * where["alpha"]) for where in places]
+    regions = [level("level", {"region": f"region {i}"}, reference=1.1) for i in (1, 2)]
+    said = paragraph(judged.Judgement("mine", "contact_law", judged.tolerance_of(0.1), (*filters, *regions), 1.0))
+    assert "compared with springs (MDR) under a wheel with a mass" in said
+    assert (
+        "Its contact filter is within 0.83 dB at 13 of 26 points (compared: 13 values of wheel; alpha = 0, 0.5)" in said
+    )
+    assert "Its level is within 0.83 dB at 2 of 2 points (compared: region 1, region 2)." in said
+
+
+def test_seconds_are_drawn_with_plain_ticks():
+    """Two errors within a tenth of a decade have a tick; a solver and ours are two curves."""
+    costs = tuple(ErrorOfCall(name, error, "dB", 1e-5) for name, error in (("mine", 5.9), ("other", 6.1)))
+    near = judged.Judgement("mine", "contact_filter", judged.tolerance_of(0.1), (), 1.0, costs=costs)
+    timed = replace(solver(RIGHT), times=(SolverTime(32.0, 0.1, 0.2), SolverTime(64.0, 0.4, 0.6)))
+    drawn = figure_of([near, timed], "svg").decode()
+    for text in ("median error [dB]", "seconds, one thread", "bem3d", "other"):
+        assert text in drawn
+    assert re.search(r">\s*5\s*<", drawn) and "×" not in drawn and "10^" not in drawn
 
 
 @pytest.mark.slow

@@ -1,8 +1,6 @@
 """`judge` of a file with a contact solver: its exit status, and what a person reads."""
 
-import itertools
 import json
-from pathlib import Path
 
 import pytest
 
@@ -35,11 +33,12 @@ def test_a_solver_ends_with_what_it_is(tmp_path, capsys, monkeypatch, body, stat
     """Its times are a list of their own: they are no verdicts."""
     monkeypatch.setattr(solvers, "GRIDS", (24,))
     (tmp_path / "mine.py").write_text(HEAD + body)
-    files = {f"--{kind}": str(tmp_path / f"mine.{kind}") for kind in ("json", "csv")}
-    assert main(["judge", str(tmp_path / "mine.py"), *itertools.chain(*files.items())]) == status
+    out = tmp_path / "out"
+    assert main(["judge", str(tmp_path / "mine.py"), "--out", str(out)]) == status
     printed = capsys.readouterr().out
     assert said in printed and ("24²" in printed) == (status != 3)
-    written = json.loads(Path(files["--json"]).read_text())
+    written = json.loads((out / "judgement.json").read_text())
     assert {point["verdict"] for point in written["verdicts"]} <= {"agree", "differ", "failed"}
     assert [set(time) for time in written.get("times", [])] == [{"cells", "seconds", "bem3d"}] * (status != 3)
-    assert ("time beside bem3d" in Path(files["--csv"]).read_text()) == (status != 3)
+    times = out / "costs.csv"
+    assert times.exists() == (status != 3) and (status == 3 or times.read_text().startswith("cells,seconds,bem3d\n24,"))

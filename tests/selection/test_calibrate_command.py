@@ -7,7 +7,7 @@ import pytest
 
 from validation.__main__ import main
 from validation.report.commands import calibrate as command
-from validation.selection import calibrate, calibration_answers
+from validation.selection import calibrate
 from validation.selection.calibrate import CalibrationRun, as_table, check_installable, install
 from validation.selection.calibration_answers import Answers, answers_in, as_file, merged
 from validation.selection.calibration_scenes import CalibrationScene
@@ -25,7 +25,7 @@ def here(tmp_path, monkeypatch):
     before = calibration.TABLE.read_bytes()
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(calibrate, "measure_errors", made_up)
-    monkeypatch.setattr(calibration_answers, "reference_answer", answered)
+    monkeypatch.setattr(calibrate, "reference_answer", answered)
     monkeypatch.setattr(command, "ANSWERS", tmp_path / "package" / "calibration_answers.npz")
     SOLVED.clear()
     yield
@@ -198,8 +198,8 @@ def test_answers_of_several_bands_are_read_as_they_were_written(tmp_path):
     (tmp_path / "answers.npz").write_bytes(as_file({group: made}))
     read = answers_in(tmp_path / "answers.npz")[group]
     assert (read.digest, read.seed) == (made.digest, 7)
-    for (number, value, rows), (point, outcome) in zip(read, found, strict=True):
-        assert number == point.number and (value == outcome["value"]).all() and (rows == outcome["each"]).all()
+    for (scene, value, rows), (point, outcome) in zip(read.scenes(group), found, strict=True):
+        assert scene == point and (value == outcome["value"]).all() and (rows == outcome["each"]).all()
     assert answers_in(tmp_path / "none.npz") == {} and merged(tmp_path / "none.npz", {group: made})
 
 

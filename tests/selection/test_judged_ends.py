@@ -1,29 +1,18 @@
 """Past the scenes of its judge a model is led until it breaks; and it stands beside the suite's own by its seconds."""
 
 import math
+import time
 import warnings
 
 import numpy as np
 import pytest
 
+from tests.selection.judged_points import SWEEPS, judged, of
 from validation.engine.offered import offer
 from validation.engine.others import Called
 from validation.selection.judging import own, sweeps
 from validation.selection.judging.judge import points_of
 from validation.selection.judging.own import ellipse, half_space, in_3d
-
-
-def swept(kind, function):
-    """Verdicts and reasons by quantity, along what is swept."""
-    found = {}
-    for one in sweeps.swept(Called(offer(kind, "mine", {}, getattr(function, "function", function)))):
-        point = one.judged(0.1)
-        found.setdefault(point.quantity, []).append(point)
-    return found
-
-
-def verdicts(points):
-    return [point.verdict for point in points]
 
 
 def flat(load, side, modulus):
@@ -55,42 +44,44 @@ CASES = [(kind, function) for kind in RIGHT for function in RIGHT[kind]]
 
 @pytest.mark.parametrize(("kind", "function"), CASES)
 def test_what_closed_forms_say_breaks_nowhere(kind, function):
-    found = swept(kind, function)
-    assert len(found) > (kind == "contact_filter")
-    assert {point.verdict for points in found.values() for point in points} == {"agree"}
+    found = judged(kind, function, by=SWEEPS)
+    assert len({point.quantity for point in found}) > (kind == "contact_filter")
+    assert {point.verdict for point in found} == {"agree"}
 
 
 def divides(k_x, a_x):
     return np.sin(k_x * a_x) / (k_x * a_x)
 
 
+def falls_below(load, side, modulus):
+    return flat(load, side, modulus) - 1e5 * load
+
+
+def twice(q, roughness):
+    return 2 * in_3d(q, 2e-3, 1.15e11, roughness)
+
+
+def upside_down(line, radius, modulus, approach):
+    return smooth(-line, radius, modulus, approach)
+
+
 WRONG = [
     ("stiffness_model", lambda load: 1e3 * load**0.5, sweeps.HEAVY, ["differ"] * 4),
-    (
-        "stiffness_model",
-        lambda load, side, modulus: flat(load, side, modulus) - 1e5 * load,
-        sweeps.HEAVY,
-        ["failed"] * 4,
-    ),
+    ("stiffness_model", falls_below, sweeps.HEAVY, ["failed"] * 4),
     ("stiffness_model", lambda load: 1 / load, sweeps.LIGHT, ["differ"] * 3),
     ("stiffness_of_surface", lambda height, load: 2 * load, sweeps.FEW, ["differ"] * 5),
-    ("force_spectrum", lambda q, roughness: 2 * in_3d(q, 2e-3, 1.15e11, roughness), sweeps.LONG, ["differ"] * 3),
+    ("force_spectrum", twice, sweeps.LONG, ["differ"] * 3),
     ("contact_filter", divides, sweeps.LONG, ["failed", "agree", "agree"]),
     ("contact_filter", lambda k_x, a_x: 1 + (k_x * a_x) ** 2, sweeps.SHORT, ["differ"] * 3),
     ("rolling_model", lambda line, approach: 0 * line + approach, sweeps.SMOOTH, ["differ"] * 5),
-    (
-        "rolling_model",
-        lambda line, radius, modulus, approach: smooth(-line, radius, modulus, approach),
-        sweeps.LONG,
-        ["differ"] * 2,
-    ),
+    ("rolling_model", upside_down, sweeps.LONG, ["differ"] * 2),
     ("contact_filter", lambda k_x: 1.05 + 0 * k_x, sweeps.SHORT, ["differ"] * 3),
 ]
 
 
 @pytest.mark.parametrize(("kind", "function", "quantity", "expected"), WRONG)
 def test_where_a_model_breaks_is_found(kind, function, quantity, expected):
-    assert verdicts(swept(kind, function)[quantity]) == expected
+    assert [p.verdict for p in of(judged(kind, function, by=SWEEPS), quantity)] == expected
 
 
 def test_a_warning_stands_beside_the_number():
@@ -99,7 +90,7 @@ def test_a_warning_stands_beside_the_number():
             warnings.warn("too\nheavy", stacklevel=1)
         return flat(load, side, modulus)
 
-    reasons = [point.reason for point in swept("stiffness_model", warns)[sweeps.HEAVY]]
+    reasons = [p.reason for p in of(judged("stiffness_model", warns, by=SWEEPS), sweeps.HEAVY)]
     assert reasons == ["", *["it warned: too heavy"] * 3]
 
 
@@ -109,13 +100,29 @@ def test_its_point_on_the_chart_is_beside_those_of_the_suite():
     mine, *others = own.costs_of(model, list(points_of(model, 0.1)))
     assert [one.model for one in others] == ["linear, ellipse", "linear, on the line", "spring bed (DPRS), linear"]
     assert mine.error == pytest.approx(others[0].error, rel=1e-5) and others[1].error > 10 * mine.error
-    assert model.longest["k_x"].size > 100
     assert all(0 < one.seconds < 10 for one in (mine, *others))
     assert not own.costs_of(Called(ellipse), [])
 
 
+def test_seconds_are_of_the_slowest_call_that_was_answered():
+    """What is refused may take longer, and has no time."""
+
+    def but_for_long_waves(k_x, a_x):
+        if k_x.min() * a_x < 1e-3:
+            time.sleep(0.2)
+            raise ValueError("too long")
+        time.sleep(0.03 * (k_x.size > 100))
+        return divides(k_x, a_x)
+
+    model = Called(offer("contact_filter", "mine", {}, but_for_long_waves))
+    points = list(points_of(model, 0.1))
+    assert {point.verdict for point in points} >= {"refused", "differ"}
+    assert model.longest["k_x"].size > 100
+    assert 0.03 < own.costs_of(model, points)[0].seconds < 0.2
+
+
 def test_errors_are_medians_of_the_quantity_of_their_kind():
     points = list(points_of(Called(offer("contact_filter", "mine", {}, divides)), 0.1))
-    known = sorted(abs(p.difference) for p in points if p.quantity == "contact filter")
+    known = [abs(p.difference) for p in of(points, "contact filter")]
     assert own.error_of("contact_filter", points) == pytest.approx(np.median(known))
     assert math.isnan(own.error_of("contact_law", points))

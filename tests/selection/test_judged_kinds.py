@@ -8,11 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from validation.analysis.contents import csv_name, from_csv
+import mdr
+from tests.selection.judged_points import judged, of, verdicts
 from validation.engine.offered import offer
 from validation.engine.others import Called
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.selection.judging import filters, laws, profiles, rolling
+from validation.selection.judging.from_report import Report
 from validation.selection.judging.own import bed, ellipse, geike, half_space, in_1d, in_3d, line, trace
 from validation.simulation.wheel_on_springs import WheelEnsemble, linear_law_1d
 from validation.theory import closed_forms, contact_filters
@@ -22,29 +24,16 @@ REPORT = Path(__file__).parents[2] / "reports" / "reference"
 ONE_DECIBEL = 10 ** (1 / 20) - 1
 
 
-JUDGES = {
-    "contact_filter": filters.judged,
-    "force_spectrum": rolling.judged_spectrum,
-    "rolling_model": rolling.judged,
-    "profile_spectrum": profiles.judged,
-    "contact_law": laws.judged,
-}
-
-
-def judged(kind, function, tolerance=0.1):
-    function = getattr(function, "function", function)
-    return [one.judged(tolerance) for one in JUDGES[kind](Called(offer(kind, "mine", {}, function)))]
-
-
-def verdicts(points, quantity, **where):
-    return {p.verdict for p in points if p.quantity == quantity and where.items() <= p.where.items()}
-
-
 @cache
-def shown(case, quantity):
+def shown(case, quantity, **equal):
     """Rows of a table of the report."""
-    table = from_csv(quantity, (REPORT / "data" / csv_name(case, quantity)).read_text("utf-8"))
-    return [dict(zip(table.columns, row, strict=True)) for row in zip(*table.columns.values(), strict=True)]
+    return Report(REPORT).rows(case, quantity, **equal)
+
+
+def of_input(model):
+    """Levels of one ground by an input spectrum."""
+    rows = shown("rolling", "level of an octave by input spectrum", surface="H = 0.7", model=model)
+    return [row["value"] for row in rows]
 
 
 # --- contact filters ---
@@ -75,62 +64,56 @@ def place_of(where):
 
 @pytest.mark.parametrize("name", SHOWN_AS)
 def test_a_filter_of_the_suite_is_off_by_what_the_report_shows(name):
-    points = [p for p in judged("contact_filter", SHOWN_AS[name], ONE_DECIBEL) if p.quantity == filters.FILTER]
+    points = of(judged("contact_filter", SHOWN_AS[name], ONE_DECIBEL), filters.FILTER)
     mine = {(*place_of(p.where), p.where["wavelength [mm]"]): p for p in points}
-    rows = [row for row in shown("across", OVER) if row["model"] == name and math.isfinite(row["value"])]
+    rows = [row for row in shown("across", OVER, model=name) if math.isfinite(row["value"])]
     assert len(rows) > 200
     for row in rows:
         point = mine[row["wheel"], row["over ISO 3095 [dB]"], row["across"], row["wavelength [mm]"]]
         assert point.difference == pytest.approx(row["value"], abs=2e-4)
         assert point.error == pytest.approx((row["high"] - row["low"]) / 2, abs=2e-4)
-    for row in shown("across", f"{OVER}, judged"):
-        if row["model"] == name:
-            key = row["wheel"], row["over ISO 3095 [dB]"], row["across"]
-            found = {p.verdict for place, p in mine.items() if place[:3] == key}
-            # the report's interval holds at all points at once, and is wider
-            assert found == {"agree"} if row["verdict"] == "agree" else row["verdict"] != "differ" or "differ" in found
+    for row in shown("across", f"{OVER}, judged", model=name):
+        key = row["wheel"], row["over ISO 3095 [dB]"], row["across"]
+        found = {p.verdict for place, p in mine.items() if place[:3] == key}
+        # the report's interval holds at all points at once, and is wider
+        assert found == {"agree"} if row["verdict"] == "agree" else row["verdict"] != "differ" or "differ" in found
+
+
+def test_linear_theory_over_the_ellipse_is_a_right_filter():
+    right = judged("contact_filter", ellipse)
+    assert verdicts(right, filters.FILTER) == {"agree"} == verdicts(right, filters.LONG)
 
 
 def test_a_closed_form_over_the_ground_is_a_filter_of_the_line_that_knows_alpha():
     points = judged("contact_filter", closed_form)
     full = {tuple(p.where.values()): p for p in judged("contact_filter", remington)}
-    within = [p for p in points if p.quantity == filters.FILTER and p.where["alpha"] != 0.0]
+    within = [p for p in of(points, filters.FILTER) if p.where["alpha"] != 0.0]
     assert len(within) > 100 and all(p.where["alpha"] != "isotropic" for p in within)
     assert all(p.value == pytest.approx(full[tuple(p.where.values())].value, abs=2e-3) for p in within)
-    ridges = [p for p in points if p.quantity == filters.FILTER and p.where["alpha"] == 0.0]
+    ridges = of(points, filters.FILTER, alpha=0.0)
     assert {p.verdict for p in ridges} == {"refused"} and "alpha" in ridges[0].reason
-
-
-@pytest.mark.slow
-def test_a_wrong_filter_differs():
-    right = judged("contact_filter", ellipse)
-    assert verdicts(right, filters.FILTER) == {"agree"} == verdicts(right, filters.LONG)
-    for wrong in (
-        lambda k_x, k_y, a_x, a_y: ellipse(k_x, k_y, a_x, a_y) ** 2,
-        lambda k_x, k_y, a_x, a_y: ellipse(k_x, k_y, a_y, a_x),
-    ):
-        assert "differ" in verdicts(judged("contact_filter", wrong), filters.FILTER)
-    assert verdicts(judged("contact_filter", lambda k_x, a_x: 2 * line(k_x, a_x)), filters.LONG) == {"differ"}
 
 
 # --- force spectra ---
 
 
-def assert_levels_as_shown(points, model, within=1e-3):
-    rows = [row for row in shown("rolling", "level of an octave") if row["model"].startswith(model)]
-    mine = [p for p in points if p.quantity == rolling.LEVEL]
+FILTER_1D, FILTER_3D = "(14.12) over boundary elements", "linear filter, 3D over boundary elements"
+
+
+def assert_levels_as_shown(points, model):
+    rows = shown("rolling", "level of an octave", model=model)
+    mine = of(points, rolling.LEVEL)
     assert len(rows) == len(mine) > 10
     for row, point in zip(rows, mine, strict=True):
         assert point.where["q a"] == pytest.approx(row["q a"], rel=1e-5)
-        assert point.difference == pytest.approx(row["value"], abs=within)
+        assert point.difference == pytest.approx(row["value"], abs=1e-3)
 
 
-@pytest.mark.parametrize(("model", "function"), [("(14.12)", in_1d), ("linear", in_3d)])
+@pytest.mark.parametrize(("model", "function"), [(FILTER_1D, in_1d), (FILTER_3D, in_3d)])
 def test_a_spectrum_of_the_suite_is_off_by_what_the_report_shows(model, function):
     points = judged("force_spectrum", function)
     assert_levels_as_shown(points, model)
-    rows = [row for row in shown("rolling", "rms force") if row["model"].startswith("linear")]
-    for row, point in zip(rows, (p for p in points if p.quantity == rolling.RMS), strict=True):
+    for row, point in zip(shown("rolling", "rms force", model=FILTER_3D), of(points, rolling.RMS), strict=True):
         # Geike's rule keeps the variance; the quadrature here has its own error
         assert point.difference == pytest.approx(row["value"], abs=5e-3)
 
@@ -139,7 +122,7 @@ def test_a_one_sided_density_differs_by_three_decibels():
     def one_sided(q, contact_radius, modulus, roughness):
         return 2 * in_1d(q, contact_radius, modulus, roughness)
 
-    light = next(p for p in judged("force_spectrum", one_sided) if p.quantity == rolling.RMS)
+    light = of(judged("force_spectrum", one_sided), rolling.RMS)[0]
     assert light.verdict == "differ" and light.difference == pytest.approx(10 * math.log10(2), abs=0.02)
 
 
@@ -155,7 +138,7 @@ def under_load(height, spacing, radius, modulus, load):
 @pytest.mark.slow
 def test_linear_theory_is_a_rolling_model_that_is_off_by_what_the_report_shows():
     points = judged("rolling_model", half_space)
-    assert_levels_as_shown(points, "linear")
+    assert_levels_as_shown(points, FILTER_3D)
     assert verdicts(points, "force, position by position", **{"h/d": 0.03}) == {"agree"}
     assert verdicts(points, "force, position by position", **{"h/d": 0.3}) == {"differ"}
 
@@ -164,7 +147,7 @@ def test_linear_theory_is_a_rolling_model_that_is_off_by_what_the_report_shows()
 
     moved = judged("rolling_model", ahead)
     assert verdicts(moved, "force, position by position") == {"differ"}
-    assert_levels_as_shown(moved, "linear")
+    assert_levels_as_shown(moved, FILTER_3D)
 
 
 @pytest.mark.slow
@@ -175,11 +158,9 @@ def test_a_filter_on_the_line_has_the_levels_of_the_line_trace_within_the_error_
         change = linear_theory.response(q, contact_radius=a, modulus=modulus) * np.fft.rfft(line)
         return 4 / 3 * modulus * a * approach + np.fft.irfft(change, line.size)
 
-    rows = [r for r in shown("rolling", "level of an octave by input spectrum") if r["surface"] == "H = 0.7"]
-    trace = [r["value"] for r in rows if r["model"] == "line trace"]
-    exact = [p for p in judged("force_spectrum", in_3d) if p.quantity == rolling.LEVEL]
-    found = [p for p in judged("rolling_model", on_line) if p.quantity == rolling.LEVEL]
-    for over, of_3d, point in zip(trace, exact[:4], found[:4], strict=True):
+    exact = of(judged("force_spectrum", in_3d), rolling.LEVEL)
+    found = of(judged("rolling_model", on_line), rolling.LEVEL)
+    for over, of_3d, point in zip(of_input("line trace"), exact[:4], found[:4], strict=True):
         assert point.value - of_3d.value == pytest.approx(over, abs=point.error)
         assert 0.2 < point.error < 2
 
@@ -187,10 +168,9 @@ def test_a_filter_on_the_line_has_the_levels_of_the_line_trace_within_the_error_
 def test_under_a_load_the_approach_is_judged():
     assert verdicts(judged("rolling_model", under_load), "approach, position by position", **{"h/d": 0.03}) == {"agree"}
 
-    def upside_down(height, spacing, radius, modulus, load):
-        return under_load(-height, spacing, radius, modulus, load)
 
-    assert verdicts(judged("rolling_model", upside_down), "approach, position by position") == {"differ"}
+def upside_down(height, spacing, radius, modulus, load):
+    return under_load(-height, spacing, radius, modulus, load)
 
 
 def test_a_line_is_the_middle_of_the_surface_between_cells():
@@ -216,43 +196,60 @@ def failed(points):
 def test_geikes_rule_has_all_properties_and_the_levels_of_the_report(few_profiles):
     points = judged("profile_spectrum", geike)
     assert not failed(points)
-    assert_levels_as_shown(points, "(14.12)")
+    assert_levels_as_shown(points, FILTER_1D)
 
 
 def test_a_line_trace_keeps_the_height_and_half_of_the_mean_square_gradient(few_profiles):
     points = judged("profile_spectrum", trace)
     assert failed(points) == set(profiles.MOMENTS.values()) - {"rms height"}
-    gradient = [p for p in points if p.quantity == "rms gradient"]
+    gradient = of(points, "rms gradient")
     assert all(p.value == pytest.approx(math.sqrt(0.5), rel=1e-4) for p in gradient)
-    rows = [r for r in shown("rolling", "level of an octave by input spectrum") if r["surface"] == "H = 0.7"]
-    known, exact = ([r["value"] for r in rows if r["model"] == name] for name in ("line trace", "Geike's spectrum"))
     mine, of_geike = (
-        [p.value for p in judged("profile_spectrum", rule) if p.quantity == rolling.LEVEL][:4]
-        for rule in (trace, geike)
+        [p.value for p in of(judged("profile_spectrum", rule), rolling.LEVEL)][:4] for rule in (trace, geike)
     )
-    assert np.subtract(mine, of_geike) == pytest.approx(np.subtract(known, exact), abs=1e-3)
+    known = np.subtract(of_input("line trace"), of_input("Geike's spectrum"))
+    assert np.subtract(mine, of_geike) == pytest.approx(known, abs=1e-3)
 
 
-@pytest.mark.parametrize(
-    ("caught", "rule"),
-    [
-        ("rms height", lambda q, roughness: 2 * geike(q, roughness)),
-        ("linear in C_2D", lambda q, roughness: geike(q, roughness) ** 2 * 1e17),
-        ("scaling with the length", lambda q, roughness: geike(q, roughness) * (q / 1e4) ** 0.5),
-        ("not negative", lambda q, roughness: geike(q, roughness) * np.where(q > 6e4, -1, 1)),
-    ],
-)
-def test_a_wrong_rule_breaks_its_property(caught, rule, few_profiles):
-    assert verdicts(judged("profile_spectrum", rule), caught) == {"differ"}
+WRONG = [
+    ("contact_filter", lambda k_x, k_y, a_x, a_y: ellipse(k_x, k_y, a_x, a_y) ** 2, filters.FILTER),
+    ("contact_filter", lambda k_x, k_y, a_x, a_y: ellipse(k_x, k_y, a_y, a_x), filters.FILTER),
+    ("contact_filter", lambda k_x, a_x: 2 * line(k_x, a_x), filters.LONG),
+    ("rolling_model", upside_down, "approach, position by position"),
+    ("profile_spectrum", lambda q, roughness: 2 * geike(q, roughness), "rms height"),
+    ("profile_spectrum", lambda q, roughness: geike(q, roughness) ** 2 * 1e17, "linear in C_2D"),
+    ("profile_spectrum", lambda q, roughness: geike(q, roughness) * (q / 1e4) ** 0.5, "scaling with the length"),
+    ("profile_spectrum", lambda q, roughness: geike(q, roughness) * np.where(q > 6e4, -1, 1), "not negative"),
+]
+
+
+@pytest.mark.parametrize(("kind", "wrong", "quantity"), WRONG)
+def test_a_wrong_model_differs(kind, wrong, quantity, few_profiles):
+    found = verdicts(judged(kind, wrong), quantity)
+    assert "differ" in found and (found == {"differ"} or quantity == filters.FILTER)
+
+
+@pytest.mark.parametrize("factor", [0.0, -1.0])
+def test_a_rule_that_is_zero_or_negative_has_no_profile(factor, few_profiles):
+    points = judged("profile_spectrum", lambda q, roughness: factor * geike(q, roughness))
+    assert {p.reason for p in of(points, "mean stiffness")} == {profiles.NO_PROFILE}
+    assert verdicts(points, "rms height") == {"failed" if factor == 0 else "differ"}
+
+
+def test_the_rms_of_a_rule_is_that_of_the_surface_by_geike():
+    ground = mdr.SelfAffine(hurst=0.7, q_min=1e3, q_max=64e3, rms=1e-6)
+    q = 1e3 * np.arange(1, 65)
+    assert profiles.rms_of_profile(geike(q, ground), q, ground) == pytest.approx(1e-6)
+    assert profiles.rms_of_profile(4 * geike(q, ground), q, ground) == pytest.approx(2e-6)
 
 
 @pytest.mark.slow
 def test_springs_on_profiles_of_geikes_rule_are_off_by_what_the_report_shows():
     points = judged("profile_spectrum", geike)
     for quantity, case in (("mean stiffness", "mean stiffness"), ("deviation of the stiffness", "relative deviation")):
-        rows = [row for row in shown("fractal_punch", case) if row["model"] == "springs over boundary elements"]
+        rows = shown("fractal_punch", case, model="springs over boundary elements")
         ratio = {(row["H"], row["Fbar"]): row["value"] for row in rows}
-        mine = [p for p in points if p.quantity == quantity and p.where["Fbar"] < 0.3]
+        mine = [p for p in of(points, quantity) if p.where["Fbar"] < 0.3]
         near = [abs(1 + p.difference - ratio[p.where["H"], p.where["Fbar"]]) <= 1.5 * p.error for p in mine]
         assert np.mean(near) > 0.9 and len(near) > 15
 

@@ -1,15 +1,15 @@
 """Stiffness models with known answers: right ones are judged right by range, wrong ones where they are wrong."""
 
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 import pytest
 
-from validation import stiffness_model, stiffness_of_surface
+from tests.selection import judged_points
+from tests.selection.judged_points import of, verdicts
 from validation.analysis.judgement import enough
-from validation.engine.others import Called
 from validation.selection.judging import stiffness, surfaces
-from validation.selection.judging.references import Reference, curve
+from validation.selection.judging.references import Reference, known
 from validation.selection.judging.stiffness import AskedPunch
 from validation.theory.closed_forms import SQUARE_PUNCH
 
@@ -20,21 +20,16 @@ def series(load, side, modulus, roughness):
     return 1 / (0.49 * roughness.rms / load + 1 / (SQUARE_PUNCH * modulus * side))
 
 
-def judged(function, tolerance=0.1):
-    return [one.judged(tolerance) for one in stiffness.judged(Called(stiffness_model("mine")(function)))]
-
-
-def verdicts(points, quantity=MEAN, **where):
-    mine = [p for p in points if p.quantity == quantity and where.items() <= p.where.items()]
-    return {p.verdict for p in mine}
+judged = partial(judged_points.judged, "stiffness_model")
+judged_surfaces = partial(judged_points.judged, "stiffness_of_surface")
 
 
 @cache
-def known():
+def solved():
     """Fbar, mean and deviation of boundary elements by H, bandwidth and roll-off; constants where one is not known."""
     found = {}
     for quantity, column in ((MEAN, 0), (stiffness.ROLLED_OFF, 0), (DEVIATION, 1), (stiffness.BY_BAND, 1)):
-        for row in curve(quantity):
+        for row in known(quantity):
             one = AskedPunch.at(row.where)
             of = found.setdefault((one.hurst, one.waves, one.roll_off), {})
             of.setdefault(one.force, [0.1, 0.3])[column] = row.value
@@ -45,7 +40,7 @@ def as_known(load, side, modulus, roughness):
     """Mean and deviation of boundary elements, by what a model is given."""
     waves = round(roughness.q_max / roughness.q_min)
     roll_off = round(getattr(roughness, "q_roll_off", 0.0) * side / (2 * np.pi))
-    force, mean, deviation = known()[roughness.hurst, waves, roll_off]
+    force, mean, deviation = solved()[roughness.hurst, waves, roll_off]
     at = np.log(load / (modulus * roughness.rms * side))
     mean = modulus * side * np.exp(np.interp(at, force, mean))
     return mean, mean * np.exp(np.interp(at, force, deviation))
@@ -66,14 +61,14 @@ def test_an_interface_in_series_is_enough_for_heavy_loads_alone():
 def test_with_e_for_e_star_a_law_is_nowhere_enough():
     """The modulus of steel on steel, over which E* is 0.55."""
     points = judged(lambda load, side, modulus, roughness: as_known(load, side, 0.55 * modulus, roughness)[0])
-    assert verdicts(points) == {"differ"}
+    assert verdicts(points, MEAN) == {"differ"}
 
 
 def test_what_boundary_elements_have_agrees_and_what_is_twice_as_far_differs():
     points = judged(as_known)
     for quantity in (MEAN, DEVIATION, stiffness.ROLLED_OFF, stiffness.BY_BAND):
         assert "differ" not in verdicts(points, quantity) and "agree" in verdicts(points, quantity)
-        assert all(p.difference == pytest.approx(0, abs=1e-6) for p in points if p.quantity == quantity)
+        assert all(p.difference == pytest.approx(0, abs=1e-6) for p in of(points, quantity))
 
     def twice(load, side, modulus, roughness):
         mean, deviation = as_known(load, side, modulus, roughness)
@@ -97,7 +92,7 @@ def test_realisations_have_their_mean_and_deviation_with_the_error_of_the_sample
         points = [p for p in judged(draws, 0.3) if p.quantity in (MEAN, DEVIATION)]
     assert "differ" not in verdicts(points, MEAN) and "agree" in verdicts(points, MEAN)
     assert np.mean([abs(p.difference) <= p.error for p in points]) > 0.85
-    assert all(p.reason == "100 realisations" for p in points if p.quantity == MEAN)
+    assert all(p.reason == "100 realisations" for p in of(points, MEAN))
 
 
 def test_realisations_that_are_too_stiff_differ():
@@ -123,7 +118,7 @@ def test_realisations_that_are_too_stiff_differ():
 def test_a_model_without_a_number_is_a_row_with_the_reason(answer, verdict, reason):
     points = judged(answer)
     assert {p.verdict for p in points if p.quantity == MEAN} == {verdict}
-    assert all(p.reason.startswith(reason) for p in points if p.quantity == MEAN)
+    assert all(p.reason.startswith(reason) for p in of(points, MEAN))
 
 
 def test_a_load_that_is_refused_is_a_row_with_the_words_of_the_model():
@@ -171,18 +166,16 @@ def by_the_summit(height, spacing, modulus, load):
 def summits(monkeypatch):
     """References by that law, on six surfaces."""
     rows = [
-        Reference({"H": 0.7, "surface": f"surface {i}", "Fbar": force}, value, 0.0, 0.01)
+        Reference(
+            {"H": 0.7, "surface": f"surface {i}", "Fbar": force}, value, 0.0, 0.01, quantity="stiffness of a surface"
+        )
         for i in range(6)
         for height in [stiffness.SIDE * surfaces.roughness(0.7).surface(256, i)]
         for force in FORCES
         for load in [force * stiffness.MODULUS * stiffness.HEIGHT * stiffness.SIDE**2]
         for value in [by_the_summit(height, stiffness.SIDE / 256, 1.0, load / stiffness.MODULUS) / stiffness.SIDE]
     ]
-    monkeypatch.setattr(surfaces, "curve", lambda quantity: rows)
-
-
-def judged_surfaces(function):
-    return [one.judged(0.1) for one in surfaces.judged(Called(stiffness_of_surface("mine")(function)))]
+    monkeypatch.setattr(surfaces, "known", lambda quantity: rows)
 
 
 def test_surfaces_are_judged_one_by_one_and_in_their_mean_and_deviation(summits):
@@ -199,7 +192,7 @@ def test_surfaces_are_judged_one_by_one_and_in_their_mean_and_deviation(summits)
 
 
 def test_a_law_without_the_surface_has_no_deviation(summits):
-    mean = {force: np.mean([row.value for row in surfaces.curve("") if row.where["Fbar"] == force]) for force in FORCES}
+    mean = {force: np.mean([row.value for row in surfaces.known("") if row.where["Fbar"] == force]) for force in FORCES}
 
     def blind(height, load):
         force = load / (stiffness.MODULUS * stiffness.HEIGHT * stiffness.SIDE**2)

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from validation.engine.engine import SERIAL
-from validation.selection.judging import from_report, references, surfaces
+from validation.selection.judging import references, rolling, surfaces
 from validation.selection.judging.from_report import SOURCES, Report
 from validation.selection.judging.own import ERRORS
-from validation.selection.judging.references import about, as_file, curve, file_name
+from validation.selection.judging.references import about, as_file, file_name, known
 from validation.selection.judging.rolling import EACH, GRIDS, HEIGHTS, LIFT, MEAN
 from validation.selection.judging.surfaces import OF_SURFACE
 from validation.simulation.rolling_strip import roll_strip
@@ -23,12 +23,12 @@ SOLVED = (MEAN, EACH, LIFT, OF_SURFACE, ERRORS)
 def test_a_file_is_what_the_committed_report_shows(quantity):
     """Otherwise the report was made anew: `mdr-validation calibrate --references reports/reference --install`."""
     rows = [row for row in SOURCES[quantity].find(Report(REPORT), SERIAL) if np.isfinite(row.value)]
-    assert [row.where for row in curve(quantity)] == [
+    assert [row.where for row in known(quantity)] == [
         {name: place if isinstance(place, str) else float(f"{place:.7g}") for name, place in row.where.items()}
         for row in rows
     ]
     for name in references.VALUES:
-        mine, report = ([getattr(row, name) for row in some] for some in (curve(quantity), rows))
+        mine, report = ([getattr(row, name) for row in some] for some in (known(quantity), rows))
         assert mine == pytest.approx(report, rel=1e-3 if name != "value" else 1e-6)
     assert about(quantity)["settings"] == Report(REPORT).settings(SOURCES[quantity].case)
 
@@ -37,7 +37,7 @@ def test_all_of_them_are_small_and_complete():
     assert references.quantities() == sorted(SOURCES, key=file_name)
     assert sum(path.stat().st_size for path in references.FOLDER.iterdir()) < 3e6
     for quantity in SOURCES:
-        rows = curve(quantity)
+        rows = known(quantity)
         assert rows and all(np.isfinite([row.value, row.sample, row.grid]).all() for row in rows)
         assert all(min(row.sample, row.grid) >= 0 for row in rows)
         assert set(about(quantity)) == {"quantity", "unit", "case", "commit", "settings"}
@@ -46,9 +46,9 @@ def test_all_of_them_are_small_and_complete():
 def test_positions_are_those_of_boundary_elements_on_the_strip():
     """The coarse grid is three times as far off as what the two grids leave."""
     height, coarse = HEIGHTS[-1], GRIDS[0]
-    (strip,) = from_report.strip_of(height).strips(coarse, 1e-4 * height, 1)
+    (strip,) = rolling.strip_of(height).strips(coarse, 1e-4 * height, 1)
     force = roll_strip(strip)["force"]
-    rows = [row for row in curve(EACH) if row.where["h/d"] == height]
+    rows = [row for row in known(EACH) if row.where["h/d"] == height]
     left = np.array([2 * abs(row.value) * row.grid for row in rows])
     assert np.abs(force - [row.value for row in rows]) == pytest.approx(left * 1.5, abs=2e-4)
 
@@ -67,7 +67,7 @@ def test_positions_are_extrapolated_to_cells_of_no_size():
     rows = list(SOURCES[EACH].find(None, Made()))
     assert [row.value for row in rows] == pytest.approx([2.0] * len(rows))
     assert [row.grid for row in rows] == pytest.approx([0.1 / GRIDS[1] / 2] * len(rows))
-    assert len(rows) == len(curve(EACH)) and [row.where for row in rows] == [row.where for row in curve(EACH)]
+    assert len(rows) == len(known(EACH)) and [row.where for row in rows] == [row.where for row in known(EACH)]
 
 
 class Pressed:
@@ -86,19 +86,19 @@ class Pressed:
 
 def test_a_surface_is_known_as_well_as_its_two_grids_agree():
     """All loads are asked, and a right answer on the cells that a model is given does not differ."""
-    rows = surfaces.solved(Pressed())
-    assert len(rows) == 3 * 8 * len(surfaces.FORCES) == len(curve(OF_SURFACE))
+    rows = list(surfaces.solved(Pressed()))
+    assert len(rows) == 3 * 8 * len(surfaces.FORCES) == len(known(OF_SURFACE))
     assert [row.value for row in rows[:: len(surfaces.FORCES)][:2]] == pytest.approx(np.exp([0.1, -0.1]))
     assert [row.grid for row in rows] == pytest.approx([2.306 * 0.1] * len(rows), rel=1e-3)
 
 
 def test_what_is_written_is_read_and_what_is_unknown_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(references, "FOLDER", tmp_path)
-    row = references.Reference({"H": 0.7, "across": "ridges"}, 2.0, 0.5, 0.25)
+    row = references.Reference({"H": 0.7, "across": "ridges"}, 2.0, 0.5, 0.25, quantity="a level, of mine")
     (tmp_path / file_name("a level, of mine")).write_bytes(as_file({"quantity": "a level, of mine"}, [row]))
-    assert curve("a level, of mine") == [row]
+    assert known("a level, of mine") == [row]
     with pytest.raises(LookupError, match="a level, of mine, got 'mass'"):
-        curve("mass")
+        known("mass")
 
 
 def test_a_folder_without_a_full_report_is_refused(tmp_path):

@@ -21,8 +21,8 @@ class JudgedPoint:
 
     where: the conditions, by name; difference: value over reference less one, of levels value less reference [dB];
     error: its 95 % half-width in the same unit, by sample and grid of the reference and the sample of the model;
-    verdict: one of `VERDICTS`, empty of a time; reason: why there is no number, or what it is judged by; decides:
-    whether a solver is wrong that differs or fails here.
+    verdict: one of `VERDICTS`; reason: why there is no number, or what it is judged by; decides: whether a solver is
+    wrong that differs or fails here.
     """
 
     quantity: str
@@ -37,11 +37,6 @@ class JudgedPoint:
     decides: bool = False
 
     @property
-    def place(self) -> str:
-        """ "H = 0.4, Fbar = 0.1"."""
-        return placed(self.where)
-
-    @property
     def shown(self) -> str:
         """The difference with its half-width: "+12 ± 3 %", or the reason."""
         if not math.isfinite(self.difference):
@@ -51,10 +46,11 @@ class JudgedPoint:
 
 def in_unit(difference: float, unit: str, sign: str = "-") -> str:
     """ "+12 %" or "-3.1 dB"."""
-    return f"{difference:{sign}.2g} dB" if unit == "dB" else f"{100 * difference:{sign}.3g} %"
+    return f"{difference:{sign}.2g} dB" if unit == LEVEL else f"{100 * difference:{sign}.3g} %"
 
 
 def placed(where: Conditions) -> str:
+    """ "H = 0.4, Fbar = 0.1"."""
     return ", ".join(f"{name} = {value:g}" if isinstance(value, float) else str(value) for name, value in where.items())
 
 
@@ -135,18 +131,24 @@ class JudgedCurve:
         return all(point.reference == 1 for point in self.points)
 
     @property
+    def runs(self) -> list[list[tuple[float, JudgedPoint]]]:
+        """Neighbouring points of one verdict, each with its place."""
+        pairs = zip(self.at, self.points, strict=True)
+        return [list(run) for _, run in groupby(pairs, lambda pair: pair[1].verdict)]
+
+    @property
     def enough(self) -> list[Enough]:
-        runs = [list(run) for _, run in groupby(zip(self.at, self.points, strict=True), lambda pair: pair[1].verdict)]
-        return [Enough(self.quantity, self.where, self.along, r[0][0], r[-1][0], r[0][1].verdict) for r in runs]
+        ends = [(*run[0], run[-1][0]) for run in self.runs]
+        return [Enough(self.quantity, self.where, self.along, a, b, point.verdict) for a, point, b in ends]
 
 
-def curves_of(points: Iterable[JudgedPoint]) -> Iterator[list[JudgedCurve]]:
+def curves_of(points: Iterable[JudgedPoint]) -> list[list[JudgedCurve]]:
     """Those of each quantity."""
     of: dict[tuple[str, ...], list[JudgedPoint]] = {}
     for point in points:
         of.setdefault((point.quantity, *sorted(point.where)), []).append(point)
     found = [curve for mine in of.values() for curve in _curves(mine)]
-    yield from (list(some) for _, some in groupby(found, attrgetter("quantity")))
+    return [list(some) for _, some in groupby(found, attrgetter("quantity"))]
 
 
 def _curves(points: Sequence[JudgedPoint]) -> Iterator[JudgedCurve]:
@@ -168,14 +170,14 @@ def enough(points: Iterable[JudgedPoint]) -> list[Enough]:
 
 def worst(points: Iterable[JudgedPoint], count: int = 5) -> list[JudgedPoint]:
     """Those that differ most for certain, in what each unit is worth, then those without a number."""
-    known = [point for point in points if point.verdict == DIFFER]
 
     def apart(point: JudgedPoint) -> float:
-        factor = 10 ** (abs(point.difference) / 20) if point.unit == "dB" else 1 + point.difference
+        factor = 10 ** (abs(point.difference) / 20) if point.unit == LEVEL else 1 + point.difference
         return abs(math.log(max(factor, 1e-12)))
 
-    lost = [point for point in points if point.verdict in (REFUSED, FAILED)]
-    return [*sorted(known, key=apart, reverse=True), *lost][:count]
+    points = list(points)
+    known = sorted((point for point in points if point.verdict == DIFFER), key=apart, reverse=True)
+    return [*known, *(point for point in points if point.verdict in (REFUSED, FAILED))][:count]
 
 
 def shared(some: Sequence[JudgedPoint], points: Sequence[JudgedPoint]) -> str:

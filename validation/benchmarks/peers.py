@@ -6,7 +6,7 @@ import runpy
 import sys
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, partial
 from pathlib import Path
 from typing import Any
@@ -35,7 +35,7 @@ class PeerSolver:
     package: what it is a part of; prepare(problem, tolerance): everything that is done once for a grid, returned as a
     function that solves from a cold start; tolerances: its own, tried in this order, as parts of the residual asked
     for, until the residual is reached; serves: "free", "periodic" half-spaces; by_force: what it is given, else the
-    approach; file: of somebody's own, which has no package.
+    approach; file: of somebody's own, which has no package; alone: its name with one thread.
     """
 
     name: str
@@ -46,6 +46,7 @@ class PeerSolver:
     serves: tuple[str, ...] = ("free", "periodic")
     by_force: bool = True
     file: str = ""
+    alone: str = ""
 
     @property
     def version(self) -> str | None:
@@ -63,9 +64,9 @@ def sides(problem: ContactProblem) -> list[float]:
     return [n * d for n, d in zip(problem.gap.shape, problem.spacing, strict=True)]
 
 
-def bem3d_fast(problem: ContactProblem, tolerance: float) -> ColdSolve:
+def bem3d_fast(problem: ContactProblem, tolerance: float, threads: int = 1) -> ColdSolve:
     """Our solver, by force; its plans, coarser grids and windows are made beforehand, by a first solve."""
-    solve = _by_force(bem3d.solve, problem, tolerance)
+    solve = _by_force(bem3d.solve, problem, tolerance, threads)
     solve()
     return solve
 
@@ -75,10 +76,12 @@ def bem3d_plain(problem: ContactProblem, tolerance: float) -> ColdSolve:
     return _by_force(partial(bem3d.solve_polonsky_keer, max_iterations=5000), problem, tolerance)
 
 
-def _by_force(solver: Callable[..., bem3d.Contact], problem: ContactProblem, tolerance: float) -> ColdSolve:
+def _by_force(
+    solver: Callable[..., bem3d.Contact], problem: ContactProblem, tolerance: float, threads: int = 1
+) -> ColdSolve:
     n, m = problem.gap.shape
     half_space = bem3d.HalfSpace(
-        shape=(n, m), spacing=problem.spacing, modulus=problem.modulus, periodic=problem.periodic
+        shape=(n, m), spacing=problem.spacing, modulus=problem.modulus, periodic=problem.periodic, threads=threads
     )
     half_space.displacement(problem.gap)
 
@@ -89,7 +92,7 @@ def _by_force(solver: Callable[..., bem3d.Contact], problem: ContactProblem, tol
     return solve
 
 
-def tamaas(problem: ContactProblem, tolerance: float) -> ColdSolve:
+def tamaas(problem: ContactProblem, tolerance: float, threads: int = 1) -> ColdSolve:
     """Polonsky, Keer and Rey's solver, by mean pressure; free space by its DC-FFT operator."""
     import tamaas as tm
 
@@ -106,6 +109,7 @@ def tamaas(problem: ContactProblem, tolerance: float) -> ColdSolve:
                 self.error, self.pressure = error, np.array(pressure)
 
     tm.set_log_level(tm.LogLevel.error)
+    tm.initialize(threads)
     (n, m), (gap, force) = problem.gap.shape, equivalent_for_tamaas(problem)
     lengths = [cells * d for cells, d in zip(gap.shape, problem.spacing, strict=True)]
     model = tm.Model(tm.model_type.basic_2d, lengths, list(gap.shape))
@@ -214,6 +218,23 @@ SOLVERS = (
         by_force=False,
     ),
 )
+
+
+def with_threads(threads: int) -> tuple[PeerSolver, ...]:
+    """Those that share their work out among threads, of so many; none for one thread."""
+    sharing = [one for one in SOLVERS if one.name in (OUR_SOLVER, "tamaas")] if threads > 1 else []
+    return tuple(_sharing(one, threads) for one in sharing)
+
+
+def _sharing(solver: PeerSolver, threads: int) -> PeerSolver:
+    prepare: Callable[..., ColdSolve] = solver.prepare
+    name = f"{solver.name}, {threads} threads"
+    return replace(solver, name=name, prepare=partial(prepare, threads=threads), alone=solver.name)
+
+
+def is_ours(name: str) -> bool:
+    """Whether a solver is `bem3d.solve`, with any number of threads."""
+    return name == OUR_SOLVER or (name.startswith(f"{OUR_SOLVER}, ") and name.endswith(" threads"))
 
 
 def solvers_with(file: str) -> tuple[PeerSolver, ...]:

@@ -1,4 +1,4 @@
-"""The solver comparison: the same contact problems, the same residual, one thread each, solvers in turns."""
+"""The solver comparison: the same contact problems, the same residual, solvers in turns."""
 
 import itertools
 import math
@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-import mdr
+from bem3d.threads import cores
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart
 from validation.analysis.claims import Claim, Matrix
@@ -17,100 +17,26 @@ from validation.analysis.printed import times_source
 from validation.analysis.series import Margin, Series, single
 from validation.analysis.statistics import Interval
 from validation.analysis.study import Outcomes, Study
-from validation.benchmarks.judging.discrete import ContactProblem, pressed
 from validation.benchmarks.peers import (
     OUR_SOLVER,
     OURS,
     PeerSolver,
     all_methods,
-    by_pressure,
+    is_ours,
     solvers_with,
 )
+from validation.benchmarks.surface_problem import ROUGH, SPHERE, SPHERE_LOAD, SurfaceProblem
 from validation.benchmarks.timing import (
     FINISHED,
-    Configuration,
-    NamedMethod,
     TimedProblem,
     Timing,
-    along,
     interval_of_median,
     time_in_turns,
 )
 from validation.engine.engine import SERIAL, Engine, FloatArray, Outcome
-from validation.engine.random_numbers import random_generator
-from validation.simulation.surface import draw_surface
-
-SPHERE, ROUGH = "sphere", "rough"
-SPHERE_LOAD = 4 / 3 / 4**3
-"""The force of Hertz for a = L/4 and R = L, over E* L^2."""
-ROUGH_HEIGHT = 0.01
-
-
-@dataclass(frozen=True)
-class SurfaceProblem:
-    """A surface pressed on an n x n grid of unit side: a sphere with a = n/4 cells, or a self-affine surface.
-
-    Rough: H = 0.7, from 2 pi/L to four cells a wave, rms height 0.01 L; load: F / (E* L^2); residual: that each solver
-    reaches, see `bem3d.residual`; own: a file with other solvers.
-    """
-
-    surface: str
-    load: float
-    cells: int
-    periodic: bool
-    seed: int
-    residual: float
-    own: str = ""
-
-    @property
-    def solvers(self) -> tuple[PeerSolver, ...]:
-        """Those that serve it."""
-        return tuple(solver for solver in solvers_with(self.own) if self.half_space in solver.serves)
-
-    @property
-    def name(self) -> str:
-        """Without its grid."""
-        load = "" if self.surface == SPHERE else f", F = {self.load:g} E* L²"
-        return f"{self.surface}{load}, {self.half_space}"
-
-    @property
-    def label(self) -> str:
-        return f"{self.name}, {self.cells}²"
-
-    @property
-    def half_space(self) -> str:
-        return "periodic" if self.periodic else "free"
-
-    def height(self) -> FloatArray:
-        """Positive towards the half-space [L]."""
-        n = self.cells
-        if self.surface == SPHERE:
-            x = (np.arange(n) + 0.5) / n - 0.5
-            return np.asarray(-(x[:, np.newaxis] ** 2 + x**2) / 2)
-        band = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi, q_max=2 * np.pi * n / 4, rms=ROUGH_HEIGHT)
-        rng = random_generator(self.seed)
-        return draw_surface(band.c2d, shape=(n, n), spacing=1 / n, rng=rng, rms=ROUGH_HEIGHT)
-
-    def discrete(self) -> ContactProblem:
-        """In plain values, with the approach that belongs to its force."""
-        side = 1 / self.cells
-        known: dict[str, Any] = {
-            "gap": -self.height(),
-            "spacing": (side, side),
-            "modulus": 1.0,
-            "periodic": self.periodic,
-        }
-        problem = ContactProblem(name=self.name, force=self.load, **known)
-        return replace(problem, approach=pressed(problem, 1e-10, force=self.load).approach)
-
-    def configurations(self) -> tuple[Configuration, ...]:
-        """Each solver that is installed, in a process of its own."""
-        methods = [NamedMethod(solver.name, by_pressure, (solver,)) for solver in self.solvers if solver.version]
-        sizes: dict[str, Any] = {"sizes": (self.cells,), "parameter": "# cells a side", "residual": self.residual}
-        return tuple(each for by in methods for each in along(by, self, **sizes, worker=by.name))
-
 
 NOT_INSTALLED, NOT_SERVED = "not installed", "not served"
+TOO_LONG = "not timed: it would take minutes"
 PRESSURE, FORCE, AREA = (f"{what} difference to ours" for what in ("pressure", "force", "area"))
 """Relative, of the pressure field in L2."""
 
@@ -118,7 +44,7 @@ PRESSURE, FORCE, AREA = (f"{what} difference to ours" for what in ("pressure", "
 def time_problem(given: TimedProblem) -> Outcome:
     """All solvers in processes of their own, with one thread, in turns: a row each."""
     problem, configurations = given.problem, given.problem.configurations()
-    rows = {solver.name: Timing(NOT_INSTALLED, math.nan) for solver in problem.solvers}
+    rows = {one.name: Timing(TOO_LONG if one.version else NOT_INSTALLED, math.nan) for one in problem.solvers}
     rows |= zip((each.label for each in configurations), time_in_turns(configurations, given), strict=True)
     ours = rows[OUR_SOLVER].results[0].values["pressure"] if rows[OUR_SOLVER].results else None
     known = {"problem": problem.label, "surface": problem.surface, "half-space": problem.half_space}
@@ -159,18 +85,21 @@ def _differences(pressure: FloatArray, ours: FloatArray) -> dict[str, float]:
 
 SETTLED = 1.0
 """Seconds of runs after which the fewest are enough."""
+PATIENCE = 40.0
+"""Seconds of a solve at the most, as that on the grid before lets expect: a solver needs up to five of them."""
 
 
 @dataclass(frozen=True)
 class SolverComparison:
     """All problems.
 
-    cells: grids; loads: of the rough surfaces; residual: that each solver reaches; slow: a solve that takes longer is
-    timed once [s]; own: a file with other solvers.
+    cells: grids; loads: of the rough surfaces; large: grids of the lightest of them alone, with threads; residual: that
+    each solver reaches; slow: a solve that takes longer is timed once [s]; own: a file with other solvers.
     """
 
     cells: tuple[int, ...] = (64, 128)
     loads: tuple[float, ...] = (0.001, 0.008)
+    large: tuple[int, ...] = ()
     residual: float = 1e-8
     slow: float = 5.0
     seed: int = 20261121
@@ -180,10 +109,12 @@ class SolverComparison:
         """Every surface in both half-spaces on every grid."""
         surfaces = [(SPHERE, SPHERE_LOAD), *((ROUGH, load) for load in self.loads)]
         kinds = itertools.product((True, False), surfaces, self.cells)
-        return [self._problem(*surface, n, periodic) for periodic, surface, n in kinds]
+        small = [self._problem(*surface, n, periodic) for periodic, surface, n in kinds]
+        large = itertools.product((True, False), self.large)
+        return [*small, *(self._problem(ROUGH, self.loads[0], n, periodic, cores()) for periodic, n in large)]
 
-    def _problem(self, surface: str, load: float, cells: int, periodic: bool) -> SurfaceProblem:
-        return SurfaceProblem(surface, load, cells, periodic, self.seed, self.residual, self.own)
+    def _problem(self, surface: str, load: float, cells: int, periodic: bool, threads: int = 1) -> SurfaceProblem:
+        return SurfaceProblem(surface, load, cells, periodic, self.seed, self.residual, self.own, threads)
 
 
 Row = Mapping[str, Any]
@@ -193,14 +124,31 @@ Rows = Sequence[Sequence[Row]]
 
 def run(case: SolverComparison, engine: Engine = SERIAL) -> Outcomes:
     """Time all problems, one at a time whatever the engine's workers, so that nothing else disturbs them."""
-    given = [TimedProblem(problem=p, slow=case.slow, enough=SETTLED, methods=all_methods()) for p in case.problems()]
+    settings: dict[str, Any] = {"slow": case.slow, "enough": SETTLED, "methods": all_methods()}
+    rows: list[list[Row]] = []
     # a run that was interrupted goes on; one that is over is timed anew the next time
     with engine.timed() as alone:
-        rows = [rows_of(outcome) for outcome in alone.map(time_problem, given)]
+        for problem in case.problems():
+            given = TimedProblem(problem=replace(problem, left_out=too_slow(problem, rows)), **settings)
+            rows.extend(rows_of(outcome) for outcome in alone.map(time_problem, [given]))
     ours = [solver.name for solver in solvers_with("") if solver.package == OURS]
-    lost = [row for each in rows for row in each if row["solver"] in ours and row["status"] != FINISHED]
+    lost = [row for each in rows for row in each if row["solver"] in ours and row["status"] not in (FINISHED, TOO_LONG)]
     said = tuple(f"{row['problem']}: {row['solver']} {row['status']}" for row in lost)
     return Outcomes(case, {"problems": rows}, said)
+
+
+def too_slow(problem: SurfaceProblem, before: "Rows") -> tuple[str, ...]:
+    """Solvers of which a solve on the largest grid before, times the cells, takes longer than the patience."""
+    same = [row for rows in before for row in rows if row["name"] == problem.name and row["cells"] < problem.cells]
+    last = max((row["cells"] for row in same), default=0)
+    known = {row["solver"]: row for row in same if row["cells"] == last}
+    # with threads for the first time, it takes as long as without, at the most
+    rows = {one.name: known.get(one.name, known.get(one.alone)) for one in problem.solvers}
+    return tuple(name for name, row in rows.items() if row and _expected(row) * (problem.cells / last) ** 2 > PATIENCE)
+
+
+def _expected(row: "Row") -> float:
+    return math.inf if row["status"] == TOO_LONG else float(row[MEDIAN]) if row["status"] == FINISHED else 0.0
 
 
 def rows_of(outcome: Outcome) -> list[Row]:
@@ -246,11 +194,12 @@ def _agreement(finished: Sequence[Mapping[str, Row]], solvers: Sequence[PeerSolv
 
 
 def _speed(finished: Sequence[Mapping[str, Row]]) -> Iterator[Series]:
-    """Our time over that of the fastest other solver, for each problem."""
+    """Our time over that of the fastest other solver, each with threads where it has them, for each problem."""
     for rows in finished:
-        rivals = [row for name, row in rows.items() if name != OUR_SOLVER]
-        if OUR_SOLVER in rows and rivals:
-            ours, rival = rows[OUR_SOLVER], min(rivals, key=lambda row: float(row[MEDIAN]))
+        mine = [row for name, row in rows.items() if is_ours(name)]
+        rivals = [row for name, row in rows.items() if not is_ours(name)]
+        if mine and rivals:
+            ours, rival = (min(some, key=lambda row: float(row[MEDIAN])) for some in (mine, rivals))
             ratio = ours[MEDIAN] / rival[MEDIAN]
             half = max(ours["high [s]"] / rival["low [s]"] - ratio, ratio - ours["low [s]"] / rival["high [s]"])
             at, margin = {"problem": ours["name"], "cells": ours["cells"]}, replace(FASTER, source=rival["solver"])
@@ -285,12 +234,14 @@ def _said(row: Row) -> str:
 
 
 STUDY = Study(
-    title="Solver comparison: time to the same residual, one thread each",
+    title="Solver comparison: time to the same residual",
     method=(
         "All solvers solve the same discrete problems, cold, to a residual of {c.residual:g} as this project defines "
         "it, from a fresh operator application on the returned pressure. Each has the loosest of its own tolerances "
         "that reaches this residual, and the force, or the approach of this force, as its interface requires. Each has "
-        "a process with one thread, in turns; the time is the median of 5 to 15 runs, or one long run; the claim "
+        "a process, in turns, with one thread; on large grids those that share their work out also have one for each "
+        "core, and a solve that would take longer than 40 s is left out. The time is the median of 5 to 15 runs, or "
+        "one long run; the claim "
         "compares medians with intervals between order statistics. Set-up (operators, plans; ours with a whole first "
         "solve) is timed separately. Our applications are those on the finest grid or a window of it; our time "
         "includes the coarser grids. tamaas does not count applications. Fourier transforms are those of each package "
@@ -308,8 +259,9 @@ STUDY = Study(
     ),
     charts=(
         Chart("race").of(
-            "Grids of {c.cells} cells a side. (a) Median time to the residual, bars from the fastest to the slowest "
-            "run. (b) The same over the median of bem3d.solve."
+            "Grids of {c.cells} cells a side, and larger ones. (a) Median time to the residual, bars from the fastest "
+            "to the slowest run. (b) The same over the median of bem3d.solve. (c) Median time over the cells of the "
+            "lighter rough surface in free space, and the exponent of a straight line."
         ),
     ),
 )
@@ -319,7 +271,7 @@ CASE = Case(
     place=2,
     answers="Our solver beside other packages that are installed, same problems, same residual",
     quick=SolverComparison(),
-    full=SolverComparison(cells=(128, 256, 384)),
+    full=SolverComparison(cells=(128, 256, 384), large=(1024, 2048)),
     run=run,
     study=STUDY,
     needs="–",

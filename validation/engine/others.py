@@ -1,13 +1,12 @@
 """Functions of others: a file is run as a program in a process of its own, and what it does wrong is said in words."""
 
-import hashlib
 import importlib.util
 import os
 import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, redirect_stdout, suppress
 from dataclasses import dataclass, field
 from importlib.machinery import SourceFileLoader
@@ -18,6 +17,7 @@ from typing import IO, Any
 
 from validation.engine.installed import file_of
 from validation.engine.offered import KINDS, Caller, Failed, FloatArray, Offered
+from validation.engine.read_files import OPENED, digest_of, sources_of, watch_opened
 from validation.engine.replies import SHOWN, Reply, called, raised
 from validation.engine.workers import ONE_THREAD
 
@@ -38,7 +38,7 @@ class OthersError(ValueError):
 class Called(Caller):
     """An offered function, in this process or by a visitor.
 
-    printed: the first of what it printed; replies: to the last calls; longest: arguments that took it longest.
+    printed: the first of what it printed; replies: to the last calls; longest: arguments of the slowest answer.
     """
 
     offered: Offered
@@ -62,7 +62,7 @@ class Called(Caller):
             printed = text.getvalue()
         self.printed = self.printed or " ".join(printed.split())[:SHOWN]
         for value, reply in zip(values, self.replies, strict=True):
-            if reply.seconds > self._seconds:
+            if reply.seconds > self._seconds and not isinstance(reply.value, Failed):
                 self._seconds, self.longest = reply.seconds, {**arguments, name: value}
         return [reply.value for reply in self.replies]
 
@@ -70,8 +70,8 @@ class Called(Caller):
 class Visitor:
     """A file in a process of its own, which is ended where a call hangs, and started again.
 
-    offered: what it offers, whose functions are not here; sources: the file and the modules that it has loaded from its
-    folder. Raises OthersError where the file is broken or offers nothing, OSError where it cannot be read.
+    offered: what it offers, whose functions are not here; sources: the file, and the modules and data that it has had
+    from its folder. Raises OthersError where the file is broken or offers nothing, OSError where it cannot be read.
     """
 
     def __init__(self, path: Path, *, seconds: float = SECONDS):
@@ -94,7 +94,7 @@ class Visitor:
 
     @property
     def digest(self) -> str:
-        """Of the bytes of the file, and of every module that it has loaded from its folder."""
+        """Of the bytes of the file, and of all modules and data that it has from its folder."""
         return digest_of(self.sources)
 
     def calls(
@@ -128,7 +128,7 @@ class Visitor:
         if not self._pipe.poll(self.seconds):
             raise TimeoutError
         found, printed, sources = self._pipe.recv()
-        self.sources = sources or self.sources
+        self.sources = tuple(sorted({*self.sources, *sources}))
         return found, printed
 
     def _start(self) -> None:
@@ -152,7 +152,8 @@ class Visitor:
         if isinstance(found, str):
             self._end()
             raise OthersError(f"{self.path.name}: {found}")
-        declared, self.sources = found
+        declared, sources = found
+        self.sources = tuple(sorted({*self.sources, *sources}))
         if not hasattr(self, "offered"):
             self.offered = [Offered(kind, name, _elsewhere, asks, options) for kind, name, asks, options in declared]
 
@@ -166,11 +167,6 @@ class Visitor:
             os.killpg(self._process.pid, signal.SIGKILL)
         self._process.wait()
         self._pipe.close()
-
-
-def digest_of(sources: Iterable[Path]) -> str:
-    """Of the bytes of these files."""
-    return hashlib.sha256(b"".join(hashlib.sha256(path.read_bytes()).digest() for path in sources)).hexdigest()
 
 
 def _elsewhere(**_: Any) -> None:
@@ -202,6 +198,7 @@ def serve(handle: int) -> None:
     """The other process: load the file that the command line names, then answer until nobody asks."""
     pipe, path = Connection(handle), Path(sys.argv[1])
     SERVING.append(path)
+    watch_opened()
     with tempfile.TemporaryFile() as printed:
         for stream in (1, 2):
             os.dup2(printed.fileno(), stream)
@@ -215,9 +212,9 @@ def serve(handle: int) -> None:
             while True:
                 index, arguments, name, values = pipe.recv()
                 for value in values:
-                    loaded = len(sys.modules)
+                    before = len(sys.modules), len(OPENED)
                     found = called(offered[index], {**arguments, name: value})
-                    sources = sources_of(path) if len(sys.modules) > loaded else ()
+                    sources = sources_of(path) if (len(sys.modules), len(OPENED)) != before else ()
                     pipe.send((found, _printed(printed), sources))
 
 
@@ -253,12 +250,3 @@ def _loaded(path: Path) -> list[Offered]:
     if twice := next((one for one in names if names.count(one) > 1), None):
         raise OthersError(f"two functions are offered as {twice!r}")
     return found
-
-
-def sources_of(path: Path) -> tuple[Path, ...]:
-    """The file and the modules that are loaded from its folder, but for installed packages."""
-    files = {
-        Path(file) for one in list(sys.modules.values()) if isinstance(file := getattr(one, "__file__", None), str)
-    }
-    near = {file for file in files if file.is_relative_to(path.parent) and "site-packages" not in file.parts}
-    return tuple(sorted({path, *near}))

@@ -6,17 +6,21 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from pkgutil import resolve_name
+from typing import TYPE_CHECKING
 
 from validation.analysis.contents import as_csv, as_json
-from validation.analysis.evidence import Table
+from validation.analysis.evidence import Table, table_of
 from validation.analysis.judgement import DIFFER, FAILED, REFUSED, Enough, JudgedPoint, enough, not_compared
 from validation.engine.files import write_whole
 from validation.engine.others import Called, visited
 from validation.report.judged_solver import solver_lines
 from validation.report.judged_words import summary_lines
 from validation.selection.judging.judge import JUDGES, points_of
-from validation.selection.judging.own import MAIN, ErrorOfCall, costs_of
+from validation.selection.judging.own import ErrorOfCall, costs_of
 from validation.selection.tolerance import Tolerance, tolerance_of
+
+if TYPE_CHECKING:
+    from validation.benchmarks.judging.judged import SolverTime
 
 OF_SOLVER = "validation.benchmarks.judging.judged:judged"
 """Of a contact solver; it imports all solvers."""
@@ -40,7 +44,7 @@ class Judgement:
     seconds : float
         That the judgement took.
     times : tuple
-        Of a solver: seconds beside `bem3d`, value and reference, which are neither right nor wrong.
+        Of a solver: cells on a side, its seconds, and those of `bem3d`, which are neither right nor wrong.
     costs : tuple
         Error against seconds of one call: of the model, and of the suite's own of its kind.
 
@@ -59,7 +63,7 @@ class Judgement:
     tolerance: Tolerance
     verdicts: tuple[JudgedPoint, ...]
     seconds: float
-    times: tuple[JudgedPoint, ...] = ()
+    times: "tuple[SolverTime, ...]" = ()
     costs: tuple[ErrorOfCall, ...] = ()
 
     @property
@@ -77,11 +81,6 @@ class Judgement:
         """Of a solver: whether it differs or fails where that decides."""
         return any(point.decides and point.verdict in (DIFFER, FAILED, REFUSED) for point in self.verdicts)
 
-    @property
-    def unit_of_costs(self) -> str:
-        """Of the error that is beside seconds."""
-        return next(point.unit for point in self.verdicts if point.quantity == MAIN[self.kind])
-
     def summary(self) -> str:
         """Where it is enough, the worst points and what they share, and a paragraph for a paper."""
         if self.kind == "contact_solver":
@@ -97,11 +96,14 @@ class Judgement:
             "verdicts": [_as_dict(point) for point in self.verdicts],
             "enough": [_as_dict(some) for some in self.enough],
             "seconds": round(self.seconds, 3),
-            **({"times": [_time(point) for point in self.times]} if self.times else {}),
+            **({"times": [time._asdict() for time in self.times]} if self.times else {}),
         }
 
     def save(self, folder: str | Path) -> None:
-        """Write judgement.json, verdicts.csv, summary.txt and judgement.svg into a folder, which is made."""
+        """Write judgement.json, verdicts.csv, summary.txt and judgement.svg into a folder, which is made.
+
+        Seconds that the figure shows are in costs.csv: of calls with the error, of a solver by the cells on a side.
+        """
         from validation.report.judged_figure import figure_of  # which takes half a second to import
 
         files = {
@@ -110,6 +112,8 @@ class Judgement:
             "summary.txt": f"{self.summary()}\n".encode(),
             "judgement.svg": figure_of([self], "svg"),
         }
+        if costs := [one._asdict() for one in self.costs or self.times]:
+            files["costs.csv"] = as_csv(table_of("costs", costs))
         for name, contents in files.items():
             write_whole(Path(folder) / name, contents)
 
@@ -154,28 +158,27 @@ def judge(model: object, tolerance: float | str = 0.1) -> Judgement:
 def judged(model: Called, tolerance: Tolerance) -> Judgement:
     """Of one function, here or in another process."""
     begin = time.perf_counter()
-    judge = points_of if model.kind in JUDGES else resolve_name(OF_SOLVER)
-    points = list(judge(model, tolerance.relative))
+    times: Sequence[SolverTime] = ()
+    if model.kind in JUDGES:
+        points = list(points_of(model, tolerance.relative))
+    else:
+        points, times = resolve_name(OF_SOLVER)(model)
     if model.printed:
         points.append(not_compared("printing", {}, FAILED, f"printed {model.printed!r}"))
-    verdicts, times = (tuple(point for point in points if bool(point.verdict) is judged) for judged in (True, False))
-    costs = tuple(costs_of(model, verdicts))
-    return Judgement(model.name, model.kind, tolerance, verdicts, time.perf_counter() - begin, times, costs)
+    costs = costs_of(model, points)
+    seconds = time.perf_counter() - begin
+    return Judgement(model.name, model.kind, tolerance, tuple(points), seconds, tuple(times), tuple(costs))
 
 
 def points_as_csv(judgements: Sequence[Judgement]) -> bytes:
     """A row a point of each; a condition that a point does not have is left empty."""
-    points = [(one.model, point) for one in judgements for point in (*one.verdicts, *one.times)]
+    points = [(one.model, point) for one in judgements for point in one.verdicts]
     places = dict.fromkeys(name for _, point in points for name in point.where)
     columns: dict[str, list[object]] = {"model": [model for model, _ in points]}
     columns |= {"quantity": [point.quantity for _, point in points]}
     columns |= {name: [point.where.get(name, math.nan) for _, point in points] for name in places}
     columns |= {name: [getattr(point, name) for _, point in points] for name in COLUMNS}
     return as_csv(Table("verdicts", columns))
-
-
-def _time(point: JudgedPoint) -> dict[str, object]:
-    return {**point.where, "seconds": point.value, "bem3d": point.reference}
 
 
 def _as_dict(part: JudgedPoint | Enough) -> dict[str, object]:

@@ -4,8 +4,12 @@ import math
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from importlib import metadata
+from typing import TYPE_CHECKING
 
 from validation.analysis.judgement import AGREE, JudgedPoint
+
+if TYPE_CHECKING:
+    from validation.benchmarks.judging.judged import SolverTime
 
 SHOWN = 5
 """Reasons, and problems of each."""
@@ -14,7 +18,7 @@ NO_ROW = (*COLUMNS, "tension", "answer", "conditions")
 
 
 def solver_lines(
-    model: str, checks: Sequence[JudgedPoint], times: Sequence[JudgedPoint], seconds: float
+    model: str, checks: Sequence[JudgedPoint], times: Sequence["SolverTime"], seconds: float
 ) -> Iterator[str]:
     """Of one solver."""
     wrong = [point for point in checks if point.verdict != AGREE]
@@ -24,9 +28,9 @@ def solver_lines(
     yield from ["", *table_of_problems(checks)]
     if times:
         yield "\nseconds beside bem3d, same grid and residual, one thread and its set-up each:"
-        yield from (f"  {p.where['cells']:.0f}²{p.value:12.3g} s{p.value / p.reference:9.2g} times" for p in times)
+        yield from (f"  {t.cells:.0f}²{t.seconds:12.3g} s{t.seconds / t.bem3d:9.2g} times" for t in times)
     if len(times) > 1:
-        mine, ours = (growth(times, name) for name in ("value", "reference"))
+        mine, ours = (growth(times, name) for name in ("seconds", "bem3d"))
         yield f"  its time grows as the number of cells to the power {mine:.2g}, that of bem3d {ours:.2g}"
     failed, asked = (len({point.where["problem"] for point in some}) for some in (wrong, checks))
     what = f"is wrong on {failed} of the {asked}" if wrong else f"solves the {asked}"
@@ -66,8 +70,8 @@ def _off(point: JudgedPoint | None) -> str:
     return f"{abs(point.difference):.1e}{'' if point.verdict == AGREE else ' !'}" if point else ""
 
 
-def growth(times: Sequence[JudgedPoint], what: str) -> float:
+def growth(times: Sequence["SolverTime"], what: str) -> float:
     """Power of the number of cells, between the two finest grids."""
     before, after = times[-2:]
     ratio = getattr(after, what) / getattr(before, what)
-    return math.log(ratio) / math.log(float(after.where["cells"]) / float(before.where["cells"])) / 2
+    return math.log(ratio) / math.log(after.cells / before.cells) / 2

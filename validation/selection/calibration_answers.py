@@ -15,8 +15,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.engine.engine import SERIAL, Engine, FloatArray, Outcome
-from validation.selection.calibration_scenes import CalibrationScene, reference_answer
+from validation.engine.engine import FloatArray, Outcome
+from validation.selection.calibration_scenes import CalibrationScene
 from validation.simulation import calibration
 from validation.simulation.model import GridModel, models_serving
 
@@ -57,12 +57,13 @@ class Answers:
             about=about,
         )
 
-    def __iter__(self) -> Iterator[tuple[int, FloatArray, FloatArray]]:
-        """Number, value, and realisations (count, size) of each scene."""
+    def scenes(self, group: Group) -> Iterator[tuple[CalibrationScene, FloatArray, FloatArray]]:
+        """Each with its value and its realisations (count, size)."""
         values = np.split(self.value, np.cumsum(self.size)[:-1])
         each = np.split(self.each, np.cumsum(self.size * self.count)[:-1])
         for number, value, rows in zip(self.number.tolist(), values, each, strict=bool(self.number.size)):
-            yield number, value, rows.reshape(-1, value.size)
+            point = CalibrationScene(kind=group[0], number=number, quantity=group[1], seed=self.seed)
+            yield point, value, rows.reshape(-1, value.size)
 
     @property
     def seed(self) -> int:
@@ -75,16 +76,10 @@ class Answers:
         return hashlib.sha256(b"".join(one.tobytes() for one in astuple(self)[:-1])).hexdigest()[:16]
 
 
-def measured_answers(
-    points: Sequence[CalibrationScene], about: Mapping[str, str], engine: Engine = SERIAL
-) -> dict[Group, Answers]:
-    """Solve all of them by boundary elements, and nothing else. about: lines of the provenance."""
-    return answers_of(points, engine.map(reference_answer, points), about)
-
-
 def answers_of(
     points: Sequence[CalibrationScene], outcomes: Sequence[Outcome], about: Mapping[str, str]
 ) -> dict[Group, Answers]:
+    """Of `reference_answer` or more. about: lines of the provenance."""
     groups: dict[Group, list[tuple[CalibrationScene, Outcome]]] = {}
     for point, outcome in zip(points, outcomes, strict=True):
         groups.setdefault((point.kind, point.quantity), []).append((point, outcome))

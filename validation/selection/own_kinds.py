@@ -4,25 +4,28 @@ import math
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
+from types import SimpleNamespace
 from typing import Any, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 import mdr
-from validation.engine.offered import Caller, Failed, FloatArray
+from validation.engine.offered import Caller, FloatArray, Given
 from validation.engine.random_numbers import random_generator
 from validation.scenes.rail import RailScene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness, RoughSurface
+from validation.selection.judging.judge import asked
 from validation.selection.judging.rolling import middle_line
 from validation.simulation.calibrated_range import SCATTER
 from validation.simulation.indentation import cells_wanted, ground_of, height_of, is_rough, side_of
-from validation.simulation.method import Result
+from validation.simulation.method import Resolution, Result
 from validation.simulation.model import Target
 from validation.simulation.models import boundary_elements_pressed, boundary_elements_rolling
-from validation.simulation.rail_models import rail_quantity
+from validation.simulation.rail_models import ContactFilter, rail_quantity
 from validation.simulation.rail_quantity import RAIL_QUANTITIES
 from validation.simulation.rail_strip import structure_of
 from validation.simulation.rolling_levels import by_linear_theory, levels_of, strip_of
@@ -36,61 +39,48 @@ DRAWS = 3
 """The spawn key under which models draw."""
 CALIBRATED, SURFACES = 100, 4
 """Realisations on a scene of the calibration; of those that are given, which boundary elements have solved as well."""
-MOST = 200
-"""Surfaces that are given at the most."""
 STEPS, RATIO, NODES = 5, 1.4, 8
 """Panels of a quadrature below the roughness, the ratio of the ends of one in it, and nodes of each."""
 
 Rows = Callable[[Caller, Target, int], FloatArray]
-"""(realisations, numbers) of a quantity, of a rail (1, bands) [dB]; the last argument is how many are drawn."""
+"""(realisations, numbers) of a quantity, of a rail (ends, bands) [dB]; the last argument is how many are drawn."""
 
 
 @dataclass(frozen=True)
 class ServedKind:
     """What a kind of functions has of scenes.
 
-    what: in words; serves: whether it has a quantity of a scene; rows: its values; draws: realisations of a function
-    that asks for these arguments, and the half-width that they leave; given: whether they are of surfaces that boundary
-    elements have, too; own: error of one measured surface about the mean of all that have its spectrum, None for a kind
-    that is given the surface itself.
+    what: in words; serves: whether it has a quantity of a scene; rows: its values; scatter: relative deviation of one
+    realisation, of a function that asks for these arguments, zero where one is all; share, fewest, most: a sample
+    leaves this share of the tolerance, within these bounds; given: whether it is asked on surfaces that boundary
+    elements have, too; own: error of one measured surface about the mean of all that have its spectrum, None for a
+    kind that is given the surface itself.
     """
 
     what: str
     serves: Callable[[Any, str], bool]
     rows: Rows
-    draws: Callable[[Sequence[str], Target], tuple[int, float]] = lambda asks, target: (1, 0.0)
+    scatter: Callable[[Sequence[str], Target], float] = lambda asks, target: 0.0
+    share: float = 0.2
+    fewest: int = 50
+    most: int = 2000
     given: bool = False
     own: float | None = 0.0
 
-
-@dataclass(frozen=True)
-class MeasuredSpectrum:
-    """The spectrum of measured heights, as that of `mdr.SelfAffine`; hurst: None."""
-
-    surface: RoughSurface
-
-    def c2d(self, q: ArrayLike) -> FloatArray:
-        return np.asarray(self.surface.c2d(q))
-
-    def c1d(self, q: ArrayLike) -> FloatArray:
-        """Geike's rule."""
-        return mdr.geike(q, self.surface.c2d)
-
-    def __getattr__(self, name: str) -> Any:
-        if name not in ("rms", "hurst", "q_min", "q_max"):
-            raise AttributeError(name)
-        return getattr(self.surface, name)
+    def sample(self, asks: Sequence[str], target: Target) -> tuple[int, float]:
+        """Realisations, and the relative half-width that they leave of the mean."""
+        scatter = self.scatter(asks, target)
+        error = self.share * target.tolerance
+        count = realisations(scatter, error, least=self.fewest, most=self.most) if scatter else 1
+        return count, STUDENT * scatter / math.sqrt(count)
 
 
 def roughness_of(ground: RoughSurface) -> object:
-    return ground.spectrum if isinstance(ground, Roughness) else MeasuredSpectrum(ground)
-
-
-def number(found: FloatArray | Failed) -> FloatArray:
-    """Raises ValueError with what is wrong."""
-    if isinstance(found, Failed):
-        raise ValueError(found.reason)
-    return found
+    """What a function is given; hurst: None for measured heights."""
+    if isinstance(ground, Roughness):
+        return ground.spectrum
+    about = {name: getattr(ground, name) for name in ("c2d", "rms", "hurst", "q_min", "q_max")}
+    return SimpleNamespace(c1d=partial(mdr.geike, c2d=ground.c2d), **about)
 
 
 def _is_rough_punch(scene: Any, quantity: str) -> bool:
@@ -101,19 +91,8 @@ def _stiffness(caller: Caller, target: Target, count: int) -> FloatArray:
     scene = target.scene
     given = {"load": scene.load, "side": scene.size, "modulus": scene.modulus}
     given["roughness"] = roughness_of(ground_of(scene))
-    if "rng" not in caller.asks:
-        return np.atleast_2d(number(caller.call(**given)).flat[0])
-    drawn = [random_generator(target.seed, DRAWS, i) for i in range(count)]
-    return np.array([[float(number(one))] for one in caller.calls("rng", drawn, given)])
-
-
-def _sample(scatter: float, error: float, least: int = 50, most: int = 2000) -> tuple[int, float]:
-    count = realisations(scatter, error, least=least, most=most)
-    return count, STUDENT * scatter / math.sqrt(count)
-
-
-def _drawn(asks: Sequence[str], target: Target) -> tuple[int, float]:
-    return _sample(SCATTER, target.tolerance / 5) if "rng" in asks else (1, 0.0)
+    rngs = (random_generator(target.seed, DRAWS, i) for i in range(count))
+    return np.array([asked(caller, **given, rng=rng).flat[:1] for rng in rngs])  # of (mean, deviation) the mean
 
 
 def _stiffness_of_surfaces(caller: Caller, target: Target, count: int) -> FloatArray:
@@ -123,12 +102,7 @@ def _stiffness_of_surfaces(caller: Caller, target: Target, count: int) -> FloatA
     cells = cells_wanted(scene) if single else max(cells // 2, 1)
     given = {"spacing": side_of(scene) / cells, "modulus": scene.modulus, "load": scene.load}
     heights = (height_of(scene, cells, i, target.seed) for i in range(count))
-    return np.array([[float(number(caller.call(height=height, **given)))] for height in heights])
-
-
-def _surfaces(asks: Sequence[str], target: Target) -> tuple[int, float]:
-    single = target.scene.ground.is_single
-    return (1, 0.0) if single else _sample(SCATTER, target.tolerance / 2, FEWEST, MOST)
+    return np.array([[float(asked(caller, height=height, **given))] for height in heights])
 
 
 def _is_rolling(scene: Any, quantity: str) -> bool:
@@ -139,7 +113,7 @@ def _levels(caller: Caller, target: Target, count: int) -> FloatArray:
     """sqrt(2 int |T|^2 C_F dq) over each band."""
     scene = target.scene
     given = {**scene.body.smooth, "contact_radius": scene.contact_radius, "roughness": roughness_of(scene.ground)}
-    return _of_density(target.rolling, lambda q: number(caller.call(q=q, **given)))
+    return _of_density(target.rolling, lambda q: asked(caller, q=q, **given))
 
 
 def _of_density(quantity: RollingQuantity, density: Callable[[FloatArray], FloatArray]) -> FloatArray:
@@ -154,16 +128,21 @@ def _quadratures(quantity: RollingQuantity) -> Iterator[tuple[FloatArray, FloatA
     """Nodes in each band and their weights; a line has waves below those of the surface, too."""
     ground, a = quantity.scene.ground, quantity.scene.contact_radius
     for low, high in pairwise(quantity.bands.edges):
-        last = min(high, ground.q_max)
-        first = max(low, ground.q_min)
+        first, last = max(low, ground.q_min), min(high, ground.q_max)
         waves = np.linspace(low, last, 2 + math.floor((last - low) * a / math.pi))
         powers = np.geomspace(first, last, 2 + math.floor(math.log(last / first) / math.log(RATIO)))
-        below = np.linspace(low, first, STEPS) if first > low else powers[:1]
+        below = np.linspace(low, first, STEPS)
         yield on_panels(np.unique(np.concatenate([waves, powers, below])), NODES)
 
 
-def _serves_of_rule(scene: Any, quantity: str) -> bool:
-    return _is_rough_punch(scene, quantity) or _is_rolling(scene, quantity)
+def rms_of_profile(c1d: FloatArray, waves: FloatArray, ground: RoughSurface) -> float:
+    """Of a rule: a band that begins at the first wave counts it whole, as that of Geike's, whose rms is the surface's.
+
+    Raises ValueError for a spectrum that is negative, or zero.
+    """
+    if c1d.min() < 0 or not c1d.any():
+        raise ValueError("no profile has a spectrum that is negative, or zero")
+    return float(ground.rms * math.sqrt(c1d.sum() / mdr.geike(waves, ground.c2d).sum()))
 
 
 def _of_rule(caller: Caller, target: Target, count: int) -> FloatArray:
@@ -171,31 +150,19 @@ def _of_rule(caller: Caller, target: Target, count: int) -> FloatArray:
     scene, roughness = target.scene, roughness_of(target.scene.ground)
 
     def c1d(q: ArrayLike) -> FloatArray:
-        return number(caller.call(q=np.asarray(q), roughness=roughness))
+        return asked(caller, q=np.asarray(q), roughness=roughness)
 
     if isinstance(scene, RollingScene):
         contact = {"contact_radius": scene.contact_radius, "modulus": scene.modulus}
         return _of_density(target.rolling, lambda q: force_spectrum_1d(q, c1d, **contact))
     points = max(256, math.ceil(NODES * scene.size * scene.ground.q_max / (2 * math.pi)))
-    # a band that begins at the first wave counts it whole, as that of Geike's rule, which has the rms of the surface
     waves = 2 * math.pi / scene.size * np.arange(1, points // 2)
-    share = float(c1d(waves).sum() / mdr.geike(waves, scene.ground.c2d).sum())
-    if not share > 0:
-        raise ValueError("no profile has a spectrum that is negative, or zero")
-    rms, rng = scene.ground.rms * math.sqrt(share), random_generator(target.seed, DRAWS)
+    rms, rng = rms_of_profile(c1d(waves), waves, scene.ground), random_generator(target.seed, DRAWS)
     drawn = mdr.rough_profiles(c1d, length=scene.size, points=points, count=count, rng=rng, rms=rms)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
         found = mdr.stiffness_under(scene.load, drawn, length=scene.size, modulus=scene.modulus)
     return np.asarray(found)[:, np.newaxis]
-
-
-def _profiles(asks: Sequence[str], target: Target) -> tuple[int, float]:
-    return (1, 0.0) if isinstance(target.scene, RollingScene) else _sample(SCATTER, target.tolerance / 5)
-
-
-def _is_still(scene: Any, quantity: str) -> bool:
-    return _is_rolling(scene, quantity) and quantity.startswith("force")
 
 
 def _rolled(caller: Caller, target: Target, count: int) -> FloatArray:
@@ -209,66 +176,89 @@ def _rolled(caller: Caller, target: Target, count: int) -> FloatArray:
     for i in range(count):
         surface = strip_of(quantity, cells, i, target.seed)
         strip = {"height": crop_to_reach(surface, spacing, body), "line": middle_line(surface)}
-        force = number(caller.call(**strip, spacing=(spacing, spacing), **body.smooth))
+        force = asked(caller, **strip, spacing=(spacing, spacing), **body.smooth)
         over = by_linear_theory(quantity, surface, spacing) if drawn else 1.0
         rows.append(levels_of(quantity, force, spacing) / over)
     return np.array(rows) * (quantity.expected(one_dimensional=False) if drawn else 1.0)
 
 
-def _strips(asks: Sequence[str], target: Target) -> tuple[int, float]:
-    scatter = boundary_elements_rolling.scatter(target)
-    return (1, 0.0) if target.scene.ground.is_single else _sample(scatter, target.tolerance, FEWEST, FEWEST)
-
-
-def _is_rail(scene: Any, quantity: str) -> bool:
-    return isinstance(scene, RailScene) and quantity in RAIL_QUANTITIES
-
-
 def _filtered(caller: Caller, target: Target, count: int) -> FloatArray:
-    """A3 in bands, in the middle of both ends where the ground is not stated [dB]."""
-    asked, contact, found = rail_quantity(target), target.scene.contact, []
-    bands = {"edges": asked.bands.edges, "semi_axes": contact.semi_axes}
+    """A3 in bands, at both ends where the ground is not stated [dB]."""
+    quantity, contact, found = rail_quantity(target), target.scene.contact, []
+    bands = {"edges": quantity.bands.edges, "semi_axes": contact.semi_axes}
     given = {"a_x": contact.along, "a_y": contact.across, "approach": contact.approach}
-    for across in asked.ends:
-        alpha = {"ridges": 0.0, "isotropic": math.inf}.get(str(across), across)
+    for across in quantity.ends:
+        given["alpha"] = {"ridges": 0.0, "isotropic": math.inf}.get(str(across), across)
+        ground = structure_of(across if "k_y" in caller.asks else "ridges", quantity.line)
+        found.append(ground.band_power(quantity.line, partial(_amplitude, caller, given), **bands))
+    return quantity.between(10 * np.log10(found))
 
-        def transfer(k_x: FloatArray, k_y: FloatArray, alpha: object = alpha) -> FloatArray:
-            k_x, k_y = np.broadcast_arrays(k_x, k_y)
-            return number(caller.call(k_x=k_x, k_y=k_y, **given, alpha=alpha))
 
-        ground = structure_of(across if "k_y" in caller.asks else "ridges", asked.line)
-        found.append(10 * np.log10(ground.band_power(asked.line, transfer, **bands)))
-    return np.asarray(asked.between(np.array(found)).mean(axis=0, keepdims=True))
+def filter_of(name: str, a3: FloatArray) -> ContactFilter:
+    """Whose error is its distance from linear theory, and that of linear theory. a3: (ends, bands) [dB]."""
+    return ContactFilter(name=name, closed=lambda quantity: a3)
+
+
+def _amplitude(caller: Caller, given: Given, k_x: FloatArray, k_y: FloatArray) -> FloatArray:
+    k_x, k_y = np.broadcast_arrays(k_x, k_y)
+    return asked(caller, k_x=k_x, k_y=k_y, **given)
+
+
+def _scatter_of_strips(asks: Sequence[str], target: Target) -> float:
+    return 0.0 if target.scene.ground.is_single else boundary_elements_rolling.scatter(target)
 
 
 SERVED: Mapping[str, ServedKind] = {
-    "stiffness_model": ServedKind("stiffness of rough punches", _is_rough_punch, _stiffness, _drawn, own=2 * SCATTER),
+    "stiffness_model": ServedKind(
+        "stiffness of rough punches",
+        _is_rough_punch,
+        _stiffness,
+        lambda asks, target: SCATTER if "rng" in asks else 0.0,
+        own=2 * SCATTER,
+    ),
     "stiffness_of_surface": ServedKind(
-        "stiffness of rough punches", _is_rough_punch, _stiffness_of_surfaces, _surfaces, given=True, own=None
+        "stiffness of rough punches",
+        _is_rough_punch,
+        _stiffness_of_surfaces,
+        lambda asks, target: 0.0 if target.scene.ground.is_single else SCATTER,
+        share=0.5,
+        fewest=FEWEST,
+        most=200,
+        given=True,
+        own=None,
     ),
     "force_spectrum": ServedKind("force and acceleration of rolling wheels", _is_rolling, _levels, own=0.5),
     "rolling_model": ServedKind(
-        "force of rolling wheels at a constant approach", _is_still, _rolled, _strips, given=True, own=None
+        "force of rolling wheels at a constant approach",
+        lambda scene, quantity: _is_rolling(scene, quantity) and quantity.startswith("force"),
+        _rolled,
+        _scatter_of_strips,
+        fewest=FEWEST,
+        most=FEWEST,
+        given=True,
+        own=None,
     ),
     "profile_spectrum": ServedKind(
         "stiffness of rough punches, and force and acceleration of rolling wheels",
-        _serves_of_rule,
+        lambda scene, quantity: _is_rough_punch(scene, quantity) or _is_rolling(scene, quantity),
         _of_rule,
-        _profiles,
+        lambda asks, target: 0.0 if isinstance(target.scene, RollingScene) else SCATTER,
         own=0.5,
     ),
-    "contact_filter": ServedKind("contact filter and equivalent roughness of rails", _is_rail, _filtered),
+    "contact_filter": ServedKind(
+        "contact filter and equivalent roughness of rails",
+        lambda scene, quantity: isinstance(scene, RailScene) and quantity in RAIL_QUANTITIES,
+        _filtered,
+    ),
 }
 """By the decorator; contact laws and solvers have no quantity of a scene."""
 
 
 def result_of(caller: Caller, target: Target, count: int) -> Result:
-    """So many realisations. Raises ValueError for no answer, and for one that is not positive."""
+    """So many realisations. Raises ArithmeticError for no answer, ValueError for one that is not positive."""
     rows = SERVED[caller.kind].rows(caller, target, count)
     if isinstance(target.scene, RailScene):
-        # nothing is known of its error, in any band
-        halves = {"model": np.full(rows[0].shape, math.inf), "grid": 0 * rows[0], "sample": 0 * rows[0]}
-        return Result({target.quantity: rail_quantity(target).amplitude(rows[0]), "a3": rows[0], **halves})
+        return filter_of(caller.name, rows).solve(target, Resolution())
     if not (rows > 0).all():
         raise ValueError(f"a {target.quantity} of {rows.min():.3g}, must be positive")
     return Result({target.quantity: rows}, count=len(rows))

@@ -1,14 +1,15 @@
 """Models of somebody's own as candidates of `compare`: functions with decorators, calibrated on the stored scenes.
 
 A function of a file is measured beside the answers of boundary elements that the package has. Its errors are kept in a
-store, keyed by the bytes of the file and of the modules that this has loaded from its folder.
+store, keyed by the bytes of the file and of the modules and data that this has had from its folder. The error of a
+contact filter is known on each rail, as of those of the package.
 """
 
 import atexit
 import math
 import time
-from collections.abc import Collection, Iterable, Mapping
-from contextlib import suppress
+from collections.abc import Iterable, Mapping
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
@@ -17,13 +18,14 @@ import numpy as np
 
 from validation.engine.engine import SERIAL, Engine, FloatArray, Outcome
 from validation.engine.offered import Offered
-from validation.engine.others import Called, OthersError, Visitor, digest_of, sources_of
+from validation.engine.others import Called, OthersError, Visitor
+from validation.engine.read_files import digest_of, sources_of
 from validation.scenes.load import Scene, load_scene
 from validation.scenes.printable import quoted
 from validation.scenes.rail import RailScene
-from validation.selection.calibration_answers import Answers, Group, answers_in
+from validation.selection.calibration_answers import Group, answers_in
 from validation.selection.calibration_scenes import OTHER_SEED, CalibrationScene
-from validation.selection.own_kinds import CALIBRATED, SERVED, SURFACES, result_of
+from validation.selection.own_kinds import CALIBRATED, SERVED, SURFACES, filter_of, result_of
 from validation.simulation.calibrated_range import CONDITIONS, HURST, beyond_spectrum
 from validation.simulation.calibration import MeasuredErrors, conditions_by_kind, kind_of
 from validation.simulation.method import Resolution, Result
@@ -38,6 +40,8 @@ LEAST = 1e-9
 """Error of a scene at the least: logarithms are taken."""
 VISITORS: dict[tuple[Path, str], Visitor] = {}
 """Processes of files, by what these had been when they were run."""
+RUNNING = ExitStack()
+atexit.register(RUNNING.close)
 
 
 @dataclass(frozen=True)
@@ -57,9 +61,9 @@ class OwnErrors:
 class OwnModel:
     """A function of somebody's own, as workers get it.
 
-    digest: of its file and of the modules that this has loaded; empty for a function without a file, which is neither
-    calibrated nor stored. path, sources: of the file; function: of this process, in the place of its file; errors: by
-    kind of scene and quantity.
+    digest: of its file and of the modules and data that this has had; empty for a function without a file, which is
+    neither calibrated nor stored. path, sources: of the file; function: of this process, in the place of its file;
+    errors: by kind of scene and quantity.
     """
 
     kind: str
@@ -81,44 +85,52 @@ class OwnModel:
         if self.function is not None:
             return Called(self.function)
         assert self.path is not None  # in the place of a function
-        visitor = VISITORS.get((self.path, self.digest)) or _kept(Visitor(self.path), self.digest)
+        key = self.path, self.digest
+        visitor = VISITORS[key] = VISITORS.get(key) or RUNNING.enter_context(Visitor(self.path))
         if digest_of(self.sources) != self.digest:
-            raise OthersError(f"{self.path.name} was changed while its models were compared")
+            raise OthersError(f"{self.path.name}, or what it reads, was changed while its models were compared")
         return next(one for one in visitor.callers() if one.name == self.name)
 
     def model(self) -> Model:
         """Of the house."""
-        declare = model(
-            name=self.name,
-            setting=f"@{self.kind}",
-            serves=SERVED[self.kind].serves,
-            cost=self._cost,
-            claim=self._claim,
-            charted=False,
-        )
-        return declare(self._solve)
+        of = SERVED[self.kind]
+        about = {"name": self.name, "setting": f"@{self.kind}", "serves": of.serves, "charted": False}
+        return model(cost=self._cost, claim=self._claim, **about)(self._solve)
 
     def _solve(self, target: Target, resolution: Resolution) -> Result:
-        return result_of(self.called(), target, SERVED[self.kind].draws(self.asks, target)[0])
+        return result_of(self.called(), target, self._sample(target)[0])
+
+    def _sample(self, target: Target) -> tuple[int, float]:
+        return SERVED[self.kind].sample(self.asks, target)
 
     def _cost(self, target: Target, resolution: Resolution) -> Cost:
-        (count, _), known = SERVED[self.kind].draws(self.asks, target), self.errors.get(_group(target))
+        (count, _), known = self._sample(target), self.errors.get(_group(target))
         return Cost(work=count, seconds=count * (known.seconds if known else CALL))
 
-    def _claim(self, _: Model, target: Target, resolution: Resolution) -> ErrorEstimate:
+    def _claim(self, of: Model, target: Target, resolution: Resolution) -> ErrorEstimate:
         """As measured, what the sample leaves, and what one measured surface has beside all that have its spectrum."""
+        if isinstance(target.scene, RailScene):
+            try:
+                a3 = SERVED[self.kind].rows(self.called(), target, 1)
+            except (ValueError, ArithmeticError) as problem:
+                return ErrorEstimate.out_of_range(str(problem))
+            return filter_of(self.name, a3).claim(of, target, resolution)
         known, own = self.errors.get(_group(target)), SERVED[self.kind].own
         if known is None or known.measured is None:
-            return ErrorEstimate.out_of_range(self._unknown(known))
+            return ErrorEstimate.out_of_range(self.unknown(known))
         ground = target.scene.ground
         of_spectrum = beyond_spectrum(ground) if own is not None else ""
         if reason := of_spectrum or (_group(target)[0] in ("rolling", "wheel") and target.rolling.no_answer):
             return ErrorEstimate.out_of_range(reason)
         found = known.measured.estimate(conditions_by_kind(target)[1])
         scatters = own or 0.0 if ground.is_single else 0.0
-        return replace(found, model=found.model + scatters, sample=SERVED[self.kind].draws(self.asks, target)[1])
+        # a distance of logarithms: 0.7 of what is right is off by 43 % of itself
+        return replace(found, model=math.expm1(found.model) + scatters, sample=self._sample(target)[1])
 
-    def _unknown(self, known: OwnErrors | None) -> str:
+    def unknown(self, known: OwnErrors | None) -> str:
+        """Why an error is unknown."""
+        if self.kind == "contact_filter":
+            return "its error is known on each rail, beside linear theory"
         if not self.digest:
             return "a function without a file is not calibrated: its error is unknown"
         if known is None:
@@ -126,28 +138,13 @@ class OwnModel:
         return f"it answers fewer than {FEWEST_SCENES} scenes of the calibration: its error is unknown"
 
 
+def group_of(scene: Scene, quantity: str) -> Group:
+    """Which answers a model of it is measured beside; of rails there are none."""
+    return ("rail" if isinstance(scene, RailScene) else kind_of(Target(scene, quantity))), quantity
+
+
 def _group(target: Target) -> Group:
-    rail = isinstance(target.scene, RailScene)
-    return ("rail" if rail else kind_of(target)), target.quantity
-
-
-def groups_of(scenes: Iterable[tuple[Scene, str]]) -> set[Group]:
-    """Of scenes and quantities."""
-    return {_group(Target(scene, quantity)) for scene, quantity in scenes}
-
-
-def _kept(visitor: Visitor, digest: str) -> Visitor:
-    """Until this process ends."""
-    if before := VISITORS.get((visitor.path, digest)):
-        before.__exit__(None, None, None)
-    VISITORS[visitor.path, digest] = visitor
-    return visitor
-
-
-@atexit.register
-def _end() -> None:
-    for visitor in VISITORS.values():
-        visitor.__exit__(None, None, None)
+    return group_of(target.scene, target.quantity)
 
 
 def models_in(path: Path) -> list[OwnModel]:
@@ -155,11 +152,11 @@ def models_in(path: Path) -> list[OwnModel]:
 
     Raises OthersError for a broken one and one without such a model, OSError where it cannot be read.
     """
-    visitor = Visitor(path)
+    visitor = RUNNING.enter_context(Visitor(path))
     callers = [one for one in visitor.callers() if one.kind in SERVED]
     for one in callers:
-        _probe(one)  # it may load modules of its folder when it is called
-    _kept(visitor, visitor.digest)
+        _probe(one)
+    VISITORS[visitor.path, visitor.digest] = visitor
     if not callers:
         raise OthersError(f"{path.name}: no function serves a scene, as @{', @'.join(SERVED)} do")
     files = {"digest": visitor.digest, "path": visitor.path, "sources": visitor.sources}
@@ -167,11 +164,11 @@ def models_in(path: Path) -> list[OwnModel]:
 
 
 def _probe(called: Called) -> None:
-    points = (("punch", "stiffness"), ("rolling", "force-rms"))
-    drawn = [CalibrationScene(kind=kind, number=0, quantity=of, seed=0).target() for kind, of in points]
+    """On a scene of each kind: a function may load modules and data of its folder when it is called."""
+    drawn = [_first_of(group).target() for group in (("punch", "stiffness"), ("rolling", "force-rms"))]
     for target in (*drawn, Target(load_scene("rail"), "contact-filter")):
         if SERVED[called.kind].serves(target.scene, target.quantity):
-            with suppress(ValueError):
+            with suppress(ValueError, ArithmeticError):
                 result_of(called, target, 1)
 
 
@@ -182,7 +179,7 @@ def of_functions(functions: Iterable[Offered], scene: Scene, quantity: str) -> t
         if one.kind not in SERVED:
             raise TypeError(f"models must be of @{', @'.join(SERVED)}, got {quoted(one.name)} of @{one.kind}")
         own = OwnModel(one.kind, one.name, one.asks, _digest_of_file(one), function=one)
-        found.append(calibrated(own, groups_of([(scene, quantity)])))
+        found.append(calibrated(own, [group_of(scene, quantity)]))
     return tuple(found)
 
 
@@ -201,47 +198,39 @@ class OwnPart:
     digest: str
 
 
-def calibrated(own: OwnModel, groups: Collection[Group], engine: Engine = SERIAL) -> OwnModel:
-    """With its errors of these groups, of those for which answers are stored; those that are known are taken."""
-    answers = answers_in()
+def calibrated(own: OwnModel, groups: Iterable[Group] | None = None, engine: Engine = SERIAL) -> OwnModel:
+    """With its errors of these groups, or of all, for which answers are stored; those that are known are taken."""
+    stored = answers_in()
     parts = [
-        OwnPart(own, group, answers[group].digest)
-        for group in sorted(groups)
-        if own.digest and group in answers and SERVED[own.kind].serves(_scene_of(group), group[1])
+        OwnPart(own, group, stored[group].digest)
+        for group in (stored if groups is None else groups)
+        if own.digest and group in stored and SERVED[own.kind].serves(_first_of(group).scene, group[1])
     ]
     return replace(own, errors={part.group: _errors(part, engine) for part in parts})
 
 
-def _scene_of(group: Group) -> Scene:
-    return CalibrationScene(kind=group[0], number=0, quantity=group[1], seed=0).scene
+def _first_of(group: Group) -> CalibrationScene:
+    return CalibrationScene(kind=group[0], number=0, quantity=group[1], seed=0)
 
 
 @cache
 def _errors(part: OwnPart, engine: Engine) -> OwnErrors:
     (outcome,) = engine.map(measure_own, [part])
-    answers, errors = answers_in()[part.group], outcome["error"]
-    known = np.isfinite(errors)
-    measured = None
+    known, measured = np.isfinite(outcome["error"]), None
     if known.sum() >= FEWEST_SCENES:
-        targets = [_point(part.group, answers, int(number)).target() for number in answers.number[known]]
-        every = [conditions_by_kind(target)[1] for target in targets]
+        every = [conditions_by_kind(point.target())[1] for point, *_ in answers_in()[part.group].scenes(part.group)]
         names = tuple(name for name in CONDITIONS if name in every[0])
-        at = [[one[name] if name == HURST else math.log10(one[name]) for name in names] for one in every]
-        measured = MeasuredErrors(names, np.array(at), errors[known], np.ones(len(at)))
+        at = np.array([[one[name] if name == HURST else math.log10(one[name]) for name in names] for one in every])
+        measured = MeasuredErrors(names, at[known], outcome["error"][known], np.ones(known.sum()))
     return OwnErrors(part.digest, measured, float(outcome["seconds"]))
-
-
-def _point(group: Group, answers: Answers, number: int) -> CalibrationScene:
-    return CalibrationScene(kind=group[0], number=number, quantity=group[1], seed=answers.seed)
 
 
 def measure_own(part: OwnPart) -> Outcome:
     """Distance from boundary elements on each scene, NaN where the model has no answer; seconds of a realisation."""
-    answers, called = answers_in()[part.group], part.own.called()
-    errors, seconds = [], []
-    for number, value, each in answers:
+    called, errors, seconds = part.own.called(), [], []
+    for point, value, each in answers_in()[part.group].scenes(part.group):
         begin = time.perf_counter()
-        error, count = _error(called, _point(part.group, answers, number), value, each)
+        error, count = _error(called, point, value, each)
         seconds.append((time.perf_counter() - begin) / count)
         errors.append(error)
     return {"error": np.array(errors), "seconds": np.array(10.0 ** math.ceil(math.log10(min(seconds))))}
@@ -249,14 +238,16 @@ def measure_own(part: OwnPart) -> Outcome:
 
 def _error(called: Called, point: CalibrationScene, value: FloatArray, each: FloatArray) -> tuple[float, int]:
     """And of how many realisations: on the surfaces of the reference where a model is given them."""
-    given = SERVED[called.kind].given
-    target, count = point.target(seed=OTHER_SEED if given else 0), min(SURFACES, len(each)) if given else CALIBRATED
+    of = SERVED[called.kind]
+    target = point.target(seed=OTHER_SEED if of.given else 0)
+    most = min(SURFACES, len(each)) if of.given else CALIBRATED
+    count = min(most, of.sample(called.asks, target)[0])
     try:
         found = result_of(called, target, count).values[point.quantity]
     except (ValueError, ArithmeticError):
         return math.nan, 1
-    truth = _mean(each[:count], point.quantity) if given else value
-    return max(distance(_mean(found, point.quantity), truth), LEAST), len(found)
+    truth = _mean(each[:count], point.quantity) if of.given else value
+    return max(distance(_mean(found, point.quantity), truth), LEAST), count
 
 
 def _mean(rows: FloatArray, quantity: str) -> FloatArray:

@@ -4,6 +4,8 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
+from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,14 +24,20 @@ GRIDS, LONGEST, RUNS = (32, 64, 128, 256), 10.0, 3
 """Cells on a side that are timed, until so many solves take too long [s]."""
 FLAT, NEXT_TERM = "flat", 0.15
 """Of the order: the next term, of order 1.5 at the edge, changes it on coarse grids."""
-TIME = "time beside bem3d"
 
 
-def judged(model: Caller, tolerance: float) -> Iterator[JudgedPoint]:
-    """Right or wrong by the residual that the solver names, whatever the tolerance; then its times."""
+class SolverTime(NamedTuple):
+    """Seconds of a solver and of `bem3d` on one grid, of so many cells on a side: neither right nor wrong."""
+
+    cells: float
+    seconds: float
+    bem3d: float
+
+
+def judged(model: Caller) -> tuple[list[JudgedPoint], list[SolverTime]]:
+    """Right or wrong by the residual that the solver names, whatever the tolerance; and its times."""
     asked = Asked(model)
-    yield from findings(asked)
-    yield from timed(asked)
+    return list(findings(asked)), list(timed(asked))
 
 
 def findings(asked: Asked) -> Iterator[JudgedPoint]:
@@ -87,11 +95,11 @@ def convergence(asked: Asked, flat: KnownContact) -> Iterator[JudgedPoint]:
     yield checked("order of convergence", flat, order, NEXT_TERM, "the error does not fall with the cell size", 1.0)
 
 
-def timed(asked: Asked) -> Iterator[JudgedPoint]:
+def timed(asked: Asked) -> Iterator[SolverTime]:
     """Seconds of a rough surface beside ours, one thread each, the same residual: medians, on grids that grow."""
-    known = next(problem for problem in problems() if problem.name in ROUGH and asked.serves(problem))
-    for cells in GRIDS:
-        problem = replace(STATED[known.name].on(cells), approach=known.limits[0, 0])
+    known = [problem for problem in problems() if problem.name in ROUGH and asked.serves(problem)][:1]
+    for cells, rough in product(GRIDS, known):
+        problem = replace(STATED[rough.name].on(cells), approach=rough.limits[0, 0])
         load = {"force": problem.force} if asked.by_force else {"approach": problem.approach}
         seconds: list[tuple[float, float]] = []
         while len(seconds) < RUNS and sum(mine for mine, _ in seconds) < LONGEST:
@@ -101,7 +109,7 @@ def timed(asked: Asked) -> Iterator[JudgedPoint]:
                 return
             _, ours = clocked(partial(pressed, problem, asked.residual, **load))
             seconds.append((mine, ours))
-        mine, ours = (float(median) for median in np.median(seconds, axis=0))
-        yield JudgedPoint(TIME, {"cells": float(cells)}, mine, ours, mine / ours - 1, math.nan, "")
+        mine, ours = np.median(seconds, axis=0).tolist()
+        yield SolverTime(float(cells), mine, ours)
         if mine > LONGEST / 8:
             return

@@ -1,8 +1,7 @@
 """Measure the errors that cheap models claim, beside boundary elements."""
 
 import argparse
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Mapping
 from pathlib import Path
 
 from validation.engine.engine import Engine
@@ -19,11 +18,11 @@ from validation.selection.calibrate import (
     errors_as_lines,
     install,
     measured_alone,
+    measured_answers,
     measured_table,
-    provenance_of,
     table_in,
 )
-from validation.selection.calibration_answers import ANSWERS, answers_in, measured_answers, merged
+from validation.selection.calibration_answers import ANSWERS, Answers, Group, merged
 from validation.selection.calibration_scenes import CalibrationRun
 from validation.selection.judging.from_report import references_of
 from validation.selection.judging.references import FOLDER as INSTALLED
@@ -86,25 +85,20 @@ def calibrate(arguments: argparse.Namespace) -> Exit:
     """Measure the errors of cheap models beside boundary elements, or check or show those that were measured."""
     if arguments.references:
         return _references(arguments)
-    if arguments.answers:
-        return _answers(arguments)
-    if arguments.model:
-        return _model(arguments)
-    table = table_in(arguments.out)
+    if arguments.model and (arguments.model.endswith(".py") or Path(arguments.model).is_file()):
+        return _own(Path(arguments.model), arguments)
     if arguments.install and (arguments.show or (arguments.check and arguments.out is not None)):
         raise ValueError("--install is for a table that is measured, or for --check of that of the package")
     if arguments.check:
-        return _check(table, arguments)
-    if not arguments.show:
-        table = _measure(arguments)
-    print("\n".join(calibration_lines(table)))
-    if not arguments.show:
-        print(_what_is_used(table, arguments))
-    return Exit.MET
+        return _check(arguments)
+    if arguments.show:
+        print("\n".join(calibration_lines(table_in(arguments.out))))
+        return Exit.MET
+    return _measure(arguments)
 
 
-def _check(table: Path, arguments: argparse.Namespace) -> Exit:
-    engine = Engine(workers=arguments.workers)
+def _check(arguments: argparse.Namespace) -> Exit:
+    table, engine = table_in(arguments.out), Engine(workers=arguments.workers)
     differing, solves = check_calibration(arguments.check, engine, table, stamp=arguments.install)
     if differing:
         print("\n".join(differing))
@@ -115,55 +109,48 @@ def _check(table: Path, arguments: argparse.Namespace) -> Exit:
     return Exit.MET
 
 
-def _measure(arguments: argparse.Namespace) -> Path:
-    """The table, in a folder of the user's own, and in the place of that of the package if asked for."""
-    run = _run_of(arguments)
-    if arguments.install:
+def _measure(arguments: argparse.Namespace) -> Exit:
+    """Table and answers, or one of them, in a folder of the user's own, and in the package if asked for."""
+    run = CalibrationRun(seed=arguments.seed, **{name: getattr(arguments, name) for name in COUNTED})
+    if arguments.install and not (arguments.answers or arguments.model):
         check_installable(run)
     arguments.out = arguments.out or OUT
-    table, answers = table_in(arguments.out), arguments.out / ANSWERS.name
-    with _folder(arguments) as (folder, engine):
-        measured, made = measured_table(run, engine)
-        folder.replace({table.name: measured, answers.name: merged(answers, made)})
-    if arguments.install:
+    table, answers = places = table_in(arguments.out), arguments.out / ANSWERS.name
+    with (
+        Folder(arguments.out, kind=CALIBRATION) as folder,
+        progress_of("calibration", arguments.workers) as progress,
+    ):
+        engine = Engine(workers=arguments.workers, store=arguments.out / REALISATIONS, progress=progress)
+        files = {place.name: place.read_bytes() for place in places if place.exists()}
+        made: Mapping[Group, Answers] = {}
+        if arguments.model:
+            files[table.name] = measured_alone(arguments.model, engine, table if table.exists() else table_in(None))
+        elif arguments.answers:
+            made = measured_answers(run, engine)
+        else:
+            files[table.name], made = measured_table(run, engine)
+        if made:
+            files[answers.name] = merged(answers, made)
+        folder.replace(files)
+    if arguments.install and not arguments.answers:
         install(table)
+    if arguments.install and made:
         write_whole(ANSWERS, merged(ANSWERS, made))
-    return table
-
-
-def _answers(arguments: argparse.Namespace) -> Exit:
-    """In a folder of the user's own, beside those of other kinds, and in the package if asked for."""
-    run = _run_of(arguments)
-    arguments.out = arguments.out or OUT
-    place = arguments.out / ANSWERS.name
-    about = provenance_of(run)
-    about["command"] = about["command"].replace("calibrate", "calibrate --answers")
-    with _folder(arguments) as (folder, engine):
-        made = measured_answers(run.points, about, engine)
-        folder.replace({**_kept(arguments), place.name: merged(place, made)})
-    if arguments.install:
-        write_whole(ANSWERS, merged(ANSWERS, made))
-    for group, answers in made.items():
-        print(f"{' '.join(group)}: {answers.number.size} answers, {answers.each.size} numbers of realisations")
-    print(printable(f"answers: {ANSWERS if arguments.install else place}"))
+    print("\n".join(_said(table, made, arguments)))
     return Exit.MET
 
 
-def _model(arguments: argparse.Namespace) -> Exit:
-    """One of the package, in a table of the user's own, and in that of the package if asked for; or those of a file."""
-    path = Path(arguments.model)
-    if path.suffix == ".py" or path.is_file():
-        return _own(path, arguments)
-    arguments.out = arguments.out or OUT
-    table = table_in(arguments.out)
-    with _folder(arguments) as (folder, engine):
-        measured = measured_alone(arguments.model, engine, table if table.exists() else table_in(None))
-        folder.replace({**_kept(arguments), table.name: measured})
-    if arguments.install:
-        install(table)
-    print("\n".join(calibration_lines(table)))
-    print(_what_is_used(table, arguments))
-    return Exit.MET
+def _said(table: Path, made: Mapping[Group, Answers], arguments: argparse.Namespace) -> list[str]:
+    """What was measured, where it is, and whether `compare` goes by it."""
+    if arguments.answers:
+        lines = [
+            f"{' '.join(group)}: {answers.number.size} answers, {answers.each.size} numbers of realisations"
+            for group, answers in made.items()
+        ]
+        return [*lines, printable(f"answers: {ANSWERS if arguments.install else arguments.out / ANSWERS.name}")]
+    used = "goes on with that of the package: the same command with --install"
+    where = f"{table}, installed: `compare` claims errors by it" if arguments.install else f"{table}; `compare` {used}"
+    return [*calibration_lines(table), printable(f"table: {where}")]
 
 
 def _own(path: Path, arguments: argparse.Namespace) -> Exit:
@@ -172,37 +159,18 @@ def _own(path: Path, arguments: argparse.Namespace) -> Exit:
 
     if arguments.install:
         raise ValueError("--install is for models of the package, whose table has no rows of others")
-    store, answers = arguments.out or STORE, answers_in()
+    store = arguments.out or STORE
     engine = Engine(store=store / REALISATIONS)
-    found = [calibrated(one, answers.keys(), engine) for one in models_in(path)]
+    found = [calibrated(one, None, engine) for one in models_in(path)]
     errors = {(*group, one.name): known.measured for one in found for group, known in one.errors.items()}
-    lines = errors_as_lines({key: measured for key, measured in errors.items() if measured})
-    print(printable("\n".join(lines), lines=True))
+    known = {key: measured for key, measured in errors.items() if measured}
+    lines = errors_as_lines(known)
     for one in found:
-        if not any(one.name == name for *_, name in errors):
-            print(printable(f"{one.serves}; no answers are stored for that: its error is unknown"))
-    print(printable(f"errors: in {store}, by the bytes of {path.name} and of what it has loaded from its folder"))
+        if not any(one.name == name for *_, name in known):
+            lines.append(f"{one.serves}; {one.unknown(next(iter(one.errors.values()), None))}")
+    lines.append(f"errors: in {store}, by the bytes of {path.name} and of what it has from its folder")
+    print(printable("\n".join(lines), lines=True))
     return Exit.MET
-
-
-def _kept(arguments: argparse.Namespace) -> dict[str, bytes]:
-    """What a folder has, table and answers."""
-    places = (table_in(arguments.out), arguments.out / ANSWERS.name)
-    return {place.name: place.read_bytes() for place in places if place.exists()}
-
-
-def _run_of(arguments: argparse.Namespace) -> CalibrationRun:
-    return CalibrationRun(seed=arguments.seed, **{name: getattr(arguments, name) for name in COUNTED})
-
-
-@contextmanager
-def _folder(arguments: argparse.Namespace) -> Iterator[tuple[Folder, Engine]]:
-    """That of the table and of finished solves."""
-    with (
-        Folder(arguments.out, kind=CALIBRATION) as folder,
-        progress_of("calibration", arguments.workers) as progress,
-    ):
-        yield folder, Engine(workers=arguments.workers, store=arguments.out / REALISATIONS, progress=progress)
 
 
 def _references(arguments: argparse.Namespace) -> Exit:
@@ -219,9 +187,3 @@ def _references(arguments: argparse.Namespace) -> Exit:
     )
     print(printable(f"{len(files)} files of references in {where}"))
     return Exit.MET
-
-
-def _what_is_used(table: Path, arguments: argparse.Namespace) -> str:
-    if arguments.install:
-        return printable(f"table: {table}, installed: `compare` claims errors by it")
-    return printable(f"table: {table}; `compare` goes on with that of the package: the same command with --install")

@@ -124,9 +124,9 @@ def _with_own(problems: list[SceneProblem], arguments: argparse.Namespace) -> li
     """And the models of a file, whose errors are measured first where they are not in the store."""
     if arguments.models_from is None:
         return problems
-    from validation.selection.own_models import calibrated, groups_of, models_in  # imported where there is such a file
+    from validation.selection.own_models import calibrated, group_of, models_in  # imported where there is such a file
 
-    groups = groups_of((one.scene, quantity) for one in problems for quantity in one.quantities)
+    groups = {group_of(one.scene, quantity) for one in problems for quantity in one.quantities}
     engine = Engine(store=_store_of(arguments) / "realisations")
     own = tuple(calibrated(one, groups, engine) for one in models_in(arguments.models_from))
     return [replace(one, own=own) for one in problems]

@@ -1,6 +1,9 @@
 """Figure of the solver comparison."""
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator
 
@@ -18,21 +21,31 @@ OTHERS = "vP*Xpd"
 """Of solvers that have no style of their own, in turn."""
 
 
+def styles_of(names: Sequence[str]) -> dict[str, Style]:
+    """By name: with threads as without, larger and open; others than those known in turn."""
+    others = [name for name in names if name not in MARKS and not name.endswith(" threads")]
+    known = MARKS | {name: {**OTHER, "marker": OTHERS[i % len(OTHERS)]} for i, name in enumerate(others)}
+    threads: Style = {"markersize": 9, "markerfacecolor": "none"}
+    found = {name: known.get(name) or {**known[name.rpartition(", ")[0]], **threads} for name in names}
+    return {name: {**style, "linestyle": "none", "label": name} for name, style in found.items()}
+
+
 def draw(heats: Table) -> Figure:
-    """Times, and their ratios to ours."""
+    """Times, their ratios to ours, and how they grow."""
     problems, names = (list(dict.fromkeys(heats[name].tolist())) for name in ("problem", "solver"))
-    figure, (time, ratio) = panels(1, 2, width=11.0, height=1.4 + 0.3 * len(problems), sharey="all")
+    figure, (time, ratio, growth) = panels(1, 3, width=14.0, height=1.4 + 0.3 * len(problems))
+    ratio.sharey(time)
+    ratio.tick_params(labelleft=False)
     ours = heats.where(solver="bem3d")
     mine = dict(zip(ours["problem"], ours["median [s]"], strict=True))
-    others = [name for name in names if name not in MARKS]
-    marks = MARKS | {name: {**OTHER, "marker": OTHERS[i % len(OTHERS)]} for i, name in enumerate(others)}
+    styles = styles_of(names)
     for shift, name in zip(np.linspace(-0.3, 0.3, len(names)), names, strict=True):
         rows = heats.where(solver=name, status="finished")
         unit = np.array([mine[problem] for problem in rows["problem"]])
         place = np.array([problems.index(problem) for problem in rows["problem"]]) + shift
         bars = np.abs(np.array([rows["fastest [s]"], rows["slowest [s]"]]) - rows["median [s]"])
         # one that finishes nowhere is in the table alone
-        style = {**marks[name], "linestyle": "none", "label": name if place.size else "_"}
+        style: Style = {**styles[name], "label": name if place.size else "_"}
         time.errorbar(rows["median [s]"], place, xerr=bars, **style)
         if name != "bem3d" and place.size:
             ratio.errorbar(rows["median [s]"] / unit, place, xerr=bars / unit, **style)
@@ -43,7 +56,23 @@ def draw(heats: Table) -> Figure:
         axis.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         axis.xaxis.set_major_formatter("{x:g}")
         axis.minorticks_off()
+    _draw_growth(growth, heats, styles)
     time.set_yticks(range(len(problems)), problems)
     time.invert_yaxis()
     figure.legend(*time.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return figure
+
+
+def _draw_growth(axis: Axes, heats: Table, styles: Mapping[str, Style]) -> None:
+    """Of the light rough contact in free space, which the largest grids have; t ~ n^exponent over the cells n."""
+    free = heats.where(surface="rough", **{"half-space": "free", "status": "finished"})
+    rows = free.where(name=free["name"][0]) if len(free["name"]) else free
+    for name in dict.fromkeys(rows["solver"].tolist()):
+        mine = rows.where(solver=name)
+        cells, seconds, style = mine["cells"].astype(float) ** 2, mine["median [s]"], styles[name]
+        line = axis.plot(cells, seconds, **{**style, "linestyle": "-", "linewidth": 0.8})
+        if len(cells) > 1:
+            exponent = np.polyfit(np.log(cells), np.log(seconds), 1)[0]
+            end, color = (cells[-1], seconds[-1]), line[0].get_color()
+            axis.annotate(f"{exponent:.2f}", end, (6, 0), textcoords="offset points", va="center", color=color)
+    axis.set(xscale="log", yscale="log", xlabel="cells", ylabel="time to the residual [s]")

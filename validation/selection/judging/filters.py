@@ -9,11 +9,11 @@ from itertools import groupby
 import numpy as np
 
 from validation.analysis.statistics import FloatArray
-from validation.engine.offered import Caller, Failed
+from validation.engine.offered import Caller
 from validation.scenes.level_files import curve as levels_of
 from validation.scenes.rail import RailScene
-from validation.selection.judging.judge import Finding, ModelAnswer, asked, attempted, rule
-from validation.selection.judging.references import Reference, about, curve
+from validation.selection.judging.judge import Finding, asked, attempted, beside, rule
+from validation.selection.judging.references import Reference, about, known
 from validation.simulation.rail_strip import line_of, strip_bands, structure_of
 from validation.theory.contact_filters import half_space_filter
 
@@ -33,33 +33,33 @@ LONG_WAVE = 1e-4
 
 def judged(model: Caller) -> Iterator[Finding]:
     """In one-third octaves from ridges to isotropic ground; boundary elements rolled over rougher rails too."""
-    scene = scene_of(*_ground(curve(FILTER)[0])[:2])
+    rows = known(FILTER)
+    scene = scene_of(rows[0][LOAD], rows[0][DIAMETER])
     k_x = np.array([LONG_WAVE / scene.contact.along])
     long = attempted(lambda: float(np.abs(_transfer(model, scene, 1.0)(k_x, 0 * k_x)[0])))
     yield rule(LONG, {"k_x a_x": LONG_WAVE}, long, LONG_WAVE)
-    for (load, diameter, offset, alpha), rows in groupby(curve(FILTER), _ground):
-        if not _serves(model, alpha):
-            continue
-        scene, across = scene_of(load, diameter), alpha if "k_y" in model.asks else 0.0
-        found = attempted(partial(_in_one_call, partial(a3, scene, across), _transfer(model, scene, alpha)))
-        wheel = f"{scene.name}, {offset:+g} dB" if offset else scene.name
-        waves = np.round(1000 * strip_bands(scene).nominal, 2).tolist()
-        for one in rows:
-            band = waves.index(one.where[WAVE])
-            if _linear(scene, alpha)[: band + 1].min() > COUNTED:
-                where = {"wheel": wheel, ALPHA: "isotropic" if math.isinf(alpha) else alpha, WAVE: waves[band]}
-                mine = found if isinstance(found, Failed) else ModelAnswer(float(found[band]))
-                yield Finding(FILTER, replace(one, where=where), mine)
+    for (load, diameter, offset, alpha), ground in groupby(rows, _ground):
+        # a filter of the line that goes by alpha has none for isotropic ground
+        if math.isfinite(alpha) or "k_y" in model.asks or ALPHA not in model.asks:
+            yield from _over(model, scene_of(load, diameter), offset, alpha, ground)
 
 
-def _ground(one: Reference) -> tuple[float, float, float, float]:
-    load, diameter, offset, alpha = (float(one.where[name]) for name in (LOAD, DIAMETER, OFFSET, ALPHA))
-    return load, diameter, offset, alpha
+def _ground(row: Reference) -> tuple[float, ...]:
+    return tuple(row[name] for name in (LOAD, DIAMETER, OFFSET, ALPHA))
 
 
-def _serves(model: Caller, alpha: float) -> bool:
-    """A filter of the line that goes by alpha has none for isotropic ground."""
-    return math.isfinite(alpha) or "k_y" in model.asks or ALPHA not in model.asks
+def _over(model: Caller, scene: RailScene, offset: float, alpha: float, rows: Iterator[Reference]) -> Iterator[Finding]:
+    """One ground, in the bands that count."""
+    across = alpha if "k_y" in model.asks else 0.0
+    wheel = f"{scene.name}, {offset:+g} dB" if offset else scene.name
+    waves = np.round(1000 * strip_bands(scene).nominal, 2).tolist()
+    lowest = np.minimum.accumulate(_linear(scene, alpha))
+    counted = [row for row in rows if lowest[waves.index(row[WAVE])] > COUNTED]
+    bands = [waves.index(row[WAVE]) for row in counted]
+    ground = {"wheel": wheel, ALPHA: "isotropic" if math.isinf(alpha) else alpha}
+    transfer = _transfer(model, scene, alpha)
+    found = attempted(lambda: _in_one_call(partial(a3, scene, across), transfer)[bands])
+    yield from beside([replace(row, where={**ground, WAVE: row[WAVE]}) for row in counted], found)
 
 
 def a3(scene: RailScene, alpha: float, transfer: Transfer) -> FloatArray:

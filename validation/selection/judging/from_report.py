@@ -6,11 +6,11 @@ boundary elements over three short strips and press some surfaces. That takes mi
 
 import json
 import math
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.special import erfinv
@@ -23,11 +23,11 @@ from validation.engine.engine import Engine, Outcome
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.selection.judging import own, rolling, stiffness, surfaces
 from validation.selection.judging.filters import ALPHA, DIAMETER, FILTER, LOAD, OFFSET, WAVE
-from validation.selection.judging.laws import FEATURE, REGION, ends_of
-from validation.selection.judging.references import Reference, as_file, file_name
-from validation.selection.judging.rolling import GRIDS, HEIGHT, HEIGHTS, SLOPE, bands_of, spectrum_of, strip_of
+from validation.selection.judging.laws import FEATURE, REGION, by_region
+from validation.selection.judging.references import Reference, as_file, file_name, rows_of
+from validation.selection.judging.rolling import GRIDS, HEIGHT, HEIGHTS, SLOPE, Q, bands_of, spectrum_of
 from validation.selection.judging.stiffness import BAND, FORCE, ROLL_OFF, H
-from validation.simulation.model_names import BEM, SPRINGS
+from validation.simulation.model_names import BEM, FILTER_3D, SPRINGS
 from validation.simulation.rolling_strip import (
     HERTZ,
     RoughStrip,
@@ -41,7 +41,7 @@ from validation.simulation.rolling_strip import (
 from validation.simulation.track_spectrum import PiecewisePowerLaw
 
 Row = Mapping[str, Any]
-Find = Callable[["Report", Engine], Iterator[Reference]]
+Find = Callable[["Report", Engine], Iterable[Reference]]
 SPRINGS_OVER = f"{SPRINGS} over {BEM}"
 CONTACT = "contact in Persson's theory [%]"
 TENTH = 1.2816
@@ -73,14 +73,17 @@ class Report:
 
     def rows(self, case: str, quantity: str, **equal: float | str) -> list[dict[str, Any]]:
         table = from_csv(quantity, (self.folder / "data" / csv_name(case, quantity)).read_text("utf-8"))
-        rows = [dict(zip(table.columns, row, strict=True)) for row in zip(*table.columns.values(), strict=True)]
-        if found := [row for row in rows if equal.items() <= row.items()]:
+        if found := [row for row in rows_of(table) if equal.items() <= row.items()]:
             return found
         raise ValueError(f"--references needs a report with {quantity!r} of {case}, got {self.folder} without it")
 
+    def references(self, case: str, quantity: str, *names: str, model: str = BEM) -> list[Reference]:
+        """Rows of a model, under the conditions that these columns name."""
+        rows = self.rows(case, quantity, model=model)
+        return [Reference({name: float(row[name]) for name in names}, row["value"], _log_half(row)) for row in rows]
 
-@dataclass(frozen=True)
-class ReferenceFile:
+
+class ReferenceFile(NamedTuple):
     """unit; case: of the report; find: its rows; settings: of solves that the report does not have."""
 
     unit: str
@@ -88,18 +91,16 @@ class ReferenceFile:
     find: Find
     settings: Mapping[str, Any] | None = None
 
-    def head(self, report: Report) -> dict[str, Any]:
-        if self.settings is not None:
-            return {"case": self.case, "commit": "as this file", "settings": dict(self.settings)}
-        return {"case": self.case, "commit": report.commit(self.case), "settings": report.settings(self.case)}
-
 
 def references_of(folder: Path, engine: Engine) -> dict[str, bytes]:
     """Contents of all files, by their names. Raises ValueError for what is no full report."""
     report, files = Report(folder), {}
-    for quantity, source in SOURCES.items():
-        rows = [row for row in source.find(report, engine) if math.isfinite(row.value)]
-        files[file_name(quantity)] = as_file({"quantity": quantity, "unit": source.unit, **source.head(report)}, rows)
+    for quantity, (unit, case, find, settings) in SOURCES.items():
+        rows = [row for row in find(report, engine) if math.isfinite(row.value)]
+        commit = "as this file" if settings is not None else report.commit(case)
+        head = {"quantity": quantity, "unit": unit, "case": case, "commit": commit}
+        about = settings if settings is not None else report.settings(case)
+        files[file_name(quantity)] = as_file({**head, "settings": about}, rows)
     return files
 
 
@@ -112,20 +113,16 @@ def _log_half(row: Row) -> float:
     return math.log(row["high"] / row["low"]) / 2 if row["low"] > 0 else 0.0
 
 
-def _at(row: Row, *names: str) -> dict[str, float | str]:
-    return {name: float(row[name]) for name in names}
-
-
 def _punch(statistic: str, ratio: str) -> Find:
     """Of Fig. 14.1: intervals of both methods are of the sample, that of their ratio has what the grids leave too."""
 
     def find(report: Report, _: Engine) -> Iterator[Reference]:
-        both = (report.rows("fractal_punch", statistic, model=model) for model in (BEM, SPRINGS))
-        mine, springs = ({(row[H], row[FORCE]): row for row in rows} for rows in both)
-        for row in report.rows("fractal_punch", ratio, model=SPRINGS_OVER):
-            known = mine[key := (row[H], row[FORCE])]
-            grid = max(_log_half(row) - math.hypot(_log_half(known), _log_half(springs[key])), 0.0)
-            yield Reference(_at(row, H, FORCE), known["value"], _log_half(known), grid)
+        case, where = "fractal_punch", (H, FORCE)
+        mine = {(one[H], one[FORCE]): one for one in report.references(case, statistic, *where)}
+        springs = {(one[H], one[FORCE]): one for one in report.references(case, statistic, *where, model=SPRINGS)}
+        for one in report.references(case, ratio, *where, model=SPRINGS_OVER):
+            known = mine[key := (one[H], one[FORCE])]
+            yield replace(known, grid=max(one.sample - math.hypot(known.sample, springs[key].sample), 0.0))
 
     return find
 
@@ -136,47 +133,34 @@ def _rolled_off(report: Report, _: Engine) -> Iterator[Reference]:
     waves, hurst = settings["pressed"]
     edges = tuple(2 * math.pi * q for q in (1, waves, settings["band"] * waves))
     gradient = PiecewisePowerLaw(edges=edges, exponents=(0.0, 2 * hurst + 2)).gradient
-    for row in report.rows("interface", "k h over F", model=f"{BEM}, punch"):
-        force = gradient * float(erfinv(row[CONTACT] / 100)) / math.sqrt(2)
-        yield Reference({H: hurst, ROLL_OFF: float(waves), FORCE: force}, force * row["value"], _log_half(row), 0.0)
+    for one in report.references("interface", "k h over F", CONTACT, model=f"{BEM}, punch"):
+        force = gradient * float(erfinv(one[CONTACT] / 100)) / math.sqrt(2)
+        yield replace(one, where={H: hurst, ROLL_OFF: float(waves), FORCE: force}, value=force * one.value)
 
 
 def _by_band(report: Report, _: Engine) -> Iterator[Reference]:
     """But for the band of Fig. 14.1."""
-    for row in report.rows("bandwidth", "relative deviation", model=BEM):
-        if row[BAND] != stiffness.WAVES:
-            yield Reference(_at(row, H, FORCE, BAND), row["value"], _log_half(row), 0.0)
-
-
-def _interface(report: Report, _: Engine) -> Iterator[Reference]:
-    for row in report.rows("interface", "K h over p", model=BEM):
-        yield Reference(_at(row, ROLL_OFF, H, CONTACT), row["value"], _log_half(row), 0.0)
-
-
-def _less_linear(report: Report, quantity: str, *names: str) -> Iterator[Reference]:
-    """What linear theory on the half-space is over boundary elements, the other way round."""
-    for row in report.rows("rolling", quantity):
-        if row["model"].startswith("linear"):
-            yield Reference(_at(row, HEIGHT, SLOPE, *names), -row["value"], _half(row), 0.0)
+    rows = report.references("bandwidth", "relative deviation", H, FORCE, BAND)
+    return (one for one in rows if one[BAND] != stiffness.WAVES)
 
 
 def _levels(report: Report, _: Engine) -> Iterator[Reference]:
     """Of octaves."""
-    settings = report.settings("rolling")
-    bands = bands_of(settings)
+    bands = bands_of(settings := report.settings("rolling"))
     exact = level_3d(spectrum_of(settings), bands)
-    for one in _less_linear(report, "level of an octave", rolling.Q):
-        middle = int(np.argmin(np.abs(np.log(bands.centres / float(one.where[rolling.Q])))))
-        yield _raised(one, exact[middle - 1 : middle + 2].sum())
+    return _over_linear(report, "level of an octave", lambda row: float(rolling.octave(exact, bands, row[Q])), Q)
 
 
 def _rms(report: Report, _: Engine) -> Iterator[Reference]:
     variance = rolling.variance_of(spectrum_of(report.settings("rolling")))
-    yield from (_raised(one, variance) for one in _less_linear(report, "rms force"))
+    return _over_linear(report, "rms force", lambda row: variance)
 
 
-def _raised(one: Reference, power: float) -> Reference:
-    return Reference(one.where, 10 * math.log10(power) + one.value, one.sample, one.grid)
+def _over_linear(report: Report, quantity: str, power: Callable[[Row], float], *names: str) -> Iterator[Reference]:
+    """Levels, of which the report has how far linear theory on the half-space, with this power, is above them."""
+    for row in report.rows("rolling", quantity, model=f"{FILTER_3D} over {BEM}"):
+        where = {name: row[name] for name in (HEIGHT, SLOPE, *names)}
+        yield Reference(where, 10 * math.log10(power(row)) - row["value"], _half(row))
 
 
 def _mean(report: Report, engine: Engine) -> Iterator[Reference]:
@@ -187,7 +171,7 @@ def _mean(report: Report, engine: Engine) -> Iterator[Reference]:
     tracks = [Tracks(scene=RoughStrip(height=row[HEIGHT], **of), input_spectrum="geike", **how) for row in rows]
     for row, springs in zip(rows, engine.map(roll_tracks, tracks), strict=True):
         value = float(springs["mean"].mean()) / 10 ** (row["value"] / 20)
-        yield Reference(_at(row, HEIGHT, SLOPE), value, _half(row) / DECIBEL, 0.0)
+        yield Reference({name: float(row[name]) for name in (HEIGHT, SLOPE)}, value, _half(row) / DECIBEL)
 
 
 def roll_under_load(strip: Strip) -> Outcome:
@@ -203,13 +187,13 @@ def _positions(name: str, solve: Callable[[Strip], Outcome]) -> Find:
 
     def find(_: Report, engine: Engine) -> Iterator[Reference]:
         coarse, fine = GRIDS
-        problems = {(h, n): strip_of(h).strips(n, 1e-4 * h, 1) for h in HEIGHTS for n in GRIDS}
+        problems = {(h, n): rolling.strip_of(h).strips(n, 1e-4 * h, 1) for h in HEIGHTS for n in GRIDS}
         on = {key: one[0][name] for key, one in engine.map_groups(solve, problems).items()}
         for h in HEIGHTS:
             there = on[h, fine][fine // coarse // 2 :: fine // coarse]
             left = (there - on[h, coarse]) / (fine // coarse - 1)
             for i, (value, change) in enumerate(zip((there + left).tolist(), left.tolist(), strict=True)):
-                yield Reference({HEIGHT: h, "x / a": (i + 0.5) / coarse}, value, 0.0, abs(change / value))
+                yield Reference({HEIGHT: h, "x / a": (i + 0.5) / coarse}, value, grid=abs(change / value))
 
     return find
 
@@ -220,28 +204,26 @@ def _filters(report: Report, _: Engine) -> Iterator[Reference]:
     for row in report.rows("across", "A3", model=BEM):
         load, diameter = (float(word.split()[0]) for word in row["wheel"].split(", "))
         across = alpha[row["across"]] if row["across"] in alpha else float(row["across"].split(" = ")[1])
-        where = {LOAD: load, DIAMETER: diameter, **_at(row, OFFSET), ALPHA: across, **_at(row, WAVE)}
-        yield Reference(where, row["value"], _half(row), 0.0)
+        where = {LOAD: load, DIAMETER: diameter, OFFSET: float(row[OFFSET]), ALPHA: across, WAVE: float(row[WAVE])}
+        yield Reference(where, row["value"], _half(row))
 
 
 def _features(report: Report, _: Engine) -> Iterator[Reference]:
     """Of the scene itself, which comes first."""
     for name in FEATURES:
         row = report.rows("wheel", name)[0]
-        yield Reference({"feature": name}, row["value"], abs(_half(row) / row["value"]), 0.0)
+        yield Reference({"feature": name}, row["value"], abs(_half(row) / row["value"]))
 
 
 def _regions(report: Report, _: Engine) -> Iterator[Reference]:
     """Of springs without a window; the sample by the lowest and the highest tenth of the wheels, as if Gaussian."""
     models = ("no window, (14.17)", "lowest tenth of wheels", "highest tenth of wheels")
     rows = [report.rows("wheel", "A in twelfths of an octave", model=model) for model in models]
-    mean, lowest, highest = np.array([[row["value"] for row in some] for some in rows])
-    centres = np.array([row["ω [rad/s]"] for row in rows[0]])
-    spread = 10 * np.log10(highest / lowest) / (2 * TENTH) / math.sqrt(report.settings("wheel")["realisations"])
-    for name, (first, last) in ends_of(load_wheel_scene("table_14_1")).items():
-        inside = (centres > first) & (centres < last)
-        level, half = float(np.mean(10 * np.log10(mean[inside]))), 1.96 * float(np.mean(spread[inside]))
-        yield Reference({"region": name}, level, half, 0.0)
+    level, lowest, highest = 10 * np.log10([[row["value"] for row in some] for some in rows])
+    omega = np.array([row["ω [rad/s]"] for row in rows[0]])
+    half = 1.96 * (highest - lowest) / (2 * TENTH) / math.sqrt(report.settings("wheel")["realisations"])
+    levels, halves = (by_region(load_wheel_scene("table_14_1"), omega, values) for values in (level, half))
+    return (Reference({"region": name}, levels[name], halves[name]) for name in levels)
 
 
 OF_STRIPS = {"heights": HEIGHTS, "cells": GRIDS, "length": rolling.ALONG, "width": rolling.ACROSS, "seed": rolling.SEED}
@@ -252,15 +234,15 @@ SOURCES: Mapping[str, ReferenceFile] = {
     stiffness.DEVIATION: _of(DEVIATION, "fractal_punch", _punch("relative deviation of k", "relative deviation")),
     stiffness.ROLLED_OFF: _of("k / (E* L)", "interface", _rolled_off),
     stiffness.BY_BAND: _of(DEVIATION, "bandwidth", _by_band),
-    "stiffness of an interface": _of("K h / p", "interface", _interface),
+    "stiffness of an interface": _of(
+        "K h / p", "interface", lambda report, _: report.references("interface", "K h over p", ROLL_OFF, H, CONTACT)
+    ),
     rolling.LEVEL: _of(f"{_over}, of an octave", "rolling", _levels),
     rolling.RMS: _of(_over, "rolling", _rms),
     rolling.MEAN: _of("over F_Hertz", "rolling", _mean),
     rolling.EACH: _of("over F_Hertz", "judging/rolling", _positions("force", roll_strip), OF_STRIPS),
     rolling.LIFT: _of("over d", "judging/rolling", _positions("approach", roll_under_load), OF_STRIPS),
-    surfaces.OF_SURFACE: _of(
-        "k / (E* L)", "judging/surfaces", lambda _, engine: iter(surfaces.solved(engine)), OF_SURFACES
-    ),
+    surfaces.OF_SURFACE: _of("k / (E* L)", "judging/surfaces", lambda _, engine: surfaces.solved(engine), OF_SURFACES),
     FILTER: _of("dB, A3", "across", _filters),
     FEATURE: _of("rad/s, but for the slope", "wheel", _features),
     own.ERRORS: _of("over the reference, of levels in dB", "judging/own", lambda *_: own.errors(), {}),

@@ -1,15 +1,15 @@
 """What each kind of model is judged by: its judge finds answers of the model beside references, a point each."""
 
 import math
-from collections.abc import Callable, Iterator, Mapping
-from itertools import chain
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from itertools import repeat
 from pkgutil import resolve_name
 from typing import Any, NamedTuple, TypeVar
 
-from validation.analysis.judgement import FAILED, LEVEL, REFUSED, JudgedPoint, compared, not_compared
+from validation.analysis.judgement import FAILED, LEVEL, REFUSED, Conditions, JudgedPoint, compared, not_compared
 from validation.analysis.statistics import Estimate, FloatArray
 from validation.engine.offered import Caller, Failed
-from validation.selection.judging.references import Place, Reference
+from validation.selection.judging.references import Reference
 
 T = TypeVar("T")
 JUDGES: Mapping[str, str] = {
@@ -36,40 +36,46 @@ class ModelAnswer(NamedTuple):
         return cls(one.value, one.half_width / (1.0 if unit == LEVEL else abs(one.value)))
 
 
+Found = ModelAnswer | Failed | float
+
+
 class Finding(NamedTuple):
     """An answer, or why there is none, beside its reference. within: the tolerance of what is exact."""
 
-    quantity: str
     known: Reference
-    mine: ModelAnswer | Failed
+    found: Found
     within: float | None = None
 
     def judged(self, tolerance: float) -> JudgedPoint:
-        known, mine = self.known, self.mine
-        if isinstance(mine, Failed):
-            verdict, unit = REFUSED if mine.refused else FAILED, LEVEL if known.unit == LEVEL else "-"
-            return not_compared(self.quantity, known.where, verdict, mine.reason, reference=known.value, unit=unit)
+        known, found = self.known, self.found
+        if isinstance(found, Failed):
+            verdict, unit = REFUSED if found.refused else FAILED, LEVEL if known.unit == LEVEL else "-"
+            return not_compared(known.quantity, known.where, verdict, found.reason, reference=known.value, unit=unit)
+        mine = found if isinstance(found, ModelAnswer) else ModelAnswer(float(found))
         half, within = known.grid + math.hypot(known.sample, mine.half), self.within or tolerance
-        given = self.quantity, known.where, mine.value, known.value, half, within
+        given = known.quantity, known.where, mine.value, known.value, half, within
         return compared(*given, unit=known.unit, reason=mine.reason)
 
 
-def rule(
-    quantity: str, where: Mapping[str, Place], value: float | Failed, grid: float = 0.0, within: float | None = None
-) -> Finding:
+def beside(known: Iterable[Reference], found: Iterable[Found | None] | Failed) -> Iterator[Finding]:
+    """An answer each, or one failure for all; None is a number that the model does not have."""
+    answers = repeat(found) if isinstance(found, Failed) else found
+    return (Finding(row, mine) for row, mine in zip(known, answers, strict=False) if mine is not None)
+
+
+def rule(quantity: str, where: Conditions, found: Found, grid: float = 0.0, within: float | None = None) -> Finding:
     """What every model must follow: a number that is one."""
-    mine = value if isinstance(value, Failed) else ModelAnswer(value)
-    return Finding(quantity, Reference(where, 1.0, 0.0, grid), mine, within)
+    return Finding(Reference(where, 1.0, grid=grid, quantity=quantity), found, within)
 
 
 def points_of(model: Caller, tolerance: float) -> Iterator[JudgedPoint]:
     """Of a reduced model: by its judge, and past the scenes of that."""
-    judge: Callable[[Caller], Iterator[Finding]] = resolve_name(f"{__package__}.{JUDGES[model.kind]}")
-    sweep: Callable[[Caller], Iterator[Finding]] = resolve_name(f"{__package__}.sweeps:swept")
-    yield from (one.judged(tolerance) for one in chain(judge(model), sweep(model)))
+    for place in (JUDGES[model.kind], "sweeps:swept"):
+        judge: Callable[[Caller], Iterator[Finding]] = resolve_name(f"{__package__}.{place}")
+        yield from (one.judged(tolerance) for one in judge(model))
 
 
-class LostError(ArithmeticError):
+class LostError(ValueError):
     """A model has no answer. failed: why."""
 
     def __init__(self, failed: Failed):
@@ -85,9 +91,9 @@ def asked(model: Caller, **arguments: Any) -> FloatArray:
     return found
 
 
-def attempted(find: Callable[[], T]) -> T | Failed:
+def attempted(find: Callable[..., T], *arguments: Any) -> T | Failed:
     """What is found, or why a model that is asked for it has no answer."""
     try:
-        return find()
+        return find(*arguments)
     except LostError as error:
         return error.failed

@@ -3,7 +3,6 @@
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 
@@ -11,8 +10,8 @@ from validation.analysis.spectra import band_means, record_spectra
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed
 from validation.engine.offered import Caller, Failed
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
-from validation.selection.judging.judge import Finding, LostError, ModelAnswer, asked, attempted
-from validation.selection.judging.references import curve
+from validation.selection.judging.judge import Finding, LostError, ModelAnswer, asked, attempted, beside
+from validation.selection.judging.references import known
 from validation.simulation.motion import Motion, simulate
 from validation.simulation.wheel_features import features_of
 from validation.simulation.wheel_on_springs import band_edges
@@ -28,17 +27,13 @@ AT_ONCE, DIFFERENCE, NEAR, ROUNDS = 1000, 1e-4, 1e-6, 12
 
 def judged(model: Caller) -> Iterator[Finding]:
     """Features of its spectrum, and levels of its regions."""
-    known = {FEATURE: curve(FEATURE), REGION: curve(REGION)}
-    found = attempted(partial(_found, model))
-    answers = iter(() if isinstance(found, Failed) else found)
-    for quantity, rows in known.items():
-        for one in rows:
-            mine = found if isinstance(found, Failed) else next(answers)
-            if isinstance(mine, Estimate):
-                unseen = Failed("the spectrum does not show it")
-                yield Finding(quantity, one, ModelAnswer.of(mine, one.unit) if math.isfinite(mine.value) else unseen)
-            else:
-                yield Finding(quantity, one, mine)
+    rows = known(FEATURE, REGION)
+    found = attempted(_found, model)
+    if isinstance(found, Failed):
+        return beside(rows, found)
+    unseen = Failed("the spectrum does not show it")
+    answers = (ModelAnswer.of(one, row.unit) for row, one in zip(rows, found, strict=True))
+    return beside(rows, (one if math.isfinite(one.value) else unseen for one in answers))
 
 
 def _found(model: Caller) -> list[Estimate]:
@@ -48,12 +43,13 @@ def _found(model: Caller) -> list[Estimate]:
     motion = rolled(model, scene)
     plain, hann = (record_spectra(motion.acceleration, time_step=motion.time_step, window=w) for w in ("none", "hann"))
     edges = band_edges(plain.omega)
-    bands = band_means(plain.omega, plain.density, edges)
+    bands, centres = band_means(plain.omega, plain.density, edges), np.sqrt(edges[1:] * edges[:-1])
 
     def of(kept: FloatArray) -> FloatArray:
         some = kept.astype(int)
         features = features_of(scene, hann.omega, hann.density[:, some].mean(axis=1))
-        return np.array([*features.values(), *region_levels(scene, edges, bands[:, some].mean(axis=1)).values()])
+        decibels = POWER_DECIBEL * np.log(bands[:, some].mean(axis=1))
+        return np.array([*features.values(), *by_region(scene, centres, decibels).values()])
 
     return list(jackknifed(of, np.arange(float(WHEELS))))
 
@@ -120,13 +116,10 @@ def _at_rest(force: Callable[[FloatArray], FloatArray], scene: WheelScene) -> Fl
     return np.asarray((low + high) / 2)
 
 
-def region_levels(scene: WheelScene, edges: FloatArray, means: FloatArray) -> dict[str, float]:
-    """The mean level of A in twelfths of octaves in each region [dB re 1 (m/s^2)^2 s]."""
-    centres = np.sqrt(edges[1:] * edges[:-1])
-    return {
-        name: float(np.nanmean(POWER_DECIBEL * np.log(means[(centres > first) & (centres < last)])))
-        for name, (first, last) in ends_of(scene).items()
-    }
+def by_region(scene: WheelScene, omega: FloatArray, values: FloatArray) -> dict[str, float]:
+    """Means of what is known at these frequencies."""
+    regions = {name: (omega > first) & (omega < last) for name, (first, last) in ends_of(scene).items()}
+    return {name: float(np.nanmean(values[inside])) for name, inside in regions.items()}
 
 
 def ends_of(scene: WheelScene) -> dict[str, tuple[float, float]]:

@@ -14,7 +14,7 @@ from validation.engine.offered import Failed, Offered
 from validation.engine.others import Called
 from validation.selection.judging.filters import FILTER
 from validation.selection.judging.judge import points_of
-from validation.selection.judging.references import Reference, curve
+from validation.selection.judging.references import Reference, known
 from validation.selection.judging.rolling import LEVEL
 from validation.selection.judging.stiffness import MEAN
 from validation.simulation.model_names import BED, FILTER_1D, FILTER_3D, LINEAR, LINEAR_ON_LINE, SPRINGS
@@ -32,21 +32,6 @@ MAIN = {"stiffness_model": MEAN, "contact_filter": FILTER} | dict.fromkeys(
 def springs(load: float, side: float, modulus: float, roughness: mdr.SelfAffine, rng: np.random.Generator) -> float:
     profile = mdr.rough_profile(roughness.c1d, length=side, points=2048, rng=rng, rms=roughness.rms)
     return float(mdr.load_curve(profile, length=side, modulus=modulus).at_force(load).stiffness)
-
-
-@offered.contact_filter(LINEAR)
-def ellipse(k_x: FloatArray, k_y: FloatArray, a_x: float, a_y: float) -> FloatArray:
-    return half_space_filter(k_x, k_y, semi_axes=(a_x, a_y))
-
-
-@offered.contact_filter(LINEAR_ON_LINE)
-def line(k_x: FloatArray, a_x: float) -> FloatArray:
-    return np.asarray(np.sinc(k_x * a_x / math.pi))
-
-
-@offered.contact_filter(BED)
-def bed(k_x: FloatArray, k_y: FloatArray, a_x: float, a_y: float) -> FloatArray:
-    return spring_bed_filter(k_x, k_y, semi_axes=(a_x, a_y))
 
 
 @offered.force_spectrum(FILTER_1D)
@@ -67,16 +52,11 @@ def half_space(
     return rolling.linear_force(height, spacing=spacing[0], radius=radius, modulus=modulus, approach=approach)
 
 
-@offered.profile_spectrum("Geike's rule")
-def geike(q: FloatArray, roughness: mdr.SelfAffine) -> FloatArray:
-    return np.asarray(math.pi * q * roughness.c2d(q))
-
-
-@offered.profile_spectrum("line trace")
-def trace(q: FloatArray, roughness: mdr.SelfAffine) -> FloatArray:
-    return roughness.line(q)
-
-
+ellipse = offered.contact_filter(LINEAR)(lambda k_x, k_y, a_x, a_y: half_space_filter(k_x, k_y, semi_axes=(a_x, a_y)))
+line = offered.contact_filter(LINEAR_ON_LINE)(lambda k_x, a_x: np.sinc(k_x * a_x / math.pi))
+bed = offered.contact_filter(BED)(lambda k_x, k_y, a_x, a_y: spring_bed_filter(k_x, k_y, semi_axes=(a_x, a_y)))
+geike = offered.profile_spectrum("Geike's rule")(lambda q, roughness: math.pi * q * roughness.c2d(q))
+trace = offered.profile_spectrum("line trace")(lambda q, roughness: roughness.line(q))
 OWN: Sequence[Offered] = (springs, ellipse, line, bed, in_1d, in_3d, half_space, geike, trace)
 
 
@@ -85,6 +65,7 @@ class ErrorOfCall(NamedTuple):
 
     model: str
     error: float
+    unit: str
     seconds: float
 
 
@@ -97,8 +78,7 @@ def error_of(kind: str, points: Sequence[JudgedPoint]) -> float:
 def errors() -> Iterator[Reference]:
     """Of all of them, by their judges; half a minute."""
     for one in OWN:
-        error = error_of(one.kind, list(points_of(Called(one), 0.1)))
-        yield Reference({"kind": one.kind, "model": one.name}, error, 0.0, 0.0)
+        yield Reference({"kind": one.kind, "model": one.name}, error_of(one.kind, list(points_of(Called(one), 0.1))))
 
 
 def costs_of(model: Called, points: Sequence[JudgedPoint]) -> list[ErrorOfCall]:
@@ -106,13 +86,11 @@ def costs_of(model: Called, points: Sequence[JudgedPoint]) -> list[ErrorOfCall]:
     mine = error_of(model.kind, points)
     if not math.isfinite(mine):
         return []
-    known = {str(row.where["model"]): row.value for row in curve(ERRORS) if row.where["kind"] == model.kind}
+    unit = next(point.unit for point in points if point.quantity == MAIN[model.kind])
     given = {"rng": np.random.default_rng(0), **model.longest}
-    found = [ErrorOfCall(model.name, mine, _seconds(model, given))]
-    for one in OWN:
-        if one.kind == model.kind:
-            found.append(ErrorOfCall(one.name, known[one.name], _seconds(Called(one), given)))
-    return found
+    kept = {row.where["model"]: row.value for row in known(ERRORS, where={"kind": model.kind})}
+    others = [(kept[one.name], Called(one)) for one in OWN if one.kind == model.kind]
+    return [ErrorOfCall(one.name, error, unit, _seconds(one, given)) for error, one in [(mine, model), *others]]
 
 
 def _seconds(model: Called, given: dict[str, object]) -> float:

@@ -5,6 +5,8 @@ import warnings
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
+from itertools import repeat
+from typing import Any
 
 import numpy as np
 
@@ -13,9 +15,9 @@ from validation.analysis.statistics import FloatArray
 from validation.engine.offered import Caller, Failed
 from validation.engine.random_numbers import random_generator
 from validation.selection.judging.judge import Finding, LostError, asked, attempted, rule
-from validation.selection.judging.references import curve
+from validation.selection.judging.references import known
 from validation.selection.judging.rolling import CONTACT, MODULUS, of_density
-from validation.selection.judging.stiffness import DEVIATION, MEAN, AskedPunch, beside, sampled
+from validation.selection.judging.stiffness import DEVIATION, MEAN, AskedPunch, H, beside_punches, sampled
 from validation.theory.gauss_legendre import on_panels
 from validation.theory.rolling import force_spectrum_1d
 
@@ -26,6 +28,7 @@ MOMENTS = {0: "rms height", 1: "moment 1", 2: "rms gradient", 3: "moment 3", 4: 
 ROUNDING, QUADRATURE = 1e-9, 1e-4
 POINTS, PROFILES, SEED = 2048, 500, 145
 """Of the profiles that springs are pressed on; how many, and their seed."""
+NO_PROFILE = "no profile has a spectrum that is negative, or zero"
 
 
 def judged(model: Caller) -> Iterator[Finding]:
@@ -33,13 +36,11 @@ def judged(model: Caller) -> Iterator[Finding]:
     for hurst in HURSTS:
         yield from properties_of_rule(model, hurst, FIRST, LAST, HEIGHT)
     for hurst in HURSTS:
-        rows = {name: [one for one in curve(name) if one.where["H"] == hurst] for name in (MEAN, DEVIATION)}
-        punches = [AskedPunch.at(one.where) for one in rows[MEAN]]
-        pressed = attempted(partial(_pressed, model, punches))
-        columns = [pressed] * len(punches) if isinstance(pressed, Failed) else map(sampled, pressed.T)
-        found = dict(zip(punches, columns, strict=True))
-        for name in rows:
-            yield from beside(name, rows[name], found)
+        rows = known(MEAN, DEVIATION, where={H: hurst})
+        punches = list(dict.fromkeys(AskedPunch.at(row.where) for row in rows))
+        pressed = attempted(_pressed, model, punches)
+        answers = repeat(pressed) if isinstance(pressed, Failed) else map(sampled, pressed.T)
+        yield from beside_punches(rows, dict(zip(punches, answers, strict=False)))
 
     def density(q: FloatArray, ground: mdr.SelfAffine) -> FloatArray:
         c1d = asked(model, q=q, roughness=ground)
@@ -66,20 +67,31 @@ def properties_of_rule(model: Caller, hurst: float, first: float, last: float, h
     longer = replace(whole, q_min=first / 2, q_max=last / 2, rms=2 * height)
     arguments = [(q, whole), *((q, part) for part in parts), (q, twice), (q / 2, longer)]
     found = attempted(lambda: [asked(model, q=at, roughness=one) for at, one in arguments])
-    ratio = partial(rule, where={"H": hurst}, grid=QUADRATURE)
-    if isinstance(found, Failed):
-        yield ratio(MOMENTS[0], value=found)
+    ratio = partial(rule, where={H: hurst}, grid=QUADRATURE)
+    if isinstance(found, Failed) or not found[0].any():
+        yield ratio(MOMENTS[0], found=found if isinstance(found, Failed) else Failed(NO_PROFILE))
         return
     mine, lower, upper, doubled, scaled = found
     for n, name in MOMENTS.items():
         share = float(2 * mine * q**n @ dq / (2 * math.pi * whole.c2d(q) * q ** (n + 1) @ dq))
-        yield ratio(name, value=math.sqrt(max(share, 0.0)) if name.startswith("rms") else share)
+        yield ratio(name, found=math.sqrt(max(share, 0.0)) if name.startswith("rms") else share)
     least = min(float(mine.min() / np.abs(mine).max()), 0.0)
-    yield ratio("not negative", value=1 + least, grid=0.0, within=ROUNDING)
+    yield ratio("not negative", found=1 + least, grid=0.0, within=ROUNDING)
     total = float(np.abs(mine) @ dq)
     apart = np.abs(mine - lower - upper) + np.abs(doubled - 2 * mine)
-    yield ratio("linear in C_2D", value=1 + float(apart @ dq) / total)
-    yield ratio("scaling with the length", value=1 + float(np.abs(scaled - 8 * mine) @ dq) / (8 * total))
+    yield ratio("linear in C_2D", found=1 + float(apart @ dq) / total)
+    yield ratio("scaling with the length", found=1 + float(np.abs(scaled - 8 * mine) @ dq) / (8 * total))
+
+
+def rms_of_profile(c1d: FloatArray, waves: FloatArray, ground: Any) -> float:
+    """On springs: rms of the surface times sqrt(sum C_1D / sum of Geike's C_1D), over the waves of a side.
+
+    A band that begins at the first wave counts it whole, as that of Geike's rule, which has the rms of the surface.
+    Raises LostError, which is a ValueError, for a spectrum that is negative, or zero.
+    """
+    if c1d.min() < 0 or not c1d.any():
+        raise LostError(Failed(NO_PROFILE))
+    return float(ground.rms * math.sqrt(float(c1d.sum() / mdr.geike(waves, ground.c2d).sum())))
 
 
 def _pressed(model: Caller, punches: list[AskedPunch]) -> FloatArray:
@@ -88,15 +100,12 @@ def _pressed(model: Caller, punches: list[AskedPunch]) -> FloatArray:
     first, count = ground.q_min, punches[0].waves
     waves = first * np.arange(1, count + 1)
     found = asked(model, q=waves, roughness=ground)
-    if found.min() < 0 or not found.any():
-        raise LostError(Failed("no profile has a spectrum that is negative, or zero"))
+    rms = rms_of_profile(found, waves, ground)
 
     def c1d(q: FloatArray) -> FloatArray:
         number = np.rint(np.asarray(q) / first).astype(int)
         return np.where((number >= 1) & (number <= count), found[np.clip(number, 1, count) - 1], 0.0)
 
-    # a band that begins at the first wave counts it whole, as that of Geike's rule, which has the rms of the surface
-    rms = ground.rms * math.sqrt(float(found.sum() / ground.c1d(waves).sum()))
     rng = random_generator(SEED, round(1000 * ground.hurst))
     drawn = mdr.rough_profiles(c1d, length=side, points=POINTS, count=PROFILES, rng=rng, rms=rms)
     with warnings.catch_warnings():

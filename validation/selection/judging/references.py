@@ -12,11 +12,12 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from validation.analysis.judgement import DEVIATION, LEVEL, RATIO
+from validation.analysis.contents import from_csv
+from validation.analysis.evidence import Table
+from validation.analysis.judgement import DEVIATION, LEVEL, RATIO, Conditions
 
 FOLDER = Path(__file__).with_suffix("")
 VALUES = "value", "sample", "grid"
-Place = float | str
 
 
 @dataclass(frozen=True)
@@ -28,24 +29,38 @@ class Reference:
     unit: by which a number is compared with it.
     """
 
-    where: Mapping[str, Place]
+    where: Conditions
     value: float
-    sample: float
-    grid: float
+    sample: float = 0.0
+    grid: float = 0.0
     unit: str = RATIO
+    quantity: str = ""
+
+    def __getitem__(self, name: str) -> float:
+        """A condition that is a number."""
+        return float(self.where[name])
+
+
+def known(*quantities: str, where: Conditions | None = None) -> list[Reference]:
+    """All that is known of them under these conditions, point by point. Raises LookupError for one without a file."""
+    return [row for one in quantities for row in _curve(one) if (where or {}).items() <= row.where.items()]
 
 
 @cache
-def curve(quantity: str) -> Sequence[Reference]:
-    """All that is known of a quantity, point by point. Raises LookupError for one without a file."""
-    rows = csv.DictReader(line for line in _lines(quantity) if not line.startswith("#"))
+def _curve(quantity: str) -> Sequence[Reference]:
     stated = str(about(quantity).get("unit"))
-    unit = LEVEL if stated.startswith(LEVEL) else DEVIATION if stated == DEVIATION else RATIO
-    return [
-        Reference({n: _cell(w) for n, w in row.items() if n not in VALUES}, value, sample, grid, unit)
-        for row in rows
-        for value, sample, grid in [[float(row[name]) for name in VALUES]]
-    ]
+    unit = next((unit for unit in (LEVEL, DEVIATION) if stated.startswith(unit)), RATIO)
+    lines = (line for line in _lines(quantity) if not line.startswith("#"))
+    found = []
+    for row in rows_of(from_csv(quantity, "\n".join(lines))):
+        value, sample, grid = (float(row.pop(name)) for name in VALUES)
+        where = {name: place if isinstance(place, str) else float(place) for name, place in row.items()}
+        found.append(Reference(where, value, sample, grid, unit, quantity))
+    return found
+
+
+def rows_of(table: Table) -> list[dict[str, Any]]:
+    return [dict(zip(table.columns, row, strict=True)) for row in zip(*table.columns.values(), strict=True)]
 
 
 @cache
@@ -67,27 +82,17 @@ def _lines(quantity: str) -> list[str]:
     return path.read_text(encoding="utf-8").splitlines()
 
 
-def _cell(word: str) -> Place:
-    try:
-        return float(word)
-    except ValueError:
-        return word
-
-
 def file_name(quantity: str) -> str:
     return f"{quantity.replace(',', '').replace(' ', '_')}.csv"
 
 
 def as_file(head: Mapping[str, Any], rows: Sequence[Reference]) -> bytes:
-    """What `curve` reads: the head as comments, then a row a point, to seven digits, errors to four."""
+    """What `known` reads: the head as comments, then a row a point, to seven digits, errors to four."""
     lines = [f"# {name}: {value if isinstance(value, str) else json.dumps(value)}" for name, value in head.items()]
-    cells = [
-        [*map(_word, row.where.values()), f"{row.value:.7g}", f"{row.sample:.4g}", f"{row.grid:.4g}"] for row in rows
-    ]
     text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows([[*rows[0].where, *VALUES], *cells])
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow([*rows[0].where, *VALUES])
+    for row in rows:
+        places = [place if isinstance(place, str) else f"{place:.7g}" for place in row.where.values()]
+        table.writerow([*places, f"{row.value:.7g}", f"{row.sample:.4g}", f"{row.grid:.4g}"])
     return "\n".join([*lines, text.getvalue()]).encode()
-
-
-def _word(place: Place) -> str:
-    return place if isinstance(place, str) else f"{place:.7g}"

@@ -4,7 +4,7 @@ Wheels here have a contact radius of 2 mm; all is compared over the force of Her
 """
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache, partial
 from typing import Any
@@ -12,12 +12,14 @@ from typing import Any
 import numpy as np
 
 import mdr
+from validation.analysis.judgement import LEVEL as DECIBELS
+from validation.analysis.judgement import RATIO
 from validation.analysis.series import Estimates
 from validation.analysis.spectra import Bands, levels, waves
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, mean_estimate
 from validation.engine.offered import Caller, Failed
-from validation.selection.judging.judge import Finding, ModelAnswer, asked, attempted
-from validation.selection.judging.references import Reference, about, curve
+from validation.selection.judging.judge import Finding, ModelAnswer, asked, attempted, beside
+from validation.selection.judging.references import Reference, about, known
 from validation.simulation.rolling_strip import HERTZ, SMOOTH, RoughStrip, crop_to_reach, level_3d, over_bands
 from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
 from validation.theory.rolling import force_variance, linear_force
@@ -48,18 +50,24 @@ def judged(model: Caller) -> Iterator[Finding]:
     for height in HEIGHTS:
         yield _position_by_position(model, height)
     if "approach" in model.asks:
-        for height in _heights():
-            yield from _beside((LEVEL, RMS, MEAN), height, attempted(partial(_of_strips, model, height)))
+        yield from _at_heights((LEVEL, RMS, MEAN), partial(_of_strips, model))
 
 
 def judged_spectrum(model: Caller) -> Iterator[Finding]:
     """Octaves of the force along the track, and its variance."""
-    yield from of_density(lambda q, ground: asked(model, q=q, roughness=ground, contact_radius=CONTACT, **SMOOTH_WHEEL))
+    return of_density(lambda q, ground: asked(model, q=q, roughness=ground, contact_radius=CONTACT, **SMOOTH_WHEEL))
 
 
 def of_density(density: Density) -> Iterator[Finding]:
-    for height in _heights():
-        yield from _beside((LEVEL, RMS), height, attempted(partial(_of_density, density, height)))
+    return _at_heights((LEVEL, RMS), partial(_of_density, density))
+
+
+def _at_heights(quantities: Sequence[str], find: Callable[[float], Iterable[ModelAnswer | float]]) -> Iterator[Finding]:
+    """At each h/d of the case all that is known of each quantity, in the order of what is found."""
+    for height in dict.fromkeys(row[HEIGHT] for row in known(LEVEL)):
+        rows = known(*quantities, where={HEIGHT: height})
+        there = [replace(row, where={n: place for n, place in row.where.items() if n != HEIGHT}) for row in rows]
+        yield from beside(there, attempted(find, height))
 
 
 def spectrum_of(settings: Mapping[str, Any]) -> PiecewisePowerLaw:
@@ -76,27 +84,19 @@ def variance_of(spectrum: PiecewisePowerLaw) -> float:
     return force_variance(spectrum.c2d, edges=spectrum.edges, contact_radius=1.0, modulus=1.0) / HERTZ**2
 
 
-def _heights() -> list[float]:
-    """h/d of the case."""
-    return list(dict.fromkeys(float(one.where[HEIGHT]) for one in curve(LEVEL)))
+def octave(thirds: FloatArray, bands: Bands, q: float) -> FloatArray:
+    """Of levels in thirds of octaves, (..., bands), the octave about q."""
+    i = int(np.argmin(np.abs(np.log(bands.centres / q))))
+    return np.asarray(thirds[..., i - 1 : i + 2].sum(axis=-1))
 
 
 def _octaves(thirds: FloatArray) -> FloatArray:
-    """Of levels in thirds of octaves, (..., bands), those of the octaves that are known."""
-    bands, centres = bands_of(about(LEVEL)["settings"]), dict.fromkeys(float(one.where[Q]) for one in curve(LEVEL))
-    middle = [int(np.argmin(np.abs(np.log(bands.centres / q)))) for q in centres]
-    return np.stack([thirds[..., i - 1 : i + 2].sum(axis=-1) for i in middle], axis=-1)
+    """Those that are known."""
+    bands = bands_of(about(LEVEL)["settings"])
+    return np.stack([octave(thirds, bands, q) for q in dict.fromkeys(row[Q] for row in known(LEVEL))], axis=-1)
 
 
-def _beside(quantities: Sequence[str], height: float, found: Sequence[Estimate] | Failed) -> Iterator[Finding]:
-    """At one height all that is known of each quantity, in the order of what is found."""
-    rows = [(quantity, one) for quantity in quantities for one in curve(quantity) if one.where[HEIGHT] == height]
-    for i, (quantity, row) in enumerate(rows):
-        known = replace(row, where={name: place for name, place in row.where.items() if name != HEIGHT})
-        yield Finding(quantity, known, found if isinstance(found, Failed) else ModelAnswer.of(found[i], row.unit))
-
-
-def _of_density(density: Density, height: float) -> Sequence[Estimate]:
+def _of_density(density: Density, height: float) -> FloatArray:
     """Octaves and variance by quadrature [dB over F_Hertz^2 (h/d)^2]."""
     settings = about(LEVEL)["settings"]
     first, last = settings["first"], settings["last"]
@@ -107,10 +107,10 @@ def _of_density(density: Density, height: float) -> Sequence[Estimate]:
 
     octaves = _octaves(over_bands(power, bands_of(settings)))
     variance = 2 * power((np.arange(FINE) + 0.5) * last / FINE).sum() * last / FINE
-    return Estimates.exact(POWER_DECIBEL * np.log(np.maximum([*octaves, variance], NOTHING)))
+    return np.asarray(POWER_DECIBEL * np.log(np.maximum([*octaves, variance], NOTHING)))
 
 
-def _of_strips(model: Caller, height: float) -> Sequence[Estimate]:
+def _of_strips(model: Caller, height: float) -> list[ModelAnswer]:
     """Octaves and variance over linear theory on the same strips, so that most of the scatter drops out; the mean."""
     settings, rows = about(LEVEL)["settings"], []
     spectrum, bands = spectrum_of(settings), bands_of(settings)
@@ -122,8 +122,8 @@ def _of_strips(model: Caller, height: float) -> Sequence[Estimate]:
     # over (h/d)^2, as linear theory is
     exact = Estimates.exact(np.log([*_octaves(level_3d(spectrum, bands)), variance_of(spectrum)]))
     over = Estimates.ratios(mine[:, :-1], of_linear[:, :-1]) + exact
-    decibels = [Estimate(POWER_DECIBEL * one.value, POWER_DECIBEL * one.error, one.samples) for one in over]
-    return [*decibels, mean_estimate(mine[:, -1])]
+    decibels = (Estimate(POWER_DECIBEL * one.value, POWER_DECIBEL * one.error, one.samples) for one in over)
+    return [*(ModelAnswer.of(one, DECIBELS) for one in decibels), ModelAnswer.of(mean_estimate(mine[:, -1]), RATIO)]
 
 
 @cache
@@ -143,16 +143,17 @@ def strip_of(height: float) -> RoughStrip:
 def _position_by_position(model: Caller, height: float) -> Finding:
     """The rms of what boundary elements fluctuate beside the same with the rms of what is apart added."""
     quantity, unit, name = (EACH, FORCE, "force") if "approach" in model.asks else (LIFT, APPROACH, "approach")
-    rows = [one for one in curve(quantity) if one.where[HEIGHT] == height]
-    known, grid = np.array([(one.value, one.value * one.grid) for one in rows]).T
+    rows = known(quantity, where={HEIGHT: height})
+    values, grid = np.array([(row.value, row.value * row.grid) for row in rows]).T
     cells, times = GRIDS[1], GRIDS[1] // GRIDS[0]
-    found = attempted(lambda: _rolled(model, strip_of(height).surface(cells, 0), cells)[times // 2 :: times] / unit)
-    fluctuation = Reference({HEIGHT: height}, float(known.std()), 0.0, 0.0)
+    found = attempted(_rolled, model, strip_of(height).surface(cells, 0), cells)
+    fluctuation = Reference({HEIGHT: height}, float(values.std()), quantity=APART.format(name))
     if isinstance(found, Failed):
-        return Finding(APART.format(name), fluctuation, found)
-    apart, left = np.sqrt(np.mean([(found - known) ** 2, grid**2], axis=1)).tolist()
-    value = fluctuation.value + apart
-    return Finding(APART.format(name), replace(fluctuation, grid=left / value), ModelAnswer(value, reason=OF_APART))
+        return Finding(fluctuation, found)
+    apart = found[times // 2 :: times] / unit - values
+    value = fluctuation.value + math.sqrt(np.mean(apart**2))
+    left = math.sqrt(np.mean(grid**2)) / value
+    return Finding(replace(fluctuation, grid=left), ModelAnswer(value, reason=OF_APART))
 
 
 def _rolled(model: Caller, surface: FloatArray, cells: int) -> FloatArray:

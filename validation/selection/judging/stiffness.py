@@ -12,11 +12,12 @@ from numpy.typing import ArrayLike
 
 import mdr
 from validation.analysis import judgement
+from validation.analysis.judgement import Conditions
 from validation.analysis.multilevel import moments
 from validation.engine.offered import Caller, Failed, FloatArray
 from validation.engine.random_numbers import random_generator
-from validation.selection.judging.judge import Finding, ModelAnswer, rule
-from validation.selection.judging.references import Reference, curve
+from validation.selection.judging.judge import Finding, ModelAnswer, beside, rule
+from validation.selection.judging.references import Reference, known
 from validation.simulation.rough_punch import PlateauSpectrum
 
 SIDE, MODULUS, HEIGHT = 1e-2, 1e9, 1e-3
@@ -53,7 +54,7 @@ class AskedPunch:
     scale: tuple[float, float] = (1.0, 1.0)
 
     @classmethod
-    def at(cls, where: Mapping[str, float | str]) -> "AskedPunch":
+    def at(cls, where: Conditions) -> "AskedPunch":
         return cls(float(where[H]), float(where[FORCE]), int(where.get(BAND, WAVES)), int(where.get(ROLL_OFF, 0)))
 
     @property
@@ -89,66 +90,56 @@ Answers = Mapping[AskedPunch, Stiffness | Failed]
 
 def judged(model: Caller) -> Iterator[Finding]:
     """Mean and deviation over Fbar and H, with a roll-off, over the bandwidth; and what every stiffness must do."""
-    drawn = "rng" in model.asks
-    known = {
-        quantity: _fewer(curve(quantity)) if drawn else curve(quantity)
-        for quantity in (MEAN, ROLLED_OFF, DEVIATION, BY_BAND)
-    }
-    asked = dict.fromkeys(AskedPunch.at(row.where) for rows in known.values() for row in rows)
-    found = answers_of(model, asked, MOST)
-    for quantity, rows in known.items():
-        yield from beside(quantity, rows, found)
+    rows = [known(quantity) for quantity in (MEAN, ROLLED_OFF, DEVIATION, BY_BAND)]
+    if drawn := "rng" in model.asks:
+        rows = [_fewer(some) for some in rows]
+    found = answers_of(model, dict.fromkeys(AskedPunch.at(row.where) for some in rows for row in some), MOST)
+    for some in rows:
+        yield from beside_punches(some, found)
     if not drawn:
         yield from _rules(model, found)
 
 
 def _fewer(rows: Sequence[Reference]) -> list[Reference]:
     """Of the lowest, the middle and the highest H; of several bandwidths every second load: each takes many calls."""
-    hursts, forces = (sorted({float(row.where[name]) for row in rows}) for name in (H, FORCE))
+    hursts, forces = (sorted({row[name] for row in rows}) for name in (H, FORCE))
     kept = {hursts[0], hursts[len(hursts) // 2], hursts[-1]}
     loads = forces[::2] if BAND in rows[0].where else forces
-    return [row for row in rows if row.where[H] in kept and row.where[FORCE] in loads]
+    return [row for row in rows if row[H] in kept and row[FORCE] in loads]
 
 
-def beside(quantity: str, rows: Iterable[Reference], found: Answers) -> Iterator[Finding]:
-    """Point by point: means, or deviations of models that have them."""
-    for row in rows:
-        mine = found[AskedPunch.at(row.where)]
-        if row.unit != judgement.DEVIATION:
-            yield Finding(quantity, row, mine if isinstance(mine, Failed) else mine.mean)
-        elif not isinstance(mine, Failed) and mine.deviation:
-            yield Finding(quantity, row, mine.deviation)
+def beside_punches(rows: Sequence[Reference], found: Answers) -> Iterator[Finding]:
+    """Means, or deviations of models that have them."""
+    return beside(rows, [_answer(found[AskedPunch.at(row.where)], row.unit == judgement.DEVIATION) for row in rows])
 
 
-def _by_formula(model: Caller, asked: Iterable[AskedPunch]) -> Iterator[tuple[AskedPunch, Stiffness | Failed]]:
-    """All loads of a roughness at once."""
-    of: dict[AskedPunch, list[AskedPunch]] = {}
-    for one in asked:
-        of.setdefault(replace(one, force=0.0), []).append(one)
-    for punches in of.values():
-        loads = [one.arguments["load"] for one in punches]
-        for one, value in zip(punches, model.calls("load", loads, punches[0].arguments), strict=True):
-            yield one, value if isinstance(value, Failed) else _stiffness(one, *np.atleast_1d(value).tolist())
+def _answer(one: Stiffness | Failed, deviates: bool) -> ModelAnswer | Failed | None:
+    if isinstance(one, Failed):
+        return None if deviates else one
+    return one.deviation if deviates else one.mean
 
 
-def _stiffness(asked: AskedPunch, mean: float, deviation: float | None = None) -> Stiffness | Failed:
+def answers_of(model: Caller, punches: Iterable[AskedPunch], most: int) -> Answers:
+    """By a formula, or by so many realisations at most."""
+    drawn = "rng" in model.asks
+    return _drawn(model, punches, most) if drawn else {one: _by_formula(model, one) for one in punches}
+
+
+def _by_formula(model: Caller, punch: AskedPunch) -> Stiffness | Failed:
+    value = model.call(**punch.arguments)
+    if isinstance(value, Failed):
+        return value
+    mean, *deviation = np.atleast_1d(value).tolist()
     if not mean > 0:
         return Failed(f"a stiffness of {mean:.3g} N/m")
-    if deviation is None:
-        return Stiffness(ModelAnswer(mean / asked.unit))
-    if deviation < 0:
-        return Failed(f"a deviation of {deviation:.3g} N/m")
-    return Stiffness(ModelAnswer(mean / asked.unit), ModelAnswer(deviation / mean))
+    if min(deviation, default=0.0) < 0:
+        return Failed(f"a deviation of {deviation[0]:.3g} N/m")
+    return Stiffness(ModelAnswer(mean / punch.unit), *(ModelAnswer(one / mean) for one in deviation))
 
 
-def answers_of(model: Caller, asked: Iterable[AskedPunch], most: int) -> Answers:
-    """By a formula, or by so many realisations at most."""
-    return _drawn(model, asked, most) if "rng" in model.asks else dict(_by_formula(model, asked))
-
-
-def _drawn(model: Caller, asked: Iterable[AskedPunch], most: int) -> Answers:
+def _drawn(model: Caller, punches: Iterable[AskedPunch], most: int) -> Answers:
     """Realisations of each, in turn, until there are enough, or the time is over; one that fails is not asked again."""
-    values: dict[AskedPunch, list[float]] = {one: [] for one in asked}
+    values: dict[AskedPunch, list[float]] = {one: [] for one in punches}
     lost: dict[AskedPunch, Failed] = {}
     end = time.perf_counter() + SECONDS
     for first in range(0, most, BATCH):
@@ -185,6 +176,6 @@ def _rules(model: Caller, found: Answers) -> Iterator[Finding]:
         yield rule("rise with the load, at the least", {H: hurst}, min(least, 1.0), within=1e-9)
     for one in (one for one in plain if one.force == 0.1):
         for quantity, scale in (("scaling with the modulus", (1.0, 10.0)), ("scaling with the length", (2.0, 1.0))):
-            (there,) = answers_of(model, [replace(one, scale=scale)], 1).values()
+            there = _by_formula(model, replace(one, scale=scale))
             ratio = there if isinstance(there, Failed) else there.mean.value / plain[one]
             yield rule(quantity, {H: one.hurst}, ratio)

@@ -1,0 +1,42 @@
+"""What the file of somebody else rests on: its bytes, and those of the modules and data that it has from its folder."""
+
+import hashlib
+import os
+import sys
+import time
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+OPENED: set[Path] = set()
+"""What this process has opened for reading since it is watched."""
+BEGUN = time.time()
+"""What was written since is by the file itself, or by what it has started; a date in the future is that of data."""
+
+
+def watch_opened() -> None:
+    """From now on, and until this process ends: libraries loaded by ctypes too, but nothing that C opens by itself."""
+    sys.addaudithook(_opened)
+
+
+def _opened(event: str, arguments: tuple[Any, ...]) -> None:
+    reads = event == "open" and not arguments[2] & (os.O_WRONLY | os.O_TRUNC)
+    if (reads or event == "ctypes.dlopen") and isinstance(arguments[0], str | bytes | os.PathLike):
+        OPENED.add(Path(os.fsdecode(arguments[0])).absolute())  # the working folder may be another later
+
+
+def sources_of(path: Path) -> tuple[Path, ...]:
+    """The file, the modules loaded from its folder and the data read there, but for installed packages."""
+    modules = (getattr(one, "__file__", None) for one in list(sys.modules.values()))
+    loaded = {Path(file) for file in modules if isinstance(file, str)}
+    data = (one for one in list(OPENED) if one.is_file() and not BEGUN <= one.stat().st_mtime <= time.time())
+    folders = path.parent, path.parent.resolve()
+    near = (file for file in (*loaded, *data) if any(file.is_relative_to(folder) for folder in folders))
+    without = {"site-packages", "__pycache__"}
+    return tuple(sorted({path.resolve(), *(file.resolve() for file in near if without.isdisjoint(file.parts))}))
+
+
+def digest_of(sources: Iterable[Path]) -> str:
+    """Of the bytes of these files; one that is gone has none."""
+    contents = (path.read_bytes() if path.is_file() else b"" for path in sources)
+    return hashlib.sha256(b"".join(hashlib.sha256(some).digest() for some in contents)).hexdigest()
