@@ -1,6 +1,7 @@
 """What somebody offers to be judged: a function, its name, and what it asks for by the names of its arguments."""
 
 import inspect
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
@@ -12,14 +13,18 @@ from numpy.typing import NDArray
 FloatArray = NDArray[np.float64]
 Given = Mapping[str, Any]
 Shape = tuple[int, ...]
+LOOSEST = 1e-3
+"""Residual that a solver may name: one that is looser leaves its answers free."""
 
 
 @dataclass(frozen=True)
 class Failed:
-    """What stands in the place of a value: the reason, in words; refused: whether the function itself says so."""
+    """What stands in the place of a value: the reason, in words; refused: whether the function itself says so; late: it
+    was not awaited."""
 
     reason: str
     refused: bool = False
+    late: bool = False
 
 
 def _one(given: Given) -> tuple[Shape, ...]:
@@ -29,7 +34,7 @@ def _one(given: Given) -> tuple[Shape, ...]:
 class OfferedKind(NamedTuple):
     """arguments: that a function may ask for; returns: in words; needs: arguments that it must ask for; either: one of
     each pair, or both where both are None by default; shapes: that a value may have; options: of the decorator, by
-    default."""
+    default; check: of a name and options, raises ValueError."""
 
     arguments: tuple[str, ...]
     returns: str
@@ -38,6 +43,7 @@ class OfferedKind(NamedTuple):
     either: tuple[tuple[str, str], ...] = ()
     shapes: Callable[[Given], tuple[Shape, ...]] = _one
     options: Given = MappingProxyType({})
+    check: Callable[[str, Given], None] = lambda name, options: None
 
 
 def _mean_and_deviation(given: Given) -> tuple[Shape, ...]:
@@ -46,6 +52,13 @@ def _mean_and_deviation(given: Given) -> tuple[Shape, ...]:
 
 def _along(given: Given) -> tuple[Shape, ...]:
     return (np.shape(given.get("height", given.get("line")))[:1],)
+
+
+def _can_be_judged(name: str, options: Given) -> None:
+    if not (options["free"] or options["periodic"]):
+        raise ValueError(f"{name!r}: free or periodic must be True, got neither")
+    if not 0 < options["residual"] <= LOOSEST:
+        raise ValueError(f"{name!r}: residual must be above zero and at most {LOOSEST:g}, got {options['residual']:g}")
 
 
 def _as(*names: str) -> Callable[[Given], tuple[Shape, ...]]:
@@ -111,6 +124,7 @@ KINDS: Mapping[str, OfferedKind] = {
         either=(("force", "approach"),),
         shapes=_as("gap"),
         options={"free": True, "periodic": False, "residual": 1e-4},
+        check=_can_be_judged,
     ),
 }
 
@@ -165,6 +179,8 @@ class Caller(Protocol):
 
 
 Decorator = Callable[[Callable[..., Any]], Offered]
+DECORATED: list[tuple[Given, Offered]] = []
+"""All functions of this process, each with the names of the module that decorated it."""
 
 
 def _asked(kind: str, function: Callable[..., Any]) -> tuple[str, ...]:
@@ -207,7 +223,13 @@ def _decorator(kind: str) -> Callable[..., Decorator]:
         for option, value in options.items():
             if not isinstance(value, bool if isinstance(of.options[option], bool) else float):
                 raise TypeError(f"option {option} must be as {of.options[option]}, got {value!r}")
-        return lambda function: offer(kind, name, {**of.options, **options}, function)
+        of.check(name, {**of.options, **options})
+
+        def decorated(function: Callable[..., Any]) -> Offered:
+            DECORATED.append((sys._getframe(1).f_globals, offer(kind, name, {**of.options, **options}, function)))
+            return DECORATED[-1][1]
+
+        return decorated
 
     keyword = inspect.Parameter.KEYWORD_ONLY
     options = [inspect.Parameter(one, keyword, default=value) for one, value in of.options.items()]
