@@ -239,9 +239,12 @@ def test_a_difference_of_answers_is_a_missed_criterion(result):
     assert sum(not number.met for number in CASE.evidence(off).numbers) == 2
 
 
+FLAT = np.zeros((5, 3))
+
+
 @pytest.mark.parametrize(
     ("gap", "periodic", "shape"),
-    [(np.zeros((5, 3)), False, (6, 4)), (np.array([[0.0, 2.0], [1.0, 0.5], [2.0, 1.0]]), True, (6, 2))],
+    [(FLAT, False, (6, 4)), (np.array([[0.0, 2.0], [1.0, 0.5], [2.0, 1.0]]), True, (6, 2))],
 )
 def test_where_tamaas_has_no_answer_another_contact_stands_in(gap, periodic, shape):
     """A rim beside a flat body, two periods of an odd number of cells: the same pressure."""

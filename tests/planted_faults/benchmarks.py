@@ -12,7 +12,7 @@ from tests.benchmarks import test_judged_solvers as test_solvers
 from tests.planted_faults.wrong import Fault, Times
 from validation.benchmarks import solvers as comparison
 from validation.benchmarks import timing
-from validation.benchmarks.judging import discrete
+from validation.benchmarks.judging import diagnosis, discrete
 from validation.benchmarks.judging import judged as judging
 from validation.benchmarks.work_precision import case as precision_case
 from validation.benchmarks.work_precision import errors as precision_error
@@ -49,7 +49,7 @@ FAULTS = [
         timing, "interval_of_median", lambda times: (np.median(times), np.median(times))
     ),
     functools.partial(
-        test_peers.test_where_tamaas_has_no_answer_another_contact_stands_in, np.zeros((5, 3)), False, (6, 4)
+        test_peers.test_where_tamaas_has_no_answer_another_contact_stands_in, test_peers.FLAT, False, (6, 4)
     ),
     Fault("a rim that touches").at(discrete.ContactProblem, "half_space", property(rigid)),
     test_peers.test_a_solver_that_is_placed_first_does_not_become_ours,
@@ -81,4 +81,8 @@ FAULTS = [
         *test_solvers.FAULTS["cells of a rectangle in another order"],
     ),
     Fault("properties of nothing but a square").at(judging, "_rectangle", lambda problem: problem),
+    functools.partial(test_solvers.test_a_fault_is_caught_by_approach_too, "heights from their mean"),
+    Fault("causes of a pressure under a force that it does not have").at(
+        diagnosis, "_left", lambda problem, p: problem.worst(p, True)
+    ),
 ]

@@ -56,7 +56,8 @@ class Asked:
     def pressure(self, problem: ContactProblem) -> FloatArray:
         """Its answer [Pa]. Raises UnansweredError where there is none."""
         if problem not in self.known:
-            found = self.solver.call(**vars(problem), tolerance=self.residual)
+            other = {"approach" if self.by_force else "force": None}
+            found = self.solver.call(**vars(problem) | other, tolerance=self.residual)
             if isinstance(found, Failed):
                 raise UnansweredError(found.reason, found.late)
             if not found.any():
