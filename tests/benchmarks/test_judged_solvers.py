@@ -252,15 +252,16 @@ LARGE = {
 
 
 @pytest.mark.parametrize(("way", "quantity"), LARGE.values(), ids=LARGE)
-def test_a_solver_that_is_right_on_small_grids_alone_is_wrong(way, quantity, monkeypatch):
+def test_a_solver_that_is_right_on_small_grids_alone_is_wrong(way, quantity):
     """What is timed is judged, and its grid is named."""
-    monkeypatch.setattr(judged, "GRIDS", (32, 64))
 
     def solve(**given):
         p = ours(**given)
         return way(p) if len(p) > 48 else p
 
-    points, times = judged.judged(asked(solve).solver)
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        monkeypatch.setattr(judged, "GRIDS", (32, 64))
+        points, times = judged.judged(asked(solve).solver)
     wrong = {(point.quantity, point.where["problem"]) for point in points if point.verdict != AGREE}
     assert (quantity, "rough, light load, 64 x 64 cells") in wrong
     assert {place for _, place in wrong} == {"rough, light load, 64 x 64 cells"}

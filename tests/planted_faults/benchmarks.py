@@ -28,7 +28,7 @@ def rigid(problem):
     return SimpleNamespace(displacement=lambda pressure: 0 * pressure)
 
 
-left = discrete.ContactProblem.left
+left, timed = discrete.ContactProblem.left, judging.timed
 log_of_answer = precision_error.MethodValues.log
 
 
@@ -81,6 +81,12 @@ FAULTS = [
         *test_solvers.FAULTS["cells of a rectangle in another order"],
     ),
     Fault("properties of nothing but a square").at(judging, "_rectangle", lambda problem: problem),
+    functools.partial(
+        test_solvers.test_a_solver_that_is_right_on_small_grids_alone_is_wrong, *test_solvers.LARGE["an even pressure"]
+    ),
+    Fault("answers that are timed and not judged").at(
+        judging, "timed", lambda asked: (([], times) for _, times in timed(asked))
+    ),
     functools.partial(test_solvers.test_a_fault_is_caught_by_approach_too, "heights from their mean"),
     Fault("causes of a pressure under a force that it does not have").at(
         diagnosis, "_left", lambda problem, p: problem.worst(p, True)

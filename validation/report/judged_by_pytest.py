@@ -3,6 +3,8 @@
 import math
 import warnings
 from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import replace
 from timeit import repeat
 from typing import Any
 
@@ -13,7 +15,7 @@ from hypothesis import strategies as st
 
 from validation.analysis.judgement import AGREE
 from validation.benchmarks.judging.discrete import STATED, ContactProblem, pressed
-from validation.benchmarks.judging.properties import PROPERTIES, Asked
+from validation.benchmarks.judging.properties import PROPERTIES, Asked, UnansweredError
 from validation.engine.named import named_in
 from validation.engine.offered import KINDS, FloatArray, offer
 from validation.engine.others import Called
@@ -97,8 +99,12 @@ def test_a_contact_solver_has_the_property(asked: Asked, name: str) -> None:
         for found in PROPERTIES[name](asked, problem):
             assert found.verdict == AGREE, f"{found.quantity}, {found.difference:.3g} off: {found.reason}"
 
-    def example() -> object:
-        return [asked.solver.call(**vars(STATED["sphere"].on(8)), tolerance=asked.residual) for _ in range(2)]
+    one = next(filter(asked.serves, (stated.on(8) for stated in STATED.values())))
+
+    def example() -> None:
+        with suppress(UnansweredError):
+            for _ in range(2):
+                Asked(asked.solver).pressure(replace(one, approach=float(one.gap.mean())))
 
     settings_for(example)(given(contacts())(holds))()
 
