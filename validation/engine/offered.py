@@ -267,7 +267,7 @@ Raises
 ------
 TypeError
     For an argument that it cannot have, with the list of those that it can, for too few, and for a name that is none.
-
+{_refused(of)}
 Examples
 --------
 >>> @validation.{kind}("my model")
@@ -275,6 +275,11 @@ Examples
 >>> {function}.name
 'my model'
 """
+
+
+def _refused(of: OfferedKind) -> str:
+    unjudged = f"ValueError\n    For no half-space, and for a residual that is not above zero or above {LOOSEST:g}.\n"
+    return unjudged if of.check is _can_be_judged else ""
 
 
 stiffness_model = _decorator("stiffness_model")
