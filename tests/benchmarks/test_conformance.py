@@ -5,8 +5,10 @@ import sys
 
 import numpy as np
 import pytest
+from hypothesis import Phase
 
 from validation.benchmarks.judging.properties import PROPERTIES
+from validation.report import judged_by_pytest
 
 OWN = """
 import numpy as np
@@ -38,6 +40,32 @@ def conformance(folder, text, *words):
     (folder / "own.py").write_text(text)
     told = [*["-q", "--pyargs", "validation.conformance", "--contact-solver", "own.py:solve"], *words]
     return subprocess.run([sys.executable, "-m", "pytest", *told], cwd=folder, capture_output=True, text=True)
+
+
+@pytest.mark.parametrize(
+    ("place", "sentence"),
+    [
+        ("own.py:nobody", "own.py has no function 'nobody' for @contact_solver"),
+        ("own.py:rule", "'rule': q is unknown: @contact_solver may ask for gap, "),
+        ("none.py:solve", "a function is named as FILE:NAME, and there is no file 'none.py' in 'none.py:solve'"),
+        ("broken.py:solve", "broken.py: ZeroDivisionError: division by zero, line 1 of broken.py"),
+    ],
+)
+def test_a_place_without_such_a_function_is_one_line_of_usage(place, sentence, tmp_path):
+    (tmp_path / "broken.py").write_text("1 / 0")
+    run = conformance(tmp_path, OWN, "--contact-solver", place)
+    assert (run.returncode, run.stdout) == (pytest.ExitCode.USAGE_ERROR, "")
+    assert run.stderr.startswith(f"ERROR: --contact-solver: {sentence}") and run.stderr.count("\n") < 3
+
+
+@pytest.mark.parametrize(("seconds", "examples"), [(0.1, 30), (2.0, 5), (60.0, 1)])
+def test_a_function_that_is_slow_has_fewer_examples_and_that_is_said(seconds, examples, monkeypatch, recwarn):
+    monkeypatch.setattr(judged_by_pytest, "repeat", lambda example, **_: [2 * seconds, seconds])
+    found = judged_by_pytest.settings_for(list)
+    assert (found.max_examples, Phase.shrink in found.phases) == (examples, examples == 30)
+    assert [str(one.message) for one in recwarn] == (
+        [f"{examples} of 30 examples, none made smaller: one takes {seconds:g} s"] if examples < 30 else []
+    )
 
 
 @pytest.mark.slow

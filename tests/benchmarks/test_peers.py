@@ -4,7 +4,6 @@ import dataclasses
 import math
 import os
 import time
-from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -194,21 +193,42 @@ def test_a_solver_that_is_placed_first_does_not_become_ours():
         assert peers.of_others() == FIRST[:1]
 
 
+OWN = """
+from own_solver import solve
+from validation import contact_solver
+from validation.benchmarks.judging.discrete import ContactProblem, pressed
+
+@contact_solver("waves", free=False, periodic=True)
+def waves(gap, spacing, modulus, periodic, tolerance, force=None, approach=None):
+    assert approach is None
+    problem = ContactProblem(gap=gap, spacing=spacing, modulus=modulus, periodic=periodic, force=force)
+    return pressed(problem, tolerance, force=force).pressure
+"""
+EXAMPLE = Path(peers.__file__).parents[1] / "examples" / "own_solver.py"
+
+
 @pytest.mark.slow
-def test_a_solver_of_a_file_races_where_it_serves(forked, monkeypatch):
-    # a process each time that it is asked for its functions
-    monkeypatch.setattr(peers, "offered_in", cache(peers.offered_in))
-    own = Path(peers.__file__).parents[1] / "examples" / "own_solver.py"
-    result = comparison.run(dataclasses.replace(SMALL, residual=1e-6, own=str(own)))
-    found = {
-        row["problem"]: row["status"] for rows in result["problems"] for row in rows if "gradients" in row["solver"]
-    }
-    assert set(found.values()) == {"finished"}
-    assert len(found) == 2 and all("free" in problem for problem in found)
+def test_a_solver_of_a_file_races_where_it_serves(forked, tmp_path):
+    (tmp_path / "own_solver.py").write_bytes(EXAMPLE.read_bytes())
+    (tmp_path / "mine.py").write_text(OWN)
+    result = comparison.run(dataclasses.replace(SMALL, residual=1e-6, own=str(tmp_path / "mine.py")))
+    for name, served in (("conjugate gradients", "free"), ("waves", "periodic")):
+        rows = [row for some in result["problems"] for row in some if row["solver"] == name]
+        assert [(row["status"], row["half-space"]) for row in rows] == [("finished", served)] * 2
     _, seconds, versions = comparison.tables(result)
-    assert "own_solver.py" in versions["version"]
+    assert "mine.py" in versions["version"]
     periodic = np.array(["periodic" in problem for problem in seconds["problem"]])
     assert ((seconds["conjugate gradients"] == "not asked") == periodic).all() and periodic.any()
+
+
+def test_the_half_spaces_of_a_race_are_those_that_a_solver_of_the_file_serves():
+    """The quick size has two problems for a solver in free space alone, and four without a file."""
+    quick = dataclasses.replace(CASE.quick, own=str(EXAMPLE))
+    assert [problem.label for problem in quick.problems()] == [
+        "sphere, free, 128²",
+        "rough, F = 0.001 E* L², free, 128²",
+    ]
+    assert len(CASE.quick.problems()) == 4
 
 
 def test_the_median_lies_between_order_statistics():

@@ -72,6 +72,22 @@ def test_a_name_is_a_text_and_options_are_those_of_the_kind(name, options, sente
         validation.contact_solver("mine", residual="small")
 
 
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ({"free": False, "periodic": False}, "'mine': free or periodic must be True, got neither"),
+        ({"residual": 0.01}, r"'mine': residual must be above zero and at most 0\.001, got 0\.01"),
+        ({"residual": 0.0}, "residual must be above zero"),
+        ({"residual": float("nan")}, "residual must be above zero"),
+    ],
+)
+def test_a_solver_that_cannot_be_judged_is_refused_where_it_is_decorated(options, sentence):
+    with pytest.raises(ValueError, match=sentence) as refused:
+        validation.contact_solver("mine", **options)
+    assert "\n" not in str(refused.value)
+    assert validation.contact_solver("mine", free=False, periodic=True, residual=1e-3)
+
+
 def test_what_is_offered_already_is_not_offered_again():
     once = validation.stiffness_model("once")(lambda load: 1)
     with pytest.raises(TypeError, match="must stand above a function, got one that is offered already"):

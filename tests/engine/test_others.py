@@ -66,10 +66,51 @@ def test_a_hang_is_ended_and_after_three_nothing_is_asked(tmp_path):
         0.5,
         late,
         late,
-        f"{late}, 3 times: not asked any more",
+        "no answer, 3 times: not asked any more",
     ]
     with pytest.raises(ProcessLookupError):
         os.kill(ended, 0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("end", ["import os; os._exit(0)", "raise KeyboardInterrupt"])
+def test_a_function_that_ends_its_process_is_asked_three_times_and_the_others_go_on(end, tmp_path):
+    body = f"{FACE}open('starts', 'a').write('.')\n@stiffness_model('ends')\ndef ends(load):\n    {end}\n"
+    path = written(
+        tmp_path,
+        f"{body}@stiffness_model('good')\ndef good(load):\n    return load\n".replace(
+            "starts", str(tmp_path / "starts")
+        ),
+    )
+    with Visitor(path) as visitor:
+        ends, good = visitor.callers()
+        reasons = [one.reason for one in ends.calls("load", [1.0, 2.0, 3.0, 4.0, 5.0], {})]
+        assert good.call(load=2.0) == 2.0
+    assert all(reason.startswith("ended its process") for reason in reasons[:3])
+    assert reasons[3:] == ["no answer, 3 times: not asked any more"] * 2
+    assert len((tmp_path / "starts").read_text()) == 4
+
+
+MANY = """
+import own_models
+from own_models import imported
+for n in (1, 2):
+    @stiffness_model(f"law {n}")
+    def law(load):
+        return load
+@stiffness_model("last")
+def law(load):
+    return 3 * load
+"""
+
+
+def test_all_functions_that_a_file_decorates_are_judged_whatever_their_python_names(tmp_path):
+    """Those of a module that it imports are not, but what it imports by name."""
+    other = "".join(f"{name} = stiffness_model('{name}')(lambda load: load)\n" for name in ("left", "imported"))
+    written(tmp_path, FACE + other, "own_models.py")
+    with Visitor(written(tmp_path, FACE + MANY)) as visitor:
+        assert [one.name for one in visitor.offered] == ["imported", "law 1", "law 2", "last"]
+        assert visitor.callers()[-1].call(load=2.0) == 6.0
 
 
 def test_a_file_is_run_with_its_folder_and_its_printing_is_caught(tmp_path, capfd):
@@ -131,7 +172,6 @@ BROKEN = {
     "import validation\nvalidation.judge(__file__)\n": "OthersError: a file that is judged must not judge files itself",
     "import os; os._exit(7)\n": "bad.py: ended its process with status 7",
     "\0": "bad.py: SyntaxError: source code string cannot contain null bytes",
-    f"{FACE}stiffness_model('a')(lambda load: 1)\n": "no function has a decorator",
     f"{FACE}a = stiffness_model('a')(lambda loda: 1)\n": "bad.py: line 2 of bad.py: 'a': loda is unknown: @",
     f"{FACE}a = stiffness_model('a')(lambda load: 1)\nb = stiffness_model('a')(lambda: 1)\n": "are offered as 'a'",
 }

@@ -12,7 +12,7 @@ from tests.benchmarks import test_judged_solvers as test_solvers
 from tests.planted_faults.wrong import Fault, Times
 from validation.benchmarks import solvers as comparison
 from validation.benchmarks import timing
-from validation.benchmarks.judging import discrete
+from validation.benchmarks.judging import diagnosis, discrete
 from validation.benchmarks.judging import judged as judging
 from validation.benchmarks.work_precision import case as precision_case
 from validation.benchmarks.work_precision import errors as precision_error
@@ -28,7 +28,7 @@ def rigid(problem):
     return SimpleNamespace(displacement=lambda pressure: 0 * pressure)
 
 
-left = discrete.ContactProblem.left
+left, timed = discrete.ContactProblem.left, judging.timed
 log_of_answer = precision_error.MethodValues.log
 
 
@@ -81,4 +81,14 @@ FAULTS = [
         *test_solvers.FAULTS["cells of a rectangle in another order"],
     ),
     Fault("properties of nothing but a square").at(judging, "_rectangle", lambda problem: problem),
+    functools.partial(
+        test_solvers.test_a_solver_that_is_right_on_small_grids_alone_is_wrong, *test_solvers.LARGE["an even pressure"]
+    ),
+    Fault("answers that are timed and not judged").at(
+        judging, "timed", lambda asked: (([], times) for _, times in timed(asked))
+    ),
+    functools.partial(test_solvers.test_a_fault_is_caught_by_approach_too, "heights from their mean"),
+    Fault("causes of a pressure under a force that it does not have").at(
+        diagnosis, "_left", lambda problem, p: problem.worst(p, True)
+    ),
 ]

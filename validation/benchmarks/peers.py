@@ -241,11 +241,17 @@ def solvers_with(file: str) -> tuple[PeerSolver, ...]:
     """All of them, and the contact solvers of a file. Raises OthersError where it offers none, or cannot be read."""
     if not file:
         return SOLVERS
+    found = _solvers_in(file)
+    taken = {solver.name for solver in SOLVERS}
+    return (*SOLVERS, *(_own(one, file, f"{one.name}, own" if one.name in taken else one.name) for one in found))
+
+
+@cache
+def _solvers_in(file: str) -> list[Offered]:
     found = [one for one in offered_in(Path(file)) if one.kind == "contact_solver"]
     if not found:
         raise OthersError(f"{Path(file).name}: no function has the decorator @contact_solver")
-    taken = {solver.name for solver in SOLVERS}
-    return (*SOLVERS, *(_own(one, file, f"{one.name}, own" if one.name in taken else one.name) for one in found))
+    return found
 
 
 def _own(offered: Offered, file: str, name: str) -> PeerSolver:
@@ -259,7 +265,8 @@ def of_file(file: str, name: str, problem: ContactProblem, tolerance: float) -> 
     (solver,) = (one for one in _loaded(file) if one.name == name)
     gap = problem.gap.copy()
     gap.flags.writeable = False
-    given = {**vars(problem), "gap": gap, "tolerance": tolerance}
+    other = "approach" if "force" in solver.asks else "force"
+    given = {**vars(problem), "gap": gap, "tolerance": tolerance, other: None}
     asked = {argument: given[argument] for argument in solver.asks}
 
     def solve() -> tuple[Field, float]:

@@ -105,12 +105,14 @@ class SolverComparison:
     own: str = ""
 
     def problems(self) -> list[SurfaceProblem]:
-        """Every surface in both half-spaces on every grid."""
+        """Every surface on every grid, in both half-spaces, or in those that a solver of the file serves."""
+        served = {kind for solver in solvers_with(self.own) if solver.file == self.own for kind in solver.serves}
         surfaces = [(SPHERE, SPHERE_LOAD), *((ROUGH, load) for load in self.loads)]
         kinds = itertools.product((True, False), surfaces, self.cells)
         small = [self._problem(*surface, n, periodic) for periodic, surface, n in kinds]
-        large = itertools.product((True, False), self.large)
-        return [*small, *(self._problem(ROUGH, self.loads[0], n, periodic, cores()) for periodic, n in large)]
+        grids = itertools.product((True, False), self.large)
+        large = [self._problem(ROUGH, self.loads[0], n, periodic, cores()) for periodic, n in grids]
+        return [problem for problem in (*small, *large) if problem.half_space in served]
 
     def _problem(self, surface: str, load: float, cells: int, periodic: bool, threads: int = 1) -> SurfaceProblem:
         return SurfaceProblem(surface, load, cells, periodic, self.seed, self.residual, self.own, threads)
@@ -269,7 +271,7 @@ CASE = Case(
     chapter=Chapter.SPEED,
     place=2,
     answers="Our solver beside other packages that are installed, same problems, same residual",
-    quick=SolverComparison(),
+    quick=SolverComparison(cells=(128,), loads=(0.001,)),
     full=SolverComparison(cells=(128, 256, 384), large=(1024, 2048)),
     run=run,
     study=STUDY,

@@ -1,6 +1,7 @@
 """What somebody offers to be judged: a function, its name, and what it asks for by the names of its arguments."""
 
 import inspect
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
@@ -12,6 +13,8 @@ from numpy.typing import NDArray
 FloatArray = NDArray[np.float64]
 Given = Mapping[str, Any]
 Shape = tuple[int, ...]
+LOOSEST = 1e-3
+"""Residual that a solver may name: one that is looser leaves its answers free."""
 
 
 class OfferedError(TypeError):
@@ -20,10 +23,12 @@ class OfferedError(TypeError):
 
 @dataclass(frozen=True)
 class Failed:
-    """What stands in the place of a value: the reason, in words; refused: whether the function itself says so."""
+    """What stands in the place of a value: the reason, in words; refused: whether the function itself says so; late: it
+    was not awaited."""
 
     reason: str
     refused: bool = False
+    late: bool = False
 
 
 def _one(given: Given) -> tuple[Shape, ...]:
@@ -33,7 +38,7 @@ def _one(given: Given) -> tuple[Shape, ...]:
 class OfferedKind(NamedTuple):
     """arguments: that a function may ask for; returns: in words; needs: arguments that it must ask for; either: one of
     each pair, or both where both are None by default; shapes: that a value may have; options: of the decorator, by
-    default."""
+    default; check: of a name and options, raises ValueError."""
 
     arguments: tuple[str, ...]
     returns: str
@@ -42,6 +47,7 @@ class OfferedKind(NamedTuple):
     either: tuple[tuple[str, str], ...] = ()
     shapes: Callable[[Given], tuple[Shape, ...]] = _one
     options: Given = MappingProxyType({})
+    check: Callable[[str, Given], None] = lambda name, options: None
 
 
 def _mean_and_deviation(given: Given) -> tuple[Shape, ...]:
@@ -50,6 +56,13 @@ def _mean_and_deviation(given: Given) -> tuple[Shape, ...]:
 
 def _along(given: Given) -> tuple[Shape, ...]:
     return (np.shape(given.get("height", given.get("line")))[:1],)
+
+
+def _can_be_judged(name: str, options: Given) -> None:
+    if not (options["free"] or options["periodic"]):
+        raise ValueError(f"{name!r}: free or periodic must be True, got neither")
+    if not 0 < options["residual"] <= LOOSEST:
+        raise ValueError(f"{name!r}: residual must be above zero and at most {LOOSEST:g}, got {options['residual']:g}")
 
 
 def _as(*names: str) -> Callable[[Given], tuple[Shape, ...]]:
@@ -115,6 +128,7 @@ KINDS: Mapping[str, OfferedKind] = {
         either=(("force", "approach"),),
         shapes=_as("gap"),
         options={"free": True, "periodic": False, "residual": 1e-4},
+        check=_can_be_judged,
     ),
 }
 
@@ -169,6 +183,8 @@ class Caller(Protocol):
 
 
 Decorator = Callable[[Callable[..., Any]], Offered]
+DECORATED: list[tuple[Given, Offered]] = []
+"""All functions of this process, each with the names of the module that decorated it."""
 
 
 def _asked(kind: str, function: Callable[..., Any]) -> tuple[str, ...]:
@@ -213,7 +229,13 @@ def _decorator(kind: str) -> Callable[..., Decorator]:
         for option, value in options.items():
             if not isinstance(value, bool if isinstance(of.options[option], bool) else float):
                 raise OfferedError(f"option {option} must be as {of.options[option]}, got {value!r}")
-        return lambda function: offer(kind, name, {**of.options, **options}, function)
+        of.check(name, {**of.options, **options})
+
+        def decorated(function: Callable[..., Any]) -> Offered:
+            DECORATED.append((sys._getframe(1).f_globals, offer(kind, name, {**of.options, **options}, function)))
+            return DECORATED[-1][1]
+
+        return decorated
 
     keyword = inspect.Parameter.KEYWORD_ONLY
     options = [inspect.Parameter(one, keyword, default=value) for one, value in of.options.items()]
@@ -251,7 +273,7 @@ Raises
 ------
 TypeError
     For an argument that it cannot have, with the list of those that it can, for too few, and for a name that is none.
-
+{_refused(of)}
 Examples
 --------
 >>> @validation.{kind}("my model")
@@ -259,6 +281,11 @@ Examples
 >>> {function}.name
 'my model'
 """
+
+
+def _refused(of: OfferedKind) -> str:
+    unjudged = f"ValueError\n    For no half-space, and for a residual that is not above zero or above {LOOSEST:g}.\n"
+    return unjudged if of.check is _can_be_judged else ""
 
 
 stiffness_model = _decorator("stiffness_model")

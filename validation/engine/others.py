@@ -16,15 +16,15 @@ from pathlib import Path
 from typing import IO, Any
 
 from validation.engine.installed import file_of
-from validation.engine.offered import KINDS, Caller, Failed, FloatArray, Offered
+from validation.engine.offered import DECORATED, KINDS, Caller, Failed, FloatArray, Offered
 from validation.engine.read_files import OPENED, digest_of, sources_of, watch_opened
 from validation.engine.replies import SHOWN, Reply, called, raised
 from validation.engine.workers import ONE_THREAD
 
 SECONDS, LOADING = 10.0, 60.0
 """In which a call, and the import of a file, must end."""
-HANGS = 3
-"""After so many nothing is asked any more."""
+LOST = 3
+"""After so many calls without an answer a function is not asked any more."""
 SERVING: list[Path] = []
 """The file whose functions this process has, where it is the other one."""
 ROOT = Path(__file__).parents[2]
@@ -77,7 +77,7 @@ class Visitor:
     def __init__(self, path: Path, *, seconds: float = SECONDS):
         if SERVING:
             raise OthersError("a file that is judged must not judge files itself: put that under `if __name__ == ...`")
-        self.path, self.seconds, self._hangs = path.absolute(), seconds, 0
+        self.path, self.seconds, self._lost = path.absolute(), seconds, list[Offered]()
         self.sources: tuple[Path, ...] = ()
         self.path.read_bytes()
         self._start()
@@ -105,9 +105,9 @@ class Visitor:
         found: list[Reply] = []
         printed = ""
         while len(found) < len(values):
-            if self._hangs >= HANGS:
-                reason = f"no answer within {self.seconds:g} s, {HANGS} times: not asked any more"
-                return found + [Reply(Failed(reason))] * (len(values) - len(found)), printed
+            if self._lost.count(offered) >= LOST:
+                lost = Reply(Failed(f"no answer, {LOST} times: not asked any more", late=True))
+                return found + [lost] * (len(values) - len(found)), printed
             if self._process.poll() is not None:
                 self._start()
             try:
@@ -117,10 +117,11 @@ class Visitor:
                     found.append(one)
                     printed = printed or text
             except TimeoutError:
-                self._hangs += 1
                 self._end()
-                found.append(Reply(Failed(f"no answer within {self.seconds:g} s")))
+                self._lost.append(offered)
+                found.append(Reply(Failed(f"no answer within {self.seconds:g} s", late=True)))
             except (EOFError, OSError):
+                self._lost.append(offered)
                 found.append(Reply(Failed(f"ended its process{self._how()}")))
         return found, printed
 
@@ -243,7 +244,8 @@ def _loaded(path: Path) -> list[Offered]:
         loader.exec_module(module)
     except (Exception, SystemExit) as error:
         raise OthersError(raised(error, path)) from None
-    found = list(dict.fromkeys(one for one in vars(module).values() if isinstance(one, Offered)))
+    imported = {id(one) for one in vars(module).values()}
+    found = [one for names, one in DECORATED if names is vars(module) or id(one) in imported]
     if not found:
         raise OthersError(f"no function has a decorator, which is one of @{', @'.join(KINDS)}")
     names = [one.name for one in found]

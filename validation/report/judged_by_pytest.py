@@ -1,43 +1,40 @@
 """The tests of `validation.conformance`: properties of a contact solver and of a rule, on drawn examples."""
 
 import math
-import runpy
-import sys
-from pathlib import Path
+import warnings
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import replace
+from timeit import repeat
 from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, assume, given, note, settings
+from hypothesis import HealthCheck, Phase, assume, given, note, settings
 from hypothesis import strategies as st
 
 from validation.analysis.judgement import AGREE
-from validation.benchmarks.judging.discrete import ContactProblem, pressed
-from validation.benchmarks.judging.properties import PROPERTIES, Asked
-from validation.engine.offered import KINDS, FloatArray, Offered, offer
+from validation.benchmarks.judging.discrete import STATED, ContactProblem, pressed
+from validation.benchmarks.judging.properties import PROPERTIES, Asked, UnansweredError
+from validation.engine.named import named_in
+from validation.engine.offered import KINDS, FloatArray, offer
 from validation.engine.others import Called
 from validation.selection.judging.profiles import properties_of_rule
 
 OF_RULE = 1e-3
 """Relative, the error of the quadrature included."""
-slow = settings(deadline=None, suppress_health_check=list(HealthCheck), max_examples=30)
+EXAMPLES, LONGEST = 30, 10.0
+"""Of each property; until they take so long [s]."""
+all_examples = settings(deadline=None, suppress_health_check=list(HealthCheck), max_examples=EXAMPLES)
 
 
-def named_in(place: str, kind: str) -> Offered:
-    """FILE:NAME, a function with or without its decorator; the file is run, and its folder can be imported.
-
-    Raises ValueError where there is none.
-    """
-    file, _, name = place.rpartition(":")
-    if not Path(file).is_file():
-        raise ValueError(f"a function is named as FILE:NAME, and there is no file {file!r} in {place!r}")
-    sys.path.insert(0, str(Path(file).resolve().parent))
-    found = runpy.run_path(file).get(name)
-    if isinstance(found, Offered) and found.kind == kind:
-        return found
-    if not callable(found) or isinstance(found, Offered):
-        raise ValueError(f"{file} has no function {name!r} for @{kind}")
-    return offer(kind, name, KINDS[kind].options, found)
+def settings_for(example: Callable[[], object]) -> settings:
+    """Fewer examples, and no search for a smaller one, where all would take longer than `LONGEST`."""
+    seconds = min(repeat(example, number=1, repeat=2))
+    if (count := max(min(EXAMPLES, int(LONGEST / seconds)), 1)) == EXAMPLES:
+        return all_examples
+    warnings.warn(f"{count} of {EXAMPLES} examples, none made smaller: one takes {seconds:.2g} s", stacklevel=2)
+    return settings(all_examples, max_examples=count, phases=[Phase.explicit, Phase.reuse, Phase.generate])
 
 
 # --- contact solvers ---
@@ -93,14 +90,23 @@ def contacts(draw: st.DrawFn) -> ContactProblem:
     return ContactProblem(name="drawn", approach=gap.min() + part * depth, **known)
 
 
-@slow
 @pytest.mark.parametrize("name", PROPERTIES)
-@given(problem=contacts())
-def test_a_contact_solver_has_the_property(asked: Asked, name: str, problem: ContactProblem) -> None:
+def test_a_contact_solver_has_the_property(asked: Asked, name: str) -> None:
     """What it does not serve is not asked."""
-    assume(asked.serves(problem))
-    for found in PROPERTIES[name](asked, problem):
-        assert found.verdict == AGREE, f"{found.quantity}, {found.difference:.3g} off: {found.reason}"
+
+    def holds(problem: ContactProblem) -> None:
+        assume(asked.serves(problem))
+        for found in PROPERTIES[name](asked, problem):
+            assert found.verdict == AGREE, f"{found.quantity}, {found.difference:.3g} off: {found.reason}"
+
+    one = next(filter(asked.serves, (stated.on(8) for stated in STATED.values())))
+
+    def example() -> None:
+        with suppress(UnansweredError):
+            for _ in range(2):
+                Asked(asked.solver).pressure(replace(one, approach=float(one.gap.mean())))
+
+    settings_for(example)(given(contacts())(holds))()
 
 
 # --- rules for profiles ---
@@ -114,10 +120,13 @@ def rule(request: pytest.FixtureRequest) -> Called:
     return Called(named_in(place, "profile_spectrum") if place else geike)
 
 
-@slow
-@given(st.floats(0.1, 1.0), st.floats(1e2, 1e5), st.floats(2.0, 100.0), st.floats(1e-8, 1e-4))
-def test_a_rule_has_the_properties(rule: Called, hurst: float, q_min: float, ratio: float, rms: float) -> None:
+def test_a_rule_has_the_properties(rule: Called) -> None:
     """Of `judge`."""
-    for finding in properties_of_rule(rule, hurst, q_min, q_min * ratio, rms):
-        found = finding.judged(OF_RULE)
-        assert found.verdict == AGREE, f"{found.quantity}: {found.shown}"
+
+    def holds(hurst: float, q_min: float, ratio: float, rms: float) -> None:
+        for finding in properties_of_rule(rule, hurst, q_min, q_min * ratio, rms):
+            found = finding.judged(OF_RULE)
+            assert found.verdict == AGREE, f"{found.quantity}: {found.shown}"
+
+    drawn = st.floats(0.1, 1.0), st.floats(1e2, 1e5), st.floats(2.0, 100.0), st.floats(1e-8, 1e-4)
+    settings_for(lambda: list(properties_of_rule(rule, 0.7, 1e3, 1e5, 1e-6)))(given(*drawn)(holds))()

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from importlib import metadata
 from typing import TYPE_CHECKING
 
-from validation.analysis.judgement import AGREE, JudgedPoint
+from validation.analysis.judgement import AGREE, JudgedPoint, placed
 
 if TYPE_CHECKING:
     from validation.benchmarks.judging.judged import SolverTime
@@ -18,13 +18,15 @@ NO_ROW = (*COLUMNS, "tension", "answer", "conditions")
 
 
 def solver_lines(
-    model: str, checks: Sequence[JudgedPoint], times: Sequence["SolverTime"], seconds: float
+    model: str, points: Sequence[JudgedPoint], times: Sequence["SolverTime"], seconds: float
 ) -> Iterator[str]:
     """Of one solver."""
+    rest, checks = [point for point in points if not point.decides], [point for point in points if point.decides]
     wrong = [point for point in checks if point.verdict != AGREE]
     said = f"wrong in {len(wrong)} of {len(checks)} checks" if wrong else f"right in all {len(checks)} checks"
     yield f"{model}: contact solver, {said}, {seconds:.1f} s"
     yield from reasons(wrong)
+    yield from (f"  {', '.join(filter(None, [p.quantity, placed(p.where)]))}: {p.reason}" for p in rest)
     yield from ["", *table_of_problems(checks)]
     if times:
         yield "\nseconds beside bem3d, same grid and residual, one thread and its set-up each:"

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from validation.analysis.judgement import FAILED, JudgedPoint, not_compared
+from validation.analysis.judgement import AGREE, FAILED, JudgedPoint, not_compared
 from validation.benchmarks.isolation import timed as clocked
 from validation.benchmarks.judging.diagnosis import diagnosed
 from validation.benchmarks.judging.discrete import STATED, ContactProblem, KnownContact, pressed, problems
@@ -36,8 +36,12 @@ class SolverTime(NamedTuple):
 
 def judged(model: Caller) -> tuple[list[JudgedPoint], list[SolverTime]]:
     """Right or wrong by the residual that the solver names, whatever the tolerance; and its times."""
-    asked = Asked(model)
-    return list(findings(asked)), list(timed(asked))
+    asked, times = Asked(model), list[SolverTime]()
+    points = list(findings(asked))
+    for found, seconds in timed(asked):
+        points += found
+        times += seconds
+    return points, times
 
 
 def findings(asked: Asked) -> Iterator[JudgedPoint]:
@@ -72,7 +76,7 @@ def _rectangle(problem: KnownContact) -> ContactProblem:
 def answer(asked: Asked, problem: KnownContact) -> Iterator[JudgedPoint]:
     """Conditions of the contact by the operator that judges, then the known answer."""
     p = asked.pressure(problem)
-    wrong = diagnosed(problem, p)
+    wrong = diagnosed(problem, p, asked.residual)
     yield from conditions(asked, problem, wrong)
     if asked.by_force:
         _, mine = problem.left(p, asked.by_force)
@@ -95,21 +99,28 @@ def convergence(asked: Asked, flat: KnownContact) -> Iterator[JudgedPoint]:
     yield checked("order of convergence", flat, order, NEXT_TERM, "the error does not fall with the cell size", 1.0)
 
 
-def timed(asked: Asked) -> Iterator[SolverTime]:
-    """Seconds of a rough surface beside ours, one thread each, the same residual: medians, on grids that grow."""
+def timed(asked: Asked) -> Iterator[tuple[list[JudgedPoint], list[SolverTime]]]:
+    """Of a rough surface on grids that grow: conditions of what is timed, and seconds beside ours, one thread each, the
+    same residual: medians."""
     known = [problem for problem in problems() if problem.name in ROUGH and asked.serves(problem)][:1]
     for cells, rough in product(GRIDS, known):
-        problem = replace(STATED[rough.name].on(cells), approach=rough.limits[0, 0])
+        name = f"{rough.name}, {cells} x {cells} cells"
+        problem = replace(STATED[rough.name].on(cells), name=name, approach=rough.limits[0, 0])
         load = {"force": problem.force} if asked.by_force else {"approach": problem.approach}
+        found: list[list[JudgedPoint]] = []
         seconds: list[tuple[float, float]] = []
         while len(seconds) < RUNS and sum(mine for mine, _ in seconds) < LONGEST:
+            again = replace(problem)
             try:
-                _, mine = clocked(partial(asked.pressure, replace(problem)))
-            except UnansweredError:
+                _, mine = clocked(partial(asked.pressure, again))
+            except UnansweredError as error:
+                yield [not_compared("answer", {"problem": name}, FAILED, str(error), decides=not error.late)], []
                 return
             _, ours = clocked(partial(pressed, problem, asked.residual, **load))
             seconds.append((mine, ours))
+            found.append(list(conditions(asked, again)))
         mine, ours = np.median(seconds, axis=0).tolist()
-        yield SolverTime(float(cells), mine, ours)
+        worst = max(found, key=lambda run: sum(point.verdict != AGREE for point in run))
+        yield worst, [SolverTime(float(cells), mine, ours)]
         if mine > LONGEST / 8:
             return

@@ -1,5 +1,6 @@
 """Properties that the pressure of every half-space has, each a function of a solver and a problem."""
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
@@ -10,10 +11,9 @@ from validation.analysis.judgement import AGREE, DIFFER, JudgedPoint
 from validation.benchmarks.judging.discrete import ContactProblem
 from validation.engine.offered import Caller, Failed, FloatArray
 
-LOOSEST = 0.01
-"""Residual that a solver may name."""
-OF_ANSWER, FLOOR = 100.0, 1e-5
-"""Residuals by which an approach, a force or a pressure may be off, about the cells across a contact; rounding."""
+OF_ANSWER, FLOOR = 50.0, 1e-5
+"""Residuals by which an approach, a force or a pressure may be off: the condition of a contact on so few cells, up to
+24 where solvers stop early; rounding."""
 SINGLE_CELLS = 0.02
 """Of the force: cells of vanishing pressure may be in or out of contact."""
 PARTS = (0.3, 0.6, 1.0)
@@ -24,20 +24,19 @@ Way = Callable[[FloatArray], FloatArray]
 
 
 class UnansweredError(Exception):
-    """A solver has no answer, for this reason."""
+    """A solver has no answer, for this reason; late: it was not awaited."""
+
+    def __init__(self, reason: str, late: bool = False):
+        super().__init__(reason)
+        self.late = late
 
 
 @dataclass(frozen=True, eq=False)
 class Asked:
-    """A solver with the residual that it names; each problem is solved once. Raises ValueError for no such residual."""
+    """A solver with the residual that it names; each problem is solved once."""
 
     solver: Caller
     known: dict[ContactProblem, FloatArray] = field(default_factory=dict, repr=False)
-
-    def __post_init__(self) -> None:
-        if not 0 < self.residual <= LOOSEST:
-            name = self.solver.name
-            raise ValueError(f"{name!r}: residual must be above zero and at most {LOOSEST:g}, got {self.residual:g}")
 
     @property
     def residual(self) -> float:
@@ -57,9 +56,12 @@ class Asked:
     def pressure(self, problem: ContactProblem) -> FloatArray:
         """Its answer [Pa]. Raises UnansweredError where there is none."""
         if problem not in self.known:
-            found = self.solver.call(**vars(problem), tolerance=self.residual)
-            if isinstance(found, Failed) or not found.any():
-                raise UnansweredError(found.reason if isinstance(found, Failed) else "no pressure anywhere")
+            other = {"approach" if self.by_force else "force": None}
+            found = self.solver.call(**vars(problem) | other, tolerance=self.residual)
+            if isinstance(found, Failed):
+                raise UnansweredError(found.reason, found.late)
+            if not found.any():
+                raise UnansweredError("no pressure anywhere")
             self.known[problem] = found
         return self.known[problem]
 
@@ -74,8 +76,9 @@ def checked(
 
 
 def apart(one: FloatArray, other: FloatArray) -> float:
-    """In L2, over the other."""
-    return float(np.linalg.norm(one - other) / np.linalg.norm(other))
+    """In L2, over the other; infinite where that is zero."""
+    norm = float(np.linalg.norm(other))
+    return float(np.linalg.norm(one - other)) / norm if norm else math.inf
 
 
 def conditions(asked: Asked, problem: ContactProblem, reason: str = "") -> Iterator[JudgedPoint]:
@@ -157,7 +160,8 @@ def monotone(asked: Asked, problem: ContactProblem) -> Iterator[JudgedPoint]:
     force = np.array([one.force_of(p) for one, p in zip(loads, found, strict=True)])
     approach = np.array([one.left(p, asked.by_force)[1] for one, p in zip(loads, found, strict=True)])
     # compliances over that of the chord from the first touch: a full periodic contact has none
-    first, second = np.diff(approach) / np.diff(force) * force[-1] / (approach[-1] - problem.gap.min())
+    with np.errstate(all="ignore"):  # the same pressure under every load
+        first, second = np.diff(approach) / np.diff(force) * force[-1] / (approach[-1] - problem.gap.min())
     fall = max(second - first, -first, -second, 0.0)
     yield checked("monotone stiffness", problem, fall, asked.of_answer, "it falls under more load")
 

@@ -45,7 +45,7 @@ def draw(heats: Table) -> Figure:
         place = np.array([problems.index(problem) for problem in rows["problem"]]) + shift
         bars = np.abs(np.array([rows["fastest [s]"], rows["slowest [s]"]]) - rows["median [s]"])
         # one that finishes nowhere is in the table alone
-        style = {**styles[name], "label": name if place.size else "_"}
+        style: Style = {**styles[name], "label": name if place.size else "_"}
         time.errorbar(rows["median [s]"], place, xerr=bars, **style)
         if name != "bem3d" and place.size:
             ratio.errorbar(rows["median [s]"] / unit, place, xerr=bars / unit, **style)
