@@ -6,6 +6,9 @@ import sys
 
 import pytest
 
+from validation.report.commands.report import WHEELS
+from validation.scenes.dynamic_wheel import bundled_wheels
+
 HEAVY = {"matplotlib", "pyfftw", "joblib", "dask", "distributed", "jinja2", "scipy.optimize", "scipy.stats"}
 """Each takes a tenth of a second or more to import."""
 PAGE = ("validation.report.build", "validation.report.contents", "validation.report.figures", "validation.cases")
@@ -25,11 +28,19 @@ def modules_of(code, *words):
     return set(run.stdout.splitlines()[-1].split())
 
 
-@pytest.mark.parametrize("words", [["--help"], ["--version"], ["scene", "sphere"]])
+HELP = [[command, "--help"] for command in ("report", "precision", "race", "cases", "scene")]
+
+
+@pytest.mark.parametrize("words", [["--help"], ["--version"], ["scene", "sphere"], *HELP])
 def test_what_computes_nothing_imports_no_numerics(words):
     found = modules_of(COMMAND, *words)
     assert not found & {"numpy", "scipy", "mdr", "bem3d", *HEAVY}
     assert len(found) < 250
+
+
+def test_the_help_of_report_names_all_wheels():
+    """Without the numerics that their scenes import."""
+    assert WHEELS == bundled_wheels()
 
 
 @pytest.mark.parametrize("code", ["import bem3d", "import mdr", "from validation import compare, load_scene, summary"])
