@@ -40,7 +40,7 @@ def test_what_computes_nothing_imports_no_numerics(words):
 
 def test_the_help_of_report_names_all_wheels():
     """Without the numerics that their scenes import."""
-    assert WHEELS == bundled_wheels()
+    assert bundled_wheels() == WHEELS
 
 
 @pytest.mark.parametrize("code", ["import bem3d", "import mdr", "from validation import compare, load_scene, summary"])

@@ -18,10 +18,11 @@ from validation.scenes.printable import printable
 from validation.selection.cells import format_seconds
 from validation.selection.compare import Comparison, SceneProblem
 from validation.selection.exported import filter_table, table_of_several, to_json_of
+from validation.selection.in_short import in_short
 from validation.selection.quantities import QUANTITIES, quantities_of
 from validation.selection.scene_model import SceneModel
 from validation.selection.several_scenes import compare_scenes
-from validation.selection.summary import findings, heading, summary
+from validation.selection.summary import findings, heading, in_full, summary
 from validation.selection.swept import Swept, swept_values
 from validation.selection.tolerance import tolerance_of
 
@@ -46,6 +47,9 @@ def describe(comparing: argparse.ArgumentParser) -> None:
         type=some_of(QUANTITIES),
         metavar="A,B",
         help=f"of {', '.join(QUANTITIES)}, one or several (default: the first of the scene); --want: until 0.3",
+    )
+    comparing.add_argument(
+        "--verbose", "-v", action="store_true", help="of one scene also why, what errors rest on, what solves cost"
     )
     solved = comparing.add_mutually_exclusive_group()
     solved.add_argument("--all", action="store_true", help="solve and time all models, and print them side by side")
@@ -156,7 +160,8 @@ def _found(
     """Solve, print, and write the files that are asked for."""
     solved = _solved(problems, arguments)
     found = [replace(one, swept=of) for one, of in zip(solved, swept, strict=True)]
-    print(findings(found) if len(problems) == 1 else summary(found))
+    said = in_full if arguments.verbose else in_short
+    print(findings(found, said) if len(problems) == 1 else summary(found))
     _write(found, arguments)
     return found
 
