@@ -10,7 +10,6 @@ from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rail import RailScene
-from validation.selection.calibrate import calibration_age
 from validation.selection.cells import format_seconds, scaled, short
 from validation.selection.columns import bands_of, columns_as_lines, models_of_page, overview_of, side_by_side
 from validation.selection.compare import Comparison, OneOrSeveral, listed
@@ -213,6 +212,8 @@ def age_of_errors(comparison: Comparison) -> str:
         return MEASURED_ON_STRIPS
     if isinstance(comparison.scene, IndentationScene) and comparison.scene.ground is None:
         return "errors of models: closed forms are exact for smooth bodies, no measured error is used"
+    from validation.selection.calibrate import calibration_age  # imported where errors were measured
+
     return calibration_age(target=Target(comparison.scene, comparison.quantity))
 
 

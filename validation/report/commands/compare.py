@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from validation.analysis.contents import as_csv
 from validation.analysis.evidence import Table
 from validation.engine.engine import Engine
 from validation.engine.files import write_given
@@ -17,7 +16,6 @@ from validation.scenes.load import Scene, bundled_for_compare, files_of, load_sc
 from validation.scenes.printable import printable
 from validation.selection.cells import format_seconds
 from validation.selection.compare import Comparison, SceneProblem
-from validation.selection.exported import filter_table, table_of_several, to_json_of
 from validation.selection.in_short import in_short
 from validation.selection.quantities import QUANTITIES, quantities_of
 from validation.selection.scene_model import SceneModel
@@ -202,6 +200,22 @@ def _announce(model: SceneModel) -> None:
 
 def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
     """The files that are asked for, each of them whole; of several scenes a list, and a column for the scene."""
+    if arguments.json or arguments.csv or arguments.cnossos:
+        _write_data(found, arguments)
+    if arguments.figure is not None:
+        from validation.report.compared import to_figure  # which takes half a second to import
+        from validation.report.compared_seconds import figure_over_seconds
+
+        form = arguments.figure.suffix[1:]
+        picture = figure_over_seconds(found[0], form) if arguments.over else to_figure(found, form=form)
+        write_given(arguments.figure, picture)
+
+
+def _write_data(found: list[Comparison], arguments: argparse.Namespace) -> None:
+    # imported where a file is asked for
+    from validation.analysis.contents import as_csv
+    from validation.selection.exported import filter_table, table_of_several, to_json_of
+
     if arguments.json:
         write_given(arguments.json, to_json_of(found).encode())
     if arguments.csv:
@@ -210,13 +224,6 @@ def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
         filters = [filter_table(one) for one in found if one.quantity == "contact-filter"]
         rows = {name: [value for one in filters for value in one.columns[name]] for name in filters[0].columns}
         write_given(arguments.cnossos, as_csv(Table("contact-filter", rows)))
-    if arguments.figure is not None:
-        from validation.report.compared import to_figure  # which takes half a second to import
-        from validation.report.compared_seconds import figure_over_seconds
-
-        form = arguments.figure.suffix[1:]
-        picture = figure_over_seconds(found[0], form) if arguments.over else to_figure(found, form=form)
-        write_given(arguments.figure, picture)
 
 
 def _sweep(word: str) -> tuple[str, list[str]]:
