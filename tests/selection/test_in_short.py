@@ -74,11 +74,15 @@ def test_mdr_is_enough_or_not_and_why(springs, said):
     assert answer_of(compared(springs, Fake(name="grid"), tolerance="12%"))[-1] == f"MDR (fake) is {said}"
 
 
-def test_of_several_springs_the_best_are_named():
+def test_of_several_springs_the_selected_or_the_best_are_named():
     poor, good = Fake(name="line", is_mdr=True, claimed=0.5), Fake(name="surface", is_mdr=True, claimed=0.1)
     told = "MDR (surface) is enough: it claims an error of 10 % before a solve"
     assert answer_of(compared(Fake(name="formula"), poor, good))[-1] == told
+    assert answer_of(compared(Finding(name="chosen", is_mdr=True, parts=(0.15, 0, 0)), good))[-1] == SELECTED
     assert answer_of(compared(Fake(name="formula")))[-1] == "MDR has no springs for this scene"
+
+
+SELECTED = "MDR (chosen) is enough: the result is its own"
 
 
 @pytest.mark.parametrize("option", [[], ["-v"], ["--verbose"]])

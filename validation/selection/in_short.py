@@ -54,8 +54,11 @@ def _error(comparison: Comparison, answer: Answer) -> str:
 
 
 def _on_mdr(comparison: Comparison) -> str:
-    """Whether the best springs are enough, and why."""
-    springs = min((one for one in comparison.models if one.is_mdr), key=lambda one: one.error, default=None)
+    """Whether springs are enough, and why: those that are selected, or else the ones with the smallest error."""
+    best = comparison.selection.best
+    springs = min(
+        (one for one in comparison.models if one.is_mdr), key=lambda one: (one is not best, one.error), default=None
+    )
     if springs is None:
         return "MDR has no springs for this scene"
     shown = comparison.tolerance.shown_beside(springs.error)
@@ -63,7 +66,7 @@ def _on_mdr(comparison: Comparison) -> str:
     if not math.isfinite(springs.error):
         enough, why = "not known to be enough", springs.reason
     elif springs.error <= comparison.tolerance.relative:
-        enough, why = "enough", "the result is its own" if springs is comparison.selection.best else why
+        enough, why = "enough", "the result is its own" if springs is best else why
     else:
         enough = "not enough" if springs.answer else "not sure to be enough"
     return textwrap.shorten(f"MDR ({springs.name}) is {enough}: {why}", WIDTH, placeholder=" ...")
