@@ -8,7 +8,7 @@ import pytest
 import bem3d
 import mdr
 import validation
-from validation.__main__ import Exit
+from validation.__main__ import Exit, main
 
 ROOT = Path(__file__).parents[1]
 PAGES = ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CONVENTIONS.md", "CHANGELOG.md", "reports/README.md")
@@ -71,9 +71,10 @@ def test_names_of_the_last_release_stay():
         assert getattr(packages[package], before) is getattr(packages[package], after), old
 
 
-def test_what_compare_prints():
+def test_what_compare_prints(capsys):
     """The README shows lines of this output."""
-    lines = validation.summary(validation.compare(validation.load_scene("rough_punch"), tolerance=0.2)).splitlines()
+    assert main(["compare", "rough_punch", "--tolerance", "20%"]) == 0
+    lines = capsys.readouterr().out.splitlines()
     text = (ROOT / "README.md").read_text()
     shown = text[text.index("Rough punch: ") :].split("```")[0]
     for line in shown.splitlines():

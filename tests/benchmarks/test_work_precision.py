@@ -21,6 +21,7 @@ from validation.benchmarks.work_precision.problem import BEM, CLOSED, EXTRAPOLAT
 from validation.benchmarks.work_precision.rolling import RollingProblem
 from validation.engine.engine import Engine
 from validation.report import contents
+from validation.report.commands import run_cases
 from validation.report.contents import TIMED
 from validation.simulation.rolling_strip import HERTZ
 from validation.theory.rolling import linear_force
@@ -218,7 +219,7 @@ def test_command_line(result, tmp_path, monkeypatch, capsys):
 def test_report_times_last_of_all_and_before_the_race(installed, tmp_path, monkeypatch):
     seen = []
     monkeypatch.setattr(contents, "peers_installed", lambda: installed)
-    monkeypatch.setattr("validation.report.commands.report.build", lambda names, **settings: seen.extend(names) or [])
+    monkeypatch.setattr(run_cases, "build", lambda names, **settings: seen.extend(names) or [])
     command.main(["report", "--out", str(tmp_path)])
     assert seen[-2:] == ["precision", "race"] if installed else seen[-1] == "precision" and "race" not in seen
 

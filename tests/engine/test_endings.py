@@ -150,7 +150,7 @@ def test_every_end_has_its_status_and_its_sentence(error, status, said, tmp_path
         ("compare sphere rough_punch", "compare.compare_scenes", True),
         ("calibrate --check 1", "calibrate.check_calibration", False),
         ("calibrate", "calibrate.measured_table", True),
-        ("race --out out", "report.build", True),
+        ("race --out out", "run_cases.build", True),
     ],
 )
 def test_what_is_kept_is_said_by_commands_that_keep_it(words, called, kept, tmp_path, monkeypatch, capsys):

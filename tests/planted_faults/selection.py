@@ -17,6 +17,7 @@ from tests.selection import (
     test_calibrate_command,
     test_claims,
     test_contact_force,
+    test_in_short,
     test_named_models,
     test_own_scene,
     test_what_compare_says,
@@ -273,6 +274,8 @@ FAULTS = [
     Fault("springs that are enough whatever error they have").at(
         hierarchy.Candidate, "error", property(lambda candidate: 0.0)
     ),
+    test_in_short.test_the_error_is_told_beside_what_was_wanted_with_what_is_left,
+    Fault("a missed tolerance told as met").at(hierarchy.Selection, "met", property(lambda selection: True)),
     test_face.test_levels_come_in_decibels,
     Fault("a level of the face without its logarithm").at(
         compare.Comparison, "is_level", property(lambda result: False)

@@ -11,7 +11,7 @@ from tests.report.test_printed import evidence_with, html_of, number
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Role, Verdict, Whose
 from validation.report import formats
 from validation.report.chapter import ENTRIES, ERRATA, REMARKS, ChapterEntry, ChapterTest, answers, chapter_results
-from validation.report.commands.report import lines_of
+from validation.report.commands.run_cases import lines_of
 from validation.report.contents import CASES, TIMED
 from validation.report.section import Section, case_results, total_of
 

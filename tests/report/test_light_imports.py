@@ -6,8 +6,13 @@ import sys
 
 import pytest
 
+from validation.report.commands.report import WHEELS
+from validation.scenes.dynamic_wheel import bundled_wheels
+
 HEAVY = {"matplotlib", "pyfftw", "joblib", "dask", "distributed", "jinja2", "scipy.optimize", "scipy.stats"}
 """Each takes a tenth of a second or more to import."""
+UNASKED = ("validation.selection.calibrate", "validation.selection.exported")
+"""What `--verbose` and files take."""
 PAGE = ("validation.report.build", "validation.report.contents", "validation.report.figures", "validation.cases")
 COMMAND = """
 import sys
@@ -25,11 +30,19 @@ def modules_of(code, *words):
     return set(run.stdout.splitlines()[-1].split())
 
 
-@pytest.mark.parametrize("words", [["--help"], ["--version"], ["scene", "sphere"]])
+HELP = [[command, "--help"] for command in ("report", "precision", "race", "cases", "scene")]
+
+
+@pytest.mark.parametrize("words", [["--help"], ["--version"], ["scene", "sphere"], *HELP])
 def test_what_computes_nothing_imports_no_numerics(words):
     found = modules_of(COMMAND, *words)
     assert not found & {"numpy", "scipy", "mdr", "bem3d", *HEAVY}
     assert len(found) < 250
+
+
+def test_the_help_of_report_names_all_wheels():
+    """Without the numerics that their scenes import."""
+    assert bundled_wheels() == WHEELS
 
 
 @pytest.mark.parametrize("code", ["import bem3d", "import mdr", "from validation import compare, load_scene, summary"])
@@ -42,7 +55,7 @@ def test_packages_import_nothing_heavy(code):
 def test_a_closed_form_or_springs_need_no_boundary_elements(scene):
     found = modules_of(COMMAND, "compare", scene, "--tolerance", "50%")
     assert not found & HEAVY
-    assert not {name for name in found if name.startswith(PAGE)}
+    assert not {name for name in found if name.startswith((*PAGE, *UNASKED))}
 
 
 def test_a_command_sums_with_one_thread_as_workers_do():

@@ -19,7 +19,7 @@ from validation.report.compared_sweep import draw_sweep
 from validation.selection import scene_model
 from validation.selection.compare import SceneProblem
 from validation.selection.side_by_side import shown_models, speed_and_accuracy
-from validation.selection.summary import findings, summary
+from validation.selection.summary import findings, in_full, summary
 from validation.selection.swept import swept_values
 from validation.simulation.rail_models import ContactFilter
 
@@ -42,7 +42,7 @@ def test_both_quantities_of_a_rail_are_solved_once():
     assert validation.to_json(both["equivalent-roughness"]) == validation.to_json(alone)
     a3, level = (one.value for one in both.values())
     assert level == pytest.approx(a3 + np.array(RAIL.levels.levels))
-    text = findings(list(both.values()))
+    text = findings(list(both.values()), in_full)
     assert text.count("what became of it") == 1 and text.count("L_eq = L_r + A3") == 1
     assert all(f"\n{quantity} by linear, ellipse" in text for quantity in both)
 

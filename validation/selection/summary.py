@@ -3,14 +3,13 @@
 import math
 import textwrap
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from validation.scenes.description import description_lines
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rail import RailScene
-from validation.selection.calibrate import calibration_age
 from validation.selection.cells import format_seconds, scaled, short
 from validation.selection.columns import bands_of, columns_as_lines, models_of_page, overview_of, side_by_side
 from validation.selection.compare import Comparison, OneOrSeveral, listed
@@ -41,7 +40,7 @@ def summary(comparison: OneOrSeveral) -> str:
     Returns
     -------
     str
-        The lines that the command ``mdr-validation compare`` prints.
+        The lines that the command ``mdr-validation compare --verbose`` prints.
 
     Examples
     --------
@@ -53,7 +52,7 @@ def summary(comparison: OneOrSeveral) -> str:
         found = listed(comparison)
         return "\n".join([*overview(found), *help_with(found)])
     understood = heading(comparison.scene, [comparison.quantity], comparison.tolerance)
-    return f"{understood}\n{findings([comparison])}"
+    return f"{understood}\n{findings([comparison], in_full)}"
 
 
 def heading(scene: Scene, quantities: Sequence[str], tolerance: Tolerance) -> str:
@@ -63,25 +62,22 @@ def heading(scene: Scene, quantities: Sequence[str], tolerance: Tolerance) -> st
     return "\n".join(part for line in lines for part in wrapped([line], indent=22 if line[0] == " " else 4))
 
 
-def findings(comparisons: Sequence[Comparison]) -> str:
-    """What became of each model, the result, and whether MDR is enough; both quantities of a rail have one table."""
+def findings(comparisons: Sequence[Comparison], said: Callable[[Sequence[Comparison]], Iterator[str]]) -> str:
+    """What is said of quantities that have the same solves, as `in_full`; both quantities of a rail have one table."""
     parts = [comparisons] if comparisons[0].roughness.size else [[one] for one in comparisons]
-    lines = [line for part in parts for line in _lines(part)]
+    lines = [line for part in parts for line in said(part)]
     # no blank line below another
     apart = [line for before, line in zip(["text", *lines], lines, strict=False) if line or before]
     return "\n".join(wrapped(apart, indent=4))
 
 
-def _lines(quantities: Sequence[Comparison]) -> Iterator[str]:
-    """Of quantities that have the same solves and errors."""
+def in_full(quantities: Sequence[Comparison]) -> Iterator[str]:
+    """What became of each model and why, the result, what it rests on and cost, and whether MDR is enough."""
     comparison = quantities[0]
-    best, spent = comparison.selection.best, "took" if comparison.timed else "cost"
-    yield from ("", f"{'model':36s}{'claims':>12s}{'found':>9s}{spent:>8s}  what became of it")
-    for row in models_of_page(comparison):
-        yield f"{row['model']:36s}{row['claims']:>12s}{row['found']:>9s}{row[spent]:>8s}  {row['became']}"
-    yield from ("", *_reasons(comparison), "")
+    best = comparison.selection.best
+    yield from (*models_as_lines(comparison), "", *_reasons(comparison), "")
     if best is None or best.answer is None:
-        yield f"no model has {'a known error' if comparison.selection.solved else 'a result'}"
+        yield no_answer(comparison)
         yield from side_by_side(comparison)
     else:
         yield from (result_of(one, best.answer) for one in quantities)
@@ -92,6 +88,18 @@ def _lines(quantities: Sequence[Comparison]) -> Iterator[str]:
         yield from side_by_side(comparison)
         yield from (age_of_errors(comparison), cost_of(comparison))
     yield from (*what_would_help(comparison), *sentences_on_mdr(comparison))
+
+
+def models_as_lines(comparison: Comparison) -> Iterator[str]:
+    """What became of each model."""
+    spent = "took" if comparison.timed else "cost"
+    yield from ("", f"{'model':36s}{'claims':>12s}{'found':>9s}{spent:>8s}  what became of it")
+    for row in models_of_page(comparison):
+        yield f"{row['model']:36s}{row['claims']:>12s}{row['found']:>9s}{row[spent]:>8s}  {row['became']}"
+
+
+def no_answer(comparison: Comparison) -> str:
+    return f"no model has {'a known error' if comparison.selection.solved else 'a result'}"
 
 
 def _reasons(comparison: Comparison) -> Iterator[str]:
@@ -187,10 +195,15 @@ def result_of(comparison: Comparison, answer: Answer) -> str:
         value = float(answer.value[0])
         number = f"{scaled(value, value * answer.error)} {comparison.unit}"
         return f"{comparison.quantity} = {number} ({shown(answer.error)}: {parts}), by {comparison.model}"
+    level = error_of_levels(comparison, answer)
+    return f"{comparison.quantity} by {comparison.model}, one-third octaves, ± {level} ({parts})"
+
+
+def error_of_levels(comparison: Comparison, answer: Answer) -> str:
+    """In the unit of the tolerance and in dB, and in which bands."""
     level = f"{short(decibels(answer.error))} dB"
-    both = level if comparison.in_decibels else f"{shown(answer.error)}, {level},"
-    where = "in the bands that count" if answer.band_errors else "over all bands"
-    return f"{comparison.quantity} by {comparison.model}, one-third octaves, ± {both} {where} ({parts})"
+    both = level if comparison.in_decibels else f"{comparison.tolerance.shown(answer.error)}, {level},"
+    return f"{both} {'in the bands that count' if answer.band_errors else 'over all bands'}"
 
 
 def age_of_errors(comparison: Comparison) -> str:
@@ -199,6 +212,8 @@ def age_of_errors(comparison: Comparison) -> str:
         return MEASURED_ON_STRIPS
     if isinstance(comparison.scene, IndentationScene) and comparison.scene.ground is None:
         return "errors of models: closed forms are exact for smooth bodies, no measured error is used"
+    from validation.selection.calibrate import calibration_age  # imported where errors were measured
+
     return calibration_age(target=Target(comparison.scene, comparison.quantity))
 
 
@@ -211,7 +226,15 @@ def cost_of(comparison: Comparison) -> str:
 
 
 def what_would_help(comparison: Comparison) -> Iterator[str]:
-    """Where no model meets the tolerance: the tolerance that would be met, and what most of the error is due to."""
+    """Where no model meets the tolerance: the error that is left, and `would_help`."""
+    best, tolerance = comparison.selection.best, comparison.tolerance
+    if best is not None and best.answer is not None and not comparison.met:
+        yield f"not reached: the tolerance of {tolerance}; the smallest error is {tolerance.shown_beside(best.error)}"
+    yield from would_help(comparison)
+
+
+def would_help(comparison: Comparison) -> Iterator[str]:
+    """The tolerance that would be met, and what most of the error is due to; nothing where one is met."""
     best, tolerance = comparison.selection.best, comparison.tolerance
     if comparison.met:
         return
@@ -222,7 +245,6 @@ def what_would_help(comparison: Comparison) -> Iterator[str]:
             another = f"a scene for which this does not hold: {comparison.models[-1].reason}"
             yield f"what would help: {other or another}"
         return
-    yield f"not reached: the tolerance of {tolerance}; the smallest error is {tolerance.shown_beside(best.error)}"
     if (left := best.estimate.of_scene) > min(tolerance.relative, best.answer.error / 2):
         asked = rail_quantity(Target(comparison.scene, comparison.quantity))
         yield (

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from validation.analysis.contents import as_csv
 from validation.analysis.evidence import Table
 from validation.engine.engine import Engine
 from validation.engine.files import write_given
@@ -17,11 +16,11 @@ from validation.scenes.load import Scene, bundled_for_compare, files_of, load_sc
 from validation.scenes.printable import printable
 from validation.selection.cells import format_seconds
 from validation.selection.compare import Comparison, SceneProblem
-from validation.selection.exported import filter_table, table_of_several, to_json_of
+from validation.selection.in_short import in_short
 from validation.selection.quantities import QUANTITIES, quantities_of
 from validation.selection.scene_model import SceneModel
 from validation.selection.several_scenes import compare_scenes
-from validation.selection.summary import findings, heading, summary
+from validation.selection.summary import findings, heading, in_full, summary
 from validation.selection.swept import Swept, swept_values
 from validation.selection.tolerance import tolerance_of
 
@@ -46,6 +45,9 @@ def describe(comparing: argparse.ArgumentParser) -> None:
         type=some_of(QUANTITIES),
         metavar="A,B",
         help=f"of {', '.join(QUANTITIES)}, one or several (default: the first of the scene); --want: until 0.3",
+    )
+    comparing.add_argument(
+        "--verbose", "-v", action="store_true", help="of one scene also why, what errors rest on, what solves cost"
     )
     solved = comparing.add_mutually_exclusive_group()
     solved.add_argument("--all", action="store_true", help="solve and time all models, and print them side by side")
@@ -156,7 +158,8 @@ def _found(
     """Solve, print, and write the files that are asked for."""
     solved = _solved(problems, arguments)
     found = [replace(one, swept=of) for one, of in zip(solved, swept, strict=True)]
-    print(findings(found) if len(problems) == 1 else summary(found))
+    said = in_full if arguments.verbose else in_short
+    print(findings(found, said) if len(problems) == 1 else summary(found))
     _write(found, arguments)
     return found
 
@@ -197,6 +200,22 @@ def _announce(model: SceneModel) -> None:
 
 def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
     """The files that are asked for, each of them whole; of several scenes a list, and a column for the scene."""
+    if arguments.json or arguments.csv or arguments.cnossos:
+        _write_data(found, arguments)
+    if arguments.figure is not None:
+        from validation.report.compared import to_figure  # which takes half a second to import
+        from validation.report.compared_seconds import figure_over_seconds
+
+        form = arguments.figure.suffix[1:]
+        picture = figure_over_seconds(found[0], form) if arguments.over else to_figure(found, form=form)
+        write_given(arguments.figure, picture)
+
+
+def _write_data(found: list[Comparison], arguments: argparse.Namespace) -> None:
+    # imported where a file is asked for
+    from validation.analysis.contents import as_csv
+    from validation.selection.exported import filter_table, table_of_several, to_json_of
+
     if arguments.json:
         write_given(arguments.json, to_json_of(found).encode())
     if arguments.csv:
@@ -205,13 +224,6 @@ def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
         filters = [filter_table(one) for one in found if one.quantity == "contact-filter"]
         rows = {name: [value for one in filters for value in one.columns[name]] for name in filters[0].columns}
         write_given(arguments.cnossos, as_csv(Table("contact-filter", rows)))
-    if arguments.figure is not None:
-        from validation.report.compared import to_figure  # which takes half a second to import
-        from validation.report.compared_seconds import figure_over_seconds
-
-        form = arguments.figure.suffix[1:]
-        picture = figure_over_seconds(found[0], form) if arguments.over else to_figure(found, form=form)
-        write_given(arguments.figure, picture)
 
 
 def _sweep(word: str) -> tuple[str, list[str]]:

@@ -1,21 +1,12 @@
 """Run cases and write their report; by `precision` and `race` what is timed alone; by `cases` list them."""
 
 import argparse
-from collections.abc import Sequence
 from pathlib import Path
 
-from validation.analysis.evidence import Table
-from validation.benchmarks.peers import solvers_with
-from validation.engine.engine import LOCAL
-from validation.report.build import build
 from validation.report.commands.arguments import Exit, add_options, add_profile, add_workers, at_least, some_of
-from validation.report.commands.places import check_places
-from validation.report.contents import CASES, TIMED, timed_here
-from validation.report.formats import in_four_digits
-from validation.report.section import Section, total_of
-from validation.scenes.description import description_lines
-from validation.scenes.dynamic_wheel import WheelScene, bundled_wheels, load_wheel_scene
-from validation.scenes.printable import printable
+
+WHEELS = ("rough_wheel", "table_14_1")
+"""The scenes that `bundled_wheels` finds, which imports numerics."""
 
 
 def describe(making: argparse.ArgumentParser) -> None:
@@ -23,11 +14,12 @@ def describe(making: argparse.ArgumentParser) -> None:
     if name == "cases":
         making.set_defaults(command=cases)
         return
+    timed = name != "report"
     making.set_defaults(
-        command=report, only=None, keep=False, workers=1, executor=LOCAL, scene=None, solver=None, timed=name in TIMED
+        command=report, only=None, keep=False, workers=1, executor=None, scene=None, solver=None, timed=timed
     )
     add_profile(making)
-    if name in TIMED:
+    if timed:
         making.set_defaults(only=[(name,)])
         out = ("--out", "DIR", Path, f"folder (default: reports/{name}-quick or reports/{name})")
         add_options(making, out, ("--seed", "S", at_least(0), "seed of the rough surfaces"))
@@ -36,12 +28,7 @@ def describe(making: argparse.ArgumentParser) -> None:
             add_options(making, ("--solver", "FILE", Path, own))
         return
     making.add_argument(
-        "--only",
-        nargs="+",
-        action="extend",
-        type=some_of([*CASES, *TIMED]),
-        metavar="CASE",
-        help="run only these cases; `cases` lists them",
+        "--only", nargs="+", action="extend", type=_names, metavar="CASE", help="run only these; `cases` lists them"
     )
     making.add_argument(
         "--keep",
@@ -51,7 +38,7 @@ def describe(making: argparse.ArgumentParser) -> None:
     add_workers(making)
     scene = (
         "a dynamic wheel of your own, a TOML file like validation/scenes/table_14_1.toml, or the name of an example "
-        f"scene ({', '.join(bundled_wheels())}); alone, it means --only wheel"
+        f"scene ({', '.join(WHEELS)}); alone, it means --only wheel"
     )
     add_options(
         making,
@@ -62,89 +49,24 @@ def describe(making: argparse.ArgumentParser) -> None:
     )
 
 
+# all cases are imported where a name is read or a command runs, not for the help
+
+
+def _names(word: str) -> tuple[str, ...]:
+    from validation.report.contents import CASES, TIMED
+
+    return some_of([*CASES, *TIMED])(word)
+
+
 def cases(arguments: argparse.Namespace) -> Exit:
-    """List those that are not timed, in the order of the page."""
-    print("\n".join(f"{name:20s} {case.answers}" for name, case in CASES.items()))
-    return Exit.MET
+    """List the cases."""
+    from validation.report.commands import run_cases
+
+    return run_cases.cases(arguments)
 
 
 def report(arguments: argparse.Namespace) -> Exit:
-    """Run cases, write their report, and say how it came out."""
-    # what is timed is run last, when nothing else is; a race needs other solvers
-    everything = [*CASES, *timed_here()] if arguments.scene is None else ["wheel"]
-    arguments.only = [name for some in arguments.only or () for name in some]
-    names = list(dict.fromkeys(arguments.only or everything))
-    if arguments.keep and not arguments.only:
-        raise ValueError("--keep is for --only, got it alone: without --only no case is left to be kept")
-    out = arguments.out = arguments.out or Path("reports") / _folder(names, arguments)
-    check_places(arguments, {})
-    arguments.keeps = True
-    scene = _scene_of(arguments, names)
-    if scene is not None:
-        print("\n".join([scene.name, *description_lines(scene), ""]), flush=True)
-    sections = build(
-        names,
-        profile=arguments.profile,
-        out=out,
-        workers=arguments.workers,
-        seed=arguments.seed,
-        scene=scene,
-        executor=arguments.executor,
-        keep=arguments.keep,
-        own=_solvers_of(arguments),
-        callback=lambda section: print("\n".join(lines_of(section)), flush=True),
-    )
-    if any(section.claims for section in sections):
-        print(total_of(sections))
-    print(printable(f"report: {out / 'index.html'}"))
-    if any(section.unconverged for section in sections):
-        return Exit.NOT_CONVERGED
-    return Exit.CRITERION_FAILED if any(section.missed for section in sections) else Exit.MET
+    """Run cases and write their report."""
+    from validation.report.commands import run_cases
 
-
-def _solvers_of(arguments: argparse.Namespace) -> str:
-    """The file of `--solver`, refused before the first solve where it offers none."""
-    if arguments.solver is None:
-        return ""
-    solvers_with(str(arguments.solver))
-    return str(arguments.solver.resolve())
-
-
-def _folder(names: Sequence[str], arguments: argparse.Namespace) -> str:
-    if arguments.timed:
-        return "-".join([*names, *["quick"] * (arguments.profile == "quick")])
-    some = names if (arguments.only or arguments.scene) and not arguments.keep else ()
-    return "-".join([arguments.profile, *some])
-
-
-def _scene_of(arguments: argparse.Namespace, names: Sequence[str]) -> WheelScene | None:
-    """The scene of `--scene`, refused where a case takes none."""
-    if arguments.scene is None:
-        return None
-    without = [name for name in names if name in TIMED or not hasattr(CASES[name].quick, "scene")]
-    if without:
-        raise ValueError(f"--scene is for cases of the dynamic wheel, got {', '.join(without)}")
-    return load_wheel_scene(arguments.scene)
-
-
-def lines_of(section: Section) -> list[str]:
-    """A line for the case, each claim, conclusion, missed criterion and failed solve."""
-    met = "no criteria"
-    if section.criteria:
-        met = f"criteria met {section.criteria - len(section.missed)} of {section.criteria}"
-    details = [f"{c.status}: {c.claim} {c.answer}" for c in section.claims]
-    details += section.evidence.conclusions if section.evidence else ()
-    details += [f"missed: {number.sentence}" for number in section.missed]
-    details += [f"not converged: {solve}" for solve in section.unconverged]
-    if section.name in TIMED and section.evidence:
-        details += [line for table in section.evidence.page_tables for line in _rows(table)]
-    head = f"{section.name:15s} {'no result' if section.failure else met}"
-    return [head, *(f"    {line}" for line in details)]
-
-
-def _rows(table: Table) -> list[str]:
-    """A line a row, under the name of the table."""
-    rows = zip(*table.columns.values(), strict=True)
-    pairs = ([pair for pair in zip(table.columns, row, strict=True) if pair[1] != ""] for row in rows)
-    said = ("; ".join(f"{name}: {in_four_digits(cell)}" for name, cell in some) for some in pairs)
-    return [f"{table.name}:", *(f"  {line}" for line in said)]
+    return run_cases.report(arguments)
