@@ -13,7 +13,7 @@ import validation
 
 EXAMPLES = Path(validation.__file__).parent / "examples"
 NAMES = sorted(path.stem for path in EXAMPLES.glob("*.py"))
-LONG = {"own_draws", "own_filter", "own_model", "own_solver", "rolling_spectrum"}
+LONG = {"large_face", "own_draws", "own_filter", "own_model", "own_solver", "rolling_spectrum"}
 """Most of a minute: the documentation runs them, as all others, and fails where one fails."""
 SECONDS = {"sphere", "own_rail", "own_lines"}
 """Those that take next to none; the others are slow."""
