@@ -35,9 +35,9 @@ docs: $(DOCS)  ## the documentation: reports/docs/_build/html/index.html
 	$(RUN) sphinx --quiet --nitpicky --fail-on-warning --keep-going -d reports/docs/_build/doctrees \
 		reports/docs reports/docs/_build/html $(ARGS)
 
-# two workers more than cores, since some tests wait, and one thread each; tests of a file on the same one, which share their
+# a worker more than cores, since some tests wait, and one thread each; tests of a file on the same one, which share their
 # fixtures, until it takes what is left of another
-WORKERS := $(shell $(PYTHON) -c "import os; print((os.cpu_count() or 1) + 2)" 2>/dev/null)
+WORKERS := $(shell $(PYTHON) -c "import os; print((os.cpu_count() or 1) + 1)" 2>/dev/null)
 SHARED := -n $(or $(WORKERS),auto) --dist worksteal
 fast test oldest coverage verdicts: export OMP_NUM_THREADS := 1
 
