@@ -2,9 +2,9 @@
 
 Method: nested iteration (`nested`), on the smallest window that holds the contact (`window_solve`), by projected and
 preconditioned conjugate directions (`projected_cg`), one operator application an iteration. Large grids have a second
-level of the preconditioner (`far_field`). The published iteration
-of Polonsky and Keer, the baseline, is `solve_polonsky_keer`. A modulus of exactly 1 is taken as the unit of pressure:
-its pressures are not checked for their units.
+level of the preconditioner (`far_field`). The published iteration of Polonsky and Keer, the baseline, is
+`solve_polonsky_keer`. A modulus of exactly 1 is taken as the unit of pressure: its pressures are not checked for their
+units.
 """
 
 from __future__ import annotations
