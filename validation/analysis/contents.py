@@ -14,6 +14,8 @@ LEVELS = 4
 BOOLEAN = {"True": True, "False": False}
 INTEGER = re.compile(r"-?\d+")
 INTERVAL = ("low", "high")
+VALUES = (*INTERVAL, "value")
+VALUE = re.compile(r"value \[(.+)\]")
 NO_NAME = re.compile(r"[^\w.+'-]+")
 """What a file name is better without."""
 
@@ -33,22 +35,32 @@ def _nested(value: object, levels: int) -> str:
     return f"[{','.join(f'{indent} {_nested(part, levels - 1)}' for part in value)}{indent}]"
 
 
+def plain_name(text: str) -> str:
+    """Of a file or an address: "k / (E* L)" is "k_E_L"."""
+    return NO_NAME.sub("_", text).strip("_")
+
+
 def csv_name(case: str, table: str) -> str:
-    """Of the file of a table: a quantity may be named "k / (E* L)"."""
-    return f"{case}-{NO_NAME.sub('_', table).strip('_')}.csv"
+    """Of the file of a table."""
+    return f"{case}-{plain_name(table)}.csv"
+
+
+def header_of(table: Table) -> list[str]:
+    """Names of its columns, those of values with the unit of the table."""
+    return [f"{name} [{table.unit}]" if table.unit and name in VALUES else name for name in table.columns]
 
 
 def as_csv(table: Table, *, drawn: bool = False) -> bytes:
-    """Numbers to ten digits; what is not finite is left empty.
+    """Numbers to ten digits; what is not finite is left empty; the unit of values in their header.
 
     drawn: of a figure, to seven digits, more than a curve shows, without the interval of a value that does not scatter.
     """
     digits = 7 if drawn else 10
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(table.columns)
+    writer.writerow(header_of(table))
     columns = {name: [_cell(value, digits) for value in values] for name, values in table.columns.items()}
-    if drawn and columns.keys() >= {*INTERVAL, "value"}:
+    if drawn and columns.keys() >= {*VALUES}:
         ends = zip(*(columns[name] for name in INTERVAL), columns["value"], strict=True)
         exact = [low == high == value for low, high, value in ends]
         columns |= {n: ["" if e else c for c, e in zip(columns[n], exact, strict=True)] for n in INTERVAL}
@@ -64,11 +76,13 @@ def _cell(value: object, digits: int) -> object:
 
 def from_csv(name: str, text: str) -> Table:
     """What `as_csv` wrote: numbers, NaN where a column of numbers is empty, True and False, else text."""
-    names, *rows = csv.reader(io.StringIO(text))
+    header, *rows = csv.reader(io.StringIO(text))
+    unit = next((one[1] for name in header if (one := VALUE.fullmatch(name))), "")
+    names = [name.removesuffix(f" [{unit}]") if name.startswith(VALUES) else name for name in header]
     found = dict(zip(names, zip(*rows, strict=True) if rows else [()] * len(names), strict=True))
-    if found.keys() >= {*INTERVAL, "value"}:
+    if found.keys() >= {*VALUES}:
         found |= {n: tuple(map(_first, found[n], found["value"])) for n in INTERVAL}
-    return Table(name, {column: _values(cells) for column, cells in found.items()})
+    return Table(name, {column: _values(cells) for column, cells in found.items()}, unit)
 
 
 def _first(cell: str, value: str) -> str:

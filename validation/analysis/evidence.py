@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 import numpy as np
@@ -166,10 +166,14 @@ class VerdictCell:
 
 @dataclass(frozen=True)
 class Table:
-    """Columns of equal length: the data behind a figure. A name carries its unit, as in "approach [m]"."""
+    """Columns of equal length: the data behind a figure. A name carries its unit, as in "approach [m]".
+
+    unit: of the columns value, low and high; empty where they have none, or no such columns are there.
+    """
 
     name: str
     columns: Mapping[str, Sequence[object]]
+    unit: str = ""
 
     def __post_init__(self) -> None:
         lengths = {name: len(column) for name, column in self.columns.items()}
@@ -185,7 +189,7 @@ class Table:
 
     def rows(self, kept: ArrayLike) -> "Table":
         """By a mask, or by their numbers."""
-        return Table(self.name, {name: self[name][np.asarray(kept)].tolist() for name in self.columns})
+        return replace(self, columns={name: self[name][np.asarray(kept)].tolist() for name in self.columns})
 
 
 def table_of(name: str, rows: Sequence[Mapping[str, object]]) -> Table:

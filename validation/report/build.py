@@ -19,6 +19,7 @@ from validation.engine.progress import Part, Progress
 from validation.engine.workers import Workers
 from validation.report.answers.first_screen import answered_questions, plain
 from validation.report.chapter import chapter_results
+from validation.report.columns import COLUMNS, columns_file
 from validation.report.contents import CASES, TIMED, expected_seconds
 from validation.report.figures import drawing
 from validation.report.folder import REALISATIONS, RESULTS, Folder
@@ -144,6 +145,7 @@ def _files(
     files = {f"{FIGURES}/{name}.svg": picture for name, picture in pictures.items()}
     for section in sections:
         files |= section.files
+    files[f"{DATA}/{COLUMNS}"] = columns_file(sections)
     files[PROVENANCE] = as_json(about)
     # times differ from run to run: the results are to be the same to the byte without them
     lasting = [section for section in sections if section.name not in TIMED]

@@ -8,7 +8,9 @@ from typing import NamedTuple
 import jinja2
 from markupsafe import Markup, escape
 
+from validation.analysis.contents import csv_name
 from validation.analysis.evidence import ClaimStatus, Table, Verdict, VerdictCell, Whose
+from validation.report.symbols import SYMBOLS, symbols_in
 
 SYMBOL = {"agree": "✓", "differ": "≠", "undecided": "?"}
 LETTER = {Verdict.AGREE: "A", Verdict.DIFFER: "D", Verdict.UNDECIDED: "?"}
@@ -34,8 +36,9 @@ def templates() -> jinja2.Environment:
         "map_of": map_of,
         "capitalized": capitalized,
         "of_one": of_one,
+        "symbols_in": symbols_in,
     }
-    environment.globals["zip"] = zip
+    environment.globals |= {"zip": zip, "csv_name": csv_name, "all_symbols": SYMBOLS}
     return environment
 
 

@@ -16,7 +16,7 @@ from validation.report.sounds import sound_place
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import WheelScene
 
-FRONT = "index.html"
+FRONT, READING = "index.html", "reading.html"
 FEW_FINDINGS = 2
 """Conclusions of a case that are read before unfolding."""
 
@@ -91,6 +91,7 @@ def pages(
     environment.filters |= {"place_of": places.__getitem__, "sound_place": sound_place}
     environment.globals |= {
         "front": FRONT,
+        "reading": READING,
         "sections": sections,
         "book": [] if scene else chapter_of(sections),
         "errata": ERRATA,
@@ -111,6 +112,7 @@ def pages(
         some[0].page: environment.get_template("chapter.html").render(chapter=chapter, some=some)
         for chapter, some in chapters
     }
+    made[READING] = environment.get_template("reading.html").render()
     # the front page last: it leads to all others
     made[FRONT] = environment.get_template("front.html").render()
     return {name: (text + "\n").encode() for name, text in made.items()}

@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 from validation.analysis.case import Case, Profile
+from validation.analysis.contents import plain_name
 from validation.analysis.evidence import (
     ClaimStatus,
     Evidence,
@@ -17,6 +18,10 @@ from validation.analysis.evidence import (
     VerdictCell,
     Whose,
 )
+
+
+FIRST_WORDS = 10
+"""Of a claim, by which it is found."""
 
 
 @dataclass(frozen=True)
@@ -65,6 +70,10 @@ class Section:
     @property
     def place(self) -> str:
         return f"{self.page}#{self.name}"
+
+    def address_of(self, claim: JudgedClaim) -> str:
+        """On its page: by its first words, so that it lasts when others come or go."""
+        return f"claim-{self.name}-{plain_name(" ".join(claim.claim.split()[:FIRST_WORDS]))}"
 
     @property
     def missed(self) -> tuple[Number, ...]:

@@ -15,7 +15,7 @@ from validation.analysis.spectra import band_levels, band_means, one_third_octav
 from validation.analysis.statistics import Estimate, FloatArray, jackknifed, ratio_of_means
 from validation.analysis.study import Outcomes
 from validation.cases.wheel import features
-from validation.cases.wheel.features import FIRST, FOURTH, PLATEAU, TABLE, decibels
+from validation.cases.wheel.features import FIRST, FOURTH, PLATEAU, TABLE, decibels, density_of
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene
@@ -194,7 +194,7 @@ def _breaks(result: Outcomes) -> Iterator[Series]:
         found, by_jumps = features.measured(spectrum)[features.BREAK], features.expected(spectrum)[features.BREAK]
         low, high = 1.5 * float(outcome["omega"][0]), 1.6 * scene.cutoff
         omega, density = features.in_sixths(outcome["omega"], outcome["plain"].mean(axis=0), low, high)
-        spectra = partial(Series, SPECTRA, where={DISTANCE: round(distance, 3)}, along=features.OMEGA)
+        spectra = partial(density_of, SPECTRA, where={DISTANCE: round(distance, 3)})
         yield spectra("spectrum", density, at=omega)
         at_break = math.exp(np.interp(np.log(found.value), np.log(omega), np.log(density)))
         yield spectra("break", (at_break,), at=(found.value,))
@@ -227,7 +227,7 @@ def _regions(result: Outcomes) -> Iterator[Series]:
             outcome = result[record.kind._replace(model=model)]
             mean, ends = outcome[record.window].mean(axis=0), (0.5 * scene.eigenfrequency, 4 * scene.cutoff)
             omega, density = features.in_sixths(outcome["omega"], mean, *ends)
-            yield Series(BY_KIND, f"{model}, {name}", density, along=features.OMEGA, at=omega)
+            yield density_of(BY_KIND, f"{model}, {name}", density, at=omega)
         for region, band in bands.items():
             for model in (SPRINGS, LINEAR):
                 level = Estimates.ratios(record.of(result, band, model), np.ones(1))
@@ -285,7 +285,7 @@ def _over_second_order(scene: WheelScene, outcome: Outcome, family: int) -> Iter
             margin=OF_SECOND_ORDER,
         )
     lines = omega[omega < 0.99 * scene.jump]
-    drawn = partial(Series, UP_TO_JUMP, where={**damping, **place}, along=features.OMEGA, at=lines)
+    drawn = partial(density_of, UP_TO_JUMP, where={**damping, **place}, at=lines)
     yield drawn(SPRINGS, outcome["plain"].mean(axis=0)[: lines.size])
     yield drawn(SECOND_ORDER, theory[: lines.size])
 
@@ -314,7 +314,7 @@ def _contrasts(scene: WheelScene, outcome: Outcome) -> Iterator[Series]:
     edges = np.arange(scene.eigenfrequency, 0.99 * scene.jump, scene.oscillation_period / 12)
     for model, density in ((SPRINGS, outcome["plain"].mean(axis=0)), (SECOND_ORDER, theory)):
         means = band_means(omega, density, edges)
-        yield Series(SHORT_WAVES, model, means, along=features.OMEGA, at=(edges[1:] + edges[:-1]) / 2)
+        yield density_of(SHORT_WAVES, model, means, at=(edges[1:] + edges[:-1]) / 2)
 
 
 def maxima_of(scene: WheelScene) -> FloatArray:

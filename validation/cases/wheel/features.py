@@ -31,7 +31,9 @@ QUANTITIES = {
     PERIOD: "period of the oscillation",
 }
 """Of the features that are judged."""
-LEVEL, OMEGA, DENSITY = "level", "ω [rad/s]", "A [(m/s²)² s]"
+LEVEL, OMEGA, UNIT = "level", "ω [rad/s]", "(m/s²)² s"
+DENSITY = f"A [{UNIT}]"
+density_of = partial(Series, along=OMEGA, unit=UNIT)
 HALF_BAND = 1 / 24
 """Of a period of an oscillation: half of the band about a maximum or a zero."""
 FLOOR_BAND = (1.3, 2.6)

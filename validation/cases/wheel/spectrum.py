@@ -193,7 +193,7 @@ def _drawn(spectrum: features.Spectrum, batches: list[Outcome]) -> Iterator[Seri
         LINEAR: band_means(omega, linear[0.9], edges),
         PREDICTED_FLOOR: floor,
     }.items():
-        yield Series(SPECTRUM, model, values, along=features.OMEGA, at=centres)
+        yield features.density_of(SPECTRUM, model, values, at=centres)
     width = max(theory[features.PERIOD] / BANDS_PER_PERIOD, omega[0])
     bands, law = np.arange(0.9 * scene.jump, 1.1 * scene.cutoff, width), omega ** theory[features.SLOPE]
     mean = float(np.mean((linear[0.5] / law)[(omega > scene.jump) & (omega < scene.cutoff)]))
@@ -209,4 +209,4 @@ def _in_sixths(name: str, spectrum: features.Spectrum) -> Series:
     low, high = float(spectrum.omega[2]), 1.5 * spectrum.scene.cutoff
     omega, density = features.in_sixths(spectrum.omega, spectrum.plain.mean(axis=0), low, high)
     where = {PARAMETER: name.split(" ")[0], "scene": name}
-    return Series(VARIED, "springs", density, where=where, along=features.OMEGA, at=omega)
+    return features.density_of(VARIED, "springs", density, where=where, at=omega)
