@@ -5,22 +5,26 @@ from functools import partial
 import numpy as np
 from markupsafe import Markup
 
+from tests.analysis import test_units_of_tables
 from tests.cases import test_flags_on_the_page
 from tests.planted_faults.wrong import Fault
 from tests.report import (
     test_answers,
     test_claims,
     test_colours,
+    test_columns,
     test_kept,
     test_page,
     test_printed,
     test_sounds,
+    test_symbols,
     test_texts_of_users,
 )
 from validation.analysis import statistics
 from validation.analysis.claims import Claim
 from validation.analysis.evidence import Verdict
-from validation.report import build, chapter, formats, provenance, sounds, style
+from validation.analysis.series import Series
+from validation.report import build, chapter, columns, formats, provenance, sounds, style, symbols
 from validation.report.answers import questions, strip
 from validation.report.page import PageFigure
 
@@ -63,6 +67,17 @@ CITATION = PageFigure.citation
 
 
 FAULTS = [
+    partial(test_symbols.test_a_symbol_is_a_word_of_its_own, "a wheel on E*", ["E*"]),
+    Fault("a symbol found inside of words").at(symbols.Symbol, "stands_in", lambda symbol, text: symbol.name in text),
+    test_columns.test_values_have_the_unit_of_their_table,
+    Fault("data without units").at(columns, "header_of", lambda table: list(table.columns)),
+    partial(
+        test_units_of_tables.test_a_table_has_the_unit_of_what_it_shows,
+        "ratio",
+        {"unit": "dB", "shown": np.exp},
+        "",
+    ),
+    Fault("a ratio in decibels").at(Series, "shown_unit", property(lambda one: one.unit)),
     test_kept.test_a_case_that_is_kept_twice_has_the_commit_that_made_it,
     Fault("a case that is kept has today's commit").at(provenance, "with_kept", as_of_today),
     test_page.test_a_figure_is_numbered_on_the_page_and_cited_by_name_version_and_commit,

@@ -1,4 +1,4 @@
-"""The page of a report passes axe-core, in windows wide and narrow; `make accessibility` installs what it needs."""
+"""The pages of a report pass axe-core, in windows wide and narrow; `make accessibility` installs what it needs."""
 
 import html
 import json
@@ -8,10 +8,10 @@ import subprocess
 from dataclasses import replace
 from importlib.resources import files
 from importlib.util import find_spec
-from pathlib import Path
 
 import pytest
 
+from tests.report.remade import remade
 from tests.report.test_page import MATRIX, section_of
 from tests.report.test_printed import ABOUT
 from validation.report import page
@@ -40,7 +40,6 @@ axe.run(document, {resultTypes: ["violations"]}).then(
 
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(bool(LACKING), reason=f"not there: {', '.join(LACKING)}")]
 WIDE, NARROW = 1300, 400
-REFERENCE = Path(__file__).parents[2] / "reports" / "reference"
 FAULTS = {
     "color-contrast": ("--soft: #5a5a5a", "--soft: #9a9a9a"),
     "image-alt": (' alt="', ' data-alt="'),
@@ -49,7 +48,7 @@ FAULTS = {
 }
 
 
-def violations(page: str, folder: Path, width: int) -> dict[str, list[str]]:
+def violations(page: str, folder, width: int) -> dict[str, list[str]]:
     """Of a page in a window of this width [px]: by rule, the first elements that violate it."""
     assert not LACKING, f"axe needs {LACKING}"
     axe = files(PACKAGE).joinpath("axe.min.js").read_text(encoding="utf-8")
@@ -90,9 +89,7 @@ def test_no_rule_is_violated(tmp_path, width):
 
 @pytest.mark.parametrize("width", [WIDE, NARROW])
 def test_no_rule_is_violated_by_the_reference_report(tmp_path, width):
-    found = {
-        path.name: violations(path.read_text(encoding="utf-8"), tmp_path, width) for path in REFERENCE.glob("*.html")
-    }
+    found = {name: violations(text, tmp_path, width) for name, text in remade().items()}
     assert not any(found.values()), found
 
 

@@ -44,7 +44,7 @@ def html_of(*sections):
 
 def test_the_pages_lead_to_each_other():
     pages = pages_of(section_of("geike"), section_of("hertz", criterion=9.0), section_of("rolling"))
-    assert list(pages) == ["exact.html", "rolling.html", "index.html"]
+    assert list(pages) == ["exact.html", "rolling.html", "reading.html", "index.html"]
     assert faults(pages) == []
 
 
@@ -70,12 +70,21 @@ def test_a_criterion_that_is_missed_is_said_above_the_figures(criterion, said):
     assert text.partition("<figure")[0].count("Missed criterion:") == said
 
 
-def test_the_first_figure_is_open_and_titled_by_its_finding():
+def test_the_first_figure_is_open_and_each_is_titled_by_its_finding():
     captions = {"geike": "A curve.", "hertz": "A sphere."}
     shown = section_of("geike", headlines={"geike": "Springs are 30 dB too quiet"})
     shown = replace(shown, evidence=replace(shown.evidence, captions=captions))
-    figures = re.findall(r'<details class="figure"( open)?><summary><b>.*?</b> (.*?)</summary>', html_of(shown))
-    assert figures == [(" open", "Springs are 30 dB too quiet"), ("", "A sphere")]
+    assert re.findall(r'<p class="title">.*?</b> (.*?)</p>", html_of(shown)) == ["Springs are 30 dB too quiet"]
+    folded = re.findall(r"<details class="figure"><summary><b>.*?</b> (.*?)</summary>", html_of(shown))
+    assert folded == ["A sphere"]
+    # what the case begins with is not said twice
+    shown = replace(shown, evidence=replace(shown.evidence, finding="Springs are 30 dB too quiet."))
+    assert html_of(shown).count("Springs are 30 dB too quiet.</b>") == 1 and "</b> Springs are" not in html_of(shown)
+
+
+def test_figures_claims_tables_and_numbers_have_an_address():
+    signs = re.findall(r'class="sign" href="#([^"]+)"', html_of(section_of("geike")))
+    assert signs == ["geike", "figure-geike", "claim-geike-It_is_so.", "table-geike-Deviation", "numbers-geike"]
 
 
 def test_a_table_of_verdicts_is_a_lettered_map_with_the_table_behind_it():
@@ -130,7 +139,7 @@ def test_the_line_beside_a_figure_draws_it_again(tmp_path, monkeypatch):
     linked = set(re.findall(r'href="(data/[^"]*\.csv)"', text))
     tables = ("C_1D_m³", "moment_over_that_of_the_surface", "numbers")
     assert linked == {f"data/geike-{table}.csv" for table in tables}
-    assert all((tmp_path / path).exists() for path in linked)
+    assert all((tmp_path / path).exists() for path in (*linked, "data/columns.csv"))
     line = re.search(r"<code>(.*?)</code>", text)[1].replace("&#34;", '"')
     monkeypatch.chdir(tmp_path)
     exec(line)

@@ -35,7 +35,7 @@ def described(case: str, table: Table) -> Iterator[tuple[str, str, str, str]]:
     file = csv_name(case, table.name)
     for header in header_of(table):
         unit, name = UNIT.search(header), UNIT.sub("", header).strip()
-        own = _matching(f"{file}: {name}") or (_quantity(table) if name == "value" else "")
+        own = _matching(f"{file.removesuffix('.csv')}: {name}") or (_quantity(table) if name == "value" else "")
         meaning = own or _MEANINGS.get(name) or _SYMBOLS.get(name) or _matching(name)
         yield (file if own else EVERY, header, unit[1] if unit else NO_UNIT, meaning)
 
