@@ -75,7 +75,7 @@ def test_the_first_figure_is_open_and_each_is_titled_by_its_finding():
     shown = section_of("geike", headlines={"geike": "Springs are 30 dB too quiet"})
     shown = replace(shown, evidence=replace(shown.evidence, captions=captions))
     assert re.findall(r'<p class="title">.*?</b> (.*?)</p>', html_of(shown)) == ["Springs are 30 dB too quiet"]
-    folded = re.findall(r"<details class="figure"><summary><b>.*?</b> (.*?)</summary>", html_of(shown))
+    folded = re.findall(r'<details class="figure"><summary><b>.*?</b> (.*?)</summary>', html_of(shown))
     assert folded == ["A sphere"]
     # what the case begins with is not said twice
     shown = replace(shown, evidence=replace(shown.evidence, finding="Springs are 30 dB too quiet."))

@@ -19,7 +19,6 @@ from validation.analysis.evidence import (
     Whose,
 )
 
-
 FIRST_WORDS = 10
 """Of a claim, by which it is found."""
 
@@ -73,7 +72,8 @@ class Section:
 
     def address_of(self, claim: JudgedClaim) -> str:
         """On its page: by its first words, so that it lasts when others come or go."""
-        return f"claim-{self.name}-{plain_name(" ".join(claim.claim.split()[:FIRST_WORDS]))}"
+        words = " ".join(claim.claim.split()[:FIRST_WORDS])
+        return f"claim-{self.name}-{plain_name(words)}"
 
     @property
     def missed(self) -> tuple[Number, ...]:
