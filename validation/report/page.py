@@ -44,7 +44,7 @@ class PageFigure:
         """about: provenance of the report, with the commits of the cases that it has kept."""
         commit = about["kept"].get(self.case, about["commit"])
         return (
-            f"Figure {self.number}, “{self.finding}”, in: Reduced contact models: validation report "
+            f"Figure {self.number}, in: Reduced contact models: validation report "
             f"(mdr-validation {about['version']}, commit {commit}, profile {profile}), "
             f"{self.place}"
         )
