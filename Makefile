@@ -15,7 +15,7 @@ OLDEST := .venv-oldest
 RECORD := .coverage-times.xml
 RECORD_OF_VERDICTS := .coverage-verdicts-times.xml
 
-.PHONY: report full-report reference race peers docs check fast test accessibility oldest-python oldest thorough coverage verdicts mutation lint types format clean
+.PHONY: report full-report reference answers race peers docs check fast test accessibility oldest-python oldest thorough coverage verdicts mutation lint types format clean
 
 report: $(READY)  ## the validation report, small: reports/quick/index.html
 	$(RUN) validation report $(ARGS)
@@ -25,6 +25,10 @@ full-report: $(READY)  ## the real one: reports/full/index.html
 
 reference: $(PEERS)  ## the committed one, with the race: reports/reference/index.html
 	$(RUN) validation report --profile full --out reports/reference
+	$(MAKE) answers
+
+answers: $(READY)  ## the table of README.md, from the results of the committed report
+	$(VENV)/bin/python .ci/readme.py
 
 race: $(PEERS)  ## beside the peers, which it installs: reports/race-quick/index.html
 	$(RUN) validation race $(ARGS)
@@ -131,4 +135,4 @@ $(STRENGTH): $(READY)
 	touch $@
 
 clean:
-	rm -rf $(VENV) $(OLDEST) reports/docs/_build reports/docs/examples .hypothesis .mypy_cache .pytest_cache .ruff_cache .coverage .coverage-verdicts $(RECORD) $(RECORD_OF_VERDICTS)
+	rm -rf $(VENV) $(OLDEST) reports/docs/_build reports/docs/examples reports/docs/report .hypothesis .mypy_cache .pytest_cache .ruff_cache .coverage .coverage-verdicts $(RECORD) $(RECORD_OF_VERDICTS)

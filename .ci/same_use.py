@@ -59,7 +59,7 @@ def write(checkout: Path, target: Path, pages: Path) -> None:
         for script in sorted((pages / "validation" / "examples").glob("*.py")):
             found[script.name] = _ran([sys.executable, str(script)], scratch, environment)
             print(found[script.name]["status"], script.name, flush=True)
-        for page in ("README.md", "CONTRIBUTING.md"):
+        for page in ("README.md", "CONTRIBUTING.md", "reports/docs/two_methods.md"):
             text = (pages / page).read_text(encoding="utf-8")
             for i, code in enumerate(re.findall(r"```python\n(.*?)```", text, flags=re.DOTALL)):
                 found[f"{page} {i}"] = _ran([sys.executable, "-c", code], scratch, environment)

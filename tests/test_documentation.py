@@ -2,7 +2,6 @@
 
 import ast
 import re
-import tomllib
 from importlib import import_module
 from pathlib import Path
 
@@ -84,10 +83,10 @@ def test_pages_are_included_not_copied():
         (name, DOCS / path, start, end)
         for name, page in PAGES.items()
         for path, start, end in re.findall(
-            r'```\{include\} (\S+)\n(?::start-after: "(.*)"\n)?(?::end-before: "(.*)"\n)?```', page
+            r'```\{include\} (\S+)\n(?::start-after: "(.*)"\n)?(?::end-before: "(.*)"\n)?(?::relative.*\n)*```', page
         )
     ]
-    assert {name for name, *_ in included} == {"commands", "conventions", "theory", "verdicts"}
+    assert {name for name, *_ in included} == {"commands", "conventions", "index", "theory", "verdicts"}
     for _, path, start, end in included:
         assert re.search(f"{re.escape(start)}.+{re.escape(end)}", path.read_text(encoding="utf-8"), re.DOTALL)
 
@@ -106,12 +105,9 @@ def test_your_own_rail_names_every_key_of_a_rail(tmp_path):
         assert "file" in known and [key for key in known if f"`{key}`" not in page] == []
 
 
-def test_the_scene_of_your_own_rail_is_one_and_that_of_the_readme_a_part_of_it(tmp_path):
+def test_the_scene_of_your_own_rail_is_one(tmp_path):
     rail = validation.load_scene(own_rail(tmp_path))
     assert (rail.load, rail.radius, rail.roughness.positions) == (50e3, 0.46, (-0.01, 0.0, 0.01))
-    (shown,) = re.findall(r"```toml\n(\[rail\].*?)```", (ROOT / "README.md").read_text(), flags=re.DOTALL)
-    part, whole = tomllib.loads(shown)["rail"], tomllib.loads(SCENE)["rail"]
-    assert set(part) == set(whole) and set(part["lines"]) < set(whole["lines"])
 
 
 def own_rail(folder):
@@ -121,8 +117,7 @@ def own_rail(folder):
     return folder / "my_rail.toml"
 
 
-@pytest.mark.parametrize("page", [pytest.param("index", marks=pytest.mark.slow), "verdicts"])
-def test_what_a_page_shows_runs(page, capsys):
-    (example,) = re.findall(r"```python\n(.*?)```", PAGES[page], flags=re.DOTALL)
-    exec(compile(example, page, "exec"), {})
-    assert {"index": "enough", "verdicts": "undecided\n"}[page] in capsys.readouterr().out
+def test_what_the_page_of_verdicts_shows_runs(capsys):
+    (example,) = re.findall(r"```python\n(.*?)```", PAGES["verdicts"], flags=re.DOTALL)
+    exec(compile(example, "verdicts", "exec"), {})
+    assert "undecided\n" in capsys.readouterr().out

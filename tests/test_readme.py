@@ -1,6 +1,8 @@
 """The examples, links, names and statuses of the pages that people read."""
 
+import json
 import re
+import runpy
 from pathlib import Path
 
 import pytest
@@ -14,13 +16,13 @@ ROOT = Path(__file__).parents[1]
 PAGES = ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CONVENTIONS.md", "CHANGELOG.md", "reports/README.md")
 EXAMPLES = [
     pytest.param(example, id=f"{page}-{number}")
-    for page in PAGES
+    for page in (*PAGES, "reports/docs/two_methods.md")
     for number, example in enumerate(re.findall(r"```python\n(.*?)```", (ROOT / page).read_text(), flags=re.DOTALL))
 ]
 
 
 def test_there_are_examples():
-    assert {example.id.split("-")[0] for example in EXAMPLES} == {"README.md", "CONTRIBUTING.md"}
+    assert {example.id.split("-")[0] for example in EXAMPLES} == {"README.md", "CONTRIBUTING.md", "reports/docs/two_methods.md"}
 
 
 @pytest.mark.slow
@@ -51,8 +53,18 @@ def test_files_that_are_named_exist(page):
 
 def test_readme_is_short_and_names_no_module_of_validation():
     text = (ROOT / "README.md").read_text()
-    assert len(text.splitlines()) <= 220
+    assert len(text.splitlines()) <= 150
     assert set(re.findall(r"validation\.(\w+)", text)) <= set(validation.__all__)
+
+
+def test_the_answers_of_the_readme_are_those_of_the_reference_report():
+    """`make answers` writes them. Another answer is another table."""
+    with_answers = runpy.run_path(str(ROOT / ".ci" / "readme.py"))["with_answers"]
+    text, results = (ROOT / "README.md").read_text(), (ROOT / "reports" / "reference" / "results.json").read_text()
+    assert with_answers(text, json.loads(results)) == text
+    rows = re.findall(r"^\| .* \| \*\*(?:Yes|No|In part|Open|No or open)\.\*\* ", text, flags=re.MULTILINE)
+    assert len(rows) == len(json.loads(results)["when MDR is enough"]) == 8
+    assert with_answers(text, json.loads(results.replace('"enough": "yes"', '"enough": "no"'))) != text
 
 
 def test_exit_statuses():
@@ -72,10 +84,10 @@ def test_names_of_the_last_release_stay():
 
 
 def test_what_compare_prints(capsys):
-    """The README shows lines of this output."""
+    """The first page of the documentation shows lines of this output."""
     assert main(["compare", "rough_punch", "--tolerance", "20%"]) == 0
     lines = capsys.readouterr().out.splitlines()
-    text = (ROOT / "README.md").read_text()
+    text = (ROOT / "reports" / "docs" / "start.md").read_text()
     shown = text[text.index("Rough punch: ") :].split("```")[0]
     for line in shown.splitlines():
         words = [word for word in line.split() if word != "..."]

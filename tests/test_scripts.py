@@ -1,7 +1,6 @@
 """The scripts of `validation/examples`: each runs, asserts its result, and draws one picture."""
 
 import ast
-import re
 import runpy
 import subprocess
 import sys
@@ -32,9 +31,7 @@ def test_an_example_asserts_its_result_and_draws_a_picture(name, tmp_path, monke
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 
-def test_all_examples_are_listed_and_can_fail():
-    readme = (EXAMPLES.parents[1] / "README.md").read_text(encoding="utf-8")
-    assert set(re.findall(r"examples/(\w+)\.py", readme)) == set(NAMES)
+def test_every_example_can_fail():
     for name in NAMES:
         tree = ast.parse((EXAMPLES / f"{name}.py").read_text(encoding="utf-8"))
         assert any(isinstance(node, ast.Assert) for node in ast.walk(tree)), name

@@ -9,14 +9,13 @@ from typing import Any
 from sphinx.application import Sphinx
 
 HERE = Path(__file__).parent
-REPORTS = HERE.parent
-sys.path[:0] = [str(HERE / "extensions"), str(REPORTS.parent)]
+sys.path[:0] = [str(HERE / "extensions"), str(HERE.parents[1])]
 
 project = "mdr-validation"
 author = "The authors of mdr-validation"
 version = release = version_of("mdr-validation")
 
-extensions = ["sphinx.ext.autodoc", "sphinx.ext.autosummary", "numpydoc", "myst_parser", "gallery", "mathml"]
+extensions = ["sphinx.ext.autodoc", "sphinx.ext.autosummary", "numpydoc", "myst_parser", "gallery", "report_pages", "mathml"]
 exclude_patterns = ["_build"]
 nitpicky = True
 smartquotes = False
@@ -53,20 +52,6 @@ html_static_path = ["_static"]
 html_css_files = ["docs.css"]
 html_show_sphinx = html_show_copyright = False
 html_copy_source = False
-templates_path = ["_templates"]
-html_sidebars = {
-    "**": [
-        "sidebar/brand.html",
-        "sidebar/search.html",
-        "sidebar/scroll-start.html",
-        "sidebar/navigation.html",
-        "reports.html",
-        "sidebar/scroll-end.html",
-    ]
-}
-html_context = {
-    "reports": [name for name in ("quick", "full", "reference") if (REPORTS / name / "index.html").exists()]
-}
 
 
 def is_left_out(_app: Sphinx, what: str, name: str, member: Any, _skip: bool, _options: object) -> bool | None:
