@@ -42,7 +42,7 @@ class PeerSolver:
     package: str
     mode: str
     prepare: Callable[[ContactProblem, float], ColdSolve]
-    tolerances: tuple[float, ...] = (1.0,)
+    tolerances: tuple[float, ...] = (1.0, 0.5)
     serves: tuple[str, ...] = ("free", "periodic")
     by_force: bool = True
     file: str = ""

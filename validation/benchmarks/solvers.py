@@ -84,8 +84,8 @@ def _differences(pressure: FloatArray, ours: FloatArray) -> dict[str, float]:
 
 SETTLED = 1.0
 """Seconds of runs after which the fewest are enough."""
-PATIENCE = 40.0
-"""Seconds of a solve at the most, as that on the grid before lets expect: a solver needs up to five of them."""
+PATIENCE = 20.0
+"""Seconds of a solve at the most, as that on the grid before lets expect: a solver is timed in several of them."""
 
 
 @dataclass(frozen=True)
