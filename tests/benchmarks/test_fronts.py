@@ -8,6 +8,7 @@ import pytest
 from tests.benchmarks.made_up import point
 from validation.analysis.series import numbers_of
 from validation.benchmarks.work_precision.case import STUDY, times
+from validation.benchmarks.work_precision.faster import faster
 from validation.benchmarks.work_precision.pareto import (
     cheapest,
     front,
@@ -125,3 +126,24 @@ def test_the_cheapest_is_claimed_of_times(another, status, rivals):
     numbers = numbers_of(times([*BESIDE_SPRINGS, another]))
     assert STUDY.claims[0].judged(numbers).status == status
     assert tuple(number.source for number in numbers) == rivals
+
+
+def test_times_faster_are_those_of_the_cheapest_boundary_elements_with_no_larger_error():
+    """At the least error of springs, 0.12: not the coarsest grid, whose error is larger, nor a finer and dearer one."""
+    springs = [point(MDR, 0.13, 1e-5), point(MDR, 0.12, 2e-5), point(MDR, 0.12, 4e-5)]
+    elements = [point(BEM, 0.2, 1e-4), point(BEM, 0.1, 1e-3, half_width=0.01), point(BEM, 0.01, 1e-2)]
+    table = faster([[*springs, *elements]])
+    assert table["times faster"].tolist() == pytest.approx([1e-3 / 2e-5])
+    assert table["error"].tolist() == pytest.approx([12.0])
+    assert table["error of boundary elements"].tolist() == pytest.approx([11.0])
+
+
+def test_times_faster_have_the_intervals_of_both_medians():
+    """Of 16 runs whose quartiles are 0.3 of the median apart: 1.57 x 0.3 / 4 each."""
+    table = faster([[point(MDR, 0.1, 1e-5, runs=16), point(BEM, 0.1, 1e-3, runs=16)]])
+    half = 100 * math.sqrt(2) * 1.57 * 0.3 / 4
+    assert [table["from"][0], table["to"][0]] == pytest.approx([100 - half, 100 + half])
+
+
+def test_nothing_is_faster_where_no_boundary_elements_are_as_close():
+    assert faster([[point(MDR, 0.01, 1e-5), point(BEM, 0.1, 1e-3)]])["scene"].size == 0

@@ -16,6 +16,7 @@ from validation.benchmarks.judging import diagnosis, discrete
 from validation.benchmarks.judging import judged as judging
 from validation.benchmarks.work_precision import case as precision_case
 from validation.benchmarks.work_precision import errors as precision_error
+from validation.benchmarks.work_precision import faster as precision_faster
 from validation.benchmarks.work_precision import problem as precision
 from validation.benchmarks.work_precision.pareto import Point
 
@@ -41,9 +42,17 @@ FAULTS = [
     ),
     Fault("a time beside that of a method that is not as close").at(
         precision_case,
-        "_cheapest_as_close",
+        "cheapest_as_close",
         lambda _, others: min(others, key=lambda one: one.seconds[1], default=None),
     ),
+    test_fronts.test_times_faster_are_those_of_the_cheapest_boundary_elements_with_no_larger_error,
+    Fault("times beside a grid that is not as close").at(
+        precision_faster,
+        "cheapest_as_close",
+        lambda _, others: min(others, key=lambda one: one.seconds[1], default=None),
+    ),
+    test_fronts.test_times_faster_have_the_intervals_of_both_medians,
+    Fault("times that are known exactly").at(precision_faster, "_uncertainty", lambda _: 0.0),
     test_peers.test_the_median_lies_between_order_statistics,
     Fault("a median without an interval").at(
         timing, "interval_of_median", lambda times: (np.median(times), np.median(times))

@@ -15,7 +15,6 @@ from tests.report.remade import remade
 from tests.report.test_page import MATRIX, section_of
 from tests.report.test_printed import ABOUT
 from validation.report import page
-from validation.report.answers.first_screen import MAP
 
 PACKAGE = "axe_core_python"
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
@@ -76,9 +75,9 @@ def titled(name, **changes):
 
 
 def whole():
-    """With numbers, tables, figures, a criterion that is missed, and the map of the first screen."""
-    models = replace(titled("reduced_models").evidence, captions={MAP: "How far models carry."})
-    sections = [titled("geike"), titled("hertz", criterion=9.0), replace(titled("reduced_models"), evidence=models)]
+    """With numbers, tables, figures, a criterion that is missed, and a figure of the front page."""
+    models = replace(titled("rolling").evidence, captions={"rolling": "How far models carry."})
+    sections = [titled("geike"), titled("hertz", criterion=9.0), replace(titled("rolling"), evidence=models)]
     return {name: text.decode() for name, text in page.pages(sections, "full", ABOUT, None).items()}
 
 
@@ -95,7 +94,7 @@ def test_no_rule_is_violated_by_the_reference_report(tmp_path, width):
 
 def test_what_violates_rules_is_found(tmp_path):
     wrong = "".join(whole().values())
-    for right, planted in (*FAULTS.values(), ('href="#validity-large"', "")):
+    for right, planted in (*FAULTS.values(), ('href="#figure-rolling-large"', "")):
         assert right in wrong
         wrong = wrong.replace(right, planted)
     found = violations(wrong, tmp_path, NARROW)

@@ -44,7 +44,7 @@ def html_of(*sections):
 
 def test_the_pages_lead_to_each_other():
     pages = pages_of(section_of("geike"), section_of("hertz", criterion=9.0), section_of("rolling"))
-    assert list(pages) == ["exact.html", "rolling.html", "reading.html", "index.html"]
+    assert list(pages) == ["exact.html", "rolling.html", "reading.html", "book.html", "index.html"]
     assert faults(pages) == []
 
 

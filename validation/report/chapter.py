@@ -57,6 +57,19 @@ class ChapterEntry:
     untested: str = ""
 
 
+@dataclass(frozen=True, kw_only=True)
+class BookFigure:
+    """A figure of the chapter. drawn: our figure; computed: what tests that it is got as printed; confirmed: that three
+    dimensions have it, None where they have no part in it.
+    """
+
+    place: str
+    shows: str
+    drawn: str
+    computed: ChapterTest
+    confirmed: ChapterTest | None = None
+
+
 def _entry(*, tests: Sequence[dict[str, Any]] = (), **told: str) -> ChapterEntry:
     return ChapterEntry(**told, tests=tuple(ChapterTest(**test) for test in tests))
 
@@ -85,6 +98,10 @@ def figures() -> dict[str, Any]:
 
 _BOOK, _FIGURES = tomllib.loads(BOOK.read_text(encoding="utf-8")), figures()
 ENTRIES = tuple(_entry(**entry) for entry in _BOOK["entry"])
+BOOK_FIGURES = tuple(
+    BookFigure(**{**row, **{name: ChapterTest(**row[name]) for name in ("computed", "confirmed") if name in row}})
+    for row in _BOOK["figure"]
+)
 ERRATA, REMARKS = (
     tuple({name: Settings().format(text, **_FIGURES) for name, text in row.items()} for row in _BOOK[kind])
     for kind in ("erratum", "remark")
@@ -104,6 +121,17 @@ def _answered(entry: ChapterEntry, test: ChapterTest, section: Section) -> Answe
         return {"case": section.name, "status": None, "answer": "This run has no number for it."}
     tested = "" if judged.claim == entry.statement else f"Tested as “{judged.claim}” "
     return {"case": section.name, "status": judged.status, "answer": tested + judged.answer}
+
+
+def book_figures(sections: Sequence[Section]) -> list[tuple[BookFigure, JudgedClaim | None, JudgedClaim | None]]:
+    """Each figure whose case is in the report, with the claims on it: as printed, and in three dimensions."""
+    found = {section.name: section.evidence for section in sections}
+
+    def judged(test: ChapterTest | None) -> JudgedClaim | None:
+        evidence = found.get(test.case) if test else None
+        return test.judged("", evidence) if test and evidence else None
+
+    return [(row, judged(row.computed), judged(row.confirmed)) for row in BOOK_FIGURES if found.get(row.computed.case)]
 
 
 def chapter_of(sections: Sequence[Section]) -> list[tuple[ChapterEntry, list[Answer]]]:

@@ -10,6 +10,7 @@ from markupsafe import Markup, escape
 
 from validation.analysis.contents import csv_name
 from validation.analysis.evidence import ClaimStatus, Table, Verdict, VerdictCell, Whose
+from validation.analysis.study import Settings
 from validation.report.symbols import SYMBOLS, symbols_in
 
 SYMBOL = {"agree": "✓", "differ": "≠", "undecided": "?"}
@@ -37,9 +38,16 @@ def templates() -> jinja2.Environment:
         "capitalized": capitalized,
         "of_one": of_one,
         "symbols_in": symbols_in,
+        "in_seconds": in_seconds,
+        "in_four_digits": in_four_digits,
     }
     environment.globals |= {"zip": zip, "csv_name": csv_name, "all_symbols": SYMBOLS}
     return environment
+
+
+def in_seconds(value: float) -> str:
+    """Two digits with a prefix: 120 µs."""
+    return Settings().format("{:SI}s", float(f"{value:.2g}"))
 
 
 def format_status(status: ClaimStatus | None) -> Markup:

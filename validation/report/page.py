@@ -6,17 +6,20 @@ from typing import Any
 
 from validation.analysis.case import Chapter, Profile
 from validation.analysis.contents import csv_name
-from validation.report.answers.first_screen import MAP, answered_questions
-from validation.report.chapter import ERRATA, REMARKS, chapter_of
+from validation.report.answers.first_screen import answered_questions
+from validation.report.answers.front_tables import rail_filters, right_filters, times_faster, times_faster_said
+from validation.report.chapter import ERRATA, REMARKS, book_figures, chapter_of
 from validation.report.figures import tables_of
 from validation.report.formats import first_sentence, templates
 from validation.report.provenance import kept_from
-from validation.report.section import Section, claims_of, total_of
+from validation.report.section import Section, claims_of, claims_of_others, total_of
 from validation.report.sounds import sound_place
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import WheelScene
 
 FRONT, READING = "index.html", "reading.html"
+BOOK_PAGE = "book.html"
+FRONT_FIGURES = ("fractal_punch", "rolling", "precision")
 FEW_FINDINGS = 2
 """Conclusions of a case that are read before unfolding."""
 
@@ -85,13 +88,19 @@ def pages(
     """By their names. about: the provenance; scene: of the user's own, or None."""
     chapters = [(chapter, some) for chapter in Chapter if (some := [s for s in sections if s.entry.chapter == chapter])]
     in_order = [section for _, some in chapters for section in some]
-    figures = figures_of(in_order)
+    figures, faster = figures_of(in_order), times_faster(sections)
+    filters = None if scene else rail_filters(sections)
     places = {section.name: section.place for section in sections}
     environment = templates()
-    environment.filters |= {"place_of": places.__getitem__, "sound_place": sound_place}
+    environment.filters |= {
+        "place_of": places.__getitem__,
+        "sound_place": sound_place,
+        "claims_of_others": claims_of_others,
+    }
     environment.globals |= {
         "front": FRONT,
         "reading": READING,
+        "book_page": BOOK_PAGE,
         "sections": sections,
         "book": [] if scene else chapter_of(sections),
         "errata": ERRATA,
@@ -102,7 +111,12 @@ def pages(
         "chapters": chapters,
         "profile": profile,
         "figures": figures,
-        "validity_map": None if scene else figures.get(MAP),
+        "faster": faster,
+        "times_faster_said": times_faster_said(faster),
+        "front_figures": [] if scene else [name for name in FRONT_FIGURES if name in figures],
+        "book_figures": [] if scene else book_figures(sections),
+        "rail_filters": filters,
+        "right_filters": right_filters(filters) if filters else "",
         "few_findings": FEW_FINDINGS,
         "about": about,
         "kept": kept_from(about),
@@ -113,6 +127,8 @@ def pages(
         for chapter, some in chapters
     }
     made[READING] = environment.get_template("reading.html").render()
+    if not scene and chapter_of(sections):
+        made[BOOK_PAGE] = environment.get_template("book.html").render()
     # the front page last: it leads to all others
     made[FRONT] = environment.get_template("front.html").render()
     return {name: (text + "\n").encode() for name, text in made.items()}

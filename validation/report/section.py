@@ -102,6 +102,11 @@ def claims_of(sections: Sequence[Section]) -> list[tuple[Whose, list[tuple[Secti
     return [(whose, mine) for whose, mine in groups if mine]
 
 
+def claims_of_others(sections: Sequence[Section]) -> list[tuple[Section, JudgedClaim]]:
+    """Statements of the book and of the field, in the order of their sections."""
+    return [(s, claim) for s in sections for claim in s.claims if claim.whose is not Whose.FINDING]
+
+
 def total_of(sections: Sequence[Section]) -> str:
     """How many claims have each status."""
     found = [claim.status for section in sections for claim in section.claims]

@@ -1,6 +1,5 @@
 """Speed against accuracy: error and cost of every method on all problems, timed one after the other, alone."""
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import groupby
@@ -14,9 +13,10 @@ from validation.analysis.series import Margin, Series, single
 from validation.analysis.statistics import Interval
 from validation.analysis.study import Outcomes, Settings, Study
 from validation.benchmarks.peers import all_methods
-from validation.benchmarks.timing import ALONE, FAILED, FINISHED, TimedProblem
+from validation.benchmarks.timing import FAILED, FINISHED, TimedProblem
 from validation.benchmarks.work_precision import pareto
 from validation.benchmarks.work_precision.errors import points
+from validation.benchmarks.work_precision.faster import FASTER, cheapest_as_close, faster, time_over
 from validation.benchmarks.work_precision.figure_cost import COST_OF_STEPS, HOURS, FigureCost, figure_cost
 from validation.benchmarks.work_precision.pareto import Point, cheapest, front, seconds
 from validation.benchmarks.work_precision.pressed import (
@@ -116,11 +116,6 @@ AGREEMENT = "10 %, or 1 dB: tolerance of agreement"
 TIME, UP_TO, FROM = "time over that of the cheapest other method as close", "springs", "boundary elements"
 CHEAPEST = Margin(1.0, "above one another method is cheaper")
 A_DAY = "a day on one core is not too costly"
-NOTCH = 1.57
-"""Half of the 95 % interval of a median, over the interquartile range over sqrt(runs).
-
-Source: McGill, Tukey, Larsen, Am. Stat. 32 (1978) 12.
-"""
 
 
 def series(result: Outcomes) -> list[Series]:
@@ -156,17 +151,12 @@ def times(chart: Sequence[Point]) -> Iterator[Series]:
     springs = front([point for point in known if point.method in SPRINGS])
     if springs:
         rivals = [point for point in known if point.method not in SPRINGS]
-        yield _times(UP_TO, springs, [(point, _cheapest_as_close(point, rivals)) for point in springs])
+        yield _times(UP_TO, springs, [(point, cheapest_as_close(point, rivals)) for point in springs])
         elements = [point for point in known if point.method in ELEMENTS]
         beyond = [point for point in front(known) if point.rank < springs[-1].rank]
-        pairs = [(mine, point) for point in beyond if (mine := _cheapest_as_close(point, elements))]
+        pairs = [(mine, point) for point in beyond if (mine := cheapest_as_close(point, elements))]
         if pairs:
             yield _times(FROM, [point for _, point in pairs], pairs)
-
-
-def _cheapest_as_close(point: Point, others: Sequence[Point]) -> Point | None:
-    close = [other for other in others if other.rank <= point.rank]
-    return min(close, key=seconds, default=None)
 
 
 def _times(model: str, at: Sequence[Point], pairs: Sequence[tuple[Point, Point | None]]) -> Series:
@@ -181,16 +171,7 @@ def _times(model: str, at: Sequence[Point], pairs: Sequence[tuple[Point, Point |
 
 
 def _ratio(mine: Point, other: Point | None) -> Interval:
-    if other is None:
-        return Interval(0.0, 0.0)
-    ratio = seconds(mine) / seconds(other)
-    return Interval(ratio, 0.0 if other is mine else ratio * math.hypot(_uncertainty(mine), _uncertainty(other)))
-
-
-def _uncertainty(point: Point) -> float:
-    """Relative, of the median time."""
-    low, median, high = point.seconds
-    return NOTCH * (high - low) / median / math.sqrt(point.runs) if point.runs > 1 else ALONE
+    return time_over(mine, other) if other else Interval(0.0, 0.0)
 
 
 WITHIN, WITHOUT = "the cheapest method within a tolerance, time of one realisation", "failed or out of range"
@@ -208,7 +189,8 @@ def tables(result: Outcomes) -> tuple[Table, ...]:
     found = table_of("points", [row for chart in charts for row in _rows(chart)])
     lost, by = found.rows(found["status"] != FINISHED), ("scene", "method", "setting", "status")
     without = grouped(WITHOUT, lost, by, {"quantities": lambda mine: ", ".join(mine["quantity"])})
-    return found, table_of(WITHIN, [_within(chart) for chart in charts]), without, result["cost"]
+    within = table_of(WITHIN, [_within(chart) for chart in charts])
+    return found, faster(charts), within, without, result["cost"]
 
 
 def _rows(chart: Sequence[Point]) -> Iterator[dict[str, object]]:
@@ -261,7 +243,7 @@ STUDY = Study(
     ),
     series=series,
     tables=tables,
-    printed=(WITHIN, WITHOUT, COST_OF_STEPS),
+    printed=(FASTER, WITHIN, WITHOUT, COST_OF_STEPS),
     claims=(
         Claim(quantity=TIME, printed=times_source).saying(
             "At each error springs are the cheapest method, or boundary elements where springs do not reach it.",

@@ -10,8 +10,6 @@ from validation.report.answers.questions import QUESTIONS, Alternative, Printed,
 from validation.report.answers.strip import WORDS, Cell, Source, ends, span
 from validation.report.section import Section
 
-MAP = "reduced_models-map"
-"""The figure below the rows: the map of validity of rolling."""
 REGIONS = "the spectrum"
 """An axis whose places are parts of it, not surfaces."""
 NOT_RUN, NO_RESULT, NOT_MEASURED = "Not run", "No result", "Not measured"
