@@ -1,4 +1,4 @@
-"""A page of the site for each page of the committed report: its body, under the navigation and the search of the site."""
+"""A page of the site for each page of the committed report: its body, under navigation and search of the site."""
 
 import re
 import shutil
@@ -66,6 +66,7 @@ def headings(app: Sphinx, name: str, _template: str, context: dict[str, Any], _t
 
 
 def plain(heading: str) -> str:
+    """Without tags."""
     return unescape(re.sub(r"<[^>]+>", "", heading)).strip()
 
 
