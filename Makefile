@@ -63,7 +63,7 @@ oldest: oldest-python $(if $(OLDEST_PYTHON),$(OLDEST)/ready)  ## the tests not m
 		$(addprefix --ignore=tests/,planted_faults cases mutation test_architecture.py) $(ARGS)
 
 accessibility: $(AXE)  ## the page of a report by axe-core in a headless chromium, which has to be there
-	$(RUN) pytest -q tests/report/test_axe.py $(ARGS)
+	$(RUN) pytest -q $(SHARED) tests/report/test_axe.py $(ARGS)
 
 thorough: $(READY)  ## the property tests on many more examples
 	HYPOTHESIS_PROFILE=thorough $(RUN) pytest -n auto $(ARGS)
