@@ -136,7 +136,7 @@ def files_of(name, evidence):
     data = {f"data/{csv_name(name, table)}" for table in (*shown, "numbers")}
     sounds = {f"sounds/{name}-{sound.name}.wav" for sound in evidence.sounds.tracks} if evidence.sounds else set()
     pictures = {f"figures/{figure}.svg" for figure in evidence.captions}
-    return {"results.json", *data, *pictures, *sounds}
+    return {"results.json", "data/columns.csv", *data, *pictures, *sounds}
 
 
 def no_identity_is_a_finding(evidence):
@@ -152,10 +152,10 @@ def read_back_whole(folder):
     said = json.loads((folder / "results.json").read_text())
     assert json.loads(as_json(results_of(kept, "quick"))) == {name: said[name] for name in ("profile", "cases")}
     (section,) = kept
-    assert section.files == contents(folder, "data/*.csv", "sounds/*.wav")
+    assert section.files == contents(folder, f"data/{section.name}-*.csv", "sounds/*.wav")
     tables = [*section.evidence.tables, numbers_table(section.numbers)]
     assert {f"data/{csv_name(section.name, t.name)}": as_csv(t, drawn=True) for t in tables} == contents(
-        folder, "data/*.csv"
+        folder, f"data/{section.name}-*.csv"
     )
 
 

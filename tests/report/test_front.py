@@ -11,7 +11,7 @@ from tests.report.test_printed import html_of
 from validation.analysis.evidence import Table, Verdict, VerdictCell, Whose
 from validation.benchmarks.work_precision.faster import FASTER
 from validation.cases.rail.across_study import LOUDER
-from validation.report.answers.front_tables import OF_A3, rail_filters, right_filters, times_faster_said
+from validation.report.answers.front_tables import OF_A3, WORST, rail_filters, right_filters, times_faster_said
 from validation.report.chapter import BOOK_FIGURES, book_figures
 from validation.report.contents import CASES, TIMED
 from validation.report.figures import drawing
@@ -82,6 +82,7 @@ def test_a_filter_is_right_where_it_agrees_over_all_grounds():
     section = section_of(claim([Verdict.AGREE]), name="across")
     table = rail_filters([replace(section, evidence=replace(section.evidence, page_tables=(worst, loud)))])
     assert right_filters(table) == "two"
+    assert right_filters(Table("none", {"filter": ["one"], f"{WORST} ridges": ["-"]})) == ""
     # rows by their names, of two tables in different order
     assert table.columns["rms force over isotropic ground [dB(A)]"] == ["3", "4"]
     assert table.name.endswith(": a wheel")

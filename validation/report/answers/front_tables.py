@@ -13,7 +13,7 @@ from validation.report.section import Section
 GROUNDS = ("ridges", "alpha = 1", "isotropic ground")
 """Of what lies across a rail, that the front page shows."""
 OF_A3 = "A3 over that of boundary elements"
-FILTERED = "contact filters beside boundary elements"
+WORST, FILTERED = "worst band over", "contact filters beside boundary elements"
 
 
 def times_faster(sections: Sequence[Section]) -> list[dict[str, Any]]:
@@ -49,7 +49,7 @@ def rail_filters(sections: Sequence[Section]) -> Table | None:
         f"{FILTERED}: {wheel}",
         {
             "filter": worst.columns["model"],
-            **{f"worst band over {name}": worst.columns[name] for name in grounds},
+            **{f"{WORST} {name}": worst.columns[name] for name in grounds},
             **{f"rms force over {name} [dB(A)]": [loud.columns[name][row] for row in rows] for name in grounds},
         },
     )
@@ -57,10 +57,14 @@ def rail_filters(sections: Sequence[Section]) -> Table | None:
 
 def right_filters(table: Table) -> str:
     """Filters that agree in the worst band of all these grounds, by name."""
-    judged = [column for column in table.columns.values() if any(isinstance(cell, VerdictCell) for cell in column)]
-    right = [all(cell.verdict is Verdict.AGREE for cell in cells) for cells in zip(*judged, strict=True)]
-    names = [str(name) for name, is_right in zip(table.columns["filter"], right, strict=True) if is_right]
-    return listed(names)
+    judged = [name for name in table.columns if name.startswith(WORST)]
+    rows = zip(table.columns["filter"], *(table.columns[name] for name in judged), strict=True)
+    names = [str(name) for name, *cells in rows if all(_agrees(cell) for cell in cells)] if judged else []
+    return listed(names) if names else ""
+
+
+def _agrees(cell: object) -> bool:
+    return isinstance(cell, VerdictCell) and cell.verdict is Verdict.AGREE
 
 
 def _evidence(name: str, sections: Sequence[Section]) -> Evidence | None:
