@@ -41,10 +41,9 @@ def describe(comparing: argparse.ArgumentParser) -> None:
     )
     comparing.add_argument(
         "--quantity",
-        "--want",
         type=some_of(QUANTITIES),
         metavar="A,B",
-        help=f"of {', '.join(QUANTITIES)}, one or several (default: the first of the scene); --want: until 0.3",
+        help=f"of {', '.join(QUANTITIES)}, one or several (default: the first of the scene)",
     )
     comparing.add_argument(
         "--verbose", "-v", action="store_true", help="of one scene also why, what errors rest on, what solves cost"
