@@ -10,7 +10,7 @@ import pytest
 from tests.report.test_command_line import SMALL
 from validation import __main__ as command
 from validation.report import code_behind, provenance
-from validation.report.contents import CASES
+from validation.report.contents import CASES, TIMED
 
 TODAY = {"geike": "today", "hertz": "today"}
 
@@ -97,6 +97,13 @@ def test_a_case_of_other_code_is_not_kept(made_by, named):
         said = str(error)
     assert said.endswith(f"{named}: make it anew, with --only {named.replace(' and', '')}" if named else "")
     assert bool(said) is bool(named)
+
+
+def test_every_case_has_a_digest_of_its_own(monkeypatch):
+    """Its settings are a part of it."""
+    monkeypatch.setattr(code_behind, "version_of", lambda *of: str(of))
+    found = [code_behind.versions_of(CASES | TIMED, profile) for profile in ("quick", "full")]
+    assert len({digest for some in found for digest in some.values()}) == 2 * len(CASES | TIMED)
 
 
 def test_the_code_behind_a_case_is_what_makes_its_numbers():
