@@ -1,11 +1,13 @@
 """What pip installs: the same files from the checkout and from the sdist, and commands that need no checkout."""
 
 import os
+import re
 import subprocess
 import sys
 import tarfile
 import tomllib
 import zipfile
+from importlib import metadata
 from pathlib import Path
 
 import pytest
@@ -50,6 +52,15 @@ def installed(wheel, tmp_path_factory):
     target = tmp_path_factory.mktemp("installed")
     run("-m", "pip", "install", "--quiet", "--no-deps", "--no-index", "--target", target, wheel, cwd=target)
     return target
+
+
+def test_what_names_the_version_agrees():
+    """The newest section of the changelog, with its date, and what is cited."""
+    newest = re.search(r"^## \[([\d.]+)\] - ([\d-]+)$", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE).groups()
+    cited = re.search(
+        r"^version: (.+)\ndate-released: (.+)$", (ROOT / "CITATION.cff").read_text(), re.MULTILINE
+    ).groups()
+    assert newest == cited and cited[0] == VERSION == metadata.version("mdr-validation")
 
 
 def test_the_wheel_has_all_files_of_the_packages(wheel):

@@ -25,7 +25,7 @@ from validation.analysis import statistics
 from validation.analysis.claims import Claim
 from validation.analysis.evidence import Verdict
 from validation.analysis.series import Series
-from validation.report import build, chapter, columns, formats, provenance, sounds, style, symbols
+from validation.report import build, chapter, code_behind, columns, formats, provenance, sounds, style, symbols
 from validation.report.answers import questions, strip
 from validation.report.page import PageFigure
 
@@ -81,6 +81,10 @@ FAULTS = [
     Fault("a ratio in decibels").at(Series, "shown_unit", property(lambda one: one.unit)),
     test_kept.test_a_case_that_is_kept_twice_has_the_commit_that_made_it,
     Fault("a case that is kept has today's commit").at(provenance, "with_kept", as_of_today),
+    partial(test_kept.test_a_case_of_other_code_is_not_kept, {}, "geike and hertz"),
+    Fault("a case that is kept, whatever code has made it").at(code_behind, "require_todays_code", lambda *of: None),
+    test_kept.test_the_code_behind_a_case_is_what_makes_its_numbers,
+    Fault("the code behind a case without its settings").at(code_behind, "as_json", lambda value: b""),
     test_page.test_a_figure_is_numbered_on_the_page_and_cited_by_name_version_and_commit,
     Fault("a figure of a case that is kept is cited with today's commit").at(
         PageFigure, "citation", lambda figure, about, profile: CITATION(figure, {**about, "kept": {}}, profile)

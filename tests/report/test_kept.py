@@ -9,8 +9,10 @@ import pytest
 
 from tests.report.test_command_line import SMALL
 from validation import __main__ as command
-from validation.report import provenance
-from validation.report.contents import CASES
+from validation.report import code_behind, provenance
+from validation.report.contents import CASES, TIMED
+
+TODAY = {"geike": "today", "hertz": "today"}
 
 
 @pytest.fixture(autouse=True)
@@ -46,6 +48,8 @@ def test_the_other_case_is_kept(tmp_path, monkeypatch):
     assert (made["commit"], about["commit"]) == ("first00", "second0")
     assert about["kept"] == {"hertz": "first00"}
     assert about["seconds"]["hertz"] == made["seconds"]["hertz"]
+    assert list(about["code"]) == ["hertz", "geike"] and about["code"] == made["code"]
+    assert about["load"] >= 0 and about["date"].endswith("+00:00") and about["machines"] == {}
     page = "".join(path.read_text() for path in tmp_path.glob("*.html"))
     assert "Version" in page and "commit second0; kept as made at commit first00: hertz" in page
     cited = {
@@ -59,10 +63,12 @@ def test_the_other_case_is_kept(tmp_path, monkeypatch):
 def test_a_case_that_is_kept_twice_has_the_commit_that_made_it():
     about = {"commit": "today00", "seeds": {"ridges": 1}, "seconds": {"ridges": 1.0}, "kept": {}}
     before = {"commit": "before0", "seeds": {}, "seconds": {"hertz": 3.0}, "kept": {"geike": "first00"}}
+    made = {"code": {"geike": "digest"}, "machines": {"hertz": {"cores": 2}}}
     sections = [SimpleNamespace(name="hertz"), SimpleNamespace(name="geike")]
-    found = provenance.with_kept(about, before, sections)
+    found = provenance.with_kept({**about, "code": {}, "machines": {}}, before | made, sections)
     assert found["kept"] == {"hertz": "before0", "geike": "first00"}
     assert found["commit"] == "today00" and found["seconds"] == {"ridges": 1.0, "hertz": 3.0}
+    assert {part: found[part] for part in made} == made
     assert provenance.kept_from(found) == {"before0": ["hertz"], "first00": ["geike"]}
 
 
@@ -76,6 +82,41 @@ def test_what_cannot_be_kept_is_refused(tmp_path, capsys):
     del old["cases"]["hertz"]["title"]
     (tmp_path / "results.json").write_text(json.dumps(old))
     refused(capsys, "cannot keep hertz: 'title'", tmp_path, "--only", "geike", "--keep")
+
+
+@pytest.mark.parametrize(
+    ("made_by", "named"),
+    [({}, "geike and hertz"), ({"geike": "today", "hertz": "of another commit"}, "hertz"), (TODAY, "")],
+)
+def test_a_case_of_other_code_is_not_kept(made_by, named):
+    """Or of code that its report does not name; the message says what to make anew."""
+    said = ""
+    try:
+        code_behind.require_todays_code({"code": made_by}, TODAY)
+    except ValueError as error:
+        said = str(error)
+    assert said.endswith(f"{named}: make it anew, with --only {named.replace(' and', '')}" if named else "")
+    assert bool(said) is bool(named)
+
+
+def test_every_case_has_a_digest_of_its_own(monkeypatch):
+    """Its settings are a part of it."""
+    monkeypatch.setattr(code_behind, "version_of", lambda *of: str(of))
+    found = [code_behind.versions_of(CASES | TIMED, profile) for profile in ("quick", "full")]
+    assert len({digest for some in found for digest in some.values()}) == 2 * len(CASES | TIMED)
+
+
+def test_the_code_behind_a_case_is_what_makes_its_numbers():
+    """Settings and series; neither a study in a file of its own nor the page."""
+    roots, case = [], CASES["wheel_distance"]
+    other = replace(case, quick=replace(case.quick, wheels=case.quick.wheels + 1))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(code_behind, "version_of", lambda *of: roots.append(of) or "digest")
+        (quick, full), (more, same) = (
+            [code_behind.version_of_numbers(one, profile) for profile in ("quick", "full")] for one in (case, other)
+        )
+    assert set(roots) == {(("validation.analysis.study", "validation.cases.wheel.distance"), code_behind.WORDS)}
+    assert more != quick and same == full
 
 
 CPUINFO = "processor : 0\nmodel name\t: Made-up 9 @ 3 GHz\n\nprocessor : 1\nmodel name\t: Another\n"

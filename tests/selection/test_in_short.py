@@ -32,10 +32,10 @@ def test_the_error_is_told_beside_what_was_wanted_with_what_is_left():
     found = compared(Finding(parts=(0.1, 0.03, 0.04)), tolerance="20%")
     assert answer_of(found)[:2] == ["stiffness = 1.00 ± 0.15 N/m by fake", EACH_PART]
     alone = compared(Finding(parts=(0.1, 0, 0)))
-    assert answer_of(alone)[1] == "error 10 %, within 20 %; all of it is left by the model"
+    assert answer_of(alone)[1] == "error 10 %, within 20 %; all of it is the model's"
     assert answer_of(compared(Finding()))[1] == "error 0 %, within 20 %"
     beyond = compared(Finding(parts=(0, 0.1272, 0)), tolerance="1 dB")
-    assert answer_of(beyond)[1] == "error 1.04 dB, not within 1 dB; all of it is left by the grid"
+    assert answer_of(beyond)[1] == "error 1.04 dB, not within 1 dB; all of it is the grid's"
     text = findings([beyond], in_short)
     assert text.count("a tolerance of 1.1 dB") == text.count("what would help") == 1 and "not reached" not in text
 
@@ -49,7 +49,7 @@ def test_the_error_of_levels_is_in_decibels_too_and_bands_stand_above():
     found = compared(Finding(value=(0.1,) * 5, parts=(0.1, 0, 0)), scene=scene, quantity="force-spectrum")
     value, error, _ = answer_of(found)
     assert value == "force-spectrum by fake: 5 bands"
-    assert error.startswith("error 10 %, 0.83 dB, over all bands, within 20 %")
+    assert error.startswith("error 10 % (0.83 dB) over all bands, within 20 %")
     assert "level [dB re 1 N]" in findings([found], in_short)
 
 

@@ -61,7 +61,7 @@ def test_mdr_is_named_where_it_is_enough_and_where_not():
     cheaper = compared(Fake(name="formula"), Fake(is_mdr=True, claimed=0.1), tolerance="12%")
     assert sentences_on_mdr(cheaper) == [f"MDR: enough {claimed.format(10)}; formula is cheaper."]
     both = compared(Fake(name="line", is_mdr=True, claimed=0.5), Fake(name="surface", is_mdr=True), tolerance="12%")
-    assert [line.split(":")[0] for line in sentences_on_mdr(both)] == ["MDR, line", "MDR, surface"]
+    assert [line.split(":")[0] for line in sentences_on_mdr(both)] == ["MDR (line)", "MDR (surface)"]
 
 
 @pytest.mark.parametrize(

@@ -19,6 +19,7 @@ from validation.engine.progress import Part, Progress
 from validation.engine.workers import Workers
 from validation.report.answers.first_screen import answered_questions, plain
 from validation.report.chapter import chapter_results
+from validation.report.code_behind import require_todays_code, versions_of
 from validation.report.columns import COLUMNS, columns_file
 from validation.report.contents import CASES, TIMED, expected_seconds
 from validation.report.figures import drawing
@@ -26,7 +27,7 @@ from validation.report.folder import REALISATIONS, RESULTS, Folder
 from validation.report.kept import DATA, PROVENANCE, kept_provenance, kept_sections
 from validation.report.page import pages, scene_summary
 from validation.report.pictures import FIGURES, begin_to_draw
-from validation.report.provenance import provenance, with_kept
+from validation.report.provenance import machine, provenance, with_kept
 from validation.report.section import Section, numbers_table, results_of, written_tables
 from validation.report.sounds import sound_files
 from validation.scenes.dynamic_wheel import WheelScene
@@ -54,14 +55,15 @@ def build(
     other cases of the report in `out`, as they are; own: a file with solvers for the race; callback: called with each
     case as it is finished. Finished solves are kept in the folder, for a later run with the same problem and code.
     Raises ValueError for a folder that holds something else or that another run is at, an executor that is none, a
-    case without its figure file, and cases that cannot be kept; see `Engine` for what is raised where a run cannot be
-    finished.
+    case without its figure file, and cases that cannot be kept, as those of other code; see `Engine` for what is raised
+    where a run cannot be finished.
     """
     for name in names:
         drawing(name)  # a case without its figure file ends the run before the first solve
     kept = kept_sections(out, profile, names) if keep else []
     before = kept_provenance(out) if keep else {}
-    engine = Engine(workers=workers, store=out / REALISATIONS, executor=executor)
+    require_todays_code(before, versions_of([section.name for section in kept], profile))
+    begun, engine = machine(), Engine(workers=workers, store=out / REALISATIONS, executor=executor)
     with (
         Folder(out) as folder,
         Progress(expected_seconds([*names, FIGURES], profile), workers=workers, shown=progress) as shown,
@@ -84,8 +86,7 @@ def build(
             pictures |= draw(sections[-1].evidence)
             with shown.aside():
                 callback(sections[-1])
-        seeds = {one.name: one.settings["seed"] for one in sections if "seed" in one.settings}
-        about = provenance(profile, seeds, engine, {name: shown.parts[name].worked for name in names})
+        about = _about(sections, profile, engine, {name: shown.parts[name].worked for name in names}, begun)
         if kept:
             about = with_kept(about, before, kept)
             sections = sorted([*sections, *kept], key=lambda section: list(cases).index(section.name))
@@ -124,6 +125,16 @@ def _section(name: str, settings: Any, result: Future[Any], progress: Part) -> S
     finally:
         progress.worked += time.perf_counter() - began
         progress.over = True
+
+
+def _about(
+    sections: Sequence[Section], profile: Profile, engine: Engine, seconds: dict[str, float], begun: dict[str, object]
+) -> dict[str, object]:
+    """The provenance of a run, with the code behind each case, and what times are measured on."""
+    seeds = {one.name: one.settings["seed"] for one in sections if "seed" in one.settings}
+    machines = {name: begun for name in seconds if name in TIMED}
+    of_cases = {"code": versions_of(seconds, profile), "machines": machines}
+    return provenance(profile, seeds, engine, seconds, begun) | of_cases
 
 
 def _lost(progress: Part) -> tuple[str, ...]:

@@ -1,10 +1,11 @@
-"""The provenance of a report: versions, commit, seeds, time; no name of a machine or user."""
+"""The provenance of a report: versions, commit, seeds, date, processor and its load; no name of a machine or user."""
 
 import importlib.metadata
 import os
 import platform
 import subprocess
 from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
@@ -18,11 +19,26 @@ PROCESSORS = Path("/proc/cpuinfo")
 """Where Linux lists them, and their models but for some ARM."""
 
 
-def provenance(profile: str, seeds: dict[str, object], engine: Engine, seconds: dict[str, float]) -> dict[str, object]:
+def machine() -> dict[str, object]:
+    """What times are measured on, as a run begins: the processor, its cores, their load and the date, UTC.
+
+    load: processes that run or wait for a core, mean over the minute before.
+    """
+    return {
+        "processor": processor(),
+        "cores": os.cpu_count(),
+        "load": round(os.getloadavg()[0], 2),
+        "date": datetime.now(UTC).isoformat(timespec="seconds"),
+    }
+
+
+def provenance(
+    profile: str, seeds: dict[str, object], engine: Engine, seconds: dict[str, float], begun: dict[str, object]
+) -> dict[str, object]:
     """Plain values for provenance.json: everything about a run that is no result.
 
     seeds: of the cases that draw; engine: what ran them; seconds: this run took for each case,
-    less where it found finished solves.
+    less where it found finished solves; begun: `machine` when it began.
     """
     return {
         "profile": profile,
@@ -34,8 +50,7 @@ def provenance(profile: str, seeds: dict[str, object], engine: Engine, seconds: 
         "version": importlib.metadata.version("mdr-validation"),
         "python": platform.python_version(),
         "system": f"{platform.system()} {platform.machine()}",
-        "processor": processor(),
-        "cores": os.cpu_count(),
+        **begun,
         "libraries": {name: importlib.metadata.version(name) for name in LIBRARIES},
     }
 
@@ -51,11 +66,11 @@ def processor() -> str:
 
 
 def with_kept(about: dict[str, Any], before: Mapping[str, Any], kept: Sequence[Section]) -> dict[str, Any]:
-    """The same with seeds, seconds and commits of the cases that are kept from a report with the provenance before."""
+    """The same with what the provenance before says of the cases that are kept from its report, and their commits."""
     names = [section.name for section in kept]
     of_both = {
         part: {name: before[part][name] for name in before[part] if name in names} | about[part]
-        for part in ("seeds", "seconds")
+        for part in ("seeds", "seconds", "code", "machines")
     }
     return {**about, **of_both, "kept": {name: before["kept"].get(name, before["commit"]) for name in names}}
 

@@ -49,7 +49,7 @@ def _error(comparison: Comparison, answer: Answer) -> str:
     parts = {name: part for name in ("model", "grid", "sample") if (part := getattr(answer, name))}
     found = error_of_levels(comparison, answer) if comparison.is_level else tolerance.shown_beside(answer.error)
     of = ", ".join(f"{name} {tolerance.shown(part)}" for name, part in parts.items())
-    of = f": {of}" if len(parts) > 1 else "".join(f"; all of it is left by the {name}" for name in parts)
+    of = f": {of}" if len(parts) > 1 else "".join(f"; all of it is the {name}'s" for name in parts)
     return f"error {found}, {'within' if comparison.met else 'not within'} {tolerance}{of}"
 
 

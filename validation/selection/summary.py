@@ -163,7 +163,7 @@ def sentences_on_mdr(comparison: Comparison) -> list[str]:
     if not springs:
         return ["MDR: no springs are among the models of this scene."]
     several = len(springs) > 1
-    return [f"MDR{f', {one.name}' if several else ''}: {_on_mdr(comparison, one)}." for one in springs]
+    return [f"MDR{f' ({one.name})' if several else ''}: {_on_mdr(comparison, one)}." for one in springs]
 
 
 def _on_mdr(comparison: Comparison, springs: Candidate) -> str:
@@ -196,13 +196,13 @@ def result_of(comparison: Comparison, answer: Answer) -> str:
         number = f"{scaled(value, value * answer.error)} {comparison.unit}"
         return f"{comparison.quantity} = {number} ({shown(answer.error)}: {parts}), by {comparison.model}"
     level = error_of_levels(comparison, answer)
-    return f"{comparison.quantity} by {comparison.model}, one-third octaves, ± {level} ({parts})"
+    return f"{comparison.quantity} by {comparison.model}, one-third octaves, ± {level}: {parts}"
 
 
 def error_of_levels(comparison: Comparison, answer: Answer) -> str:
     """In the unit of the tolerance and in dB, and in which bands."""
     level = f"{short(decibels(answer.error))} dB"
-    both = level if comparison.in_decibels else f"{comparison.tolerance.shown(answer.error)}, {level},"
+    both = level if comparison.in_decibels else f"{comparison.tolerance.shown(answer.error)} ({level})"
     return f"{both} {'in the bands that count' if answer.band_errors else 'over all bands'}"
 
 

@@ -41,10 +41,9 @@ def describe(comparing: argparse.ArgumentParser) -> None:
     )
     comparing.add_argument(
         "--quantity",
-        "--want",
         type=some_of(QUANTITIES),
         metavar="A,B",
-        help=f"of {', '.join(QUANTITIES)}, one or several (default: the first of the scene); --want: until 0.3",
+        help=f"of {', '.join(QUANTITIES)}, one or several (default: the first of the scene)",
     )
     comparing.add_argument(
         "--verbose", "-v", action="store_true", help="of one scene also why, what errors rest on, what solves cost"
@@ -182,11 +181,11 @@ def _reported(
     """The same, with a page in a folder of its own."""
     from validation.report.compared_page import PAGE, files_of_comparison  # which takes half a second to import
     from validation.report.folder import COMPARISON, Folder
-    from validation.report.provenance import provenance
+    from validation.report.provenance import machine, provenance
 
     with Folder(arguments.report, kind=COMPARISON, option="--report") as folder:
         found = _found(problems, swept, arguments)
-        about = provenance("compare", {"compare": problems[0].seed}, Engine(workers=arguments.workers), {})
+        about = provenance("compare", {"compare": problems[0].seed}, Engine(workers=arguments.workers), {}, machine())
         folder.replace(files_of_comparison(found, about))
     print(printable(f"report: {arguments.report / PAGE}"))
     return found
