@@ -1,6 +1,7 @@
 """The solver comparison: the same for all solvers, a row for each, and true where other packages are installed."""
 
 import dataclasses
+import functools
 import math
 import os
 import time
@@ -285,6 +286,16 @@ def test_on_large_grids_solvers_that_share_their_work_out_have_threads_too():
     (number,) = numbers_of(comparison._speed([comparison._finished(list(slower.values()))]))
     rival = min(row["median [s]"] for name, row in rows.items() if not is_ours(name) and row["status"] == "finished")
     assert number.value == pytest.approx(rows["bem3d, 2 threads"]["median [s]"] / rival)
+
+
+def test_a_solver_that_rounding_leaves_above_what_is_asked_is_asked_for_half_of_it():
+    """As Polonsky and Keer's iteration, which left 1.04e-8 of 1e-8 on a grid of the race."""
+    found = functools.partial(np.full, (2, 2))
+    solver = PeerSolver("made up", "", "", lambda problem, tolerance: lambda: (found(1.04 * tolerance), 0))
+    problem = SimpleNamespace(worst=lambda pressure, by_force: pressure.max())
+    assert peers.find_tolerance(solver, problem, 1e-8) == 0.5e-8
+    with pytest.raises(RuntimeError, match="residual 1e-08 at its tightest tolerance"):
+        peers.find_tolerance(dataclasses.replace(solver, tolerances=(1.0,)), problem, 1e-8)
 
 
 def test_who_would_take_minutes_on_the_next_grid_is_left_out():

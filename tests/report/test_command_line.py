@@ -254,7 +254,7 @@ def whole_page(folder, names):
     for name in names:
         assert f'id="{name}"' in page
     figures = len(list((folder / "figures").glob("*.svg")))
-    # the map of validity stands on the first screen, too
+    # some stand on the front page, too
     assert len(set(re.findall(r'<img alt="[^"]+" src="(figures/[^"]+)"', page))) == figures >= len(names)
     for external in ("http://", "https://", "<script", "@import", 'rel="stylesheet"'):
         assert external not in page

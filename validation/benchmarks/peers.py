@@ -34,8 +34,9 @@ class PeerSolver:
 
     package: what it is a part of; prepare(problem, tolerance): everything that is done once for a grid, returned as a
     function that solves from a cold start; tolerances: its own, tried in this order, as parts of the residual asked
-    for, until the residual is reached; serves: "free", "periodic" half-spaces; by_force: what it is given, else the
-    approach; file: of somebody's own, which has no package; alone: its name with one thread.
+    for, until the residual is reached: rounding may leave a little more than was asked; serves: "free", "periodic"
+    half-spaces; by_force: what it is given, else the approach; file: of somebody's own, which has no package; alone:
+    its name with one thread.
     """
 
     name: str

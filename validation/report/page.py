@@ -12,7 +12,7 @@ from validation.report.chapter import ERRATA, REMARKS, book_figures, chapter_of
 from validation.report.figures import tables_of
 from validation.report.formats import first_sentence, templates
 from validation.report.provenance import kept_from
-from validation.report.section import Section, claims_of, claims_of_others, total_of
+from validation.report.section import Section, claims_of_others, total_of
 from validation.report.sounds import sound_place
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import WheelScene
@@ -89,7 +89,7 @@ def pages(
     chapters = [(chapter, some) for chapter in Chapter if (some := [s for s in sections if s.entry.chapter == chapter])]
     in_order = [section for _, some in chapters for section in some]
     figures, faster = figures_of(in_order), times_faster(sections)
-    filters = None if scene else rail_filters(sections)
+    filters, book = (None, []) if scene else (rail_filters(sections), chapter_of(sections))
     places = {section.name: section.place for section in sections}
     environment = templates()
     environment.filters |= {
@@ -102,12 +102,12 @@ def pages(
         "reading": READING,
         "book_page": BOOK_PAGE,
         "sections": sections,
-        "book": [] if scene else chapter_of(sections),
+        "book": book,
         "errata": ERRATA,
         "remarks": REMARKS,
         "answers": [] if scene else answered_questions(sections),
         "total": total_of(sections),
-        "asked": claims_of(in_order),
+        "asked": any(section.claims for section in sections),
         "chapters": chapters,
         "profile": profile,
         "figures": figures,
@@ -127,7 +127,7 @@ def pages(
         for chapter, some in chapters
     }
     made[READING] = environment.get_template("reading.html").render()
-    if not scene and chapter_of(sections):
+    if book:
         made[BOOK_PAGE] = environment.get_template("book.html").render()
     # the front page last: it leads to all others
     made[FRONT] = environment.get_template("front.html").render()

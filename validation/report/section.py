@@ -95,13 +95,6 @@ def numbers_table(numbers: Sequence[Number]) -> Table:
     return Table("numbers", {name: [_plain(getattr(number, name)) for number in numbers] for name in named.split()})
 
 
-def claims_of(sections: Sequence[Section]) -> list[tuple[Whose, list[tuple[Section, JudgedClaim]]]]:
-    """Statements of the book, of the field, and findings, in the order of their sections."""
-    pairs = [(section, claim) for section in sections for claim in section.claims]
-    groups = [(whose, [pair for pair in pairs if pair[1].whose is whose]) for whose in Whose]
-    return [(whose, mine) for whose, mine in groups if mine]
-
-
 def claims_of_others(sections: Sequence[Section]) -> list[tuple[Section, JudgedClaim]]:
     """Statements of the book and of the field, in the order of their sections."""
     return [(s, claim) for s in sections for claim in s.claims if claim.whose is not Whose.FINDING]
