@@ -11,14 +11,14 @@ from validation.analysis.claims import listed
 
 ROOT = Path(__file__).resolve().parents[1]
 TABLE = re.compile(r"(<!-- answers: .*? -->\n).*?(<!-- end of answers -->)", flags=re.DOTALL)
-HEAD = "| question | is MDR enough? | over | what else is enough |\n|---|---|---|---|\n"
+HEAD = "\n| question | is MDR enough? | over | what else is enough |\n|---|---|---|---|\n"
 COST = re.compile(r" \([^()]*\)$")
 
 
 def with_answers(text: str, results: Mapping[str, Any]) -> str:
     """The page with a row a question between its marks."""
     rows = "".join(f"| {' | '.join(cells(row))} |\n" for row in results["when MDR is enough"])
-    return TABLE.sub(lambda found: found[1] + HEAD + rows + found[2], text)
+    return TABLE.sub(lambda found: found[1] + HEAD + rows + "\n" + found[2], text)
 
 
 def cells(row: Mapping[str, Any]) -> list[str]:

@@ -22,7 +22,11 @@ EXAMPLES = [
 
 
 def test_there_are_examples():
-    assert {example.id.split("-")[0] for example in EXAMPLES} == {"README.md", "CONTRIBUTING.md", "reports/docs/two_methods.md"}
+    assert {example.id.split("-")[0] for example in EXAMPLES} == {
+        "README.md",
+        "CONTRIBUTING.md",
+        "reports/docs/two_methods.md",
+    }
 
 
 @pytest.mark.slow

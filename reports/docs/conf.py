@@ -15,7 +15,15 @@ project = "mdr-validation"
 author = "The authors of mdr-validation"
 version = release = version_of("mdr-validation")
 
-extensions = ["sphinx.ext.autodoc", "sphinx.ext.autosummary", "numpydoc", "myst_parser", "gallery", "report_pages", "mathml"]
+extensions = [
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "numpydoc",
+    "myst_parser",
+    "gallery",
+    "report_pages",
+    "mathml",
+]
 exclude_patterns = ["_build"]
 nitpicky = True
 smartquotes = False

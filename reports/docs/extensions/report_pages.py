@@ -1,4 +1,4 @@
-"""A page of the site for each page of the committed report: its body, under the navigation and the search of the site."""
+"""A page of the site for each page of the committed report: its body, under navigation and search of the site."""
 
 import re
 import shutil
@@ -63,9 +63,11 @@ def headings(app: Sphinx, name: str, _template: str, context: dict[str, Any], _t
         found = re.findall(r'<h2 id="([^"]+)"[^>]*>(.*?)</h2>', text, flags=re.DOTALL)
         entries = "".join(f'<li><a href="#{place}">{plain(heading)}</a></li>' for place, heading in found)
         context["toc"] = f'<ul><li><a href="#">{context["title"]}</a><ul>{entries}</ul></li></ul>'
+        context["furo_hide_toc"] = not found  # the theme has looked for headings of Sphinx
 
 
 def plain(heading: str) -> str:
+    """Without tags."""
     return unescape(re.sub(r"<[^>]+>", "", heading)).strip()
 
 
@@ -79,6 +81,6 @@ def copy(app: Sphinx, error: Exception | None) -> None:
 def setup(app: Sphinx) -> ExtensionMetadata:
     """Write the pages before Sphinx looks for them."""
     app.connect("builder-inited", write)
-    app.connect("html-page-context", headings, priority=400)
+    app.connect("html-page-context", headings, priority=600)
     app.connect("build-finished", copy)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}
