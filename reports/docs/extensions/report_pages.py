@@ -49,6 +49,8 @@ def write(app: Sphinx) -> None:
 def page(html: str) -> str:
     """The first heading is the title; all else in the body, but the navigation, is taken as it is."""
     body = html.partition('<main id="top">')[2].partition("</body>")[0].replace("</main>", "")
+    # what stands outside of the report is the documentation
+    body = re.sub(r'href="\.\./[^"]*"', 'href="../index.html"', body)
     before, title, after = re.split(r"<h1[^>]*>(.*?)</h1>", body, maxsplit=1, flags=re.DOTALL)
     (style,) = re.findall(r"<style>(.*?)</style>", html, flags=re.DOTALL)
     # styles are nested in those of the body: they change nothing around it
