@@ -49,6 +49,8 @@ def write(app: Sphinx) -> None:
 def page(html: str) -> str:
     """The first heading is the title; all else in the body, but the navigation, is taken as it is."""
     body = html.partition('<main id="top">')[2].partition("</body>")[0].replace("</main>", "")
+    # what stands outside of the report is the documentation
+    body = re.sub(r'href="\.\./[^"]*"', 'href="../index.html"', body)
     before, title, after = re.split(r"<h1[^>]*>(.*?)</h1>", body, maxsplit=1, flags=re.DOTALL)
     (style,) = re.findall(r"<style>(.*?)</style>", html, flags=re.DOTALL)
     # styles are nested in those of the body: they change nothing around it
@@ -63,6 +65,7 @@ def headings(app: Sphinx, name: str, _template: str, context: dict[str, Any], _t
         found = re.findall(r'<h2 id="([^"]+)"[^>]*>(.*?)</h2>', text, flags=re.DOTALL)
         entries = "".join(f'<li><a href="#{place}">{plain(heading)}</a></li>' for place, heading in found)
         context["toc"] = f'<ul><li><a href="#">{context["title"]}</a><ul>{entries}</ul></li></ul>'
+        context["furo_hide_toc"] = not found  # the theme has looked for headings of Sphinx
 
 
 def plain(heading: str) -> str:
@@ -80,6 +83,6 @@ def copy(app: Sphinx, error: Exception | None) -> None:
 def setup(app: Sphinx) -> ExtensionMetadata:
     """Write the pages before Sphinx looks for them."""
     app.connect("builder-inited", write)
-    app.connect("html-page-context", headings, priority=400)
+    app.connect("html-page-context", headings, priority=600)
     app.connect("build-finished", copy)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}
