@@ -9,6 +9,7 @@ from validation.analysis.chart import Chart, Curve, Panel, by_model
 from validation.analysis.evidence import Evidence, Table
 from validation.analysis.study import Settings
 from validation.report.drawing import draw
+from validation.report.style import styles_of
 
 H, Q, MODELS = (0.1, 1.0), (1.0, 2.0, 4.0), ("bem", "mdr")
 ROWS = [(h, model, q) for h in H for model in MODELS for q in Q]
@@ -45,7 +46,7 @@ def test_bars_of_a_family_stand_side_by_side():
 @pytest.mark.parametrize(("low", "log", "first"), [(0.9, "x", 0.9), (-1.0, "xy", 0.1)])
 def test_bars_end_where_the_interval_ends_and_a_decade_down_on_a_logarithmic_axis(low, log, first):
     table = Table("level", {**TABLE.rows(range(3)).columns, "low": [low, 1.9, 2.9]})
-    (axis,) = drawn(Curve("level", style="bem", label="b", bars=True), tables=(table,), log=log)
+    (axis,) = drawn(Curve("level", style="marks", label="b", bars=True), tables=(table,), log=log)
     ends = [segment[:, 1] for segment in axis.containers[0].lines[2][0].get_segments()]
     np.testing.assert_allclose(ends, [[first, 1.3], [1.9, 2.3], [2.9, 3.3]])
 
@@ -53,7 +54,7 @@ def test_bars_end_where_the_interval_ends_and_a_decade_down_on_a_logarithmic_axi
 def test_each_model_has_its_style_and_bars_where_it_has_an_interval():
     is_mdr = TABLE["model"] == "mdr"
     exact = {**TABLE.columns, **{end: np.where(is_mdr, VALUE, TABLE[end]).tolist() for end in ("low", "high")}}
-    curves = by_model("level", {"mdr": "exact", "bem": "bem"}, bars=True)
+    curves = by_model("level", {"mdr": "lines", "bem": "marks"}, bars=True)
     (axis,) = drawn(*curves, tables=(Table("level", exact),))
     assert [container.get_label() for container in axis.containers] == ["bem"]
     assert axis.get_legend_handles_labels()[1] == ["mdr", "bem"]
@@ -61,7 +62,7 @@ def test_each_model_has_its_style_and_bars_where_it_has_an_interval():
 
 def test_markers_are_apart_and_ticks_are_plain_numbers_at_the_values_or_of_few_decades():
     (axis,) = drawn(
-        Curve("level", "bem", "exact", "b", of={"h/d": "first"}, apart=0.1), ticked=True, log="xy", ylim=(0.3, 3)
+        Curve("level", "bem", "black", "b", of={"h/d": "first"}, apart=0.1), ticked=True, log="xy", ylim=(0.3, 3)
     )
     assert axis.lines[0].get_markevery() == 0.1
     ticks = [[label.get_text() for label in labels()] for labels in (axis.get_xticklabels, axis.get_yticklabels)]
@@ -75,10 +76,28 @@ def test_a_family_has_one_style_in_all_facets():
     assert len(set(colours)) == 4
 
 
-def test_a_panel_with_a_legend_of_its_own_leaves_the_others_to_the_figure():
-    curves = (Curve("level", "bem", label="b"),)
-    figure = draw(Chart("c", "", (Panel("q a", "y", curves, legend="best"), Panel("q a", "y", curves))), EVIDENCE)
-    assert figure.axes[0].get_legend() and not figure.axes[1].get_legend() and len(figure.legends) == 1
+def test_names_stand_at_the_ends_of_curves_that_are_apart_there():
+    """Lowest first, outside of the panel."""
+    (axis,) = drawn(Curve("level", by=("model",), of={"h/d": "first"}))
+    assert [text.get_text() for text in axis.texts] == ["bem", "mdr"] and not axis.figure.legends
+    assert all(text.xyann[0] > 1 for text in axis.texts)
+
+
+def test_names_of_curves_of_which_one_ends_early_are_in_a_legend():
+    early = Table("level", {**TABLE.columns, "q a": np.where(TABLE["model"] == "mdr", 1, 4) * TABLE["q a"]})
+    (axis,) = drawn(Curve("level", by=("model",), of={"h/d": "first"}), tables=(early,), log="")
+    assert not axis.texts and [text.get_text() for text in axis.figure.legends[0].get_texts()] == ["bem", "mdr"]
+
+
+def test_a_model_has_its_colour_in_all_figures_and_two_of_a_kind_are_apart_in_grey():
+    """Whatever stands beside it, and by the longest beginning of its name."""
+    alone, other = (
+        styles_of(["springs"])["springs"],
+        styles_of(["boundary elements", "springs", "springs, Geike's rule"]),
+    )
+    assert alone == other["springs"] and alone["color"] == other["springs, Geike's rule"]["color"]
+    two = styles_of(["springs, Geike's rule", "springs, rolling spectrum", "nothing known"])
+    assert len({(style["marker"], style["linestyle"]) for style in two.values()}) == 3
 
 
 def test_values_may_be_places_on_the_horizontal_axis_and_intervals_stand_alone():
@@ -106,7 +125,7 @@ def test_a_quantity_that_a_run_does_not_have_leaves_its_panel_empty():
     curves = Curve("level", "bem", label="b"), Curve("contrast", by=("model",), bars=True)
     for facet in ("", "h/d"):
         assert [line.get_label() for line in drawn(*curves, facet=facet)[0].lines] == ["b"]
-    assert len(drawn(curves[1], facet="h/d", legend="upper right")) == 1
+    assert len(drawn(curves[1], facet="h/d")) == 1
 
 
 def test_values_of_a_quantity_are_marked_by_the_names_of_their_models():
@@ -124,10 +143,10 @@ def test_decades_are_those_below_the_largest_value_and_not_below_a_line_across_t
     assert axis.get_ylim() == pytest.approx((1e-9 * VALUE[-1], 6e-6 * VALUE[-1]))
 
 
-def test_panels_share_an_axis_where_they_say_so():
+def test_panels_of_one_quantity_share_its_axis():
     """Up to the largest value of all, though a bound is given below."""
-    panels = tuple(Panel("q a", "y", (Curve("level", model, "exact", "b"),), ylim=(0, None)) for model in MODELS)
-    first, second = draw(Chart("c", "", panels, sharey=True), EVIDENCE).axes
+    panels = tuple(Panel("q a", "y", (Curve("level", model, "black", "b"),), ylim=(0, None)) for model in MODELS)
+    first, second = draw(Chart("c", "", panels), EVIDENCE).axes
     assert first.get_ylim() == second.get_ylim()
     assert first.get_ylim()[0] == 0 and first.get_ylim()[1] > VALUE.max()
     assert (first.get_ylabel(), second.get_ylabel()) == ("y", "")
@@ -144,7 +163,8 @@ def test_settings_are_filled_into_a_text(text, found):
 
 def test_several_columns_have_an_axis_for_each_of_their_values():
     axes = drawn(Curve("level", label="b"), facet=("h/d", "model"), at=(1.5, 2.0, 99.0))
-    assert [axis.get_title() for axis in axes] == [f"h/d = {h:g}, {model}" for h in H for model in MODELS]
+    named = zip("abcd", [f"h/d = {h:g}, {model}" for h in H for model in MODELS], strict=True)
+    assert [axis.get_title(loc="left") for axis in axes[:4]] == [f"({letter}) {name}" for letter, name in named]
     np.testing.assert_array_equal(axes[3].lines[0].get_ydata(), [10, 11, 12])
     # a mark that the panel does not reach is not drawn
     assert [line.get_xdata()[0] for line in axes[3].lines[1:]] == [1.5, 2.0]

@@ -12,17 +12,18 @@ Bounds = tuple[float | None, float | None]
 class Curve:
     """Rows of a table as a curve.
 
-    quantity: the table; model: one or several, all where empty; style: a name of `STYLES`, "graded" from dark to light;
-    label: in the legend, by default the values, "_" for none; by: columns, a curve for each value of them; of: values
-    that other columns have, "first" for the first; bars, band: whether intervals are drawn; down: from curve to curve;
-    apart: from marker to marker, of the diagonal of the panel, all markers where zero; beside: x of a curve with bars
-    over that of the last one, on a logarithmic axis; upright: whether the values are places on the horizontal axis,
-    drawn as lines across the panel, without a label by the names of their models.
+    quantity: the table; model: one or several, all where empty; style: a form of `FORMS`, over the style of the model;
+    label: by default the values, or the model, "_" for none; by: columns, a curve for each value of them, dark to light
+    in their order but for models; of: values that other columns have, "first" for the first; bars, band: whether
+    intervals are drawn; down: from curve to curve; apart: from marker to marker, of the diagonal of the panel, all
+    markers where zero; beside: x of a curve with bars over that of the last one, on a logarithmic axis; upright:
+    whether the values are places on the horizontal axis, drawn as lines across the panel, without a label by the names
+    of their models.
     """
 
     quantity: str
     model: str | tuple[str, ...] = ()
-    style: str = "graded"
+    style: str = ""
     label: str = ""
     _: KW_ONLY
     by: tuple[str, ...] = ()
@@ -36,8 +37,8 @@ class Curve:
 
 
 def by_model(quantity: str, styles: Mapping[str, str], *, bars: bool = False) -> tuple[Curve, ...]:
-    """A curve of each model, by its name in the legend."""
-    return tuple(Curve(quantity, model, style, model, bars=bars) for model, style in styles.items())
+    """A curve of each model in a form of its own, by its name."""
+    return tuple(Curve(quantity, model, style, bars=bars) for model, style in styles.items())
 
 
 @dataclass(frozen=True)
@@ -45,9 +46,9 @@ class Panel:
     """Curves on one axis.
 
     facet: a column, or several, a panel for each of their values; log: the axes that are logarithmic; decades: of y
-    below the largest value, or its units where y is linear; judged: the quantity whose verdicts are drawn; shade,
-    lines: of y; at: of x, dotted, where the panel reaches it; downward: from the largest x on; ticked: at the values of
-    x alone; legend: its place.
+    below the largest value, or its units where y is linear; judged: the quantity whose verdicts are drawn; shade:
+    of y, the margin; lines: of y; at: of x, dotted, where the panel reaches it; downward: from the largest x on;
+    ticked: at the values of x alone.
     """
 
     x: str
@@ -66,7 +67,6 @@ class Panel:
     at: tuple[float, ...] = ()
     downward: bool = False
     ticked: bool = False
-    legend: str = ""
 
     def of(self, *curves: Curve) -> "Panel":
         """The same with these curves."""
@@ -76,7 +76,7 @@ class Panel:
 @dataclass(frozen=True)
 class Chart:
     """A figure. name: "case" or "case-part"; panels: none where `report/figures` has a function that draws it; claims:
-    numbers of those that its headline states; sharey: one for all.
+    numbers of those that its headline states.
     """
 
     name: str
@@ -84,10 +84,6 @@ class Chart:
     panels: tuple[Panel, ...] = ()
     _: KW_ONLY
     claims: tuple[int, ...] = (0,)
-    columns: int = 0
-    sharey: bool = False
-    width: float = 10.5
-    height: float = 4.0
 
     def of(self, caption: str, *panels: Panel) -> "Chart":
         """The same with this caption and these panels."""

@@ -11,7 +11,18 @@ from numpy.typing import ArrayLike
 
 from validation.analysis.evidence import Table
 from validation.report.compared_sweep import draw_sweep
-from validation.report.style import FORMATS, MARKERS, SETTINGS, Style, curve, in_two_lines, picture, plain_figure, tick
+from validation.report.style import (
+    BLUE,
+    FORMATS,
+    INK,
+    MARKERS,
+    SETTINGS,
+    in_two_lines,
+    picture,
+    plain_figure,
+    styles_of,
+    tick,
+)
 from validation.selection.compare import Comparison, OneOrSeveral, listed
 from validation.selection.exported import by_quantity, table_of_several
 from validation.selection.side_by_side import shown_models
@@ -107,8 +118,8 @@ def _selected(table: Table) -> Table:
 def _spectra(axes: Axes, table: Table) -> None:
     """The selected model with the band of its error; the others beside it."""
     models = list(dict.fromkeys(table["model"].tolist()))
-    for i, model in enumerate(models[:MOST]):
-        mine, style = table.where(model=model), curve(i)
+    for model, style in styles_of(models[:MOST]).items():
+        mine = table.where(model=model)
         x, selected = mine["wavelength_mm"], bool(mine["selected"][0])
         axes.plot(x, mine["value"], label=in_two_lines(f"{model}, selected" if selected else model, NAME), **style)
         if selected:
@@ -141,7 +152,7 @@ def _numbers(axes: Axes, table: Table) -> None:
     """A row a model, or a scene."""
     names = [in_two_lines(name, NAME) for name in table["model"].tolist()]
     for i, (value, low, selected) in enumerate(zip(table["value"], table["low"], table["selected"], strict=True)):
-        style: Style = {"color": curve(not selected)["color"], "fmt": MARKERS[i % len(MARKERS)]}
+        style = {"color": BLUE if selected else INK, "fmt": MARKERS[i % len(MARKERS)]}
         half: Any = value - low if np.isfinite(low) else 0.0
         axes.errorbar(value, i, xerr=half, capsize=3 if half else 0, markersize=4, **style)
         if selected:

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import SubFigure
 
-from validation.report.style import curve, in_two_lines, tick
+from validation.report.style import in_two_lines, styles_of, tick
 from validation.selection.compare import Comparison
 from validation.selection.contact_force import contact_force
 from validation.selection.side_by_side import counts, reference_of, shown_models
@@ -59,13 +59,14 @@ def _draw(axes: Axes, panel: SweepPanel, lines: Mapping[str, Points]) -> None:
     first = next(iter(swept.values()))
     numbers = all(isinstance(of.value, float) for of in first)
     texts = list(dict.fromkeys(str(of.value) for of in first))
-    for i, (name, points) in enumerate(lines.items()):
+    styles = styles_of(lines)
+    for name, points in lines.items():
         values = [of.value if numbers else texts.index(str(of.value)) for of in swept[name]]
         order = np.argsort(values, kind="stable")
         x = np.array(values, dtype=np.float64)[order]
         value, low, high = np.array([interval(*point) for point in points])[order].T
-        style = curve(i)
-        axes.plot(x, value, label=in_two_lines(name, 48), **{"marker": ".", **style})
+        style = styles[name]
+        axes.plot(x, value, label=in_two_lines(name, 48), **style)
         axes.fill_between(x, low, high, color=style["color"], alpha=0.12, linewidth=0)
         edges = {"color": style["color"], "linestyle": style["linestyle"], "linewidth": 0.5}
         axes.plot(x, np.column_stack([low, high]), **edges)

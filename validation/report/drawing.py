@@ -1,8 +1,8 @@
 """Draws the figures that cases declare, from their tables alone."""
 
 import math
-from collections.abc import Iterator, Mapping
-from typing import Literal
+import textwrap
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,65 +11,80 @@ from matplotlib.figure import Figure
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.evidence import Evidence, Table, placed
 from validation.analysis.series import ENDS, JUDGED
-from validation.report.style import BEM, EXACT, GUIDE, MDR, MDR_LINE, MDR_OTHER, Style, graded, panels, tick, visible
+from validation.report.curve_names import name_curves
+from validation.report.style import BARS, GUIDE, INK, Style, graded, panels, styles_of, tick, visible
 
-STYLES: dict[str, Style] = {
-    "exact": EXACT,
-    "thick": {"color": "#999999", "linewidth": 3.0},
-    "bem": BEM,
-    "bem, few cells": {**BEM, "markerfacecolor": "white"},
-    "mdr": MDR,
-    "mdr around": {**MDR, "markersize": 8},
-    "mdr line": MDR_LINE,
-    "other": MDR_OTHER,
-    "guide": GUIDE,
-    "dashed": {**GUIDE, "linestyle": "--"},
-    "interval": {"color": "#000000"},
-    "crosses": {"color": "#000000", "marker": "x", "linestyle": "none"},
-    "bem line": {"color": BEM["color"], "linestyle": "--", "linewidth": 1.2},
-    "dots": {"color": MDR["color"], "marker": ".", "markersize": 2.5, "linestyle": "none"},
-}
-GRADED: dict[str, Style] = {
-    "graded": {},
-    "marks": {"linestyle": "none"},
+FORMS: dict[str, Style] = {
+    "": {},
     "lines": {"marker": "none"},
+    "marks": {"linestyle": "none"},
     "dotted": {"marker": "none", "linestyle": ":"},
+    "dashed": {"marker": "none", "linestyle": "--"},
     "open": {"markerfacecolor": "white", "linestyle": ":"},
     "open marks": {"markerfacecolor": "white", "linestyle": "none"},
+    "around": {"markerfacecolor": "none", "markersize": 7, "linestyle": "none"},
+    "thick": {"marker": "none", "linestyle": "-", "linewidth": 3.0, "alpha": 0.45},
+    "dots": {"marker": ".", "markersize": 2, "linestyle": "none"},
+    "crosses": {"color": INK, "marker": "x", "linestyle": "none"},
+    "black": {"color": INK, "marker": "none", "linestyle": "-"},
+    "guide": GUIDE,
+    "dashed guide": {**GUIDE, "linestyle": "--"},
+    "interval": {},
 }
+"""Of a curve, over the style of its model, or of its place among ordered values."""
 FIRST = "first"
-FEW, LARGE = 15, 1e5
+FEW, FEWEST, LARGE = 15, 3, 1e5
 FEW_DECADES, ASIDE = 300, 1.2
-HIGHEST = 4.8
-"""Of a row of panels."""
+WORST = "worst of a range and its interval: = agree, ≠ differ, ? undecided"
 SIGN = {"agree": "=", "differ": "≠", "undecided": "?"}
 
 
 def draw(chart: Chart, evidence: Evidence) -> Figure:
     facets = [(panel, facet) for panel in chart.panels for facet in _facets(panel, evidence)]
-    columns = min(chart.columns or len(facets), len(facets))
+    columns = len(facets) if len(facets) < 4 else 2 if len(facets) == 4 else 3
     rows = -(-len(facets) // columns)
-    shared: Literal["all", "none"] = "all" if chart.sharey else "none"
-    figure, axes = panels(rows, columns, width=chart.width, height=min(chart.height, HIGHEST * rows), sharey=shared)
-    for axis, (panel, facet) in zip(axes, facets, strict=False):
+    figure, every = panels(rows, columns)
+    axes, spare = every[: len(facets)], every[len(facets) :]
+    _share(axes, [panel for panel, _ in facets])
+    there = [curve for panel in chart.panels for curve in _there(panel, evidence)]
+    styles = styles_of(name for curve in there for name in _models(_rows(evidence, curve, {})))
+    for axis, (panel, facet) in zip(axes, facets, strict=True):
         try:
-            _panel(axis, panel, facet, evidence)
+            _panel(axis, panel, facet, evidence, styles)
         except KeyError as error:
             raise ValueError(
                 f"chart {chart.name!r} names {error}, which is no style, and no column of its tables"
             ) from error
-    for axis, (panel, _) in zip(axes, facets, strict=False):
+    for axis, (panel, _) in zip(axes, facets, strict=True):
         _limits(axis, panel)
-    for axis in axes[len(facets) :]:
-        axis.set_visible(False)
-    for i, axis in enumerate(axes):
-        if chart.sharey and i % columns:
-            axis.set_ylabel("")
-    without = [axis for axis, (panel, _) in zip(axes, facets, strict=False) if not panel.legend]
-    labels = dict(pair for axis in without for pair in zip(*axis.get_legend_handles_labels()[::-1], strict=True))
-    if labels:
-        figure.legend(labels.values(), labels.keys(), loc="outside lower center", ncols=4)
+    _name_axes_once(axes, columns)
+    for axis in spare:
+        axis.set_axis_off()
+        axis.set_title("", loc="left")
+    name_curves(figure, axes, columns, spare)
     return figure
+
+
+def _share(axes: Sequence[Axes], drawn: Sequence[Panel]) -> None:
+    """The same quantity on the same scale has one axis, and so have the panels of a facet."""
+    scales = [(panel.y, panel.log, panel.ylim, panel.decades) for panel in drawn]
+    for axis, panel, scale in zip(axes, drawn, scales, strict=True):
+        same, of_facet = axes[scales.index(scale)], axes[drawn.index(panel)]
+        if same is not axis:
+            axis.sharey(same)
+        if of_facet is not axis:
+            axis.sharex(of_facet)
+
+
+def _name_axes_once(axes: Sequence[Axes], columns: int) -> None:
+    """Left of a row, and below a column."""
+    for i, axis in enumerate(axes):
+        if i % columns and axis.get_shared_y_axes().joined(axis, axes[i - 1]):
+            axis.set_ylabel("")
+            axis.tick_params(labelleft=False)
+        if i + columns < len(axes) and axis.get_shared_x_axes().joined(axis, axes[i + columns]):
+            axis.set_xlabel("")
+            axis.tick_params(labelbottom=False)
 
 
 def _facets(panel: Panel, evidence: Evidence) -> list[dict[str, object]]:
@@ -86,22 +101,28 @@ def _there(panel: Panel, evidence: Evidence) -> list[Curve]:
     return [curve for curve in panel.curves if evidence.has_table(curve.quantity)]
 
 
-def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidence) -> None:
+def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidence, styles: Mapping[str, Style]) -> None:
     if panel.shade:
-        axis.axhspan(*panel.shade, color="#000000", alpha=0.07, linewidth=0)
+        axis.axhspan(*panel.shade, color="#000000", alpha=0.08, linewidth=0, label="within the margin")
     for y in panel.lines:
         axis.axhline(y, color="#000000", linewidth=0.8)
     for curve in _there(panel, evidence):
         # a family has one style in all facets
         every = [key for key, *_ in _families(curve, _rows(evidence, curve, {}))]
         for key, values, mine in _families(curve, _rows(evidence, curve, facet)):
-            _curve(axis, curve, panel, mine, values, every.index(key), len(every))
+            i = every.index(key)
+            is_ordered = set(curve.by) - {"model"}
+            own = graded(i, len(every)) if is_ordered else styles[_models(mine)[0]]
+            _curve(axis, curve, panel, mine, values, {**own, **FORMS[curve.style]}, i)
     if panel.judged:
         _verdicts(axis, _chosen(evidence.table(panel.judged + JUDGED), facet))
-    axis.set(xlabel=panel.x, ylabel=panel.y, title=panel.title or ", ".join(_said(*f) for f in facet.items()))
+    title = panel.title or ", ".join(_said(*f) for f in facet.items())
+    axis.set_title(textwrap.fill(f"{axis.get_title(loc='left')} {title}".strip(), 30), loc="left")
+    axis.set(xlabel=panel.x, ylabel=textwrap.fill(panel.y, 30))
     axis.set(xscale="log" if "x" in panel.log else "linear", yscale="log" if "y" in panel.log else "linear")
-    if panel.legend and axis.get_legend_handles_labels()[1]:
-        axis.legend(loc=panel.legend, fontsize=7)  # type: ignore[call-overload]
+    for name in (name for name in "xy" if name not in panel.log):
+        axis.locator_params(axis=name, nbins=5)
+        axis.ticklabel_format(axis=name, scilimits=(-3, 5))
 
 
 def _verdicts(axis: Axes, judged: Table) -> None:
@@ -109,7 +130,9 @@ def _verdicts(axis: Axes, judged: Table) -> None:
     for x, to, value, low, high, verdict in zip(
         *(judged[name] for name in ("from", "to", *ENDS, "verdict")), strict=True
     ):
-        axis.fill_between((x, to), [low] * 2, [high] * 2, facecolor="none", edgecolor="#000000", linewidth=0.8)
+        axis.fill_between(
+            (x, to), [low] * 2, [high] * 2, facecolor="none", edgecolor="#000000", linewidth=0.6, label=WORST
+        )
         axis.plot((x, to), [value] * 2, color="#000000", linewidth=2)
         axis.text(math.sqrt(x * to), 0.97, SIGN[verdict], transform=axis.get_xaxis_transform(), ha="center", va="top")
 
@@ -127,23 +150,26 @@ def _limits(axis: Axes, panel: Panel) -> None:
         axis.set_ylim(*panel.ylim)
     if panel.ticked:
         tick(axis, _apart(np.unique(np.concatenate([line.get_xdata() for line in lines]))))
-    elif "x" in panel.log and axis.get_xlim()[1] < LARGE:
-        tick(axis, _round(*axis.get_xlim()))
+    elif "x" in panel.log and max(axis.get_xlim()) < LARGE:
+        tick(axis, _round(*sorted(axis.get_xlim())))
     if "y" in panel.log and axis.get_ylim()[1] < FEW_DECADES * axis.get_ylim()[0]:
         tick(axis, _round(*axis.get_ylim()), up=True)
     for x in panel.at:
         if axis.get_xlim()[0] < x < axis.get_xlim()[1]:
             axis.axvline(x, **GUIDE)
     if panel.downward:
-        axis.invert_xaxis()
+        axis.xaxis.set_inverted(True)
 
 
 def _round(low: float, high: float) -> list[float]:
-    """Powers of ten, of few decades two and five times them too, of many some."""
-    steps = (1, 2, 5) if high < FEW_DECADES * low else (1,)
+    """Powers of ten, of many some; two and five times them too, or more, where a panel would have few."""
     first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
-    powers = range(first, last, max(1, (last - first) // 5))
-    return [x for power in powers for step in steps if low <= (x := step * 10.0**power) <= high]
+    powers = range(first, last + 1, max(1, (last - first) // 4))
+    found: list[float] = []
+    for steps in ((1.0,), (1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0)):
+        if len(found) < FEWEST:
+            found = [x for power in powers for step in steps if low <= (x := step * 10.0**power) <= high]
+    return found
 
 
 def _apart(values: np.ndarray) -> list[float]:
@@ -177,6 +203,10 @@ def _chosen(table: Table, of: Mapping[str, object]) -> Table:
     return table
 
 
+def _models(table: Table) -> list[str]:
+    return list(dict.fromkeys(map(str, table.columns.get("model", [""]))))
+
+
 def _families(curve: Curve, table: Table) -> Iterator[tuple[tuple[str, ...], dict[str, object], Table]]:
     size = len(next(iter(table.columns.values())))
     keys = list(zip(*(map(str, table.columns[name]) for name in curve.by), strict=True)) or [()] * size
@@ -185,10 +215,12 @@ def _families(curve: Curve, table: Table) -> Iterator[tuple[tuple[str, ...], dic
         yield key, {name: column[0] for name, column in mine.columns.items()}, mine
 
 
-def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str, object], i: int, count: int) -> None:
-    style = {**(STYLES.get(curve.style) or {**graded(i, count), **GRADED[curve.style]})}
+def _curve(
+    axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str, object], style: Style, i: int
+) -> None:
     where = {name: value for name, value in values.items() if value == value}
     label = curve.label or ", ".join(_said(name, where[name]) for name in curve.by if name in where)
+    label = label or (curve.model if isinstance(curve.model, str) else "")
     if curve.upright:
         for x, name in zip(mine["value"], mine["model"], strict=True):
             axis.axvline(x, label=label or "_", **style)
@@ -200,7 +232,7 @@ def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str
     if curve.style == "interval":
         axis.fill_between(x, low, high, color=style["color"], alpha=0.2, linewidth=0, label=label)
         return
-    if curve.apart or curve.style == "graded":
+    if curve.apart or (y.size > FEW and not curve.bars and style["linestyle"] != "none"):
         style["markevery"] = curve.apart or max(y.size // FEW, 1)
     if curve.bars and np.any(high > low):
         # down to nothing: on a logarithmic axis a decade
@@ -208,7 +240,7 @@ def _curve(axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str
         bars = [np.nan_to_num(y - down_to), np.nan_to_num(high - y)]
         # moved a little, so that intervals stand side by side
         beside = curve.beside**i if "x" in panel.log else 1.0
-        axis.errorbar(beside * x, y - down, yerr=bars, capsize=1.5, elinewidth=0.7, label=label, **style)
+        axis.errorbar(beside * x, y - down, yerr=bars, label=label, **style, **BARS)
     else:
         axis.plot(x, y - down, label=label, **style)
     if curve.band:

@@ -17,7 +17,7 @@ from validation.selection.tolerance import decibels
 if TYPE_CHECKING:
     from validation.report.judged import Judgement
 
-MOST, PANELS, TITLE = 8, 12, 45
+MOST, PANELS, TITLE = 6, 12, 30
 """Curves of a panel; panels; characters of a line of a title."""
 Drawn = tuple[Panel, Table]
 
@@ -29,8 +29,7 @@ def figure_of(judgements: Sequence["Judgement"], form: str) -> bytes:
     drawn = [one for judgement in judgements for one in _differences(judgement)][:PANELS]
     drawn += [_times(one) for one in judgements if one.times] + [_costs(one) for one in judgements if one.costs]
     panels = tuple(panel for panel, _ in drawn) or (Panel("", "nothing to draw", log=""),)
-    columns, rows = min(len(panels), 2), -(-len(panels) // 2)
-    chart = Chart("judgement", panels=panels, columns=columns, width=4.6 * columns, height=3.2 * rows)
+    chart = Chart("judgement", panels=panels)
     tables = tuple(table for _, table in drawn)
     evidence = Evidence(title="", method="", numbers=(), tables=tables, conclusions=(), captions={})
     with matplotlib.rc_context(SETTINGS):
@@ -52,14 +51,14 @@ def _difference(judgement: "Judgement", curves: Sequence[JudgedCurve]) -> Drawn:
     levels = first.points[0].unit == LEVEL
     unit, factor, within = ("dB", 1.0, decibels(tolerance)) if levels else ("%", 100.0, 100 * tolerance)
     rows = [
-        {"of": placed(curve.where), first.along: x, **_with(factor * point.difference, factor * point.error)}
+        {"model": placed(curve.where), first.along: x, **_with(factor * point.difference, factor * point.error)}
         for curve in curves
         for x, point in zip(curve.at, curve.points, strict=True)
     ]
     name, log = f"{judgement.model}: {first.quantity}", "x" if first.at[-1] > 20 * first.at[0] > 0 else ""
     y, title = f"off the reference [{unit}]", in_two_lines(name, TITLE)
-    panel = Panel(first.along, y, title=title, log=log, shade=(-within, within), legend="best")
-    return panel.of(Curve(name, by=("of",), bars=True)), table_of(name, rows)
+    panel = Panel(first.along, y, title=title, log=log, shade=(-within, within))
+    return panel.of(Curve(name, by=("model",), bars=True)), table_of(name, rows)
 
 
 def _times(judgement: "Judgement") -> Drawn:
@@ -67,7 +66,7 @@ def _times(judgement: "Judgement") -> Drawn:
     x, name = "cells on a side", f"{judgement.model}: seconds, one thread"
     rows = [{"model": judgement.model, x: time.cells, **_with(time.seconds)} for time in judgement.times]
     rows += [{"model": "bem3d", x: time.cells, **_with(time.bem3d)} for time in judgement.times]
-    panel = Panel(x, "seconds", title=in_two_lines(name, TITLE), log="xy", ticked=True, legend="best")
+    panel = Panel(x, "seconds", title=in_two_lines(name, TITLE), log="xy", ticked=True)
     return panel.of(Curve(name, by=("model",))), table_of(name, rows)
 
 
@@ -79,7 +78,7 @@ def _costs(judgement: "Judgement") -> Drawn:
     errors = [factor * one.error for one in judgement.costs if one.error > 0]
     # room for a tick, however near they are
     ylim = (min(errors) / 2, 2 * max(errors)) if errors else None
-    panel = Panel(x, f"median error [{unit}]", title=in_two_lines(name, TITLE), log="xy", ylim=ylim, legend="best")
+    panel = Panel(x, f"median error [{unit}]", title=in_two_lines(name, TITLE), log="xy", ylim=ylim)
     return panel.of(Curve(table := f"{name} and seconds", style="marks", by=("model",))), table_of(table, rows)
 
 

@@ -1,15 +1,16 @@
-"""The style of figures: readable without colour, and the same bytes every time."""
+"""The style of figures: one colour a model in all of them, readable in grey, and the same bytes every time."""
 
 import io
 import textwrap
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, Literal
+from typing import Any
 
 import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
+from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.text import Text
@@ -20,34 +21,78 @@ from validation.report.compact import compact
 
 Style = dict[str, Any]
 
-# Okabe and Ito: apart for colour-blind readers; each with a marker and a dash of its own for print without colour
-EXACT: Style = {"color": "#000000", "linestyle": "-", "linewidth": 1.0}
-BEM: Style = {"color": "#0072B2", "marker": "o", "markersize": 4, "linestyle": "none"}
-MDR: Style = {"color": "#D55E00", "marker": "s", "markersize": 4, "markerfacecolor": "none", "linestyle": "none"}
-MDR_LINE: Style = {"color": "#D55E00", "linestyle": "-", "linewidth": 1.4}
-MDR_OTHER: Style = {"color": "#009E73", "linestyle": "--", "linewidth": 1.4}
+WIDTH = 7.1
+"""Of a figure [inches]: 180 mm, two columns of a journal, where its smallest text has 7 points."""
+# Okabe and Ito: apart for colour-blind readers
+INK, SOFT = "#000000", "#555555"
+BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY = "#0072B2", "#D55E00", "#009E73", "#AA4499", "#E69F00", "#56B4E9"
 MARKERS = "osD^v<>ph*"
-GUIDE: Style = {"color": "#555555", "linestyle": ":", "linewidth": 1.3}
+
+
+def _of(color: str, marker: str, dash: str, *, open_: bool = False) -> Style:
+    face = {"markerfacecolor": "white"} if open_ else {}
+    return {"color": color, "marker": marker, "linestyle": dash, "markersize": 3.5, "linewidth": 1.1, **face}
+
+
+MODELS: Mapping[str, Style] = {
+    name: style
+    for names, style in (
+        (
+            ("boundary elements", "boundary elements, punch", "BEM", "fine boundary elements", "sphere, b"),
+            _of(BLUE, "o", "-"),
+        ),
+        (("boundary elements, ", "coarse boundary elements", "flat punches"), _of(BLUE, "o", "--", open_=True)),
+        (("BEM, looser residual",), _of(BLUE, "d", ":", open_=True)),
+        (("BEM, extrapolated", "boundary elements, 1/3", "wave"), _of(BLUE, "h", "--", open_=True)),
+        (("springs", "MDR", "L_1D", "sphere, s", "drawn profile", "no window"), _of(VERMILION, "s", "-", open_=True)),
+        (
+            ("springs, ", "springs on", "springs over an area", "L_1D = 1", "Hann"),
+            _of(VERMILION, "D", "--", open_=True),
+        ),
+        (("linear filter, 3D", "linear theory, 3D", "linear, ellipse", "linear contact"), _of(GREEN, "^", "-")),
+        (("linear filter, 1D", "(14.12)", "linear, on", "linear theory"), _of(PURPLE, "v", "--")),
+        (("(14.14)",), _of(PURPLE, "none", ":")),
+        (("spring bed", "one-sided bed"), _of(ORANGE, "p", "-.")),
+        (("Remington",), _of(SKY, "P", "-.")),
+        (("closed form",), _of(INK, "*", "-")),
+        (("fit",), _of(INK, "x", ":")),
+        (("Hertz", "Westergaard", "Persson", "theory", "second order", "sin("), _of(INK, "none", "-")),
+        (("floor", "published", "1 / (1 + H)", "at the least"), _of(INK, "none", ":")),
+    )
+    for name in names
+}
+"""By the beginning of its name, the longest that there is."""
+
+
+def _of_model(name: str) -> Style | None:
+    known = max((begin for begin in MODELS if name.startswith(begin)), key=len, default=None)
+    return MODELS[known] if known else None
+
+
+CATEGORIES = ((INK, "-"), (BLUE, "--"), (VERMILION, "-."), (GREEN, ":"), (PURPLE, "-"), (ORANGE, "--"))
+
+
+def styles_of(names: Iterable[str]) -> dict[str, Style]:
+    """Of models, in all figures the same, and of up to six other things without an order: apart in grey too."""
+    found: dict[str, Style] = {}
+    for i, name in enumerate(dict.fromkeys(names)):
+        color, dash = CATEGORIES[i % len(CATEGORIES)]
+        style = _of_model(name) or _of(color, MARKERS[i % len(MARKERS)], dash, open_=True)
+        # a second model of a kind has another marker and another dash
+        again = {"marker": MARKERS[-1 - i % len(MARKERS)], "linestyle": CATEGORIES[i % 4][1]}
+        found[name] = {**style, **again} if style in found.values() and style["marker"] != "none" else style
+    return found
 
 
 def graded(i: int, count: int) -> Style:
-    """The i-th of several curves in their order: from dark to light, each with a marker of its own."""
-    color = matplotlib.colormaps["cividis"](0.78 * i / max(count - 1, 1))
-    return {"color": color, "marker": MARKERS[i % len(MARKERS)], "markersize": 4, "linewidth": 1.0}
+    """The i-th of several curves in the order of a number: from dark to light, each with a marker of its own."""
+    color = to_hex(matplotlib.colormaps["viridis"](0.85 * i / max(count - 1, 1)))
+    return _of(color, MARKERS[i % len(MARKERS)], "-")
 
 
-CURVES: tuple[Style, ...] = (
-    {**EXACT, "linewidth": 2.2},
-    {**BEM, "linestyle": "-", "markersize": 5.5, "markerfacecolor": "none", "linewidth": 0.8},
-    {"color": "#D55E00", "linestyle": "--", "marker": "s", "markersize": 3.5, "linewidth": 1.2},
-    {"color": "#009E73", "linestyle": "-.", "marker": "^", "markersize": 4, "linewidth": 1.2},
-    {"color": "#CC79A7", "linestyle": ":", "marker": "D", "markersize": 3.5, "linewidth": 1.4},
-)
-
-
-def curve(i: int) -> Style:
-    """The i-th of up to five curves: apart in colour, and in grey by dash and marker."""
-    return dict(CURVES[i % len(CURVES)])
+GUIDE: Style = {"color": SOFT, "linestyle": ":", "linewidth": 1.0, "marker": "none"}
+BARS: Style = {"capsize": 0, "elinewidth": 0.6}
+"""Of intervals."""
 
 
 def in_two_lines(words: str, most: int = 90) -> str:
@@ -63,13 +108,16 @@ SETTINGS: Any = {
     "svg.fonttype": "none",
     "font.sans-serif": FAMILIES,
     "pdf.fonttype": 42,
-    "font.size": 9,
-    "axes.titlesize": 9,
+    "font.size": 8,
+    "axes.titlesize": 8,
+    "axes.linewidth": 0.6,
+    "xtick.labelsize": 7.5,
+    "ytick.labelsize": 7.5,
     "axes.grid": True,
     "grid.color": "#dddddd",
     "grid.linewidth": 0.5,
-    "legend.fontsize": 8,
-    "legend.framealpha": 0.9,
+    "legend.fontsize": 7.5,
+    "legend.frameon": False,
 }
 
 
@@ -77,18 +125,13 @@ def panels(
     rows: int,
     columns: int,
     *,
-    width: float = 9.0,
-    height: float = 3.4,
-    sharey: Literal["none", "row", "all"] = "none",
-    within: dict[str, float] | None = None,
+    height: float = 0.0,
 ) -> tuple[Figure, list[Axes]]:
-    """A figure of lettered panels, row by row.
-
-    within: left, right, bottom, top, wspace, hspace of the panels; by default they are laid out around their labels.
-    """
-    figure = Figure(figsize=(width, height), layout=None if within else "constrained")
-    axes = list(figure.subplots(rows, columns, squeeze=False, sharey=sharey, gridspec_kw=within).flat)
-    for letter, axis in zip("abcdefghijkl", axes, strict=False):
+    """A figure of lettered panels, row by row, each as high as two thirds of its width and more, by default."""
+    height = height or rows * (0.6 + 0.62 * WIDTH / max(columns, 2))
+    figure = Figure(figsize=(WIDTH, height), layout="constrained")
+    axes = list(figure.subplots(rows, columns, squeeze=False).flat)
+    for letter, axis in zip("abcdefghijklmnopqr" if len(axes) > 1 else "", axes, strict=False):
         axis.set_title(f"({letter})", loc="left")
     return figure, axes
 

@@ -89,14 +89,14 @@ def mean_power_of_cosine(n: int) -> float:
 
 
 SPECTRA = (
-    Curve(SPECTRUM, GEIKE, "exact", "Geike, π q C_2D"),
-    Curve(SPECTRUM, LINE, "other", LINE),
-    Curve(SPECTRUM, PROFILE, "mdr", PROFILE, apart=0.02),
-    Curve(SPECTRUM, LINES, "bem", LINES, apart=0.02),
+    Curve(SPECTRUM, GEIKE, "black", "Geike, π q C_2D"),
+    Curve(SPECTRUM, LINE, "dashed"),
+    Curve(SPECTRUM, PROFILE, "marks", apart=0.02),
+    Curve(SPECTRUM, LINES, "marks", apart=0.02),
 )
 SHARES = (
-    Curve(SHARE, PROFILE, "mdr around", PROFILE),
-    *(Curve(SHARE, kind, style, kind) for kind, style in ((LINES, "bem"), (DIRECTIONS, "exact"))),
+    Curve(SHARE, PROFILE, "around"),
+    *(Curve(SHARE, kind, style) for kind, style in ((LINES, "marks"), (DIRECTIONS, "black"))),
 )
 STUDY = Study(
     title="Geike's rule",
@@ -118,8 +118,8 @@ STUDY = Study(
         Chart("geike").of(
             "(a) Geike's spectrum and the line trace, with those measured on a drawn profile and along the lines of a "
             "drawn surface. (b) n-th moment of both over that of the surface; line: of the line trace.",
-            Panel(WAVENUMBER, SPECTRUM, log="xy", decades=3.2, legend="lower left").of(*SPECTRA),
-            Panel(POWER, SHARE, log="", ylim=(0, 1.1), ticked=True, legend="lower left").of(*SHARES),
+            Panel(WAVENUMBER, SPECTRUM, log="xy", decades=3.2).of(*SPECTRA),
+            Panel(POWER, SHARE, log="", ylim=(0, 1.1), ticked=True).of(*SHARES),
         ),
     ),
 )

@@ -266,7 +266,7 @@ EXACT = (
     *("force over Hertz", "approach over Hertz", "stiffness over 2 E* a", "contact radius over Hertz"),
     *(PRESSURE_ERROR, LIMIT, CIRCLE, WIDTH),
 )
-OF_BOTH = (Curve(FORCE, BEM, "bem", BEM), Curve(FORCE, MDR, "mdr around", "springs"))
+OF_BOTH = (Curve(FORCE, BEM, "marks"), Curve(FORCE, MDR, "around"))
 STUDY = Study(
     title="Contacts with closed forms",
     method=(
@@ -297,31 +297,31 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart("hertz", claims=(0, 2), columns=3, width=13.0, height=6.5).of(
+        Chart("hertz", claims=(0, 2)).of(
             "Sphere: (a) load curve, {c.cells_per_radius[1]} cells in the largest contact radius; (b) pressure along a "
             "row of cells next to the centre. (c) Wave: pressure at each mean pressure, finest grid; lines: "
             "Westergaard. (d) Square punch: stiffness against the cells on a side, with the closed form and both "
             "lengths of a 1D model. (e) Relative error of the force of the sphere, of the stiffness of the square and "
             "of the pressure of the wave at half load, against cells in the radius, on the side and in the wavelength.",
-            Panel(APPROACH, FORCE, log="").of(Curve(FORCE, "Hertz", "exact", "closed form"), *OF_BOTH),
+            Panel(APPROACH, FORCE, log="").of(Curve(FORCE, "Hertz", label="closed form"), *OF_BOTH),
             Panel(DISTANCE, PRESSURE, log="").of(
-                Curve(PRESSURE, "Hertz", "exact", "closed form"), Curve(PRESSURE, BEM, "bem", BEM)
+                Curve(PRESSURE, "Hertz", label="closed form"), Curve(PRESSURE, BEM, "marks")
             ),
             Panel(PLACE, WAVE_PRESSURE, log="").of(
-                Curve(WAVE_PRESSURE, "Westergaard", "exact", "closed form", by=(LOAD,)),
+                Curve(WAVE_PRESSURE, "Westergaard", "lines", "_", by=(LOAD,)),
                 Curve(WAVE_PRESSURE, BEM, "open marks", by=(LOAD,), apart=0.02),
             ),
             Panel(CELLS, SQUARE, ticked=True).of(
-                Curve(SQUARE, "closed form", "exact", "closed form"),
-                Curve(SQUARE, LENGTHS[0], "mdr line", "springs, L_1D = L"),
-                Curve(SQUARE, LENGTHS[1], "other", "springs, L_1D = 1.1523 L"),
-                Curve(SQUARE, BEM, "bem", BEM),
+                Curve(SQUARE, "closed form", label="closed form"),
+                Curve(SQUARE, LENGTHS[0], "lines", "springs, L_1D = L"),
+                Curve(SQUARE, LENGTHS[1], "lines", "springs, L_1D = 1.1523 L"),
+                Curve(SQUARE, BEM, "marks"),
             ),
             Panel(CELLS, ERROR, log="xy").of(
-                Curve(ERROR, f"{SPHERE}, {BEM}", "bem", BEM),
-                Curve(ERROR, f"{SPHERE}, {MDR}", "mdr around", "springs"),
-                Curve(ERROR, PUNCH, "crosses", "square punch, boundary elements"),
-                Curve(ERROR, WAVE, "thick", "wave, boundary elements"),
+                Curve(ERROR, f"{SPHERE}, {BEM}", label="sphere, boundary elements"),
+                Curve(ERROR, f"{SPHERE}, {MDR}", label="sphere, springs"),
+                Curve(ERROR, PUNCH, label="square punch, boundary elements"),
+                Curve(ERROR, WAVE, label="wave, boundary elements"),
             ),
         ),
     ),

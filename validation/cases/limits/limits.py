@@ -154,9 +154,9 @@ def said(number: Number) -> str:
 
 def panel(limit: Limit) -> Panel:
     curves = (
-        Curve(limit.name, "threshold", "other", "predicted threshold"),
+        Curve(limit.name, "threshold", "dashed", "predicted threshold"),
         Curve(limit.name, "factor", "thick", "its factor, at the tolerance"),
-        Curve(limit.name, "error", label="error, no message"),
+        Curve(limit.name, "error", "marks", "error, no message"),
         Curve(limit.name, "message", "open marks", "warning or error message"),
         Curve(limit.name, "no answer", "crosses", "no answer"),
     )
@@ -171,7 +171,7 @@ ALL = (
     "line, within the factor of the predicted threshold. Open: a message of the software; crosses: no answer. Marks "
     "below: an error of a hundredth of the tolerance or less."
 )
-figure = partial(Chart, claims=(0, 1), columns=4, width=13.0)
+figure = partial(Chart, claims=(0, 1))
 STUDY = Study(
     title="Where each method fails, and whether the software warns",
     method=(
@@ -195,8 +195,8 @@ STUDY = Study(
         ),
     ),
     charts=(
-        figure("limits", "Springs and time stepping." + ALL, tuple(map(panel, SPRINGS)), height=9.6),
-        figure("limits-bem", "Boundary elements." + ALL, tuple(map(panel, HALF_SPACE)), height=6.6),
+        figure("limits", "Springs and time stepping." + ALL, tuple(map(panel, SPRINGS))),
+        figure("limits-bem", "Boundary elements." + ALL, tuple(map(panel, HALF_SPACE))),
     ),
     tables=tables,
     printed=(SUMMARY,),

@@ -127,7 +127,7 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart("bandwidth", claims=(0,), columns=3, sharey=True, height=3.8).of(
+        Chart("bandwidth", claims=(0,)).of(
             "Relative deviation of the stiffness, MDR over boundary elements, at each bandwidth. Bars: 95 % of sample "
             "and grid. Dotted: springs along a line over springs over an area, without elastic coupling, where waves "
             "that the band lacks are low beside the depth of the contact.",
@@ -135,7 +135,7 @@ STUDY = Study(
                 at_bandwidth(RATIO, OVER, bars=True), at_bandwidth(RATIO, AREA, "dotted", "_")
             ),
         ),
-        Chart("bandwidth-deviation", claims=(0,), columns=3, sharey=True, height=3.8).of(
+        Chart("bandwidth-deviation", claims=(0,)).of(
             "The relative deviations. Symbols: boundary elements; lines: MDR. Bars: 95 % of sample and grid.",
             Panel(FORCE, "relative deviation", facet=H, ylim=(0.1, 0.4)).of(
                 at_bandwidth(DEVIATION, BEM, "marks", bars=True), at_bandwidth(DEVIATION, MDR, "lines", "_")

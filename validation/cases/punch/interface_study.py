@@ -64,8 +64,8 @@ of_interface = partial(
 MANY = 3
 """Sizes of the face that show whether it matters."""
 FIRST = {ROLL_OFF: "first", "H": "first"}
-LINES = {FITTED: "exact", UNFITTED: "dashed", BARBER: "guide"}
-STYLES = {EDGELESS: "crosses", ON_PUNCH: "bem", SERIES: "bem line", MDR: "mdr line"}
+LINES = {FITTED: "", UNFITTED: "dashed", BARBER: ""}
+STYLES = {EDGELESS: "marks", ON_PUNCH: "marks", SERIES: "dashed", MDR: ""}
 STUDY = Study(
     title="The stiffness of a rough interface without edges, and of the same roughness under a punch",
     method=(
@@ -96,7 +96,7 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart("interface", columns=2, height=7.5, claims=(0, 1)).of(
+        Chart("interface", claims=(0, 1)).of(
             "(a) Stiffness K of the interface times h over the load, level where K is proportional to the load. "
             "Symbols: periodic boundary elements; lines: Persson's theory of the first face; level line: K = "
             "p / (0.48 h), the fit for punches; dotted: the least that is possible, p over the largest height "
@@ -104,7 +104,7 @@ STUDY = Study(
             "Contact fraction, (d) mean gap over h. Bars: 95 % of sample and grid.",
             Panel(CONTACT, SCALED, title="interface", log="xy", lines=(1 / INTERFACE,)).of(
                 Curve(SCALED, BEM, "marks", by=(ROLL_OFF, "H"), bars=True, beside=1.06),
-                *(Curve(SCALED, model, style, model, of=FIRST) for model, style in LINES.items()),
+                *(Curve(SCALED, model, style, of=FIRST) for model, style in LINES.items()),
             ),
             Panel(CONTACT, SCALED_PUNCH, title="punch", log="xy").of(*by_model(SCALED_PUNCH, STYLES, bars=True)),
             Panel(CONTACT, FRACTION, log="xy").of(*by_model(FRACTION, STYLES, bars=True)),

@@ -157,7 +157,7 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart("across", claims=(1, 2), columns=3, height=10.5).of(
+        Chart("across", claims=(1, 2)).of(
             "First wheel, at the level of ISO 3095:2013. A3: lines are linear theory of the ellipse from ridges, dark, "
             "to isotropic ground, light; points are boundary elements, 95 %; crosses are the table of CNOSSOS-EU, an "
             "overlay. One line by alpha: over boundary elements, 95 %. Others: A3 of a filter over that of boundary "
@@ -167,13 +167,12 @@ STUDY = Study(
                 xlim=(8, 130),
                 ylim=(-22, 1),
                 downward=True,
-                legend="lower left",
             ).of(
                 Curve(A3, LINEAR, "lines", "_", by=(GROUND,), of=OF_FIRST),
                 Curve(A3, BEM, "marks", "_", by=(GROUND,), of=OF_FIRST, bars=True, beside=1.0),
                 Curve(A3, across.TABLE, "crosses", "CNOSSOS-EU", of={WHEEL: "first"}),
             ),
-            Panel("alpha", across.OFF, title="one line", shade=(-1, 1), ylim=(-1.2, 9), legend="upper left").of(
+            Panel("alpha", across.OFF, title="one line", shade=(-1, 1), ylim=(-1.2, 9)).of(
                 Curve(across.OFF, across.WAYS, "lines", by=("model",), of={WHEEL: "first"}, band=True),
             ),
             Panel(

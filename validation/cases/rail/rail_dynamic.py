@@ -216,14 +216,12 @@ STUDY = Study(
             "(a) In motion over at constant load, 95 %, a curve for each level; shaded: within 1 dB. (b) The same from "
             "the force over the linear dynamic stiffness. (c) Time without contact, 95 %, by the damping ratio.",
             *(
-                Panel(FREQUENCY, f"{quantity} [dB]", shade=(-1, 1), ylim=(-10, 18), legend="upper left").of(
+                Panel(FREQUENCY, f"{quantity} [dB]", shade=(-1, 1), ylim=(-10, 18)).of(
                     Curve(quantity, BEM, by=(OFFSET,), bars=True)
                 )
                 for quantity in (MOVING, INFERRED)
             ),
-            Panel(OFFSET, f"{AIRBORNE} [%]", log="", ticked=True, legend="upper left").of(
-                Curve(AIRBORNE, BEM, by=(DAMPING,), bars=True)
-            ),
+            Panel(OFFSET, f"{AIRBORNE} [%]", log="", ticked=True).of(Curve(AIRBORNE, BEM, by=(DAMPING,), bars=True)),
         ),
     ),
     matrices=(Matrix(name="rms over bands", quantity="", rows=("quantity", "model"), columns=OFFSET),),

@@ -114,21 +114,21 @@ STUDY = Study(
     ),
     series=series,
     charts=(
-        Chart("rail_sound", claims=(), height=5.0).of(
+        Chart("rail_sound", claims=()).of(
             "(a) The contact force less its mean over the first 20 ms, model by model, each 10 kN below the one "
             "before. (b) Its levels in one-third octaves. Dashed: the ends of the band in which the rail is rough "
             "along the track, {c.band[0]:.0f} and {c.band[1]:.0f} Hz; dotted: the wave as long as the contact, "
             "{c.of_contact:.0f} Hz. What sounds below the band are oblique waves, which a profile with Geike's "
             "spectrum has not.",
-            Panel(TIME, "F, shifted [N]", log="", ylim=(-6e4, 1e4), legend="lower left").of(
+            Panel(TIME, "F, shifted [N]", log="", ylim=(-4e4, 1e4)).of(
                 Curve(FORCE, style="lines", by=("model",), down=1e4)
             ),
-            Panel(FREQUENCY, "level [dB re 1 N]", decades=45.0, legend="lower left").of(
-                Curve(IN_BANDS, BEM, "thick", by=("model",)),
-                Curve(IN_BANDS, LINEAR, "crosses", by=("model",)),
-                Curve(IN_BANDS, SPRINGS_THAT_READ, "mdr", by=("model",)),
-                Curve(IN_BANDS, GEIKE, "other", by=("model",)),
-                Curve(PLACES, ENDS, "dashed", "_", upright=True),
+            Panel(FREQUENCY, "level [dB re 1 N]", decades=45.0).of(
+                Curve(IN_BANDS, BEM, "thick"),
+                Curve(IN_BANDS, LINEAR, "marks"),
+                Curve(IN_BANDS, SPRINGS_THAT_READ, "marks"),
+                Curve(IN_BANDS, GEIKE, "lines"),
+                Curve(PLACES, ENDS, "dashed guide", "_", upright=True),
                 Curve(PLACES, OF_CONTACT, "guide", "_", upright=True),
             ),
         ),

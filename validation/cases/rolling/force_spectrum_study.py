@@ -101,35 +101,35 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart("rolling-line", claims=(0,), width=6.4).of(
-            "Fig. 14.3, H = {c.hurst:g}: spectrum of the normal force over wavenumber. Line: (14.12); dashed: its mean "
-            "(14.14); dots: one-sided springs at h/d = {c.heights[0]:g}; thick grey: linear theory in 3D.",
-            Panel(Q, "C_F / (F_Hertz² a (h/d)²)", log="xy", decades=7.8, legend="lower left").of(
-                Curve(SPECTRUM, LINEAR_3D, "thick", LINEAR_3D),
-                Curve(SPECTRUM, SPRINGS, "dots", SPRINGS),
-                Curve(SPECTRUM, LINEAR_1D, "exact", LINEAR_1D),
-                Curve(SPECTRUM, MEAN_1D, "other", MEAN_1D),
+        Chart("rolling-line", claims=(0,)).of(
+            "Fig. 14.3, H = {c.hurst:g}: spectrum of the normal force. Dashed: (14.12); dotted: its mean "
+            "(14.14); dots: one-sided springs at h/d = {c.heights[0]:g}; thick: linear theory in 3D.",
+            Panel(Q, "C_F / (F_Hertz² a (h/d)²)", log="xy", decades=7.8).of(
+                Curve(SPECTRUM, LINEAR_3D, "thick"),
+                Curve(SPECTRUM, SPRINGS, "dots"),
+                Curve(SPECTRUM, LINEAR_1D, "lines"),
+                Curve(SPECTRUM, MEAN_1D, "lines"),
             ),
         ),
-        Chart("rolling", claims=(1,), columns=3, sharey=True, width=9.0, height=5.8).of(
+        Chart("rolling", claims=(1,)).of(
             "Level of the force in one-third octaves, over (h/d)² and the square of Hertz's force. Circles: boundary "
             "elements, 95 % of sample and grid; squares: one-sided springs, Geike's spectrum; solid: linear theory in "
             "3D; dashed: (14.12), which is zero below the band, left of the vertical line.",
             Panel(Q, "one-third octave level [dB]", facet=HEIGHT, ylim=(-66.0, -2.0), at=(1.0,)).of(
-                Curve(SHOWN, LINEAR_3D, "exact", LINEAR_3D),
-                Curve(SHOWN, LINEAR_1D, "other", LINEAR_1D),
-                Curve(SHOWN, SPRINGS, "mdr", SPRINGS),
-                Curve(SHOWN, BEM, "bem", BEM, bars=True),
+                Curve(SHOWN, LINEAR_3D, "lines"),
+                Curve(SHOWN, LINEAR_1D, "lines"),
+                Curve(SHOWN, SPRINGS, "marks"),
+                Curve(SHOWN, BEM, "marks", bars=True),
             ),
         ),
-        Chart("rolling-input", claims=(2,), columns=3, sharey=True, width=9.0, height=5.6).of(
+        Chart("rolling-input", claims=(2,)).of(
             "Level of (14.12) with each input spectrum over that of linear theory in 3D, in one-third octaves; shaded: "
             "within 1 dB.",
             IN_BANDS("(14.12) over linear theory in 3D [dB]", facet=SURFACE, ylim=(-11.0, 11.0)).of(
                 Curve(INPUT_LEVEL, by=("model",))
             ),
         ),
-        Chart("rolling-backwards", claims=(4,), columns=3, sharey=True, width=9.0, height=5.0).of(
+        Chart("rolling-backwards", claims=(4,)).of(
             "Mean square height of the waves in one-third octaves without a zero of sin(q a), found from the force of "
             "boundary elements over the true one, by filter; 95 % of sample and grid. Shaded: within 1 dB.",
             IN_BANDS("roughness found over true [dB]", facet=HEIGHT, ylim=(-14.0, 8.0)).of(

@@ -197,14 +197,14 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart("reduced_models-map", claims=(0, 1), height=4.6).of(
+        Chart("reduced_models-map", claims=(0, 1)).of(
             "Root mean square over octaves of the level of the force over boundary elements, over h' a/d. Points: "
             "strips of all spectra, with 95 % intervals; lines: the largest up to there. Shaded: within 1 dB.",
             Panel(SLOPE, "rms over octaves [dB]", log="xy", shade=(1e-9, 1), ylim=(0.01, 20)).of(
                 BY_MODEL(OFF, SHOWN, "marks", bars=True), BY_MODEL(LARGEST, SHOWN, "lines", "_")
             ),
         ),
-        Chart("reduced_models", claims=(2,), height=4.6).of(
+        Chart("reduced_models", claims=(2,)).of(
             "Share of contact kept on boundary elements, by Hurst exponent and q a of the roughness, 95 %: (a) over "
             "h/d; (b) over h' a/d, where curves that lie on each other show that it decides. (c) Root mean square over "
             "octaves at the largest h' a/d, over counted work; line: 1 dB.",

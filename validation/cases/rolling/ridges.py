@@ -176,9 +176,9 @@ STUDY = Study(
             "(a) Response of the force to ridges, finest grids. Line: (14.11); circles: boundary elements; squares: "
             f"one-sided springs. (b) Errors over the envelope; dotted: an edge {EDGE:g} of a cell out of place.",
             Panel(Q, f"{RESPONSE}, over 2 E* a", title="amplitude and sign", log="", ylim=(-1.2, 1.6)).of(
-                Curve(RESPONSE, EXACT, "exact", by=("model",)),
-                Curve(RESPONSE, BEM, "bem", "boundary elements", of=FINEST, apart=0.03),
-                Curve(RESPONSE, SPRINGS, "mdr", "springs", of=FINEST, apart=0.03),
+                Curve(RESPONSE, EXACT),
+                Curve(RESPONSE, BEM, "marks", of=FINEST, apart=0.03),
+                Curve(RESPONSE, SPRINGS, "around", "springs", of=FINEST, apart=0.03),
             ),
             Panel(Q, ERROR, title="errors", log="xy", ylim=(1e-7, 1)).of(
                 Curve(ERROR, BEM, "marks", by=BY_CELLS, apart=0.03),

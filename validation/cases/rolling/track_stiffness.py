@@ -186,7 +186,7 @@ def notes(result: Outcomes) -> list[str]:
 
 def _over_force(quantity: str) -> Panel:
     return Panel(FORCE, quantity, log="xy" if quantity == DEVIATION else "x").of(
-        Curve(SHOWN[quantity], WHEEL, "bem", WHEEL, bars=True), Curve(SHOWN[quantity], SPRINGS, "mdr", SPRINGS)
+        Curve(SHOWN[quantity], WHEEL, bars=True), Curve(SHOWN[quantity], SPRINGS)
     )
 
 
@@ -208,7 +208,7 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart("track_stiffness", width=8.0, height=3.8).of(
+        Chart("track_stiffness").of(
             "(a) Mean stiffness over 2 E* a along a track, over Fbar = F / (E* h L); (b) its relative deviation. "
             "Circles: boundary elements, 95 % of sample and grid; squares: springs.",
             _over_force(MEAN),

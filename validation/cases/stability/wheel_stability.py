@@ -23,7 +23,7 @@ from validation.simulation.free_vibration import LIFT_OFF, SCHEMES, TENTHS, WHEE
 from validation.simulation.spring_tracks import FINE, STRIDES, RoughTrack
 
 EULER, SYMPLECTIC, VERLET, KUTTA = "explicit Euler", "symplectic Euler", "velocity Verlet", "Runge-Kutta"
-STYLES = {EULER: "mdr", SYMPLECTIC: "other", VERLET: "bem", KUTTA: "crosses"}
+SCHEMES_SHOWN = (EULER, SYMPLECTIC, VERLET, KUTTA)
 COMPARED = (VERLET, EULER)
 """Schemes of the long runs: the first should hold its energy, the second should not."""
 QUARTER = STRIDES.index(25)
@@ -169,16 +169,16 @@ def refused(result: Outcomes) -> tuple[Table]:
 
 
 def of_all_schemes(quantity: str) -> tuple[Curve, ...]:
-    """Theory, and each scheme in its own style."""
-    theory = Curve(quantity, tuple(f"theory of {name}" for name in STYLES), "exact", "_", by=("model",))
-    return (theory, *(Curve(quantity, name, style, name) for name, style in STYLES.items()))
+    """Theory, and each scheme."""
+    theory = Curve(quantity, tuple(f"theory of {name}" for name in SCHEMES_SHOWN), "", "_", by=("model",))
+    return theory, Curve(quantity, SCHEMES_SHOWN, "marks", by=("model",))
 
 
 def printed(number: Number) -> str:
     return f"{number.value:.2g}{number.behind}"
 
 
-LOG = partial(Panel, log="xy", legend="lower right")
+LOG = partial(Panel, log="xy")
 OF_EACH, OF_HEIGHTS = partial(Curve, LONG, by=(RELEASE,)), partial(Curve, OCTAVE + " [dB]", by=(HEIGHT,))
 PANELS = (
     LOG(OMEGA_DT, "relative error", of_all_schemes(PERIOD), "period, linear"),
@@ -191,12 +191,11 @@ PANELS = (
         xlim=(0.4, 3.3),
         ylim=(0.2, 10),
         at=(2.0, math.sqrt(8)),
-        legend="upper left",
     ).of(*of_all_schemes(STEP)),
-    Panel("steps", "|change of energy|", title="very long runs", log="y", ylim=(1e-15, 1e4), legend="center right").of(
-        Curve(LONG, THEORY, "thick", THEORY), OF_EACH(VERLET), OF_EACH(EULER, "open", "_")
+    Panel("steps", "|change of energy|", title="very long runs", log="y", ylim=(1e-15, 1e4)).of(
+        Curve(LONG, THEORY, "thick"), OF_EACH(VERLET), OF_EACH(EULER, "open", "_")
     ),
-    Panel(WIDTH, "error [dB]", title="last one-third octave", at=(math.pi / 2, math.pi), legend="upper left").of(
+    Panel(WIDTH, "error [dB]", title="last one-third octave", at=(math.pi / 2, math.pi)).of(
         OF_HEIGHTS("springs"), OF_HEIGHTS(THEORY, "dotted", "_")
     ),
 )
@@ -220,11 +219,11 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart("wheel_stability", claims=(0, 1), columns=3, width=12.5, height=6.6).of(
+        Chart("wheel_stability", claims=(0, 1)).of(
             "Free vibration on a linear contact; thin lines: theory. (a) Error of the period, each scheme up to its "
             "limit. (b) Largest change of the energy within one period. (c) Growth in one step near the limits, "
             "dotted. (d) Change of the energy on a Hertz contact over {c.long_steps} steps: full, velocity Verlet; "
-            "dotted, explicit Euler; grey: linear theory. (e) Error of the last one-third octave by the spacing of "
+            "dotted, explicit Euler; thick: linear theory. (e) Error of the last one-third octave by the spacing of "
             "springs; upright: a quarter of the shortest wave, and the largest spacing that represents it; dotted: "
             "linear theory.",
             *PANELS,

@@ -15,36 +15,36 @@ from validation.cases.wheel.features import DENSITY, FIRST, FOURTH, OMEGA, PLATE
 from validation.selection import model_needed
 from validation.simulation.wheel_on_springs import WAVES_APART
 
-BY_DISTANCE = Panel(OMEGA, DENSITY, log="xy", legend="lower left").of(
+BY_DISTANCE = Panel(OMEGA, DENSITY, log="xy").of(
     Curve(distance.SPECTRA, "spectrum", by=(distance.DISTANCE,)),
     Curve(distance.SPECTRA, "break", "open marks", "_", by=(distance.DISTANCE,)),
 )
-BREAKS = Panel(distance.DURATION, distance.BREAK_AT, log="xy", legend="upper left").of(
+BREAKS = Panel(distance.DURATION, distance.BREAK_AT, log="xy").of(
     *by_model(
         distance.BREAK_AT,
-        {"found": "bem", "by the jumps of the records": "crosses", "T^(1/(2H+1))": "exact"},
+        {"found": "marks", "by the jumps of the records": "crosses", "T^(1/(2H+1))": "black"},
         bars=True,
     )
 )
-RECORDS = Panel(OMEGA, DENSITY, log="xy", decades=11.0, legend="lower left").of(
+RECORDS = Panel(OMEGA, DENSITY, log="xy", decades=11.0).of(
     *by_model(
         distance.BY_KIND,
         {
-            f"{SPRINGS}, {BOOK}": "mdr line",
-            f"{LINEAR}, {BOOK}": "guide",
-            f"{SPRINGS}, {CUT}": "other",
-            f"{SPRINGS}, {HANN}": "exact",
+            f"{SPRINGS}, {BOOK}": "lines",
+            f"{LINEAR}, {BOOK}": "lines",
+            f"{SPRINGS}, {CUT}": "lines",
+            f"{SPRINGS}, {HANN}": "lines",
             f"{SPRINGS}, {PERIODIC}": "thick",
         },
     )
 )
 
 
-LOW = Panel(OMEGA, DENSITY, log="xy", legend="lower right").of(
+LOW = Panel(OMEGA, DENSITY, log="xy").of(
     Curve(distance.UP_TO_JUMP, SPRINGS, by=(distance.H_OVER_D,), of={distance.DAMPING: "first"}),
-    Curve(distance.UP_TO_JUMP, SECOND_ORDER, "exact", "_", by=(distance.H_OVER_D,), of={distance.DAMPING: "first"}),
+    Curve(distance.UP_TO_JUMP, SECOND_ORDER, "dashed", "_", by=(distance.H_OVER_D,), of={distance.DAMPING: "first"}),
 )
-SHORT = Panel(OMEGA, DENSITY, log="y").of(*by_model(distance.SHORT_WAVES, {SECOND_ORDER: "exact", SPRINGS: "mdr"}))
+SHORT = Panel(OMEGA, DENSITY, log="y").of(*by_model(distance.SHORT_WAVES, {SECOND_ORDER: "", SPRINGS: "marks"}))
 
 
 def notes(result: Outcomes) -> Sequence[str]:
@@ -108,7 +108,7 @@ STUDY = Study(
             BY_DISTANCE,
             BREAKS,
         ),
-        Chart("wheel_distance-steady", claims=(0, 2), width=13.5, height=4.2).of(
+        Chart("wheel_distance-steady", claims=(0, 2)).of(
             "(a) From rest as in the book, and in a steady state damped by {c.damping:.0%}, with and without a window. "
             "(b) Regions 1 and 2 of the periodic motion, line by line, dark to light with the height; black: second "
             "order in closed form. (c) The same of region 2 over short waves, and the zeros of cos²(q a).",

@@ -165,15 +165,17 @@ def notes(result: Outcomes) -> Sequence[str]:
     )
 
 
-MODEL_STYLES = {wheel.LINEAR_3D: "thick", wheel.GEIKE: "mdr"}
+MODEL_STYLES = {wheel.LINEAR_3D: "lines", wheel.GEIKE: "marks"}
 MARKED = Curve(MARKS, style="guide", upright=True)
-BANDS = Panel(OMEGA, LEVELS, decades=75.0).of(*by_model(LEVELS, {**MODEL_STYLES, wheel.BEM: "bem"}, bars=True), MARKED)
+BANDS = Panel(OMEGA, LEVELS, decades=75.0).of(
+    *by_model(LEVELS, {**MODEL_STYLES, wheel.BEM: "marks"}, bars=True), MARKED
+)
 DIFFERENCES = Panel(OMEGA, "over boundary elements [dB]", ylim=(-12.0, 12.0), lines=(-3.0, -1.0, 1.0, 3.0)).of(
     Curve(OVER, wheel.BEM, "guide", "_", band=True), *by_model(OVER, MODEL_STYLES), MARKED
 )
 ZEROS = Panel(ZERO, "maxima over zeros [dB]", log="", lines=(0.0,)).of(
-    *by_model(CONTRAST, {wheel.LINEAR_1D: "exact", wheel.GEIKE: "mdr", wheel.BEM: "bem"}, bars=True),
-    Curve(CONTRAST, wheel.LINEAR_3D, "crosses", f"{wheel.LINEAR_3D}, contrast", bars=True),
+    *by_model(CONTRAST, {wheel.LINEAR_1D: "lines", wheel.GEIKE: "marks", wheel.BEM: "marks"}, bars=True),
+    Curve(CONTRAST, wheel.LINEAR_3D, "marks", bars=True),
 )
 STUDY = Study(
     title="The wheel in three dimensions: boundary elements inside the time loop",
@@ -211,7 +213,7 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart("wheel_3d", claims=(0, 1), width=13.5).of(
+        Chart("wheel_3d", claims=(0, 1)).of(
             "(a) Acceleration of the wheel in one-third octaves, 95 % of sample, grid and solver. (b) The same over "
             "boundary elements, their interval shaded; lines: ± 1 and ± 3 dB. Region 2 ends at q_min v₀. (c) The "
             "maxima of region 3 over each zero of sin²(q a), 95 %.",

@@ -55,26 +55,24 @@ def is_of_the_book(scene: WheelScene) -> bool:
     return all(getattr(scene, key) == getattr(TABLE, key) for key in ("name", "radius", "mass", "material", "rms"))
 
 
-WHOLE = Panel(OMEGA, DENSITY, log="xy", decades=13.0, legend="upper right").of(
+WHOLE = Panel(OMEGA, DENSITY, log="xy", decades=13.0).of(
     *by_model(
         spectrum.SPECTRUM,
         {
-            spectrum.LINEAR: "thick",
-            spectrum.LOWEST: "dotted",
-            spectrum.HIGHEST: "dotted",
-            spectrum.NO_WINDOW: "mdr line",
-            spectrum.HANN: "exact",
-            spectrum.PREDICTED_FLOOR: "bem line",
+            spectrum.LINEAR: "lines",
+            spectrum.LOWEST: "guide",
+            spectrum.HIGHEST: "guide",
+            spectrum.NO_WINDOW: "lines",
+            spectrum.HANN: "lines",
+            spectrum.PREDICTED_FLOOR: "dashed",
         },
     ),
     Curve(spectrum.MARKS, style="guide", upright=True),
 )
-STYLES = {spectrum.LINEAR: "thick", spectrum.NO_WINDOW: "mdr line", spectrum.HANN: "exact"}
-THIRD = Panel(OMEGA, spectrum.OSCILLATION, log="y", ylim=(0.01, 30.0), legend="upper left").of(
-    *by_model(spectrum.OSCILLATION, STYLES)
-)
-BASE, ONE_CHANGED = Curve(spectrum.SPECTRUM, spectrum.NO_WINDOW, "thick", "_"), Curve(spectrum.VARIED, by=("scene",))
-VARIED = Panel(OMEGA, DENSITY, facet=spectrum.PARAMETER, log="xy", legend="lower left").of(BASE, ONE_CHANGED)
+STYLES = {spectrum.LINEAR: "lines", spectrum.NO_WINDOW: "lines", spectrum.HANN: "lines"}
+THIRD = Panel(OMEGA, spectrum.OSCILLATION, log="y", ylim=(0.01, 30.0)).of(*by_model(spectrum.OSCILLATION, STYLES))
+BASE, ONE_CHANGED = Curve(spectrum.SPECTRUM, spectrum.NO_WINDOW, "lines", "_"), Curve(spectrum.VARIED, by=("scene",))
+VARIED = Panel(OMEGA, DENSITY, facet=spectrum.PARAMETER, log="xy").of(BASE, ONE_CHANGED)
 
 
 def named_by_the_book(changed: object) -> bool:
@@ -119,15 +117,15 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart("wheel", claims=(0, 1), height=4.2).of(
+        Chart("wheel", claims=(0, 1)).of(
             "Fig. 14.4. (a) Spectrum of the acceleration, (14.17), mean of {c.realisations} wheels, with the tenth and "
             "the ninetieth percentile. Vertical lines: ω_eigen, q_min v₀, predicted break, q_max v₀. (b) Region 3 over "
             "ω^(-2H-3).",
             WHOLE,
             THIRD,
         ),
-        Chart("wheel-parameters", columns=3, width=11.0, height=6.0).of(
-            "One parameter at a time, mean of {c.varied} wheels each, without window; thick grey: {c.scene.name}.",
+        Chart("wheel-parameters").of(
+            "One parameter at a time, mean of {c.varied} wheels each, without window; thick: {c.scene.name}.",
             VARIED,
         ),
     ),

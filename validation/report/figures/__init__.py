@@ -15,7 +15,11 @@ from validation.report.contents import CASES, TIMED
 from validation.report.drawing import draw
 from validation.report.figures import precision, race
 
-OWN: Mapping[str, Callable[..., Figure]] = {"precision": precision.draw, "race": race.draw}
+OWN: Mapping[str, Callable[..., Figure]] = {
+    "precision": precision.draw,
+    "precision-others": precision.draw_others,
+    "race": race.draw,
+}
 
 
 def drawing(name: str) -> Callable[[Evidence], Figure]:

@@ -8,13 +8,14 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator
 
 from validation.analysis.evidence import Table
-from validation.report.style import Style, panels
+from validation.report.curve_names import name_curves
+from validation.report.style import BARS, BLUE, GREEN, PURPLE, SKY, Style, panels
 
 MARKS: dict[str, Style] = {
-    "bem3d": {"color": "#0072B2", "marker": "o"},
-    "bem3d, Polonsky-Keer": {"color": "#56B4E9", "marker": "D", "markerfacecolor": "none"},
-    "tamaas": {"color": "#D55E00", "marker": "s", "markerfacecolor": "none"},
-    "ContactMechanics": {"color": "#009E73", "marker": "^"},
+    "bem3d": {"color": BLUE, "marker": "o"},
+    "bem3d, Polonsky-Keer": {"color": SKY, "marker": "D", "markerfacecolor": "none"},
+    "tamaas": {"color": PURPLE, "marker": "s", "markerfacecolor": "none"},
+    "ContactMechanics": {"color": GREEN, "marker": "^"},
 }
 OTHER: Style = {"color": "#777777", "markerfacecolor": "none"}
 OTHERS = "vP*Xpd"
@@ -33,7 +34,7 @@ def styles_of(names: Sequence[str]) -> dict[str, Style]:
 def draw(heats: Table) -> Figure:
     """Times, their ratios to ours, and how they grow."""
     problems, names = (list(dict.fromkeys(heats[name].tolist())) for name in ("problem", "solver"))
-    figure, (time, ratio, growth) = panels(1, 3, width=14.0, height=1.4 + 0.3 * len(problems))
+    figure, (time, ratio, growth) = panels(1, 3, height=1.6 + 0.22 * len(problems))
     ratio.sharey(time)
     ratio.tick_params(labelleft=False)
     ours = heats.where(solver="bem3d")
@@ -45,10 +46,10 @@ def draw(heats: Table) -> Figure:
         place = np.array([problems.index(problem) for problem in rows["problem"]]) + shift
         bars = np.abs(np.array([rows["fastest [s]"], rows["slowest [s]"]]) - rows["median [s]"])
         # one that finishes nowhere is in the table alone
-        style: Style = {**styles[name], "label": name if place.size else "_"}
-        time.errorbar(rows["median [s]"], place, xerr=bars, **style)
+        style: Style = {"markersize": 4, **styles[name], "label": name if place.size else "_"}
+        time.errorbar(rows["median [s]"], place, xerr=bars, **style, **BARS)
         if name != "bem3d" and place.size:
-            ratio.errorbar(rows["median [s]"] / unit, place, xerr=bars / unit, **style)
+            ratio.errorbar(rows["median [s]"] / unit, place, xerr=bars / unit, **style, **BARS)
     ratio.axvline(1.0, color="#000000", linewidth=1.0)
     time.set(xscale="log", xlabel="time to the residual [s]")
     ratio.set(xscale="log", xlabel="time / median time of bem3d")
@@ -59,7 +60,7 @@ def draw(heats: Table) -> Figure:
     _draw_growth(growth, heats, styles)
     time.set_yticks(range(len(problems)), problems)
     time.invert_yaxis()
-    figure.legend(*time.get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    name_curves(figure, [time], 1)
     return figure
 
 
