@@ -10,7 +10,9 @@ from tests.report.test_claims import claim, section_of
 from tests.report.test_printed import html_of
 from validation.analysis.evidence import Table, Verdict, VerdictCell, Whose
 from validation.benchmarks.work_precision.faster import FASTER
+from validation.cases.limits.limits import SUMMARY
 from validation.cases.rail.across_study import LOUDER
+from validation.report.answers.failures import failures
 from validation.report.answers.front_tables import OF_A3, WORST, rail_filters, right_filters, times_faster_said
 from validation.report.chapter import BOOK_FIGURES, book_figures
 from validation.report.contents import CASES, TIMED
@@ -86,3 +88,12 @@ def test_a_filter_is_right_where_it_agrees_over_all_grounds():
     # rows by their names, of two tables in different order
     assert table.columns["rms force over isotropic ground [dB(A)]"] == ["3", "4"]
     assert table.name.endswith(": a wheel")
+
+
+def test_boundary_elements_fail_where_their_limits_say():
+    limits = ["springs: the last asperity", "boundary elements: edge of the grid", "boundary elements, rolling: strip"]
+    where = ["springs in contact < 8: so many", "side / 2 a < 1: side = 2 a", "width / 2 a < 1: as: wide"]
+    section = section_of(claim([Verdict.AGREE]))
+    table = Table(SUMMARY, {"limit": limits, "fails where": where})
+    found = failures([replace(section, name="limits", evidence=replace(section.evidence, tables=(table,)))])
+    assert found == [("edge of the grid", "side / 2 a < 1"), ("rolling: strip", "width / 2 a < 1")]

@@ -17,6 +17,7 @@ from validation.report.style import (
     INK,
     MARKERS,
     SETTINGS,
+    Style,
     in_two_lines,
     picture,
     plain_figure,
@@ -152,7 +153,7 @@ def _numbers(axes: Axes, table: Table) -> None:
     """A row a model, or a scene."""
     names = [in_two_lines(name, NAME) for name in table["model"].tolist()]
     for i, (value, low, selected) in enumerate(zip(table["value"], table["low"], table["selected"], strict=True)):
-        style = {"color": BLUE if selected else INK, "fmt": MARKERS[i % len(MARKERS)]}
+        style: Style = {"color": BLUE if selected else INK, "fmt": MARKERS[i % len(MARKERS)]}
         half: Any = value - low if np.isfinite(low) else 0.0
         axes.errorbar(value, i, xerr=half, capsize=3 if half else 0, markersize=4, **style)
         if selected:

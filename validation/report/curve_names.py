@@ -10,7 +10,7 @@ from matplotlib.container import Container
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from validation.report.style import WIDTH
+from validation.report.style import WIDTH, Style
 
 LINE, ROW, LETTER, KEY = 9.0, 12.0, 4.2, 34.0
 """Height of a line of names, and of one of a legend, width of a letter, and of the sample before a name [points]."""
@@ -57,7 +57,7 @@ def _at_the_ends(axis: Axes, named: Mapping[str, Artist]) -> bool:
         return False
     for (name, line, end), place in zip(ends, places, strict=True):
         leader = {"arrowstyle": "-", "color": line.get_color(), "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
-        words = {"va": "center", "fontsize": 7.5, "annotation_clip": False, "arrowprops": leader}
+        words: Style = {"va": "center", "fontsize": 7.5, "annotation_clip": False, "arrowprops": leader}
         axis.annotate(name, end, (1.04, place), xycoords="axes fraction", textcoords="axes fraction", **words)
     return True
 

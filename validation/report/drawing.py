@@ -3,6 +3,7 @@
 import math
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
+from typing import Literal
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -120,9 +121,11 @@ def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidenc
     axis.set_title(textwrap.fill(f"{axis.get_title(loc='left')} {title}".strip(), 30), loc="left")
     axis.set(xlabel=panel.x, ylabel=textwrap.fill(panel.y, 30))
     axis.set(xscale="log" if "x" in panel.log else "linear", yscale="log" if "y" in panel.log else "linear")
-    for name in (name for name in "xy" if name not in panel.log):
-        axis.locator_params(axis=name, nbins=5)
-        axis.ticklabel_format(axis=name, scilimits=(-3, 5))
+    names: tuple[Literal["x", "y"], ...] = ("x", "y")
+    for name in names:
+        if name not in panel.log:
+            axis.locator_params(axis=name, nbins=5)
+            axis.ticklabel_format(axis=name, scilimits=(-3, 5))
 
 
 def _verdicts(axis: Axes, judged: Table) -> None:

@@ -6,6 +6,7 @@ from typing import Any
 
 from validation.analysis.case import Chapter, Profile
 from validation.analysis.contents import csv_name
+from validation.report.answers.failures import failures
 from validation.report.answers.first_screen import answered_questions
 from validation.report.answers.front_tables import rail_filters, right_filters, times_faster, times_faster_said
 from validation.report.chapter import ERRATA, REMARKS, book_figures, chapter_of
@@ -106,6 +107,7 @@ def pages(
         "errata": ERRATA,
         "remarks": REMARKS,
         "answers": [] if scene else answered_questions(sections),
+        "failures": [] if scene else failures(sections),
         "total": total_of(sections),
         "asked": any(section.claims for section in sections),
         "chapters": chapters,

@@ -174,6 +174,7 @@ def _ratio(mine: Point, other: Point | None) -> Interval:
     return time_over(mine, other) if other else Interval(0.0, 0.0)
 
 
+POINTS = "points"
 WITHIN, WITHOUT = "the cheapest method within a tolerance, time of one realisation", "failed or out of range"
 COLUMNS = {
     **{name: name for name in ("scene", "quantity", "unit", "method", "setting", "value", "status", "error")},
@@ -186,7 +187,7 @@ QUARTILES = ("lower quartile [s]", "median [s]", "upper quartile [s]")
 
 def tables(result: Outcomes) -> tuple[Table, ...]:
     charts = result["charts"]
-    found = table_of("points", [row for chart in charts for row in _rows(chart)])
+    found = table_of(POINTS, [row for chart in charts for row in _rows(chart)])
     lost, by = found.rows(found["status"] != FINISHED), ("scene", "method", "setting", "status")
     without = grouped(WITHOUT, lost, by, {"quantities": lambda mine: ", ".join(mine["quantity"])})
     within = table_of(WITHIN, [_within(chart) for chart in charts])

@@ -7,6 +7,7 @@ from itertools import groupby
 from validation.analysis.claims import listed
 from validation.analysis.evidence import Evidence, Number, Place, Verdict, placed
 from validation.report.answers.questions import QUESTIONS, Alternative, Printed, Question, per_cent, times
+from validation.report.answers.seconds import TIMES
 from validation.report.answers.strip import WORDS, Cell, Source, ends, span
 from validation.report.section import Section
 
@@ -73,7 +74,9 @@ def _answered(question: Question, sections: Mapping[str, Section]) -> AnsweredQu
     within = _margins(question, numbers)
     evidence = {name: one.evidence for name, one in sections.items() if one.evidence}
     offered = [(_offered(model, question, within, evidence), model) for model in question.instead]
-    cases = [(text, model.source.case if model.source else model.counted) for text, model in offered if text]
+    cases = [
+        (text, model.source.case if model.source else TIMES * bool(model.timed)) for text, model in offered if text
+    ]
     return AnsweredQuestion(
         question,
         _word(verdicts),
@@ -122,9 +125,8 @@ def _offered(model: Alternative, question: Question, within: str, evidence: Mapp
     """A model where it is enough, within its margin where that is another one, and its cost; empty where it is enough
     nowhere or was not run.
     """
-    cost = model.cost if isinstance(model.cost, str) else ""
-    if not isinstance(model.cost, str) and model.counted in evidence:
-        cost = model.cost(evidence[model.counted])
+    seconds = model.timed(evidence[TIMES]) if model.timed and TIMES in evidence else ""
+    cost = ", ".join(filter(None, (model.cost, seconds)))
     behind = f" ({cost})" if cost else ""
     if model.source is None:
         return f"{model.name}{behind}"
@@ -158,7 +160,9 @@ def _where(cells: Sequence[Cell], verdict: Verdict, over: str) -> str:
     for places in groups:
         text = span(places, over)
         word = "from" if " to " in text else "at"
-        if isinstance(places[0], str):
+        if isinstance(places[0], str) and over != REGIONS and len(places) > 2:
+            word, text = "from", f"{places[0]} to {places[-1]}"
+        elif isinstance(places[0], str):
             word = "in" if over == REGIONS else "over"
         said.append(f"{word} {text}")
     return " and ".join(said)

@@ -5,18 +5,18 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
-from validation.analysis.evidence import Evidence
 from validation.analysis.statistics import DECIBEL
 from validation.cases.punch import ensembles as punch
 from validation.cases.punch import fractal_punch_study as fig_14_1
-from validation.cases.punch import interface, work
+from validation.cases.punch import interface
 from validation.cases.rail import across, filters, rail_dynamic
 from validation.cases.rail.rolled_filters import OVER_BEM
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import reduced_models as reduced
 from validation.cases.wheel import half_space as wheel
 from validation.cases.wheel.features import LEVEL
-from validation.cases.wheel.half_space_study import APPLICATIONS, WHEEL
+from validation.cases.wheel.half_space_study import WHEEL
+from validation.report.answers.seconds import Timed, a_surface, a_track, a_wheel, an_integral
 from validation.report.answers.strip import Source
 
 CONTACT, SPRINGS, BEM = "roughness and contact", "springs, Geike's rule", "boundary elements"
@@ -42,14 +42,14 @@ def in_decibels(decibels: float) -> str:
 class Alternative:
     """What could be taken in the place of MDR; without a source it is what the others are judged by.
 
-    cost: a text, or one of the evidence of the case that counted it; by: what its margin is of, where that is not the
+    cost: in words; timed: its seconds, of the evidence of `precision`; by: what its margin is of, where that is not the
     quantity of the question.
     """
 
     name: str
-    source: Source | None
-    cost: str | Callable[[Evidence], str]
-    counted: str = ""
+    source: Source | None = None
+    cost: str = ""
+    timed: Timed | None = None
     by: str = ""
 
 
@@ -70,35 +70,8 @@ class Question:
     of_scene: tuple[str, str] | None = None
 
 
-def worked(evidence: Evidence) -> str:
-    """A contact on boundary elements, beside the springs."""
-    table = evidence.table(work.WORK)
-    applications, cells, springs = (table[name][0] for name in (work.APPLICATIONS, work.CELLS, work.SPRINGS))
-    return (
-        f"{applications:.0f} applications of the operator to {cells}² cells a surface and load; springs: one sort of "
-        f"{springs} for all loads"
-    )
-
-
-def times_springs(model: str, evidence: Evidence) -> str:
-    mine = evidence.table(reduced.WORK).where(model=model)["value"]
-    least, most = (f"{float(f'{times:.2g}'):,g}" for times in (mine.min(), mine.max()))
-    return f"{least if least == most else f'{least} to {most}'} times the counted work of springs on a line"
-
-
-def steps(evidence: Evidence) -> str:
-    table = evidence.table(WHEEL)
-    applications, cells = (table[name][0] for name in (APPLICATIONS, "cells to a contact radius"))
-    return f"{applications:.0f} applications of the operator in each time step, {cells:.0f} cells to a contact radius"
-
-
-def counted(name: str, model: str, source: Source | None = None, by: str = "") -> Alternative:
-    """With the work of a model on the strips of reduced models."""
-    return Alternative(name, source, partial(times_springs, model), "reduced_models", by)
-
-
 INTEGRAL, LINEAR_3D = "an integral over the spectrum", wheel.LINEAR_3D
-PRESSED = partial(Alternative, BEM, None, worked)
+PRESSED = Alternative(BEM, timed=a_surface)
 of_punch = partial(Source, case="fractal_punch", axis=punch.FORCE, series=("H",))
 of_mdr = partial(of_punch, model=punch.OVER, where={"H": float})
 of_rolled_off = partial(
@@ -108,7 +81,13 @@ FIT = of_punch(quantity=punch.MEAN, model=fig_14_1.FIT)
 of_rolling = partial(Source, case="rolling", axis=rolling.SLOPE)
 of_strips = partial(Source, case="reduced_models", quantity=reduced.OFF, axis=rolling.SLOPE, series=("H", rolling.Q))
 of_rail = partial(
-    Source, case="across", quantity=OVER_BEM, where={filters.OFFSET: 0.0}, axis=across.GROUND, series=(across.WHEEL,)
+    Source,
+    case="across",
+    quantity=OVER_BEM,
+    where={filters.OFFSET: 0.0},
+    axis=across.GROUND,
+    printed="what lies across",
+    series=(across.WHEEL,),
 )
 of_wheel = partial(Source, case="wheel_3d", quantity=LEVEL, axis="range", printed="the spectrum")
 MOVING = Source(
@@ -118,42 +97,43 @@ MOVING = Source(
     axis=filters.OFFSET,
 )
 GEIKE, LINEAR = (model + rolling.OVER for model in (rolling.SPRINGS, rolling.LINEAR_3D))
-JUDGE = counted(BEM, reduced.JUDGE)
+JUDGE = Alternative(BEM, timed=a_track(12))
+IN_3D = partial(Alternative, LINEAR_3D, cost=INTEGRAL, timed=an_integral)
 QUESTIONS = (
     Question(
         "mean-stiffness",
         "Stiffness of a rough punch, its mean over surfaces",
         of_mdr(quantity=punch.MEAN),
         per_cent,
-        (Alternative("the fit 1/kbar = 1/1.1523 + 0.48/Fbar", FIT, "a formula"), PRESSED("fractal_punch")),
+        (Alternative("the fit 1/kbar = 1/1.1523 + 0.48/Fbar", FIT, "a formula"), PRESSED),
     ),
     Question(
         "scatter",
         "Scatter of that stiffness over surfaces",
         of_mdr(quantity=punch.DEVIATION),
         per_cent,
-        (PRESSED("fractal_punch"),),
+        (PRESSED,),
     ),
     Question(
         "area-and-gap",
         "True contact area and mean gap of a rough punch",
         of_rolled_off(quantity=(interface.AREA, interface.GAP)),
         times,
-        (PRESSED("interface"),),
+        (PRESSED,),
     ),
     Question(
         "roll-off",
         "Stiffness of a rough punch with a roll-off",
         of_rolled_off(quantity=interface.STIFFNESS),
         per_cent,
-        (PRESSED("interface"),),
+        (PRESSED,),
     ),
     Question(
         "rolling-rms",
         "Rms force of a rolling wheel",
         of_rolling(quantity=rolling.RMS_FORCE, model=GEIKE),
         per_cent,
-        (Alternative(LINEAR_3D, of_rolling(quantity=rolling.RMS_FORCE, model=LINEAR), INTEGRAL), JUDGE),
+        (IN_3D(of_rolling(quantity=rolling.RMS_FORCE, model=LINEAR)), JUDGE),
     ),
     Question(
         "rolling-spectrum",
@@ -161,8 +141,8 @@ QUESTIONS = (
         of_rolling(quantity=rolling.RMS_LEVEL, model=GEIKE),
         in_decibels,
         (
-            Alternative(LINEAR_3D, of_strips(model=reduced.LINEAR), INTEGRAL),
-            counted(reduced.COARSEST, reduced.COARSEST, of_strips(model=reduced.COARSEST)),
+            IN_3D(of_strips(model=reduced.LINEAR)),
+            Alternative(reduced.COARSEST, of_strips(model=reduced.COARSEST), timed=a_track(4)),
             JUDGE,
         ),
     ),
@@ -174,7 +154,7 @@ QUESTIONS = (
         (
             Alternative(across.MODELS[0], of_rail(model=across.MODELS[0]), INTEGRAL),
             Alternative(filters.BED_WIDER, of_rail(model=filters.BED_WIDER), INTEGRAL),
-            JUDGE,
+            Alternative(BEM),
         ),
         "springs on one measured line",
     ),
@@ -184,9 +164,9 @@ QUESTIONS = (
         of_wheel(model=wheel.OVER_BEM[wheel.GEIKE]),
         in_decibels,
         (
-            Alternative(LINEAR_3D, of_wheel(model=wheel.OVER_BEM[wheel.LINEAR_3D]), INTEGRAL),
-            counted(f"on a rail, {reduced.READ} in the time loop", reduced.READ, MOVING, "rms over bands"),
-            Alternative(f"{BEM} in the time loop", None, steps, "wheel_3d"),
+            IN_3D(of_wheel(model=wheel.OVER_BEM[wheel.LINEAR_3D])),
+            Alternative(f"on a rail, {reduced.READ} in the time loop", MOVING, by="rms over bands"),
+            Alternative(f"{BEM} in the time loop", timed=a_wheel),
         ),
         of_scene=(WHEEL, rolling.SLOPE),
     ),
