@@ -66,7 +66,7 @@ def test_markers_are_apart_and_ticks_are_plain_numbers_at_the_values_or_of_few_d
     )
     assert axis.lines[0].get_markevery() == 0.1
     ticks = [[label.get_text() for label in labels()] for labels in (axis.get_xticklabels, axis.get_yticklabels)]
-    assert ticks == [["1", "2", "4"], ["0.5", "1", "2"]]
+    assert ticks == [["1", "2", "4"], ["0.3", "1", "3"]]
 
 
 def test_a_family_has_one_style_in_all_facets():

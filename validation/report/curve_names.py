@@ -56,7 +56,8 @@ def _at_the_ends(axis: Axes, named: Mapping[str, Artist]) -> bool:
     if np.abs(places - at).max() > FARTHEST * step:
         return False
     for (name, line, end), place in zip(ends, places, strict=True):
-        leader = {"arrowstyle": "-", "color": line.get_color(), "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
+        ends_at = {"relpos": (0, 0.5), "shrinkA": 0, "shrinkB": 0}
+        leader = {"arrowstyle": "-", "color": line.get_color(), "linewidth": 0.6, **ends_at}
         words: Style = {"va": "center", "fontsize": 7.5, "annotation_clip": False, "arrowprops": leader}
         axis.annotate(name, end, (1.04, place), xycoords="axes fraction", textcoords="axes fraction", **words)
     return True

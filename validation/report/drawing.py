@@ -118,8 +118,9 @@ def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidenc
     if panel.judged:
         _verdicts(axis, _chosen(evidence.table(panel.judged + JUDGED), facet))
     title = panel.title or ", ".join(_said(*f) for f in facet.items())
-    axis.set_title(textwrap.fill(f"{axis.get_title(loc='left')} {title}".strip(), 30), loc="left")
-    axis.set(xlabel=panel.x, ylabel=textwrap.fill(panel.y, 30))
+    lines = f"{axis.get_title(loc='left')} {title}".strip().split("\n")
+    axis.set_title("\n".join(textwrap.fill(line, 30) for line in lines), loc="left")
+    axis.set(xlabel=panel.x, ylabel=textwrap.fill(panel.y, 26))
     axis.set(xscale="log" if "x" in panel.log else "linear", yscale="log" if "y" in panel.log else "linear")
     names: tuple[Literal["x", "y"], ...] = ("x", "y")
     for name in names:
@@ -165,11 +166,11 @@ def _limits(axis: Axes, panel: Panel) -> None:
 
 
 def _round(low: float, high: float) -> list[float]:
-    """Powers of ten, of many some; two and five times them too, or more, where a panel would have few."""
+    """Powers of ten, of many some; three times them too, or more, where a panel would have few."""
     first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
     powers = range(first, last + 1, max(1, (last - first) // 4))
     found: list[float] = []
-    for steps in ((1.0,), (1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0)):
+    for steps in ((1.0,), (1.0, 3.0), (1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0)):
         if len(found) < FEWEST:
             found = [x for power in powers for step in steps if low <= (x := step * 10.0**power) <= high]
     return found
