@@ -86,10 +86,11 @@ def test_no_rule_is_violated(tmp_path, width):
     assert {name: violations(text, tmp_path, width) for name, text in whole().items()} == {name: {} for name in whole()}
 
 
-@pytest.mark.parametrize("width", [WIDE, NARROW])
-def test_no_rule_is_violated_by_the_reference_report(tmp_path, width):
-    found = {name: violations(text, tmp_path, width) for name, text in remade().items()}
-    assert not any(found.values()), found
+@pytest.mark.parametrize("part", [0, 1])
+def test_no_rule_is_violated_by_the_reference_report(tmp_path, part):
+    """In a narrow window, where more scrolls; half of the pages on each of two cores."""
+    found = {name: violations(text, tmp_path, NARROW) for name, text in list(remade().items())[part::2]}
+    assert found and not any(found.values()), found
 
 
 def test_what_violates_rules_is_found(tmp_path):
