@@ -12,7 +12,6 @@ from validation.analysis.claims import listed
 ROOT = Path(__file__).resolve().parents[1]
 TABLE = re.compile(r"(<!-- answers: .*? -->\n).*?(<!-- end of answers -->)", flags=re.DOTALL)
 HEAD = "\n| question | is MDR enough? | over | what else is enough |\n|---|---|---|---|\n"
-COST = re.compile(r" \([^()]*\)$")
 
 
 def with_answers(text: str, results: Mapping[str, Any]) -> str:
@@ -29,7 +28,7 @@ def cells(row: Mapping[str, Any]) -> list[str]:
         places.setdefault(word, []).append(" to ".join(dict.fromkeys((ends[0], ends[-1]))))
     measured = [word for word in ("yes", "open", "no") if word in places]
     where = "; ".join(f"{f'{word}: ' if measured[1:] else ''}{listed(places[word])}" for word in measured)
-    instead = "; ".join(COST.sub("", text) for text in row["instead"])
+    instead = "; ".join(model["model"] for model in row["instead"])
     said = [row["question"], f"**{row['answer']}.** {where}", row["number that decides"], instead]
     return [text.replace("|", r"\|") for text in said]
 

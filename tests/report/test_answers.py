@@ -128,11 +128,11 @@ def test_an_alternative_is_offered_where_its_own_numbers_agree():
 
     failing, agreeing = at((1.0, 10.0), -1.2), at((0.1, 1.0), 0.1)
     row = row_of("mean-stiffness", punch(failing, fit(0.2)), timed())
-    (formula, _), (bem, case) = row.instead
-    assert formula == "the fit 1/kbar = 1/1.1523 + 0.48/Fbar from Fbar = 0.3 to 10, within 6 % (a formula)"
-    assert (bem, case) == ("boundary elements (53 ms a surface and load, 256 a side)", "precision")
+    formula, bem = row.instead
+    assert formula[:2] == ("the fit 1/kbar = 1/1.1523 + 0.48/Fbar from Fbar = 0.3 to 10, within 6 %", "a formula")
+    assert bem == ("boundary elements", "53 ms a surface and load, 256 a side", "precision")
     for row in (mean_stiffness(failing, fit(0.2, 0.4)), mean_stiffness(failing)):
-        assert row.instead == (("boundary elements", ""),)
+        assert row.instead == (("boundary elements", "", ""),)
     assert mean_stiffness(agreeing, fit(0.2)).instead == ()
     assert len(mean_stiffness(agreeing, failing, fit(0.2)).instead) == 2
 
@@ -151,8 +151,8 @@ def test_an_alternative_on_an_axis_of_its_own_says_which():
     assert row.measured == "h' a/d = 0.37"
     on_rail, in_time = row.instead
     assert on_rail[0].endswith("in the time loop at 0 dB over ISO 3095, within 1 dB rms over bands")
-    assert on_rail[1] == "rail_dynamic"
-    assert in_time == ("boundary elements in the time loop (55 s a wheel of Fig. 14.4)", "precision")
+    assert on_rail[1:] == ("", "rail_dynamic")
+    assert in_time == ("boundary elements in the time loop", "55 s a wheel of Fig. 14.4", "precision")
 
 
 # --- what is not there ---

@@ -21,8 +21,8 @@ class AnsweredQuestion:
     """A row: the answer in a word and in a sentence; the case, if it was run; the strip, places with their words; its
     range and margin.
 
-    within: the margin itself; instead: where each model is enough and what it costs, with the case that says so, if it
-    was run.
+    within: the margin itself; instead: where each model is enough, what it costs, and the case that says so, if it was
+    run.
     """
 
     question: Question
@@ -33,7 +33,7 @@ class AnsweredQuestion:
     measured: str = ""
     margin: str = ""
     within: str = ""
-    instead: tuple[tuple[str, str], ...] = ()
+    instead: tuple[tuple[str, str, str], ...] = ()
 
 
 def answered_questions(sections: Sequence[Section]) -> list[AnsweredQuestion]:
@@ -55,7 +55,7 @@ def plain(rows: Sequence[AnsweredQuestion]) -> list[dict[str, object]]:
             "strip": [{"place": place, "enough": word} for place, word in row.strip],
             "measured": row.measured,
             "margin": row.margin,
-            "instead": [text for text, _ in row.instead],
+            "instead": [{"model": text, "cost": cost} for text, cost, _ in row.instead],
         }
         for row in rows
     ]
@@ -73,9 +73,10 @@ def _answered(question: Question, sections: Mapping[str, Section]) -> AnsweredQu
     numbers, verdicts = _numbers(cells), {cell.verdict for cell in cells}
     within = _margins(question, numbers)
     evidence = {name: one.evidence for name, one in sections.items() if one.evidence}
-    offered = [(_offered(model, question, within, evidence), model) for model in question.instead]
-    cases = [
-        (text, model.source.case if model.source else TIMES * bool(model.timed)) for text, model in offered if text
+    offered = [
+        (text, _cost(model, evidence), model.source.case if model.source else TIMES * bool(model.timed))
+        for model in question.instead
+        if (text := _offered(model, question, within, evidence))
     ]
     return AnsweredQuestion(
         question,
@@ -86,7 +87,7 @@ def _answered(question: Question, sections: Mapping[str, Section]) -> AnsweredQu
         ", ".join([*_measured(cells, source), *_of_scene(question, section)]),
         " ".join(dict.fromkeys(number.reason for number in numbers)),
         within,
-        tuple((text, case if case in evidence else "") for text, case in cases if verdicts != {Verdict.AGREE}),
+        tuple((text, cost, case * (case in evidence)) for text, cost, case in offered if verdicts != {Verdict.AGREE}),
     )
 
 
@@ -122,19 +123,21 @@ def _of_scene(question: Question, section: Section) -> list[str]:
 
 
 def _offered(model: Alternative, question: Question, within: str, evidence: Mapping[str, Evidence]) -> str:
-    """A model where it is enough, within its margin where that is another one, and its cost; empty where it is enough
-    nowhere or was not run.
+    """A model where it is enough, within its margin where that is another one; empty where it is so nowhere or was not
+    run.
     """
-    seconds = model.timed(evidence[TIMES]) if model.timed and TIMES in evidence else ""
-    cost = ", ".join(filter(None, (model.cost, seconds)))
-    behind = f" ({cost})" if cost else ""
     if model.source is None:
-        return f"{model.name}{behind}"
+        return model.name
     cells = model.source.cells(evidence[model.source.case]) if model.source.case in evidence else []
     margin = _margins(question, _numbers(cells))
     by = f", within {margin} {model.by}".rstrip() if model.by or margin != within else ""
     where = _where(cells, Verdict.AGREE, model.source.over)
-    return f"{model.name} {where}{by}{behind}" if where else ""
+    return f"{model.name} {where}{by}" if where else ""
+
+
+def _cost(model: Alternative, evidence: Mapping[str, Evidence]) -> str:
+    seconds = model.timed(evidence[TIMES]) if model.timed and TIMES in evidence else ""
+    return ", ".join(filter(None, (model.cost, seconds)))
 
 
 def _margins(question: Question, numbers: Sequence[Number]) -> str:
