@@ -18,6 +18,7 @@ from validation.cases.rolling.force_spectrum import LINEAR_3D, RMS_FORCE, RMS_LE
 from validation.cases.rolling.force_spectrum import OVER as OVER_ROLLED
 from validation.cases.wheel.features import LEVEL as LEVEL_OF_WHEEL
 from validation.cases.wheel.half_space import GEIKE, OVER_BEM
+from validation.report.answers import seconds
 from validation.report.answers.first_screen import answered_questions, from_to, plain
 from validation.report.answers.questions import in_decibels, per_cent, times
 from validation.report.answers.strip import Cell, span
@@ -26,9 +27,11 @@ from validation.report.section import Section
 
 TEN = fractal_punch_study.LEVEL.tolerance
 GRIDS = {
-    "value": [32.0, 256.0, 512.0],
-    "status": ["finished", "finished", "failed: lost"],
-    "median [s]": [4e-3, 5.3e-2, 9.0],
+    "value": [16.0, 32.0, 256.0, 512.0],
+    "status": ["finished", "finished", "finished", "failed: lost"],
+    "median [s]": [1e-3, 5.8e-3, 5.3e-2, 9.0],
+    "error": [0.11, 0.04, 0.01, 0.0],
+    "± sample": [0.0, 0.05, 0.0, 0.0],
 }
 DECADES = {(0.01, 0.1): "0.01 to 0.1", (0.1, 1.0): "0.1 to 1", (1.0, 10.0): "1 to 10"}
 
@@ -52,9 +55,10 @@ def punch(*numbers):
 def timed():
     """Boundary elements on a rough punch, and a wheel of Fig. 14.4."""
     columns = {
-        "scene": 3 * ["fractal punch"],
-        "method": 3 * [BEM],
-        "setting": ["32 a side", "256 a side", "512 a side"],
+        "scene": 4 * ["fractal punch"],
+        "quantity": 4 * ["mean stiffness"],
+        "method": 4 * [BEM],
+        "setting": ["16 a side", "32 a side", "256 a side", "512 a side"],
     }
     wheel = Table(COST_OF_STEPS, {"method": ["springs", "boundary elements"], "one wheel [s]": [0.01, 55.4]})
     return section_of("precision", [], Table(POINTS, {**columns, **GRIDS}), wheel)
@@ -130,11 +134,18 @@ def test_an_alternative_is_offered_where_its_own_numbers_agree():
     row = row_of("mean-stiffness", punch(failing, fit(0.2)), timed())
     formula, bem = row.instead
     assert formula[:2] == ("the fit 1/kbar = 1/1.1523 + 0.48/Fbar from Fbar = 0.3 to 10, within 6 %", "a formula")
-    assert bem == ("boundary elements", "53 ms a surface and load, 256 a side", "precision")
+    assert bem == ("boundary elements", "5.8 ms a surface and load, 32 a side", "precision")
     for row in (mean_stiffness(failing, fit(0.2, 0.4)), mean_stiffness(failing)):
         assert row.instead == (("boundary elements", "", ""),)
     assert mean_stiffness(agreeing, fit(0.2)).instead == ()
     assert len(mean_stiffness(agreeing, failing, fit(0.2)).instead) == 2
+
+
+def test_boundary_elements_cost_what_the_coarsest_grid_that_is_enough_does_or_the_finest():
+    evidence = timed().evidence
+    assert seconds.a_surface("mean stiffness")(evidence) == "5.8 ms a surface and load, 32 a side"
+    assert seconds.a_surface()(evidence) == "53 ms a surface and load, 256 a side"
+    assert seconds.a_surface("mean gap")(evidence) == ""
 
 
 def test_an_alternative_on_an_axis_of_its_own_says_which():

@@ -35,9 +35,11 @@ def test_the_front_page_of_the_reference_report_is_read_in_ten_minutes():
 
 
 def test_springs_alone_are_said_to_be_so_much_faster():
-    rows = [{"model": model, "times faster": times} for model, times in (("springs", 13.9), ("other", 2.0))]
-    rows.append({"model": "springs, rolling spectrum", "times faster": 843.0})
-    assert times_faster_said(rows) == "Springs are 14 to 840 times faster than boundary elements with no larger error"
+    found = [("springs", 13.9, True), ("other", 2.0, True), ("springs, rolling spectrum", 843.0, True)]
+    rows = [{"model": model, "times faster": times, "enough": enough} for model, times, enough in found]
+    rows.append({"model": "springs", "times faster": 9999.0, "enough": False})
+    said = "Where springs are within 10 % or 1 dB, they are 14 to 840 times faster than boundary elements"
+    assert times_faster_said(rows) == said
     assert times_faster_said(rows[1:2]) == ""
 
 
@@ -91,9 +93,18 @@ def test_a_filter_is_right_where_it_agrees_over_all_grounds():
 
 
 def test_boundary_elements_fail_where_their_limits_say():
-    limits = ["springs: the last asperity", "boundary elements: edge of the grid", "boundary elements, rolling: strip"]
-    where = ["springs in contact < 8: so many", "side / 2 a < 1: side = 2 a", "width / 2 a < 1: as: wide"]
+    cells = {
+        "limit": [
+            "springs: the last asperity",
+            "boundary elements: edge of the grid",
+            "boundary elements, rolling: strip",
+        ],
+        "fails where": ["springs in contact < 8: so many", "side / 2 a < 1: side = 2 a", "width / 2 a < 1: as: wide"],
+        "error": ["stiffness above 0.05", "force above 0.001; reference: a wider grid", "force above 0.01"],
+        "message of the software": ["none", "EdgeWarning: widen the grid", "none"],
+    }
     section = section_of(claim([Verdict.AGREE]))
-    table = Table(SUMMARY, {"limit": limits, "fails where": where})
-    found = failures([replace(section, name="limits", evidence=replace(section.evidence, tables=(table,)))])
-    assert found == [("edge of the grid", "side / 2 a < 1"), ("rolling: strip", "width / 2 a < 1")]
+    table = Table(SUMMARY, cells)
+    edge, strip = failures([replace(section, name="limits", evidence=replace(section.evidence, tables=(table,)))])
+    assert list(edge.values()) == ["edge of the grid", "side / 2 a < 1", "force above 0.001", "EdgeWarning"]
+    assert list(strip.values()) == ["rolling: strip", "width / 2 a < 1", "force above 0.01", "none"]

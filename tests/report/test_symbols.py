@@ -13,7 +13,7 @@ def names_in(text):
 @pytest.mark.parametrize(
     ("text", "names"),
     [
-        ("at h' a/d = 0.2", ["d, d_N", "a, a_x", "h'", "h' a/d"]),
+        ("at h' a/d = 0.2", ["d, d_N", "a, a_x, a_y", "h'", "h' a/d"]),
         ("a wheel on E*", ["E*"]),
         ("h/d and the force", ["d, d_N", "h", "h/d"]),
         ("omega_eigen dt", ["ω_eigen", "dx, dt"]),

@@ -66,7 +66,7 @@ def in_four_digits(cell: object) -> str:
 def format_cell(cell: object) -> Markup:
     """A cell of a table, with its verdict where it has one."""
     if not isinstance(cell, VerdictCell):
-        return escape(in_four_digits(cell))
+        return escape("–" if cell != cell else in_four_digits(cell))
     badge = Markup('<span class="verdict {0}">{1} {0}</span>').format(cell.verdict, SYMBOL[cell.verdict])
     after = f"; {cell.after}" if cell.after else ""
     return Markup("{}<br>{}{}").format(cell.text, badge, after)
@@ -112,5 +112,5 @@ def capitalized(text: str) -> str:
 
 
 def of_one(whose: Whose) -> str:
-    """ "Statement of the book", "Finding"."""
-    return {Whose.BOOK: "Statement of the book", Whose.FIELD: "Statement of the field"}.get(whose, "Finding")
+    """ "Statement of the book", "Statement of ours"."""
+    return {Whose.BOOK: "Statement of the book", Whose.FIELD: "Statement of the field"}.get(whose, "Statement of ours")

@@ -168,8 +168,8 @@ def panel(limit: Limit) -> Panel:
 
 ALL = (
     " One panel a limit: the error against the parameter. Arrow: the side on which it must pass its tolerance, the "
-    "line, within the factor of the predicted threshold. Open: a message of the software; crosses: no answer. Marks "
-    "below: an error of a hundredth of the tolerance or less."
+    "line, within the factor of the predicted threshold. Triangles: a message of the software; crosses: no answer. "
+    "Marks below: an error of a hundredth of the tolerance or less."
 )
 figure = partial(Chart, claims=(0, 1))
 STUDY = Study(

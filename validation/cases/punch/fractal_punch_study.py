@@ -213,7 +213,7 @@ STUDY = Study(
         ),
     ),
     charts=(
-        Chart("fractal_punch").of(
+        Chart("fractal_punch", claims=(1,)).of(
             "Relative standard deviation of the stiffness over Fbar = F / (E* h L); bands: 95 % of the sample. (a) "
             "Boundary elements, open where the mean contact has few cells. (b) {c.profiles} profiles of springs, L_1D "
             "= L; lines end where all springs touch.",

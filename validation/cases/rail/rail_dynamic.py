@@ -214,14 +214,16 @@ STUDY = Study(
     charts=(
         Chart("rail_dynamic").of(
             "(a) In motion over at constant load, 95 %, a curve for each level; shaded: within 1 dB. (b) The same from "
-            "the force over the linear dynamic stiffness. (c) Time without contact, 95 %, by the damping ratio.",
+            "the force over the linear dynamic stiffness. (c) Time without contact, 95 %, open marks.",
             *(
                 Panel(FREQUENCY, f"{quantity} [dB]", shade=(-1, 1), ylim=(-10, 18)).of(
                     Curve(quantity, BEM, by=(OFFSET,), bars=True)
                 )
                 for quantity in (MOVING, INFERRED)
             ),
-            Panel(OFFSET, f"{AIRBORNE} [%]", log="", ticked=True).of(Curve(AIRBORNE, BEM, by=(DAMPING,), bars=True)),
+            Panel(OFFSET, f"{AIRBORNE} [%]", log="", title="by the damping ratio", ticked=True).of(
+                Curve(AIRBORNE, BEM, "open", by=(DAMPING,), bars=True)
+            ),
         ),
     ),
     matrices=(Matrix(name="rms over bands", quantity="", rows=("quantity", "model"), columns=OFFSET),),

@@ -146,7 +146,7 @@ STUDY = Study(
     charts=(
         Chart("rough_rail").of(
             "A3 of models over that of boundary elements on the same strips, by dB over ISO 3095:2013. Shaded: within "
-            "1 dB. Grey: 95 % of boundary elements, sample and grid.",
+            "1 dB. Band: 95 % of boundary elements, sample and grid.",
             Panel(
                 rolled.WAVE,
                 "A3 over that of boundary elements [dB]",

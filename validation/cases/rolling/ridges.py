@@ -173,7 +173,7 @@ STUDY = Study(
     ),
     charts=(
         Chart("ridges").of(
-            "(a) Response of the force to ridges, finest grids. Line: (14.11); circles: boundary elements; squares: "
+            "(a) Response of the force to ridges, finest grids. Line: (14.11); circles: boundary elements; open: "
             f"one-sided springs. (b) Errors over the envelope; dotted: an edge {EDGE:g} of a cell out of place.",
             Panel(Q, f"{RESPONSE}, over 2 E* a", title="amplitude and sign", log="", ylim=(-1.2, 1.6)).of(
                 Curve(RESPONSE, EXACT),

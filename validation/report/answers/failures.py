@@ -1,19 +1,32 @@
 """Where boundary elements fail, as the case `limits` has found it."""
 
+import re
 from collections.abc import Sequence
 
 from validation.cases.limits.limits import SUMMARY
 from validation.report.answers.questions import BEM
 from validation.report.section import Section
 
+COLUMNS = {
+    "limit": "limit",
+    "they fail where": "fails where",
+    "what is wrong there": "error",
+    "the software": "message of the software",
+}
+"""Of the front page, and of the case."""
+REASON = re.compile("[:;] ")
 
-def failures(sections: Sequence[Section]) -> list[tuple[str, str]]:
-    """The limit and the condition past which they fail, a pair each; none where the case was not run."""
+
+def failures(sections: Sequence[Section]) -> list[dict[str, str]]:
+    """A row a limit, without its reasons; none where the case was not run."""
     evidence = next((section.evidence for section in sections if section.name == "limits"), None)
     if not evidence or not evidence.has_table(SUMMARY):
         return []
     table = evidence.table(SUMMARY)
-    rows = zip(table["limit"].tolist(), table["fails where"].tolist(), strict=True)
+    rows = zip(*(table[name].tolist() for name in COLUMNS.values()), strict=True)
     return [
-        (limit.removeprefix(BEM).lstrip(":, "), where.split(": ")[0]) for limit, where in rows if limit.startswith(BEM)
+        {name: REASON.split(cell, maxsplit=1)[0] for name, cell in zip(COLUMNS, row, strict=True)}
+        for limit, *rest in rows
+        if limit.startswith(BEM)
+        for row in [(limit.removeprefix(BEM).lstrip(":, "), *rest)]
     ]

@@ -13,25 +13,31 @@ from validation.report.section import Section
 GROUNDS = ("ridges", "alpha = 1", "isotropic ground")
 """Of what lies across a rail, that the front page shows."""
 OF_A3 = "A3 over that of boundary elements"
+ENOUGH = {"%": 10.0, "dB": 1.0}
+"""Largest error of a model that is enough, as in the verdicts of `precision`."""
 WORST, FILTERED = "worst band over", "contact filters beside boundary elements"
 
 
 def times_faster(sections: Sequence[Section]) -> list[dict[str, Any]]:
-    """A row a quantity and reduced model, by the columns of `faster`; none where nothing was timed."""
+    """A row a quantity and reduced model, by the columns of `faster`, and whether it is "enough": its error, with the
+    interval, is within `ENOUGH`. None where nothing was timed.
+    """
     evidence = _evidence("precision", sections)
     if evidence is None or not evidence.has_table(FASTER):
         return []
     table = evidence.table(FASTER)
-    return [dict(zip(table.columns, row, strict=True)) for row in zip(*table.columns.values(), strict=True)]
+    rows = [dict(zip(table.columns, row, strict=True)) for row in zip(*table.columns.values(), strict=True)]
+    return [row | {"enough": float(row["error"]) <= ENOUGH[str(row["unit"])]} for row in rows]
 
 
 def times_faster_said(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Of springs over all quantities, the least and the most."""
-    found = [float(row["times faster"]) for row in rows if row["model"] in SPRINGS]
+    """Of springs over all quantities for which they are enough, the least and the most."""
+    found = [float(row["times faster"]) for row in rows if row["model"] in SPRINGS and row["enough"]]
     if not found:
         return ""
     least, most = (f"{float(f'{times:.2g}'):g}" for times in (min(found), max(found)))
-    return f"Springs are {least} to {most} times faster than boundary elements with no larger error"
+    within = " or ".join(f"{error:g} {unit}" for unit, error in ENOUGH.items())
+    return f"Where springs are within {within}, they are {least} to {most} times faster than boundary elements"
 
 
 def rail_filters(sections: Sequence[Section]) -> Table | None:

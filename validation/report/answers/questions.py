@@ -71,7 +71,7 @@ class Question:
 
 
 INTEGRAL, LINEAR_3D = "an integral over the spectrum", wheel.LINEAR_3D
-PRESSED = Alternative(BEM, timed=a_surface)
+PRESSED = Alternative(BEM, timed=a_surface())
 of_punch = partial(Source, case="fractal_punch", axis=punch.FORCE, series=("H",))
 of_mdr = partial(of_punch, model=punch.OVER, where={"H": float})
 of_rolled_off = partial(
@@ -105,14 +105,17 @@ QUESTIONS = (
         "Stiffness of a rough punch, its mean over surfaces",
         of_mdr(quantity=punch.MEAN),
         per_cent,
-        (Alternative("the fit 1/kbar = 1/1.1523 + 0.48/Fbar", FIT, "a formula"), PRESSED),
+        (
+            Alternative("the fit 1/kbar = 1/1.1523 + 0.48/Fbar", FIT, "a formula"),
+            Alternative(BEM, timed=a_surface("mean stiffness")),
+        ),
     ),
     Question(
         "scatter",
         "Scatter of that stiffness over surfaces",
         of_mdr(quantity=punch.DEVIATION),
         per_cent,
-        (PRESSED,),
+        (Alternative(BEM, timed=a_surface("relative deviation")),),
     ),
     Question(
         "area-and-gap",
@@ -141,7 +144,7 @@ QUESTIONS = (
         of_rolling(quantity=rolling.RMS_LEVEL, model=GEIKE),
         in_decibels,
         (
-            IN_3D(of_strips(model=reduced.LINEAR)),
+            IN_3D(of_rolling(quantity=rolling.RMS_LEVEL, model=LINEAR)),
             Alternative(reduced.COARSEST, of_strips(model=reduced.COARSEST), timed=a_track(4)),
             JUDGE,
         ),

@@ -14,6 +14,8 @@ from validation.benchmarks.work_precision.rolling import RollingProblem
 
 TIMES = "precision"
 """The case that times all methods."""
+ENOUGH = 0.1
+"""Largest relative error of what is enough."""
 Timed = Callable[[Evidence], str]
 
 
@@ -22,31 +24,45 @@ def in_seconds(seconds: float) -> str:
     return Settings().format("{:SI}s", float(f"{seconds:.2g}"))
 
 
-def finest(evidence: Evidence, scene: str, method: str, most: float = math.inf) -> tuple[str, str] | None:
-    """Median seconds and the setting of a method on a scene, on the finest grid up to some cells; None without one."""
+def timed_at(
+    evidence: Evidence, scene: str, method: str, quantity: str = "", most: float = math.inf
+) -> tuple[str, str] | None:
+    """Median seconds and the setting of a method on a scene, None without one.
+
+    On the coarsest grid that is enough for a quantity; without one on the finest up to some cells.
+    """
     points = evidence.table(POINTS).where(scene=scene, method=method, status=FINISHED)
-    points = points.rows(points["value"] <= most)
-    return (in_seconds(points["median [s]"][-1]), points["setting"][-1]) if len(points["value"]) else None
+    if quantity:
+        points = points.where(quantity=quantity)
+        close = points.rows(points["error"] + points["± sample"] <= ENOUGH)
+        at = 0
+    else:
+        close, at = points.rows(points["value"] <= most), -1
+    return (in_seconds(close["median [s]"][at]), close["setting"][at]) if len(close["value"]) else None
 
 
-def a_surface(evidence: Evidence) -> str:
+def a_surface(quantity: str = "") -> Timed:
     """Boundary elements press a rough punch."""
-    found = finest(evidence, RoughPunchProblem.name, BEM)
-    return f"{found[0]} a surface and load, {found[1]}" if found else ""
+
+    def timed(evidence: Evidence) -> str:
+        found = timed_at(evidence, RoughPunchProblem.name, BEM, quantity)
+        return f"{found[0]} a surface and load, {found[1]}" if found else ""
+
+    return timed
 
 
 def a_track(cells: float) -> Timed:
     """Boundary elements roll along a strip, with so many cells to a contact radius."""
 
     def timed(evidence: Evidence) -> str:
-        found = finest(evidence, RollingProblem.name, BEM, cells)
+        found = timed_at(evidence, RollingProblem.name, BEM, most=cells)
         return f"{found[0]} a strip, {found[1]}" if found else ""
 
     return timed
 
 
 def an_integral(evidence: Evidence) -> str:
-    found = finest(evidence, RollingProblem.name, FILTER_3D)
+    found = timed_at(evidence, RollingProblem.name, FILTER_3D)
     return found[0] if found else ""
 
 
