@@ -24,9 +24,9 @@ def failures(sections: Sequence[Section]) -> list[dict[str, str]]:
         return []
     table = evidence.table(SUMMARY)
     rows = zip(*(table[name].tolist() for name in COLUMNS.values()), strict=True)
-    return [
-        {name: REASON.split(cell, maxsplit=1)[0] for name, cell in zip(COLUMNS, row, strict=True)}
-        for limit, *rest in rows
+    shown = [
+        (limit.removeprefix(BEM).lstrip(":, "), *(REASON.split(cell)[0] for cell in cells))
+        for limit, *cells in rows
         if limit.startswith(BEM)
-        for row in [(limit.removeprefix(BEM).lstrip(":, "), *rest)]
     ]
+    return [dict(zip(COLUMNS, row, strict=True)) for row in shown]
