@@ -272,7 +272,7 @@ CASE = Case(
     place=2,
     answers="Our solver beside other packages that are installed, same problems, same residual",
     quick=SolverComparison(cells=(128,), loads=(0.001,)),
-    full=SolverComparison(cells=(128, 256, 384), large=(1024, 2048)),
+    full=SolverComparison(cells=(128, 384), large=(1024, 2048), slow=2.0),
     run=run,
     study=STUDY,
     needs="–",
