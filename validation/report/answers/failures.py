@@ -11,7 +11,7 @@ COLUMNS = {
     "limit": "limit",
     "they fail where": "fails where",
     "what is wrong there": "error",
-    "the software": "message of the software",
+    "message": "message of the software",
 }
 """Of the front page, and of the case."""
 REASON = re.compile("[:;] ")

@@ -8,13 +8,12 @@ from validation.analysis.evidence import Evidence, Table, Verdict, VerdictCell
 from validation.benchmarks.work_precision.faster import FASTER
 from validation.benchmarks.work_precision.problem import SPRINGS
 from validation.cases.rail.across_study import LOUDER
+from validation.report.answers.seconds import ENOUGH
 from validation.report.section import Section
 
 GROUNDS = ("ridges", "alpha = 1", "isotropic ground")
 """Of what lies across a rail, that the front page shows."""
 OF_A3 = "A3 over that of boundary elements"
-ENOUGH = {"%": 10.0, "dB": 1.0}
-"""Largest error of a model that is enough, as in the verdicts of `precision`."""
 WORST, FILTERED = "worst band over", "contact filters beside boundary elements"
 
 

@@ -167,7 +167,7 @@ QUESTIONS = (
         of_wheel(model=wheel.OVER_BEM[wheel.GEIKE]),
         in_decibels,
         (
-            IN_3D(of_wheel(model=wheel.OVER_BEM[wheel.LINEAR_3D])),
+            Alternative(LINEAR_3D, of_wheel(model=wheel.OVER_BEM[wheel.LINEAR_3D]), INTEGRAL),
             Alternative(f"on a rail, {reduced.READ} in the time loop", MOVING, by="rms over bands"),
             Alternative(f"{BEM} in the time loop", timed=a_wheel),
         ),

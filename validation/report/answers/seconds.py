@@ -14,8 +14,8 @@ from validation.benchmarks.work_precision.rolling import RollingProblem
 
 TIMES = "precision"
 """The case that times all methods."""
-ENOUGH = 0.1
-"""Largest relative error of what is enough."""
+ENOUGH = {"%": 10.0, "dB": 1.0}
+"""Largest error of what is enough, as in the verdicts of `precision`."""
 Timed = Callable[[Evidence], str]
 
 
@@ -34,7 +34,7 @@ def timed_at(
     points = evidence.table(POINTS).where(scene=scene, method=method, status=FINISHED)
     if quantity:
         points = points.where(quantity=quantity)
-        close = points.rows(points["error"] + points["± sample"] <= ENOUGH)
+        close = points.rows(points["error"] + points["± sample"] <= ENOUGH["%"] / 100)
         at = 0
     else:
         close, at = points.rows(points["value"] <= most), -1
