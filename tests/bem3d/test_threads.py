@@ -267,7 +267,7 @@ def test_a_fork_after_threads_makes_threads_of_its_own():
 
 @pytest.mark.slow
 def test_ctrl_c_ends_the_threads():
-    with subprocess.Popen([sys.executable, "-c", ENDLESS], stdout=-1, stderr=-1, text=True) as process:
+    with subprocess.Popen([sys.executable, "-c", ENDLESS], stdout=-1, stderr=-1, encoding="utf-8") as process:
         assert process.stdout.readline() == "once\n"
         process.send_signal(signal.SIGINT)
         assert "KeyboardInterrupt" in process.communicate(timeout=HANG)[1]

@@ -22,7 +22,7 @@ class Toy:
 
 def toy(problem):
     """Leaves a trace each time it is computed."""
-    with Path(problem.log).open("a") as file:
+    with Path(problem.log).open("a", encoding="utf-8") as file:
         file.write(f"{problem.number}\n")
     return {"value": random_generator(5, problem.number).standard_normal(4)}
 
@@ -32,7 +32,7 @@ def other_toy(problem):
 
 
 def computed(log):
-    return sorted(int(line) for line in Path(log).read_text().split()) if Path(log).exists() else []
+    return sorted(int(line) for line in Path(log).read_text(encoding="utf-8").split()) if Path(log).exists() else []
 
 
 def same(outcomes, others):
