@@ -62,8 +62,14 @@ def gated(problem):
     return toy(Toy(problem.number, problem.log))
 
 
+HANG = 300
+"""Seconds after which what has not happened will not happen."""
+
+
 def wait_until(condition, *alive, over=None):
-    """However long it takes, as long as the processes live that bring it about, and nobody has called it off."""
+    """As long as the processes live that bring it about, nobody has called it off, and it is no hang."""
+    begin = time.monotonic()
     while not condition() and not (over and over.is_set()):
         assert all(process.poll() is None for process in alive), "it ended before it happened"
+        assert time.monotonic() < begin + HANG, "it has not happened"
         time.sleep(0.02)
