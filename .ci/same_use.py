@@ -70,7 +70,7 @@ def write(checkout: Path, target: Path, pages: Path) -> None:
 
 
 def _ran(command: list[str], folder: Path, environment: dict[str, str]) -> dict[str, Any]:
-    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=900)
+    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, encoding="utf-8", timeout=900)
     return {"status": done.returncode, "printed": TIMES.sub("TIME", done.stdout), "said": done.stderr[-2000:]}
 
 
@@ -90,7 +90,7 @@ def _killed_and_resumed(folder: Path, environment: dict[str, str]) -> dict[str, 
     run.send_signal(signal.SIGKILL)
     run.wait()
     kept = len(list(store.glob("*.npz")))
-    again = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=900)
+    again = subprocess.run(command, cwd=folder, env=environment, capture_output=True, encoding="utf-8", timeout=900)
     return {"status": again.returncode, "finished before": kept >= 3}
 
 

@@ -22,7 +22,7 @@ def sources(package):
 
 @functools.cache
 def nodes(source):
-    return list(ast.walk(ast.parse(source.read_text())))
+    return list(ast.walk(ast.parse(source.read_text(encoding="utf-8"))))
 
 
 def imported(source):
@@ -52,7 +52,7 @@ def table():
     return found
 
 
-PAGE = (ROOT / "ARCHITECTURE.md").read_text()
+PAGE = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
 MAY_IMPORT = table()
 BESIDE = {"__main__", "conformance"}
 ROOMS = set(MAY_IMPORT) - {"mdr", "bem3d", *BESIDE}
@@ -130,7 +130,7 @@ def test_no_two_classes_share_a_name():
 def test_no_number_is_found_by_its_label():
     """A label is for people; the key of a number is its quantity, model and where."""
     parsed = re.compile(r"label\.(?:startswith|endswith|split|removeprefix|removesuffix)|in \w+\.label\b")
-    assert [str(s) for p in PACKAGES for s in sources(p) if parsed.search(s.read_text())] == []
+    assert [str(s) for p in PACKAGES for s in sources(p) if parsed.search(s.read_text(encoding="utf-8"))] == []
 
 
 def test_matplotlib_is_imported_only_where_figures_are_drawn():
@@ -145,9 +145,13 @@ def test_every_case_has_its_figure():
 
 def test_every_part_of_a_figure_has_a_caption():
     """A function `draw_PART` of the file of a case draws the figure "CASE-PART", which a caption names."""
-    said = "".join(source.read_text() for room in ("cases", "benchmarks") for source in sources(f"validation/{room}"))
+    said = "".join(
+        source.read_text(encoding="utf-8")
+        for room in ("cases", "benchmarks")
+        for source in sources(f"validation/{room}")
+    )
     for source in sources("validation/report/figures"):
-        for function in re.findall(r"^def (draw\w*)", source.read_text(), flags=re.MULTILINE):
+        for function in re.findall(r"^def (draw\w*)", source.read_text(encoding="utf-8"), flags=re.MULTILINE):
             name = source.stem + function.removeprefix("draw").replace("_", "-", 1)
             assert source.stem == "__init__" or re.search(f'"{name}"[:,)]', said) or f'captions["{name}"]' in said, name
 
@@ -161,13 +165,15 @@ def test_numerics_neither_print_nor_write():
         assert not rooms(source) & {"pathlib", "logging"}, source
         assert "os" not in rooms(source) or source.name == "threads.py", source
         assert "warnings" not in rooms(source) or source.name == "diagnostics.py", source
-        assert not re.search(r"\bstd(out|err)\b", source.read_text()) or source.name == "progress.py", source
+        assert not re.search(r"\bstd(out|err)\b", source.read_text(encoding="utf-8")) or source.name == "progress.py", (
+            source
+        )
 
 
 def named_paths():
     """What pyproject.toml, the Makefile and the mutation tests name."""
     project, made, mutation, verdicts = (
-        (ROOT / name).read_text()
+        (ROOT / name).read_text(encoding="utf-8")
         for name in ("pyproject.toml", "Makefile", "tests/mutation/runner.py", "tests/mutation/verdicts.coveragerc")
     )
     text = made + project + mutation + verdicts

@@ -10,7 +10,7 @@ import bem3d
 import mdr
 import validation
 
-PAGE = (Path(__file__).parents[1] / "CONVENTIONS.md").read_text()
+PAGE = (Path(__file__).parents[1] / "CONVENTIONS.md").read_text(encoding="utf-8")
 L, E, N = 2e-3, 3e9, 256
 SPACING = L / N
 ROUGH = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi / L * 16, q_max=2 * np.pi / L * 60, rms=1e-7)

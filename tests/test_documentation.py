@@ -47,7 +47,7 @@ def found(name):
 def public(path):
     """Functions and classes of a module of closed forms."""
     kinds = (ast.FunctionDef, ast.ClassDef)
-    names = (node.name for node in ast.parse(path.read_text()).body if isinstance(node, kinds))
+    names = (node.name for node in ast.parse(path.read_text(encoding="utf-8")).body if isinstance(node, kinds))
     return {f"validation.theory.{path.stem}.{name}" for name in names if name[0] != "_"}
 
 
@@ -98,7 +98,7 @@ def test_your_own_rail_names_every_key_of_a_rail(tmp_path):
     assert [key for key in (*keys, "rail.profile") if f"`{key}`" not in page] == []
     own = own_rail(tmp_path)
     for name in ("levels", "lines"):
-        own.write_text(SCENE.replace("[rail.lines]", f"[rail.{name}]\nweight = 1"))
+        own.write_text(SCENE.replace("[rail.lines]", f"[rail.{name}]\nweight = 1"), encoding="utf-8")
         with pytest.raises(ValueError, match=rf"rail\.{name}\.weight is unknown") as refused:
             validation.load_scene(own)
         known = str(refused.value).partition("must be made of ")[2].split("\n")[0].split(", ")
@@ -113,7 +113,7 @@ def test_the_scene_of_your_own_rail_is_one(tmp_path):
 def own_rail(folder):
     """The scene of the page, beside three lines of noise."""
     np.savetxt(folder / "lines.csv", np.random.default_rng(1).standard_normal((2000, 3)), delimiter=",")
-    (folder / "my_rail.toml").write_text(SCENE)
+    (folder / "my_rail.toml").write_text(SCENE, encoding="utf-8")
     return folder / "my_rail.toml"
 
 

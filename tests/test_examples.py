@@ -52,7 +52,7 @@ def test_no_example_is_left_out():
     """Every docstring with an example is one of those that run."""
     kinds = (ast.Module, ast.ClassDef, ast.FunctionDef)
     files = (path for package in (mdr, bem3d, validation) for path in Path(package.__file__).parent.rglob("*.py"))
-    trees = (ast.parse(text) for text in (path.read_text() for path in files) if ">>>" in text)
+    trees = (ast.parse(text) for text in (path.read_text(encoding="utf-8") for path in files) if ">>>" in text)
     written = [ast.get_docstring(node) or "" for tree in trees for node in ast.walk(tree) if isinstance(node, kinds)]
     run = [inspect.getdoc(member) or "" for member in CALLED.values()]
     assert {text for text in written if ">>>" in text} <= {text for text in run if ">>>" in text}

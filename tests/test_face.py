@@ -34,7 +34,7 @@ def test_every_name_is_there(name):
 
 
 def test_the_stub_says_the_same():
-    stub = ast.parse(Path(validation.__file__).with_suffix(".pyi").read_text())
+    stub = ast.parse(Path(validation.__file__).with_suffix(".pyi").read_text(encoding="utf-8"))
     imports = [node for node in stub.body if isinstance(node, ast.ImportFrom)]
     said = {name.asname: node.module.removeprefix("validation.") for node in imports for name in node.names}
     assert said == validation.MODULES
@@ -47,7 +47,9 @@ def test_an_unknown_name_is_an_attribute_error():
 
 def test_importing_the_face_imports_nothing_else():
     line = "import sys, validation; print([m for m in sys.modules if m == 'numpy' or m.startswith('validation.')])"
-    assert subprocess.run([sys.executable, "-c", line], capture_output=True, text=True, check=True).stdout == "[]\n"
+    assert (
+        subprocess.run([sys.executable, "-c", line], capture_output=True, encoding="utf-8", check=True).stdout == "[]\n"
+    )
 
 
 def test_a_number_comes_in_si_units_with_its_relative_error():

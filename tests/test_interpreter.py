@@ -120,7 +120,7 @@ def test_imports_are_few():
     """What takes longer to import than all else waits for its first use."""
     late = "'scipy.fft', 'scipy.special', 'scipy.optimize', 'importlib.metadata', 'pyfftw'"
     command = f"import sys, bem3d, mdr; print([name for name in ({late}) if name in sys.modules])"
-    done = subprocess.run([sys.executable, "-c", command], capture_output=True, text=True, check=True)
+    done = subprocess.run([sys.executable, "-c", command], capture_output=True, encoding="utf-8", check=True)
     assert done.stdout == "[]\n"
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-VERSION = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"]
+VERSION = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
 PACKAGES = ("mdr", "bem3d", "validation")
 pytestmark = pytest.mark.slow
 
@@ -24,7 +24,7 @@ def run(*words, cwd, **variables):
         cwd=cwd,
         env={name: value for name, value in os.environ.items() if name != "PYTHONPATH"} | variables,
         capture_output=True,
-        text=True,
+        encoding="utf-8",
     )
     assert done.returncode == 0, done.stderr
     return done.stdout
@@ -56,9 +56,11 @@ def installed(wheel, tmp_path_factory):
 
 def test_what_names_the_version_agrees():
     """The newest section of the changelog, with its date, and what is cited."""
-    newest = re.search(r"^## \[([\d.]+)\] - ([\d-]+)$", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE).groups()
+    newest = re.search(
+        r"^## \[([\d.]+)\] - ([\d-]+)$", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE
+    ).groups()
     cited = re.search(
-        r"^version: (.+)\ndate-released: (.+)$", (ROOT / "CITATION.cff").read_text(), re.MULTILINE
+        r"^version: (.+)\ndate-released: (.+)$", (ROOT / "CITATION.cff").read_text(encoding="utf-8"), re.MULTILINE
     ).groups()
     assert newest == cited and cited[0] == VERSION == metadata.version("mdr-validation")
 

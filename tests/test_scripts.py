@@ -42,5 +42,5 @@ def test_a_wrong_result_ends_an_example(tmp_path):
     """The assertions of an example are those of a test: with E for E* a sphere is not that of Hertz."""
     wrong = (EXAMPLES / "sphere.py").read_text(encoding="utf-8").replace("modulus=modulus)", "modulus=0.9 * modulus)")
     (tmp_path / "sphere.py").write_text(wrong, encoding="utf-8")
-    run = subprocess.run([sys.executable, "sphere.py"], cwd=tmp_path, capture_output=True, text=True)
+    run = subprocess.run([sys.executable, "sphere.py"], cwd=tmp_path, capture_output=True, encoding="utf-8")
     assert "AssertionError" in run.stderr

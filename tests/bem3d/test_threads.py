@@ -2,23 +2,32 @@
 
 import os
 import pickle
+import signal
 import subprocess
 import sys
 import threading
+import time
 import tracemalloc
+from collections import deque
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from types import SimpleNamespace
+from unittest import mock
 
 import numpy as np
 import pytest
 
 import bem3d
 from bem3d import blocked_convolution
+from bem3d import threads as shared_out
 from tests.bem3d.test_operator_against_dense_twin import in_blocks, random_pressure
 from validation.engine.engine import Engine
 
 LARGE = {"shape": (523, 611), "spacing": (1.0, 1.3), "modulus": 2.0}
 """More cells than a grid that is transformed as a whole, if it is periodic."""
+HANG = 300
+"""Seconds after which a wait has failed."""
 
 
 def started():
@@ -116,29 +125,111 @@ def test_threads_are_a_whole_number_or_all(given):
         bem3d.HalfSpace(shape=(2, 2), spacing=1.0, modulus=1.0, threads=given)
 
 
+@dataclass
+class Watch:
+    """awaited: the main thread waits for another one; drained: another one has dropped all blocks that were left;
+    interrupts: of the wait."""
+
+    awaited: threading.Event = field(default_factory=threading.Event)
+    drained: threading.Event = field(default_factory=threading.Event)
+    interrupts: list[str] = field(default_factory=list)
+
+    def forget(self):
+        self.awaited.clear()
+        self.drained.clear()
+
+    def sleep(self, seconds):
+        if self.interrupts:
+            raise KeyboardInterrupt(self.interrupts.pop(0))
+        self.awaited.set()
+        time.sleep(seconds)
+
+    def drain(self, left, maxlen):
+        deque(left, maxlen)
+        if threading.current_thread() is not threading.main_thread():
+            self.drained.set()
+
+
+@contextmanager
+def watched():
+    """Threads that share out their work; whatever a test finds, none is left at work."""
+    watch = Watch()
+    with mock.patch.object(shared_out, "sleep", watch.sleep), mock.patch.object(shared_out, "deque", watch.drain):
+        try:
+            yield watch
+        finally:
+            watch.awaited.set()
+
+
 @pytest.mark.parametrize("in_the_caller", [True, False])
-def test_after_an_exception_in_a_block_the_next_answer_is_right(in_the_caller, monkeypatch):
+def test_after_an_exception_in_a_block_the_next_answer_is_right(in_the_caller):
     """As Ctrl-C is one: nothing further is begun, and nobody writes to the buffers of the next call."""
     body = bem3d.HalfSpace(**LARGE, threads=2)
     pressure = random_pressure(body, 0)
     expected, multiply = body.displacement(pressure), blocked_convolution.BlockedConvolution._multiply
-    begun, both = [], threading.Barrier(2)
+    begun, ended = [], []
 
     def interrupted(convolution, buffers, block):
-        first = threading.current_thread() not in begun
-        begun.append(threading.current_thread())
-        if first:
-            both.wait(60)
-        if (threading.current_thread() is threading.main_thread()) == in_the_caller:
+        here = threading.current_thread() is threading.main_thread()
+        begun.append(here)
+        both.wait()
+        if here == in_the_caller:
             raise KeyboardInterrupt
+        # either comes after the blocks that are left were dropped
+        assert (watch.awaited if in_the_caller else watch.drained).wait(HANG)
         multiply(convolution, buffers, block)
+        ended.append(here)
 
-    monkeypatch.setattr(blocked_convolution.BlockedConvolution, "_multiply", interrupted)
-    with pytest.raises(KeyboardInterrupt):
-        body.displacement(pressure)
-    assert len(begun) < 20, "of 23 blocks"
-    monkeypatch.undo()
+    with watched() as watch:
+        both = threading.Barrier(2, watch.forget, timeout=HANG)
+        with (
+            mock.patch.object(blocked_convolution.BlockedConvolution, "_multiply", interrupted),
+            pytest.raises(KeyboardInterrupt),
+        ):
+            body.displacement(pressure)
+        assert ended == [not in_the_caller] and len(begun) == 2, "of 23 blocks"
     np.testing.assert_array_equal(body.displacement(pressure), expected)
+
+
+@pytest.mark.parametrize("interrupts", [0, 1, 2, 5])
+def test_interrupts_of_the_wait_come_after_the_last_block(interrupts):
+    """As many Ctrl-C as there are; the first of them is raised."""
+    begun, ended = threading.Event(), []
+
+    def work(_, block):
+        if threading.current_thread() is threading.main_thread():
+            begun.wait(HANG)
+            raise KeyboardInterrupt("block")
+        begun.set()
+        watch.awaited.wait(HANG)
+        ended.append(block)
+
+    with watched() as watch:
+        watch.interrupts.extend(f"interrupt {i}" for i in range(interrupts))
+        with pytest.raises(KeyboardInterrupt) as interrupted:
+            shared_out.share(work, range(9), ["of the caller", "of the other"])
+        assert len(ended) == 1 and not watch.interrupts
+    assert interrupted.value.args == ("interrupt 0" if interrupts else "block",)
+
+
+def test_a_thread_is_waited_for_whose_start_is_interrupted():
+    """It is at work already, and its caller has no future of it."""
+    pool, begun, ended = shared_out._pool(1, os.getpid()), threading.Event(), []
+
+    def submit(*call):
+        pool.submit(*call)
+        begun.wait(HANG)
+        raise KeyboardInterrupt
+
+    def work(_, block):
+        begun.set()
+        watch.awaited.wait(HANG)
+        ended.append(block)
+
+    with watched() as watch, mock.patch.object(shared_out, "_pool", lambda *_: SimpleNamespace(submit=submit)):
+        with pytest.raises(KeyboardInterrupt):
+            shared_out.share(work, range(9), ["of the caller", "of the other"])
+        assert len(ended) == 1
 
 
 FORKED = """
@@ -152,14 +243,16 @@ context = multiprocessing.get_context("fork")
 queue = context.Queue()
 child = context.Process(target=same, args=(queue,))
 child.start()
-assert queue.get(timeout=60)
+assert queue.get(timeout=300)
 child.join()
 """
 
 ENDLESS = """
-import numpy as np, bem3d
+import signal, numpy as np, bem3d
 body = bem3d.HalfSpace(shape=(523, 611), spacing=1.0, modulus=2.0, threads=2)
 pressure = np.random.default_rng(0).random(body.shape)
+# where it is ignored, children inherit that
+signal.signal(signal.SIGINT, signal.default_int_handler)
 while True:
     body.displacement(pressure)
     print("once", flush=True)
@@ -169,15 +262,15 @@ while True:
 @pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="a system without fork")
 def test_a_fork_after_threads_makes_threads_of_its_own():
-    subprocess.run([sys.executable, "-W", "ignore", "-c", FORKED], check=True, timeout=120)
+    subprocess.run([sys.executable, "-W", "ignore", "-c", FORKED], check=True, timeout=HANG)
 
 
 @pytest.mark.slow
 def test_ctrl_c_ends_the_threads():
-    with subprocess.Popen([sys.executable, "-c", ENDLESS], stdout=-1, stderr=-1, text=True) as process:
+    with subprocess.Popen([sys.executable, "-c", ENDLESS], stdout=-1, stderr=-1, encoding="utf-8") as process:
         assert process.stdout.readline() == "once\n"
-        process.send_signal(2)
-        assert "KeyboardInterrupt" in process.communicate(timeout=60)[1]
+        process.send_signal(signal.SIGINT)
+        assert "KeyboardInterrupt" in process.communicate(timeout=HANG)[1]
 
 
 @dataclass(frozen=True)

@@ -99,5 +99,5 @@ def run_command(case, result, out, monkeypatch):
     entry = dataclasses.replace(case, quick=result.case, run=lambda settings, engine: result)
     monkeypatch.setitem(TIMED, case.name, entry)
     assert command.main([case.name, "--out", str(out)]) == command.Exit.MET
-    assert json.loads((out / "results.json").read_text())["cases"] == {}
-    return json.loads((out / f"{case.name}.json").read_text())["cases"][case.name]
+    assert json.loads((out / "results.json").read_text(encoding="utf-8"))["cases"] == {}
+    return json.loads((out / f"{case.name}.json").read_text(encoding="utf-8"))["cases"][case.name]

@@ -38,9 +38,9 @@ def solve(gap, spacing, modulus, periodic, tolerance, {load}):
 
 
 def conformance(folder, text, *words):
-    (folder / "own.py").write_text(text)
+    (folder / "own.py").write_text(text, encoding="utf-8")
     told = [*["-q", "--pyargs", "validation.conformance", "--contact-solver", "own.py:solve"], *words]
-    return subprocess.run([sys.executable, "-m", "pytest", *told], cwd=folder, capture_output=True, text=True)
+    return subprocess.run([sys.executable, "-m", "pytest", *told], cwd=folder, capture_output=True, encoding="utf-8")
 
 
 @pytest.mark.parametrize(
@@ -53,7 +53,7 @@ def conformance(folder, text, *words):
     ],
 )
 def test_a_place_without_such_a_function_is_one_line_of_usage(place, sentence, tmp_path):
-    (tmp_path / "broken.py").write_text("1 / 0")
+    (tmp_path / "broken.py").write_text("1 / 0", encoding="utf-8")
     run = conformance(tmp_path, OWN, "--contact-solver", place)
     assert (run.returncode, run.stdout) == (pytest.ExitCode.USAGE_ERROR, "")
     assert run.stderr.startswith(f"ERROR: --contact-solver: {sentence}") and run.stderr.count("\n") < 3

@@ -212,7 +212,7 @@ EXAMPLE = Path(peers.__file__).parents[1] / "examples" / "own_solver.py"
 def test_a_solver_of_a_file_races_where_it_serves(forked, tmp_path, monkeypatch):
     monkeypatch.setattr(peers, "SOLVERS", peers.SOLVERS[:1])
     (tmp_path / "own_solver.py").write_bytes(EXAMPLE.read_bytes())
-    (tmp_path / "mine.py").write_text(OWN)
+    (tmp_path / "mine.py").write_text(OWN, encoding="utf-8")
     result = comparison.run(dataclasses.replace(SMALL, residual=1e-6, own=str(tmp_path / "mine.py")))
     for name, served in (("conjugate gradients", "free"), ("waves", "periodic")):
         rows = [row for some in result["problems"] for row in some if row["solver"] == name]

@@ -211,7 +211,7 @@ def test_command_line(result, tmp_path, monkeypatch, capsys):
     assert results["settings"]["sphere"]["grids"]["cells"] == [4, 8, 16]
     for file in ("figures/precision.svg", "data/precision-points.csv"):
         assert (tmp_path / file).exists()
-    page = (tmp_path / "index.html").read_text()
+    page = (tmp_path / "index.html").read_text(encoding="utf-8")
     assert "Speed against accuracy" in page and 'href="precision.json"' in page
 
 

@@ -44,8 +44,8 @@ def test_what_a_report_ends_with(numbers, unconverged, status, monkeypatch, tmp_
     monkeypatch.setattr(Case, "evidence", lambda case, result: result)
     monkeypatch.setitem(CASES, "geike", replace(CASES["geike"], run=lambda case, engine: shown))
     assert command.main(["report", "--only", "geike", "--out", str(out), "--workers", "1"]) == status
-    page = "".join(page.read_text() for page in out.glob("*.html"))
-    printed, results = capsys.readouterr().out, (out / "results.json").read_text()
+    page = "".join(page.read_text(encoding="utf-8") for page in out.glob("*.html"))
+    printed, results = capsys.readouterr().out, (out / "results.json").read_text(encoding="utf-8")
     for line in unconverged:
         assert line in page and line in results and f"not converged: {line}" in printed
     criteria = [n for n in numbers if n.role is Role.CRITERION]

@@ -1,5 +1,6 @@
 """Solves that end as no solve should: apart from the tests, so that their workers import little."""
 
+import fcntl
 import os
 import signal
 import time
@@ -37,10 +38,31 @@ def die_at_once(job):
     return {"value": np.ones(1)}
 
 
+def live_in(folder):
+    """A file of this process, locked from when it is there to the end of the process, however that comes."""
+    begun = Path(folder) / f"{os.getpid()}.begun"
+    fcntl.flock(os.open(begun, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC), fcntl.LOCK_EX)
+    begun.rename(begun.with_suffix(".pid"))
+
+
+def alive_in(folder):
+    """The processes that have a file there and have not ended; one that has and is not waited for counts as ended."""
+    found = []
+    for path in Path(folder).glob("*.pid"):
+        handle = os.open(path, os.O_RDWR | os.O_CLOEXEC)
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            found.append(int(path.stem))
+        finally:
+            os.close(handle)
+    return found
+
+
 def stay(job):
     """Says which process it is, and never ends, but the first."""
     if job.number > 0:
-        (Path(job.folder) / f"{os.getpid()}.pid").touch()
+        live_in(job.folder)
         time.sleep(600)
     return {"value": np.ones(1)}
 

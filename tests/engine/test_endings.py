@@ -91,7 +91,7 @@ sys.exit(command.main(words))
 def test_who_is_asked_to_end_takes_all_workers_along(asked, status, said, solve, workers, tmp_path):
     """However long a solve would take; in a sentence; and the next run has what was finished."""
     words = [sys.executable, "-c", RUN, solve, str(tmp_path), str(workers)]
-    run = subprocess.Popen(words, cwd=ROOT, env=ENVIRONMENT, stderr=subprocess.PIPE, text=True)
+    run = subprocess.Popen(words, cwd=ROOT, env=ENVIRONMENT, stderr=subprocess.PIPE, encoding="utf-8")
     while len(list(tmp_path.glob("*.pid"))) < workers:
         assert run.poll() is None, "it ended before its workers were at work"
         time.sleep(0.05)
@@ -171,7 +171,7 @@ def test_the_table_of_statuses_is_complete(capsys):
         command.main(["--help"])
     printed = " ".join(capsys.readouterr().out.split())
     table = printed[printed.index("Exit status: 0") :]
-    rows = (ROOT / "reports" / "README.md").read_text()
+    rows = (ROOT / "reports" / "README.md").read_text(encoding="utf-8")
     for status in command.Exit:
         assert re.search(rf"[:;] {int(status)} \w", table), status
         assert re.search(rf"^\| {int(status)} \| \w", rows, re.MULTILINE), status
@@ -182,7 +182,7 @@ def test_nobody_reads_what_is_printed():
     """As after `| head`: it ends without a word, as other commands do."""
     words = [sys.executable, "-m", "validation", "scene", "rail"]
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
-    with subprocess.Popen(words, cwd=ROOT, env=ENVIRONMENT, text=True, **pipes) as run:
+    with subprocess.Popen(words, cwd=ROOT, env=ENVIRONMENT, encoding="utf-8", **pipes) as run:
         run.stdout.close()
         told = run.stderr.read()
     assert run.returncode == command.Exit.UNFINISHED
@@ -193,7 +193,7 @@ def test_nobody_reads_what_is_printed():
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no full device")
 def test_what_is_printed_goes_to_a_full_disk():
     words = [sys.executable, "-m", "validation", "scene", "rail"]
-    with Path("/dev/full").open("w") as full:
-        run = subprocess.run(words, cwd=ROOT, env=ENVIRONMENT, stdout=full, stderr=subprocess.PIPE, text=True)
+    with Path("/dev/full").open("w", encoding="utf-8") as full:
+        run = subprocess.run(words, cwd=ROOT, env=ENVIRONMENT, stdout=full, stderr=subprocess.PIPE, encoding="utf-8")
     assert run.returncode == command.Exit.UNFINISHED
     assert run.stderr == "error: No space left on device\n"

@@ -230,5 +230,5 @@ def test_another_version_of_a_library_is_another_version_of_the_numerics(library
 def test_the_source_is_read_when_the_code_is():
     """Whoever edits it while it runs does not make old results new."""
     code = "from validation.engine import engine, sources; print(sources.version_of_numerics.cache_info().currsize)"
-    run = subprocess.run([sys.executable, "-c", code], cwd=ROOT, env=ENVIRONMENT, capture_output=True, text=True)
+    run = subprocess.run([sys.executable, "-c", code], cwd=ROOT, env=ENVIRONMENT, capture_output=True, encoding="utf-8")
     assert run.stdout == "1\n", run.stderr

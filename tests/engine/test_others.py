@@ -30,7 +30,7 @@ BAD = {
 
 def written(folder, body, name="bad.py"):
     path = folder / name
-    path.write_text(body)
+    path.write_text(body, encoding="utf-8")
     return path
 
 
@@ -88,7 +88,7 @@ def test_a_function_that_ends_its_process_is_asked_three_times_and_the_others_go
         assert good.call(load=2.0) == 2.0
     assert all(reason.startswith("ended its process") for reason in reasons[:3])
     assert reasons[3:] == ["no answer, 3 times: not asked any more"] * 2
-    assert len((tmp_path / "starts").read_text()) == 4
+    assert len((tmp_path / "starts").read_text(encoding="utf-8")) == 4
 
 
 MANY = """
@@ -150,12 +150,12 @@ def test_data_that_a_file_reads_from_its_folder_belong_to_it_and_what_it_writes_
     folder = tmp_path / "mine"
     (folder / "b").mkdir(parents=True)
     (tmp_path / "link").symlink_to(folder)
-    (folder / "bad.py").write_text(FACE + READS)
-    (folder / "b" / "c.csv").write_text("3.0")
+    (folder / "bad.py").write_text(FACE + READS, encoding="utf-8")
+    (folder / "b" / "c.csv").write_text("3.0", encoding="utf-8")
     os.utime(folder / "b" / "c.csv", (2**32, 2**32))  # a clock that is ahead
     digests = []
     for a in (2.0, 2.0, 2.5):
-        (folder / "a.txt").write_text(str(a))
+        (folder / "a.txt").write_text(str(a), encoding="utf-8")
         with Visitor(tmp_path / place / "bad.py") as visitor:
             assert [source.name for source in visitor.sources] == ["a.txt", "bad.py"]
             assert visitor.callers()[0].call(load=2.0) == 6 * a

@@ -133,5 +133,5 @@ workers.end()
 @pytest.mark.slow
 def test_threads_may_be_the_first_to_need_workers():
     """In a fresh process: the library of processes is imported once, by one of them."""
-    run = subprocess.run([sys.executable, "-c", FIRST_IN_THREADS], capture_output=True, text=True, timeout=60)
+    run = subprocess.run([sys.executable, "-c", FIRST_IN_THREADS], capture_output=True, encoding="utf-8", timeout=60)
     assert run.returncode == 0, run.stderr

@@ -49,7 +49,7 @@ IMPORTS = ("import validation", "from validation import compare", "import import
 @pytest.mark.parametrize(("number", "text"), [*enumerate(IMPORTS)])
 def test_a_solve_that_uses_the_face_or_imports_by_name_rests_on_everything(number, text, tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(str(tmp_path))
-    (tmp_path / f"any_import_{number}.py").write_text(text)
+    (tmp_path / f"any_import_{number}.py").write_text(text, encoding="utf-8")
     behind = modules_behind(import_module(f"any_import_{number}").__name__)
     assert "validation.selection.compare" in behind
     assert number < 2 or behind >= set(sources.modules()) - {sources.ENGINE}
@@ -58,7 +58,7 @@ def test_a_solve_that_uses_the_face_or_imports_by_name_rests_on_everything(numbe
 def test_every_import_of_the_running_code_is_found():
     """Python's own list of what a fresh interpreter has loaded, beside what is read from the source."""
     code = f"import sys, {PUNCH}; print(*sys.modules)"
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, encoding="utf-8", check=True)
     loaded = {name for name in run.stdout.split() if name.split(".")[0] in sources.PACKAGES}
     left = {name for name in loaded - modules_behind(PUNCH) if not name.startswith("validation.engine")}
     assert not left
@@ -108,7 +108,9 @@ def test_the_code_of_a_user_counts(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(str(tmp_path))
     for factor in (2, 3):
         name = f"own_solve_{factor}"
-        (tmp_path / f"{name}.py").write_text(f"def solve(problem):\n    return {{'value': {factor} * problem}}\n")
+        (tmp_path / f"{name}.py").write_text(
+            f"def solve(problem):\n    return {{'value': {factor} * problem}}\n", encoding="utf-8"
+        )
         found.append(version_behind(import_module(name).__name__, 1))
     assert found[0] != found[1]
 

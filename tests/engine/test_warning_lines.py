@@ -30,7 +30,7 @@ sys.exit(command.main(["scene"]))
 @pytest.mark.parametrize("workers", [1, 2])
 def test_a_command_prints_one_line_a_warning(workers):
     words = [sys.executable, "-c", COMMAND.format(workers=workers)]
-    found = subprocess.run(words, capture_output=True, text=True, check=True)
+    found = subprocess.run(words, capture_output=True, encoding="utf-8", check=True)
     assert found.stderr.splitlines() == ["warning: first thing", "warning: second thing"]
 
 

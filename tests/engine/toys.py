@@ -22,7 +22,7 @@ class Toy:
 
 def toy(problem):
     """Leaves a trace each time it is computed."""
-    with Path(problem.log).open("a") as file:
+    with Path(problem.log).open("a", encoding="utf-8") as file:
         file.write(f"{problem.number}\n")
     return {"value": random_generator(5, problem.number).standard_normal(4)}
 
@@ -32,7 +32,7 @@ def other_toy(problem):
 
 
 def computed(log):
-    return sorted(int(line) for line in Path(log).read_text().split()) if Path(log).exists() else []
+    return sorted(int(line) for line in Path(log).read_text(encoding="utf-8").split()) if Path(log).exists() else []
 
 
 def same(outcomes, others):
@@ -62,8 +62,14 @@ def gated(problem):
     return toy(Toy(problem.number, problem.log))
 
 
+HANG = 300
+"""Seconds after which what has not happened will not happen."""
+
+
 def wait_until(condition, *alive, over=None):
-    """However long it takes, as long as the processes live that bring it about, and nobody has called it off."""
+    """As long as the processes live that bring it about, nobody has called it off, and it is no hang."""
+    begin = time.monotonic()
     while not condition() and not (over and over.is_set()):
         assert all(process.poll() is None for process in alive), "it ended before it happened"
+        assert time.monotonic() < begin + HANG, "it has not happened"
         time.sleep(0.02)

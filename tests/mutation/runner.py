@@ -125,7 +125,7 @@ def _timed(case: ElementTree.Element) -> tuple[str, float]:
 
 @cache
 def _source(path: str) -> str:
-    return (ROOT / path).read_text()
+    return (ROOT / path).read_text(encoding="utf-8")
 
 
 def _naming(name: str, source: str) -> list[int]:
@@ -163,9 +163,9 @@ def main(arguments: list[str]) -> None:
         if suite.run(union, folder) is not Outcome.SURVIVED:
             raise SystemExit("a test fails on the unchanged project, or is not there")
         for i, mutant in enumerate(chosen, 1):
-            (folder / mutant.path).write_text(mutated(mutant, sources[mutant.path]))
+            (folder / mutant.path).write_text(mutated(mutant, sources[mutant.path]), encoding="utf-8")
             outcome = suite.run(tests[mutant], folder) if tests[mutant] else Outcome.SURVIVED
-            (folder / mutant.path).write_text(sources[mutant.path])
+            (folder / mutant.path).write_text(sources[mutant.path], encoding="utf-8")
             trials.append((mutant, outcome))
             print(f"{i}/{len(chosen)} {outcome}: {mutant.path}: {mutant.key}", flush=True)
     seed = asked.seed if len(chosen) < len(everything) else None
@@ -173,7 +173,9 @@ def main(arguments: list[str]) -> None:
         Survey(trials, everything, seed, asked.seconds), tomllib.loads(_source("tests/mutation/survivors.toml"))
     )
     if not asked.only:
-        (HERE / f"MUTATIONS{'' if asked.of == 'methods' else f'_OF_{asked.of.upper()}'}.md").write_text(text)
+        (HERE / f"MUTATIONS{'' if asked.of == 'methods' else f'_OF_{asked.of.upper()}'}.md").write_text(
+            text, encoding="utf-8"
+        )
     print(text)
 
 

@@ -70,7 +70,7 @@ def test_defaults_are_felt_in_their_function_and_constants_by_their_name():
 
 @pytest.mark.parametrize("path", ["mdr/rolling.py", "bem3d/projected_cg.py", "bem3d/diagnostics.py"])
 def test_every_mutant_is_other_code_that_can_be_compiled(path):
-    source = (Path(__file__).parents[2] / path).read_text()
+    source = (Path(__file__).parents[2] / path).read_text(encoding="utf-8")
     plain, found = ast.unparse(ast.parse(source)), mutants_of(path, source)
     assert len(found) > 30
     for mutant in found[:: len(found) // 8]:

@@ -2,6 +2,9 @@
 
 import dataclasses
 import math
+import os
+from collections import deque
+from concurrent.futures import wait
 from functools import partial
 
 import numpy as np
@@ -19,6 +22,7 @@ from bem3d import (
     problem,
     projected_cg,
     rolling_frame,
+    threads,
     window,
     window_solve,
 )
@@ -62,6 +66,38 @@ def repeated(quadrant, padded):
 
 def forgiving_residual(pressure, w, overlap):
     return 1e-6 * contact.residual(pressure, w, overlap)
+
+
+def wait_once_more(left, at_work):
+    """A wait that survives one interrupt, and no second one."""
+    try:
+        wait_uninterrupted(left, at_work)
+    except KeyboardInterrupt:
+        wait_uninterrupted(left, at_work)
+        raise
+
+
+def wait_uninterrupted(left, at_work):
+    deque(left, maxlen=0)
+    while at_work:
+        threads.sleep(threads.POLL)
+
+
+def share_by_futures(work, blocks, buffers):
+    """Only what has a future is waited for."""
+    left, futures = iter(blocks), []
+
+    def part(own):
+        for block in left:
+            work(own, block)
+
+    try:
+        for own in buffers[1:]:
+            futures.append(threads._pool(len(buffers) - 1, os.getpid()).submit(part, own))
+        part(buffers[0])
+    finally:
+        deque(left, maxlen=0)
+        wait(futures)
 
 
 def half_a_window(half_space, marked):
@@ -183,6 +219,12 @@ FAULTS = [
     Fault("threads that share a buffer").at(
         blocked_convolution, "share", lambda work, blocks, buffers: share(work, blocks, [buffers[0]] * len(buffers))
     ),
+    partial(threaded.test_after_an_exception_in_a_block_the_next_answer_is_right, True),
+    Fault("nobody waits for the other threads").at(threads, "_wait", lambda left, at_work: None),
+    partial(threaded.test_interrupts_of_the_wait_come_after_the_last_block, 2),
+    Fault("a second interrupt ends the wait").at(threads, "_wait", wait_once_more),
+    threaded.test_a_thread_is_waited_for_whose_start_is_interrupted,
+    Fault("a thread whose future is lost").at(threads, "share", share_by_futures),
     dense_twin.test_displacement,
     Fault("a symbol that repeats instead of mirroring").at(convolution, "_halfplane", repeated),
     # 2n - 2 points would do, since the kernel is even: the two farthest distances may share a point

@@ -13,7 +13,9 @@ REFERENCE = Path(__file__).parents[2] / "reports" / "reference"
 def sections():
     """Whatever code has made them: the pages alone are looked at."""
     files = [REFERENCE / "results.json", *(path for name in TIMED if (path := REFERENCE / f"{name}.json").exists())]
-    cases = {name: case for file in files for name, case in json.loads(file.read_text())["cases"].items()}
+    cases = {
+        name: case for file in files for name, case in json.loads(file.read_text(encoding="utf-8"))["cases"].items()
+    }
     return [kept._section(REFERENCE, name, case) for name, case in cases.items()]
 
 

@@ -58,7 +58,7 @@ def violations(page: str, folder, width: int) -> dict[str, list[str]]:
     done = subprocess.run(
         [*command, f"--window-size={width},2000", copy.as_uri()],
         capture_output=True,
-        text=True,
+        encoding="utf-8",
         timeout=600,
         check=True,
     )

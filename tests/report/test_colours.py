@@ -15,7 +15,7 @@ NAMED = {"white": "#ffffff"}
 
 
 def sheet():
-    return "".join(file.read_text() for file in sorted(TEMPLATES.glob("*.css")))
+    return "".join(file.read_text(encoding="utf-8") for file in sorted(TEMPLATES.glob("*.css")))
 
 
 def declared(selector, text):

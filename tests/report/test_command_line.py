@@ -157,7 +157,7 @@ def no_identity_is_a_finding(evidence):
 def read_back_whole(folder):
     """A case that is kept by a later report says all that it said."""
     kept = kept_sections(folder, "quick", anew=())
-    said = json.loads((folder / "results.json").read_text())
+    said = json.loads((folder / "results.json").read_text(encoding="utf-8"))
     assert json.loads(as_json(results_of(kept, "quick"))) == {name: said[name] for name in ("profile", "cases")}
     (section,) = kept
     assert section.files == contents(folder, f"data/{section.name}-*.csv", "sounds/*.wav")
@@ -245,7 +245,7 @@ def lose(place):
 
 def text_of(folder):
     """Of all pages."""
-    return "".join(page.read_text() for page in sorted(folder.glob("*.html")))
+    return "".join(page.read_text(encoding="utf-8") for page in sorted(folder.glob("*.html")))
 
 
 def whole_page(folder, names):
@@ -262,7 +262,9 @@ def whole_page(folder, names):
 
 
 def names_no_machine(folder):
-    text = (folder / "provenance.json").read_text() + (folder / "results.json").read_text()
+    text = (folder / "provenance.json").read_text(encoding="utf-8") + (folder / "results.json").read_text(
+        encoding="utf-8"
+    )
     assert not [name for name in (str(ROOT), str(folder), os.uname().nodename) if name in text]
 
 
@@ -290,7 +292,7 @@ def test_not_converged_is_exit_3(small, tmp_path, monkeypatch, capsys):
     assert report("--only", "hertz", "geike", "--out", str(tmp_path), "--workers", "1") == command.Exit.NOT_CONVERGED
     printed = capsys.readouterr().out
     assert "not converged: residual" in printed
-    results = json.loads((tmp_path / "results.json").read_text())
+    results = json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))
     assert results["cases"]["hertz"]["numbers"] == []
     assert results["cases"]["geike"]["numbers"]
 
@@ -318,11 +320,11 @@ def test_a_lost_realisation_is_shown_and_is_exit_3(small, tmp_path, monkeypatch)
 
     limited(monkeypatch, is_lost)
     assert report("--only", "fractal_punch", "--out", str(tmp_path), "--workers", "1") == command.Exit.NOT_CONVERGED
-    results = json.loads((tmp_path / "results.json").read_text())["cases"]["fractal_punch"]
+    results = json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))["cases"]["fractal_punch"]
     assert len(results["unconverged"]) == 1
     assert results["unconverged"][0].startswith("surface 0, H = 0.4, 8² cells, Fbar = 10: residual")
     assert len(results["numbers"]) > 10
-    counted = from_csv("surfaces", (tmp_path / "data" / "fractal_punch-surfaces.csv").read_text())
+    counted = from_csv("surfaces", (tmp_path / "data" / "fractal_punch-surfaces.csv").read_text(encoding="utf-8"))
     assert counted["value"].tolist() == [12] * 6 + [11] + [12] * 7
     assert "surface 0, H = 0.4" in text_of(tmp_path)
 
@@ -331,7 +333,7 @@ def test_a_lost_realisation_is_shown_and_is_exit_3(small, tmp_path, monkeypatch)
 def test_a_lost_ensemble_has_no_result_and_is_exit_3(small, tmp_path, monkeypatch, capsys):
     limited(monkeypatch, lambda half_space, gap, force: force > 0.9e-3)
     assert report("--only", "fractal_punch", "--out", str(tmp_path), "--workers", "1") == command.Exit.NOT_CONVERGED
-    results = json.loads((tmp_path / "results.json").read_text())["cases"]["fractal_punch"]
+    results = json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))["cases"]["fractal_punch"]
     assert results["numbers"] == []
     assert "3 are needed" in results["unconverged"][0]
     assert "no result" in capsys.readouterr().out

@@ -100,9 +100,11 @@ def test_a_folder_is_written_and_replaced_and_no_other_touched(tmp_path, monkeyp
     names = {str(path.relative_to(mine)) for path in mine.rglob("*") if path.is_file()}
     assert names == {"manifest.json", *files_of(validation.compare(validation.load_scene("sphere")))}
     theirs.mkdir()
-    (theirs / "thesis.tex").write_text("mine")
+    (theirs / "thesis.tex").write_text("mine", encoding="utf-8")
     report.mkdir()
-    (report / "manifest.json").write_text('{"kind": "mdr-validation report", "format": 1, "files": {}}')
+    (report / "manifest.json").write_text(
+        '{"kind": "mdr-validation report", "format": 1, "files": {}}', encoding="utf-8"
+    )
     for folder, said in ((theirs, "--report must be a new or empty folder"), (report, "not the list of a comparison")):
         assert main(["compare", "sphere", "--report", str(folder)]) == 2
         assert said in capsys.readouterr().err

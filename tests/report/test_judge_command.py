@@ -38,7 +38,7 @@ def lost(load):
 @pytest.fixture
 def file(tmp_path):
     path = tmp_path / "mine.py"
-    path.write_text(SERIES)
+    path.write_text(SERIES, encoding="utf-8")
     return path
 
 
@@ -47,14 +47,14 @@ def test_a_formula_is_judged_and_written(file, tmp_path, capsys):
     places = [tmp_path / name for name in ("found.json", "found.csv", "found.png")]
     words = [word for pair in zip(("--json", "--csv", "--figure"), map(str, places), strict=True) for word in pair]
     assert main(["judge", str(file), "--out", str(tmp_path / "out"), *words]) == 0
-    printed, found = capsys.readouterr().out, json.loads(places[0].read_text())
+    printed, found = capsys.readouterr().out, json.loads(places[0].read_text(encoding="utf-8"))
     assert list(found) == ["model", "kind", "tolerance", "verdicts", "enough", "seconds"]
     assert (found["model"], found["kind"], found["tolerance"]) == ("in series", "stiffness_model", 0.1)
     point = found["verdicts"][0]
     assert {"quantity", "where", "value", "reference", "difference", "error", "verdict", "reason"} <= set(point)
     assert point["difference"] == pytest.approx(point["value"] / point["reference"] - 1)
     assert {"quantity", "where", "along", "from", "to", "verdict"} == set(found["enough"][0])
-    rows = list(csv.DictReader(places[1].read_text().splitlines()))
+    rows = list(csv.DictReader(places[1].read_text(encoding="utf-8").splitlines()))
     assert len(rows) == len(found["verdicts"])
     assert [row["verdict"] for row in rows] == [p["verdict"] for p in found["verdicts"]]
     assert places[2].read_bytes()[1:4] == b"PNG"
@@ -67,22 +67,25 @@ def test_a_formula_is_judged_and_written(file, tmp_path, capsys):
     assert "They share: Fbar up to 0.00215" in printed
     names = {path.name for path in (tmp_path / "out").iterdir()}
     assert names == {"judgement.json", "verdicts.csv", "summary.txt", "judgement.svg", "costs.csv"}
-    costs = list(csv.DictReader((tmp_path / "out" / "costs.csv").read_text().splitlines()))
+    costs = list(csv.DictReader((tmp_path / "out" / "costs.csv").read_text(encoding="utf-8").splitlines()))
     assert [(cost["model"], cost["unit"]) for cost in costs] == [("in series", "-"), ("springs", "-")]
     assert all(0 < float(cost["error"]) < 1 and 0 < float(cost["seconds"]) < 10 for cost in costs)
-    assert (tmp_path / "out" / "summary.txt").read_text().splitlines()[2:] == printed.splitlines()[2:-1]
+    assert (tmp_path / "out" / "summary.txt").read_text(encoding="utf-8").splitlines()[2:] == printed.splitlines()[2:-1]
 
 
 @pytest.mark.slow
 def test_a_model_that_answers_nowhere_ends_with_three_unless_another_does(file, tmp_path, capsys):
-    file.write_text(SERIES + NAN)
+    file.write_text(SERIES + NAN, encoding="utf-8")
     assert main(["judge", str(file), "--only", "lost", "--json", str(tmp_path / "found.json")]) == 3
     assert "returned NaN or infinity" in capsys.readouterr().out
-    last = json.loads((tmp_path / "found.json").read_text())["verdicts"][-1]
+    last = json.loads((tmp_path / "found.json").read_text(encoding="utf-8"))["verdicts"][-1]
     assert (last["quantity"], last["verdict"], last["value"]) == ("printing", "failed", None)
     assert last["reason"].startswith("printed 'lost at ")
     assert main(["judge", str(file), "--json", str(tmp_path / "found.json")]) == 0
-    assert [one["model"] for one in json.loads((tmp_path / "found.json").read_text())] == ["in series", "lost"]
+    assert [one["model"] for one in json.loads((tmp_path / "found.json").read_text(encoding="utf-8"))] == [
+        "in series",
+        "lost",
+    ]
 
 
 def broken(model, *_):
@@ -101,11 +104,11 @@ def broken(model, *_):
 def test_an_error_of_ours_is_a_row_and_takes_no_other_model_with_it(place, file, tmp_path, capsys, monkeypatch):
     solver = "@contact_solver('solver')\ndef solver(gap, force): return gap\n" if "benchmarks" in place else ""
     law = "@contact_law('no force')\ndef law(approach): return 0 * approach\n"
-    file.write_text(f"{SERIES}\nfrom validation import contact_law, contact_solver\n{law}{solver}")
+    file.write_text(f"{SERIES}\nfrom validation import contact_law, contact_solver\n{law}{solver}", encoding="utf-8")
     monkeypatch.setattr(place, broken)
     assert main(["judge", str(file), "--json", str(tmp_path / "found.json")]) == 0
     assert "Traceback" not in capsys.readouterr().err
-    found = {one["model"]: one["verdicts"] for one in json.loads((tmp_path / "found.json").read_text())}
+    found = {one["model"]: one["verdicts"] for one in json.loads((tmp_path / "found.json").read_text(encoding="utf-8"))}
     reason = "mdr-validation could not go on, which is its own error: ZeroDivisionError: planted, line "
     rows = [row for rows in found.values() for row in rows if row["quantity"] == "judging"]
     assert {row["verdict"] for row in rows} == {"failed"} and rows[0]["reason"].startswith(reason)
@@ -140,7 +143,7 @@ def test_what_cannot_be_judged_is_refused_in_one_sentence(body, words, sentence,
     if body is None:
         file.unlink()
     else:
-        file.write_text(body)
+        file.write_text(body, encoding="utf-8")
     assert main(["judge", str(file), *words]) == 2
     printed = capsys.readouterr()
     assert sentence.format(path=file) in printed.err
@@ -158,13 +161,13 @@ wrong = wrong_pack:series"""
 @pytest.fixture
 def package(tmp_path, monkeypatch):
     """An installed one that offers a model by its entry point, and another that is broken."""
-    (tmp_path / "contact_pack.py").write_text(SERIES + "\nprint('imported')\n")
+    (tmp_path / "contact_pack.py").write_text(SERIES + "\nprint('imported')\n", encoding="utf-8")
     about = tmp_path / "contact_pack-1.dist-info"
     about.mkdir()
-    (about / "METADATA").write_text("Metadata-Version: 2.1\nName: contact-pack\nVersion: 1\n")
-    (tmp_path / "broken_pack.py").write_text("import this_is_no_module\n" + SERIES)
-    (tmp_path / "wrong_pack.py").write_text(SERIES.replace("load,", "laod,"))
-    (about / "entry_points.txt").write_text(f"[mdr_validation.models]\n{OFFERS}\n")
+    (about / "METADATA").write_text("Metadata-Version: 2.1\nName: contact-pack\nVersion: 1\n", encoding="utf-8")
+    (tmp_path / "broken_pack.py").write_text("import this_is_no_module\n" + SERIES, encoding="utf-8")
+    (tmp_path / "wrong_pack.py").write_text(SERIES.replace("load,", "laod,"), encoding="utf-8")
+    (about / "entry_points.txt").write_text(f"[mdr_validation.models]\n{OFFERS}\n", encoding="utf-8")
     monkeypatch.syspath_prepend(tmp_path)
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
 
@@ -202,7 +205,9 @@ def test_an_entry_point_that_is_broken_is_named_with_the_line_of_its_package(nam
 
 def test_where_a_model_breaks_and_what_it_costs_is_said(file, tmp_path, capsys):
     """A stiffness that falls, and an end of another law: which loads, how far off, and that nothing was said of it."""
-    file.write_text(SERIES.replace("return 1", "return 1 / (1 + load / (20 * modulus * roughness.rms * side))"))
+    file.write_text(
+        SERIES.replace("return 1", "return 1 / (1 + load / (20 * modulus * roughness.rms * side))"), encoding="utf-8"
+    )
     assert main(["judge", str(file), "--figure", str(tmp_path / "found.svg")]) == 0
     printed = " ".join(capsys.readouterr().out.split())
     assert "Where it breaks: rise with the load, at the least, H = 0.4 to 1: -" in printed
@@ -240,7 +245,7 @@ def test_the_functions_take_what_is_decorated_and_a_file(file):
     assert {p.verdict for p in found.verdicts if p.where.get("Fbar") == 0.001} == {"differ"}
     assert {p.verdict for p in found.verdicts if p.where.get("Fbar") == 10.0} == {"agree"}
     assert validation.judge(file).model == "in series"
-    file.write_text(SERIES + NAN)
+    file.write_text(SERIES + NAN, encoding="utf-8")
     with pytest.raises(ValueError, match="model must be one, got 'in series', 'lost'"):
         validation.judge(file)
     with pytest.raises(TypeError, match="folder must be a path, got 3"):
@@ -331,5 +336,5 @@ def test_seconds_are_drawn_with_plain_ticks():
 def test_a_script_without_a_guard_may_judge_a_file(file):
     """The other process does not import the script once more."""
     code = f"import validation; print(validation.judge({str(file)!r}).model)"
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, encoding="utf-8")
     assert (run.stdout, run.stderr) == ("in series\n", "")

@@ -33,13 +33,15 @@ SOLVE = """
 def test_a_solver_ends_with_what_it_is(tmp_path, capsys, monkeypatch, body, status, said):
     """Its times are a list of their own: they are no verdicts."""
     monkeypatch.setattr(solvers, "GRIDS", (24,))
-    (tmp_path / "mine.py").write_text(HEAD + body)
+    (tmp_path / "mine.py").write_text(HEAD + body, encoding="utf-8")
     out = tmp_path / "out"
     assert main(["judge", str(tmp_path / "mine.py"), "--out", str(out)]) == status
     printed = capsys.readouterr().out
     assert said in printed and ("24²" in printed) == (status != 3)
-    written = json.loads((out / "judgement.json").read_text())
+    written = json.loads((out / "judgement.json").read_text(encoding="utf-8"))
     assert {point["verdict"] for point in written["verdicts"]} <= {"agree", "differ", "failed"}
     assert [set(time) for time in written.get("times", [])] == [{"cells", "seconds", "bem3d"}] * (status != 3)
     times = out / "costs.csv"
-    assert times.exists() == (status != 3) and (status == 3 or times.read_text().startswith("cells,seconds,bem3d\n24,"))
+    assert times.exists() == (status != 3) and (
+        status == 3 or times.read_text(encoding="utf-8").startswith("cells,seconds,bem3d\n24,")
+    )

@@ -31,7 +31,7 @@ def refused(capsys, said, out, *words):
 
 
 def of(folder, file):
-    return json.loads((folder / file).read_text())
+    return json.loads((folder / file).read_text(encoding="utf-8"))
 
 
 @pytest.mark.slow
@@ -50,7 +50,7 @@ def test_the_other_case_is_kept(tmp_path, monkeypatch):
     assert about["seconds"]["hertz"] == made["seconds"]["hertz"]
     assert list(about["code"]) == ["hertz", "geike"] and about["code"] == made["code"]
     assert about["load"] >= 0 and about["date"].endswith("+00:00") and about["machines"] == {}
-    page = "".join(path.read_text() for path in tmp_path.glob("*.html"))
+    page = "".join(path.read_text(encoding="utf-8") for path in tmp_path.glob("*.html"))
     assert "Version" in page and "commit second0; kept as made at commit first00: hertz" in page
     cited = {
         figure: commit for commit, figure in re.findall(r"commit (\w+), profile quick\), exact.html#figure-(\w+)", page)
@@ -80,7 +80,7 @@ def test_what_cannot_be_kept_is_refused(tmp_path, capsys):
     refused(capsys, "needs the profile of the report", tmp_path, "--only", "geike", "--keep", "--profile", "full")
     old = of(tmp_path, "results.json")
     del old["cases"]["hertz"]["title"]
-    (tmp_path / "results.json").write_text(json.dumps(old))
+    (tmp_path / "results.json").write_text(json.dumps(old), encoding="utf-8")
     refused(capsys, "cannot keep hertz: 'title'", tmp_path, "--only", "geike", "--keep")
 
 
@@ -127,7 +127,7 @@ CPUINFO = "processor : 0\nmodel name\t: Made-up 9 @ 3 GHz\n\nprocessor : 1\nmode
 )
 def test_the_processor_is_the_first_that_the_system_lists_or_its_architecture(listed, wanted, tmp_path, monkeypatch):
     if listed is not None:
-        (tmp_path / "cpuinfo").write_text(listed)
+        (tmp_path / "cpuinfo").write_text(listed, encoding="utf-8")
     monkeypatch.setattr(provenance, "PROCESSORS", tmp_path / "cpuinfo")
     monkeypatch.setattr(provenance.platform, "processor", lambda: "")
     monkeypatch.setattr(provenance.platform, "machine", lambda: "arch")

@@ -26,7 +26,7 @@ with suppress(SystemExit):
 def modules_of(code, *words):
     """Names of the modules that are imported after this code."""
     printed = f"{code}\nimport sys\nprint('\\n' + ' '.join(sys.modules))"
-    run = subprocess.run([sys.executable, "-c", printed, *words], capture_output=True, text=True, check=True)
+    run = subprocess.run([sys.executable, "-c", printed, *words], capture_output=True, encoding="utf-8", check=True)
     return set(run.stdout.splitlines()[-1].split())
 
 
@@ -63,8 +63,8 @@ def test_a_command_sums_with_one_thread_as_workers_do():
     code = f"{COMMAND}\nimport os\nprint(os.environ['OMP_NUM_THREADS'])"
     before = {name: value for name, value in os.environ.items() if not name.endswith("_NUM_THREADS")}
     words = [sys.executable, "-c", code, "scene", "sphere"]
-    run = subprocess.run(words, env=before, capture_output=True, text=True, check=True)
+    run = subprocess.run(words, env=before, capture_output=True, encoding="utf-8", check=True)
     assert run.stdout.splitlines()[-1] == "1"
     code = "import sys, validation.__main__; print('numpy' in sys.modules)"
-    run = subprocess.run([sys.executable, "-c", code], env=before, capture_output=True, text=True, check=True)
+    run = subprocess.run([sys.executable, "-c", code], env=before, capture_output=True, encoding="utf-8", check=True)
     assert run.stdout == "False\n"

@@ -35,7 +35,7 @@ def test_a_figure_is_drawn_from_what_its_files_hold(monkeypatch):
 
 
 def test_the_table_of_durations_names_cases_and_others_are_like_their_mean():
-    known = tomllib.loads(Path(contents.__file__).with_name("durations.toml").read_text())
+    known = tomllib.loads(Path(contents.__file__).with_name("durations.toml").read_text(encoding="utf-8"))
     assert known.keys() <= {*contents.CASES, *contents.TIMED, pictures.FIGURES}
     for profile, seconds in zip(("quick", "full"), zip(*known.values(), strict=True), strict=True):
         expected = contents.expected_seconds(["ladder", "a new case"], profile)

@@ -31,7 +31,7 @@ def here(tmp_path, monkeypatch):
     """With a model that leaves a trace where it is run."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "far").mkdir()
-    (tmp_path / "mine.py").write_text(f"open('was_run', 'w')\n{SERIES}")
+    (tmp_path / "mine.py").write_text(f"open('was_run', 'w')\n{SERIES}", encoding="utf-8")
     return tmp_path
 
 

@@ -59,7 +59,7 @@ def refused(out, capsys, *said):
 def fill(folder, contents):
     for name, text in contents.items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (folder / name).write_text(text)
+        (folder / name).write_text(text, encoding="utf-8")
 
 
 THESIS = {"figures/thesis.svg": "mine", "data/measured.csv": "mine", "data/half.part": "mine"}
@@ -116,7 +116,7 @@ def test_an_earlier_report_is_replaced_and_files_of_others_stay(tmp_path):
     begun = [f"{room}.mdr-validation-a1_cdefg.part" for room in rooms]
     fill(tmp_path, dict.fromkeys(begun, "half of"))
     assert report(tmp_path, "geike") == command.Exit.MET
-    assert {name: (tmp_path / name).read_text() for name in others} == others
+    assert {name: (tmp_path / name).read_text(encoding="utf-8") for name in others} == others
     left = {n for n, text in tree(tmp_path).items() if text} - {MANIFEST} - realisations(tmp_path)
     assert left - others.keys() == set(listed_in(tmp_path))
     assert not any("hertz" in name for name in left - others.keys())
@@ -135,7 +135,7 @@ def test_a_room_that_is_a_link_is_refused(room, taken, tmp_path, capsys):
         folder.replace({"index.html": b"old"})
     elsewhere.mkdir()
     if taken == "file":
-        (out / room).write_text("mine")
+        (out / room).write_text("mine", encoding="utf-8")
     else:
         (out / room).symlink_to(elsewhere if taken == "link" else tmp_path / "nowhere")
     refused(out, capsys, str(out / room))
@@ -157,7 +157,7 @@ def test_a_marker_that_is_no_plain_file_of_ours_is_refused(name, kind, tmp_path,
     elif kind == "folder":
         (out / name).mkdir()
     else:
-        (out / name).write_text("mine")
+        (out / name).write_text("mine", encoding="utf-8")
     refused(out, capsys, str(out))
     assert (out / name).is_symlink() == (kind == "link")
 
@@ -168,7 +168,7 @@ def test_a_file_in_the_way_is_never_overwritten(tmp_path, capsys):
     fill(tmp_path, {"figures/geike.svg": "mine"})
     assert report(tmp_path, "geike") == command.Exit.BAD_INPUT
     assert "figures/geike.svg is not of this report" in capsys.readouterr().err
-    assert (tmp_path / "figures/geike.svg").read_text() == "mine"
+    assert (tmp_path / "figures/geike.svg").read_text(encoding="utf-8") == "mine"
     assert (tmp_path / "figures/hertz.svg").exists()
     (tmp_path / "figures/geike.svg").unlink()
     fill(tmp_path, {"figures/hertz.svg": "mine"})
@@ -295,10 +295,10 @@ def test_a_link_to_a_folder_is_followed_and_one_to_nothing_refused(tmp_path, cap
 
 @pytest.mark.parametrize("name", ["file", "file/below", "x" * 300, "nul\0", "/proc/none/report"])
 def test_a_path_that_can_be_no_folder_is_refused(name, tmp_path, capsys):
-    (tmp_path / "file").write_text("mine")
+    (tmp_path / "file").write_text("mine", encoding="utf-8")
     assert report(tmp_path / name, "geike") == command.Exit.BAD_INPUT
     assert capsys.readouterr().err.startswith("error: --out must be a")
-    assert (tmp_path / "file").read_text() == "mine"
+    assert (tmp_path / "file").read_text(encoding="utf-8") == "mine"
 
 
 @pytest.mark.parametrize("refusal", [errno.EROFS, errno.EACCES])
@@ -361,8 +361,8 @@ def test_a_full_disk_is_exit_4_and_names_the_path(says, what, tmp_path, capsys, 
 def test_only_may_be_given_more_than_once_and_with_commas(tmp_path):
     words = ["report", "--only", "geike,geike", "geike", "--only", "hertz", "--out", str(tmp_path), "--workers", "1"]
     assert command.main(words) == command.Exit.MET
-    assert list(json.loads((tmp_path / "results.json").read_text())["cases"]) == ["geike", "hertz"]
-    assert (tmp_path / "exact.html").read_text().count('id="geike"') == 1
+    assert list(json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))["cases"]) == ["geike", "hertz"]
+    assert (tmp_path / "exact.html").read_text(encoding="utf-8").count('id="geike"') == 1
 
 
 def test_the_reference_report_is_a_report():

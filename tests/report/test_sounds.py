@@ -72,7 +72,7 @@ def test_the_command_writes_one_sound_a_model_with_one_gain(tmp_path, capsys):
     one, two = tmp_path / "one", tmp_path / "two"
     assert sound(one, "--models", "linear,springs,geike") == 0
     printed = capsys.readouterr().out
-    about = json.loads((one / "sounds.json").read_text())
+    about = json.loads((one / "sounds.json").read_text(encoding="utf-8"))
     assert {row["file"] for row in about["sounds"]} == {"linear.wav", "springs.wav", "geike.wav"}
     for row in about["sounds"]:
         samples = read((one / row["file"]).read_bytes())
@@ -82,23 +82,23 @@ def test_the_command_writes_one_sound_a_model_with_one_gain(tmp_path, capsys):
     assert about["heard"].startswith("What is heard is the contact force")
     assert "50 times a second, which is heard as a tone" in " ".join(printed.split())
     assert "over boundary elements" not in printed
-    assert (one / "levels.csv").read_text().startswith('f [Hz],"linear, ellipse [dB re 1 N]",')
+    assert (one / "levels.csv").read_text(encoding="utf-8").startswith('f [Hz],"linear, ellipse [dB re 1 N]",')
     sound(two, "--models", "geike,springs,linear")
     assert {f.name: f.read_bytes() for f in one.iterdir()} == {f.name: f.read_bytes() for f in two.iterdir()}
 
 
 def test_a_folder_with_files_of_others_is_refused_and_left_as_it_is(tmp_path, capsys):
     """Measured levels are in a levels.csv, too."""
-    (tmp_path / "levels.csv").write_text("my own")
+    (tmp_path / "levels.csv").write_text("my own", encoding="utf-8")
     assert sound(tmp_path, "--models", "linear") == command.Exit.BAD_INPUT
     assert "--out must be a new or empty folder" in capsys.readouterr().err
-    assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [("levels.csv", "my own")]
+    assert [(path.name, path.read_text(encoding="utf-8")) for path in tmp_path.iterdir()] == [("levels.csv", "my own")]
 
 
 def edited(tmp_path, capsys, old, new):
     """The scene of a rail with other words in it."""
     command.main(["scene", "rail"])
-    (tmp_path / "my.toml").write_text(capsys.readouterr().out.replace(old, new))
+    (tmp_path / "my.toml").write_text(capsys.readouterr().out.replace(old, new), encoding="utf-8")
     return str(tmp_path / "my.toml")
 
 

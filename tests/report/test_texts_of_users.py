@@ -84,5 +84,5 @@ def test_the_command_draws_and_reports_a_scene_of_any_name(tmp_path, capsys):
     scene.write_text(text.replace('name = "Smooth sphere"', r"name = 'costs $\frac{$ & <b>'"), encoding="utf-8")
     words = ["compare", str(scene), "--report", str(tmp_path / "page"), "--figure", str(tmp_path / "it.png")]
     assert main(words) == 0
-    page = (tmp_path / "page" / "index.html").read_text()
+    page = (tmp_path / "page" / "index.html").read_text(encoding="utf-8")
     assert r"costs $\frac{$ &amp; &lt;b&gt;: stiffness" in page and "<b>: stiffness" not in page

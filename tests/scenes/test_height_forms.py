@@ -52,7 +52,7 @@ HEADER = "Instrument 7\nDate: 2024-05-01, 12:30\nX;Y;Z\n"
 
 
 def test_a_header_that_is_no_comment_is_left_out_and_told(tmp_path):
-    (tmp_path / "face.csv").write_text(HEADER.replace(";", ",") + rows_of(HEIGHT))
+    (tmp_path / "face.csv").write_text(HEADER.replace(";", ",") + rows_of(HEIGHT), encoding="utf-8")
     for lines in ((), ("skip = 1",)):
         ground = heights_in(tmp_path, "face.csv", *lines)
         assert ground.height == level(HEIGHT)
@@ -73,10 +73,15 @@ def xyz(*, form="{:.6f},{:.6f},{:.9f}", missing=()):
 def test_three_columns_are_x_y_and_height_in_any_order_of_rows(tmp_path, file):
     rows = xyz()
     np.random.default_rng(1).shuffle(rows)
-    (tmp_path / file).write_text("x [um],y [um],z [nm]\n" + "".join(rows))
+    (tmp_path / file).write_text("x [um],y [um],z [nm]\n" + "".join(rows), encoding="utf-8")
     path = scene_of(tmp_path, file, side="1 mm")
-    text = path.read_text().replace('spacing = "1 um"', "").replace("[punch]", "[sphere]").replace("side", "radius")
-    path.write_text(text.replace("0.01 N", "0.04 N"))
+    text = (
+        path.read_text(encoding="utf-8")
+        .replace('spacing = "1 um"', "")
+        .replace("[punch]", "[sphere]")
+        .replace("side", "radius")
+    )
+    path.write_text(text.replace("0.01 N", "0.04 N"), encoding="utf-8")
     ground = load_scene(path).ground
     assert ground.height == level(HEIGHT[:, :48], (0.5e-6, 1e-6))
     assert ground.spacing == pytest.approx((0.5e-6, 1e-6))
@@ -85,30 +90,30 @@ def test_three_columns_are_x_y_and_height_in_any_order_of_rows(tmp_path, file):
 
 def test_columns_that_are_named_x_y_and_z_are_found_among_others(tmp_path):
     rows = [f"{i},{j},{99 - i},{1e9 * HEIGHT[i, j]:.9f},1\n" for i in range(64) for j in range(64)]
-    (tmp_path / "face.csv").write_text("X [um],Y [um],intensity,Z [nm],mask\n" + "".join(rows))
+    (tmp_path / "face.csv").write_text("X [um],Y [um],intensity,Z [nm],mask\n" + "".join(rows), encoding="utf-8")
     assert heights_in(tmp_path, "face.csv").height == level(HEIGHT)
 
 
 def test_places_of_a_grid_without_units_have_those_of_the_spacing(tmp_path):
     square = [f"{i} {j} {1e9 * HEIGHT[i, j]:.9f}\n" for j in range(64) for i in range(64)]
-    (tmp_path / "face.txt").write_text("".join(square))
+    (tmp_path / "face.txt").write_text("".join(square), encoding="utf-8")
     assert heights_in(tmp_path, "face.txt", 'unit = "nm"').height == level(HEIGHT)
     refused(tmp_path, "face.txt", spacing='"1.5 um"', said=r"spacing must be that of column 1 and column 2, 1 ap")
-    (tmp_path / "face.txt").write_text("".join(square[:-1]))
+    (tmp_path / "face.txt").write_text("".join(square[:-1]), encoding="utf-8")
     refused(tmp_path, "face.txt", 'unit = "nm"', said=r"got 1 of 4096 .* as: fill = true$")
-    (tmp_path / "face.txt").write_text("".join([*square, square[0]]))
+    (tmp_path / "face.txt").write_text("".join([*square, square[0]]), encoding="utf-8")
     refused(tmp_path, "face.txt", said="x, y and height on a regular grid, got 4097 rows")
-    (tmp_path / "face.txt").write_text("".join(square).replace("63 ", "63.4 "))
+    (tmp_path / "face.txt").write_text("".join(square).replace("63 ", "63.4 "), encoding="utf-8")
     refused(tmp_path, "face.txt", said=r"got 64 places along x that are not evenly apart")
 
 
 def test_a_first_column_and_a_first_row_of_places_are_no_heights(tmp_path):
     places = [f"{i}," + ",".join(map(repr, row)) + "\n" for i, row in enumerate(HEIGHT.tolist())]
-    (tmp_path / "face.csv").write_text("".join(places))
+    (tmp_path / "face.csv").write_text("".join(places), encoding="utf-8")
     said = "face.csv: its first column runs evenly, 1 µm apart, and is left out of the heights"
     assert heights_in(tmp_path, "face.csv").height == level(HEIGHT)
     assert f"{said}." in heights_in(tmp_path, "face.csv").notes()
-    (tmp_path / "face.csv").write_text("," + ",".join(map(str, range(64))) + "\n" + "".join(places))
+    (tmp_path / "face.csv").write_text("," + ",".join(map(str, range(64))) + "\n" + "".join(places), encoding="utf-8")
     ground = heights_in(tmp_path, "face.csv")
     assert ground.height == level(HEIGHT)
     assert f"{said}; its first row runs evenly, 1 µm apart, and is left out of the heights." in ground.notes()
@@ -127,7 +132,7 @@ def test_a_header_has_the_unit_of_all_heights(tmp_path, header):
 def test_what_instruments_write_for_no_data_is_told_and_no_height(tmp_path, sentinel):
     rows = rows_of(1e6 * HEIGHT).splitlines()
     rows[4] = f"{sentinel}," + rows[4].partition(",")[2]
-    (tmp_path / "face.csv").write_text("\n".join(rows))
+    (tmp_path / "face.csv").write_text("\n".join(rows), encoding="utf-8")
     refused(tmp_path, "face.csv", 'unit = "um"', said=r"got 1 of 4096 .*, the first at \[4, 0\].* as: fill = true$")
     ground = heights_in(tmp_path, "face.csv", 'unit = "um"', "fill = true")
     assert ground.edits.filled == 1 and ground.rms < 2e-7
@@ -237,9 +242,9 @@ def test_wishes_and_spacings_that_are_none_are_refused(tmp_path, line, spacing, 
 def test_keys_that_are_missing_are_shown_as_a_line(tmp_path):
     path = scene_of(tmp_path, "face.npy")
     np.save(tmp_path / "face.npy", HEIGHT)
-    text = path.read_text()
+    text = path.read_text(encoding="utf-8")
     for line in ('file = "face.npy"', 'spacing = "1 um"'):
-        path.write_text(text.replace(line, ""))
+        path.write_text(text.replace(line, ""), encoding="utf-8")
         with pytest.raises(ValueError, match=rf"heights\.{line.split()[0]} is missing, .* as: {re.escape(line)}$"):
             load_scene(path)
 

@@ -148,7 +148,7 @@ def test_tables_that_are_none_are_refused_in_one_line(tmp_path, monkeypatch, con
 )
 def test_scenes_that_are_bombs_are_refused_in_one_sentence(tmp_path, capsys, text, said):
     path = tmp_path / "scene.toml"
-    path.write_text(text)
+    path.write_text(text, encoding="utf-8")
     line = refused(capsys, "compare", str(path))
     assert line.startswith(f"error: scene {path}")
     assert said in line

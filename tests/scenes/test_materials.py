@@ -126,7 +126,9 @@ def test_another_body_is_a_table_of_its_own_and_a_contact_modulus_may_be_given_i
     scene = load_scene(path)
     assert scene.material.counterface == Elastic(youngs_modulus=70e9, poisson_ratio=0.33)
     assert scene.modulus == scene.material.modulus < 70e9 / (1 - 0.33**2)
-    path.write_text(re.sub(r"\[material\]\n(.+\n)+", '[material]\ncontact_modulus = "115 GPa"\n', text))
+    path.write_text(
+        re.sub(r"\[material\]\n(.+\n)+", '[material]\ncontact_modulus = "115 GPa"\n', text), encoding="utf-8"
+    )
     assert load_scene(path).modulus == 115e9
 
 

@@ -88,7 +88,7 @@ def test_a_radius_is_fitted_over_the_contact_and_not_over_the_whole_head():
 def test_curvatures_of_wheel_and_rail_add(tmp_path):
     scene = with_profile(tmp_path, table(parabola(300.0)), ('load = "', 'transverse_radius = "600 mm"\nload = "'))
     assert scene.radii[1] == pytest.approx(0.2, rel=1e-6)
-    (tmp_path / "tread.csv").write_text(table(parabola(600.0)))
+    (tmp_path / "tread.csv").write_text(table(parabola(600.0)), encoding="utf-8")
     scene = with_profile(tmp_path, table(parabola(300.0)), ('load = "', 'profile = "tread.csv"\nload = "'))
     assert scene.radii[1] == pytest.approx(0.2, rel=1e-6)
     assert scene.profile.source == "head.csv and tread.csv"
@@ -159,8 +159,8 @@ def tread(y, cone):
 
 def rolling(folder, *changes, cone=1 / 40, rail=True, flip=1, shift=0):
     """The scene of a wheel with a flange."""
-    (folder / "tread.csv").write_text(table(flip * tread(WHEEL_Y, cone), WHEEL_Y + shift))
-    (folder / "head.csv").write_text(table(head(RAIL_Y), RAIL_Y))
+    (folder / "tread.csv").write_text(table(flip * tread(WHEEL_Y, cone), WHEEL_Y + shift), encoding="utf-8")
+    (folder / "head.csv").write_text(table(head(RAIL_Y), RAIL_Y), encoding="utf-8")
     profile = [(CROWN, PROFILE)] if rail else []
     return load_scene(written(folder, *profile, ('load = "', 'profile = "tread.csv"\nload = "'), *changes))
 
@@ -182,7 +182,7 @@ def test_a_cone_shifts_the_contact_along_a_crown_and_keeps_its_curvature(tmp_pat
 
 def test_a_wheel_in_coordinates_of_its_own_is_asked_for_its_offset(tmp_path):
     for shift, offset in ((745.0, "-740 mm"), (-745.0, "750 mm")):
-        (tmp_path / "far.csv").write_text(table(tread(WHEEL_Y, 1 / 40), WHEEL_Y + shift))
+        (tmp_path / "far.csv").write_text(table(tread(WHEEL_Y, 1 / 40), WHEEL_Y + shift), encoding="utf-8")
         with pytest.raises(ValueError, match=rf'wheel.profile must have points within 26 mm .*as: offset = "{offset}"'):
             load_scene(written(tmp_path, ('load = "', 'profile = "far.csv"\nload = "')))
     asked = ('load = "', 'profile = "far.csv"\noffset = "745 mm"\nload = "')
@@ -263,9 +263,9 @@ def test_a_contact_on_a_flank_is_refused():
 def test_flanks_that_turn_back_are_left_out_and_told(tmp_path):
     """The back of a flange and the side of a head are vertical: no heights over y."""
     back = "".join(f"-69,{height}\n" for height in (3, 9))
-    (tmp_path / "head.csv").write_text(table(head(RAIL_Y), RAIL_Y) + "\n35,-14\n34.95,-20\n20,-34\n")
+    (tmp_path / "head.csv").write_text(table(head(RAIL_Y), RAIL_Y) + "\n35,-14\n34.95,-20\n20,-34\n", encoding="utf-8")
     (tmp_path / "tread.csv").write_text(
-        "y [mm],z [mm]\n" + back + table(tread(WHEEL_Y, 0.01), WHEEL_Y).partition("]\n")[2]
+        "y [mm],z [mm]\n" + back + table(tread(WHEEL_Y, 0.01), WHEEL_Y).partition("]\n")[2], encoding="utf-8"
     )
     scene = load_scene(written(tmp_path, (CROWN, PROFILE), ('load = "', 'profile = "tread.csv"\nload = "')))
     assert scene.profile.at == pytest.approx(-3e-3, abs=2e-5)

@@ -104,7 +104,7 @@ def test_bands_beyond_two_wavelengths_are_left_out(tmp_path):
 
 
 def test_wheel_and_rail_add_their_energies(tmp_path):
-    (tmp_path / "wheel.csv").write_text(f"{HEADER}\n100,4.9\n80,2.9\n")
+    (tmp_path / "wheel.csv").write_text(f"{HEADER}\n100,4.9\n80,2.9\n", encoding="utf-8")
     both = loaded(tmp_path, ("[rail]", '[wheel.levels]\nfile = "wheel.csv"\n[rail]'))
     more = np.array(both.levels.levels) - loaded(tmp_path).levels.levels
     at = np.isin(both.levels.bands.nominal, [0.1, 0.08])

@@ -125,7 +125,7 @@ def reported(tmp_path, *changes):
     out = tmp_path / "report"
     code = main(["report", "--scene", str(path), "--out", str(out), "--workers", "1"])
     page = (out / "index.html").read_text(encoding="utf-8")
-    return code, page[page.index("<body>") :], json.loads((out / "results.json").read_text())["scene"]
+    return code, page[page.index("<body>") :], json.loads((out / "results.json").read_text(encoding="utf-8"))["scene"]
 
 
 @pytest.mark.slow

@@ -73,7 +73,7 @@ def test_the_file_of_an_instrument_has_its_sizes_and_its_unit(tmp_path, monkeypa
     as_installed(monkeypatch, uniform(HEIGHT, (48.0, 48.0), "um"))
     (tmp_path / file).write_bytes(BINARY)
     path = scene_of(tmp_path, file, side="48 um")
-    path.write_text(path.read_text().replace('spacing = "1 um"', ""))
+    path.write_text(path.read_text(encoding="utf-8").replace('spacing = "1 um"', ""), encoding="utf-8")
     ground = load_scene(path).ground
     expected = MeasuredHeights(height=1e-6 * HEIGHT, spacing=(1e-6, 1e-6))
     assert ground.height == pytest.approx(expected.height, rel=1e-9, abs=1e-18)
@@ -96,7 +96,7 @@ def test_a_file_that_names_no_unit_or_no_size_is_asked_for_it(tmp_path, monkeypa
     as_installed(monkeypatch, uniform(HEIGHT, (48.0, 48.0), "um"), sizes=False)
     path = scene_of(tmp_path, "face.nc", side="48 um")
     assert load_scene(path).ground.spacing == (1e-6, 1e-6)
-    path.write_text(path.read_text().replace('spacing = "1 um"', ""))
+    path.write_text(path.read_text(encoding="utf-8").replace('spacing = "1 um"', ""), encoding="utf-8")
     with pytest.raises(ValueError, match=r'heights\.spacing is missing, heights must have it, as: spacing = "1 um"$'):
         load_scene(path)
 
@@ -140,7 +140,7 @@ def test_real_files_of_the_package(tmp_path):
     rows = "\n".join(" ".join(f"{value:.9f}" for value in row) for row in HEIGHT.T)
     keys = "ManufacID = X\nCreateDate = 010120200000\nModDate = 010120200000\nNumPoints = 48\nNumProfiles = 48\n"
     scales = "Xscale = 1e-06\nYscale = 1e-06\nZscale = 1e-06\nZresolution = -1\nCompression = 0\nDataType = 7\n"
-    (tmp_path / "face.sdf").write_text(f"aISO-1.0\n{keys}{scales}CheckType = 0\n*\n{rows}\n*\n")
+    (tmp_path / "face.sdf").write_text(f"aISO-1.0\n{keys}{scales}CheckType = 0\n*\n{rows}\n*\n", encoding="utf-8")
     for file in ("face.nc", "face.x3p", "face.sdf"):
         found = load_scene(scene_of(tmp_path, file, side="48 um")).ground
         assert found.height == pytest.approx(measured(one).height, rel=1e-5, abs=1e-14), file

@@ -157,7 +157,7 @@ def test_a_check_reports_and_writes_nothing(differing, monkeypatch, capsys):
 def test_what_cannot_be_done_is_refused_before_anything_is_measured(words, said, tmp_path, capsys, monkeypatch):
     """No file of others is touched."""
     monkeypatch.setattr(calibrate.os, "access", lambda path, mode: str(path) == ".")
-    (tmp_path / "calibration.csv").write_text("mine")
+    (tmp_path / "calibration.csv").write_text("mine", encoding="utf-8")
     assert main(["calibrate", *words]) == 2
     assert said in capsys.readouterr().err
     assert [path.name for path in tmp_path.iterdir()] == ["calibration.csv"]

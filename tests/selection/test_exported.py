@@ -93,8 +93,8 @@ def test_the_command_writes_what_the_library_returns(form, start, tmp_path):
     }
     words = ["compare", "rolling_wheel", "--quantity", "force-spectrum", "--tolerance", "3 dB"]
     assert main([*words, *(str(word) for option in places.items() for word in option)]) == 0
-    assert places["--json"].read_text() == validation.to_json(spectrum())
-    assert places["--csv"].read_text() == validation.to_csv(spectrum())
+    assert places["--json"].read_text(encoding="utf-8") == validation.to_json(spectrum())
+    assert places["--csv"].read_text(encoding="utf-8") == validation.to_csv(spectrum())
     assert places["--figure"].read_bytes().startswith(start)
     assert set((tmp_path / "new").iterdir()) == set(places.values())
 

@@ -85,7 +85,7 @@ def test_a_tool_gets_a_filter_for_a_load_that_the_table_lacks(tmp_path):
     out = tmp_path / "a3.csv"
     words = ["--tolerance", "1 dB", "--sweep", "wheel.load=50 kN,65 kN", "--cnossos", str(out)]
     assert main(["compare", "rail", *words]) == 0
-    rows = list(csv.DictReader(out.read_text().splitlines()))
+    rows = list(csv.DictReader(out.read_text(encoding="utf-8").splitlines()))
     assert [row["wheel_load_kN"] for row in rows] == ["50"] * 35 + ["65"] * 35
     at_20_mm = [float(row["a3_dB"]) for row in rows if row["wavelength_mm"] == "20"]
     # a larger load has a larger contact, which takes more of the short waves; the table has -8.0 dB for 50 kN

@@ -176,9 +176,9 @@ def raises(load):
 
 
 def written(folder, half=0.48, square=1.1523):
-    (folder / "own_constants.py").write_text(f"HALF = {half}\n")
-    (folder / "square.txt").write_text(f"{square}\n")
-    (folder / "mine.py").write_text(FILE)
+    (folder / "own_constants.py").write_text(f"HALF = {half}\n", encoding="utf-8")
+    (folder / "square.txt").write_text(f"{square}\n", encoding="utf-8")
+    (folder / "mine.py").write_text(FILE, encoding="utf-8")
     return folder / "mine.py"
 
 
@@ -200,7 +200,9 @@ def test_a_sweep_takes_what_is_stored_until_a_module_of_the_file_is_another(caps
         for half in (0.48, 0.48, 0.5):
             written(folder, half)
             main([*words, *sweep])
-            rows = {row["model"]: row for row in json.loads((folder / "o.json").read_text())[0]["models"]}
+            rows = {
+                row["model"]: row for row in json.loads((folder / "o.json").read_text(encoding="utf-8"))[0]["models"]
+            }
             kept.append(({path.name for path in (folder / "reports" / "compared").rglob("*.npz")}, rows))
     (first, rows), (second, same), (third, other) = kept
     assert len(first) == 5 and first == second and len(third - first) == 5 and rows == same
@@ -235,9 +237,10 @@ def test_the_errors_of_a_file_are_shown_and_why_there_are_none(capsys):
 def test_what_cannot_be_done_is_refused_in_one_sentence(words, said, capsys):
     with stored() as folder:
         written(folder)
-        (folder / "taken.py").write_text(FILE.replace('"mine"', '"Fit"'))
+        (folder / "taken.py").write_text(FILE.replace('"mine"', '"Fit"'), encoding="utf-8")
         (folder / "law.py").write_text(
-            'from validation import contact_law\n@contact_law("law")\ndef law(approach):\n    return approach\n'
+            'from validation import contact_law\n@contact_law("law")\ndef law(approach):\n    return approach\n',
+            encoding="utf-8",
         )
         assert main(words) == 2
     line = capsys.readouterr().err

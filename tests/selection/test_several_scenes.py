@@ -32,10 +32,10 @@ def test_a_sweep_is_one_table_with_a_row_a_value(tmp_path, capsys):
     names = ["Rolling wheel, load = 2000 N", "Rolling wheel, load = 4905 N"]
     assert len(lines) == 3 and [line[: len(names[0])] for line in lines[1:]] == names
     alone = validation.compare(validation.load_scene("rolling_wheel"))
-    objects = json.loads((tmp_path / "out.json").read_text())
+    objects = json.loads((tmp_path / "out.json").read_text(encoding="utf-8"))
     assert [found["scene"] for found in objects] == names
     assert objects[0]["value"][0] < objects[1]["value"][0] == pytest.approx(alone.value[0])
-    rows = list(csv.DictReader((tmp_path / "out.csv").read_text().splitlines()))
+    rows = list(csv.DictReader((tmp_path / "out.csv").read_text(encoding="utf-8").splitlines()))
     assert [row["scene"] for row in rows] == names
     told = [(row["swept"], float(row["swept_value"]), row["swept_unit"]) for row in rows]
     assert told == [("wheel.load", 2000.0, "N"), ("wheel.load", 4905.0, "N")]
@@ -128,6 +128,9 @@ def test_heights_that_differ_in_one_point_are_another_scene():
 def test_two_quantities_are_told_apart_by_a_column_and_a_panel(tmp_path, capsys):
     table, picture = tmp_path / "out.csv", tmp_path / "out.svg"
     assert main(["compare", "sphere", "rolling_wheel", "--csv", str(table), "--figure", str(picture)]) == 0
-    assert [row["quantity"] for row in csv.DictReader(table.read_text().splitlines())] == ["stiffness", "force-rms"]
+    assert [row["quantity"] for row in csv.DictReader(table.read_text(encoding="utf-8").splitlines())] == [
+        "stiffness",
+        "force-rms",
+    ]
     assert "Rolling wheel: force-rms" in capsys.readouterr().out
     assert picture.read_bytes().startswith(b"<?xml")

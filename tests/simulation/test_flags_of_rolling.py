@@ -140,7 +140,7 @@ def test_all_that_rolls_is_looked_at():
     """Whoever calls boundary elements that roll, by function or class."""
     found = set()
     for file in (ROOT / "validation").rglob("*.py"):
-        module, text = ".".join(file.relative_to(ROOT).with_suffix("").parts), file.read_text()
+        module, text = ".".join(file.relative_to(ROOT).with_suffix("").parts), file.read_text(encoding="utf-8")
         for top in ast.parse(text).body if any(roller in text for roller in ROLLERS) else ():
             calls = (node.func for node in ast.walk(top) if isinstance(node, ast.Call))
             if any(ast.unparse(call) in ROLLERS for call in calls):

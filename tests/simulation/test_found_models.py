@@ -43,7 +43,7 @@ def toy(target, resolution):
 @pytest.fixture
 def toy(tmp_path, monkeypatch):
     """A model in a folder of its own, beside those that are there."""
-    (tmp_path / "toy_model.py").write_text(TOY)
+    (tmp_path / "toy_model.py").write_text(TOY, encoding="utf-8")
     monkeypatch.setattr(models, "__path__", [*models.__path__, str(tmp_path)])
     yield
     sys.modules.pop(f"{models.__name__}.toy_model", None)

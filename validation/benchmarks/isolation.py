@@ -10,6 +10,8 @@ from contextlib import contextmanager
 from types import TracebackType
 from typing import ParamSpec, TypeVar
 
+from validation.engine.termination import end_after
+
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS")
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -30,7 +32,15 @@ class IsolatedProcess(ProcessPoolExecutor):
 def isolated_process() -> ProcessPoolExecutor:
     """A fresh process, which leaves an interruption to its parent."""
     spawn = multiprocessing.get_context("spawn")
-    return IsolatedProcess(1, spawn, signal.signal, (signal.SIGINT, signal.SIG_IGN))
+    return IsolatedProcess(1, spawn, _begin)
+
+
+def _begin() -> None:
+    """In the process, before its first call."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+    end_after(parent.join)
 
 
 def timed(function: Callable[[], T]) -> tuple[T, float]:

@@ -19,6 +19,7 @@ from validation.engine.installed import file_of
 from validation.engine.offered import DECORATED, KINDS, Caller, Failed, FloatArray, Offered
 from validation.engine.read_files import OPENED, digest_of, sources_of, watch_opened
 from validation.engine.replies import SHOWN, Reply, called, raised
+from validation.engine.termination import end_with_parent
 from validation.engine.workers import ONE_THREAD
 
 SECONDS, LOADING = 10.0, 60.0
@@ -134,7 +135,8 @@ class Visitor:
 
     def _start(self) -> None:
         self._pipe, theirs = Pipe()
-        words = [sys.executable, "-P", "-c", f"from {__name__} import serve; serve({theirs.fileno()})", str(self.path)]
+        serving = f"from {__name__} import serve; serve({theirs.fileno()}, {os.getpid()})"
+        words = [sys.executable, "-P", "-c", serving, str(self.path)]
         folders = [str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])]
         self._process = subprocess.Popen(
             words,
@@ -195,8 +197,9 @@ def offered_in(path: Path) -> list[Offered]:
         return visitor.offered
 
 
-def serve(handle: int) -> None:
-    """The other process: load the file that the command line names, then answer until nobody asks."""
+def serve(handle: int, parent: int) -> None:
+    """The other process: load the file that the command line names, then answer until nobody asks, or can ask."""
+    end_with_parent(parent)
     pipe, path = Connection(handle), Path(sys.argv[1])
     SERVING.append(path)
     watch_opened()

@@ -1,13 +1,22 @@
-"""How a run ends before its time: requests to terminate, which raise an exception, and workers that are lost."""
+"""How a run ends before its time: requests to terminate, which raise an exception, and workers that are lost.
 
+And how its processes end with it, however it ends: kill -9 leaves no time to end them.
+"""
+
+import os
 import signal
 import threading
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 
 SIGNALS = (signal.SIGTERM, signal.SIGHUP)
 RESUME_NOTE = "finished solves are kept, the same command goes on from there"
+
+
+POLL = 0.2
+"""Seconds between two looks at a parent."""
 
 
 class WorkerLostError(RuntimeError):
@@ -43,3 +52,29 @@ def _raise_terminated(number: int, frame: FrameType | None) -> None:
         if signal.getsignal(other) is _raise_terminated:
             signal.signal(other, signal.SIG_DFL)
     raise TerminatedError(signal.Signals(number).name)
+
+
+def end_with_parent(parent: int) -> None:
+    """This process is killed as soon as its parent, which has this id, has ended; returns at once.
+
+    The children of the process that leads a group are killed with it. On all systems with POSIX processes; not while
+    a library holds the lock of the interpreter.
+    """
+
+    def parent_has_ended() -> None:
+        while os.getppid() == parent:
+            time.sleep(POLL)
+
+    end_after(parent_has_ended)
+
+
+def end_after(waiting: Callable[[], object]) -> None:
+    """This process is killed when the call, which waits in a thread, returns."""
+
+    def wait_and_end() -> None:
+        waiting()
+        if os.getpgrp() == os.getpid():
+            os.killpg(os.getpgrp(), signal.SIGKILL)
+        os.kill(os.getpid(), signal.SIGKILL)
+
+    threading.Thread(target=wait_and_end, name="end with the parent", daemon=True).start()

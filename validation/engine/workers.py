@@ -1,5 +1,6 @@
 """Worker processes of this machine: one queue for all that is at work, first come first served."""
 
+import os
 import threading
 import warnings
 from collections import deque
@@ -7,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, ThreadPoolExecutor
 from typing import ParamSpec, TypeVar
 
-from validation.engine.termination import RESUME_NOTE, WorkerLostError
+from validation.engine.termination import RESUME_NOTE, WorkerLostError, end_with_parent
 from validation.engine.warning_lines import as_one_line
 
 P = ParamSpec("P")
@@ -16,7 +17,7 @@ R = TypeVar("R")
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 """Of a library in a worker: the workers together have all cores."""
 IDLE = 300
-"""Seconds after which a worker without work ends."""
+"""Seconds after which a worker without work ends; all end with the process that started them."""
 STARTING = threading.Lock()
 AHEAD = 4
 """Jobs at once: while the last solves of one come to their end, or are evaluated, those of the next are at work."""
@@ -99,7 +100,13 @@ class Workers:
                 max_workers=self.count,
                 timeout=IDLE,
                 env=ONE_THREAD,
-                initializer=setattr,
-                initargs=(warnings, "formatwarning", as_one_line),
+                initializer=_begin,
+                initargs=(os.getpid(),),
             )
         return pool
+
+
+def _begin(parent: int) -> None:
+    """In a worker, before its first call."""
+    warnings.formatwarning = as_one_line
+    end_with_parent(parent)

@@ -27,6 +27,6 @@ table[40, 20] = np.nan
 np.savetxt("face.csv", table, delimiter=",", header="Instrument 7\nz [um]", comments="")
 keys = 'file = "face.csv"\nspacing = "15.625 um"\ncrop = true\nfill = true\n'
 body = 'name = "my punch"\npunch = { side = "1 mm", load = "5 N" }\nmaterial = { contact_modulus = "230 GPa" }\n'
-Path("my_punch.toml").write_text(f"{body}[heights]\n{keys}")
+Path("my_punch.toml").write_text(f"{body}[heights]\n{keys}", encoding="utf-8")
 same = validation.compare(validation.load_scene("my_punch.toml"), tolerance="30%")
 assert abs(same.value[0] / found.value[0] - 1) < 0.01  # but for the point filled in

@@ -11,7 +11,8 @@ import validation
 rng, waves = np.random.default_rng(1), np.zeros((2001, 3), dtype=complex)
 waves[4:1600] = rng.normal(size=(1596, 3, 2)) @ [1, 1j] / np.sqrt(np.arange(4, 1600))[:, np.newaxis]
 np.savetxt("lines.csv", 0.4 * np.fft.irfft(waves, axis=0, norm="forward"), fmt="%.3f", delimiter=",")
-Path("my_rail.toml").write_text("""
+Path("my_rail.toml").write_text(
+    """
 name = "my rail"
 material = { youngs_modulus = "210 GPa", poisson_ratio = 0.3, counterface = "same" }
 wheel = { diameter = "920 mm", axle_load = "100 kN", wheels_per_axle = 2, speed = "80 km/h" }
@@ -24,7 +25,9 @@ spacing = "1 mm"
 unit = "um"
 positions = ["-10 mm", "0 mm", "10 mm"]
 longest = "400 mm"
-""")
+""",
+    encoding="utf-8",
+)
 found = validation.compare(validation.load_scene("my_rail.toml"), tolerance="2 dB")
 print(validation.summary(found))
 Path("own_lines.png").write_bytes(validation.to_figure(found, form="png"))

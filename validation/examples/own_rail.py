@@ -7,13 +7,16 @@ import validation
 
 LEVELS = """wavelength [mm],level [dB re 1 um]
 200,6\n160,5\n125,4\n100,3\n80,2\n63,1\n50,0\n40,-1\n31.5,-2\n25,-3\n20,-4\n16,-5\n12.5,-6\n10,-7\n"""
-Path("levels.csv").write_text(LEVELS)
-Path("my_rail.toml").write_text("""
+Path("levels.csv").write_text(LEVELS, encoding="utf-8")
+Path("my_rail.toml").write_text(
+    """
 name = "my rail"
 material = { youngs_modulus = "210 GPa", poisson_ratio = 0.3, counterface = "same" }
 wheel = { diameter = "920 mm", load = "50 kN", speed = "80 km/h" }
 rail = { crown_radius = "300 mm", across = "isotropic", levels = { file = "levels.csv" } }
-""")
+""",
+    encoding="utf-8",
+)
 scene = validation.load_scene("my_rail.toml")
 assert isinstance(scene, validation.RailScene)
 found = {

@@ -93,5 +93,5 @@ def _commit() -> str:
 
 
 def _git(*words: str) -> str:
-    finished = subprocess.run(["git", "-C", str(ROOT), *words], capture_output=True, text=True, check=True)
+    finished = subprocess.run(["git", "-C", str(ROOT), *words], capture_output=True, encoding="utf-8", check=True)
     return finished.stdout.strip()

@@ -83,7 +83,7 @@ def run(script: Path, folder: Path) -> None:
             cwd=place,
             env={**os.environ, "PYTHONPATH": paths, "OMP_NUM_THREADS": "1"},
             capture_output=True,
-            text=True,
+            encoding="utf-8",
             check=False,
         )
         if done.returncode:

@@ -74,7 +74,7 @@ class RailWheel(NamedTuple):
 def columns_of_table() -> dict[RailWheel, dict[float, float]]:
     """A3 [dB] by wheel and nominal wavelength [mm]."""
     found: dict[RailWheel, dict[float, float]] = {}
-    for load, diameter, wavelength, a3 in np.loadtxt(TABLE, delimiter=",", skiprows=HEADER).tolist():
+    for load, diameter, wavelength, a3 in np.loadtxt(TABLE, delimiter=",", skiprows=HEADER, encoding="utf-8").tolist():
         found.setdefault(RailWheel(load, diameter), {})[wavelength] = a3
     return found
 
