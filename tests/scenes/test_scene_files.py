@@ -197,7 +197,7 @@ NARROW, LONG = {"longest": 0.0099, "shortest": 0.0098}, {"longest": 5.0, "shorte
         ("rail.roughness.shortest", {"distance": 0.011, "rail": NARROW}, ["a period of 0.0110", "0.0098 m"]),
         ("wheel.roughness.shortest", {"distance": 10.0, "wheel": LONG}, ["a period of 3.141", "4 m"]),
         ("wheel.load", {"load": 1e15}, ["0.5 m", "11.665 m"]),
-        ("simulation.springs", {"springs": 10**400}, ["630884", "1000"]),
+        ("simulation.springs", {"springs": 10**400}, ["6309", "1000"]),
     ],
 )
 def test_scenes_are_refused_by_key_and_value(key, changes, numbers):

@@ -30,6 +30,16 @@ TABLE: dict[Dimension, tuple[str, str, str]] = {
 """An example, the units in which a quantity is printed, the smallest first, and each unit over the SI unit."""
 
 
+RANGE: dict[Dimension, tuple[float, float]] = {
+    "length": (1e-12, 1e6),
+    "mass": (1e-15, 1e9),
+    "force": (1e-15, 1e12),
+    "pressure": (1e-3, 1e15),
+    "speed": (1e-9, 1e4),
+}
+"""Of a quantity that must be positive, in SI units: no body has another, and beyond it doubles or grids have an end."""
+
+
 def _exact(units: str) -> dict[str, Fraction]:
     return {unit: Fraction(si) for unit, _, si in (pair.partition("=") for pair in units.split())}
 
@@ -46,8 +56,9 @@ DECIMAL = Context(prec=60, traps=[InvalidOperation])
 def quantity(name: str, text: object, dimension: Dimension, *, positive: bool = False) -> float:
     """The float nearest to a quantity of the given dimension, in SI units.
 
-    text: a decimal number and a unit, with or without a space between them; positive: whether it must be above zero.
-    Raises ValueError naming the quantity that is of another form or dimension, not finite, or not positive.
+    text: a decimal number and a unit, with or without a space between them; positive: whether it must be above zero,
+    and within `RANGE`. Raises ValueError naming the quantity that is of another form or dimension, not finite, or out
+    of range.
     """
     words = text.strip() if isinstance(text, str) else ""
     for sign, same in SAME.items():
@@ -59,14 +70,17 @@ def quantity(name: str, text: object, dimension: Dimension, *, positive: bool = 
         example, _, _ = TABLE[dimension]
         accepted = f'a {dimension}, as "{example}", in one of {", ".join(UNITS[dimension])}'
         raise ValueError(f"{name} must be {accepted}, got {quoted(text)}") from None
-    found = math.nan
+    found, unit = math.nan, UNITS[dimension][ending]
     if number.is_finite():
-        unit = UNITS[dimension][ending]
         found = float(DECIMAL.divide(DECIMAL.multiply(number, Decimal(unit.numerator)), Decimal(unit.denominator)))
     if not math.isfinite(found):
         raise ValueError(f"{name} must be finite, got {quoted(text)}")
     if positive and found <= 0:
         raise ValueError(f"{name} must be positive, got {quoted(text)}")
+    low, high = RANGE.get(dimension, (0.0, math.inf))
+    if positive and not low * (1 - 1e-9) <= found <= high * (1 + 1e-9):
+        ends = " and ".join(f"{end / float(unit):g} {ending}" for end in (low, high))
+        raise ValueError(f"{name} must lie between {ends}, got {quoted(text)}: is its unit right?")
     return found
 
 
