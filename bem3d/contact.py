@@ -10,7 +10,7 @@ import numpy as np
 
 from bem3d.checks import FloatArray
 from bem3d.convergence import ConvergenceError
-from bem3d.diagnostics import ContactWarning, diagnose_pressure, diagnose_units
+from bem3d.diagnostics import ContactWarning, diagnose_pressure, diagnose_units, typical_slope
 from bem3d.formatting import span
 from bem3d.problem import Problem
 from bem3d.read_only import ReadOnly
@@ -123,6 +123,7 @@ class Contact(ReadOnly):
             modulus=half_space.modulus,
             approach=self.approach - self.problem.first_touch if cells else 0.0,
             side=max(n * step for n, step in zip(half_space.shape, half_space.steps, strict=True)),
+            slope=typical_slope(self.problem.gap, half_space.steps),
         )
         edge = not (half_space.periodic or self.problem.indenter_ends_at_edge)
         return (*diagnose_pressure(self.pressure, edge=edge), *units)

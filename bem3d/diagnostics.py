@@ -13,6 +13,14 @@ FEWEST_CELLS_A_WAVE = 4.0
 MOST_ALONE = 0.5
 HIGHEST_PRESSURE = 0.1
 """Over E*: no solid bears it elastically. A modulus of exactly 1 is the unit of pressure and is not checked."""
+STEEPEST_SLOPE = 10.0
+"""Of the median cell, 84 degrees: the roughest surfaces have an rms slope about 1, a half-space needs less."""
+FLATTEST_SLOPE, LIGHTEST_PRESSURE = 1e-6, 1e-7
+"""Of an optical flat, 1 nm over 1 mm; over E*, 20 kPa of steel. A contact that has less of both is in another unit."""
+ROUNDING = 1e-12
+"""Over the largest height: what differs by less is equal but for rounding."""
+MOST_LINES = 64
+"""Rows, and columns, of which the slope is taken."""
 
 
 class ContactWarning(UserWarning):
@@ -68,9 +76,9 @@ class EdgeWarning(ContactWarning):
 
 
 class UnitsWarning(ContactWarning):
-    """A pressure or an approach that no elastic body bears: the units are probably wrong.
+    """A pressure, an approach or slopes that no elastic body has: the units are probably wrong.
 
-    As where a modulus in GPa is given for one in Pa.
+    As where a modulus in GPa is given for one in Pa, or heights in nm on a grid in m.
 
     Examples
     --------
@@ -139,9 +147,39 @@ def _diagnose_spike(pressure: FloatArray) -> tuple[ContactWarning, ...]:
     )
 
 
-def diagnose_units(*, pressure: float, modulus: float, approach: float, side: float) -> tuple[ContactWarning, ...]:
-    """Diagnostics of a mean pressure under an E* [Pa], and an approach from the first touch on a grid [m]."""
+def typical_slope(height: FloatArray, steps: tuple[float, float]) -> float:
+    """The median of abs(dh)/dx of neighbouring cells, along the axis where it is larger.
+
+    Neither a spike nor a step, as at the edge of a punch in a wider grid, changes a median. Grids of more than 64 rows
+    or columns are read on some of them, evenly apart.
+    """
+    slopes, rounding = [], ROUNDING * float(np.abs(height).max())
+    for lines, step in ((height.T, steps[0]), (height, steps[1])):
+        if lines.shape[1] > 1:
+            some = lines[:: -(-len(lines) // MOST_LINES)]
+            with np.errstate(over="ignore"):
+                typical = float(np.median(np.abs(np.diff(some, axis=1))))
+            slopes.append(typical / step if typical > rounding else 0.0)
+    return max(slopes, default=0.0)
+
+
+def diagnose_units(
+    *, pressure: float, modulus: float, approach: float, side: float, slope: float = 0.0
+) -> tuple[ContactWarning, ...]:
+    """Diagnostics of a mean pressure under an E* [Pa], an approach from the first touch on a grid [m], and a slope."""
     causes, found = [], []
+    steep, flat = f"{STEEPEST_SLOPE:g}", f"{FLATTEST_SLOPE:g}"
+    # where the modulus is the unit of pressure heights may have a unit of their own
+    if modulus != 1 and pressure > 0 and slope > STEEPEST_SLOPE:
+        causes.append(f"half of the cells have a slope above {steep}")
+        found.append(f"half of the cells have a slope above {slope:.2g} (up to {steep} is not asked about)")
+    if modulus != 1 and 0 < pressure < LIGHTEST_PRESSURE * modulus and 0 < slope < FLATTEST_SLOPE:
+        light = f"{LIGHTEST_PRESSURE:g} E*"
+        causes.append(f"half of the cells have a slope below {flat}, under a mean pressure below {light}")
+        found.append(
+            f"half of the cells have a slope below {slope:.2g}, under a mean pressure of {pressure / modulus:.2g} E* "
+            f"(from {flat} or {light} on is not asked about)"
+        )
     if modulus != 1 and pressure > HIGHEST_PRESSURE * modulus:
         causes.append(f"the mean pressure is above {HIGHEST_PRESSURE:g} E*")
         found.append(

@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from bem3d.checks import BoolArray, FloatArray, IndexArray, OneOrTwo, grid_spacing, positive, positive_pair, strip
-from bem3d.diagnostics import ContactWarning, diagnose_sphere, diagnose_units
+from bem3d.diagnostics import ContactWarning, diagnose_sphere, diagnose_units, typical_slope
 from bem3d.formatting import pair, span
 from bem3d.halfspace import HalfSpace
 from bem3d.read_only import ReadOnly, kept
@@ -150,7 +150,13 @@ class Track(ReadOnly):
         (nx, ny), (dx, dy), smooth = self.height.shape, self.steps, self.smooth
         area = math.pi * math.sqrt(smooth.along * smooth.across) * approach
         pressure = 4 / 3 * math.sqrt(smooth.sphere * approach) * (approach / area) * self.modulus
-        units = diagnose_units(pressure=pressure, modulus=self.modulus, approach=approach, side=max(nx * dx, ny * dy))
+        units = diagnose_units(
+            pressure=pressure,
+            modulus=self.modulus,
+            approach=approach,
+            side=max(nx * dx, ny * dy),
+            slope=typical_slope(self.height, self.steps),
+        )
         return (*diagnose_sphere(area / self.cell_area), *units)
 
     def reach(self, approach: float) -> int:

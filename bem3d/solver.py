@@ -69,7 +69,8 @@ def solve(
     Warns
     -----
     ResolutionWarning, EdgeWarning, UnitsWarning
-        If few cells touch, the contact reaches the edge of a free grid, or the mean pressure is above 0.1 E*.
+        If few cells touch, the contact reaches the edge of a free grid, the mean pressure is above 0.1 E*, or half of
+        the cells have a slope above 10, as of heights in nm on a grid in m.
 
     Examples
     --------

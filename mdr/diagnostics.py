@@ -11,6 +11,12 @@ from mdr.checks import FloatArray
 FEWEST_SPRINGS = 16
 FEWEST_SPRINGS_A_WAVE = 4.0
 LARGEST_PART = 0.1
+STEEPEST_SLOPE = 10.0
+"""Of the median spring, 84 degrees: the roughest surfaces have an rms slope about 1, a half-space needs less."""
+FLATTEST_PROFILE, ROUNDING = 1e-9, 1e-12
+"""Its range over its length, 1 nm over 1 m; over its largest height, where heights are equal but for rounding."""
+MOST_LINES = 64
+"""Profiles, and rows of a surface, of which the slope is taken."""
 
 
 class SpringContactWarning(UserWarning):
@@ -74,9 +80,9 @@ class LinearityWarning(SpringContactWarning):
 
 
 class SpringUnitsWarning(SpringContactWarning):
-    """A contact larger than its sphere: units are probably wrong, as where a modulus in GPa is given for one in Pa.
+    """A contact larger than its sphere, or heights that no surface has: units are probably wrong.
 
-    ``mdr.UnitsWarning`` in 0.1.
+    As where a modulus in GPa is given for one in Pa, or heights in nm on a length in m. ``mdr.UnitsWarning`` in 0.1.
 
     Examples
     --------
@@ -133,6 +139,56 @@ def diagnose_units(*, approach: float, radius: float) -> tuple[SpringContactWarn
         SpringUnitsWarning(
             "the radius of contact is above that of the sphere: are the units right?",
             f"the radius of contact is {part:.3g} times that of the sphere: are the units right?",
+        ),
+    )
+
+
+def typical_slope(height: FloatArray, spacing: float) -> float:
+    """The median of abs(dh)/dx of neighbouring springs along the last axis, which no spike and no step changes.
+
+    Of more than 64 profiles it is that of some of them, evenly apart.
+    """
+    if height.shape[-1] < 2:
+        return 0.0
+    some = height if height.ndim == 1 else height[:: -(-len(height) // MOST_LINES)]
+    with np.errstate(over="ignore"):
+        return float(np.median(np.abs(np.diff(some)))) / spacing
+
+
+def diagnose_slope(height: FloatArray, spacing: float, modulus: float) -> tuple[SpringContactWarning, ...]:
+    """Diagnostics of heights along the last axis, springs a spacing apart.
+
+    Where the modulus is exactly 1, the unit of pressure, heights may have a unit of their own.
+    """
+    slope = typical_slope(height, spacing)
+    if modulus == 1 or slope <= STEEPEST_SLOPE:
+        return ()
+    return (
+        SpringUnitsWarning(
+            f"half of the springs have a slope above {STEEPEST_SLOPE:g}: are the units right?",
+            f"half of the springs have a slope above {slope:.2g} (up to {STEEPEST_SLOPE:g} is not asked about): are "
+            "the units right?",
+        ),
+    )
+
+
+def diagnose_heights(height: FloatArray, length: float, modulus: float) -> tuple[SpringContactWarning, ...]:
+    """Diagnostics of profiles of a length, along the last axis, whose heights may stand in any order.
+
+    A random order has a slope that means nothing: they are asked about where they are higher than long, too.
+    """
+    with np.errstate(over="ignore"):
+        span = float(height.max() - height.min())
+    part = span / length
+    if part > 1:
+        return diagnose_slope(height, length / height.shape[-1], modulus)
+    if modulus == 1 or part >= FLATTEST_PROFILE or span <= ROUNDING * float(np.abs(height).max()):
+        return ()
+    return (
+        SpringUnitsWarning(
+            f"the heights lie within {FLATTEST_PROFILE:g} of the length of the profile: are the units right?",
+            f"the heights lie within {part:.2g} of the length of the profile (from {FLATTEST_PROFILE:g} on is not "
+            "asked about): are the units right?",
         ),
     )
 

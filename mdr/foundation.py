@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.checks import FloatArray, doubles, finite_array, held, positive, stiffness_of_springs
-from mdr.diagnostics import diagnose_load, warn
+from mdr.diagnostics import diagnose_heights, diagnose_load, warn
 from mdr.formatting import span
 from mdr.read_only import ReadOnlyArrays
 
@@ -198,6 +198,12 @@ def load_curve(height: ArrayLike, *, length: float, modulus: float) -> LoadCurve
     TypeError
         If an argument is not a real number.
 
+    Warns
+    -----
+    SpringUnitsWarning
+        If the profile is higher than long and half of its springs have a slope above 10, as of heights in nm on a
+        length in m; or if its heights lie within 1e-9 of the length.
+
     Notes
     -----
     F(d) = E* dx sum_i max(d + h_i, 0), dx = L / points [1]_. With i springs in contact dF/dd = i E* dx.
@@ -223,6 +229,7 @@ def load_curve(height: ArrayLike, *, length: float, modulus: float) -> LoadCurve
         steps = spring * np.arange(1, heights.size) * np.diff(approach)
         force = np.concatenate([[0.0], np.cumsum(steps)])
         held(force, stiffness)
+    warn(diagnose_heights(heights, length, modulus))
     return LoadCurve(approach, force, stiffness, spring)
 
 
@@ -250,6 +257,11 @@ def stiffness_under(force: float, height: ArrayLike, *, length: float, modulus: 
     ValueError
         If a value is not finite or out of range.
 
+    Warns
+    -----
+    SpringUnitsWarning
+        As `load_curve`.
+
     Notes
     -----
     Spring i, in descending order of heights, touches at the force F_i = E* dx sum_{j <= i} (h_j - h_i), so the
@@ -270,7 +282,9 @@ def stiffness_under(force: float, height: ArrayLike, *, length: float, modulus: 
         wanted = positive("force", force) / spring
         held(wanted, positive=True)
         steps = np.arange(1, points) * -np.diff(descending, axis=1)
-        return np.asarray(spring * (1 + np.count_nonzero(np.cumsum(steps, axis=1) < wanted, axis=1)))
+        stiffness = np.asarray(spring * (1 + np.count_nonzero(np.cumsum(steps, axis=1) < wanted, axis=1)))
+    warn(diagnose_heights(heights, length, modulus))
+    return stiffness
 
 
 def _spring(modulus: float, length: float, points: int) -> float:

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from mdr.approach_by_sorting import Borne, by_sorting
 from mdr.candidate_springs import Near
 from mdr.checks import FloatArray, OneOrTwo, doubles, finite_array, held, positive
-from mdr.diagnostics import SpringContactWarning, diagnose_linearity, warn
+from mdr.diagnostics import SpringContactWarning, diagnose_linearity, diagnose_slope, warn
 from mdr.elliptic_wheel import spring_wheel
 from mdr.rolling_track import RollingTrack
 from mdr.spring_track import SpringTrack
@@ -70,7 +70,8 @@ def roll(
     Warns
     -----
     SpringResolutionWarning, SpringUnitsWarning
-        If the contact of the smooth wheel has fewer than 16 springs, or is larger than the wheel.
+        If the contact of the smooth wheel has fewer than 16 springs, or is larger than the wheel, or half of the
+        springs have a slope above 10, as of heights in nm on a spacing in m.
     LinearityWarning
         If roughness moves the ends of a "full" or "linear" contact by too much.
 
@@ -88,7 +89,7 @@ def roll(
     """
     track = _track(height, spacing, radius, modulus)
     rolled, diagnostics = _within_doubles(track, approach, force, contact)
-    warn(diagnostics)
+    warn((*diagnostics, *diagnose_slope(track.height, track.spacing, modulus)))
     return rolled
 
 
@@ -134,7 +135,7 @@ def rolling_force(
     """
     track = _track(height, spacing, radius, modulus)
     rolled, diagnostics = _within_doubles(track, approach, None, "one-sided")
-    warn(diagnostics)
+    warn((*diagnostics, *diagnose_slope(track.height, track.spacing, modulus)))
     return rolled.force.copy()
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mdr.checks import FloatArray, OneOrTwo, count, doubles, finite_array, held, positive
-from mdr.diagnostics import diagnose_units, diagnose_wheel, warn
+from mdr.diagnostics import diagnose_slope, diagnose_units, diagnose_wheel, warn
 from mdr.elliptic_wheel import spring_wheel
 from mdr.rolling import smooth_approach
 from mdr.spring_track import MOST_SPRINGS
@@ -59,7 +59,7 @@ class RollingEnsemble:
     SpringResolutionWarning
         If the contact of the smooth wheel has fewer than 16 springs.
     SpringUnitsWarning
-        If the radius of contact is larger than the wheel.
+        If the radius of contact is larger than the wheel, or half of the springs have a slope above 10.
 
     Notes
     -----
@@ -108,7 +108,8 @@ class RollingEnsemble:
             length = self.points * self.spacing
             raise ValueError(f"height must be longer than the contact, {diameter:.6g} m, got a track of {length:.6g} m")
         units = diagnose_units(approach=self.smooth_approach, radius=self.radius)
-        warn((*diagnose_wheel(diameter / self.spacing), *units))
+        slope = diagnose_slope(h.T, self.spacing, modulus)
+        warn((*diagnose_wheel(diameter / self.spacing), *units, *slope))
 
     def _quantise(self, h: FloatArray, springs: float) -> None:
         """The quantum of each wheel, in which so many springs are added without rounding, and heights in these."""

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from mdr.approach_by_sorting import borne_by
 from mdr.checks import FloatArray, OneOrTwo, doubles, finite_array, held, positive, stiffness_of_springs
-from mdr.diagnostics import SpringContactWarning, diagnose_units, diagnose_wheel, warn
+from mdr.diagnostics import SpringContactWarning, diagnose_slope, diagnose_units, diagnose_wheel, warn
 from mdr.elliptic_wheel import SpringWheel, spring_wheel
 from mdr.rolling import smooth_approach
 from mdr.rolling_track import RollingTrack
@@ -77,7 +77,7 @@ def roll_surface(
     load = {"force": force} if approach is None else {"approach": approach}
     with doubles(height=heights, spacing=steps[0], modulus=wheel.modulus, **load):
         rolled, diagnostics = _rolled(heights, steps, wheel, approach, force)
-    warn(diagnostics)
+    warn((*diagnostics, *diagnose_slope(heights.T, steps[0], modulus)))
     return rolled
 
 

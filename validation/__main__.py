@@ -86,8 +86,32 @@ def _ended(error: BaseException, kept: str) -> tuple[Exit, str]:
     return Exit.FAULT, f"error: a fault of this program, {type(error).__name__}, see the traceback above"
 
 
+class _Once(argparse.Action):
+    """Stores the value of an option that is given once: of two values the first would be lost without a word."""
+
+    given = False
+
+    def __call__(
+        self,
+        parser: argparse.ArgumentParser,
+        namespace: argparse.Namespace,
+        values: object,
+        option_string: str | None = None,
+    ) -> None:
+        if self.given and option_string is not None:
+            value = f"{{{','.join(map(str, self.choices))}}}" if self.choices else self.metavar or self.dest.upper()
+            raise argparse.ArgumentError(self, f"must be given once, as {option_string} {value}, got it twice")
+        self.given = True
+        setattr(namespace, self.dest, values)
+
+
 class _Parser(argparse.ArgumentParser):
-    """Words that are refused are shown without their control characters."""
+    """An option is given once; words that are refused are shown without their control characters."""
+
+    def __init__(self, *args: Any, **settings: Any) -> None:
+        super().__init__(*args, **settings)
+        for action in (None, "store"):
+            self.register("action", action, _Once)
 
     def error(self, message: str) -> NoReturn:
         super().error(printable(message))

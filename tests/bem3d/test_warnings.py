@@ -99,6 +99,111 @@ def test_warning_of_a_modulus_in_gigapascals():
         assert found == [(bem3d.UnitsWarning, __file__)] * asked
 
 
+NM, UM = 1e9, 1e6
+SURFACE = bem3d.rough_surface(
+    mdr.SelfAffine(hurst=0.8, q_min=1e5, q_max=8e5, rms=2e-8).c2d,
+    shape=(48, 48), spacing=1e-6, rng=np.random.default_rng(4), rms=2e-8,
+)  # fmt: skip
+X = (np.arange(48) - 23.5) * 1e-6
+RADII = np.hypot(X[:, np.newaxis], X)
+SPHERE = RADII**2 / 2e-2
+PUNCH = np.where(RADII < 1e-5, 0.0, 1.0)
+
+
+def asked(gap, *, modulus=1e11, metre=1.0, **load):
+    """Whether units are asked about, in a solve and on a path, of a grid whose unit is so many to the metre."""
+    body = bem3d.HalfSpace(shape=gap.shape, spacing=1e-6 * metre, modulus=modulus)
+    _, found = said(bem3d.solve, body, gap, **load)
+    on_path = said(
+        lambda: list(
+            bem3d.indent(
+                body, gap, **{f"{key}s" if key == "force" else "approaches": [value] for key, value in load.items()}
+            )
+        )
+    )[1]
+    for warned in (found, on_path):
+        assert {place for category, _, place in warned if category is bem3d.UnitsWarning} <= {__file__}
+    sentences = [sentence for category, sentence, _ in found if category is bem3d.UnitsWarning]
+    assert sentences == [sentence for category, sentence, _ in on_path if category is bem3d.UnitsWarning]
+    return sentences
+
+
+@pytest.mark.parametrize(
+    ("gap", "settings", "word"),
+    [
+        (-SURFACE, {"force": 1e-3}, None),
+        (-NM * SURFACE, {"force": 1e-3}, "above"),
+        (-UM * SURFACE, {"force": 1e-3}, "above"),
+        (-500 * SURFACE / 2e-8, {"force": 1e-9}, "above"),
+        (NM * SPHERE, {"force": 1e-3}, "above"),
+        (np.repeat(-NM * SURFACE[:, :1], 48, axis=1), {"force": 1e-3}, "above"),
+        (np.repeat(-NM * SURFACE[:1], 48, axis=0), {"force": 1e-3}, "above"),
+        (-SURFACE, {"force": 1e-3, "metre": UM}, "below"),
+        (-SURFACE, {"approach": 0.0, "metre": UM}, "below"),
+        (-NM * SURFACE, {"approach": -30 * NM * 2e-8}, None),
+        (-NM * SURFACE, {"force": 0.0}, None),
+        (-NM * SURFACE, {"force": 1e-3, "modulus": 1.0}, None),
+    ],
+)  # fmt: skip
+def test_heights_in_another_unit_than_the_grid(gap, settings, word):
+    """Heights in nm or um on a grid in m, and in m on a grid in um. No contact, and a unit of pressure, ask nothing."""
+    sentences = " ".join(asked(gap, **settings))
+    assert sentences.count("slope") == (word is not None)
+    assert sentences.startswith(f"half of the cells have a slope {word} ") == (word is not None)
+
+
+@pytest.mark.parametrize(
+    ("gap", "load"),
+    [
+        (SPHERE * 1e2, {"force": 1e-3}),
+        (np.sqrt(3) * RADII, {"force": 1e-4}),
+        (24e-6 - np.sqrt(np.maximum(24e-6**2 - RADII**2, 0.0)), {"force": 1e-4}),
+        (PUNCH, {"force": 1e-2}),
+        (np.where(RADII < 1e-5, SPHERE, 1e6), {"force": 1e-2}),
+        (np.where(RADII < 2e-6, SPHERE - 1.0, SPHERE), {"force": 1e-4}),
+        (np.zeros((48, 48)), {"force": 1e-9}),
+        (1 + 2.3e-16 * np.random.default_rng(0).integers(3, size=(48, 48)), {"force": 1e-9}),
+        (1e-10 * np.cos(2 * np.pi * X / 48e-6) * np.ones((48, 1)), {"force": 1e-6}),
+        (SPHERE * 1e-6, {"force": 1e-3}),
+    ],
+    ids=[
+        "sphere",
+        "cone of 60 degrees",
+        "half of a ball",
+        "punch",
+        "cut out",
+        "pit",
+        "flat",
+        "rounding",
+        "wave",
+        "lens",
+    ],
+)
+def test_steep_and_flat_indenters_are_not_asked_about(gap, load):
+    assert asked(gap, **load) == []
+
+
+def test_the_slope_of_a_large_grid_is_that_of_a_plane():
+    """Read on some of its rows and columns; the steeper axis counts, each by its own side of a cell."""
+    rows, columns = np.arange(200.0)[:, np.newaxis], np.arange(150.0)
+    for along, across in ((3.0, -2.0), (-1.0, 8.0)):
+        plane = along * rows + across * columns
+        assert diagnostics.typical_slope(plane, (0.5, 2.0)) == pytest.approx(max(abs(along) / 0.5, abs(across) / 2.0))
+    assert diagnostics.typical_slope(np.zeros((1, 1)), (1.0, 1.0)) == 0.0
+    assert diagnostics.typical_slope(2.0 * rows[:, :1], (1.0, 1.0)) == 2.0
+
+
+def test_heights_of_a_strip_in_another_unit():
+    wheel = {"spacing": 1e-4, "radius": 0.5, "modulus": 2e11, "approach": 2e-6, "positions": 1}
+    waves = 1e-7 * np.cos(2 * np.pi * np.arange(64) / 16)[:, np.newaxis] * np.ones(48)
+    pit = np.where(np.arange(64) == 40, -0.1, 0.0)[:, np.newaxis] * np.ones(48)
+    for height, count in ((waves, 0), (pit, 0), (UM * (waves - waves.max()), 1)):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            bem3d.roll(height, **wheel)
+        assert [w.category for w in caught].count(bem3d.UnitsWarning) == count
+
+
 def pressure(cells):
     """So many cells of one in the middle of 10 x 10."""
     inner = 1.0 * (np.arange(64) < cells)
@@ -111,8 +216,8 @@ def edges(**settings):
     return diagnostics.diagnose_pressure(touching, **settings)
 
 
-def units(modulus, pressure, approach):
-    return diagnostics.diagnose_units(pressure=pressure, modulus=modulus, approach=approach, side=1.0)
+def units(modulus, pressure, approach, slope=0.0):
+    return diagnostics.diagnose_units(pressure=pressure, modulus=modulus, approach=approach, side=1.0, slope=slope)
 
 
 GRID = "; refine the grid (32 cells or more are not warned of)"
@@ -138,6 +243,13 @@ COARSE, ROUGH = "in contact: the answer is that of the grid, not of the surface"
         (units(2.0, 0.201, 1.0), r"the mean pressure is 0.1 E\* [^,]*: are the units right"),
         (units(1.0, 9.0, 1.0), None),
         (units(1.0, 9.0, 1.01), "the approach beyond the first touch, 1.01 m, is more than the side of the grid, 1 m"),
+        (units(2.0, 0.1, 1.0, 10.0), None),
+        (units(2.0, 0.1, 1.0, 10.1), "half of the cells have a slope above 10 (up to 10 is not asked about): are the"),
+        (units(2.0, 1.9e-7, 1.0, 0.9e-6),
+         r"half of the cells have a slope below 9e-07, under a mean pressure of 9.5e-08 E\* \(from 1e-06 or 1e-07"),
+        (units(2.0, 2e-7, 1.0, 0.9e-6), None),
+        (units(2.0, 1.9e-7, 1.0, 1e-6), None),
+        (units(2.0, 1.9e-7, 1.0, 0.0), None),
         (units(2.0, 0.201, 1.01), r"the mean pressure is 0.1 E\* .*, and the approach .* side of the grid, 1 m: are"),
     ],
 )  # fmt: skip

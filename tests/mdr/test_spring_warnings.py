@@ -111,6 +111,83 @@ def test_warnings_of_the_units_of_a_sphere(modulus, approach, asked):
         assert told == [(mdr.SpringUnitsWarning, sentence, __file__)] * asked
 
 
+NM, UM = 1e9, 1e6
+PROFILE = mdr.rough_profile(
+    mdr.SelfAffine(hurst=0.8, q_min=1e5, q_max=8e5, rms=2e-8).c1d,
+    length=6.4e-5, points=64, rng=np.random.default_rng(4), rms=2e-8,
+)  # fmt: skip
+ROLLED_ON = {"spacing": 1e-4, "radius": 0.5, "modulus": 2e11}
+TRACK = 1e-7 * np.cos(2 * np.pi * np.arange(96) / 16)
+STEEP, LOW = "half of the springs have a slope above ", "the heights lie within "
+
+
+def curve(height, modulus=2e11, length=6.4e-5):
+    mdr.load_curve(height, length=length, modulus=modulus)
+
+
+def stiff(height, modulus=2e11, length=6.4e-5):
+    mdr.stiffness_under(1.0, height[np.newaxis], length=length, modulus=modulus)
+
+
+def by_roll(height, **wheel):
+    mdr.roll(height, **ROLLED_ON | wheel, approach=2e-6)
+
+
+def by_force(height, **wheel):
+    mdr.roll(height, **ROLLED_ON | wheel, force=266e-11 * (ROLLED_ON | wheel)["modulus"])
+
+
+def by_rolling_force(height, **wheel):
+    mdr.rolling_force(height, **ROLLED_ON | wheel, approach=2e-6)
+
+
+def by_ensemble(height, **wheel):
+    mdr.RollingEnsemble(height[:, np.newaxis], **ROLLED_ON | wheel, force=266e-11 * (ROLLED_ON | wheel)["modulus"])
+
+
+def by_surface(height, **wheel):
+    mdr.roll_surface(np.repeat(height[:, np.newaxis], 64, axis=1), **ROLLED_ON | wheel, approach=2e-6)
+
+
+PROFILES, TRACKS = (curve, stiff), (by_roll, by_force, by_rolling_force, by_ensemble, by_surface)
+OF_HEIGHTS = [
+    *((press, height, settings, words) for press in PROFILES for height, settings, words in (
+        (PROFILE, {}, None),
+        (NM * PROFILE, {}, STEEP),
+        (UM * PROFILE, {}, STEEP),
+        (NM * PROFILE, {"modulus": 1.0}, None),
+        (NM * PROFILE, {"length": 64e3}, None),
+        (PROFILE, {"length": 64.0}, None),
+        (PROFILE, {"length": 64e3}, LOW),
+        (PROFILE, {"length": 64e3, "modulus": 1.0}, None),
+        (np.zeros(64), {}, None),
+        (1e-3 + 1e-19 * np.arange(64), {}, None),
+        # heights in any order on a fine spacing, a punch in a wider profile, a pit
+        (1e-6 * np.random.default_rng(1).standard_normal(4096), {}, None),
+        (np.where(np.arange(64) < 20, 0.0, -1.0), {}, None),
+        (np.where(np.arange(64) == 20, -1.0, PROFILE), {}, None),
+    )),
+    *((roll, height, settings, words) for roll in TRACKS for height, settings, words in (
+        (TRACK, {}, None),
+        (UM * (TRACK - TRACK.max()), {}, STEEP),
+        (np.where(np.arange(96) == 20, -1.0, TRACK), {}, None),
+    )),
+    *((roll, 2e3 * (TRACK - TRACK.max()) / 1e-7, {"modulus": 1.0, "radius": (0.5, 0.4)}, None) for roll in TRACKS),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("call", "height", "settings", "words"), OF_HEIGHTS)
+def test_heights_in_another_unit_than_the_spacing(call, height, settings, words):
+    """Where the modulus is the unit of pressure, heights may have one of their own."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        call(height, **settings)
+    found = [w.message.detail for w in caught if w.category is mdr.SpringUnitsWarning]
+    assert {w.filename for w in caught} <= {__file__}
+    assert len(found) == (words is not None)
+    assert all(sentence.startswith(words) and sentence.endswith(": are the units right?") for sentence in found)
+
+
 def rough(height, q_max=3.0):
     """A track of long waves, so long that the ends of the contact are ends."""
     band = mdr.SelfAffine(hurst=0.7, q_min=0.5, q_max=q_max, rms=height)

@@ -15,6 +15,7 @@ from bem3d import (
     blocked_convolution,
     contact,
     convolution,
+    diagnostics,
     far_field,
     few_cells,
     halfspace,
@@ -139,6 +140,10 @@ UNIT_OF_FORCE = partial(of_few_cells.test_the_modulus_is_the_unit_of_force, 3.0)
 
 CUT_SHORT = partial(accepted.test_a_solve_that_is_cut_short_says_so, "solve", 3)
 WORN_PROFILE = profiles.test_a_worn_profile_against_a_fine_solve_of_the_plain_contact
+
+
+def mean_slope(gap, steps):
+    return float(np.abs(np.diff(gap, axis=0)).mean()) / steps[0]
 
 
 def yielding_mean_plane(shape, spacing, modulus):
@@ -273,6 +278,14 @@ FAULTS = [
     Fault("a residual of rolling that is not looked at").at(wheel_on_strip, "residual", lambda *_: 0.0),
     doubts.test_warning_of_a_modulus_in_gigapascals,
     Fault("a modulus in gigapascals that nobody asks about").at(contact, "diagnose_units", lambda **_: ()),
+    partial(doubts.test_heights_in_another_unit_than_the_grid, -1e9 * doubts.SURFACE, {"force": 1e-3}, "above"),
+    Fault("heights in nm on a grid in m that nobody asks about").at(contact, "typical_slope", lambda *_: 0.0),
+    partial(doubts.test_heights_in_another_unit_than_the_grid, -doubts.SURFACE, {"force": 1e-3, "metre": 1e6}, "below"),
+    Fault("heights in m on a grid in um that nobody asks about").at(diagnostics, "LIGHTEST_PRESSURE", 0.0),
+    partial(doubts.test_steep_and_flat_indenters_are_not_asked_about, doubts.PUNCH, {"force": 1e-2}),
+    Fault("the edge of a punch asked about as a slope").at(contact, "typical_slope", mean_slope),
+    doubts.test_heights_of_a_strip_in_another_unit,
+    Fault("a strip in um that nobody asks about").at(rolling_frame, "typical_slope", lambda *_: 0.0),
     CUT_SHORT,
     Fault("accepted at ten times its tolerance").at(
         window_solve.IterationState, "record_residual", at_ten_times_the_tolerance

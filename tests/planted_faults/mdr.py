@@ -122,6 +122,16 @@ FAULTS = [
     Fault("springs that say nothing of short waves").at(profile_module, "diagnose_waves", lambda *_: ()),
     partial(doubts.test_what_is_warned_of, "4 springs"),
     Fault("few springs that say nothing").at(foundation, "diagnose_load", lambda *_: ()),
+    partial(doubts.test_heights_in_another_unit_than_the_spacing, doubts.curve, 1e9 * doubts.PROFILE, {}, doubts.STEEP),
+    Fault("heights in nm on a length in m that nobody asks about").at(foundation, "diagnose_heights", lambda *_: ()),
+    partial(
+        doubts.test_heights_in_another_unit_than_the_spacing,
+        doubts.by_roll,
+        1e6 * (doubts.TRACK - doubts.TRACK.max()),
+        {},
+        doubts.STEEP,
+    ),
+    Fault("a track in um that nobody asks about").at(wheel_on_springs, "diagnose_slope", lambda *_: ()),
     partial(doubts.test_the_ends_of_a_linear_contact_move_as_warned, "linear", None),
     Fault("ends of a linear contact that move twice as far").at(
         wheel_on_springs,

@@ -186,7 +186,7 @@ def test_control_characters_do_not_reach_the_terminal(tmp_path, capsys):
     for old, new, said in (
         ('"Rough punch"', r'"a\u001b[31m\nb"', rf"{name}'a\x1b[31m\nb'"),
         ('"Rough punch"', r'"a\u202eb"', rf"{name}'a\u202eb'"),
-        ("side =", r'"si\u001bde\n" =', r"punch.si\x1bde\n is unknown, punch must be made of side, load"),
+        ("side =", r'"si\u001bde\n" =', r"punch.si\x1bde\n is unknown, punch must be made of side, load, pressure"),
         ('"1 mm"', r'"1 \u009bmm"', 'punch.side must be a length, as "0.5 m", in one of m, cm, mm, um, µm'),
         ("[roughness]", "[rough", r"got: Expected"),
     ):

@@ -14,11 +14,12 @@ from validation.__main__ import main
 from validation.scenes.bundled import SCENES
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.load import load_scene
+from validation.scenes.load import load_scene, load_varied
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
 from validation.selection.compare import SceneProblem
 
+SMOOTH, LOAD = PUNCH.partition("[roughness]")[0], 'load = "23.076923 N"'
 ROLLING = (SCENES / "rolling_wheel.toml").read_text(encoding="utf-8")
 
 
@@ -35,6 +36,19 @@ ROLLING = (SCENES / "rolling_wheel.toml").read_text(encoding="utf-8")
 def test_scenes_are_refused_by_key_and_value(tmp_path, text, old, new, words):
     with pytest.raises(ValueError, match=f"^{IN_FILE}{'.*'.join(map(re.escape, words))}"):
         load_scene(written(tmp_path, (old, new), text=text))
+
+
+def test_a_mean_pressure_of_a_punch_is_its_load_over_the_side_squared(tmp_path):
+    of_load, of_pressure = (
+        load_scene(written(tmp_path, (LOAD, line), text=SMOOTH)) for line in ('load = "7 uN"', 'pressure = "7 N/m2"')
+    )
+    assert (of_load.size, of_load.load, of_load.pressure) == (1e-3, 7e-6, pytest.approx(7.0, rel=1e-15))
+    assert (of_pressure.size, of_pressure.load) == (1e-3, pytest.approx(7e-6, rel=1e-15))
+    varied = load_varied(tmp_path / "scene.toml", "punch.pressure", "2 MPa")
+    assert varied.load == pytest.approx(2.0, rel=1e-15)
+    for lines, got in ((f'{LOAD}\npressure = "1 Pa"', "load and pressure"), ("", "none")):
+        with pytest.raises(ValueError, match=rf"^{IN_FILE}punch must have one of load, pressure, got {got}$"):
+            load_scene(written(tmp_path, (LOAD, lines), text=SMOOTH))
 
 
 def test_a_smooth_rail_is_no_scene_to_roll_over(tmp_path):

@@ -5,13 +5,14 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from validation.scenes.printable import quoted
-from validation.scenes.units import UNITS, quantity
+from validation.scenes.units import UNITS, in_unit, quantity
 
 # what a unit is in SI, written down here once more
 TIMES = {"m": 1, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "nm": 1e-9, "km": 1e3}
 TIMES |= {"kg": 1, "g": 1e-3, "t": 1e3, "N": 1, "kN": 1e3, "MN": 1e6, "mN": 1e-3}
 TIMES |= {"Pa": 1, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "m/s": 1, "mm/s": 1e-3, "km/h": 1 / 3.6, "dB": 1, "%": 1e-2}
-TIMES |= {"kgf": 9.80665, "tf": 9806.65}
+TIMES |= {"kgf": 9.80665, "tf": 9806.65, "daN": 10, "uN": 1e-6, "µN": 1e-6, "nN": 1e-9, "bar": 1e5}
+TIMES |= {"N/m2": 1, "kN/m2": 1e3, "MN/m2": 1e6, "N/mm2": 1e6, "kN/mm2": 1e9, "cm/s": 1e-2, "um/s": 1e-6, "µm/s": 1e-6}
 EVERY_UNIT = [(dimension, unit) for dimension, units in UNITS.items() for unit in units]
 
 
@@ -25,6 +26,16 @@ EVERY_UNIT = [(dimension, unit) for dimension, units in UNITS.items() for unit i
         ("-2 m/s", "speed", -2.0),
         ("10N", "force", 10.0),
         ("5e-3mm", "length", 5e-6),
+        ("40 uN", "force", 4e-5),
+        ("40 \N{MICRO SIGN}N", "force", 4e-5),
+        ("40 \N{GREEK SMALL LETTER MU}N", "force", 4e-5),
+        ("7nN", "force", 7e-9),
+        ("3 daN", "force", 30.0),
+        ("210000 N/mm²", "pressure", 210e9),
+        ("210000 N/mm^2", "pressure", 210e9),
+        ("210 kN/mm2", "pressure", 210e9),
+        ("6 bar", "pressure", 6e5),
+        ("5 µm/s", "speed", 5e-6),
     ],
 )
 def test_a_quantity_is_the_nearest_float(text, dimension, value):
@@ -50,7 +61,24 @@ def test_metric_prefixes_do_not_round(digits):
     assert quantity("it", f"{digits} GPa", "pressure") == float(f"{digits}e9")
 
 
-FORMS = "0.5|m|0.5 kg|0.5 inch|0.5 M|half m|0,5 m|0x1 m|1 m 2 mm|0.5 m m|0.5 dm|0. 5m"
+@pytest.mark.parametrize(
+    ("value", "dimension", "words"),
+    [
+        (2e-9, "force", "2 nN"),
+        (4e-5, "force", "40 µN"),
+        (1e-3, "force", "1 mN"),
+        (4905, "force", "4.905 kN"),
+        (3e-12, "force", "0.003 nN"),
+        (210e9, "pressure", "210 GPa"),
+        (0.92, "length", "920 mm"),
+    ],
+)
+def test_a_value_is_printed_in_the_largest_unit_that_leaves_a_digit_before_the_point(value, dimension, words):
+    assert in_unit(value, dimension) == words
+    assert quantity("it", words, dimension) == pytest.approx(value, rel=1e-5)
+
+
+FORMS = "10² m|0.5|m|0.5 kg|0.5 inch|0.5 M|half m|0,5 m|0x1 m|1 m 2 mm|0.5 m m|0.5 dm|0. 5m"
 
 
 @pytest.mark.parametrize("wrong", [0.5, 1, True, None, ["0.5 m"], "", *FORMS.split("|")])

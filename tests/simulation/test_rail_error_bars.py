@@ -90,7 +90,7 @@ def test_contacts_longer_or_wider_than_those_on_strips_have_no_known_error(over,
     """Strips had a_y / a_x from 0.45 to 1.9, which is nearly (R_y / R_x)^(2/3)."""
     quantity = RailQuantity(RAIL, "contact-filter")
     (linear,) = (one for one in models_serving(RAIL, "contact-filter") if one.name == LINEAR)
-    radius = brentq(lambda r: aspect(replace(RAIL, crown_radius=r)) - over, 0.02, 20.0)
+    radius = brentq(lambda r: aspect(replace(RAIL, crown_radius=r)) - over, 0.03, 5.0)
     reason = linear.filter.beyond(replace(quantity, scene=replace(RAIL, crown_radius=radius)))
     assert reason == ("" if known else f"a_y / a_x is {over:.2g}: errors were measured from 0.45 to 1.9")
 

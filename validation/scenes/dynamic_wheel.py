@@ -21,8 +21,8 @@ from validation.scenes.wheel_body import OnHalfSpace
 
 KEYS = ("wheel.radius", "wheel.mass", "wheel.load", "wheel.speed", "simulation.distance")
 """Of what must be positive."""
-MAX_POINTS = 10**9
-"""Springs of a track of eight gigabytes."""
+MAX_POINTS = 10**7
+"""Springs of a track of eighty megabytes, of which an ensemble has dozens: of more, one is a day of time steps."""
 
 MIN_SPRINGS_PER_WAVE = 4
 """To a wave: with fewer its curvature is off."""

@@ -24,6 +24,8 @@ Scene = IndentationScene | RollingScene | RailScene
 
 BODIES, GROUNDS = ("sphere", "punch", "wheel"), ("roughness", "heights")
 """Of which a scene has one, and one at the most."""
+LOADS = ("load", "pressure")
+"""Of which a punch has one: its force, or the mean pressure over its side squared."""
 OTHER_GROUNDS = ("roughness", "levels", "lines", "across", "alpha")
 """Keys of a body or a rail that heights stand in place of."""
 
@@ -144,19 +146,20 @@ def bundled_for_compare() -> tuple[str, ...]:
 
 
 def _pressed(body: str, tables: dict[str, Any], folder: Path) -> IndentationScene:
-    size = "radius" if body == "sphere" else "side"
+    size, loads = ("radius", LOADS[:1]) if body == "sphere" else ("side", LOADS)
     readers: dict[str, Reader] = {
         **values("name"),
-        body: partial(table, values(size, "load"), ()),
+        body: partial(table, values(size, *loads), LOADS if len(loads) > 1 else ()),
         "material": material_of,
         **_grounds(folder),
     }
     found = table(readers, GROUNDS, "", tables)
+    load: float = one_of(found[body], body, loads)
     return IndentationScene(
         name=found["name"],
         shape="sphere" if body == "sphere" else "punch",
         size=found[body][size],
-        load=found[body]["load"],
+        load=load * found[body][size] ** 2 if "pressure" in found[body] else load,
         modulus=found["material"].modulus,
         material=found["material"],
         ground=one_of(found, "a scene", GROUNDS, least=0),

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -30,6 +30,12 @@ HALF_HEAD = 0.036
 """Half of the width of the head of a rail [m], 72 mm of 60E1."""
 WIDE = 0.1
 """Semi-axis of the contact over the radius along it: beyond it the bodies are no half-spaces."""
+NARROWEST, WIDEST = 0.1, 6.0
+"""a_y / a_x: of a gauge corner of 13 mm, and of a crown of 7 m. The cells of a strip go with the square of the longer
+axis over the shorter: ten million at these ends."""
+LEAST_ALPHA, MOST_ALPHA = 0.1, 10.0
+"""Waves within 6 and 84 degrees of the track: less are ridges to a strip, whose width holds no wave as long; of more,
+hardly any run along the track."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,7 +106,8 @@ class RailScene:
             given = type(self.roughness).__name__
             raise TypeError(f"roughness must be RoughnessLevels, MeasuredLines or MeasuredHeights, got {given}")
         if self.across not in ("ridges", "isotropic", None):
-            positive("rail.across", self.across)
+            _check_alpha(self.across)
+        _check_contact(self)
         if isinstance(self.roughness, MeasuredHeights):
             if self.across is not None:
                 raise ValueError(
@@ -193,6 +200,33 @@ class RailScene:
                 f"no isotropic ground has the levels at {self.levels.bands.names(ground.stands_out)}, which rise too "
                 f"steeply or stand out of their neighbours: there it has {taken}."
             )
+
+
+def _check_alpha(alpha: Any) -> None:
+    if not LEAST_ALPHA <= positive("rail.across", alpha) <= MOST_ALPHA:
+        raise ValueError(
+            f"rail.across must be a number alpha from {LEAST_ALPHA:g} to {MOST_ALPHA:g}, waves within 6 to 84 degrees "
+            f'of the track, got {alpha:g}; "ridges" stands for less, "isotropic" for all directions'
+        )
+
+
+def _check_contact(scene: RailScene) -> None:
+    """Raises ValueError for one that is larger than the wheel, or too narrow or wide for a strip around it."""
+    contact, profiled = scene.contact, isinstance(scene, ProfiledRail)
+    for side, semi_axis, radius in zip(("along", "across"), contact.semi_axes, scene.radii, strict=True):
+        if not semi_axis < radius:
+            raise ValueError(
+                f"wheel.load must leave a contact smaller than the radius {side} the track, {radius:g} m, got "
+                f"{semi_axis:g} m"
+            )
+    if not NARROWEST <= (ratio := contact.across / contact.along) <= WIDEST:
+        shape = "is narrower than that of a gauge corner" if ratio < NARROWEST else "is nearly a line"
+        key = "profile" if profiled else "rail.crown_radius and wheel.transverse_radius"
+        instead = "" if profiled else ', a measured shape has its own width, as: profile = "head.csv"'
+        raise ValueError(
+            f"{key} must leave a contact {NARROWEST:g} to {WIDEST:g} times as wide as long, got {ratio:.3g} times, "
+            f"which {shape}{instead}"
+        )
 
 
 @dataclass(frozen=True, kw_only=True)

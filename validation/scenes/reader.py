@@ -126,7 +126,7 @@ _LENGTHS = "radius diameter transverse_radius crown_radius side distance longest
 VALUES: dict[str, Reader] = {
     **dict.fromkeys(_LENGTHS.split(), LENGTH),
     **{"load": FORCE, "axle_load": FORCE, "mass": MASS, "speed": SPEED, "youngs_modulus": PRESSURE},
-    **{"contact_modulus": PRESSURE, "poisson_ratio": NUMBER, "alpha": POSITIVE, "springs": WHOLE},
+    **{"pressure": PRESSURE, "contact_modulus": PRESSURE, "poisson_ratio": NUMBER, "alpha": POSITIVE, "springs": WHOLE},
     **{"wheels_per_axle": WHOLE, "damping": partial(_number_or, "share of critical")},
     **{"name": nonblank_text, "file": nonblank_text, "curve": nonblank_text, "fill": yes_or_no, "crop": yes_or_no},
 }

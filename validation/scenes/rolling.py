@@ -7,9 +7,13 @@ from validation.scenes.damping import DampedWheel, check_damping
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.material import Material, check_scene
 from validation.scenes.measured import MeasuredHeights, check_covers
-from validation.scenes.roughness import RoughSurface, check_band
+from validation.scenes.roughness import Roughness, RoughSurface, check_band
 from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
+from validation.scenes.units import in_unit
 from validation.scenes.wheel_body import OnHalfSpace
+
+MOST_WAVES = 1000
+"""To a contact radius: shorter ones no grid of a wheel holds, and linear theory takes hours over them."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,6 +71,7 @@ class RollingScene(OnHalfSpace):
             check_covers("rail.heights", self.ground, (4 * math.pi * a, 3 * a), a)
         else:
             check_band("rail.roughness", self.ground)
+            _check_waves(self.ground, self.contact_radius)
 
     @classmethod
     def of_wheel(cls, scene: WheelScene) -> "RollingScene":
@@ -99,3 +104,11 @@ class RollingScene(OnHalfSpace):
     def no_steady_answer(self) -> str:
         """Why the motion of a wheel with a mass has no level that the distance leaves alone; empty where it has."""
         return "" if self.speed is None else no_steady_answer(self.body, self.speed, [self.ground])
+
+
+def _check_waves(rough: Roughness, a: float) -> None:
+    if rough.shortest * MOST_WAVES < a * (1 - 1e-9):
+        least, got = (in_unit(wave, "length", digits=3) for wave in (a / MOST_WAVES, rough.shortest))
+        raise ValueError(
+            f"rail.roughness.shortest must be at least {least}, {MOST_WAVES} waves to the contact radius, got {got}"
+        )

@@ -13,13 +13,31 @@ Dimension = Literal["length", "mass", "force", "pressure", "speed", "level", "sh
 TABLE: dict[Dimension, tuple[str, str, str]] = {
     "length": ("0.5 m", "nm µm mm m", "m=1 cm=1e-2 mm=1e-3 um=1e-6 µm=1e-6 nm=1e-9 km=1e3"),
     "mass": ("500 kg", "g kg t", "kg=1 g=1e-3 t=1e3"),
-    "force": ("4905 N", "mN N kN MN", "N=1 kN=1e3 MN=1e6 mN=1e-3 kgf=9.80665 tf=9806.65"),
-    "pressure": ("210 GPa", "Pa kPa MPa GPa", "Pa=1 kPa=1e3 MPa=1e6 GPa=1e9"),
-    "speed": ("20 m/s", "mm/s m/s", "m/s=1 mm/s=1e-3 km/h=10/36"),
+    "force": (
+        "4905 N",
+        "nN µN mN N kN MN",
+        "N=1 kN=1e3 MN=1e6 mN=1e-3 uN=1e-6 µN=1e-6 nN=1e-9 daN=10 kgf=9.80665 tf=9806.65",
+    ),
+    "pressure": (
+        "210 GPa",
+        "Pa kPa MPa GPa",
+        "Pa=1 kPa=1e3 MPa=1e6 GPa=1e9 bar=1e5 N/m2=1 kN/m2=1e3 MN/m2=1e6 N/mm2=1e6 kN/mm2=1e9",
+    ),
+    "speed": ("20 m/s", "mm/s m/s", "m/s=1 cm/s=1e-2 mm/s=1e-3 um/s=1e-6 µm/s=1e-6 km/h=10/36"),
     "level": ("10 dB", "dB", "dB=1"),
     "share of critical": ("2 %", "%", "%=1e-2"),
 }
 """An example, the units in which a quantity is printed, the smallest first, and each unit over the SI unit."""
+
+
+RANGE: dict[Dimension, tuple[float, float]] = {
+    "length": (1e-12, 1e6),
+    "mass": (1e-15, 1e9),
+    "force": (1e-15, 1e12),
+    "pressure": (1e-3, 1e15),
+    "speed": (1e-9, 1e4),
+}
+"""Of a quantity that must be positive, in SI units: no body has another, and beyond it doubles or grids have an end."""
 
 
 def _exact(units: str) -> dict[str, Fraction]:
@@ -29,6 +47,8 @@ def _exact(units: str) -> dict[str, Fraction]:
 UNITS = {dimension: _exact(units) for dimension, (_, _, units) in TABLE.items()}
 LENGTHS = UNITS["length"] | _exact("Å=1e-10 A=1e-10 pm=1e-12")
 """With those of the atomic force microscope, over a metre; A is how SurfaceTopography writes Å in ASCII."""
+SAME = {"\N{GREEK SMALL LETTER MU}": "µ", "m²": "m2", "m^2": "m2"}
+"""What looks the same, or means the same in a unit."""
 # decimal, so that "0.5 um" is the float nearest to 5e-7; nothing trapped, since what is not finite is refused anyway
 DECIMAL = Context(prec=60, traps=[InvalidOperation])
 
@@ -36,11 +56,13 @@ DECIMAL = Context(prec=60, traps=[InvalidOperation])
 def quantity(name: str, text: object, dimension: Dimension, *, positive: bool = False) -> float:
     """The float nearest to a quantity of the given dimension, in SI units.
 
-    text: a decimal number and a unit, with or without a space between them; positive: whether it must be above zero.
-    Raises ValueError naming the quantity that is of another form or dimension, not finite, or not positive.
+    text: a decimal number and a unit, with or without a space between them; positive: whether it must be above zero,
+    and within `RANGE`. Raises ValueError naming the quantity that is of another form or dimension, not finite, or out
+    of range.
     """
-    # the micro sign and the Greek letter look the same
-    words = text.strip().replace("\N{GREEK SMALL LETTER MU}", "µ") if isinstance(text, str) else ""
+    words = text.strip() if isinstance(text, str) else ""
+    for sign, same in SAME.items():
+        words = words.replace(sign, same)
     ending = max((unit for unit in UNITS[dimension] if words.endswith(unit)), key=len, default="")
     try:
         number = DECIMAL.create_decimal(words.removesuffix(ending).strip() if ending else "")
@@ -48,14 +70,17 @@ def quantity(name: str, text: object, dimension: Dimension, *, positive: bool = 
         example, _, _ = TABLE[dimension]
         accepted = f'a {dimension}, as "{example}", in one of {", ".join(UNITS[dimension])}'
         raise ValueError(f"{name} must be {accepted}, got {quoted(text)}") from None
-    found = math.nan
+    found, unit = math.nan, UNITS[dimension][ending]
     if number.is_finite():
-        unit = UNITS[dimension][ending]
         found = float(DECIMAL.divide(DECIMAL.multiply(number, Decimal(unit.numerator)), Decimal(unit.denominator)))
     if not math.isfinite(found):
         raise ValueError(f"{name} must be finite, got {quoted(text)}")
     if positive and found <= 0:
         raise ValueError(f"{name} must be positive, got {quoted(text)}")
+    low, high = RANGE.get(dimension, (0.0, math.inf))
+    if positive and not low * (1 - 1e-9) <= found <= high * (1 + 1e-9):
+        ends = " and ".join(f"{end / float(unit):g} {ending}" for end in (low, high))
+        raise ValueError(f"{name} must lie between {ends}, got {quoted(text)}: is its unit right?")
     return found
 
 
