@@ -1,18 +1,21 @@
 """What a wrong pressure may be the answer of: each cause with the part of the error that it explains on one problem."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import ndimage
 
 from validation.benchmarks.judging.discrete import ContactProblem, pressed
-from validation.benchmarks.judging.properties import OF_ANSWER, apart
-from validation.benchmarks.judging.wrong_operators import dense, operators
+from validation.benchmarks.judging.properties import OF_ANSWER, Way, apart
+from validation.benchmarks.judging.wrong_operators import Operator, dense, operators
 from validation.engine.offered import FloatArray
 
+SAME, SMALL = 1e-6, 0.25
+"""In L2: pressures that are one; of the largest pressure: what may have been clipped."""
 TOUCHING, ENOUGH_CELLS, DENSE, ALIKE = 1e-3, 12, 900, 10.0
 """Part of the largest pressure; cells to which three numbers may be fitted; cells of a matrix; residuals of two answers
 that are one."""
@@ -71,7 +74,9 @@ class JudgedContact:
 
     @cached_property
     def answer(self) -> FloatArray:
-        """By our solver; NaN where it has none."""
+        """By our solver, where the pressure is not right itself; NaN where it has none."""
+        if self.is_right:
+            return self.pressure
         load = {"force": self.problem.force} if self.by_force else {"approach": self.problem.approach}
         try:
             return pressed(self.problem, 1e-9, **load).pressure
@@ -84,58 +89,82 @@ class JudgedContact:
         return apart(self.pressure, self.answer)
 
     @cached_property
-    def touching(self) -> FloatArray:
+    def touching(self) -> NDArray[np.bool_]:
         return np.asarray(self.pressure > TOUCHING * self.pressure.max())
 
 
-Explained = Iterator[tuple[str, float]]
-"""Names of causes, each with the part of the error that it explains."""
+Explaining = Callable[[], float]
+Causes = Iterator[tuple[str, Explaining]]
+"""Names of causes, each with what finds the part of the error that it explains."""
 
 
-def causes(contact: JudgedContact) -> Explained:
-    """All that have no number of their own, the more specific first."""
-    yield from _tension(contact)
+def causes(contact: JudgedContact) -> Causes:
+    """All that have no number of their own, the more specific first; nothing is computed before it is asked for."""
+    yield "negative pressures: p >= 0 is not held", partial(_by_tension, contact)
     for name, operator in operators(contact.problem):
-        with np.errstate(all="ignore"):
-            yield name, contact.explained(contact.under(displacement=operator(contact.problem, contact.pressure)))
-    yield from _of_earlier_calls(contact)
-    for name, problem in _other_problems(contact.problem):
-        yield name, contact.explained(contact.under(problem))
-    for name, pressure in _other_pressures(contact):
-        if pressure.shape == contact.pressure.shape:
-            yield name, contact.explained(contact.under(pressure=pressure))
-    for name, pressure in _spoiled_answers(contact):
-        yield name, contact.explained_by(pressure)
-    yield from _fits(contact)
-
-
-def _tension(contact: JudgedContact) -> Explained:
-    p = contact.pressure
-    if contact.is_right or p.min() < -contact.residual * np.abs(p).max():
-        # where nothing but the sign is wrong, all conditions but that hold
-        rest = {name: left for name, left in contact.problem.left(p, contact.by_force)[0].items() if name != "tension"}
-        yield "negative pressures: p >= 0 is not held", contact.explained(max(rest.values()))
-
-
-def _of_earlier_calls(contact: JudgedContact) -> Explained:
-    problem = contact.problem
+        yield name, partial(_by_operator, contact, operator)
     for other, pressure in contact.earlier:
-        if pressure.shape == contact.pressure.shape and other is not problem:
-            norm = float((pressure**2).sum())
-            scaled = float((pressure * contact.pressure).sum()) / norm * pressure if norm else pressure
-            if apart(contact.pressure, scaled) < 1e-6 < apart(contact.answer, scaled):
-                yield f"the answer of another problem: {other.name}", 1.0
-                return
+        if pressure.shape == contact.pressure.shape and other is not contact.problem:
+            yield f"the answer of another problem: {other.name}", partial(_by_earlier, contact, pressure)
+    yield "an operator that is kept from an earlier call on as many cells", partial(_by_kept_operator, contact)
+    for name, problem in _other_problems(contact.problem):
+        yield name, partial(_by_problem, contact, problem)
+    for name, put_back in _other_pressures(contact.pressure.shape):
+        yield name, partial(_by_pressure, contact, put_back)
+    for name, spoil in _spoiled_answers(contact):
+        yield name, partial(_by_spoiled, contact, spoil)
+    yield "the same pressure in all cells", partial(_by_evenness, contact)
+    yield "each cell by itself: springs without a half-space", partial(_by_fit, contact, iterations=0)
+    yield "one iteration from an even pressure", partial(_by_fit, contact, iterations=1)
+
+
+def _by_tension(contact: JudgedContact) -> float:
+    """Where nothing but the sign is wrong, all conditions but that hold."""
+    left, p = contact.problem.left(contact.pressure, contact.by_force)[0], contact.pressure
+    if contact.is_right or p.min() >= -contact.residual * np.abs(p).max():
+        return float(contact.is_right)
+    rest = max(value for name, value in left.items() if name != "tension")
+    return contact.explained(rest) if math.isfinite(rest) else 0.0
+
+
+def _by_operator(contact: JudgedContact, operator: Operator) -> float:
+    with np.errstate(all="ignore"):
+        return contact.explained(contact.under(displacement=operator(contact.problem, contact.pressure)))
+
+
+def _by_earlier(contact: JudgedContact, pressure: FloatArray) -> float:
+    """The very pressure that was returned before, or that times a number."""
+    if contact.is_right:
+        return 1.0
+    scaled = float((pressure * contact.pressure).sum()) / float((pressure**2).sum()) * pressure
+    return float(apart(contact.pressure, scaled) < SAME < apart(contact.answer, scaled))
+
+
+def _by_kept_operator(contact: JudgedContact) -> float:
+    problem = contact.problem
     kept = {
         (other.spacing, other.modulus, other.periodic)
         for other, pressure in contact.earlier
         if pressure.shape == contact.pressure.shape
     } - {(problem.spacing, problem.modulus, problem.periodic)}
-    found = [
-        contact.explained(contact.under(replace(problem, spacing=spacing, modulus=modulus, periodic=periodic)))
-        for spacing, modulus, periodic in kept
+    others = [
+        replace(problem, spacing=spacing, modulus=modulus, periodic=periodic) for spacing, modulus, periodic in kept
     ]
-    yield "an operator that is kept from an earlier call on as many cells", max(found, default=0.0)
+    return max((_by_problem(contact, other) for other in others), default=float(contact.is_right))
+
+
+def _by_problem(contact: JudgedContact, problem: ContactProblem) -> float:
+    return contact.explained(contact.under(problem))
+
+
+def _by_pressure(contact: JudgedContact, put_back: Way) -> float:
+    pressure = put_back(contact.pressure)
+    return contact.explained(contact.under(pressure=pressure)) if pressure.shape == contact.pressure.shape else 0.0
+
+
+def _by_spoiled(contact: JudgedContact, spoil: Way) -> float:
+    answer = contact.answer
+    return contact.explained_by(spoil(answer)) if np.isfinite(answer).all() else 0.0
 
 
 def _other_problems(problem: ContactProblem) -> Iterator[tuple[str, ContactProblem]]:
@@ -169,52 +198,59 @@ def smoothed(values: FloatArray, periodic: bool) -> FloatArray:
     return np.asarray(values)
 
 
-def _other_pressures(contact: JudgedContact) -> Iterator[tuple[str, FloatArray]]:
+def _other_pressures(shape: tuple[int, ...]) -> Iterator[tuple[str, Way]]:
     """What would be right were the returned pressure so put back."""
-    p, (n, m) = contact.pressure, contact.pressure.shape
-    yield "transposed", p.T
-    yield "rows and columns exchanged in memory", p.ravel().reshape((n, m), order="F")
-    yield "rows and columns exchanged in memory", p.ravel(order="F").reshape((n, m))
-    yield "flipped along axis 0", p[::-1]
-    yield "flipped along axis 1", p[:, ::-1]
-    yield "flipped along both axes", p[::-1, ::-1]
-    yield "turned by a quarter", np.rot90(p)
-    yield "turned by a quarter", np.rot90(p, -1)
+    n, m = shape
+    yield "transposed", lambda p: p.T
+    yield "rows and columns exchanged in memory", lambda p: p.ravel().reshape((n, m), order="F")
+    yield "rows and columns exchanged in memory", lambda p: p.ravel(order="F").reshape((n, m))
+    yield "flipped along axis 0", lambda p: p[::-1]
+    yield "flipped along axis 1", lambda p: p[:, ::-1]
+    yield "flipped along both axes", lambda p: p[::-1, ::-1]
+    yield "turned by a quarter", np.rot90
+    yield "turned by a quarter", lambda p: np.rot90(p, -1)
     for cells in (1, -1, 2, -2):
         for where, axes in {"along axis 0": (0,), "along axis 1": (1,), "along both axes": (0, 1)}.items():
-            moved = np.roll(p, [-cells] * len(axes), axes)
-            yield f"shifted by {cells} cell{'s' if abs(cells) > 1 else ''} {where}", moved
-    yield "shifted by half of the grid: fftshift", np.fft.ifftshift(p)
-    yield "shifted by half of the grid: fftshift", np.fft.fftshift(p)
+            name = f"shifted by {cells} cell{'s' if abs(cells) > 1 else ''} {where}"
+            yield name, partial(np.roll, shift=[-cells] * len(axes), axis=axes)
+    yield "shifted by half of the grid: fftshift", np.fft.ifftshift
+    yield "shifted by half of the grid: fftshift", np.fft.fftshift
 
 
-def _spoiled_answers(contact: JudgedContact) -> Iterator[tuple[str, FloatArray]]:
-    p, answer, problem = contact.pressure, contact.answer, contact.problem
-    if not np.isfinite(answer).all():
-        return
-    lost = answer[(p <= 0) & (answer > 0)]
-    if lost.size and lost.max() < 0.25 * answer.max():
-        cut = np.where(p > 0, answer, 0)
-        yield "small pressures are clipped to zero and the force is not restored", cut
-        yield "small pressures are clipped to zero and all others are scaled to the force", _to_force(cut, p)
-    yield "pressures are cut at a largest value", np.minimum(answer, p.max())
-    if answer.size <= DENSE and not problem.periodic:
-        linear = bilateral(problem, contact.by_force)
-        yield "negative pressures are clipped once and the force is not restored", np.maximum(linear, 0)
-        yield "negative pressures are clipped once and all others are scaled to the force", _to_force(linear.clip(0), p)
+def _spoiled_answers(contact: JudgedContact) -> Iterator[tuple[str, Way]]:
+    """What may have been done to the answer."""
+    p, mode = contact.pressure, "wrap" if contact.problem.periodic else "constant"
+
+    def to_force(pressure: FloatArray) -> FloatArray:
+        return np.asarray(pressure * (p.sum() / pressure.sum()))
+
+    def cut(answer: FloatArray) -> FloatArray:
+        lost = answer[(p <= 0) & (answer > 0)]
+        return np.where(p > 0, answer, 0) if lost.size and lost.max() < SMALL * answer.max() else answer
+
+    def clipped(_: FloatArray) -> FloatArray:
+        small = p.size <= DENSE and not contact.problem.periodic
+        return bilateral(contact.problem, contact.by_force).clip(0) if small else np.full_like(p, math.nan)
+
+    def blurred(answer: FloatArray, weights: Sequence[float]) -> FloatArray:
+        for axis in (0, 1):
+            answer = ndimage.convolve1d(answer, weights, axis, mode=mode)
+        return np.asarray(answer)
+
+    yield "small pressures are clipped to zero and the force is not restored", cut
+    yield "small pressures are clipped to zero and all others are scaled", lambda answer: to_force(cut(answer))
+    yield "pressures are cut at a largest value", lambda answer: np.minimum(answer, p.max())
+    yield "negative pressures are clipped once and the force is not restored", clipped
+    yield "negative pressures are clipped once and all others are scaled", lambda answer: to_force(clipped(answer))
     for axis in (0, 1):
         for cells in (1, -1):
-            half = (answer + np.roll(answer, cells, axis)) / 2
-            yield f"shifted by {cells / 2:g} cells along axis {axis}, or smoothed along it", half
-    mode = "wrap" if problem.periodic else "constant"
-    for size in (3, 5):
-        yield "smoothed pressures", ndimage.uniform_filter(answer, size, mode=mode)
-    for weights in ([0.25, 0.5, 0.25], [0.1, 0.8, 0.1]):
-        both = ndimage.convolve1d(ndimage.convolve1d(answer, weights, 0, mode=mode), weights, 1, mode=mode)
-        yield "smoothed pressures", both
-        yield "smoothed pressures, scaled to the force", _to_force(both, p)
+            half = f"shifted by {cells / 2:g} cells along axis {axis}, or smoothed along it"
+            yield half, lambda answer, cells=cells, axis=axis: (answer + np.roll(answer, cells, axis)) / 2  # type: ignore[misc]
+    for weights in ([0.25, 0.5, 0.25], [0.1, 0.8, 0.1], [1 / 3] * 3, [0.2] * 5):
+        yield "smoothed pressures", partial(blurred, weights=weights)
+        yield "smoothed pressures", lambda answer, weights=weights: to_force(blurred(answer, weights))  # type: ignore[misc]
     for sigma in (0.5, 1.0, 2.0):
-        yield "smoothed pressures", ndimage.gaussian_filter(answer, sigma, mode=mode)
+        yield "smoothed pressures", partial(ndimage.gaussian_filter, sigma=sigma, mode=mode)
 
 
 def bilateral(problem: ContactProblem, by_force: bool) -> FloatArray:
@@ -225,25 +261,18 @@ def bilateral(problem: ContactProblem, by_force: bool) -> FloatArray:
     return np.asarray((approach * inverse[:, 0] - inverse[:, 1]).reshape(problem.gap.shape))
 
 
-def _to_force(pressure: FloatArray, like: FloatArray) -> FloatArray:
-    return np.asarray(pressure * (like.sum() / pressure.sum()))
+def _by_evenness(contact: JudgedContact) -> float:
+    return float(np.ptp(contact.pressure) <= SAME * contact.pressure.max())
 
 
-def _fits(contact: JudgedContact) -> Explained:
-    """Pressures that are linear in the gap, in the contact."""
-    p, c = contact.pressure, contact.touching
-    if np.count_nonzero(c) < ENOUGH_CELLS or np.ptp(contact.problem.gap) == 0:
-        return
+def _by_fit(contact: JudgedContact, iterations: int) -> float:
+    """By a pressure that is linear in the gap, and after an iteration in the displacement of an even one."""
+    p, c, gap = contact.pressure, contact.touching, contact.problem.gap
+    if contact.is_right or np.count_nonzero(c) < ENOUGH_CELLS or np.ptp(gap) == 0:
+        return float(contact.is_right)
     even = contact.problem.half_space.displacement(np.full_like(p, p.mean()))
-    if np.ptp(p) <= 1e-6 * p.max():
-        yield "the same pressure in all cells", 1.0
-    bases = {
-        "each cell by itself: springs without a half-space": [contact.problem.gap],
-        "one iteration from an even pressure": [contact.problem.gap, even],
-    }
-    for name, basis in bases.items():
-        columns = np.stack([np.ones(np.count_nonzero(c)), *(one[c] / np.ptp(one) for one in basis)], axis=1)
-        numbers, *_ = np.linalg.lstsq(columns, p[c], rcond=None)
-        fitted = np.where(c, 0.0, p)
-        fitted[c] = columns @ numbers
-        yield name, contact.explained_by(fitted)
+    columns = np.stack([np.ones(np.count_nonzero(c)), *(of[c] / np.ptp(of) for of in (gap, even)[: 1 + iterations])])
+    numbers, *_ = np.linalg.lstsq(columns.T, p[c], rcond=None)
+    fitted = np.where(c, 0.0, p)
+    fitted[c] = numbers @ columns
+    return contact.explained_by(fitted)

@@ -10,16 +10,17 @@ from validation.benchmarks.judging.discrete import ContactProblem
 from validation.benchmarks.judging.factors import numbered
 from validation.engine.offered import FloatArray
 
-EXPLAINED, MOST, SAMPLE = 0.75, 5, 12
-"""Part of an error from which a cause explains it; causes that are named; right answers beside which one is held."""
+EXPLAINED, MOST, SAMPLE, FEW = 0.75, 5, 16, 2
+"""Part of an error from which a cause explains it; causes that are named; wrong answers that each is sought in, and the
+fewest that it must explain, of more."""
 TIGHTER = (1e-3, 1e-2)
 """Of the residual: a tolerance under which a solver is asked again."""
 LOOSE = "it does not converge to the residual that it names"
 Tightened = Callable[[ContactProblem, float], FloatArray | None]
 BEFORE = 1e-3
 """By which a cause must explain more than one that is more specific."""
-NEAR = 0.1
-"""In L2: a pressure that is near the answer."""
+NEAR, LARGE = 0.1, 2304
+"""In L2: a pressure that is near the answer; cells of a grid that takes long."""
 
 
 class KindOfProblem(NamedTuple):
@@ -84,23 +85,27 @@ def diagnosed(contacts: Sequence[JudgedContact], tightened: Tightened) -> dict[J
         return {}
     if _reaches_its_residual(wrong, tightened):
         return dict.fromkeys(wrong, f"{LOOSE}: under a tighter tolerance it does")
-    table, found, rest = explained(wrong), dict[JudgedContact, str](), list(range(len(wrong)))
+    found, rest = dict[JudgedContact, str](), list(wrong)
     for _ in range(MOST):
-        scores = {name: sum(parts[i] for i in rest if parts[i] > 0.5) for name, parts in table.items()}
-        best = next((name for name, score in scores.items() if score >= max(scores.values()) - BEFORE), "")
-        mine = [i for i in rest if best and table[best][i] > EXPLAINED]
-        # one problem of many may fit anything
-        if not mine or len(mine) < 0.05 * len(wrong):
+        if not rest:
             break
-        found |= {wrong[i]: best for i in mine}
-        rest = [i for i in rest if i not in mine]
-    for cause in dict.fromkeys(found.values()):
-        mine_wrong = [contact for contact in wrong if found.get(contact) == cause]
-        kind = kind_of(mine_wrong, right) if len(rest) < 0.25 * len(wrong) else ""
+        # large grids take long, and have mostly the cause of small ones
+        pool = [one for one in rest if one.pressure.size <= LARGE] or rest
+        sample = [pool[i] for i in sorted({round(i) for i in np.linspace(0, len(pool) - 1, SAMPLE)})]
+        table = explained(sample)
+        scores = {name: sum(part for part in parts if part > 0.5) for name, parts in table.items()}
+        best = next((name for name, score in scores.items() if score >= max(scores.values()) - BEFORE), "")
+        fewest = max(0.05 * len(sample), FEW if len(wrong) > FEW else 1)
+        # one problem of many may fit anything
+        if not best or sum(part > EXPLAINED for part in table[best]) < fewest:
+            break
+        mine = [one for one, part in zip(rest, _parts_of(best, sample, rest), strict=True) if part > EXPLAINED]
         # what would make right answers wrong is there on some problems alone
-        if kind and _contradicts(cause, mine_wrong, right[:SAMPLE]):
-            found |= dict.fromkeys(mine_wrong, f"on {kind} alone: {cause}")
-    return found | _unexplained([wrong[i] for i in rest], contacts, kind_of(wrong, right))
+        others = [one for one, part in zip(right, _parts_of(best, sample, right), strict=True) if part < 0.5]
+        kind = kind_of(mine, others)
+        found |= dict.fromkeys(mine, f"on {kind} alone: {best}" if kind else best)
+        rest = [one for one in rest if one not in found]
+    return found | _unexplained(rest, contacts, "" if found else kind_of(wrong, right))
 
 
 def _reaches_its_residual(wrong: Sequence[JudgedContact], tightened: Tightened) -> bool:
@@ -142,16 +147,19 @@ def explained(wrong: Sequence[JudgedContact]) -> dict[str, list[float]]:
 
 def _parts(contact: JudgedContact) -> dict[str, float]:
     found: dict[str, float] = {}
-    for name, part in causes(contact):
-        found[name] = max(part, found.get(name, 0.0))
+    for name, explains in causes(contact):
+        found[name] = max(explains(), found.get(name, 0.0))
     return found
 
 
-def _contradicts(cause: str, wrong: Sequence[JudgedContact], right: Sequence[JudgedContact]) -> bool:
-    """Whether a right answer would be wrong under a cause."""
-    of_numbers = dict(numbered(wrong, right))
-    parts = of_numbers[cause] if cause in of_numbers else [_parts(one).get(cause, 1.0) for one in right]
-    return min(parts, default=1.0) < 0.5
+def _parts_of(cause: str, sample: Sequence[JudgedContact], contacts: Sequence[JudgedContact]) -> list[float]:
+    """The part of each error that one cause of the sample explains; of a right answer, whether it stays so."""
+    numbers = next((parts for name, parts in numbered(sample, contacts) if name == cause), None)
+    if numbers is not None:
+        return numbers
+    # where a cause is not possible a right answer stays right
+    found = [[explains() for name, explains in causes(one) if name == cause] for one in contacts]
+    return [max(parts, default=float(one.is_right)) for parts, one in zip(found, contacts, strict=True)]
 
 
 def kind_of(wrong: Sequence[JudgedContact], right: Sequence[JudgedContact]) -> str:

@@ -9,7 +9,7 @@ import math
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +36,12 @@ LIMITS = ("approach", "stiffness", "area")
 """What is extrapolated to cells of no size."""
 
 
+@lru_cache(maxsize=8)
+def _half_space(shape: tuple[int, int], spacing: tuple[float, float], modulus: float, periodic: bool) -> LoveHalfSpace:
+    """With its kernel, which is computed once for problems in turns."""
+    return LoveHalfSpace(shape, spacing, modulus, periodic)
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ContactProblem:
     """A rigid indenter on an elastic half-space: p >= 0, w = gap + u - approach >= 0, p w = 0, by force or by approach.
@@ -55,7 +61,7 @@ class ContactProblem:
     @property
     def half_space(self) -> LoveHalfSpace:
         n, m = self.gap.shape
-        return LoveHalfSpace((n, m), self.spacing, self.modulus, self.periodic)
+        return _half_space((n, m), self.spacing, self.modulus, self.periodic)
 
     @property
     def overlap(self) -> float:

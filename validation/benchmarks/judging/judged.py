@@ -17,13 +17,13 @@ from validation.benchmarks.judging.causes import JudgedContact
 from validation.benchmarks.judging.diagnosis import LOOSE, diagnosed
 from validation.benchmarks.judging.discrete import STATED, ContactProblem, KnownContact, pressed, problems
 from validation.benchmarks.judging.properties import (
-    LOADS,
     PROPERTIES,
     Asked,
     UnansweredError,
     apart,
     checked,
     conditions,
+    loads_of,
 )
 from validation.engine.offered import Caller, FloatArray
 
@@ -37,8 +37,6 @@ FLAT, NEXT_TERM = "flat", 0.15
 """Of the order: the next term, of order 1.5 at the edge, changes it on coarse grids."""
 COARSEST, FINEST = 12, (48, 24)
 """Cells on a side of a flat punch; the latter of a solver that serves fewer."""
-LARGEST = 2500
-"""Cells of what is diagnosed; a cause of larger grids is that of smaller ones, or their number."""
 OFF, NO_CAUSE = "off by more than the residual that it names allows", "not the answer of any half-space"
 RANDOM, STATE = "each call gives another answer: random numbers", "the answer depends on earlier calls"
 
@@ -61,11 +59,6 @@ def judged(model: Caller) -> tuple[list[JudgedPoint], list[SolverTime]]:
         asked = Asked(model, by=load)
         points += findings(asked, [] if load != loads_of(model)[0] else times)
     return points, times
-
-
-def loads_of(model: Caller) -> list[str]:
-    """What it is asked by: force, approach, or both."""
-    return [load for load in LOADS if load in model.asks]
 
 
 def findings(asked: Asked, times: list[SolverTime] | None = None) -> list[JudgedPoint]:
@@ -156,9 +149,8 @@ def explained(asked: Asked, points: Sequence[JudgedPoint]) -> list[JudgedPoint]:
     """Each wrong point with the cause of its problem, where there is one."""
     contacts = dict[ContactProblem, JudgedContact]()
     for problem, pressure in asked.known.items():
-        if problem.gap.size <= LARGEST:
-            earlier = [(one.problem, one.pressure) for one in contacts.values()]
-            contacts[problem] = JudgedContact(problem, pressure, asked.by_force, asked.residual, earlier)
+        earlier = [(one.problem, one.pressure) for one in contacts.values()]
+        contacts[problem] = JudgedContact(problem, pressure, asked.by_force, asked.residual, earlier)
 
     def tightened(problem: ContactProblem, factor: float) -> FloatArray | None:
         with suppress(UnansweredError):

@@ -93,6 +93,11 @@ class Asked:
         return found
 
 
+def loads_of(model: Caller) -> list[str]:
+    """What it is asked by: force, approach, or both."""
+    return [load for load in LOADS if load in model.asks]
+
+
 def checked(
     quantity: str, problem: ContactProblem, value: float, within: float, reason: str, reference: float = 0.0
 ) -> JudgedPoint:
@@ -193,6 +198,11 @@ def monotone(asked: Asked, problem: ContactProblem) -> Iterator[JudgedPoint]:
         first, second = np.diff(approach) / np.diff(force) * force[-1] / (approach[-1] - problem.gap.min())
     fall = max(second - first, -first, -second, 0.0)
     yield checked("monotone stiffness", problem, fall, asked.of_answer, "it falls under more load")
+
+
+def served(has: "Property") -> tuple[bool, ...]:
+    """Of which half-spaces a property is one: not periodic, periodic."""
+    return has.served if isinstance(has, Same) else (False, True)
 
 
 Property = Callable[[Asked, ContactProblem], Iterator[JudgedPoint]]

@@ -10,7 +10,7 @@ from scipy import fft
 
 from validation.benchmarks.judging.discrete import ContactProblem
 from validation.engine.offered import FloatArray
-from validation.theory.half_space import LoveHalfSpace, love
+from validation.theory.half_space import love
 
 Spacing = tuple[float, float]
 Operator = Callable[[ContactProblem, FloatArray], FloatArray]
@@ -98,8 +98,9 @@ def operators(problem: ContactProblem) -> Iterator[tuple[str, Operator]]:
 
 
 def dense(problem: ContactProblem) -> FloatArray:
-    """The right operator as a matrix, of all cells [m/Pa]."""
-    n, m = problem.gap.shape
-    half_space = LoveHalfSpace((n, m), problem.spacing, problem.modulus, problem.periodic)
-    units = np.eye(n * m).reshape(n * m, n, m)
-    return np.array([half_space.displacement(unit).ravel() for unit in units]).T
+    """The operator of a free half-space as a matrix, of all cells [m/Pa]."""
+    (n, m), (dx, dy) = problem.gap.shape, problem.spacing
+    x, y = (np.arange(count, dtype=np.float64) * d for count, d in ((n, dx), (m, dy)))
+    table = love(x[:, np.newaxis], y, dx, dy) / (math.pi * problem.modulus)
+    i, j = (index.ravel() for index in np.indices((n, m)))
+    return np.asarray(table[np.abs(i[:, np.newaxis] - i), np.abs(j[:, np.newaxis] - j)])
