@@ -79,7 +79,8 @@ def _of_force(wrong: Contacts, asked: Contacts) -> Parts:
 
     def under(contact: JudgedContact, factor: float) -> float:
         own = replace(contact.problem, force=contact.problem.force_of(contact.pressure))
-        met = abs(own.force / (factor * contact.problem.force) - 1) <= max(NEAR * abs(factor - 1), contact.residual)
+        near = max(NEAR * min(abs(factor - 1), 1), contact.residual)
+        met = abs(own.force / (factor * contact.problem.force) - 1) <= near
         return contact.explained(contact.under(own)) if met else 0.0
 
     ratios = [contact.problem.force_of(contact.pressure) / contact.problem.force for contact in wrong]

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
-from itertools import product
+from itertools import pairwise, product
 from typing import NamedTuple
 
 import numpy as np
@@ -130,19 +130,22 @@ def answer(asked: Asked, problem: KnownContact) -> Iterator[JudgedPoint]:
 
 
 def repeated(asked: Asked) -> Iterator[JudgedPoint]:
-    """The first problem that has an answer, asked again at the end, twice: the pressure is the same."""
+    """The first problem that has an answer, asked again at the end: the pressure is the same."""
     if not asked.known:
         return
     problem = next(iter(asked.known))
     try:
-        last, again = (asked.answer(problem, asked.residual) for _ in range(2))
+        last = [asked.answer(problem, asked.residual) for _ in range(3)]
     except UnansweredError as error:
         yield replace(unanswered("repeated call", problem, error), decides=not (error.late or error.unserved))
         return
-    drift, scatter = apart(last, asked.known[problem]), apart(again, last)
-    within = 2 * asked.of_answer
-    said = RANDOM if scatter > within else STATE
-    yield checked("repeated call", problem, max(drift, scatter), within, said)
+    steps = [after - before for before, after in pairwise([asked.known[problem], *last])]
+    off = max(apart(one, asked.known[problem]) for one in last)
+    # random steps go to and fro: half of the square of each is taken back by the next
+    random = float((steps[1] * steps[2]).sum()) < -0.25 * math.sqrt(
+        float((steps[1] ** 2).sum() * (steps[2] ** 2).sum())
+    )
+    yield checked("repeated call", problem, off, 2 * asked.of_answer, RANDOM if random else STATE)
 
 
 def explained(asked: Asked, points: Sequence[JudgedPoint]) -> list[JudgedPoint]:
