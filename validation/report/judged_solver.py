@@ -63,7 +63,9 @@ def for_a_paper(
     what = f"is wrong on {failed} of the {asked}" if wrong else f"solves the {asked}" if asked else "solves none of the"
     how = "" if wrong or not asked else " to its residual, by an operator that is not its own"
     left = f"; {len(_problems(unserved) - _problems(checks))} others it does not serve" if unserved else ""
-    return f"{model!r} {what} discrete problems of mdr-validation {metadata.version('mdr-validation')}{how}{left}."
+    periodic = {"periodic" in name for name in _problems(checks)}
+    of = {(False,): " of free half-spaces", (True,): " of periodic half-spaces"}.get(tuple(periodic), "")
+    return f"{model!r} {what} discrete problems{of} of mdr-validation {metadata.version('mdr-validation')}{how}{left}."
 
 
 def not_served(unserved: Sequence[JudgedPoint], checks: Sequence[JudgedPoint]) -> Iterator[str]:

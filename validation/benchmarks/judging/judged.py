@@ -27,8 +27,8 @@ from validation.benchmarks.judging.properties import (
 )
 from validation.engine.offered import Caller, FloatArray
 
-RECTANGLE, SHAPES = ("rough, heavy load", "rough, periodic"), ((40, 28), (27, 21))
-"""What properties are asked of, in part."""
+RECTANGLE, RECTANGLES = ("rough, heavy load", "rough, periodic"), {(40, 28): 1.5, (27, 21): 1.0}
+"""What properties are asked of, in parts of so many cells; their length across."""
 ROUGH = {"rough, light load", "rough, periodic"}
 """What is timed."""
 GRIDS, LONGEST, RUNS = (32, 64, 128, 256), 10.0, 3
@@ -86,7 +86,7 @@ def _found_of(asked: Asked) -> Iterator[JudgedPoint]:
     for problem in known:
         yield from _found("answer", problem, partial(answer, asked, problem))
     whole = [problem for problem in problems() if problem.name in RECTANGLE]
-    for part in (_rectangle(problem, shape) for shape in SHAPES for problem in whole):
+    for part in (_rectangle(problem, shape, longer) for shape, longer in RECTANGLES.items() for problem in whole):
         if asked.serves(part):
             for name, has in PROPERTIES.items():
                 yield from _found(name, part, partial(has, asked, part))
@@ -108,12 +108,12 @@ def unanswered(quantity: str, problem: ContactProblem, error: UnansweredError) -
     return not_compared(quantity, {"problem": problem.name}, verdict, str(error), decides=decides)
 
 
-def _rectangle(problem: KnownContact, shape: tuple[int, int]) -> ContactProblem:
-    """A part of it with more cells along one axis, which are longer along the other: no symmetry, and no answer."""
+def _rectangle(problem: KnownContact, shape: tuple[int, int], longer: float) -> ContactProblem:
+    """A part of it with more cells along one axis, so much longer along the other: no symmetry, and no answer."""
     (dx, dy), (n, m) = problem.spacing, shape
     whole = {name: getattr(problem, name) for name in ("modulus", "periodic", "force", "approach")}
     name = f"{problem.name}, {n} x {m} cells"
-    return ContactProblem(name=name, gap=problem.gap[:n, :m], spacing=(dx, 1.5 * dy), **whole)
+    return ContactProblem(name=name, gap=problem.gap[:n, :m], spacing=(dx, longer * dy), **whole)
 
 
 def answer(asked: Asked, problem: KnownContact) -> Iterator[JudgedPoint]:
@@ -142,9 +142,8 @@ def repeated(asked: Asked) -> Iterator[JudgedPoint]:
     steps = [after - before for before, after in pairwise([asked.known[problem], *last])]
     off = max(apart(one, asked.known[problem]) for one in last)
     # random steps go to and fro: half of the square of each is taken back by the next
-    random = float((steps[1] * steps[2]).sum()) < -0.25 * math.sqrt(
-        float((steps[1] ** 2).sum() * (steps[2] ** 2).sum())
-    )
+    going, squares = float((steps[1] * steps[2]).sum()), [float((step**2).sum()) for step in steps]
+    random = going < -0.25 * math.sqrt(squares[1] * squares[2])
     yield checked("repeated call", problem, off, 2 * asked.of_answer, RANDOM if random else STATE)
 
 
