@@ -1,6 +1,6 @@
 """Properties that every contact solver and every rule for profiles has, as tests for their author.
 
-``pytest --pyargs validation.conformance --contact-solver my_solver.py:solve --mapping my_rule.py:rule``
+``pytest --pyargs validation.conformance --mdr-solver my_solver.py:solve --mdr-mapping my_rule.py:rule``
 
 The file is run as a program. Without an option `bem3d` and Geike's rule are tested. A failure ends with the smallest
 example that hypothesis finds, as arrays that can be pasted.

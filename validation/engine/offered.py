@@ -1,6 +1,7 @@
 """What somebody offers to be judged: a function, its name, and what it asks for by the names of its arguments."""
 
 import inspect
+import math
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -63,6 +64,10 @@ def _can_be_judged(name: str, options: Given) -> None:
         raise ValueError(f"{name!r}: free or periodic must be True, got neither")
     if not 0 < options["residual"] <= LOOSEST:
         raise ValueError(f"{name!r}: residual must be above zero and at most {LOOSEST:g}, got {options['residual']:g}")
+    if not options["cells"] >= 1:
+        raise ValueError(
+            f"{name!r}: cells must be one or more, the most that a grid may have, got {options['cells']:g}"
+        )
 
 
 def _as(*names: str) -> Callable[[Given], tuple[Shape, ...]]:
@@ -127,7 +132,7 @@ KINDS: Mapping[str, OfferedKind] = {
         needs=("gap",),
         either=(("force", "approach"),),
         shapes=_as("gap"),
-        options={"free": True, "periodic": False, "residual": 1e-4},
+        options={"free": True, "periodic": False, "residual": 1e-4, "cells": math.inf},
         check=_can_be_judged,
     ),
 }
@@ -227,7 +232,8 @@ def _decorator(kind: str) -> Callable[..., Decorator]:
         if unknown := [option for option in options if option not in of.options]:
             raise OfferedError(f"option {unknown[0]} is unknown: @{kind} has {', '.join(of.options) or 'none'}")
         for option, value in options.items():
-            if not isinstance(value, bool if isinstance(of.options[option], bool) else float):
+            known = of.options[option]
+            if isinstance(known, bool) != isinstance(value, bool) or not isinstance(value, float | int):
                 raise OfferedError(f"option {option} must be as {of.options[option]}, got {value!r}")
         of.check(name, {**of.options, **options})
 
@@ -284,7 +290,8 @@ Examples
 
 
 def _refused(of: OfferedKind) -> str:
-    unjudged = f"ValueError\n    For no half-space, and for a residual that is not above zero or above {LOOSEST:g}.\n"
+    bounds = f"a residual that is not above zero or above {LOOSEST:g}, and cells below one"
+    unjudged = f"ValueError\n    For no half-space, {bounds}.\n"
     return unjudged if of.check is _can_be_judged else ""
 
 

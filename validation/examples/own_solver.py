@@ -1,7 +1,7 @@
 """A contact solver of one's own is judged: is it right, and how fast is it beside `bem3d`?
 
 Conjugate gradients on Love's half-space, under a force. Also for CI:
-`pytest --pyargs validation.conformance --contact-solver own_solver.py:solve`.
+`pytest --pyargs validation.conformance --mdr-solver own_solver.py:solve`.
 """
 
 import math

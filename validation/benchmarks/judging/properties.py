@@ -23,20 +23,32 @@ PARTS = (0.3, 0.6, 1.0)
 Way = Callable[[FloatArray], FloatArray]
 
 
-class UnansweredError(Exception):
-    """A solver has no answer, for this reason; late: it was not awaited."""
+LOADS = ("force", "approach")
+"""What a solver may be given."""
+NOT_SERVED = "not served"
+"""How the reason begins where a solver declares a limit, or raises NotImplementedError."""
 
-    def __init__(self, reason: str, late: bool = False):
+
+class UnansweredError(Exception):
+    """A solver has no answer, for this reason; late: it was not awaited; unserved: it says that it serves no such."""
+
+    def __init__(self, reason: str, late: bool = False, unserved: bool = False):
         super().__init__(reason)
-        self.late = late
+        self.late, self.unserved = late, unserved
 
 
 @dataclass(frozen=True, eq=False)
 class Asked:
-    """A solver with the residual that it names; each problem is solved once."""
+    """A solver with the residual that it names, under one kind of load; each problem is solved once.
+
+    by: "force" or "approach"; without it by force where both are offered; judged: pressures that were judged by
+    themselves, under the quantity and the name of the problem.
+    """
 
     solver: Caller
     known: dict[ContactProblem, FloatArray] = field(default_factory=dict, repr=False)
+    by: str = ""
+    judged: dict[tuple[str, str], ContactProblem] = field(default_factory=dict, repr=False)
 
     @property
     def residual(self) -> float:
@@ -48,22 +60,42 @@ class Asked:
 
     @property
     def by_force(self) -> bool:
-        return "force" in self.solver.asks
+        return self.by == "force" if self.by else "force" in self.solver.asks
+
+    @property
+    def cells(self) -> float:
+        """The most of a grid that the solver declares to serve."""
+        return float(self.solver.options.get("cells", math.inf))
 
     def serves(self, problem: ContactProblem) -> bool:
-        return bool(self.solver.options["periodic" if problem.periodic else "free"])
+        """Its half-space and its number of cells, and a load that determines the pressure."""
+        served = self.solver.options["periodic" if problem.periodic else "free"] and problem.gap.size <= self.cells
+        return bool(served) and (self.by_force or problem.is_determined_by_approach)
 
     def pressure(self, problem: ContactProblem) -> FloatArray:
         """Its answer [Pa]. Raises UnansweredError where there is none."""
         if problem not in self.known:
-            other = {"approach" if self.by_force else "force": None}
-            found = self.solver.call(**vars(problem) | other, tolerance=self.residual)
-            if isinstance(found, Failed):
-                raise UnansweredError(found.reason, found.late)
-            if not found.any():
-                raise UnansweredError("no pressure anywhere")
-            self.known[problem] = found
+            self.known[problem] = self.answer(problem, self.residual)
         return self.known[problem]
+
+    def answer(self, problem: ContactProblem, tolerance: float) -> FloatArray:
+        """Of a call of its own. Raises UnansweredError as `pressure`."""
+        if problem.gap.size > self.cells:
+            raise UnansweredError(f"{NOT_SERVED}: more than the {self.cells:g} cells that it declares", unserved=True)
+        other = {"approach" if self.by_force else "force": None}
+        found = self.solver.call(**vars(problem) | other, tolerance=tolerance)
+        if isinstance(found, Failed):
+            unserved = found.reason.startswith("raised NotImplementedError")
+            reason = f"{NOT_SERVED}: {found.reason}" if unserved else found.reason
+            raise UnansweredError(reason, found.late, unserved)
+        if not found.any():
+            raise UnansweredError("no pressure anywhere")
+        return found
+
+
+def loads_of(model: Caller) -> list[str]:
+    """What it is asked by: force, approach, or both."""
+    return [load for load in LOADS if load in model.asks]
 
 
 def checked(
@@ -81,11 +113,12 @@ def apart(one: FloatArray, other: FloatArray) -> float:
     return float(np.linalg.norm(one - other)) / norm if norm else math.inf
 
 
-def conditions(asked: Asked, problem: ContactProblem, reason: str = "") -> Iterator[JudgedPoint]:
+def conditions(asked: Asked, problem: ContactProblem) -> Iterator[JudgedPoint]:
     """No tension, no pressure at a gap, no overlap, and a force that is held, by the operator that judges."""
     left, _ = problem.left(asked.pressure(problem), asked.by_force)
+    asked.judged["", problem.name] = problem
     for name, value in left.items():
-        said = "force not held" if name == "force balance" else reason or "more than the residual that it names"
+        said = "force not held" if name == "force balance" else "more than the residual that it names"
         yield checked(name, problem, value, asked.residual, said)
 
 
@@ -135,7 +168,8 @@ class Same:
 
     def __call__(self, asked: Asked, problem: ContactProblem) -> Iterator[JudgedPoint]:
         if problem.periodic in self.served:
-            off = apart(self.back(asked.pressure(self.other(problem))), asked.pressure(self.first(problem)))
+            other = asked.judged[self.quantity, problem.name] = self.other(problem)
+            off = apart(self.back(asked.pressure(other)), asked.pressure(self.first(problem)))
             yield checked(self.quantity, problem, off, 2 * asked.of_answer, "the pressure is another one")
 
 
@@ -164,6 +198,11 @@ def monotone(asked: Asked, problem: ContactProblem) -> Iterator[JudgedPoint]:
         first, second = np.diff(approach) / np.diff(force) * force[-1] / (approach[-1] - problem.gap.min())
     fall = max(second - first, -first, -second, 0.0)
     yield checked("monotone stiffness", problem, fall, asked.of_answer, "it falls under more load")
+
+
+def served(has: "Property") -> tuple[bool, ...]:
+    """Of which half-spaces a property is one: not periodic, periodic."""
+    return has.served if isinstance(has, Same) else (False, True)
 
 
 Property = Callable[[Asked, ContactProblem], Iterator[JudgedPoint]]
