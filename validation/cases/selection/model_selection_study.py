@@ -270,7 +270,9 @@ STUDY = Study(
             Panel(ESTIMATED, TRUE, log="xy", facet="tolerance", least=(SMALLEST, SMALLEST)).of(
                 Curve(TRUE, "true = estimated", "guide", "_"), Curve(TRUE, MODELS, "marks", by=("model",))
             ),
-            Panel(ESTIMATED, SAVED, log="xy", lines=(1.0,), least=(SMALLEST, 0.0)).of(Curve(SAVED, MODELS, "marks", by=("model",))),
+            Panel(ESTIMATED, SAVED, log="xy", lines=(1.0,), least=(SMALLEST, 0.0)).of(
+                Curve(SAVED, MODELS, "marks", by=("model",))
+            ),
         ),
     ),
     printed=(BY_KIND, AT_EDGES, UNTESTED),
