@@ -38,7 +38,7 @@ def cells(row: Mapping[str, Any]) -> list[str]:
 
 
 def _range(cells: Sequence[Mapping[str, Any]], over: str, *, closed: bool) -> str:
-    """ "0.01 ≤ Fbar < 0.1" of ranges, the last of them closed; "0.024 to 0.73" of points, "ridges to alpha = 0.25"."""
+    """Of ranges "0.01 ≤ Fbar < 0.1", the last of them closed; of points "0.024 to 0.73", "ridges to alpha = 0.25"."""
     ends = [cell.get("ends") for cell in (cells[0], cells[-1])]
     if all(ends):
         return interval(over, ends[0][0], ends[1][1], closed=closed)

@@ -8,6 +8,7 @@ from validation.analysis.conditions import alone
 from validation.analysis.evidence import Verdict
 
 AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
+HURSTS = (0.4, 0.7, 1.0)
 LETTERS = {"a": AGREE, "d": DIFFER, "u": UNDECIDED}
 
 
@@ -63,7 +64,9 @@ def test_names_of_a_condition_stand_by_themselves():
 def claimed(*rows):
     """A claim along F, up to which it may hold: a row of letters for the values of H at each F."""
     numbers = [
-        at(letter, H=h, F=float(i + 1)) for i, letters in enumerate(rows) for letter, h in zip(letters, (0.4, 0.7, 1.0))
+        at(letter, H=h, F=float(i + 1))
+        for i, letters in enumerate(rows)
+        for letter, h in zip(letters, HURSTS, strict=True)
     ]
     return Claim(along="F").saying("c").judged(numbers).answer
 

@@ -21,7 +21,7 @@ def alone(numbers: Sequence[Number], verdict: Verdict, named: Iterable[str] = ()
     left_out, said, one_by_one, left = {*named, WORST_AT}, [], True, list(numbers)
     for name in dict.fromkeys(name for number in numbers for name in number.where if name not in left_out):
         by_value = _by_value(name, left)
-        every = list(by_value) if any(isinstance(value, str) for value in by_value) else sorted(by_value)  # type: ignore[type-var]
+        every = list(by_value) if any(isinstance(value, str) for value in by_value) else sorted(by_value)
         having = [value for value in every if worst(by_value[value]).verdict is verdict]
         if having and len(having) < len(every) and (len(having) <= MOST or _in_a_row(having, every)):
             said.append(_values(name, having, every))

@@ -20,8 +20,8 @@ ENSEMBLE_MEAN = "ensemble mean"
 
 @dataclass(frozen=True)
 class StripCell:
-    """A place, its word, and the conditions that alone have it, empty where all have; ends: of a range; by: all verdicts
-    with their conditions.
+    """A place, its word, and the conditions that alone have it, empty where all have; ends: of a range; by: all
+    verdicts with their conditions.
     """
 
     place: str

@@ -42,7 +42,7 @@ class Cell:
 
     @property
     def by_condition(self) -> str:
-        """Each verdict with the conditions that have it: "yes at H = 0.4 to 0.7; no at H = 1"; empty where all have one."""
+        """Each verdict with its conditions: "yes at H = 0.4 to 0.7; no at H = 1"; empty where all have one."""
         said = [(WORDS[verdict], alone(self.numbers, verdict, (self.axis,))) for verdict in WORDS]
         return "; ".join(f"{word} at {where.removesuffix(' alone')}" for word, where in said if where)
 
