@@ -145,7 +145,7 @@ QUESTIONS = (
         in_decibels,
         (
             IN_3D(of_rolling(quantity=rolling.RMS_LEVEL, model=LINEAR)),
-            Alternative(reduced.COARSEST, of_strips(model=reduced.COARSEST), timed=a_track(4)),
+            Alternative(reduced.PRINTED[reduced.COARSEST], of_strips(model=reduced.COARSEST), timed=a_track(4)),
             JUDGE,
         ),
     ),
