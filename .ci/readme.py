@@ -2,16 +2,18 @@
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import groupby
 from pathlib import Path
 from typing import Any
 
 from validation.analysis.claims import listed
+from validation.report.answers.strip import interval
 
 ROOT = Path(__file__).resolve().parents[1]
 TABLE = re.compile(r"(<!-- answers: .*? -->\n).*?(<!-- end of answers -->)", flags=re.DOTALL)
 HEAD = "\n| question | is MDR enough? | over | what else is enough |\n|---|---|---|---|\n"
+WORDS = {"yes": "within tolerance", "open": "inconclusive", "no": "outside tolerance"}
 
 
 def with_answers(text: str, results: Mapping[str, Any]) -> str:
@@ -23,14 +25,24 @@ def with_answers(text: str, results: Mapping[str, Any]) -> str:
 def cells(row: Mapping[str, Any]) -> list[str]:
     """Neighbouring places with the same answer are one range; what a model costs is left to the report."""
     places: dict[str, list[str]] = {}
-    for word, some in groupby(row["strip"], key=lambda cell: cell["enough"]):
-        ends = [end for cell in some for end in cell["place"].split(" to ")]
-        places.setdefault(word, []).append(" to ".join(dict.fromkeys((ends[0], ends[-1]))))
-    measured = [word for word in ("yes", "open", "no") if word in places]
-    where = "; ".join(f"{f'{word}: ' if measured[1:] else ''}{listed(places[word])}" for word in measured)
+    measured = [cell for cell in row["strip"] if cell["enough"] in WORDS]
+    for (word, alone), group in groupby(measured, key=lambda cell: (cell["enough"], cell.get("alone", ""))):
+        some = list(group)
+        where = _range(some, row["number that decides"], closed=some[-1] is measured[-1])
+        places.setdefault(word, []).append(f"{where} ({alone})" if alone else where)
+    words = [word for word in WORDS if word in places]
+    where = "; ".join(f"{WORDS[word]}: {listed(places[word])}" for word in words)
     instead = "; ".join(model["model"] for model in row["instead"])
     said = [row["question"], f"**{row['answer']}.** {where}", row["number that decides"], instead]
     return [text.replace("|", r"\|") for text in said]
+
+
+def _range(cells: Sequence[Mapping[str, Any]], over: str, *, closed: bool) -> str:
+    """Of ranges "0.01 ≤ Fbar < 0.1", the last of them closed; of points "0.024 to 0.73", "ridges to alpha = 0.25"."""
+    ends = [cell.get("ends") for cell in (cells[0], cells[-1])]
+    if all(ends):
+        return interval(over, ends[0][0], ends[1][1], closed=closed)
+    return " to ".join(dict.fromkeys((cells[0]["place"], cells[-1]["place"])))
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@ from validation.engine.termination import RESUME_NOTE, TerminatedError, WorkerLo
 from validation.engine.warning_lines import one_line_warnings
 from validation.engine.workers import ONE_THREAD
 from validation.report.commands.arguments import Exit
+from validation.report.durations import said
 from validation.scenes.input_files import SceneError
 from validation.scenes.printable import printable
 
@@ -25,8 +26,8 @@ COMMANDS = {
     "sound": "write what a wheel on a rail sounds like by each model, as WAV files with one gain",
     "scene": "print a scene that comes with this package, with a comment on every key",
     "calibrate": "measure the errors that cheap models claim, beside boundary elements",
-    "precision": "error against cost of every method, on six scenes; full takes two and a half minutes",
-    "race": "our solver and the other packages that are installed; the full size takes half an hour",
+    "precision": f"error against cost of every method; the full size takes {said('full', ['precision'])}",
+    "race": f"our solver and the other packages that are installed; the full size takes {said('full', ['race'])}",
     "cases": "list the cases and what each shows",
 }
 OF_REPORT = ("precision", "race", "cases")

@@ -1,6 +1,10 @@
 """The first screen: a cell has the verdicts of its numbers, a sentence changes its words with them."""
 
+import json
 import re
+import runpy
+from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -23,8 +27,9 @@ from validation.report.answers.first_screen import answered_questions, from_to, 
 from validation.report.answers.questions import in_decibels, per_cent, times
 from validation.report.answers.strip import Cell, span
 from validation.report.contents import CASES, TIMED
-from validation.report.section import Section
+from validation.report.section import Section, case_results
 
+ROOT = Path(__file__).parents[2]
 TEN = fractal_punch_study.LEVEL.tolerance
 GRIDS = {
     "value": [16.0, 32.0, 256.0, 512.0],
@@ -73,8 +78,13 @@ def mean_stiffness(*numbers):
     return row_of("mean-stiffness", punch(*numbers))
 
 
+def strip_of(row):
+    """Places with their words."""
+    return [(cell.place, cell.word) for cell in row.strip]
+
+
 def words_of(row):
-    return [word for _, word in row.strip]
+    return [word for _, word in strip_of(row)]
 
 
 def test_one_counterexample_among_all_exponents_is_a_no():
@@ -82,13 +92,13 @@ def test_one_counterexample_among_all_exponents_is_a_no():
     values = ((0.4, 0.1), (0.7, 2.0), (1.0, 0.2), ("mean over H", 0.0))
     row = mean_stiffness(*(at((0.1, 1.0), value, hurst=hurst) for hurst, value in values))
     assert words_of(row)[1:-1] == ["no"]
-    assert "(off by +26 %)" in row.answer
+    assert ": off by +26 %" in row.answer
 
 
 def test_a_place_without_all_of_its_numbers_is_no_yes():
     row = mean_stiffness(at((0.1, 1.0), 0.0, hurst=0.4), at((0.1, 1.0), 0.0), at((1.0, 10.0), 0.0))
     assert words_of(row)[1:-1] == ["yes", "open"]
-    assert "open from Fbar = 1 to 10 (some numbers are missing)" in row.answer
+    assert "inconclusive for 1 ≤ Fbar ≤ 10: some numbers are missing" in row.answer
 
 
 # --- a strip and where it ends ---
@@ -99,28 +109,81 @@ def test_a_sentence_has_a_clause_for_each_side_and_ends_where_it_was_measured():
     row = mean_stiffness(*reversed(numbers))
     assert row.word == "In part"
     for clause in (
-        "(off by +2 to +5 %, error bars included)",
-        "(off by -13 %)",
-        "(off by -6 to +33 %, error bars included)",
+        "Within tolerance for 0.1 ≤ Fbar < 1: off by +2 to +5 %, error bars included;",
+        "outside tolerance for 1 ≤ Fbar ≤ 10: off by -13 %;",
+        "inconclusive for 0.01 ≤ Fbar < 0.1: off by -6 to +33 %, error bars included.",
     ):
         assert clause in row.answer
     places = ("< 0.01", "0.01 to 0.1", "0.1 to 1", "1 to 10", "> 10")
-    assert list(row.strip) == list(zip(places, ("not measured", "open", "yes", "no", "not measured"), strict=True))
+    assert strip_of(row) == list(zip(places, ("not measured", "open", "yes", "no", "not measured"), strict=True))
     assert (row.measured, row.margin) == ("Fbar = 0.01 to 10, H = 0.7", "10 %: reason")
     (told,) = plain([row])
-    assert told["strip"][2] == {"place": "0.1 to 1", "enough": "yes"} and told["case"] == "fractal_punch"
+    assert {name: told["strip"][2][name] for name in ("place", "enough", "ends")} == {
+        "place": "0.1 to 1",
+        "enough": "yes",
+        "ends": (0.1, 1.0),
+    }
+    assert (told["case"], told["of"]) == ("fractal_punch", "ensemble mean")
     # the page has a class for each word
     cells = re.findall(
-        r'<li class="(\w+)"><span class="at">.*?</span> <b>.*?([\w ]+)(?:</span>)?</b></li>', html_of(punch(*numbers))
+        r'<li class="(\w+)"><span class="at">.*?</span> <b>.*?([\w ]+)(?:</span>)?</b>',
+        html_of(punch(*numbers)),
     )
     assert cells == [(word.replace("not measured", "unmeasured"), word) for word in words_of(row)]
 
 
 def test_neighbours_of_one_side_are_one_range_and_others_are_not():
     row = mean_stiffness(*(at(decade, value) for decade, value in zip(DECADES, (0.0, 3.0, 0.1), strict=True)))
-    assert row.answer.startswith("Enough from Fbar = 0.01 to 0.1 and from Fbar = 1 to 10 (")
+    assert row.answer.startswith("Within tolerance for 0.01 ≤ Fbar < 0.1 and for 1 ≤ Fbar ≤ 10: ")
     row = mean_stiffness(*(at(decade, 0.0) for decade in DECADES))
-    assert row.answer.startswith("Enough from Fbar = 0.01 to 10 (")
+    assert row.answer.startswith("Within tolerance for 0.01 ≤ Fbar ≤ 10: ")
+
+
+BY_HURST = {(0.001, 0.01): "aaad", (0.01, 0.1): "aaaa", (0.1, 1.0): "uaaa", (1.0, 10.0): "dddd"}
+"""As the mean stiffness of Fig. 14.1: a letter a Hurst exponent."""
+
+
+def by_hurst():
+    values = {"a": (0.0, 0.0), "d": (9.0, 0.0), "u": (0.0, 9.0)}
+    return [
+        at(decade, *values[letter], hurst=hurst)
+        for decade, letters in BY_HURST.items()
+        for letter, hurst in zip(letters, (0.4, 0.55, 0.7, 1.0), strict=True)
+    ]
+
+
+def test_a_strip_and_its_sentence_name_the_hurst_exponents_on_which_a_verdict_depends():
+    row = mean_stiffness(*by_hurst())
+    assert [cell.alone for cell in row.strip] == ["", "H = 1 alone", "", "H = 0.4 alone", "", ""]
+    assert [cell.by for cell in row.strip][1] == "yes at H = 0.4 to 0.7; no at H = 1"
+    assert row.answer.startswith("Within tolerance for 0.01 ≤ Fbar < 0.1: ")
+    assert "outside tolerance for 0.001 ≤ Fbar < 0.01 (H = 1 alone) and for 1 ≤ Fbar ≤ 10: " in row.answer
+    assert "inconclusive for 0.1 ≤ Fbar < 1 (H = 0.4 alone): " in row.answer
+    text = html_of(punch(*by_hurst()))
+    assert text.count('<span class="alone">H = 1 alone</span>') == 1
+    assert "Fbar, 0.1 to 1: yes at H = 0.55 to 1; open at H = 0.4." in text
+
+
+def test_the_table_of_the_readme_names_them_and_its_ranges_share_no_value():
+    (row,) = (row for row in plain([mean_stiffness(*by_hurst())]))
+    _, answer, over, _ = runpy.run_path(str(ROOT / ".ci" / "readme.py"))["cells"](json.loads(json.dumps(row)))
+    assert (over, answer) == (
+        "Fbar",
+        "**In part.** within tolerance: 0.01 ≤ Fbar < 0.1; inconclusive: 0.1 ≤ Fbar < 1 (H = 0.4 alone); "
+        "outside tolerance: 0.001 ≤ Fbar < 0.01 (H = 1 alone) and 1 ≤ Fbar ≤ 10",
+    )
+
+
+def test_what_is_an_ensemble_mean_is_called_one():
+    """And nothing on the page answers for a single surface before it was solved."""
+    rows = answered_questions([punch(*by_hurst())])
+    assert all("ensemble" in row.question.asks for row in rows)
+    assert {row["of"] for row in plain(rows)} == {"ensemble mean"}
+    section = replace(punch(*by_hurst()), needed="the model of an estimate")
+    assert "the model of an estimate" not in html_of(section)
+    kept = case_results(section)
+    assert kept["model needed"] == "the model of an estimate"
+    assert "single surface" in kept["model needed is"] and "before a solve" in kept["model needed is"]
 
 
 # --- what else ---
@@ -133,7 +196,7 @@ def test_an_alternative_is_offered_where_its_own_numbers_agree():
     failing, agreeing = at((1.0, 10.0), -1.2), at((0.1, 1.0), 0.1)
     row = row_of("mean-stiffness", punch(failing, fit(0.2)), timed())
     formula, bem = row.instead
-    assert formula[:2] == ("the fit 1/kbar = 1/1.1523 + 0.48/Fbar from Fbar = 0.3 to 10, within 6 %", "a formula")
+    assert formula[:2] == ("the fit 1/kbar = 1/1.1523 + 0.48/Fbar for 0.3 ≤ Fbar ≤ 10, within 6 %", "a formula")
     assert bem == ("boundary elements", "5.8 ms a surface and load, 32 a side", "precision")
     for row in (mean_stiffness(failing, fit(0.2, 0.4)), mean_stiffness(failing)):
         assert row.instead == (("boundary elements", "", ""),)
@@ -197,7 +260,7 @@ def rolling(quantity, model, value, half=0.1):
 @pytest.mark.parametrize(("name", "quantity"), [("rolling-rms", RMS_FORCE), ("rolling-spectrum", RMS_LEVEL)])
 def test_a_rolling_wheel_is_judged_over_its_slope(name, quantity):
     row = row_of(name, rolling(quantity, SPRINGS, -30.0))
-    assert list(row.strip)[1] == ("0.27", "no") and row.answer.startswith("Not enough at h' a/d = 0.27")
+    assert strip_of(row)[1] == ("0.27", "no") and row.answer.startswith("Outside tolerance at h' a/d = 0.27")
     assert row.measured.endswith("H = 0.7")
 
 
@@ -212,16 +275,16 @@ def test_ranges_that_overlap_are_one_cell():
         for hurst, last, value in ((0.4, 2.15, 20.0), (0.7, 10.0, -6.0))
         for decade in ((0.1, 1.0), (1.0, last))
     ]
-    assert [place for place, _ in mean_stiffness(*numbers).strip] == ["< 0.1", "0.1 to 1", "1 to 10", "> 10"]
+    assert [place for place, _ in strip_of(mean_stiffness(*numbers))] == ["< 0.1", "0.1 to 1", "1 to 10", "> 10"]
 
 
 def test_differences_below_and_above_are_told_apart():
     """What differs is nowhere near zero: a single range would say that it were."""
     row = mean_stiffness(*(at((0.1, 1.0), value, hurst=value) for value in (-3.0, -2.0, 2.0, 3.0)))
     assert "off by -29 to -21 % and +26 to +41 %" in row.answer
-    assert "(off by -29 %)" in mean_stiffness(at((0.1, 1.0), -3.0)).answer
+    assert ": off by -29 %." in mean_stiffness(at((0.1, 1.0), -3.0)).answer
     both = mean_stiffness(at((0.1, 1.0), -3.0, hurst=0.4), at((0.1, 1.0), 0.0))
-    assert "(off by -29 %)" in both.answer
+    assert ": off by -29 %." in both.answer
 
 
 def test_a_rail_is_judged_by_what_lies_across_from_ridges_to_isotropic_ground():
@@ -232,7 +295,7 @@ def test_a_rail_is_judged_by_what_lies_across_from_ridges_to_isotropic_ground():
 
     numbers = [off("ridges", 0.1), off("alpha = 1", 2.0), off("isotropic ground", 3.0), off("ridges", 9.0, offset=10.0)]
     row = row_of("contact-filter", section_of("across", numbers))
-    assert list(row.strip) == [("ridges", "yes"), ("alpha = 1", "no"), ("isotropic ground", "no")]
+    assert strip_of(row) == [("ridges", "yes"), ("alpha = 1", "no"), ("isotropic ground", "no")]
 
 
 def test_area_and_gap_are_both_needed_and_told_apart():

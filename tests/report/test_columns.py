@@ -33,7 +33,8 @@ def test_a_column_that_nobody_explains_has_no_meaning():
 
 def test_values_have_the_unit_of_their_table():
     rows = list(described("rolling", Table("rms force, judged", {"h/d": [1.0], "value": [2.0], "low": [1.0]}, "dB")))
-    assert rows[1] == ("rolling-rms_force_judged.csv", "value [dB]", "dB", "rms force, the worst point of the range")
+    of_rms = "square root of the ensemble mean of the variance, over that of boundary elements"
+    assert rows[1] == ("rolling-rms_force_judged.csv", "value [dB]", "dB", f"{of_rms}, the worst point of the range")
     assert rows[2][:3] == ("*", "low [dB]", "dB")
     assert rows[0][3] == "rms height of the roughness over the approach of the smooth body"
 
@@ -56,3 +57,35 @@ def test_a_unit_stands_in_the_header_and_comes_back(table, first):
     text = as_csv(table).decode()
     assert text.splitlines()[0] == first
     assert from_csv("t", text) == table
+
+
+@pytest.mark.parametrize(
+    ("case", "table", "words"),
+    [
+        ("fractal_punch", "mean stiffness", "ensemble mean"),
+        ("fractal_punch", "mean stiffness, judged", "ensemble mean"),
+        ("fractal_punch", "k / (E* L)", "ensemble mean"),
+        ("fractal_punch", "relative deviation", "0 where all springs of all profiles touch"),
+        ("fractal_punch", "relative deviation, judged", "verdicts alone count a deviation below 1 % as 1 %"),
+        ("interface", "stiffness", "ensemble mean"),
+        ("interface", "mean gap", "ensemble mean"),
+        ("interface", "contact fraction", "ensemble mean"),
+        ("interface", "mean gap over h", "0 where all springs"),
+        ("rolling", "rms force", "ensemble mean"),
+        ("rolling", "roughness found in a one-third octave", "empty where none is found"),
+        ("across", "largest alpha for one line", "searched from 0.1 to 8"),
+        ("across", "shortest wave within 1 dB of boundary elements [mm]", "empty where the longest"),
+        ("across", "nearest to boundary elements", "searched from 0.05 to 20"),
+        ("rail_sound", "level in one-third octaves", "empty below -40 dB"),
+        ("wheel_stability", "error of the period", "empty of theory below 1e-8"),
+        ("limits", "springs: the last asperity", "the place where the figure draws them"),
+        ("limits", "boundary elements: edge of the grid", "the place where the figure draws them"),
+        ("limits", "observed threshold over the predicted one", "the end of the sweep"),
+    ],
+)
+def test_a_value_says_what_it_is_the_mean_of_and_where_it_has_none(case, table, words):
+    """What a figure, a search or rounding leaves out of the data is named with them."""
+    columns = {"value": [1.0], "low": [1.0], "high": [1.0]}
+    (meaning,) = (says for _, column, _, says in described(case, Table(table, columns)) if column == "value")
+    assert words in meaning
+    assert meaning.endswith("the worst point of the range") is table.endswith(", judged")

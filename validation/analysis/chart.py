@@ -1,5 +1,6 @@
 """Figures as data: what each panel draws, from the tables that `Series` make; `report` draws them."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass, field, replace
 
@@ -48,7 +49,7 @@ class Panel:
     facet: a column, or several, a panel for each of their values; log: the axes that are logarithmic; decades: of y
     below the largest value, or its units where y is linear; judged: the quantity whose verdicts are drawn; shade:
     of y, the margin; lines: of y; at: of x, dotted, where the panel reaches it; downward: from the largest x on;
-    ticked: at the values of x alone.
+    ticked: at the values of x alone; least: of x and of y, where smaller values are drawn, which their table has.
     """
 
     x: str
@@ -67,6 +68,7 @@ class Panel:
     at: tuple[float, ...] = ()
     downward: bool = False
     ticked: bool = False
+    least: tuple[float, float] = (-math.inf, -math.inf)
 
     def of(self, *curves: Curve) -> "Panel":
         """The same with these curves."""

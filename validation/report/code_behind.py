@@ -11,7 +11,7 @@ from validation.analysis.contents import as_json
 from validation.engine.sources import version_of
 from validation.report.contents import CASES, TIMED
 
-WORDS = tuple(f"validation.analysis.{name}" for name in ("case", "chart", "claims", "printed", "study"))
+WORDS = tuple(f"validation.analysis.{name}" for name in ("case", "chart", "claims", "conditions", "printed", "study"))
 """What only words claims and declares charts."""
 
 

@@ -12,7 +12,7 @@ from validation.report.section import Section, numbers_table, written_tables
 from validation.report.symbols import SYMBOLS
 
 COLUMNS = "columns.csv"
-EVERY, NO_UNIT = "*", "-"
+EVERY, NO_UNIT, WORST = "*", "-", ", the worst point of the range"
 """For a file: all that have such a column."""
 _MEANINGS: Mapping[str, str] = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 _SYMBOLS = {symbol.name: symbol.says for symbol in SYMBOLS}
@@ -32,10 +32,12 @@ def _written(section: Section) -> Sequence[Table]:
 
 def described(case: str, table: Table) -> Iterator[tuple[str, str, str, str]]:
     """File, column, unit and meaning of each column of a table; no meaning where nobody has given one."""
-    file = csv_name(case, table.name)
+    file, judged = csv_name(case, table.name), table.name.endswith(JUDGED)
+    of_file = csv_name(case, table.name.removesuffix(JUDGED)).removesuffix(".csv")
     for header in header_of(table):
         unit, name = UNIT.search(header), UNIT.sub("", header).strip()
-        own = _matching(f"{file.removesuffix('.csv')}: {name}") or (_quantity(table) if name == "value" else "")
+        own = _matching(f"{of_file}: {name}") or (_quantity(table) if name == "value" else "")
+        own += WORST if own and judged and name == "value" else ""
         meaning = own or _MEANINGS.get(name) or _SYMBOLS.get(name) or _matching(name)
         yield (file if own else EVERY, header, unit[1] if unit else NO_UNIT, meaning)
 
@@ -50,5 +52,4 @@ def _quantity(table: Table) -> str:
     """What the values of a table are."""
     if "quantity" in table.columns:
         return "of the quantity that is named beside it"
-    quantity = UNIT.sub("", table.name.removesuffix(JUDGED)).strip()
-    return f"{quantity}, the worst point of the range" if table.name.endswith(JUDGED) else quantity
+    return UNIT.sub("", table.name.removesuffix(JUDGED)).strip()

@@ -1,15 +1,14 @@
 """The cases of a report: every module of `cases` and `benchmarks` that has a `CASE`, chapter by chapter."""
 
 import statistics
-import tomllib
 from collections.abc import Sequence
 from importlib import import_module
-from pathlib import Path
 from pkgutil import walk_packages
 
 from validation import benchmarks, cases
 from validation.analysis.case import Case, Chapter, Profile
 from validation.benchmarks.peers import peers_installed
+from validation.report.durations import seconds_of
 
 
 def _found() -> list[Case]:
@@ -43,6 +42,5 @@ def timed_here() -> list[str]:
 
 def expected_seconds(names: Sequence[str], profile: Profile) -> dict[str, float]:
     """Of work of one core, by `durations.toml`; a case that is not there is like their mean."""
-    rows = tomllib.loads(Path(__file__).with_name("durations.toml").read_text(encoding="utf-8"))
-    known = {name: quick if profile == "quick" else full for name, (quick, full) in rows.items()}
+    known = seconds_of(profile)
     return {name: known.get(name, statistics.fmean(known.values())) for name in names}

@@ -231,8 +231,12 @@ def _curve(
             up = axis.get_xaxis_transform()
             axis.text(x, 0.02, "" if label else name, transform=up, rotation=90, va="bottom", ha="right", fontsize=7)
         return
-    x, above, down = mine[panel.x], 0.0 if "y" in panel.log else -np.inf, i * curve.down
-    y, low, high = (visible(mine[name], above=above) for name in ENDS)
+    above, down = 0.0 if "y" in panel.log else -np.inf, i * curve.down
+    x, *ends = (
+        np.maximum(mine[name], least) if least > -np.inf else mine[name]
+        for name, least in zip((panel.x, *ENDS), (panel.least[0], *[panel.least[1]] * 3), strict=True)
+    )
+    y, low, high = (visible(values, above=above) for values in ends)
     if curve.style == "interval":
         axis.fill_between(x, low, high, color=style["color"], alpha=0.2, linewidth=0, label=label)
         return

@@ -6,6 +6,7 @@ from typing import Any
 
 from validation.analysis.case import Chapter, Profile
 from validation.analysis.contents import csv_name
+from validation.analysis.evidence import plus_minus
 from validation.report.answers.failures import failures
 from validation.report.answers.first_screen import answered_questions
 from validation.report.answers.front_tables import rail_filters, right_filters, times_faster, times_faster_said
@@ -115,6 +116,7 @@ def pages(
         "figures": figures,
         "faster": faster,
         "times_faster_said": times_faster_said(faster),
+        "plus_minus": plus_minus,
         "front_figures": [] if scene else [name for name in FRONT_FIGURES if name in figures],
         "book_figures": [] if scene else book_figures(sections),
         "rail_filters": filters,

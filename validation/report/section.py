@@ -19,6 +19,8 @@ from validation.analysis.evidence import (
     Whose,
 )
 
+PREDICTED = "predicted before a solve, for a single surface and not for ensemble means"
+"""What the model of a case is that it needs by the a-priori error estimates: no answer of the page."""
 FIRST_WORDS = 10
 """Of a claim, by which it is found."""
 
@@ -128,6 +130,7 @@ def case_results(section: Section) -> dict[str, object]:
         ],
         "answers": section.entry.answers,
         "model needed": section.needed,
+        "model needed is": PREDICTED,
         "settings": section.settings,
         "numbers": [
             {

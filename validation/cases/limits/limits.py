@@ -78,6 +78,8 @@ def threshold(sweep: Sweep) -> Series:
     """
     (method, title, parameter), (factor, derived, _) = sweep.limit.named, sweep.limit.judged
     within, reason = math.log2(factor), f"within a factor {factor:g}"
+    if not sweep.crossing:
+        reason += "; the error passes its tolerance nowhere, and the value is the end of the sweep"
     at, half = sweep.crossing or (float(sweep.values[:: sweep.sign][-1]), math.nan)
     octaves = sweep.sign * math.log2(at / sweep.predicted_threshold)
     half = half if sweep.crossing else abs(octaves) + 2 * within
@@ -102,20 +104,27 @@ def warnings(sweep: Sweep) -> Series:
 
 
 def shown(sweep: Sweep) -> Iterator[Series]:
-    """For the panel of a limit: the error, no less than a hundredth of its tolerance, where a message was given, and
-    where the tolerance must be passed."""
+    """For the panel of a limit: the error, where a message was given, and where the tolerance must be passed.
+
+    Values of the models threshold, factor and no answer are the places where the panel draws them.
+    """
     limit, x, tolerance = sweep.limit, sweep.predicted_threshold, sweep.limit.fails.tolerance
     answered, factor = np.isfinite(sweep.error), sweep.limit.judged.factor
-    error = np.where(answered, np.maximum(sweep.error, tolerance / 100), math.nan)
+    error = np.where(answered, sweep.error, math.nan)
     top = max(float(np.nanmax(error)), 4 * tolerance)
     for model, at, values in (
         ("factor", np.array([x / factor, x * factor]), np.full(2, tolerance)),
-        ("threshold", np.array([x, x]), np.array([tolerance / 100, top])),
+        ("threshold", np.array([x, x]), np.array([lowest_drawn(limit), top])),
         ("error", sweep.values, error),
         ("message", sweep.values, np.where(sweep.warned, error, math.nan)),
         ("no answer", sweep.values, np.where(answered, math.nan, top)),
     ):
         yield Series(limit.name, model, values, along=limit.named.parameter, at=at)
+
+
+def lowest_drawn(limit: Limit) -> float:
+    """A hundredth of the tolerance: the place of smaller errors in the panel of a limit."""
+    return limit.fails.tolerance / 100
 
 
 def tables(result: Outcomes) -> list[Table]:
@@ -163,7 +172,8 @@ def panel(limit: Limit) -> Panel:
     title = f"{limit.named.method}:\n{limit.named.title} {'→' if limit.fails.side == 'above' else '←'}"
     log = "xy" if max(limit.probe.values) > 4 * min(limit.probe.values) else "y"
     y, tolerance = textwrap.fill(limit.fails.error, 30), limit.fails.tolerance
-    return Panel(limit.named.parameter, y, title=title, log=log, lines=(tolerance,)).of(*curves)
+    least = (-math.inf, lowest_drawn(limit))
+    return Panel(limit.named.parameter, y, title=title, log=log, lines=(tolerance,), least=least).of(*curves)
 
 
 ALL = (

@@ -36,7 +36,8 @@ LONG = "springs, L_1D = 1.1523 L"
 PAIRS = 4
 """Fewer surfaces on a grid have no error bar worth its name."""
 LEAST = math.log(0.01)
-"""A deviation below 1 % counts as 1 %: such ones are alike if they differ by less than that."""
+RULE = "a relative standard deviation below 1 % is judged as 1 %"
+"""Of verdicts alone: two that are below are alike. No data have it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -216,9 +217,17 @@ class PunchStatistics:
         return on_no_size(steps) if method == BEM else on_finest(steps)
 
     def ratio(self, hurst: float, method: str, statistic: str, level: int) -> Resolved:
-        """Springs over boundary elements; surfaces and profiles are independent."""
+        """Springs over boundary elements; surfaces and profiles are independent.
+
+        Minus infinity where no profile of springs deviates from another, as in full contact; NaN where no surface does.
+        """
         springs, bem = (self.at(hurst, one, statistic, level) for one in (method, BEM))
-        return seen(springs).beside(seen(bem)) if statistic == DEVIATION else springs.beside(bem)
+        return springs.beside(bem)
+
+    def counted(self, hurst: float, method: str, level: int) -> Resolved:
+        """The ratio of the deviations as it is judged, by `RULE`."""
+        springs, bem = (at_least(self.at(hurst, one, DEVIATION, level)) for one in (method, BEM))
+        return springs.beside(bem)
 
     def exponent(self, hurst: float, method: str, before: int, after: int) -> Resolved:
         """d ln k / d ln F of the mean stiffness from one level of force to another."""
@@ -242,7 +251,7 @@ class PunchStatistics:
         return cells**2 * float(np.nanmean(self.result[hurst, BEM, cells]["area"][:, level]))
 
 
-def seen(deviation: Resolved) -> Resolved:
+def at_least(deviation: Resolved) -> Resolved:
     """The logarithm of a deviation as large as LEAST at least; by how much it may be larger."""
     value, half = deviation.value, deviation.value.half_width + deviation.grid
     if not value.value < LEAST:

@@ -219,16 +219,16 @@ def _of_punch(case: Interface, interface: Measured, punch: Measured, springs: Ou
         "gap": (GAP_OVER_H, case.height),
     }
     for (name, (quantity, unit)), judged in zip(drawn.items(), (STIFFNESS, AREA, GAP), strict=True):
-        # the gap of full contact is rounding
-        logs = Estimates(jackknifed(partial(of_rows, log_mean), np.maximum(springs[name], ZERO_GAP)))
-        there = logs.values > math.log(2 * ZERO_GAP)
+        # zero where all springs touch, which leaves no ratio; its digits are rounding
+        known = np.where(springs[name] > ZERO_GAP, springs[name], 0.0)
+        logs = Estimates(jackknifed(partial(of_rows, log_mean), known))
         (found, finer), (edgeless, left) = punch.of(name), interface.of(name)
         over = Estimates.exact(np.log(unit * np.ones(forces.size)))
         yield shown(quantity, ON_PUNCH, found - over, grid=finer)
-        yield shown(quantity, MDR, masked(logs - over, there))
+        yield shown(quantity, MDR, logs - over)
         if name != "stiffness":
             yield shown(quantity, EDGELESS, edgeless - over, grid=left)
-        yield from _each(case, ground, judged, OVER, masked(logs - found, there), finer)
+        yield from _each(case, ground, judged, OVER, logs - found, finer)
     yield from _each(case, ground, EXPONENT, ON_PUNCH, *punch.of(statistic=slope), None)
     slopes = Estimates(jackknifed(partial(of_rows, slope), springs["stiffness"]))
     yield from _each(case, ground, EXPONENT, MDR, slopes, margin=None)

@@ -158,7 +158,8 @@ def _over_bem(result: AcrossResult, key: Key) -> Iterator[Series]:
         if model == LINEAR_ON_LINE:
             yield judged(ONE_LINE, model, masked(off, keep), margin=three)
         within = np.logical_and.accumulate(POWER_DECIBEL * np.abs(off.values) <= FIELD.tolerance)
-        yield Series(REACH, model, (float(at[within].min(initial=at[0])),), where=where_of(key), unit="mm")
+        reach = float(at[within].min()) if within.any() else np.nan
+        yield Series(REACH, model, (reach,), where=where_of(key), unit="mm")
 
 
 def _weighted(result: AcrossResult, key: Key) -> Iterator[Series]:

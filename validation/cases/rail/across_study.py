@@ -1,5 +1,6 @@
 """What lies across a rail decides its contact filter: what the case says, and tables that can be used without us."""
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
@@ -57,8 +58,11 @@ def _borders(result: AcrossResult) -> Iterator[Table]:
 
 def _border(alpha: object) -> str:
     assert isinstance(alpha, Interval)
-    last = across.FINE_ALPHAS[-1]
-    return f"{last:g} and more" if alpha.value >= last else f"{alpha.value:.2f} ± {max(alpha.half_width, 0.01):.2f}"
+    first, last = across.FINE_ALPHAS[[0, -1]]
+    if not first < alpha.value < last:
+        return f"{last:g} and more" if alpha.value >= last else f"{first:g} and less"
+    # rounded up
+    return f"{alpha.value:.2f} ± {math.ceil(100 * alpha.half_width) / 100:.2f}"
 
 
 def _stands(result: AcrossResult) -> Table:
@@ -69,8 +73,8 @@ def _stands(result: AcrossResult) -> Table:
         [
             {
                 GROUND: ground,
-                "DPRS, 1 dB down to [mm]": max(reach[BED, ground]),
-                "wider by 2/√3, 1 dB down to [mm]": max(reach[filters.BED_WIDER, ground]),
+                "DPRS, 1 dB down to [mm]": float(np.max(reach[BED, ground])),
+                "wider by 2/√3, 1 dB down to [mm]": float(np.max(reach[filters.BED_WIDER, ground])),
                 "nearest factor": _ends(nearest[across.FACTOR_OF, ground], ".2f"),
                 "nearest alpha of Remington": _ends(nearest[across.ALPHA_OF, ground], ".1f"),
                 "which leaves [dB]": _ends(left[across.ALPHA_OF, ground], ".1f"),

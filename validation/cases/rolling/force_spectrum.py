@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from validation.analysis.evidence import Place, Role
 from validation.analysis.margins import REPEATABLE
-from validation.analysis.series import Estimates, Margin, Series
+from validation.analysis.series import Counted, Estimates, Margin, Series
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import DECIBEL, POWER_DECIBEL, FloatArray, jackknifed
 from validation.analysis.study import Outcomes
@@ -275,11 +275,14 @@ def _roughness(result: Outcomes, height: float) -> Iterator[Series]:
     _, finer = of_bem(result, height)
     for name, read in ((MEAN_1D, by_mean_filter), (LINEAR_3D, by_filter_3d)):
 
-        def over_true(some: FloatArray, read: Callable[[Bands, FloatArray], FloatArray] = read) -> FloatArray:
+        def over_true(
+            some: FloatArray, read: Callable[[Bands, FloatArray], FloatArray] = read, least: float = 0.0
+        ) -> FloatArray:
             level, linear = some.mean(axis=0)
             found = read(case.bands, exact * level / linear * np.exp(2 * finer.values))
-            return np.asarray(np.log(np.maximum(found[kept] / true[kept], LEAST)))
+            return np.asarray(np.log(np.maximum(found[kept] / true[kept], least)))
 
+        left = [one for one, inside in zip(finer, kept, strict=True) if inside]
         yield Series(
             FOUND,
             name,
@@ -287,7 +290,8 @@ def _roughness(result: Outcomes, height: float) -> Iterator[Series]:
             where=at(case, height),
             along=Q,
             at=case.bands.centres[kept],
-            grid=[one for one, inside in zip(finer, kept, strict=True) if inside],
+            grid=left,
+            counted=Counted(jackknifed(partial(over_true, least=LEAST), rows), left, RULE),
             scale=POWER_DECIBEL,
             unit="dB",
             margin=replace(IN_OCTAVES, source="the surface itself"),
@@ -295,7 +299,8 @@ def _roughness(result: Outcomes, height: float) -> Iterator[Series]:
 
 
 LEAST = 1e-3
-"""Of the true roughness, -30 dB: less is nothing that was found."""
+RULE = "less than -30 dB of the true roughness is judged as -30 dB"
+"""Of verdicts alone: where no roughness is found, data have no level."""
 
 
 def _inputs(case: ForceSpectrum) -> Iterator[Series]:

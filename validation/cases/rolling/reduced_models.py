@@ -36,6 +36,10 @@ Key = tuple[float, Spectrum]
 """h' a/d, and the spectrum."""
 
 
+CELLS = 12
+"""To a contact radius, of all sizes of the case."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class ReducedModels:
     """A wheel at the approach d, contact radius a, over strips of all spectra at the same slopes.
@@ -51,7 +55,7 @@ class ReducedModels:
     waves: int = 4
     length: int = 16
     width: int = 8
-    cells: int = 12
+    cells: int = CELLS
     seed: int = 20
 
     def __post_init__(self) -> None:
@@ -165,7 +169,10 @@ def work(result: Outcomes, key: Key, model: str) -> float:
     return float(mean[names.index(model)] / mean[names.index(LINE)])
 
 
-SHOWN = (LINE, LINEAR, READ, BED, COARSEST)
+SHOWN = (LINE, LINEAR, READ, BED)
+ON_CELLS = "boundary elements, {:g} cells per contact radius"
+PRINTED = {COARSE: ON_CELLS.format(CELLS / 2), COARSEST: ON_CELLS.format(CELLS / 3)}
+"""Labels count the cells of a side by parts of those to a contact radius; a quarter and a ninth of all cells."""
 BY_MODEL = partial(Curve, by=("model",))
 BY_SPECTRUM = partial(Curve, OWN_KEPT, by=("H", Q), bars=True)
 in_octaves = partial(Claim, quantity=OFF, along=SLOPE, printed=decibels_rms)
@@ -189,7 +196,7 @@ STUDY = Study(
         ),
         in_octaves(model=COARSEST).saying(
             "Boundary elements on {c.coarsest} cells to a contact radius have the levels of those on {c.cells}.",
-            short="Boundary elements on a third of the cells agree with those on all",
+            short=f"Boundary elements on {CELLS // 3} cells per contact radius agree with those on {CELLS}",
         ),
         Claim(quantity=KEPT, along=SLOPE).saying(
             "At one h' a/d the same part of the contact is lost, whatever h/d, the band and the Hurst exponent.",
@@ -201,7 +208,9 @@ STUDY = Study(
             "Root mean square over octaves of the level of the force over boundary elements, over h' a/d. Points: "
             "strips of all spectra, with 95 % intervals; lines: the largest up to there. Shaded: within 1 dB.",
             Panel(SLOPE, "rms over octaves [dB]", log="xy", shade=(1e-9, 1), ylim=(0.01, 20)).of(
-                BY_MODEL(OFF, SHOWN, "marks", bars=True), BY_MODEL(LARGEST, SHOWN, "lines", "_")
+                BY_MODEL(OFF, SHOWN, "marks", bars=True),
+                Curve(OFF, COARSEST, "marks", PRINTED[COARSEST], bars=True),
+                BY_MODEL(LARGEST, (*SHOWN, COARSEST), "lines", "_"),
             ),
         ),
         Chart("reduced_models", claims=(2,)).of(
@@ -211,12 +220,15 @@ STUDY = Study(
             Panel(HEIGHT, KEPT, ylim=(0.4, 1.1)).of(BY_SPECTRUM()),
             Panel(SLOPE, KEPT, ylim=(0.4, 1.1)).of(BY_SPECTRUM(label="_")),
             Panel(WORK, "rms over octaves [dB]", title="error over work", log="xy", lines=(1.0,)).of(
-                BY_MODEL(AT_WORK, (*SHOWN, COARSE), "marks")
+                BY_MODEL(AT_WORK, SHOWN, "marks"),
+                *(Curve(AT_WORK, model, "marks", label) for model, label in PRINTED.items()),
             ),
         ),
     ),
     matrices=(
-        Matrix(name=OFF, quantity=OFF, rows=(SLOPE, "H", Q, HEIGHT), columns="model", printed=decibels_rms),
+        Matrix(
+            name=OFF, quantity=OFF, rows=(SLOPE, "H", Q, HEIGHT), columns="model", printed=decibels_rms, named=PRINTED
+        ),
         Matrix(name=KEPT, quantity=KEPT, rows=("H", Q), columns=SLOPE),
     ),
     printed=(TABLE_14_1,),

@@ -95,7 +95,8 @@ def linear_vibration(name: str, x: FloatArray, found: Outcome) -> Iterator[Serie
     """Growth of every step beside its eigenvalue; period and energy beside theory up to the limit."""
     exact, by_theory = free.amplification(name, x), free.first_period(name, np.minimum(x, 1.99))
     limited = x < (SCHEMES[name].limit or 2.0)
-    period = np.abs(x / np.where(found["angle"], found["angle"], x / 2) - 1)
+    # none where a step turns by no angle
+    period = np.abs(x / np.where(found["angle"], found["angle"], math.nan) - 1)
     # rounding hides smaller differences
     of_theory = np.abs(x / np.angle(exact) - 1)
     for quantity, steps, theory, kept in (

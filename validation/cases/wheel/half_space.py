@@ -187,10 +187,11 @@ class WheelLevels:
 
     @cached_property
     def solver(self) -> FloatArray:
-        """Change of the level of a short strip with a tighter residual; zero where that has no line."""
+        """Change of the level of a short strip with a tighter residual; where that has no line, the largest of all."""
         loose, tight = (self.of_strips(self.result[name], "bem")[0] for name in (LOOSE, TIGHT))
         change = np.abs(np.log(loose / tight))
-        return np.where(np.isfinite(change), change, 0.0)
+        known = np.isfinite(change)
+        return np.asarray(np.where(known, change, np.max(change, initial=0.0, where=known)))
 
     @cached_property
     def exact(self) -> FloatArray:

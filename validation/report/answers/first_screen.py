@@ -8,18 +8,32 @@ from validation.analysis.claims import listed
 from validation.analysis.evidence import Evidence, Number, Place, Verdict, placed
 from validation.report.answers.questions import QUESTIONS, Alternative, Printed, Question, per_cent, times
 from validation.report.answers.seconds import TIMES
-from validation.report.answers.strip import WORDS, Cell, Source, ends, span
+from validation.report.answers.strip import TERMS, WORDS, Cell, Source, ends, interval, span
 from validation.report.section import Section
 
 REGIONS = "the spectrum"
 """An axis whose places are parts of it, not surfaces."""
 NOT_RUN, NO_RESULT, NOT_MEASURED = "Not run", "No result", "Not measured"
+ENSEMBLE_MEAN = "ensemble mean"
+"""What all answers are of: a single surface may be off by more."""
+
+
+@dataclass(frozen=True)
+class StripCell:
+    """A place, its word, and the conditions that alone have it, empty where all have; ends: of a range; by: all
+    verdicts with their conditions.
+    """
+
+    place: str
+    word: str
+    alone: str = ""
+    ends: tuple[float, float] | None = None
+    by: str = ""
 
 
 @dataclass(frozen=True)
 class AnsweredQuestion:
-    """A row: the answer in a word and in a sentence; the case, if it was run; the strip, places with their words; its
-    range and margin.
+    """A row: the answer in a word and in a sentence; the case, if it was run; the strip; its range and margin.
 
     within: the margin itself; instead: where each model is enough, what it costs, and the case that says so, if it was
     run.
@@ -29,7 +43,7 @@ class AnsweredQuestion:
     word: str
     answer: str
     evidence: str = ""
-    strip: tuple[tuple[str, str], ...] = ()
+    strip: tuple[StripCell, ...] = ()
     measured: str = ""
     margin: str = ""
     within: str = ""
@@ -52,7 +66,17 @@ def plain(rows: Sequence[AnsweredQuestion]) -> list[dict[str, object]]:
             "number that decides": row.question.source.over,
             "answer": row.word,
             "sentence": row.answer,
-            "strip": [{"place": place, "enough": word} for place, word in row.strip],
+            "of": ENSEMBLE_MEAN,
+            "strip": [
+                {
+                    "place": cell.place,
+                    "enough": cell.word,
+                    "alone": cell.alone,
+                    "by condition": cell.by,
+                    "ends": cell.ends,
+                }
+                for cell in row.strip
+            ],
             "measured": row.measured,
             "margin": row.margin,
             "instead": [{"model": text, "cost": cost} for text, cost, _ in row.instead],
@@ -95,13 +119,18 @@ def _numbers(cells: Iterable[Cell]) -> list[Number]:
     return [number for cell in cells for number in cell.numbers]
 
 
-def _strip(cells: Sequence[Cell]) -> list[tuple[str, str]]:
+def _strip(cells: Sequence[Cell]) -> list[StripCell]:
     """With what was not measured at both ends of an axis that has any."""
-    inside, places = [(span([cell.place]), WORDS[cell.verdict]) for cell in cells], [cell.place for cell in cells]
+    inside, places = [_strip_cell(cell) for cell in cells], [cell.place for cell in cells]
     if any(isinstance(place, str) for place in places):
         return inside
     below, above = f"< {ends(places[0])[0]:.2g}", f"> {ends(places[-1])[1]:.2g}"
-    return [(below, NOT_MEASURED.lower()), *inside, (above, NOT_MEASURED.lower())]
+    return [StripCell(below, NOT_MEASURED.lower()), *inside, StripCell(above, NOT_MEASURED.lower())]
+
+
+def _strip_cell(cell: Cell) -> StripCell:
+    both = cell.place if isinstance(cell.place, tuple) else None
+    return StripCell(span([cell.place]), WORDS[cell.verdict], cell.alone, both, cell.by_condition)
 
 
 def _measured(cells: Sequence[Cell], source: Source) -> list[str]:
@@ -155,33 +184,41 @@ def _word(verdicts: set[Verdict]) -> str:
 
 
 def _where(cells: Sequence[Cell], verdict: Verdict, over: str) -> str:
-    """Neighbouring cells that say it: "at h' a/d = 0.3", "from Fbar = 0.1 to 1 and at Fbar = 9", "over ridges"."""
-    groups = [[c.place for c in some] for found, some in groupby(cells, key=lambda c: c.verdict) if found is verdict]
-    if len(groups) > 1 and all(len(places) == 1 and isinstance(places[0], float) for places in groups):
-        return f"at {placed(over, listed([span(places) for places in groups]))}"
-    said = []
-    for places in groups:
-        text = span(places, over)
-        word = "from" if " to " in text else "at"
-        if isinstance(places[0], str) and over != REGIONS and len(places) > 2:
-            word, text = "from", f"{places[0]} to {places[-1]}"
-        elif isinstance(places[0], str):
-            word = "in" if over == REGIONS else "over"
-        said.append(f"{word} {text}")
-    return " and ".join(said)
+    """Neighbouring cells that say it: "at h' a/d = 0.3", "for 0.1 ≤ Fbar < 1 (H = 1 alone)", "over ridges"."""
+    grouped = [list(some) for _, some in groupby(cells, key=lambda cell: (cell.verdict, cell.alone))]
+    groups = [some for some in grouped if some[0].verdict is verdict]
+    if len(groups) > 1 and all(len(some) == 1 and isinstance(some[0].place, float) for some in groups):
+        named = (f"{span([some[0].place])}{_alone(some[0])}" for some in groups)
+        return f"at {placed(over, listed(list(named)))}"
+    return " and ".join(f"{_along(some, cells, over)}{_alone(some[0])}" for some in groups)
+
+
+def _along(some: Sequence[Cell], cells: Sequence[Cell], over: str) -> str:
+    """Neighbours, and how they lie on the axis."""
+    places = [cell.place for cell in some]
+    text = span(places, over)
+    if isinstance(places[0], tuple) and "[" not in over:
+        (low, _), (_, high) = ends(places[0]), ends(places[-1])
+        follows = any(not isinstance(cell.place, str) and ends(cell.place)[0] == high for cell in cells)
+        return f"for {interval(over, low, high, closed=not follows)}"
+    if isinstance(places[0], str) and over != REGIONS and len(places) > 2:
+        return f"from {places[0]} to {places[-1]}"
+    if isinstance(places[0], str):
+        return f"{'in' if over == REGIONS else 'over'} {text}"
+    return f"{'from' if ' to ' in text else 'at'} {text}"
+
+
+def _alone(cell: Cell) -> str:
+    return f" ({cell.alone})" if cell.alone else ""
 
 
 def sentence(cells: Sequence[Cell], over: str, printed: Printed) -> str:
-    """Where it is enough, where not, where open; each with the numbers that say so."""
+    """Where it is within tolerance, outside, inconclusive; each with the numbers that say so."""
     clauses = []
-    for verdict, word in (
-        (Verdict.AGREE, "enough"),
-        (Verdict.DIFFER, "not enough"),
-        (Verdict.UNDECIDED, "open"),
-    ):
+    for verdict, word in TERMS.items():
         if where := _where(cells, verdict, over):
             numbers = _numbers(cell for cell in cells if cell.verdict is verdict)
-            clauses.append(f"{word} {where} ({_found(verdict, numbers, printed)})")
+            clauses.append(f"{word} {where}: {_found(verdict, numbers, printed)}")
     text = "; ".join(clauses)
     return f"{text[0].upper()}{text[1:]}."
 

@@ -4,12 +4,19 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from validation.analysis.claims import listed
-from validation.analysis.evidence import Evidence, Table, Verdict, VerdictCell
+from validation.analysis.evidence import Evidence, Table, Verdict, VerdictCell, placed
+from validation.benchmarks.work_precision.case import POINTS
 from validation.benchmarks.work_precision.faster import FASTER
+from validation.benchmarks.work_precision.pressed import RoughPunchProblem
 from validation.benchmarks.work_precision.problem import SPRINGS
+from validation.benchmarks.work_precision.rolling import RollingProblem
+from validation.cases.punch.ensembles import FORCE
 from validation.cases.rail.across_study import LOUDER
-from validation.report.answers.seconds import ENOUGH
+from validation.cases.rolling.force_spectrum import SLOPE
+from validation.report.answers.seconds import ENOUGH, TIMES
+from validation.report.answers.strip import TERMS
 from validation.report.section import Section
+from validation.scenes.description import slope_ratio
 
 GROUNDS = ("ridges", "alpha = 1", "isotropic ground")
 """Of what lies across a rail, that the front page shows."""
@@ -18,20 +25,46 @@ WORST, FILTERED = "worst band over", "contact filters beside boundary elements"
 
 
 def times_faster(sections: Sequence[Section]) -> list[dict[str, Any]]:
-    """A row a quantity and reduced model, by the columns of `faster`, and whether it is "enough": its error, with the
-    interval, is within `ENOUGH`. None where nothing was timed.
+    """A row a quantity and reduced model, by the columns of `faster`; with the verdict on its error and `ENOUGH`, the
+    error itself, and where on the axis of the answers it was measured. None where nothing was timed.
     """
-    evidence = _evidence("precision", sections)
-    if evidence is None or not evidence.has_table(FASTER):
+    section = next((section for section in sections if section.name == TIMES), None)
+    if section is None or section.evidence is None or not section.evidence.has_table(FASTER):
         return []
-    table = evidence.table(FASTER)
+    table = section.evidence.table(FASTER)
     rows = [dict(zip(table.columns, row, strict=True)) for row in zip(*table.columns.values(), strict=True)]
-    return [row | {"enough": float(row["error"]) <= ENOUGH[str(row["unit"])]} for row in rows]
+    return [row | _found(row, section.evidence) | {"place": _place(row, section)} for row in rows]
+
+
+def _found(row: Mapping[str, Any], evidence: Evidence) -> dict[str, Any]:
+    """Whether the interval of the error lies within what is enough, outside, or across; "error" of a row is its end."""
+    enough, end = ENOUGH[str(row["unit"])], float(row["error"])
+    points = evidence.table(POINTS).where(**{name: row[name] for name in ("scene", "quantity")}, method=row["model"])
+    (point,) = (i for i, seconds in enumerate(points["median [s]"]) if seconds == row["seconds"])
+    scale = 1.0 if row["unit"] == "dB" else 100.0
+    value, half = (scale * float(points[name][point]) for name in ("error", "± sample"))
+    verdict = Verdict.AGREE if end <= enough else Verdict.DIFFER if value - half > enough else Verdict.UNDECIDED
+    return {"enough": TERMS[verdict], "value": value, "half": half}
+
+
+def _place(row: Mapping[str, Any], section: Section) -> str:
+    """On the axis of the answers: the load, or the slope, with which the scene of a chart is rough; else nothing."""
+    settings: Mapping[str, Any] = section.settings
+    if row["scene"] == RoughPunchProblem.name:
+        return placed(FORCE, f"{settings['fractal']['force']:g}")
+    if row["scene"] == RollingProblem.name:
+        known = {name: settings["rolling"][name] for name in ("hurst", "height", "last")}
+        scene = RollingProblem(**known).scene
+        slope = slope_ratio(scene.ground.slope_along, scene) if scene.ground else 0.0
+        return placed(SLOPE, f"{slope:.2g}")
+    return ""
 
 
 def times_faster_said(rows: Sequence[Mapping[str, Any]]) -> str:
     """Of springs over all quantities for which they are enough, the least and the most."""
-    found = [float(row["times faster"]) for row in rows if row["model"] in SPRINGS and row["enough"]]
+    found = [
+        float(row["times faster"]) for row in rows if row["model"] in SPRINGS and row["enough"] == TERMS[Verdict.AGREE]
+    ]
     if not found:
         return ""
     least, most = (f"{float(f'{times:.2g}'):g}" for times in (min(found), max(found)))

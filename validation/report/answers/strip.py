@@ -4,25 +4,47 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from validation.analysis.claims import Choice, listed
+from validation.analysis.conditions import alone
 from validation.analysis.evidence import Evidence, Number, Place, Verdict, placed
 from validation.analysis.over_range import worst
 
 WORDS = {Verdict.AGREE: "yes", Verdict.DIFFER: "no", Verdict.UNDECIDED: "open"}
+TERMS = {
+    Verdict.AGREE: "within tolerance",
+    Verdict.DIFFER: "outside tolerance",
+    Verdict.UNDECIDED: "inconclusive",
+}
+"""The same in sentences."""
 
 
 @dataclass(frozen=True)
 class Cell:
-    """A place on the axis and the numbers there; lacking: how many series that other places have are missing here."""
+    """A place on the axis and the numbers there; lacking: how many series that other places have are missing here.
+
+    axis: the name of the condition that the place is of.
+    """
 
     place: Place
     numbers: tuple[Number, ...]
     lacking: int = 0
+    axis: str = ""
 
     @property
     def verdict(self) -> Verdict:
         """One counterexample is enough for no; one that is undecided, and one that lacks, leaves it open."""
         found = worst(self.numbers).verdict
         return Verdict.UNDECIDED if self.lacking and found is Verdict.AGREE else found
+
+    @property
+    def alone(self) -> str:
+        """Under which other conditions alone it has its verdict, as "H = 1 alone"; empty where under all."""
+        return alone(self.numbers, self.verdict, (self.axis,))
+
+    @property
+    def by_condition(self) -> str:
+        """Each verdict with its conditions: "yes at H = 0.4 to 0.7; no at H = 1"; empty where all have one."""
+        said = [(WORDS[verdict], alone(self.numbers, verdict, (self.axis,))) for verdict in WORDS]
+        return "; ".join(f"{word} at {where.removesuffix(' alone')}" for word, where in said if where)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,7 +72,7 @@ class Source(Choice):
                 found.setdefault(number.where[self.axis], []).append(number)
         every = {self._series(number) for numbers in found.values() for number in numbers}
         return [
-            Cell(place, tuple(numbers), len(every - {self._series(number) for number in numbers}))
+            Cell(place, tuple(numbers), len(every - {self._series(number) for number in numbers}), self.axis)
             for place, numbers in _apart(found).items()
         ]
 
@@ -84,3 +106,8 @@ def span(places: Sequence[Place], name: str = "") -> str:
     low, high = min(ends(place)[0] for place in places), max(ends(place)[1] for place in places)
     both = f"{low:.2g}" if low == high else f"{low:.2g} to {high:.2g}"
     return placed(name, both) if name else both
+
+
+def interval(name: str, low: float, high: float, *, closed: bool = False) -> str:
+    """ "0.01 ≤ Fbar < 0.1": half-open, so that neighbours share no value; closed: the last of them."""
+    return f"{low:.2g} ≤ {name} {'≤' if closed else '<'} {high:.2g}"
