@@ -16,6 +16,7 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.text import Text
 from matplotlib.ticker import LogFormatter
 
+from validation.analysis.escapes import printable
 from validation.analysis.evidence import Evidence, Table
 from validation.report.compact import compact
 
@@ -153,8 +154,8 @@ FORMATS = {"svg": "Date", "png": "Software", "pdf": "CreationDate"}
 
 
 def plain(text: str) -> str:
-    """A text of a user's in a figure, in which a $ is no mathematics."""
-    return text.replace("$", r"\$")
+    """A text of a user's in a figure, in which a $ is no mathematics, and no control character is drawn."""
+    return printable(text, lines=True).replace("$", r"\$")
 
 
 def plain_figure(figure: Figure) -> None:
