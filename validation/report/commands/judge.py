@@ -104,6 +104,8 @@ def _write(found: list[Judgement], arguments: argparse.Namespace) -> None:
     if arguments.csv:
         write_given(arguments.csv, points_as_csv(found))
     if arguments.figure:
-        from validation.report.judged_figure import figure_of  # which takes half a second to import
+        from validation.report.judged_figure import figure_of, left_out  # which takes half a second to import
 
+        if names := left_out(found):
+            print(printable(f"--figure does not show {', '.join(names)}: draw each with --only"))
         write_given(arguments.figure, figure_of(found, arguments.figure.suffix[1:]))
