@@ -2,11 +2,12 @@
 
 import csv
 import io
-import json
 import math
 import re
-from collections.abc import Sequence
+import unicodedata
+from collections.abc import Callable, Sequence
 
+from validation.analysis.escapes import cell_text, json_text, printable
 from validation.analysis.evidence import Table
 
 LEVELS = 4
@@ -18,6 +19,12 @@ VALUES = (*INTERVAL, "value")
 VALUE = re.compile(r"value \[(.+)\]")
 NO_NAME = re.compile(r"[^\w.+'-]+")
 """What a file name is better without."""
+LONGEST_NAME = 120
+"""Bytes of the name of a folder; a file system takes 255 of each."""
+RESERVED = {"con", "prn", "aux", "nul", "conin$", "conout$", "clock$"} | {
+    f"{port}{number}" for port in ("com", "lpt") for number in "0123456789\u00b9\u00b2\u00b3"
+}
+"""Names that Windows keeps for devices."""
 
 
 def as_json(value: object) -> bytes:
@@ -27,10 +34,10 @@ def as_json(value: object) -> bytes:
 
 def _nested(value: object, levels: int) -> str:
     if not levels or not value or not isinstance(value, dict | list | tuple):
-        return json.dumps(value, allow_nan=False, ensure_ascii=False)
+        return json_text(value)
     indent = "\n" + " " * (LEVELS - levels)
     if isinstance(value, dict):
-        parts = [f"{json.dumps(name, ensure_ascii=False)}: {_nested(part, levels - 1)}" for name, part in value.items()]
+        parts = [f"{json_text(name)}: {_nested(part, levels - 1)}" for name, part in value.items()]
         return f"{{{','.join(f'{indent} {part}' for part in parts)}{indent}}}"
     return f"[{','.join(f'{indent} {_nested(part, levels - 1)}' for part in value)}{indent}]"
 
@@ -38,6 +45,33 @@ def _nested(value: object, levels: int) -> str:
 def plain_name(text: str) -> str:
     """Of a file or an address: "k / (E* L)" is "k_E_L"."""
     return NO_NAME.sub("_", text).strip("_")
+
+
+def folder_names(texts: Sequence[str]) -> list[str]:
+    """Of a folder each, in this order: valid on every file system, and different on those without upper case.
+
+    "law (1)" and "Law [1]" are "law_1" and "Law_1-2". No name is longer than `LONGEST_NAME` bytes.
+    """
+    names: list[str] = []
+    for text in texts:
+        name = NO_NAME.sub("_", unicodedata.normalize("NFC", text)).strip("_.") or "model"
+        if name.partition(".")[0].casefold() in RESERVED:
+            name = f"_{name}"
+        taken, number = {_as_stored(other) for other in names}, 1
+        while _as_stored(numbered := _shortened(name, f"-{number}" if number > 1 else "")) in taken:
+            number += 1
+        names.append(numbered)
+    return names
+
+
+def _as_stored(name: str) -> str:
+    """Equal for names that some file system takes for one."""
+    return unicodedata.normalize("NFKC", unicodedata.normalize("NFKC", name).casefold())
+
+
+def _shortened(name: str, end: str) -> str:
+    kept = name.encode()[: LONGEST_NAME - len(end)].decode(errors="ignore")
+    return kept.rstrip("_.") + end
 
 
 def csv_name(case: str, table: str) -> str:
@@ -51,15 +85,17 @@ def header_of(table: Table) -> list[str]:
 
 
 def as_csv(table: Table, *, drawn: bool = False) -> bytes:
-    """Numbers to ten digits; what is not finite is left empty; the unit of values in their header.
+    """Numbers to ten digits; what is not finite is left empty; the unit of values in their header; a text that a
+    spreadsheet would compute begins with a quote.
 
     drawn: of a figure, to seven digits, more than a curve shows, without the interval of a value that does not scatter.
+    Its texts are those of the package, and stay as they are.
     """
-    digits = 7 if drawn else 10
+    digits, as_text = (7, printable) if drawn else (10, cell_text)
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(header_of(table))
-    columns = {name: [_cell(value, digits) for value in values] for name, values in table.columns.items()}
+    writer.writerow(map(as_text, header_of(table)))
+    columns = {name: [_cell(value, digits, as_text) for value in values] for name, values in table.columns.items()}
     if drawn and columns.keys() >= {*VALUES}:
         ends = zip(*(columns[name] for name in INTERVAL), columns["value"], strict=True)
         exact = [low == high == value for low, high, value in ends]
@@ -68,7 +104,9 @@ def as_csv(table: Table, *, drawn: bool = False) -> bytes:
     return text.getvalue().encode()
 
 
-def _cell(value: object, digits: int) -> object:
+def _cell(value: object, digits: int, as_text: Callable[[str], str]) -> object:
+    if isinstance(value, str):
+        return as_text(value)
     if not isinstance(value, float):
         return value
     return f"{value:.{digits}g}" if math.isfinite(value) else ""

@@ -1,50 +1,48 @@
 """Functions of others: a file is run as a program in a process of its own, and what it does wrong is said in words."""
 
-import importlib.util
 import os
+import secrets
 import signal
 import subprocess
 import sys
-import tempfile
+import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, redirect_stdout, suppress
 from dataclasses import dataclass, field
-from importlib.machinery import SourceFileLoader
 from io import StringIO
-from multiprocessing.connection import Connection, Pipe
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
+from validation.engine.channel import Channel, ForeignBytesError
 from validation.engine.installed import file_of
-from validation.engine.offered import DECORATED, KINDS, Caller, Failed, FloatArray, Offered
-from validation.engine.read_files import OPENED, digest_of, sources_of, watch_opened
-from validation.engine.replies import SHOWN, Reply, called, raised
-from validation.engine.termination import end_with_parent
+from validation.engine.offered import KINDS, Caller, Failed, FloatArray, Offered
+from validation.engine.read_files import digest_of_all, digest_of_bytes
+from validation.engine.replies import SHOWN, Reply, called, has_forked, number
+from validation.engine.serving import MUTE, SERVING
+from validation.engine.serving import OthersError as OthersError
 from validation.engine.workers import ONE_THREAD
 
 SECONDS, LOADING = 10.0, 60.0
 """In which a call, and the import of a file, must end."""
 LOST = 3
 """After so many calls without an answer a function is not asked any more."""
-SERVING: list[Path] = []
-"""The file whose functions this process has, where it is the other one."""
 ROOT = Path(__file__).parents[2]
-
-
-class OthersError(ValueError):
-    """A file cannot be judged, in one sentence."""
+MARK = "MDR_VALIDATION_PROCESS"
+"""Of the environment of a file's process, and of all that it starts."""
 
 
 @dataclass
 class Called(Caller):
     """An offered function, in this process or by a visitor.
 
-    printed: the first of what it printed; replies: to the last calls; longest: arguments of the slowest answer.
+    printed: the first of what it printed; forked: whether a process that it forked came back with an answer, which
+    nobody took; replies: to the last calls; longest: arguments of the slowest answer.
     """
 
     offered: Offered
     visitor: "Visitor | None" = None
     printed: str = field(default="", init=False, repr=False)
+    forked: bool = field(default=False, init=False, repr=False)
     replies: list[Reply] = field(default_factory=list, init=False, repr=False)
     longest: dict[str, Any] = field(default_factory=dict, init=False, repr=False)
     _seconds: float = field(default=0.0, init=False, repr=False)
@@ -54,14 +52,20 @@ class Called(Caller):
         """The first warning of the last calls."""
         return next((reply.warned for reply in self.replies if reply.warned), "")
 
+    @property
+    def changed(self) -> str:
+        """The file, or what it reads, that was changed since it was first run; nothing where none was."""
+        return self.visitor.changed if self.visitor else ""
+
     def calls(self, name: str, values: Sequence[Any], arguments: Mapping[str, Any]) -> list[FloatArray | Failed]:
         if self.visitor:
-            self.replies, printed = self.visitor.calls(self.offered, name, values, arguments)
+            self.replies, printed, forked = self.visitor.calls(self.offered, name, values, arguments)
         else:
             with redirect_stdout(StringIO()) as text:
                 self.replies = [called(self.offered, {**arguments, name: value}) for value in values]
-            printed = text.getvalue()
+            printed, forked = text.getvalue(), has_forked()
         self.printed = self.printed or " ".join(printed.split())[:SHOWN]
+        self.forked = self.forked or forked
         for value, reply in zip(values, self.replies, strict=True):
             if reply.seconds > self._seconds and not isinstance(reply.value, Failed):
                 self._seconds, self.longest = reply.seconds, {**arguments, name: value}
@@ -69,7 +73,7 @@ class Called(Caller):
 
 
 class Visitor:
-    """A file in a process of its own, which is ended where a call hangs, and started again.
+    """A file in a process of its own, which is ended where a call hangs, and started again, also for each function.
 
     offered: what it offers, whose functions are not here; sources: the file, and the modules and data that it has had
     from its folder. Raises OthersError where the file is broken or offers nothing, OSError where it cannot be read.
@@ -79,9 +83,10 @@ class Visitor:
         if SERVING:
             raise OthersError("a file that is judged must not judge files itself: put that under `if __name__ == ...`")
         self.path, self.seconds, self._lost = path.absolute(), seconds, list[Offered]()
-        self.sources: tuple[Path, ...] = ()
+        self._digests: dict[Path, bytes] = {}
+        self._mark, self._begun, self._asked, self._serves = secrets.token_hex(8), time.time(), 0, list[Offered]()
         self.path.read_bytes()
-        self._start()
+        self.offered = self._start()
 
     def __enter__(self) -> "Visitor":
         return self
@@ -91,85 +96,171 @@ class Visitor:
 
     def callers(self) -> list[Called]:
         """One of each function."""
-        return [Called(one, self) for one in self.offered]
+        return [Called(each, self) for each in self.offered]
+
+    @property
+    def sources(self) -> tuple[Path, ...]:
+        return tuple(sorted(self._digests))
 
     @property
     def digest(self) -> str:
-        """Of the bytes of the file, and of all modules and data that it has from its folder."""
-        return digest_of(self.sources)
+        """Of the bytes of the file, and of all modules and data that it has from its folder, as it first had them."""
+        return digest_of_all(self._digests[path] for path in self.sources)
+
+    @property
+    def changed(self) -> str:
+        """The first of these files that is no longer what it was; nothing where all are."""
+        names = (path.name for path, digest in sorted(self._digests.items()) if digest_of_bytes(path) != digest)
+        return next(names, "")
 
     def calls(
         self, offered: Offered, name: str, values: Sequence[Any], arguments: Mapping[str, Any]
-    ) -> tuple[list[Reply], str]:
-        """What it says for each value of one argument, and what was printed."""
-        given = {one: arguments[one] for one in offered.asks if one in arguments}
-        found: list[Reply] = []
-        printed = ""
-        while len(found) < len(values):
+    ) -> tuple[list[Reply], str, bool]:
+        """What it says for each value of one argument, what was printed, and whether a fork of it came back."""
+        given = {each: arguments[each] for each in offered.asks if each in arguments}
+        replies: list[Reply] = []
+        printed, forked = "", False
+        while len(replies) < len(values):
+            left = len(values) - len(replies)
             if self._lost.count(offered) >= LOST:
                 lost = Reply(Failed(f"no answer, {LOST} times: not asked any more", late=True))
-                return found + [lost] * (len(values) - len(found)), printed
-            if self._process.poll() is not None:
-                self._start()
+                return replies + [lost] * left, printed, forked
             try:
-                self._pipe.send((self.offered.index(offered), given, name, values[len(found) :]))
-                for _ in values[len(found) :]:
-                    one, text = self._answer()
-                    found.append(one)
-                    printed = printed or text
+                self._serve(offered)
+            except OthersError as error:
+                return replies + [Reply(Failed(f"cannot be run again: {error}"))] * left, printed, forked
+            try:
+                self._asked += 1
+                request = self._asked, self.offered.index(offered), given, name, values[len(replies) :]
+                self._channel.send(request, self.seconds)
+                for position in range(left):
+                    reply, text, has_returned = self._answer((self._asked, position))
+                    where = {**given, name: values[len(replies)]}
+                    replies.append(
+                        _checked(reply, offered, {each: where[each] for each in offered.asks if each in where})
+                    )
+                    printed, forked = printed or text, forked or has_returned
             except TimeoutError:
                 self._end()
                 self._lost.append(offered)
-                found.append(Reply(Failed(f"no answer within {self.seconds:g} s", late=True)))
-            except (EOFError, OSError):
+                replies.append(Reply(Failed(f"no answer within {self.seconds:g} s", late=True)))
+            except (EOFError, OSError) as error:
                 self._lost.append(offered)
-                found.append(Reply(Failed(f"ended its process{self._how()}")))
-        return found, printed
+                replies.append(Reply(Failed(self._how(error))))
+        return replies, printed, forked
 
-    def _answer(self) -> tuple[Reply, str]:
-        if not self._pipe.poll(self.seconds):
-            raise TimeoutError
-        found, printed, sources = self._pipe.recv()
-        self.sources = tuple(sorted({*self.sources, *sources}))
-        return found, printed
+    def _answer(self, number: tuple[int, int]) -> tuple[Reply, str, bool]:
+        """To the call of that number: one to another call is none."""
+        until = time.monotonic() + self.seconds
+        while True:
+            message = self._channel.receive(max(until - time.monotonic(), 0.0))
+            if not isinstance(message, tuple) or len(message) != 5:
+                raise ForeignBytesError("no reply")
+            answers, reply, printed, sources, forked = message
+            if answers == number and isinstance(reply, Reply):
+                self._note(sources)
+                return reply, str(printed), bool(forked)
 
-    def _start(self) -> None:
-        self._pipe, theirs = Pipe()
-        serving = f"from {__name__} import serve; serve({theirs.fileno()}, {os.getpid()})"
-        words = [sys.executable, "-P", "-c", serving, str(self.path)]
-        folders = [str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])]
-        self._process = subprocess.Popen(
-            words,
-            env={**os.environ, **ONE_THREAD, "PYTHONPATH": os.pathsep.join(folders)},
-            pass_fds=[theirs.fileno()],
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-            start_new_session=True,
-        )
-        theirs.close()
-        try:
-            found = self._pipe.recv() if self._pipe.poll(LOADING) else f"is not read within {LOADING:g} s"
-        except (EOFError, OSError):
-            found = f"ended its process{self._how()}"
-        if isinstance(found, str):
+    def _note(self, sources: Sequence[Path]) -> None:
+        for path in sources:
+            if path not in self._digests:
+                self._digests[path] = digest_of_bytes(path)
+
+    def _serve(self, offered: Offered) -> None:
+        """Have a process that has called no other function. Raises OthersError where the file is another one now."""
+        if self._process.poll() is None and self._serves in ([], [offered]):
+            self._serves = [offered]
+            return
+        self._end()
+        if name := self.changed:
+            raise OthersError(f"{name} was changed since it was first run")
+        again = self._start()
+        if [(each.kind, each.name, each.asks) for each in again] != [(o.kind, o.name, o.asks) for o in self.offered]:
             self._end()
-            raise OthersError(f"{self.path.name}: {found}")
-        declared, sources = found
-        self.sources = tuple(sorted({*self.sources, *sources}))
-        if not hasattr(self, "offered"):
-            self.offered = [Offered(kind, name, _elsewhere, asks, options) for kind, name, asks, options in declared]
+            raise OthersError(f"{self.path.name} offers other functions than at first")
+        self._serves = [offered]
 
-    def _how(self) -> str:
-        self._process.wait()
-        status = self._process.returncode
-        return f" by signal {-status}" if status < 0 else f" with status {status}"
+    def _start(self) -> list[Offered]:
+        """A process of the file, and what it offers."""
+        self._serves = []
+        self._channel, theirs = Channel.pair()
+        life, self._life = os.pipe()
+        arguments = f"{theirs.fileno()}, {life}, {self._begun!r}"
+        words = [sys.executable, "-P", "-c", f"from {SERVE} import serve; serve({arguments})", str(self.path)]
+        folders = [str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])]
+        with theirs:
+            self._process = subprocess.Popen(
+                words,
+                env={**os.environ, **ONE_THREAD, "PYTHONPATH": os.pathsep.join(folders), MARK: self._mark},
+                pass_fds=[theirs.fileno(), life],
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                start_new_session=True,
+            )
+        os.close(life)
+        try:
+            message = self._channel.receive(LOADING)
+        except TimeoutError:
+            message = f"is not read within {LOADING:g} s"
+        except (EOFError, OSError) as error:
+            message = self._how(error)
+        if isinstance(message, str):
+            self._end()
+            raise OthersError(f"{self.path.name}: {message}")
+        declared, sources = message
+        self._note(sources)
+        return [Offered(kind, name, _elsewhere, asks, options) for kind, name, asks, options in declared]
+
+    def _how(self, error: Exception) -> str:
+        """How a process ended that does not answer any more; one that has closed its files is ended."""
+        if not isinstance(error, ForeignBytesError):
+            with suppress(subprocess.TimeoutExpired):
+                status = self._process.wait(self.seconds)
+                self._end()
+                if status != MUTE:
+                    return f"ended its process {f'by signal {-status}' if status < 0 else f'with status {status}'}"
+        self._end()
+        return "wrote into the files of its process, or closed them, by which it answers"
 
     def _end(self) -> None:
+        """And all that it has started, also what has left its group."""
         with suppress(ProcessLookupError, PermissionError):
             os.killpg(self._process.pid, signal.SIGKILL)
         self._process.wait()
-        self._pipe.close()
+        end_marked(f"{MARK}={self._mark}")
+        self._channel.close()
+        with suppress(OSError):
+            os.close(self._life)
+            self._life = -1
+
+
+SERVE = "validation.engine.serving"
+
+
+def _checked(reply: Reply, offered: Offered, arguments: Mapping[str, Any]) -> Reply:
+    """With numbers that are as they must be, whatever has become of numpy where they come from."""
+    if isinstance(reply.value, Failed):
+        return reply
+    return reply._replace(value=number(reply.value, KINDS[offered.kind].shapes(arguments)))
+
+
+def end_marked(mark: str) -> None:
+    """End all processes that have this entry in the environment with which they began, where the system lists those."""
+    for _ in range(LOST):
+        ids = [int(entry.name) for entry in Path("/proc").glob("[0-9]*") if _has_mark(entry, mark)]
+        for process in ids:
+            with suppress(ProcessLookupError, PermissionError):
+                os.kill(process, signal.SIGKILL)
+        if not ids:
+            return
+
+
+def _has_mark(entry: Path, mark: str) -> bool:
+    try:
+        return mark.encode() in (entry / "environ").read_bytes().split(b"\0")
+    except OSError:
+        return False
 
 
 def _elsewhere(**_: Any) -> None:
@@ -195,63 +286,3 @@ def offered_in(path: Path) -> list[Offered]:
     """What a file offers, in its order. Raises OthersError in one sentence, OSError where it cannot be read."""
     with Visitor(path) as visitor:
         return visitor.offered
-
-
-def serve(handle: int, parent: int) -> None:
-    """The other process: load the file that the command line names, then answer until nobody asks, or can ask."""
-    end_with_parent(parent)
-    pipe, path = Connection(handle), Path(sys.argv[1])
-    SERVING.append(path)
-    watch_opened()
-    with tempfile.TemporaryFile() as printed:
-        for stream in (1, 2):
-            os.dup2(printed.fileno(), stream)
-        try:
-            offered = _loaded(path)
-            pipe.send(([(one.kind, one.name, one.asks, one.options) for one in offered], sources_of(path)))
-        except OthersError as error:
-            pipe.send(str(error))
-            return
-        with suppress(EOFError):
-            while True:
-                index, arguments, name, values = pipe.recv()
-                for value in values:
-                    before = len(sys.modules), len(OPENED)
-                    found = called(offered[index], {**arguments, name: value})
-                    sources = sources_of(path) if (len(sys.modules), len(OPENED)) != before else ()
-                    pipe.send((found, _printed(printed), sources))
-
-
-def _printed(file: IO[bytes]) -> str:
-    """What was written into the file since it was empty, the first of it; it is emptied."""
-    sys.stdout.flush()
-    if not os.fstat(file.fileno()).st_size:
-        return ""
-    file.seek(0)
-    text = file.read(4 * SHOWN)
-    file.seek(0)
-    file.truncate()
-    return text.decode(errors="replace")
-
-
-def _loaded(path: Path) -> list[Offered]:
-    """Run the file as a program whose folder can be imported; it is imported under its own name where that is free."""
-    sys.path.insert(0, str(path.parent))
-    name = path.stem if path.stem not in sys.modules else "_judged"
-    loader = SourceFileLoader(name, str(path))
-    spec = importlib.util.spec_from_loader(name, loader)
-    assert spec is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    try:
-        loader.exec_module(module)
-    except (Exception, SystemExit) as error:
-        raise OthersError(raised(error, path)) from None
-    imported = {id(one) for one in vars(module).values()}
-    found = [one for names, one in DECORATED if names is vars(module) or id(one) in imported]
-    if not found:
-        raise OthersError(f"no function has a decorator, which is one of @{', @'.join(KINDS)}")
-    names = [one.name for one in found]
-    if twice := next((one for one in names if names.count(one) > 1), None):
-        raise OthersError(f"two functions are offered as {twice!r}")
-    return found

@@ -10,12 +10,16 @@ from typing import Any
 
 OPENED: set[Path] = set()
 """What this process has opened for reading since it is watched."""
-BEGUN = time.time()
+BEGUN = [time.time()]
 """What was written since is by the file itself, or by what it has started; a date in the future is that of data."""
 
 
-def watch_opened() -> None:
-    """From now on, and until this process ends: libraries loaded by ctypes too, but nothing that C opens by itself."""
+def watch_opened(begun: float) -> None:
+    """From now on, and until this process ends: libraries loaded by ctypes too, but nothing that C opens by itself.
+
+    begun: when the first process of this file began: what that has written is by the file itself, too.
+    """
+    BEGUN[0] = begun
     sys.addaudithook(_opened)
 
 
@@ -27,16 +31,36 @@ def _opened(event: str, arguments: tuple[Any, ...]) -> None:
 
 def sources_of(path: Path) -> tuple[Path, ...]:
     """The file, the modules loaded from its folder and the data read there, but for installed packages."""
-    modules = (getattr(one, "__file__", None) for one in list(sys.modules.values()))
+    modules = map(_file_of, list(sys.modules.values()))
     loaded = {Path(file) for file in modules if isinstance(file, str)}
-    data = (one for one in list(OPENED) if one.is_file() and not BEGUN <= one.stat().st_mtime <= time.time())
+    data = (one for one in list(OPENED) if one.is_file() and not BEGUN[0] <= one.stat().st_mtime <= time.time())
     folders = path.parent, path.parent.resolve()
     near = (file for file in (*loaded, *data) if any(file.is_relative_to(folder) for folder in folders))
     without = {"site-packages", "__pycache__"}
     return tuple(sorted({path.resolve(), *(file.resolve() for file in near if without.isdisjoint(file.parts))}))
 
 
+def _file_of(module: object) -> object:
+    """What stands among the modules may be no module, and do anything when it is asked."""
+    try:
+        return vars(module).get("__file__")
+    except Exception:
+        return None
+
+
+def digest_of_bytes(path: Path) -> bytes:
+    """Of a file; one that is gone, or that cannot be read any more, has none."""
+    try:
+        return hashlib.sha256(path.read_bytes() if path.is_file() else b"").digest()
+    except OSError:
+        return hashlib.sha256().digest()
+
+
+def digest_of_all(digests: Iterable[bytes]) -> str:
+    """Of several files, in their order."""
+    return hashlib.sha256(b"".join(digests)).hexdigest()
+
+
 def digest_of(sources: Iterable[Path]) -> str:
     """Of the bytes of these files; one that is gone has none."""
-    contents = (path.read_bytes() if path.is_file() else b"" for path in sources)
-    return hashlib.sha256(b"".join(hashlib.sha256(some).digest() for some in contents)).hexdigest()
+    return digest_of_all(map(digest_of_bytes, sources))

@@ -1,6 +1,6 @@
 """The figures of `compare`: spectra with their error, or one number of each model, side by side."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Any
 
 import matplotlib
@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from validation.analysis.evidence import Table
-from validation.report.compared_sweep import draw_sweep
+from validation.report.compared_sweep import draw_sweep, names_of_users
 from validation.report.style import (
     BLUE,
     FORMATS,
@@ -19,6 +19,7 @@ from validation.report.style import (
     SETTINGS,
     Style,
     in_two_lines,
+    legend_name,
     picture,
     plain_figure,
     styles_of,
@@ -79,7 +80,11 @@ def to_figure(comparison: OneOrSeveral, *, form: str = "svg") -> bytes:
             axes = part.subplots()
             axes.set_title(in_two_lines(title), loc="left")
             spectra = found[0].is_level and np.isfinite(table["wavelength_mm"]).all()
-            (_spectra if spectra and len(table["model"]) else _numbers)(axes, table)
+            users = names_of_users(found, table["model"].tolist())
+            if spectra and len(table["model"]):
+                _spectra(axes, table, users)
+            else:
+                _numbers(axes, table)
     plain_figure(figure)
     return picture(figure, form)
 
@@ -111,18 +116,18 @@ def _shown(found: Sequence[Comparison]) -> tuple[str, Table]:
 def _selected(table: Table) -> Table:
     """The selected model of each scene alone, named by its scene."""
     selected = table.where(selected=True)
-    # a label that begins with _ is left out of a legend
-    names = [f" {name}" if name.startswith("_") else name for name in map(str, selected.columns["scene"])]
+    names = [legend_name(str(name)) for name in selected.columns["scene"]]
     return Table(table.name, {**selected.columns, "model": names, "selected": [False] * len(names)})
 
 
-def _spectra(axes: Axes, table: Table) -> None:
-    """The selected model with the band of its error; the others beside it."""
+def _spectra(axes: Axes, table: Table, users: Collection[str] = ()) -> None:
+    """The selected model with the band of its error; the others beside it. users: names that are no models of ours."""
     models = list(dict.fromkeys(table["model"].tolist()))
-    for model, style in styles_of(models[:MOST]).items():
+    for model, style in styles_of(models[:MOST], users).items():
         mine = table.where(model=model)
         x, selected = mine["wavelength_mm"], bool(mine["selected"][0])
-        axes.plot(x, mine["value"], label=in_two_lines(f"{model}, selected" if selected else model, NAME), **style)
+        name = legend_name(f"{model}, selected" if selected else model)
+        axes.plot(x, mine["value"], label=in_two_lines(name, NAME), **style)
         if selected:
             axes.fill_between(x, mine["low"], mine["high"], color=style["color"], alpha=0.2, linewidth=0)
     axes.set_xscale("log")

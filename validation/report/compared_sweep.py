@@ -2,14 +2,14 @@
 
 import itertools
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from functools import partial
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import SubFigure
 
-from validation.report.style import in_two_lines, styles_of, tick
+from validation.report.style import in_two_lines, legend_name, styles_of, tick
 from validation.selection.compare import Comparison
 from validation.selection.contact_force import contact_force
 from validation.selection.side_by_side import counts, reference_of, shown_models
@@ -43,7 +43,7 @@ def draw_sweep(figure: SubFigure, found: Sequence[Comparison], most: int) -> Non
         if panel is None:
             axis.set_axis_off()
         else:
-            _draw(axis, panel, dict(list(lines.items())[:most]))
+            _draw(axis, panel, dict(list(lines.items())[:most]), names_of_users(found, list(lines)))
     if not lines:
         axes[0].set_title("no model has a result", loc="left")
         return
@@ -53,20 +53,29 @@ def draw_sweep(figure: SubFigure, found: Sequence[Comparison], most: int) -> Non
     figure.legend(*named, loc="outside lower center", ncols=2, title=others, title_fontsize=8)
 
 
-def _draw(axes: Axes, panel: SweepPanel, lines: Mapping[str, Points]) -> None:
+def names_of_users(found: Sequence[Comparison], shown: Sequence[str]) -> set[str]:
+    """Of the names that a figure shows those that are not the package's own: of scenes, and of models of a user's."""
+    candidates = [candidate for one in found for candidate in one.selection.candidates]
+    own = {
+        str(of.name) for of in candidates if not getattr(getattr(of.model, "model", of), "setting", "").startswith("@")
+    }
+    return set(shown) - own
+
+
+def _draw(axes: Axes, panel: SweepPanel, lines: Mapping[str, Points], users: Collection[str]) -> None:
     title, label, interval = panel
     swept = {name: [one.swept for one, _ in points if one.swept] for name, points in lines.items()}
     first = next(iter(swept.values()))
     numbers = all(isinstance(of.value, float) for of in first)
     texts = list(dict.fromkeys(str(of.value) for of in first))
-    styles = styles_of(lines)
+    styles = styles_of(lines, users)
     for name, points in lines.items():
         values = [of.value if numbers else texts.index(str(of.value)) for of in swept[name]]
         order = np.argsort(values, kind="stable")
         x = np.array(values, dtype=np.float64)[order]
         value, low, high = np.array([interval(*point) for point in points])[order].T
         style = styles[name]
-        axes.plot(x, value, label=in_two_lines(name, 48), **style)
+        axes.plot(x, value, label=in_two_lines(legend_name(name), 48), **style)
         axes.fill_between(x, low, high, color=style["color"], alpha=0.12, linewidth=0)
         edges = {"color": style["color"], "linestyle": style["linestyle"], "linewidth": 0.5}
         axes.plot(x, np.column_stack([low, high]), **edges)

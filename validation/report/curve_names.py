@@ -16,6 +16,8 @@ LINE, ROW, LETTER, KEY = 9.0, 12.0, 4.2, 34.0
 """Height of a line of names, and of one of a legend, width of a letter, and of the sample before a name [points]."""
 MOST, FARTHEST = 6, 1.5
 """Curves that are named at their ends; how far a name is moved, in lines."""
+BESIDE = 14
+"""Names for which a spare place of the grid has room."""
 NEAR_THE_EDGE = 0.8
 """Part of the panel from which on a curve ends at its side."""
 
@@ -27,7 +29,7 @@ def name_curves(figure: Figure, axes: Sequence[Axes], columns: int, spare: Seque
     last = min(columns, len(axes)) - 1
     if not spare and len(named[last]) == len(every) <= MOST and _at_the_ends(axes[last], every):
         return
-    if spare:
+    if spare and len(every) <= BESIDE:
         names = [textwrap.fill(name, 30) for name in every]
         spare[0].legend(every.values(), names, loc="center", borderaxespad=0.0)
     elif every:

@@ -2,7 +2,7 @@
 
 import math
 import textwrap
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Literal
 
 import numpy as np
@@ -13,7 +13,7 @@ from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.evidence import Evidence, Table, placed
 from validation.analysis.series import ENDS, JUDGED
 from validation.report.curve_names import name_curves
-from validation.report.style import BARS, GUIDE, INK, Style, graded, panels, styles_of, tick, visible
+from validation.report.style import BARS, GUIDE, INK, Style, graded, legend_name, panels, styles_of, tick, visible
 
 FORMS: dict[str, Style] = {
     "": {},
@@ -40,7 +40,8 @@ WORST = "worst of a range and its interval: = agree, ≠ differ, ? undecided"
 SIGN = {"agree": "=", "differ": "≠", "undecided": "?"}
 
 
-def draw(chart: Chart, evidence: Evidence) -> Figure:
+def draw(chart: Chart, evidence: Evidence, users: Collection[str] = ()) -> Figure:
+    """users: names of models that are not the package's own."""
     facets = [(panel, facet) for panel in chart.panels for facet in _facets(panel, evidence)]
     columns = len(facets) if len(facets) < 4 else 2 if len(facets) == 4 else 3
     rows = -(-len(facets) // columns)
@@ -48,7 +49,7 @@ def draw(chart: Chart, evidence: Evidence) -> Figure:
     axes, spare = every[: len(facets)], every[len(facets) :]
     _share(axes, [panel for panel, _ in facets])
     there = [curve for panel in chart.panels for curve in _there(panel, evidence)]
-    styles = styles_of(name for curve in there for name in _models(_rows(evidence, curve, {})))
+    styles = styles_of((name for curve in there for name in _models(_rows(evidence, curve, {}))), users)
     for axis, (panel, facet) in zip(axes, facets, strict=True):
         try:
             _panel(axis, panel, facet, evidence, styles)
@@ -225,6 +226,7 @@ def _curve(
     where = {name: value for name, value in values.items() if value == value}
     label = curve.label or ", ".join(_said(name, where[name]) for name in curve.by if name in where)
     label = label or (curve.model if isinstance(curve.model, str) else "")
+    label = label if label == curve.label else legend_name(label)
     if curve.upright:
         for x, name in zip(mine["value"], mine["model"], strict=True):
             axis.axvline(x, label=label or "_", **style)

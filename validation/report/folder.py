@@ -28,11 +28,12 @@ ROOMS = ("figures", "data", SOUNDS, REALISATIONS)
 MANIFEST = "manifest.json"
 KIND, FORMAT = "mdr-validation report", 1
 COMPARISON, SOUND, CALIBRATION = "mdr-validation comparison", "mdr-validation sound", "mdr-validation calibration"
-REFERENCES = "mdr-validation references"
-"""Kinds of the folders of `compare --report`, `sound` and `calibrate`, with and without `--references`: none takes the
-place of another."""
+REFERENCES, JUDGEMENT = "mdr-validation references", "mdr-validation judgement"
+"""Kinds of the folders of `compare --report`, `sound`, `judge` and `calibrate`, with and without `--references`: none
+takes the place of another."""
 NAME = re.compile(
     r"(?:(?:figures|data|sounds)/)?[^./\\\x00-\x1f\x7f][^/\\\x00-\x1f\x7f]*\.(?:html|json|svg|pdf|csv|npz|wav)"
+    r"|summary\.txt"
 )
 """Names that files of a report may have; a list with other names is none of a report."""
 

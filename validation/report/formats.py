@@ -9,6 +9,7 @@ import jinja2
 from markupsafe import Markup, escape
 
 from validation.analysis.contents import csv_name
+from validation.analysis.escapes import printable
 from validation.analysis.evidence import ClaimStatus, Table, Verdict, VerdictCell, Whose
 from validation.analysis.study import Settings
 from validation.report.symbols import SYMBOLS, symbols_in
@@ -29,6 +30,7 @@ def templates() -> jinja2.Environment:
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
+        finalize=_without_controls,
     )
     environment.filters |= {
         "format_cell": format_cell,
@@ -43,6 +45,11 @@ def templates() -> jinja2.Environment:
     }
     environment.globals |= {"zip": zip, "csv_name": csv_name, "all_symbols": SYMBOLS}
     return environment
+
+
+def _without_controls(value: object) -> object:
+    """A text of a user's; what is markup already is ours."""
+    return printable(value, lines=True) if isinstance(value, str) and not isinstance(value, Markup) else value
 
 
 def in_seconds(value: float) -> str:

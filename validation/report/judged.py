@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING
 from validation.analysis.contents import as_csv, as_json
 from validation.analysis.evidence import Table, table_of
 from validation.analysis.judgement import DIFFER, FAILED, REFUSED, Conditions, Enough, JudgedPoint, enough, not_compared
-from validation.engine.files import write_whole
 from validation.engine.others import Called, visited
 from validation.engine.replies import raised
+from validation.report.folder import JUDGEMENT, Folder
 from validation.report.judged_solver import solver_lines
 from validation.report.judged_words import summary_lines
+from validation.scenes.printable import printable
 from validation.selection.judging.judge import JUDGES, points_of
 from validation.selection.judging.own import ErrorOfCall, costs_of
 from validation.selection.tolerance import Tolerance, tolerance_of
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 OF_SOLVER = "validation.benchmarks.judging.judged:judged"
 """Of a contact solver; it imports all solvers."""
 BROKEN = "mdr-validation could not go on, which is its own error"
+RETURNED = "a process that it forked came back from the function: its answers were left out"
 COLUMNS = ("value", "reference", "difference", "error", "unit", "verdict", "reason")
 NAMES = {"start": "from", "stop": "to"}
 """Of a range in JSON: words that Python keeps for itself."""
@@ -86,8 +88,10 @@ class Judgement:
     def summary(self) -> str:
         """Where it is enough, the worst points and what they share, and a paragraph for a paper."""
         if self.kind == "contact_solver":
-            return "\n".join(solver_lines(self.model, self.verdicts, self.times, self.seconds))
-        return "\n".join(summary_lines(self))
+            lines = solver_lines(self.model, self.verdicts, self.times, self.seconds)
+        else:
+            lines = summary_lines(self)
+        return printable("\n".join(lines), lines=True)
 
     def as_dict(self) -> dict[str, object]:
         """Of JSON: None for what is no number."""
@@ -102,12 +106,25 @@ class Judgement:
         }
 
     def save(self, folder: str | Path) -> None:
-        """Write judgement.json, verdicts.csv, summary.txt and judgement.svg into a folder, which is made.
+        """Write judgement.json, verdicts.csv, summary.txt and judgement.svg into a folder of its own, which is made.
 
         Seconds that the figure shows are in costs.csv: of calls with the error, of a solver by the cells on a side.
+        manifest.json lists the files, by which an earlier judgement is known and replaced.
+
+        Raises
+        ------
+        TypeError
+            For what is no path.
+        ValueError
+            For a folder with other files, which are not replaced.
         """
         if not isinstance(folder, str | Path):
             raise TypeError(f"folder must be a path, got {folder!r}")
+        with Folder(Path(folder), kind=JUDGEMENT, option="folder") as place:
+            place.replace(self.files())
+
+    def files(self) -> dict[str, bytes]:
+        """What `save` writes, by name."""
         from validation.report.judged_figure import figure_of  # which takes half a second to import
 
         files = {
@@ -118,8 +135,7 @@ class Judgement:
         }
         if costs := [one._asdict() for one in self.costs or self.times]:
             files["costs.csv"] = as_csv(table_of("costs", costs))
-        for name, contents in files.items():
-            write_whole(Path(folder) / name, contents)
+        return files
 
 
 def judge(model: object, tolerance: float | str = 0.1) -> Judgement:
@@ -178,6 +194,11 @@ def judged(model: Called, tolerance: Tolerance) -> Judgement:
         points.append(not_compared("judging", everywhere, FAILED, f"{BROKEN}: {raised(error)}"))
     if model.printed:
         points.append(not_compared("printing", everywhere, FAILED, f"printed {model.printed!r}"))
+    if model.forked:
+        points.append(not_compared("forking", everywhere, FAILED, RETURNED))
+    if model.changed:
+        reason = f"{model.changed} was changed while it was judged: judge it again"
+        points.append(not_compared("file", everywhere, FAILED, reason, decides=model.kind == "contact_solver"))
     seconds = time.perf_counter() - begin
     return Judgement(model.name, model.kind, tolerance, tuple(points), seconds, tuple(times), tuple(costs))
 

@@ -2,7 +2,7 @@
 
 import io
 import textwrap
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -16,11 +16,13 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.text import Text
 from matplotlib.ticker import LogFormatter
 
+from validation.analysis.escapes import printable
 from validation.analysis.evidence import Evidence, Table
 from validation.report.compact import compact
 
 Style = dict[str, Any]
 
+LETTERS = 26
 WIDTH = 7.1
 """Of a figure [inches]: 180 mm, two columns of a journal, where its smallest text has 7 points."""
 # Okabe and Ito: apart for colour-blind readers
@@ -72,12 +74,16 @@ def _of_model(name: str) -> Style | None:
 CATEGORIES = ((INK, "-"), (BLUE, "--"), (VERMILION, "-."), (GREEN, ":"), (PURPLE, "-"), (ORANGE, "--"))
 
 
-def styles_of(names: Iterable[str]) -> dict[str, Style]:
-    """Of models, in all figures the same, and of up to six other things without an order: apart in grey too."""
+def styles_of(names: Iterable[str], users: Collection[str] = ()) -> dict[str, Style]:
+    """Of models, in all figures the same, and of up to six other things without an order: apart in grey too.
+
+    users: names that are not the package's own, however they begin: they always have a marker.
+    """
     found: dict[str, Style] = {}
     for i, name in enumerate(dict.fromkeys(names)):
         color, dash = CATEGORIES[i % len(CATEGORIES)]
-        style = _of_model(name) or _of(color, MARKERS[i % len(MARKERS)], dash, open_=True)
+        style = None if name in users else _of_model(name)
+        style = style or _of(color, MARKERS[i % len(MARKERS)], dash, open_=True)
         # a second model of a kind has another marker and another dash
         again = {"marker": MARKERS[-1 - i % len(MARKERS)], "linestyle": CATEGORIES[i % 4][1]}
         found[name] = {**style, **again} if style in found.values() and style["marker"] != "none" else style
@@ -93,6 +99,11 @@ def graded(i: int, count: int) -> Style:
 GUIDE: Style = {"color": SOFT, "linestyle": ":", "linewidth": 1.0, "marker": "none"}
 BARS: Style = {"capsize": 0, "elinewidth": 0.6}
 """Of intervals."""
+
+
+def legend_name(name: str) -> str:
+    """Of a curve in a legend, which leaves out a name that begins with _."""
+    return f" {name}" if name.startswith("_") else name
 
 
 def in_two_lines(words: str, most: int = 90) -> str:
@@ -131,9 +142,14 @@ def panels(
     height = height or rows * (0.6 + 0.62 * WIDTH / max(columns, 2))
     figure = Figure(figsize=(WIDTH, height), layout="constrained")
     axes = list(figure.subplots(rows, columns, squeeze=False).flat)
-    for letter, axis in zip("abcdefghijklmnopqr" if len(axes) > 1 else "", axes, strict=False):
-        axis.set_title(f"({letter})", loc="left")
+    for i, axis in enumerate(axes if len(axes) > 1 else ()):
+        axis.set_title(f"({_letters(i)})", loc="left")
     return figure, axes
+
+
+def _letters(i: int) -> str:
+    """a, b, ... z, aa, ab, ..."""
+    return chr(ord("a") + i) if i < LETTERS else _letters(i // LETTERS - 1) + _letters(i % LETTERS)
 
 
 def tick(axes: Axes, values: Iterable[float], *, up: bool = False) -> None:
@@ -153,8 +169,8 @@ FORMATS = {"svg": "Date", "png": "Software", "pdf": "CreationDate"}
 
 
 def plain(text: str) -> str:
-    """A text of a user's in a figure, in which a $ is no mathematics."""
-    return text.replace("$", r"\$")
+    """A text of a user's in a figure, in which a $ is no mathematics, and no control character is drawn."""
+    return printable(text, lines=True).replace("$", r"\$")
 
 
 def plain_figure(figure: Figure) -> None:

@@ -1,7 +1,9 @@
 """Values as messages print them: on one line, of bounded length, without control characters."""
 
 import reprlib
-import unicodedata
+
+from validation.analysis.escapes import is_printable as is_printable
+from validation.analysis.escapes import printable as printable
 
 MAX_CHARACTERS = 120
 """Characters of a value in a message, at the most."""
@@ -24,21 +26,4 @@ def quoted(value: object) -> str:
     return f'"{printable(text.translate(ESCAPED))}"'
 
 
-def printable(text: object, *, lines: bool = False) -> str:
-    """A text whose control characters are written as escapes, its line breaks, too, unless it may have lines."""
-    return "".join(
-        c if (lines and c == "\n") or _harmless(c) else c.encode("unicode_escape").decode() for c in str(text)
-    )
-
-
-def is_printable(text: str) -> bool:
-    """Whether it has neither control characters nor line breaks, nor marks that turn the direction of writing."""
-    return all(map(_harmless, text))
-
-
 ESCAPED = str.maketrans({"\\": r"\\", '"': r"\""})
-
-
-def _harmless(character: str) -> bool:
-    # spaces other than the plain one print nothing, and harm nothing
-    return character.isprintable() or unicodedata.category(character) == "Zs"

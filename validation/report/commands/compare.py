@@ -158,7 +158,7 @@ def _found(
     solved = _solved(problems, arguments)
     found = [replace(one, swept=of) for one, of in zip(solved, swept, strict=True)]
     said = in_full if arguments.verbose else in_short
-    print(findings(found, said) if len(problems) == 1 else summary(found))
+    print(printable(findings(found, said) if len(problems) == 1 else summary(found), lines=True))
     _write(found, arguments)
     return found
 
@@ -167,7 +167,7 @@ def _solved(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> 
     """What was understood of one scene is printed before it is solved."""
     if len(problems) == 1:
         (problem,) = problems
-        print(heading(problem.scene, problem.quantities, problem.wanted), flush=True)
+        print(printable(heading(problem.scene, problem.quantities, problem.wanted), lines=True), flush=True)
         return list(problem.compared(_announce).values())
     arguments.keeps = True
     with progress_of("scenes", arguments.workers) as progress:
@@ -194,7 +194,11 @@ def _reported(
 def _announce(model: SceneModel) -> None:
     """Name a model whose solve takes a second or more, before it begins."""
     if model.cost().seconds >= 1:
-        print(f"solving {model.name}, about {format_seconds(model.cost().seconds)}", file=sys.stderr, flush=True)
+        print(
+            f"solving {printable(model.name)}, about {format_seconds(model.cost().seconds)}",
+            file=sys.stderr,
+            flush=True,
+        )
 
 
 def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:

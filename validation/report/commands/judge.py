@@ -1,15 +1,19 @@
 """Judge models of somebody's own: where each is enough, or whether a solver is right."""
 
 import argparse
-import re
+import os
+from collections.abc import Sequence
+from contextlib import ExitStack
+from itertools import zip_longest
 from pathlib import Path
 
-from validation.analysis.contents import as_json
+from validation.analysis.contents import as_json, folder_names
 from validation.engine.files import write_given
 from validation.engine.installed import GROUP, installed
-from validation.engine.others import visited
+from validation.engine.others import Called, visited
 from validation.report.commands.arguments import Exit, add_options
 from validation.report.commands.places import check_places
+from validation.report.folder import JUDGEMENT, Folder
 from validation.report.judged import Judgement, judged, points_as_csv
 from validation.scenes.printable import printable
 from validation.selection.tolerance import tolerance_of
@@ -56,32 +60,52 @@ def judge(arguments: argparse.Namespace) -> Exit:
         raise ValueError(f"FILE must be a Python file, or a name of judge --list, got {arguments.file!r}")
     tolerance = tolerance_of(arguments.tolerance)
     check_places(arguments, {Path(arguments.file): "is the model"})
+    _check_apart(arguments)
     found: list[Judgement] = []
-    with visited(arguments.file) as callers:
-        for caller in callers:
-            if arguments.only in (None, caller.name):
-                found.append(judged(caller, tolerance))
-                print(printable(found[-1].summary(), lines=True), end="\n\n", flush=True)
-    names = ", ".join(caller.name for caller in callers)
-    if not found:
-        raise ValueError(f"--only must be one of {printable(names)}, got {printable(arguments.only)}")
+    with visited(arguments.file) as callers, ExitStack() as folders:
+        chosen = [caller for caller in callers if arguments.only in (None, caller.name)]
+        if not chosen:
+            names = ", ".join(caller.name for caller in callers)
+            raise ValueError(f"--only must be one of {names}, got {arguments.only}")
+        places = [folders.enter_context(folder) for folder in _folders(chosen, arguments.out)]
+        for caller, place in zip_longest(chosen, places):
+            found.append(judged(caller, tolerance))
+            if place:
+                place.replace(found[-1].files())
+            print(printable(found[-1].summary(), lines=True), end="\n\n", flush=True)
     _write(found, arguments)
     if not any(one.answered for one in found):
         return Exit.NOT_CONVERGED
     return Exit.CRITERION_FAILED if any(one.wrong for one in found) else Exit.MET
 
 
+def _folders(chosen: Sequence[Called], out: Path | None) -> list[Folder]:
+    """One of each model, of several below the one that is named; all of them before anything is judged."""
+    if out is None:
+        return []
+    names = folder_names([caller.name for caller in chosen]) if len(chosen) > 1 else [""]
+    return [Folder(out / name, kind=JUDGEMENT) for name in names]
+
+
+def _check_apart(arguments: argparse.Namespace) -> None:
+    """Raises ValueError where a file that is named would be one of the folder's own, or of a model's in it."""
+    if arguments.out is None:
+        return
+    for option in ("json", "csv", "figure"):
+        path = getattr(arguments, option)
+        if path is not None and Path(os.path.realpath(path)).is_relative_to(os.path.realpath(arguments.out)):
+            raise ValueError(f"--{option} must be a file outside of --out, got {path} in {arguments.out}")
+
+
 def _write(found: list[Judgement], arguments: argparse.Namespace) -> None:
-    if arguments.out:
-        for one in found:
-            folder = re.sub(r"[^\w.+-]+", "_", one.model).strip("._") or "model"
-            one.save(arguments.out / folder if len(found) > 1 else arguments.out)
     if arguments.json:
         objects = [one.as_dict() for one in found]
         write_given(arguments.json, as_json(objects if len(objects) > 1 else objects[0]))
     if arguments.csv:
         write_given(arguments.csv, points_as_csv(found))
     if arguments.figure:
-        from validation.report.judged_figure import figure_of  # which takes half a second to import
+        from validation.report.judged_figure import figure_of, left_out  # which takes half a second to import
 
+        if names := left_out(found):
+            print(printable(f"--figure does not show {', '.join(names)}: draw each with --only"))
         write_given(arguments.figure, figure_of(found, arguments.figure.suffix[1:]))

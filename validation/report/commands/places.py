@@ -3,8 +3,10 @@
 import argparse
 import errno
 import os
+import stat
 from collections.abc import Mapping
 from pathlib import Path
+from tempfile import TemporaryFile
 
 FOLDERS, FILES = ("out", "report", "store"), ("json", "csv", "cnossos", "figure")
 """Options that name a place."""
@@ -29,17 +31,58 @@ def check_places(arguments: argparse.Namespace, read: Mapping[Path, str]) -> Non
             raise ValueError(f"--figure must end in {', '.join(FIGURES)}, got {path}")
         if path.parent == Path("/dev"):
             continue
-        if by := folders.get(path) or taken.get(os.path.realpath(path)) or ("is a folder" if path.is_dir() else ""):
+        if (
+            by := folders.get(path)
+            or taken.get(os.path.realpath(path))
+            or ("is a folder" if stat.S_ISDIR(_mode(path)) else "")
+        ):
             raise ValueError(f"--{name} must be a file of its own, got {path}, which {by}")
-        # into a pipe it is written as it stands
-        if (path.is_file() or not path.exists()) and (reason := _refusal(path.parent)):
+        if reason := _refusal_of_file(path):
             raise ValueError(f"--{name} must be a file in a folder that can be written, got {path}: {reason}")
         taken[os.path.realpath(path)] = f"--{name} writes"
 
 
+def _refusal_of_file(path: Path) -> str:
+    """Why it cannot be written; nothing where it can, and of a pipe, into which is written as it stands."""
+    mode = _mode(path)
+    if mode and not stat.S_ISREG(mode):
+        return ""
+    if mode and not os.access(path, os.W_OK):
+        return os.strerror(errno.EACCES)
+    return _refusal(path.parent) or _too_long(path)
+
+
+def _mode(path: Path) -> int:
+    """Zero where nothing is there."""
+    try:
+        return path.stat().st_mode
+    except OSError:
+        return 0
+
+
 def _refusal(folder: Path) -> str:
     """Why it can be neither made nor written into; nothing where it can."""
-    near = next(place for place in (folder, *folder.parents) if os.path.lexists(place))
+    near = _nearest(folder)
     if not near.is_dir():
         return os.strerror(errno.ENOTDIR)
-    return "" if os.access(near, os.W_OK | os.X_OK) else os.strerror(errno.EACCES)
+    if not os.access(near, os.W_OK | os.X_OK):
+        return os.strerror(errno.EACCES)
+    try:
+        # rights alone do not say so: a file system may be read-only, or none of files
+        TemporaryFile(dir=near).close()
+    except OSError as error:
+        return error.strerror or str(error)
+    return _too_long(folder)
+
+
+def _nearest(path: Path) -> Path:
+    """It, or the folder nearest to it that is there."""
+    return next(place for place in (path, *path.parents) if os.path.lexists(place))
+
+
+def _too_long(path: Path) -> str:
+    """Whether a part of it that is not there yet is longer than a name may be."""
+    near = _nearest(path)
+    most = os.pathconf(near, "PC_NAME_MAX")
+    is_long = any(len(os.fsencode(part)) > most for part in path.relative_to(near).parts)
+    return os.strerror(errno.ENAMETOOLONG) if is_long else ""
