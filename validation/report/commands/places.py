@@ -29,12 +29,19 @@ def check_places(arguments: argparse.Namespace, read: Mapping[Path, str]) -> Non
             raise ValueError(f"--figure must end in {', '.join(FIGURES)}, got {path}")
         if path.parent == Path("/dev"):
             continue
-        if by := folders.get(path) or taken.get(os.path.realpath(path)) or ("is a folder" if path.is_dir() else ""):
+        inside = "is in the folder of --report" if _is_in(path, getattr(arguments, "report", None)) else ""
+        is_folder = "is a folder" if path.is_dir() else ""
+        if by := folders.get(path) or taken.get(os.path.realpath(path)) or is_folder or inside:
             raise ValueError(f"--{name} must be a file of its own, got {path}, which {by}")
         # into a pipe it is written as it stands
         if (path.is_file() or not path.exists()) and (reason := _refusal(path.parent)):
             raise ValueError(f"--{name} must be a file in a folder that can be written, got {path}: {reason}")
         taken[os.path.realpath(path)] = f"--{name} writes"
+
+
+def _is_in(path: Path, folder: Path | None) -> bool:
+    """Whether a file would lie in a folder that is replaced whole."""
+    return folder is not None and Path(os.path.realpath(path)).is_relative_to(os.path.realpath(folder))
 
 
 def _refusal(folder: Path) -> str:
