@@ -17,7 +17,7 @@ from validation.engine.workers import ONE_THREAD
 from validation.report.commands.arguments import Exit
 from validation.report.durations import said
 from validation.scenes.input_files import SceneError
-from validation.scenes.printable import printable
+from validation.scenes.printable import never_fatal, printable
 
 COMMANDS = {
     "report": "run the cases and write a report folder",
@@ -41,6 +41,7 @@ def main(words: Sequence[str] | None = None) -> int:
     """Run one command, return its exit status."""
     # before numpy is loaded: the last bits of sums depend on the threads of BLAS, and workers have one
     os.environ.update(ONE_THREAD | os.environ)
+    never_fatal((sys.stdout, sys.stderr))
     arguments = _parser().parse_args(words)
     try:
         with terminable(), one_line_warnings():

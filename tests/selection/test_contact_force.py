@@ -65,8 +65,10 @@ def test_the_error_of_the_sum_counts_loud_bands_most():
     """All bands louder by their errors, over the sum as it is: a loud band of 3 dB among others that are known."""
     found = filters(0.0)
     loud = int(np.argmax(contact_force(found).levels["by 0 dB"]))
-    found.models[0].answer.band_errors["model"][:] = np.where(np.arange(35) == loud, 3.0, 0.0)
-    force = contact_force(found)
+    first, *others = found.models
+    errors = {**first.answer.band_errors, "model": np.where(np.arange(35) == loud, 3.0, 0.0)}
+    first = replace(first, answer=replace(first.answer, band_errors=errors))
+    force = contact_force(replace(found, selection=replace(found.selection, candidates=(first, *others))))
     powers = [10 ** (level / 10) for level in force.levels["by 0 dB"]]
     louder = sum(powers) + powers[loud] * (10**0.3 - 1)
     assert force.error == pytest.approx(10 * math.log10(louder / sum(powers)))

@@ -16,10 +16,20 @@ def installed() -> dict[str, EntryPoint]:
     return {one.name: one for one in sorted(entry_points(group=GROUP), key=lambda one: one.name)}
 
 
+def is_installed(model: str | Path) -> bool:
+    """Whether it is the name of what an installed package offers, and no file has that name."""
+    return not Path(model).is_file() and str(model) in installed()
+
+
+def package_of(path: Path) -> str:
+    """The module that a file of `file_of` imports; empty of any other file."""
+    return path.read_text(encoding="utf-8").split()[1] if path.name.startswith(ENTRY) else ""
+
+
 @contextmanager
 def file_of(model: str | Path) -> Iterator[Path]:
     """The file itself; of a name that an installed package offers, and no file has, a file that imports its models."""
-    if Path(model).is_file() or str(model) not in installed():
+    if not is_installed(model):
         yield Path(model)
         return
     one = installed()[str(model)]

@@ -8,6 +8,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+from validation.engine.installed import package_of
+
 OPENED: set[Path] = set()
 """What this process has opened for reading since it is watched."""
 BEGUN = [time.time()]
@@ -30,14 +32,28 @@ def _opened(event: str, arguments: tuple[Any, ...]) -> None:
 
 
 def sources_of(path: Path) -> tuple[Path, ...]:
-    """The file, the modules loaded from its folder and the data read there, but for installed packages."""
+    """The file, the modules loaded from its folder and the data read there, but for installed packages.
+
+    Of a file that imports what an installed package offers, the modules and the data of that package.
+    """
     modules = map(_file_of, list(sys.modules.values()))
     loaded = {Path(file) for file in modules if isinstance(file, str)}
     data = (one for one in list(OPENED) if one.is_file() and not BEGUN[0] <= one.stat().st_mtime <= time.time())
     folders = path.parent, path.parent.resolve()
     near = (file for file in (*loaded, *data) if any(file.is_relative_to(folder) for folder in folders))
     without = {"site-packages", "__pycache__"}
-    return tuple(sorted({path.resolve(), *(file.resolve() for file in near if without.isdisjoint(file.parts))}))
+    own = {path.resolve(), *(file.resolve() for file in near if without.isdisjoint(file.parts))}
+    roots = _roots_of(package_of(path))
+    own |= {file.resolve() for file in (*loaded, *data) if any(file.is_relative_to(root) for root in roots)}
+    return tuple(sorted(file for file in own if file.suffix != ".pyc"))
+
+
+def _roots_of(package: str) -> tuple[Path, ...]:
+    """Folders of a package that is loaded, or the file of a module; none of one that is not."""
+    module = sys.modules.get(package.partition(".")[0])
+    file = getattr(module, "__file__", None)
+    folders = getattr(module, "__path__", None) or ([file] if file else [])
+    return tuple(Path(folder) for folder in folders)
 
 
 def _file_of(module: object) -> object:

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from bem3d.read_only import kept
 from mdr.checks import count
 from validation.analysis.nominal_bands import MANTISSAS
 from validation.engine.engine import FloatArray
@@ -54,7 +55,7 @@ class Comparison:
         What was asked, with its unit.
     value : ndarray
         One number in SI units; for "force-spectrum" and "acceleration" a level in each one-third octave, in dB re 1 N
-        and 1 m/s^2. NaN where no model has an answer.
+        and 1 m/s^2. NaN where no model has an answer. Read-only, as all arrays of a comparison.
     error : float
         Half-width of the 95 % interval: relative, in dB for levels. For levels it is that of all bands together.
     unit : str
@@ -93,36 +94,38 @@ class Comparison:
     @property
     def value(self) -> FloatArray:
         best = self.selection.best
-        return np.full(max(1, self.wavenumbers.size), math.nan) if best is None else self.value_of(best)
+        return kept(np.full(max(1, self.wavenumbers.size), math.nan)) if best is None else self.value_of(best)
 
     def value_of(self, candidate: Candidate) -> FloatArray:
         """Of a model that was solved, as value."""
         assert candidate.answer is not None  # as said
         reference = REFERENCES.get(self.quantity, 1.0)
-        return 20 * np.log10(candidate.answer.value / reference) if self.is_level else candidate.answer.value
+        value = candidate.answer.value
+        return kept(20 * np.log10(value / reference) if self.is_level else value)
 
     def errors_of(self, candidate: Candidate) -> FloatArray:
         """Half-widths of 95 % of a model that was solved, one a number, in dB for levels and else in ``unit``."""
         answer = candidate.answer
         known = answer is not None and answer.band_errors
-        return answer.error_in_bands if answer and known else self._half_widths(candidate, candidate.error)
+        return kept(answer.error_in_bands if answer and known else self._half_widths(candidate, candidate.error))
 
     def error_parts_of(self, candidate: Candidate) -> dict[str, FloatArray]:
         """What model, grid and sample leave of `errors_of`, by their names; none of a model that was not solved."""
         if (answer := candidate.answer) is None:
             return {}
         parts = {"model": answer.model, "grid": answer.grid, "sample": answer.sample}
-        return dict(answer.band_errors) or {name: self._half_widths(candidate, part) for name, part in parts.items()}
+        found = answer.band_errors or {name: self._half_widths(candidate, part) for name, part in parts.items()}
+        return {name: kept(half) for name, half in found.items()}
 
     @property
     def roughness(self) -> FloatArray:
         """L_r of a rail in each band [dB re 1 µm]; empty of any other scene."""
-        return np.array(self.scene.levels.levels if isinstance(self.scene, RailScene) else ())
+        return kept(np.array(self.scene.levels.levels if isinstance(self.scene, RailScene) else ()))
 
     def a3_of(self, candidate: Candidate) -> FloatArray:
         """Contact filter of a model of a rail that was solved, whichever quantity was asked [dB]."""
         value = self.value_of(candidate)
-        return value - self.roughness if self.quantity == "equivalent-roughness" else value
+        return kept(value - self.roughness) if self.quantity == "equivalent-roughness" else value
 
     def seconds_of(self, candidate: Candidate) -> float:
         """That a model took; NaN where it was not solved, or not all models were asked."""
@@ -152,25 +155,26 @@ class Comparison:
     @property
     def wavenumbers(self) -> FloatArray:
         if not self.is_level or not self.selection.solved:
-            return np.empty(0)
+            return kept(np.empty(0))
         if isinstance(self.scene, RailScene):
-            return 2 * math.pi / self.scene.levels.bands.nominal
-        return RollingQuantity(self.scene, self.quantity).bands.centres  # type: ignore[arg-type]  # which a wheel has
+            return kept(2 * math.pi / self.scene.levels.bands.nominal)
+        centres = RollingQuantity(self.scene, self.quantity).bands.centres  # type: ignore[arg-type]  # a wheel has it
+        return kept(centres)
 
     @property
     def wavelength_mm(self) -> FloatArray:
         # twelve digits: nominal wavelengths have theirs again, 2000 and not 1999.9999999999998
-        return np.array([float(f"{wave:.12g}") for wave in 2e3 * math.pi / self.wavenumbers])
+        return kept(np.array([float(f"{wave:.12g}") for wave in 2e3 * math.pi / self.wavenumbers]))
 
     @property
     def frequency_hz(self) -> FloatArray:
         speed = getattr(self.scene, "speed", None)
-        return np.empty(0) if speed is None else speed * self.wavenumbers / (2 * math.pi)
+        return kept(np.empty(0) if speed is None else speed * self.wavenumbers / (2 * math.pi))
 
     @property
     def nominal_hz(self) -> FloatArray:
         numbers = np.rint(10 * np.log10(self.frequency_hz)).astype(int)
-        return np.array([float(f"{MANTISSAS[n % 10] * 10.0 ** (n // 10):.3g}") for n in numbers])
+        return kept(np.array([float(f"{MANTISSAS[n % 10] * 10.0 ** (n // 10):.3g}") for n in numbers]))
 
     @property
     def model(self) -> str:

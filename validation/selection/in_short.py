@@ -1,7 +1,6 @@
 """What `compare` prints of a scene without `--verbose`: its models, its bands, and three lines that answer."""
 
 import math
-import textwrap
 from collections.abc import Iterator, Sequence
 
 from validation.selection.cells import scaled
@@ -9,7 +8,7 @@ from validation.selection.columns import bands_of, columns_as_lines, side_by_sid
 from validation.selection.compare import Comparison
 from validation.selection.contact_force import LEVELS, contact_force
 from validation.selection.scene_model import Answer
-from validation.selection.summary import WIDTH, error_of_levels, models_as_lines, no_answer, would_help
+from validation.selection.summary import error_of_levels, models_as_lines, no_answer, would_help
 
 
 def in_short(quantities: Sequence[Comparison]) -> Iterator[str]:
@@ -69,4 +68,4 @@ def _on_mdr(comparison: Comparison) -> str:
         enough, why = "enough", "the result is its own" if springs is best else why
     else:
         enough = "not enough" if springs.answer else "not sure to be enough"
-    return textwrap.shorten(f"MDR ({springs.name}) is {enough}: {why}", WIDTH, placeholder=" ...")
+    return f"MDR ({springs.name}) is {enough}: {why}"

@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from validation.engine.engine import SERIAL, Engine, FloatArray, Outcome
+from validation.engine.installed import file_of
 from validation.engine.offered import Offered
 from validation.engine.others import Called, OthersError, Visitor
 from validation.engine.read_files import digest_of, sources_of
@@ -40,6 +41,10 @@ VISITORS: dict[tuple[Path, str], Visitor] = {}
 """Processes of files, by what these had been when they were run."""
 RUNNING = ExitStack()
 atexit.register(RUNNING.close)
+
+
+class ChangedError(OSError):
+    """A file was changed while its models were compared: no failure of a model, so that nothing of it is stored."""
 
 
 @dataclass(frozen=True)
@@ -79,15 +84,19 @@ class OwnModel:
         return f"{quoted(self.name)} (@{self.kind}) serves {SERVED[self.kind].what}"
 
     def called(self) -> Called:
-        """Raises OthersError where a file was changed since."""
+        """Raises ChangedError where a file was changed since."""
         if self.function is not None:
             return Called(self.function)
         assert self.path is not None  # in the place of a function
+        self.check_unchanged()
         key = self.path, self.digest
         visitor = VISITORS[key] = VISITORS.get(key) or RUNNING.enter_context(Visitor(self.path))
-        if digest_of(self.sources) != self.digest:
-            raise OthersError(f"{self.path.name}, or what it reads, was changed while its models were compared")
         return next(one for one in visitor.callers() if one.name == self.name)
+
+    def check_unchanged(self) -> None:
+        """Raises ChangedError where its file, or a module or data of that, has other bytes than at first."""
+        if self.path is not None and digest_of(self.sources) != self.digest:
+            raise ChangedError(f"{self.path.name}, or what it reads, was changed while its models were compared")
 
     def model(self) -> Model:
         """Of the house."""
@@ -96,7 +105,10 @@ class OwnModel:
         return model(cost=self._cost, claim=self._claim, **about)(self._solve)
 
     def _solve(self, target: Target, resolution: Resolution) -> Result:
-        return result_of(self.called(), target, self._sample(target)[0])
+        found = result_of(self.called(), target, self._sample(target)[0])
+        # a process that had to be started again has run the file once more
+        self.check_unchanged()
+        return found
 
     def _sample(self, target: Target) -> tuple[int, float]:
         return SERVED[self.kind].sample(self.asks, target)
@@ -145,11 +157,13 @@ def _group(target: Target) -> Group:
     return group_of(target.scene, target.quantity)
 
 
-def models_in(path: Path) -> list[OwnModel]:
-    """What a file offers to scenes, none of it calibrated yet. The file is run as a program.
+def models_in(file: str | Path) -> list[OwnModel]:
+    """What a file offers to scenes, or an installed package under that name, none of it calibrated yet.
 
-    Raises OthersError for a broken one and one without such a model, OSError where it cannot be read.
+    The file is run as a program. Raises OthersError for a broken one and one without such a model, OSError where it
+    cannot be read.
     """
+    path = RUNNING.enter_context(file_of(file))
     visitor = RUNNING.enter_context(Visitor(path))
     callers = [one for one in visitor.callers() if one.kind in SERVED]
     for one in callers:
@@ -232,6 +246,7 @@ def measure_own(part: OwnPart) -> Outcome:
         seconds.append((time.perf_counter() - begin) / count)
         # no model is known to be nearer than what it is measured beside, not even one that was fitted to that
         errors.append(np.maximum(error, reference))
+    part.own.check_unchanged()
     return {"error": np.array(errors), "seconds": np.array(10.0 ** math.ceil(math.log10(min(seconds))))}
 
 

@@ -4,15 +4,17 @@ import itertools
 import math
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
+from typing import Any
 
 import numpy as np
 
+from bem3d.read_only import kept
 from validation.engine.engine import FloatArray
 from validation.simulation.method import Prepared, Resolution, Result
 from validation.simulation.model import Cost, ErrorEstimate, GridModel, Model, Sampling, Target
-from validation.simulation.sampling import mean_error, realisations, too_few
+from validation.simulation.sampling import STUDENT, mean_error, realisations, too_few
 
 SAMPLE_SHARE = 0.9
 """Of the tolerance, that a sample may leave where a grid of 0.44 of it is added at a right angle."""
@@ -25,8 +27,10 @@ class Answer:
     value: positive, one number, or one a band; model, grid, sample: relative half-widths of 95 % that are left open,
     of all numbers together, see `distance`; cost: of what was done, not of what was expected; reason: what the error
     rests on; failed: why it is none, empty where it is one; band_errors: half-widths of model, grid and sample in each
-    band [dB], empty where they are known of all bands together alone; counted: the bands in which the tolerance counts;
-    seconds: that its solves took by the clock, also those that another model shares; NaN where no clock ran.
+    band [dB], empty where they are known of all bands together alone; counted: the bands in which the tolerance counts,
+    in words, and counts: whether it does, one a band, empty where it counts in all together; seconds: that its solves
+    took by the clock, also those that another model shares; NaN where no clock ran; realisations: of surfaces, strips
+    or tracks of which it is the mean.
     """
 
     value: FloatArray
@@ -38,7 +42,17 @@ class Answer:
     failed: str = ""
     band_errors: Mapping[str, FloatArray] = field(default_factory=dict)
     counted: str = ""
+    counts: tuple[bool, ...] = ()
     seconds: float = math.nan
+    realisations: int = 1
+
+    def __post_init__(self) -> None:
+        """Arrays become copies of its own that cannot be written."""
+        self.__setstate__(vars(self))
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        bands = {name: kept(half) for name, half in state["band_errors"].items()}
+        self.__dict__.update({**state, "value": kept(state["value"]), "band_errors": bands})
 
     @property
     def error(self) -> float:
@@ -74,6 +88,10 @@ class Realisations:
         return self.solved[:count]
 
 
+FALLS = 0.85
+"""Of what a grid leaves, that twice as many surfaces must leave of it at the most where it is noise; noise falls by
+0.71."""
+
 Shared = dict[tuple[Model, Resolution], Realisations]
 
 
@@ -81,13 +99,15 @@ Shared = dict[tuple[Model, Resolution], Realisations]
 class SceneModel:
     """A model at one of its resolutions, with what is asked of it.
 
-    shared: realisations of all resolutions, which a grid and the references of another have in common.
+    shared: realisations of all resolutions, which a grid and the references of another have in common; realisations:
+    so many are solved where surfaces are drawn for a grid, None for as many as the tolerance takes.
     """
 
     model: Model
     target: Target
     resolution: Resolution
     shared: Shared = field(default_factory=dict, repr=False, compare=False)
+    realisations: int | None = None
 
     @property
     def kind(self) -> str:
@@ -107,12 +127,22 @@ class SceneModel:
         """A single solve, but for boundary elements."""
         if not isinstance(self.model, GridModel):
             return Sampling()
-        return self.model.sampling(self.target)
+        plan, count = self.model.sampling(self.target), self.realisations
+        if count is None or plan.most == 1:
+            return plan
+        return replace(plan, fewest=count, most=count, compared=min(plan.compared, count))
+
+    @property
+    def is_sampled(self) -> bool:
+        """Whether surfaces are drawn for it, as many as are asked."""
+        return self.sampling.scatter > 0
 
     @property
     def solves(self) -> int:
         """So many are expected to leave the most of the tolerance."""
         plan = self.sampling
+        if self._beyond_reach(self.estimate()):
+            return plan.fewest
         return realisations(plan.scatter, SAMPLE_SHARE * self.target.tolerance, least=plan.fewest, most=plan.most)
 
     @cached_property
@@ -120,7 +150,10 @@ class SceneModel:
         return self.model.references(self.target, self.resolution) if isinstance(self.model, GridModel) else ()
 
     def estimate(self) -> ErrorEstimate:
-        return self.model.estimate(self.target, self.resolution)
+        expected = self.model.estimate(self.target, self.resolution)
+        if self.realisations is None or not self.is_sampled or not expected.in_range:
+            return expected
+        return replace(expected, sample=STUDENT * self.sampling.scatter / math.sqrt(self.realisations))
 
     def cost(self) -> Cost:
         """Of so many realisations, and of the first of them on other grids, if none is solved yet."""
@@ -130,35 +163,55 @@ class SceneModel:
     def solve(self) -> Answer:
         """Model error as expected; sample and grid error from what was computed.
 
-        Realisations are added until the error is within the tolerance, and no longer than grid and cells allow that.
+        Realisations are added until the error is within the tolerance: on this grid where the sample leaves more, on
+        those that it is compared with where the grid does, as long as its error falls by that. Where as many as there
+        may be are expected to leave more than the tolerance, the fewest are solved.
         """
         expected, plan, before = self.estimate(), self.sampling, self._solved()
-        for count in range(plan.fewest, plan.most + 1):
-            found = self._first(self.resolution, count)
-            others = [self._first(resolution, plan.compared) for resolution in self.references]
-            if failed := next((one.failed for one in itertools.chain(found, *others) if one.failed), ""):
-                return Answer(value=np.array([np.nan]), cost=self._spent(before), failed=failed)
-            values = self._rows(found)
-            value, sample = self._mean(values)
-            grid, reason = 0.0, expected.reason
-            if isinstance(self.model, GridModel):
-                other = np.array([self._rows(one) for one in others])
-                grid, reason = self.model.grid_error(self.target, self.resolution, values, other)
-            unknown = "" if np.isfinite(grid) else f"{reason}; no less than the step before did: no error estimate"
-            answer = Answer(
-                value=value,
-                cost=self._spent(before),
-                model=expected.model + self.model.left_out(self.target, value),
-                grid=grid,
-                sample=sample,
-                reason=reason,
-                failed=self._too_few(found) or unknown,
-                seconds=self._seconds(count),
-            )
-            hopeless = bool(answer.failed) or answer.model + grid > self.target.tolerance
-            if answer.error <= self.target.tolerance or hopeless:
-                break
-        return answer
+        most = plan.fewest if self._beyond_reach(expected) else plan.most
+        count, compared, earlier = plan.fewest, plan.compared, math.inf
+        while True:
+            answer = self._answer(expected, count, compared, before)
+            tolerance = self.target.tolerance
+            if answer.failed or answer.error <= tolerance or answer.model >= tolerance:
+                return answer
+            of_noise = plan.compared > 1 and compared < most and answer.grid <= FALLS * earlier
+            if of_noise and (answer.grid > answer.sample or count == most):
+                earlier, compared = answer.grid, min(2 * compared, most)
+                count = max(count, compared)
+            elif count < most and answer.model + answer.grid <= tolerance:
+                count += 1
+            else:
+                return answer
+
+    def _beyond_reach(self, expected: ErrorEstimate) -> bool:
+        """Whether the sample alone is expected to leave more than the tolerance, where nobody says how many."""
+        return self.realisations is None and expected.sample > self.target.tolerance
+
+    def _answer(self, expected: ErrorEstimate, count: int, compared: int, before: Mapping[Resolution, int]) -> Answer:
+        """Of so many realisations, of which so many are compared with other grids; before: solved by others."""
+        found = self._first(self.resolution, count)
+        others = [self._first(resolution, compared) for resolution in self.references]
+        if failed := next((one.failed for one in itertools.chain(found, *others) if one.failed), ""):
+            return Answer(value=np.array([np.nan]), cost=self._spent(before), failed=failed)
+        values = self._rows(found)
+        value, sample = self._mean(values)
+        grid, reason = 0.0, expected.reason
+        if isinstance(self.model, GridModel):
+            other = np.array([self._rows(one) for one in others])
+            grid, reason = self.model.grid_error(self.target, self.resolution, values, other)
+        unknown = "" if np.isfinite(grid) else f"{reason}; no less than the step before did: no error estimate"
+        return Answer(
+            value=value,
+            cost=self._spent(before),
+            model=expected.model + self.model.left_out(self.target, value),
+            grid=grid,
+            sample=sample,
+            reason=reason,
+            failed=self._too_few(found) or unknown,
+            seconds=self._seconds(count, compared),
+            realisations=len(values),
+        )
 
     def _first(self, resolution: Resolution, count: int) -> list[Result]:
         prepare = partial(self.model.prepare, self.target, resolution)
@@ -169,9 +222,9 @@ class SceneModel:
         shared = [(one, self.shared.get((self.model, one))) for one in (self.resolution, *self.references)]
         return {one: len(found.solved) if found else 0 for one, found in shared}
 
-    def _seconds(self, count: int) -> float:
+    def _seconds(self, count: int, compared: int = 0) -> float:
         """Of so many realisations, and of those on the grids that they are compared with."""
-        counts = {self.resolution: count, **dict.fromkeys(self.references, self.sampling.compared)}
+        counts = {self.resolution: count, **dict.fromkeys(self.references, compared)}
         return sum(sum(self.shared[self.model, one].seconds[:some]) for one, some in counts.items())
 
     def _rows(self, results: list[Result]) -> FloatArray:

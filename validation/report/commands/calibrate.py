@@ -6,6 +6,7 @@ from pathlib import Path
 
 from validation.engine.engine import Engine
 from validation.engine.files import write_whole
+from validation.engine.installed import is_installed
 from validation.engine.progress import progress_of
 from validation.report.commands.arguments import Exit, add_options, add_workers, at_least
 from validation.report.commands.compare import STORE
@@ -27,6 +28,7 @@ from validation.selection.calibration_answers import ANSWERS, Answers, Group, me
 from validation.selection.calibration_scenes import CalibrationRun
 from validation.selection.judging.from_report import references_of
 from validation.selection.judging.references import FOLDER as INSTALLED
+from validation.simulation.model import all_models
 
 OUT, OUT_OF_REFERENCES = Path("calibration"), Path("references")
 """Where a table is measured, and references are made, below the working folder."""
@@ -67,7 +69,8 @@ def describe(calibrating: argparse.ArgumentParser) -> None:
         "--model",
         metavar="FILE|NAME",
         help="measure this model alone, beside stored answers of boundary elements: of the package, by its name, whose "
-        "rows alone change in the table; or those of a Python file, which is run as a program, with your rights",
+        "rows alone change in the table; or those of a Python file, or of an installed package by a name of "
+        "`judge --list`, which is run as a program, with your rights",
     )
     alone.add_argument(
         "--check", type=at_least(1), metavar="N", help="measure N scenes of each kind again, and report which differ"
@@ -89,8 +92,8 @@ def calibrate(arguments: argparse.Namespace) -> Exit:
         check_places(arguments, {})
     if arguments.references:
         return _references(arguments)
-    if arguments.model and (arguments.model.endswith(".py") or Path(arguments.model).is_file()):
-        return _own(Path(arguments.model), arguments)
+    if arguments.model and _is_own(arguments.model):
+        return _own(arguments.model, arguments)
     if arguments.install and (arguments.show or (arguments.check and arguments.out is not None)):
         raise ValueError("--install is for a table that is measured, or for --check of that of the package")
     if arguments.check:
@@ -157,7 +160,13 @@ def _said(table: Path, made: Mapping[Group, Answers], arguments: argparse.Namesp
     return [*calibration_lines(table), printable(f"table: {where}")]
 
 
-def _own(path: Path, arguments: argparse.Namespace) -> Exit:
+def _is_own(name: str) -> bool:
+    """Whether it is a file, or what an installed package offers; a model of the package goes before that."""
+    is_file = name.endswith(".py") or Path(name).is_file()
+    return is_file or (is_installed(name) and all(name != one.name for one in all_models()))
+
+
+def _own(model: str, arguments: argparse.Namespace) -> Exit:
     """Models of somebody's own, whose errors `compare` finds in the same store."""
     from validation.selection.own_models import calibrated, models_in  # imported where there is such a file
 
@@ -165,14 +174,14 @@ def _own(path: Path, arguments: argparse.Namespace) -> Exit:
         raise ValueError("--install is for models of the package, whose table has no rows of others")
     store = arguments.out or STORE
     engine = Engine(store=store / REALISATIONS)
-    found = [calibrated(one, None, engine) for one in models_in(path)]
+    found = [calibrated(one, None, engine) for one in models_in(model)]
     errors = {(*group, one.name): known.measured for one in found for group, known in one.errors.items()}
     known = {key: measured for key, measured in errors.items() if measured}
     lines = errors_as_lines(known)
     for one in found:
         if not any(one.name == name for *_, name in known):
             lines.append(f"{one.serves}; {one.unknown(next(iter(one.errors.values()), None))}")
-    lines.append(f"errors: in {store}, by the bytes of {path.name} and of what it has from its folder")
+    lines.append(f"errors: in {store}, by the bytes of {Path(model).name} and of what it loads and reads")
     print(printable("\n".join(lines), lines=True))
     return Exit.MET
 

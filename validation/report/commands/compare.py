@@ -9,6 +9,7 @@ from pathlib import Path
 from validation.analysis.evidence import Table
 from validation.engine.engine import Engine
 from validation.engine.files import write_given
+from validation.engine.installed import is_installed
 from validation.engine.progress import progress_of
 from validation.report.commands.arguments import Exit, add_options, add_workers, at_least, some_of
 from validation.report.commands.places import check_places
@@ -58,9 +59,9 @@ def describe(comparing: argparse.ArgumentParser) -> None:
         (
             "--models-from",
             "FILE",
-            Path,
-            "models of your own beside the others: a Python file with decorated functions, as @stiffness_model; it is "
-            "run as a program, with your rights",
+            str,
+            "models of your own beside the others: a Python file with decorated functions, as @stiffness_model, or the "
+            "name of what an installed package offers, see `judge --list`; it is run as a program, with your rights",
         ),
         ("--sweep", "KEY=A,B,C", _sweep, 'the scene with each value, as wheel.load="5 kN,10 kN"'),
         ("--seed", "S", at_least(0), "seed of the random roughness (default: 0)"),
@@ -96,7 +97,7 @@ def compare(arguments: argparse.Namespace) -> Exit:
     problems = _with_own(problems, arguments)
     for problem in problems:
         for quantity in problem.quantities:
-            problem.offered(quantity)  # or an error, before anything is solved
+            problem.offered(quantity)  # or an error, before anything is measured, written or solved
     swept = [of for (_, of), problem in zip(scenes, problems, strict=True) for _ in problem.quantities]
     found = _reported(problems, swept, arguments) if arguments.report else _found(problems, swept, arguments)
     return Exit.MET if all(one.met for one in found) else Exit.NOT_CONVERGED
@@ -122,15 +123,37 @@ def _problem(scene: Scene, arguments: argparse.Namespace) -> SceneProblem:
 
 
 def _with_own(problems: list[SceneProblem], arguments: argparse.Namespace) -> list[SceneProblem]:
-    """And the models of a file, whose errors are measured first where they are not in the store."""
+    """And the models of a file, or of an installed package; of several scenes those that these serve have them."""
     if arguments.models_from is None:
         return problems
-    from validation.selection.own_models import calibrated, group_of, models_in  # imported where there is such a file
+    from validation.selection.own_models import models_in  # imported where there is such a file
+
+    own = tuple(models_in(arguments.models_from))
+
+    def is_served(problem: SceneProblem) -> bool:
+        return any(one.model().serves(problem.scene, asked) for one in own for asked in problem.quantities)
+
+    served = [is_served(problem) for problem in problems]
+    # where none is served, all have them, which is refused with the reason
+    return [
+        replace(one, own=own if here or not any(served) else ()) for one, here in zip(problems, served, strict=True)
+    ]
+
+
+def _measured(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> Sequence[SceneProblem]:
+    """With the errors of models of somebody's own, which are measured first where they are not in the store."""
+    if arguments.models_from is None:
+        return problems
+    from validation.selection.own_models import OwnModel, calibrated, group_of  # imported where there is such a file
 
     groups = {group_of(one.scene, quantity) for one in problems for quantity in one.quantities}
     engine = Engine(store=_store_of(arguments) / "realisations")
-    own = tuple(calibrated(one, groups, engine) for one in models_in(arguments.models_from))
-    return [replace(one, own=own) for one in problems]
+
+    def measured(problem: SceneProblem) -> SceneProblem:
+        own = tuple(calibrated(one, groups, engine) for one in problem.own if isinstance(one, OwnModel))
+        return replace(problem, own=own)
+
+    return [measured(problem) for problem in problems]
 
 
 def _store_of(arguments: argparse.Namespace) -> Path:
@@ -141,7 +164,12 @@ def _store_of(arguments: argparse.Namespace) -> Path:
 def _check_files(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> None:
     """Raises ValueError before anything is solved."""
     read = {file: "the scene reads" for name in arguments.scene for file in files_of(name)}
-    check_places(arguments, read | ({arguments.models_from: "is --models-from"} if arguments.models_from else {}))
+    if (model := arguments.models_from) is not None:
+        if not Path(model).is_file() and not is_installed(model):
+            known = "a Python file, or a name of `judge --list`"
+            raise ValueError(f"--models-from must be {known}, got {printable(model)}: No such file")
+        read[Path(model)] = "is --models-from"
+    check_places(arguments, read)
     quantities = list(dict.fromkeys(name for problem in problems for name in problem.quantities))
     if arguments.over is not None and (arguments.figure is None or not (arguments.all or arguments.models)):
         raise ValueError("--over seconds must have --figure, and --all or --models, which say what is solved and timed")
@@ -155,7 +183,7 @@ def _found(
     problems: Sequence[SceneProblem], swept: Sequence[Swept | None], arguments: argparse.Namespace
 ) -> list[Comparison]:
     """Solve, print, and write the files that are asked for."""
-    solved = _solved(problems, arguments)
+    solved = _solved(_measured(problems, arguments), arguments)
     found = [replace(one, swept=of) for one, of in zip(solved, swept, strict=True)]
     said = in_full if arguments.verbose else in_short
     print(printable(findings(found, said) if len(problems) == 1 else summary(found), lines=True))

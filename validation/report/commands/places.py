@@ -31,11 +31,9 @@ def check_places(arguments: argparse.Namespace, read: Mapping[Path, str]) -> Non
             raise ValueError(f"--figure must end in {', '.join(FIGURES)}, got {path}")
         if path.parent == Path("/dev"):
             continue
-        if (
-            by := folders.get(path)
-            or taken.get(os.path.realpath(path))
-            or ("is a folder" if stat.S_ISDIR(_mode(path)) else "")
-        ):
+        inside = "is in the folder of --report" if _is_in(path, getattr(arguments, "report", None)) else ""
+        is_folder = "is a folder" if stat.S_ISDIR(_mode(path)) else ""
+        if by := folders.get(path) or taken.get(os.path.realpath(path)) or is_folder or inside:
             raise ValueError(f"--{name} must be a file of its own, got {path}, which {by}")
         if reason := _refusal_of_file(path):
             raise ValueError(f"--{name} must be a file in a folder that can be written, got {path}: {reason}")
@@ -58,6 +56,11 @@ def _mode(path: Path) -> int:
         return path.stat().st_mode
     except OSError:
         return 0
+
+
+def _is_in(path: Path, folder: Path | None) -> bool:
+    """Whether a file would lie in a folder that is replaced whole."""
+    return folder is not None and Path(os.path.realpath(path)).is_relative_to(os.path.realpath(folder))
 
 
 def _refusal(folder: Path) -> str:

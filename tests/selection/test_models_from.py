@@ -1,0 +1,169 @@
+"""Models of a file or of an installed package in `compare`: every place for a result, and no failure that stays."""
+
+import json
+import sys
+
+import pytest
+
+from tests.selection.test_own_models import FILE, PUNCH, answers, stored, written
+from validation.__main__ import main
+from validation.engine.engine import Engine
+from validation.selection import own_models
+from validation.selection.own_models import ChangedError, calibrated, models_in
+from validation.simulation.method import Resolution
+from validation.simulation.model import Target
+
+OWN = '@validation.stiffness_model("{name}")\ndef {name}(load, side, modulus, roughness):\n    return {law}\n'
+LAW = "1 / (0.48 * roughness.rms / load + 1 / (1.1523 * modulus * side))"
+ASKED = {
+    "alone": [],
+    "several": ["sphere"],
+    "swept": ["--sweep", "punch.load=20 N,50 N"],
+    "named": ["--models", "mine"],
+    "all": ["--all"],
+}
+FILES = ["--json", "j.json", "--csv", "c.csv", "--figure", "f.svg"]
+
+
+@pytest.fixture
+def here(monkeypatch):
+    """A working folder with a model, and few answers beside which it is measured."""
+    with stored((PUNCH, answers())) as folder:
+        (folder / "mine.py").write_text("import validation\n" + OWN.format(name="mine", law=LAW))
+        monkeypatch.setattr("validation.selection.compare.LONGEST_BEYOND_RANGE", 0.0)
+        yield folder
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("asked", "store"), [*((name, []) for name in ASKED), ("swept", ["--store", "kept"]), ("alone", ["--store", "new"])]
+)
+def test_a_report_of_models_of_ones_own_is_written_and_written_again(asked, store, here):
+    words = [
+        "compare",
+        "rough_punch",
+        "--models-from",
+        "mine.py",
+        "--tolerance",
+        "60%",
+        "--workers",
+        "1",
+        *ASKED[asked],
+    ]
+    for _ in range(2):
+        assert main([*words, *store, "--report", "new", *FILES]) == 0
+    found = json.loads((here / "new/comparison.json").read_text())
+    first = found if isinstance(found, dict) else found[0]
+    assert "mine" in [model["model"] for model in first["models"]]
+    assert (here / "j.json").read_bytes() == (here / "new/comparison.json").read_bytes()
+    assert not (here / "reports").exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["sphere", "--models-from", "mine.py"], "no model of your own has stiffness"),
+        (
+            ["rough_punch", "--models-from", "none.py"],
+            "a Python file, or a name of `judge --list`, got none.py: No such",
+        ),
+        (["rough_punch", "--models-from", "broken.py"], "broken.py: ZeroDivisionError"),
+        (["rough_punch", "--models-from", "mine.py", "--models", "yours"], "models must be"),
+        (["rough_punch", "--models-from", "mine.py", "--cnossos", "c.txt"], "--cnossos is for"),
+        (["rough_punch", "--models-from", "mine.py", "--json", "new/x.json"], "which is in the folder of --report"),
+        (["rough_punch", "--models-from", "mine.py", "--csv", "new/data/levels.csv"], "is in the folder of --report"),
+    ],
+)
+@pytest.mark.slow
+def test_bad_input_leaves_no_folder(words, said, here, capsys):
+    (here / "broken.py").write_text("1 / 0\n")
+    before = sorted(here.rglob("*"))
+    assert main(["compare", *words, "--report", "new"]) == 2
+    assert said in capsys.readouterr().err
+    assert sorted(here.rglob("*")) == before
+
+
+def test_a_failure_while_a_model_is_measured_does_not_refuse_the_next_run(here, monkeypatch):
+    """The folder has its list before anything is stored in it."""
+    words = ["compare", "rough_punch", "--models-from", "mine.py", "--models", "mine", "--tolerance", "60%"]
+
+    def lost(*_):
+        raise KeyboardInterrupt
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("validation.report.commands.compare.compare_scenes", lost)
+        patch.setattr("validation.report.commands.compare.SceneProblem.compared", lost)
+        assert main([*words, "--report", "new"]) == 130
+    assert list((here / "new/realisations").iterdir())
+    assert main([*words, "--report", "new"]) == 0
+
+
+@pytest.fixture
+def package(here, monkeypatch):
+    """An installed one that offers a model by entry points, one of them with the name of a model of the package."""
+    folder = here / "site-packages"
+    about = folder / "contact_pack-1.dist-info"
+    about.mkdir(parents=True)
+    (about / "METADATA").write_text("Metadata-Version: 2.1\nName: contact-pack\nVersion: 1\n")
+    (about / "entry_points.txt").write_text(
+        "[mdr_validation.models]\nseries = contact_pack.laws:theirs\nfit = contact_pack.laws\n"
+    )
+    (folder / "contact_pack").mkdir()
+    (folder / "contact_pack/__init__.py").write_text("")
+    monkeypatch.syspath_prepend(folder)
+    monkeypatch.setenv("PYTHONPATH", str(folder))
+
+    def offers(law):
+        text = "import validation\nfrom contact_pack.constants import HALF\n" + OWN.format(name="theirs", law=law)
+        (folder / "contact_pack/laws.py").write_text(text)
+        (folder / "contact_pack/constants.py").write_text("HALF = 0.48\n")
+        return folder / "contact_pack"
+
+    return offers
+
+
+@pytest.mark.slow
+def test_an_installed_model_is_compared_and_calibrated_by_its_name(package, here, capsys):
+    package(LAW)
+    words = ["compare", "rough_punch", "--models-from", "series", "--models", "theirs", "--tolerance", "60%"]
+    assert main([*words, "--json", "o.json"]) == 0
+    assert json.loads((here / "o.json").read_text())["model"] == "theirs"
+    assert "contact_pack" not in sys.modules
+    assert main(["calibrate", "--model", "series"]) == 0
+    assert "theirs" in capsys.readouterr().out
+    # a file of that name goes before
+    (here / "series").write_text("1 / 0\n")
+    assert main(words) == 2
+
+
+@pytest.mark.slow
+def test_errors_of_an_installed_model_are_kept_by_the_bytes_of_its_package(package):
+    folder = package(LAW)
+    first, again = (models_in("series")[0].digest for _ in range(2))
+    (folder / "constants.py").write_text("HALF = 0.5\n")
+    assert first == again != models_in("series")[0].digest
+    (folder / "of_no_use.py").write_text("OTHER = 1\n")
+    (folder / "constants.py").write_text("HALF = 0.48\n")
+    assert models_in("series")[0].digest == first
+
+
+@pytest.mark.slow
+def test_a_file_that_is_changed_while_its_models_are_compared_ends_the_command(here):
+    """Before a call, after one, and while it is measured: its claim would be that of another model."""
+    path = written(here)
+    own = models_in(path)[0]
+    target = Target(own_models.load_scene("rough_punch"), "stiffness")
+    assert own.model().prepare(target, Resolution())(0)().values["stiffness"].size == 1
+    (here / "own_constants.py").write_text("HALF = 0.5\n")
+    with pytest.raises(ChangedError, match=r"mine.py, or what it reads, was changed while its models were compared"):
+        own.called()
+    written(here)
+    (here / "mine.py").write_text(FILE.replace("square *", f"(open({str(path)!r}, 'a').write('#'), square)[1] *"))
+    own = models_in(path)[0]
+    with pytest.raises(ChangedError):
+        own.model().prepare(target, Resolution())(0)()
+    own = models_in(path)[0]
+    with pytest.raises(ChangedError):
+        calibrated(own, [PUNCH], Engine(store=here / "store"))
+    assert not (here / "store").exists()
+    assert main(["compare", "rough_punch", "--models-from", str(path), "--models", "mine"]) == 2
