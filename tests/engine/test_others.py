@@ -2,14 +2,12 @@
 
 import os
 import sys
-from multiprocessing.connection import Pipe
 
 import numpy as np
 import pytest
 
-from tests.engine.toys import wait_until
+from tests.engine.toys import HANG
 from validation import stiffness_model, stiffness_of_surface
-from validation.engine import others
 from validation.engine.offered import Failed
 from validation.engine.others import Called, OthersError, Visitor, offered_in, visited
 
@@ -55,50 +53,20 @@ def test_what_a_function_does_wrong_is_said_in_words_and_the_next_call_is_served
             assert good.call(load=3.0) == 6.0
 
 
-HANGS = """
-from pathlib import Path
-@stiffness_model('loops')
-def loops(load):
-    if load > 1:
-        Path(__file__).with_name("hangs").touch()
-    while load > 1:
-        pass
-    return load
-"""
-
-
-class UntilItHangs:
-    """A pipe that waits for an answer as long as it takes; there is none from a function that says that it hangs."""
-
-    def __init__(self, pipe, said):
-        self._pipe, self._said = pipe, said
-
-    def __getattr__(self, name):
-        return getattr(self._pipe, name)
-
-    def poll(self, seconds):
-        wait_until(lambda: self._pipe.poll(0) or self._said.exists())
-        if not self._pipe.poll(0):
-            self._said.unlink()
-            return False
-        return True
-
-    @classmethod
-    def pair(cls, said):
-        mine, theirs = Pipe()
-        return cls(mine, said), theirs
-
-
 @pytest.mark.slow
-def test_a_hang_is_ended_and_after_three_nothing_is_asked(tmp_path, monkeypatch):
-    monkeypatch.setattr(others, "Pipe", lambda: UntilItHangs.pair(tmp_path / "hangs"))
-    with Visitor(written(tmp_path, FACE + HANGS)) as visitor:
+def test_a_hang_is_ended_and_after_three_nothing_is_asked(tmp_path):
+    """What answers has all the time that it needs."""
+    loops = f"{FACE}@stiffness_model('loops')\ndef loops(load):\n    while load > 1:\n        pass\n    return load\n"
+    with Visitor(written(tmp_path, loops), seconds=HANG) as visitor:
         (caller,) = visitor.callers()
-        assert caller.call(load=0.5) == 0.5
-        found = caller.calls("load", [2.0, 0.5, 2.0, 2.0, 0.5], {})
+        found = caller.calls("load", [0.5], {})
+        for seconds, loads in ((0.1, [2.0]), (HANG, [0.5]), (0.1, [2.0, 2.0, 0.5])):
+            visitor.seconds = seconds
+            found += caller.calls("load", loads, {})
         ended = visitor._process.pid
-    late = f"no answer within {others.SECONDS:g} s"
+    late = "no answer within 0.1 s"
     assert [getattr(one, "reason", one) for one in found] == [
+        0.5,
         late,
         0.5,
         late,
