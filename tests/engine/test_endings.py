@@ -62,17 +62,20 @@ def test_a_worker_that_is_killed_while_it_draws_is_exit_4(tmp_path, monkeypatch,
 
 
 RUN = """
+import os
 import signal
 import sys
 from pathlib import Path
 from tests.engine import jobs
 from validation import __main__ as command
+from validation.engine.termination import end_with_parent
 from validation.report.contents import CASES
 solve, folder, workers = sys.argv[1:]
 # whoever started the tests may have had them ignored
 signal.signal(signal.SIGHUP, signal.SIG_DFL)
 signal.signal(signal.SIGTERM, signal.SIG_DFL)
 signal.signal(signal.SIGINT, signal.default_int_handler)
+end_with_parent(os.getppid())
 CASES["hertz"] = jobs.case_of(getattr(jobs, solve), Path(folder))
 words = ["report", "--only", "hertz", "--out", folder + "/out", "--workers", workers]
 sys.exit(command.main(words))
