@@ -1,4 +1,8 @@
+import ast
+import functools
 import os
+import random
+from itertools import groupby
 
 import pytest
 from hypothesis import HealthCheck, Phase, settings
@@ -17,6 +21,52 @@ settings.register_profile(
     report_multiple_bugs=False,
 )
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "default"))
+
+
+BESIDE_A_TEST = {
+    *("concurrent", "multiprocessing", "signal", "socket", "threading", "time"),
+    *("bem3d.threads", "tests.engine.jobs", "tests.engine.toys", "validation.benchmarks.isolation"),
+    *("validation.engine.others.Visitor", "validation.engine.workers"),
+}
+"""Modules and names by which a file of tests has threads, clocks, signals, or processes that run beside a test."""
+
+
+@functools.cache
+def is_concurrent(path):
+    """Whether a file of tests imports one of them."""
+    names = set()
+    for node in ast.walk(ast.parse(path.read_bytes())):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            names |= {f"{node.module}.{alias.name}" for alias in node.names}
+    return any(f"{name}.".startswith(f"{beside}.") for name in names for beside in BESIDE_A_TEST)
+
+
+def pytest_addoption(parser):
+    parser.addoption(
+        "--shuffled", type=int, metavar="SEED", help="files of tests, and tests in a file, in another order"
+    )
+
+
+def pytest_collection_modifyitems(config, items):
+    for item in items:
+        if is_concurrent(item.path):
+            item.add_marker("concurrent")
+    seed = config.getoption("--shuffled")
+    if seed is not None:
+        # a file in one go, whose tests share what takes long
+        files = [list(tests) for _, tests in groupby(items, key=lambda item: item.path)]
+        order = random.Random(seed)
+        order.shuffle(files)
+        for tests in files:
+            order.shuffle(tests)
+        items[:] = [item for tests in files for item in tests]
+
+
+def pytest_terminal_summary(terminalreporter, config):
+    if config.getoption("--shuffled") is not None:
+        terminalreporter.write_line(f"this order again: --shuffled {config.getoption('--shuffled')}")
 
 
 def pytest_configure(config):

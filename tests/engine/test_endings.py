@@ -6,15 +6,14 @@ import re
 import signal
 import subprocess
 import sys
-import time
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from tests.engine.jobs import Job, case_of, die_at_once, lose_alone, stay
-from tests.engine.toys import ENVIRONMENT, ROOT
+from tests.engine.jobs import Job, alive_in, case_of, die_at_once, lose_alone, stay
+from tests.engine.toys import ENVIRONMENT, HANG, ROOT, wait_until
 from tests.report.test_command_line import SMALL
 from validation import __main__ as command
 from validation.benchmarks.isolation import isolated_process
@@ -63,16 +62,20 @@ def test_a_worker_that_is_killed_while_it_draws_is_exit_4(tmp_path, monkeypatch,
 
 
 RUN = """
+import os
 import signal
 import sys
 from pathlib import Path
 from tests.engine import jobs
 from validation import __main__ as command
+from validation.engine.termination import end_with_parent
 from validation.report.contents import CASES
 solve, folder, workers = sys.argv[1:]
 # whoever started the tests may have had them ignored
 signal.signal(signal.SIGHUP, signal.SIG_DFL)
+signal.signal(signal.SIGTERM, signal.SIG_DFL)
 signal.signal(signal.SIGINT, signal.default_int_handler)
+end_with_parent(os.getppid())
 CASES["hertz"] = jobs.case_of(getattr(jobs, solve), Path(folder))
 words = ["report", "--only", "hertz", "--out", folder + "/out", "--workers", workers]
 sys.exit(command.main(words))
@@ -92,17 +95,13 @@ def test_who_is_asked_to_end_takes_all_workers_along(asked, status, said, solve,
     """However long a solve would take; in a sentence; and the next run has what was finished."""
     words = [sys.executable, "-c", RUN, solve, str(tmp_path), str(workers)]
     run = subprocess.Popen(words, cwd=ROOT, env=ENVIRONMENT, stderr=subprocess.PIPE, encoding="utf-8")
-    while len(list(tmp_path.glob("*.pid"))) < workers:
-        assert run.poll() is None, "it ended before its workers were at work"
-        time.sleep(0.05)
+    wait_until(lambda: len(alive_in(tmp_path)) == workers, run)
     run.send_signal(asked)
-    _, told = run.communicate()
+    _, told = run.communicate(timeout=HANG)
     assert run.returncode == status
     assert told.splitlines()[-1] == f"{said}; finished solves are kept, the same command goes on from there"
     assert "Traceback" not in told
-    for pid in tmp_path.glob("*.pid"):
-        with pytest.raises(ProcessLookupError):
-            os.kill(int(pid.stem), 0)
+    assert not alive_in(tmp_path)
     assert len(list((tmp_path / "out" / "realisations").glob("*.npz"))) == 1
     assert not list((tmp_path / "out").glob(".mdr-validation*"))
 
@@ -111,8 +110,7 @@ def test_who_is_asked_to_end_takes_all_workers_along(asked, status, said, solve,
 def test_a_process_of_its_own_that_nobody_waits_for_is_ended(tmp_path):
     with pytest.raises(ZeroDivisionError), isolated_process() as lane:
         answer = lane.submit(stay, Job(1, str(tmp_path)))
-        while not list(tmp_path.glob("*.pid")):
-            time.sleep(0.02)
+        wait_until(lambda: alive_in(tmp_path))
         raise ZeroDivisionError
     with pytest.raises(BrokenProcessPool):
         answer.result()

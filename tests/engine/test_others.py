@@ -6,6 +6,7 @@ import sys
 import numpy as np
 import pytest
 
+from tests.engine.toys import HANG
 from validation import stiffness_model, stiffness_of_surface
 from validation.engine.offered import Failed
 from validation.engine.others import Called, OthersError, Visitor, offered_in, visited
@@ -54,14 +55,18 @@ def test_what_a_function_does_wrong_is_said_in_words_and_the_next_call_is_served
 
 @pytest.mark.slow
 def test_a_hang_is_ended_and_after_three_nothing_is_asked(tmp_path):
+    """What answers has all the time that it needs."""
     loops = f"{FACE}@stiffness_model('loops')\ndef loops(load):\n    while load > 1:\n        pass\n    return load\n"
-    with Visitor(written(tmp_path, loops), seconds=1.0) as visitor:
+    with Visitor(written(tmp_path, loops), seconds=HANG) as visitor:
         (caller,) = visitor.callers()
-        assert caller.call(load=0.5) == 0.5
-        found = caller.calls("load", [2.0, 0.5, 2.0, 2.0, 0.5], {})
+        found = caller.calls("load", [0.5], {})
+        for seconds, loads in ((0.1, [2.0]), (HANG, [0.5]), (0.1, [2.0, 2.0, 0.5])):
+            visitor.seconds = seconds
+            found += caller.calls("load", loads, {})
         ended = visitor._process.pid
-    late = "no answer within 1 s"
+    late = "no answer within 0.1 s"
     assert [getattr(one, "reason", one) for one in found] == [
+        0.5,
         late,
         0.5,
         late,

@@ -87,6 +87,14 @@ def meanwhile(action, condition):
         thread.join()
 
 
+PART_OF_A_CLUSTER = """
+import runpy, sys
+from validation.engine.termination import end_with_parent
+end_with_parent(int(sys.argv.pop(1)))
+runpy.run_module(sys.argv.pop(1), run_name="__main__", alter_sys=True)
+"""
+
+
 @pytest.fixture
 def cluster(monkeypatch, request):
     """A real scheduler on loopback: its address, how to start worker processes, and its own process."""
@@ -95,9 +103,11 @@ def cluster(monkeypatch, request):
     started = []
 
     def start(module, *words):
-        words = [sys.executable, "-m", f"distributed.cli.{module}", *words, "--no-dashboard"]
+        run = [sys.executable, "-c", PART_OF_A_CLUSTER, str(os.getpid()), f"distributed.cli.{module}"]
         settings = ENVIRONMENT | getattr(request, "param", {})
-        started.append(subprocess.Popen(words, cwd=ROOT, env=settings, stderr=subprocess.DEVNULL))
+        started.append(
+            subprocess.Popen([*run, *words, "--no-dashboard"], cwd=ROOT, env=settings, stderr=subprocess.DEVNULL)
+        )
         return started[-1]
 
     with socket.socket() as free:

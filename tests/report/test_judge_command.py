@@ -69,7 +69,7 @@ def test_a_formula_is_judged_and_written(file, tmp_path, capsys):
     assert names == {"judgement.json", "verdicts.csv", "summary.txt", "judgement.svg", "costs.csv"}
     costs = list(csv.DictReader((tmp_path / "out" / "costs.csv").read_text(encoding="utf-8").splitlines()))
     assert [(cost["model"], cost["unit"]) for cost in costs] == [("in series", "-"), ("springs", "-")]
-    assert all(0 < float(cost["error"]) < 1 and 0 < float(cost["seconds"]) < 10 for cost in costs)
+    assert all(0 < float(cost["error"]) < 1 and float(cost["seconds"]) > 0 for cost in costs)
     assert (tmp_path / "out" / "summary.txt").read_text(encoding="utf-8").splitlines()[2:] == printed.splitlines()[2:-1]
 
 

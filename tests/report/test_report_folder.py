@@ -18,6 +18,7 @@ from tests.engine.toys import ENVIRONMENT, ROOT
 from tests.report.test_command_line import SMALL
 from validation import __main__ as command
 from validation.engine import files
+from validation.engine.files import name_in
 from validation.report.contents import CASES
 from validation.report.folder import MANIFEST, Folder, as_manifest, digest_of, listed_in
 from validation.report.lock import KIND, LOCK, locked
@@ -35,7 +36,7 @@ def report(out, *names):
 
 def tree(folder):
     """All that is below, links as links."""
-    return {str(path.relative_to(folder)): held_by(path) for path in sorted(folder.rglob("*"))}
+    return {name_in(folder, path): held_by(path) for path in sorted(folder.rglob("*"))}
 
 
 def held_by(path):
@@ -215,19 +216,23 @@ def test_a_run_that_was_killed_before_anything_goes_on(tmp_path):
 
 
 HOLD = """
-import sys, time
+import sys
 from pathlib import Path
 from validation.report.lock import locked
 with locked(Path(sys.argv[1])):
     print("here", flush=True)
-    time.sleep(1e6)
+    sys.stdin.read()
 """
 
 
 @pytest.fixture
 def holder(tmp_path):
     process = subprocess.Popen(
-        [sys.executable, "-c", HOLD, str(tmp_path)], cwd=ROOT, env=ENVIRONMENT, stdout=subprocess.PIPE
+        [sys.executable, "-c", HOLD, str(tmp_path)],
+        cwd=ROOT,
+        env=ENVIRONMENT,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
     )
     assert process.stdout.readline() == b"here\n"
     yield process
@@ -370,7 +375,7 @@ def test_the_reference_report_is_a_report():
     folder = ROOT / "reports" / "reference"
     listed = listed_in(folder)
     held = {
-        str(path.relative_to(folder)): (digest_of(path.read_bytes()),)
+        name_in(folder, path): (digest_of(path.read_bytes()),)
         for path in folder.rglob("*")
         if path.is_file() and path.relative_to(folder).parts[0] not in (MANIFEST, "realisations")
     }

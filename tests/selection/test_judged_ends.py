@@ -1,13 +1,15 @@
 """Past the scenes of its judge a model is led until it breaks; and it stands beside the suite's own by its seconds."""
 
+import itertools
 import math
-import time
 import warnings
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from tests.selection.judged_points import SCALING, SWEEPS, judged, of, verdicts
+from validation.engine import replies
 from validation.engine.offered import offer
 from validation.engine.others import Called
 from validation.selection.judging import own, sweeps
@@ -160,31 +162,36 @@ def test_a_warning_stands_beside_the_number():
     assert reasons == ["", *["it warned: too heavy"] * 3]
 
 
-def test_its_point_on_the_chart_is_beside_those_of_the_suite():
+def test_its_point_on_the_chart_is_beside_those_of_the_suite(monkeypatch):
     """The same filter has the same error, as it is kept; another one is timed by the same arguments."""
     model = Called(ellipse)
-    mine, *others = own.costs_of(model, list(points_of(model, 0.1)))
+    points = list(points_of(model, 0.1))
+    monkeypatch.setattr(replies, "time", SimpleNamespace(perf_counter=itertools.count().__next__))
+    mine, *others = own.costs_of(model, points)
     assert [one.model for one in others] == ["linear, ellipse", "linear, on the line", "spring bed (DPRS), linear"]
     assert mine.error == pytest.approx(others[0].error, rel=1e-5) and others[1].error > 10 * mine.error
-    assert all(0 < one.seconds < 10 for one in (mine, *others))
+    # by a clock that each look at it sets forward
+    assert [one.seconds for one in (mine, *others)] == 4 * [1]
     assert not own.costs_of(Called(ellipse), [])
 
 
-def test_seconds_are_of_the_slowest_call_that_was_answered():
+def test_seconds_are_of_the_slowest_call_that_was_answered(monkeypatch):
     """What is refused may take longer, and has no time."""
+    clock = SimpleNamespace(now=0.0, perf_counter=lambda: clock.now)
+    monkeypatch.setattr(replies, "time", clock)
 
     def but_for_long_waves(k_x, a_x):
         if k_x.min() * a_x < 1e-3:
-            time.sleep(0.2)
+            clock.now += 5.0
             raise ValueError("too long")
-        time.sleep(0.03 * (k_x.size > 100))
+        clock.now += 2.0 if k_x.size > 100 else 1.0
         return divides(k_x, a_x)
 
     model = Called(offer("contact_filter", "mine", {}, but_for_long_waves))
     points = list(points_of(model, 0.1))
     assert {point.verdict for point in points} >= {"refused", "differ"}
     assert model.longest["k_x"].size > 100
-    assert 0.03 < own.costs_of(model, points)[0].seconds < 0.2
+    assert own.costs_of(model, points)[0].seconds == 2.0
 
 
 def test_errors_are_medians_of_the_quantity_of_their_kind():

@@ -1,7 +1,7 @@
 """Stiffness models with known answers: right ones are judged right by range, wrong ones where they are wrong."""
 
-import time
 from functools import cache, partial
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -107,11 +107,17 @@ def test_realisations_are_of_one_of_three_numbers_and_equal_ones_have_no_deviati
         assert {p.reason for p in of(points, DEVIATION)} == {f"{equal}: no deviation is known"}
 
 
-def test_the_fastest_call_is_counted():
+def test_the_fastest_call_is_counted(monkeypatch):
     """The first one may import what it needs."""
-    naps = iter([0.05, 0.0, 0.05])
-    model = Called(offer("stiffness_model", "mine", {}, lambda load, rng: time.sleep(next(naps)) or load))
-    assert stiffness.seconds_of(model, AskedPunch(0.7, 0.1)) < 0.05
+    seconds = iter([5.0, 2.0, 3.0])
+    clock = SimpleNamespace(now=0.0, perf_counter=lambda: clock.now)
+    monkeypatch.setattr(stiffness, "time", clock)
+
+    def mine(load, rng):
+        clock.now += next(seconds)
+        return load
+
+    assert stiffness.seconds_of(Called(offer("stiffness_model", "mine", {}, mine)), AskedPunch(0.7, 0.1)) == 2.0
 
 
 @pytest.mark.parametrize(

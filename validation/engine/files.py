@@ -18,6 +18,16 @@ ERRORS_OF_A_PATH = frozenset(getattr(errno, name) for name in _NAMES.split())
 """Errors that are due to the path; all others are due to the machine."""
 
 
+def place_in(folder: Path, name: str) -> Path:
+    """Where a file stands whose name is UTF-8 on disk, whatever the encoding of the system."""
+    return folder / os.fsdecode(name.encode())
+
+
+def name_in(folder: Path, place: Path) -> str:
+    """The name of a file of a folder, with /: the other way round."""
+    return os.fsencode(place.relative_to(folder).as_posix()).decode(errors="replace")
+
+
 def write_given(path: Path, contents: bytes) -> None:
     """Write where a user says: a plain file is replaced, with the mode and the owner that it has, or as the umask says.
 

@@ -14,6 +14,7 @@ from validation.engine.files import (
     PARTIAL_FILE,
     is_plain,
     is_there,
+    place_in,
     read_plain,
     with_path_in_errors,
     write_partial_file,
@@ -82,20 +83,20 @@ class Folder(ExitStack):
         before = self._listed()
         after = {name: (digest_of(some),) for name, some in contents.items()}
         for name in after.keys() - before.keys():
-            if is_there(self.path / name):
+            if is_there(place_in(self.path, name)):
                 raise ValueError(f"{self.path / name} is not of this report and in its way: move it away")
         with ExitStack() as begun:
             places = {}
             for name, some in contents.items():
-                temporary = write_partial_file(self.path / name, some)
+                temporary = write_partial_file(place_in(self.path, name), some)
                 begun.callback(temporary.unlink, missing_ok=True)
-                places[temporary] = self.path / name
+                places[temporary] = place_in(self.path, name)
             self._list(both(before, after))
             for temporary, place in places.items():
                 with with_path_in_errors(place):
                     temporary.replace(place)
         for name in before.keys() - after.keys():
-            (self.path / name).unlink(missing_ok=True)
+            place_in(self.path, name).unlink(missing_ok=True)
         self._list(after)
         self._sweep()
 
@@ -120,9 +121,9 @@ class Folder(ExitStack):
         _check_rooms(folder)
         listed = listed_in(folder, self.kind)
         for name, digests in listed.items():
-            place = folder / name
+            place = place_in(folder, name)
             if is_there(place) and not (is_plain(place) and digest_of(place.read_bytes()) in digests):
-                raise ValueError(f"{place} has been changed since the report was written: move it away")
+                raise ValueError(f"{folder / name} has been changed since the report was written: move it away")
         return listed
 
     def _sweep(self) -> None:

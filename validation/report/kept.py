@@ -10,6 +10,7 @@ from validation.analysis.case import Profile
 from validation.analysis.contents import csv_name, from_csv
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, Verdict, VerdictCell, Whose
 from validation.analysis.sound import Sound, Sounds
+from validation.engine.files import name_in, place_in
 from validation.report.contents import CASES, TIMED
 from validation.report.folder import RESULTS, SOUNDS
 from validation.report.section import WORDS, Section
@@ -55,14 +56,14 @@ def _section(folder: Path, name: str, case: Mapping[str, Any]) -> Section:
     failure = () if evidence else tuple(case["unconverged"])
     # no name of a case has a hyphen
     files = [*sorted((folder / DATA).glob(f"{name}-*.csv")), *sorted((folder / SOUNDS).glob(f"{name}-*.wav"))]
-    held = {file.relative_to(folder).as_posix(): file.read_bytes() for file in files}
+    held = {name_in(folder, file): file.read_bytes() for file in files}
     return Section(name, (CASES | TIMED)[name], case["model needed"], case["settings"], evidence, failure, held)
 
 
 def _evidence(folder: Path, name: str, case: Mapping[str, Any]) -> Evidence:
     numbers = {number["label"]: _number(number) for number in case["numbers"]}
     sounds = case["sounds"]
-    paths = {table: folder / DATA / csv_name(name, table) for table in case["tables"]}
+    paths = {table: place_in(folder / DATA, csv_name(name, table)) for table in case["tables"]}
     return Evidence(
         **{word: case[word] for word in WORDS},
         numbers=tuple(numbers.values()),

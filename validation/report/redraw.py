@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from validation.analysis.contents import csv_name, from_csv
 from validation.analysis.evidence import Evidence
+from validation.engine.files import place_in
 from validation.report.figures import drawing, tables_of
 from validation.report.folder import RESULTS
 from validation.report.style import drawn
@@ -20,7 +21,7 @@ def redraw(folder: str | PathLike[str], name: str) -> Figure:
     its data.
     """
     data, case = Path(folder, "data"), name.partition("-")[0]
-    paths = {table: data / csv_name(case, table) for table in tables_of(name)}
+    paths = {table: place_in(data, csv_name(case, table)) for table in tables_of(name)}
     tables = tuple(from_csv(table, path.read_text("utf-8")) for table, path in paths.items() if path.exists())
     profile = json.loads(Path(folder, RESULTS).read_text("utf-8"))["profile"]
     if not tables:

@@ -20,6 +20,7 @@ from validation.analysis.contents import csv_name, from_csv
 from validation.analysis.judgement import DEVIATION
 from validation.analysis.statistics import DECIBEL
 from validation.engine.engine import Engine, Outcome
+from validation.engine.files import place_in
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.selection.judging import own, rolling, stiffness, surfaces
 from validation.selection.judging.filters import ALPHA, DIAMETER, FILTER, LOAD, OFFSET, WAVE
@@ -72,7 +73,7 @@ class Report:
         return str(about.get("kept", {}).get(case, about["commit"]))
 
     def rows(self, case: str, quantity: str, **equal: float | str) -> list[dict[str, Any]]:
-        table = from_csv(quantity, (self.folder / "data" / csv_name(case, quantity)).read_text("utf-8"))
+        table = from_csv(quantity, place_in(self.folder / "data", csv_name(case, quantity)).read_text("utf-8"))
         if found := [row for row in rows_of(table) if equal.items() <= row.items()]:
             return found
         raise ValueError(f"--references needs a report with {quantity!r} of {case}, got {self.folder} without it")
