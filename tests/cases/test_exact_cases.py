@@ -61,3 +61,30 @@ def test_lines_of_a_drawn_surface_have_the_line_trace():
     waves = np.arange(2 * DRAWN.case.longest, 3 * DRAWN.case.longest)
     line = DRAWN.case.spectrum.line(2 * np.pi / DRAWN.case.length * waves)
     assert np.mean(DRAWN[geike.LINES]["spectrum"][waves] / line) == pytest.approx(1.0, abs=2e-3)
+
+
+@pytest.mark.parametrize("power", [0.5, 1.0, 2.0])
+def test_the_order_of_errors_is_the_power_of_the_cell_size(power):
+    """On grids of equal and of unequal steps, of either sign."""
+    for cells in ((8, 16, 32, 64), (4, 6, 8, 24)):
+        for sign in (1, -1):
+            assert hertz.order(cells, sign * 3.0 / np.array(cells) ** power) == pytest.approx(power, abs=1e-12)
+
+
+@pytest.mark.parametrize("power", [1.0, 2.0])
+def test_a_case_has_the_order_of_its_errors(power):
+    """Planted errors of that power, of the sphere and of the square: numbers and data have it."""
+    cells = np.array(SMALL.cells_per_radius)
+    force = [{"force": SMALL.force * (1 + 0.1 / n**power)} for n in cells]
+    square = [{"square": hertz.CAPACITANCE * (1 + 0.1 / n**power)} for n in SMALL.punch_cells]
+    found = {
+        (hertz.BEM, "grids"): [old | new for old, new in zip(CONTACTS[hertz.BEM, "grids"], force, strict=True)],
+        hertz.PUNCH: [old | new for old, new in zip(CONTACTS[hertz.PUNCH], square, strict=True)],
+    }
+    result = changed(CONTACTS, found)
+    for model in (f"{hertz.SPHERE}, {hertz.BEM}", hertz.PUNCH):
+        (number,) = judged(hertz.CASE, result, hertz.ORDER, model)
+        assert number.value == pytest.approx(power, abs=1e-6)
+        assert number.verdict is (Verdict.AGREE if number.reference == power else Verdict.DIFFER)
+    errors = hertz.CASE.evidence(result).table(hertz.ERROR).where(model=f"{hertz.SPHERE}, {hertz.BEM}")
+    np.testing.assert_allclose(errors["value"], 0.1 / cells**power)

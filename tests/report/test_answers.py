@@ -278,6 +278,21 @@ def test_ranges_that_overlap_are_one_cell():
     assert [place for place, _ in strip_of(mean_stiffness(*numbers))] == ["< 0.1", "0.1 to 1", "1 to 10", "> 10"]
 
 
+@pytest.mark.parametrize("off", range(4))
+def test_ranges_that_join_keep_all_of_their_numbers(off):
+    """Of each range: whichever of the numbers differs, the joined place has its verdict and its size."""
+    places = [(1.0, 2.15), (1.0, 4.64), (1.0, 10.0), (2.15, 10.0)]
+    numbers = [
+        at(place, 3.0 if i == off else 0.0, hurst=hurst)
+        for i, (place, hurst) in enumerate(zip(places, (0.4, 0.55, 0.7, 1.0), strict=True))
+    ]
+    row = mean_stiffness(*numbers)
+    assert strip_of(row)[1:-1] == [("1 to 10", "no")] and ": off by +41 %." in row.answer
+    (cell,) = row.question.source.cells(punch(*numbers).evidence)
+    assert sorted(number.where["H"] for number in cell.numbers) == [0.4, 0.55, 0.7, 1.0]
+    assert cell.alone == f"H = {(0.4, 0.55, 0.7, 1.0)[off]:g} alone"
+
+
 def test_differences_below_and_above_are_told_apart():
     """What differs is nowhere near zero: a single range would say that it were."""
     row = mean_stiffness(*(at((0.1, 1.0), value, hurst=value) for value in (-3.0, -2.0, 2.0, 3.0)))
