@@ -89,9 +89,7 @@ def _ended(error: BaseException, kept: str) -> tuple[Exit, str]:
 
 
 class _Once(argparse.Action):
-    """Stores the value of an option that is given once: of two values the first would be lost without a word."""
-
-    given = False
+    """Stores the value of an option, and its name in `given`. Twice it is an error: the first value would be lost."""
 
     def __call__(
         self,
@@ -100,10 +98,11 @@ class _Once(argparse.Action):
         values: object,
         option_string: str | None = None,
     ) -> None:
-        if self.given and option_string is not None:
+        given = getattr(namespace, "given", ())
+        if option_string is not None and self.option_strings[-1] in given:
             value = f"{{{','.join(map(str, self.choices))}}}" if self.choices else self.metavar or self.dest.upper()
             raise argparse.ArgumentError(self, f"must be given once, as {option_string} {value}, got it twice")
-        self.given = True
+        namespace.given = (*given, *self.option_strings[-1:])
         setattr(namespace, self.dest, values)
 
 

@@ -1,6 +1,7 @@
 """The scenes that come with this package: a file each, beside this one."""
 
 import re
+from collections.abc import Collection, Iterator
 from pathlib import Path
 
 from validation.scenes.printable import printable
@@ -9,6 +10,10 @@ SCENES = Path(__file__).parent
 
 COMMENTED = re.compile(r"^# (\w+ = |\[[\w.]+\]\s)")
 """The beginning of a line that would be one of the scene without its sign."""
+
+
+HEADER = re.compile(r"^\[([\w.]+)\]")
+"""Of a table."""
 
 
 def bundled() -> tuple[str, ...]:
@@ -37,13 +42,39 @@ def line_for(key: str) -> str:
     """
     elsewhere, name = "", key.rpartition(".")[2]
     for scene in bundled():
-        table = ""
-        for line in path_of(scene).read_text(encoding="utf-8").splitlines():
-            code = COMMENTED.sub(r"\1", line).partition("  #")[0].strip()
-            if code.startswith("["):
-                table = f"{code[1:-1]}."
-            if code == f"[{key}]" or (code.startswith(f"{name} = ") and f"{table}{name}" == key):
+        for table, code in _lines_of(scene):
+            if code == f"[{key}]" or (code.startswith(f"{name} = ") and ".".join(filter(None, (table, name))) == key):
                 return code
             if code.startswith(f"{name} = "):
                 elsewhere = elsewhere or code
     return elsewhere
+
+
+def places_of(key: str, *, beside: str, roots: Collection[str]) -> tuple[str, ...]:
+    """Where shipped scenes have a key, "in [wheel]", or a table of that name, "as [rail.levels]".
+
+    beside: a table that those scenes must have; roots: where that is the top of a file, all tables there may be.
+    """
+    found: dict[str, None] = {}
+    for scene in bundled():
+        lines = [*_lines_of(scene)]
+        tables = {part for table, _ in lines for part in (table, table.rpartition(".")[0])}
+        if not (beside in tables if beside else all(table.partition(".")[0] in roots for table in tables if table)):
+            continue
+        for table, code in lines:
+            if code.startswith(f"{key} = ") and table != beside:
+                found[f"in [{table}]"] = None
+            elif table.rpartition(".")[2] == key:
+                found[f"as [{table}]"] = None
+    return tuple(found)
+
+
+def _lines_of(scene: str) -> Iterator[tuple[str, str]]:
+    """Each line with a value or the name of a table, those in comments too, and the table that it stands in."""
+    table = ""
+    for line in path_of(scene).read_text(encoding="utf-8").splitlines():
+        code = COMMENTED.sub(r"\1", line).partition("  #")[0].strip()
+        if header := HEADER.match(code):
+            table = header[1]
+        if code and not code.startswith("#"):
+            yield table, code

@@ -28,6 +28,8 @@ def check_regular(name: str, path: Path, *, most: int) -> int:
         status = path.stat()
     except OSError as problem:
         raise type(problem)(f"{name} {printable(path)} cannot be read: {problem.strerror}") from None
+    except ValueError as problem:  # of a name with a zero byte
+        raise ValueError(f"{name} {printable(path)} cannot be read: {problem}") from None
     if not stat.S_ISREG(status.st_mode):
         kind = KINDS.get(stat.S_IFMT(status.st_mode), "something else")
         raise ValueError(f"{name} {printable(path)} must be a regular file, got {kind}")

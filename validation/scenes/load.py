@@ -1,5 +1,6 @@
 """The scene of a file: a sphere, a punch, a wheel on rough ground with or without a mass, or one on a rail."""
 
+import difflib
 import os
 from collections.abc import Iterator
 from contextlib import suppress
@@ -126,6 +127,10 @@ def _with_heights(tables: dict[str, Any], heights: MeasuredHeights) -> dict[str,
 
 
 def _scene_of(tables: dict[str, Any], folder: Path) -> Scene:
+    if not any(body in tables for body in BODIES):
+        for table_name in tables:
+            if meant := difflib.get_close_matches(table_name.casefold(), BODIES, 1):
+                raise ValueError(f"{printable(table_name)} is unknown, as: [{meant[0]}]")
     one_of(tables, "a scene", BODIES)
     body = next(one for one in BODIES if one in tables)
     if body != "wheel":

@@ -1,15 +1,16 @@
 """Scene files: TOML tables, each value by its own reader, anything else is an error that names it."""
 
 import difflib
+import re
 import tomllib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 from mdr.checks import count, finite, positive
-from validation.scenes.bundled import line_for
+from validation.scenes.bundled import line_for, places_of
 from validation.scenes.input_files import SceneError, contents_of
 from validation.scenes.printable import is_printable, printable, shortened
 from validation.scenes.units import Dimension, quantity
@@ -18,6 +19,9 @@ Reader = Callable[[str, object], Any]
 
 MOST_BYTES, LONGEST_LINE = 100_000, 1000
 """Of a scene file. Keys of thousands of parts, all on one line, would take minutes to parse."""
+AT_LINE = re.compile(r"at line (\d+)")
+UNQUOTED = re.compile(r"\s*\w+\s*=\s*(?:[-+]?\d[\d.eE+-]*\s*[a-zA-Zµ%]|[“”„'‘’«])")
+"""A number with a unit, or signs that are no quotation marks of TOML."""
 
 
 def tables_of(path: Path) -> dict[str, Any]:
@@ -33,10 +37,21 @@ def tables_of(path: Path) -> dict[str, Any]:
         # with or without the mark that some editors put in front
         return tomllib.loads(contents.decode("utf-8-sig"))
     except (ValueError, RecursionError) as problem:
-        got = printable(problem)
-        if isinstance(problem, RecursionError | UnicodeDecodeError):
-            got = "values nested too deep" if isinstance(problem, RecursionError) else "no text in UTF-8"
-        raise ValueError(f"scene {printable(path)} must be valid TOML, got: {got}") from None
+        raise ValueError(f"scene {printable(path)} must be valid TOML, got: {_wrong(contents, problem)}") from None
+
+
+def _wrong(contents: bytes, problem: Exception) -> str:
+    """What is wrong with a file that is no TOML, and what would be right, without its own words."""
+    if isinstance(problem, RecursionError | UnicodeDecodeError):
+        return "values nested too deep" if isinstance(problem, RecursionError) else "no text in UTF-8"
+    got = printable(problem)
+    if "Cannot overwrite" in got or "twice" in got:
+        return f"{got}: a key or a table is given twice"
+    at = AT_LINE.search(got)
+    line = contents.decode("utf-8-sig").splitlines()[int(at[1]) - 1 : int(at[1])] if at else []
+    if line and UNQUOTED.match(line[0]):
+        return f'{got}: a value with a unit stands in quotation marks, as: load = "50 kN"'
+    return got
 
 
 @contextmanager
@@ -60,9 +75,7 @@ def table(readers: Mapping[str, Reader], optional: tuple[str, ...], name: str, g
     full = {key: f"{name}.{key}" if name else key for key in (*given, *readers)}
     for key in given:
         if key not in readers:
-            unknown = printable(full[key])
-            meant = difflib.get_close_matches(key, [*readers], 1)
-            right = _as_line(full[meant[0]]) if meant else ""
+            unknown, right = printable(full[key]), _meant(key, name, readers)
             raise ValueError(f"{unknown} is unknown, {name or 'a scene'} must be made of {', '.join(readers)}{right}")
     for key in readers:
         if key not in given and key not in optional:
@@ -76,6 +89,15 @@ def one_of(given: dict[str, Any], name: str, keys: tuple[str, ...], *, least: in
     if not least <= len(found) <= 1:
         raise ValueError(f"{name} must have one of {', '.join(keys)}, got {' and '.join(found) or 'none'}")
     return given[found[0]] if found else None
+
+
+def _meant(key: str, name: str, readers: Collection[str]) -> str:
+    """What an unknown key of a table may have been: one in other letters, one of another table, a similar one."""
+    in_table = {one.casefold(): one for one in readers}
+    if (same := in_table.get(key.casefold())) or not (places := places_of(key, beside=name, roots=readers)):
+        meant = [same] if same else difflib.get_close_matches(key.casefold(), [*readers], 1)
+        return _as_line(f"{name}.{meant[0]}" if name else meant[0]) or f", as {meant[0]}" if meant else ""
+    return f"; {key} stands {' or '.join(places)}"
 
 
 def _as_line(key: str) -> str:

@@ -69,6 +69,8 @@ def quantity(name: str, text: object, dimension: Dimension, *, positive: bool = 
     except InvalidOperation:
         example, _, _ = TABLE[dimension]
         accepted = f'a {dimension}, as "{example}", in one of {", ".join(UNITS[dimension])}'
+        if ending and words.count(",") == 1:
+            accepted += ", with a point before the decimals"
         raise ValueError(f"{name} must be {accepted}, got {quoted(text)}") from None
     found, unit = math.nan, UNITS[dimension][ending]
     if number.is_finite():

@@ -19,6 +19,10 @@ class Exit(IntEnum):
     TERMINATED = 143
 
 
+LEAST_MOST, TO_A_CORE = 16, 4
+"""Processes that may be asked for: so many in all, or to a core. Each takes some 200 MB, and more are not faster."""
+
+
 def add_profile(command: argparse.ArgumentParser) -> None:
     sizes = ("quick", "full")
     command.add_argument("--profile", choices=sizes, default="quick", help="size of the problems (default: quick)")
@@ -26,7 +30,9 @@ def add_profile(command: argparse.ArgumentParser) -> None:
 
 def add_workers(command: argparse.ArgumentParser, what: str = "number of processes") -> None:
     help_text = f"{what} (default: one per core)"
-    command.add_argument("--workers", type=at_least(1), default=os.cpu_count() or 1, metavar="N", help=help_text)
+    cores = os.cpu_count() or 1
+    number = at_least(1, max(LEAST_MOST, TO_A_CORE * cores))
+    command.add_argument("--workers", type=number, default=cores, metavar="N", help=help_text)
 
 
 def add_options(command: argparse.ArgumentParser, *options: tuple[str, str, Callable[[str], object], str]) -> None:
@@ -35,8 +41,14 @@ def add_options(command: argparse.ArgumentParser, *options: tuple[str, str, Call
         command.add_argument(name, metavar=value, type=reads, help=what)
 
 
-def at_least(least: int) -> Callable[[str], int]:
-    """Whole numbers from a least one on."""
+def not_beside(arguments: argparse.Namespace, other: str, *options: str) -> None:
+    """Raises ValueError for an option that was given beside another, or in a case, that has no use for it."""
+    if idle := [name for name in options if name in getattr(arguments, "given", ())]:
+        raise ValueError(f"{' and '.join(idle)} must be left out {other}, where nothing goes by it")
+
+
+def at_least(least: int, most: int | None = None) -> Callable[[str], int]:
+    """Whole numbers from a least one on, up to a largest one."""
 
     def number(word: str) -> int:
         try:
@@ -45,6 +57,8 @@ def at_least(least: int) -> Callable[[str], int]:
             raise argparse.ArgumentTypeError(f"must be a whole number, got {word!r}") from None
         if value < least:
             raise argparse.ArgumentTypeError(f"must be at least {least}, got {value}")
+        if most is not None and value > most:
+            raise argparse.ArgumentTypeError(f"must be at most {most}, got {value}")
         return value
 
     return number

@@ -8,7 +8,7 @@ from validation.engine.engine import Engine
 from validation.engine.files import write_whole
 from validation.engine.installed import is_installed
 from validation.engine.progress import progress_of
-from validation.report.commands.arguments import Exit, add_options, add_workers, at_least
+from validation.report.commands.arguments import Exit, add_options, add_workers, at_least, not_beside
 from validation.report.commands.compare import STORE
 from validation.report.commands.places import check_places
 from validation.report.folder import CALIBRATION, REALISATIONS, REFERENCES, Folder
@@ -90,6 +90,12 @@ def calibrate(arguments: argparse.Namespace) -> Exit:
     arguments.keeps = not (arguments.show or arguments.check)
     if arguments.keeps:
         check_places(arguments, {})
+    counts = [f"--{name}" for name in COUNTED]
+    if arguments.show:
+        not_beside(arguments, "beside --show", "--workers", "--seed", *counts)
+    for name in ("check", "model", "references"):
+        if getattr(arguments, name):
+            not_beside(arguments, f"beside --{name}", "--seed", *counts)
     if arguments.references:
         return _references(arguments)
     if arguments.model and _is_own(arguments.model):
@@ -170,6 +176,7 @@ def _own(model: str, arguments: argparse.Namespace) -> Exit:
     """Models of somebody's own, whose errors `compare` finds in the same store."""
     from validation.selection.own_models import calibrated, models_in  # imported where there is such a file
 
+    not_beside(arguments, f"beside --model {printable(path)}", "--workers")
     if arguments.install:
         raise ValueError("--install is for models of the package, whose table has no rows of others")
     store = arguments.out or STORE

@@ -22,7 +22,9 @@ def describe(making: argparse.ArgumentParser) -> None:
     if timed:
         making.set_defaults(only=[(name,)])
         out = ("--out", "DIR", Path, f"folder (default: reports/{name}-quick or reports/{name})")
-        add_options(making, out, ("--seed", "S", at_least(0), "seed of the rough surfaces"))
+        seed = "seed of the rough surfaces"
+        seed += "; the tracks of Fig. 14.4, whose times are compared, keep theirs" if name == "precision" else ""
+        add_options(making, out, ("--seed", "S", at_least(0), seed))
         if name == "race":
             own = "a Python file with functions below @contact_solver, which race too; it is run as a program"
             add_options(making, ("--solver", "FILE", Path, own))

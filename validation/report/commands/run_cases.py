@@ -8,7 +8,7 @@ from validation.analysis.evidence import Table
 from validation.benchmarks.peers import solvers_with
 from validation.engine.engine import LOCAL
 from validation.report.build import build
-from validation.report.commands.arguments import Exit
+from validation.report.commands.arguments import Exit, not_beside
 from validation.report.commands.places import check_places
 from validation.report.contents import CASES, TIMED, timed_here
 from validation.report.formats import in_four_digits
@@ -32,6 +32,8 @@ def report(arguments: argparse.Namespace) -> Exit:
     names = list(dict.fromkeys(arguments.only or everything))
     if arguments.keep and not arguments.only:
         raise ValueError("--keep is for --only, got it alone: without --only no case is left to be kept")
+    if arguments.executor not in (None, LOCAL):
+        not_beside(arguments, "beside --executor", "--workers")
     out = arguments.out = arguments.out or Path("reports") / _folder(names, arguments)
     check_places(arguments, {})
     arguments.keeps = True
