@@ -57,7 +57,7 @@ def periodic(shape, spacing, padded=(1, 1)):
     return operator(shape, waves(*period, spacing), period)
 
 
-def conjugate_gradients(apply, gap, force, area, tolerance, iterations=5000):
+def conjugate_gradients(apply, gap, force, area, tolerance, iterations=600):
     """Polonsky and Keer, Wear 231 (1999) 206. The last pressure, and whether the residual is reached."""
     p, direction, before, restart = np.full(gap.shape, force / (gap.size * area)), np.zeros(gap.shape), 1.0, True
     for _ in range(iterations):
@@ -81,7 +81,7 @@ def conjugate_gradients(apply, gap, force, area, tolerance, iterations=5000):
     return p, False
 
 
-def pressed(gap, spacing, modulus, force, tolerance, *, apply=None, area=None, iterations=5000):
+def pressed(gap, spacing, modulus, force, tolerance, *, apply=None, area=None, iterations=600):
     """Right without options."""
     apply = apply or free(gap.shape, spacing)
     area = np.prod(spacing) if area is None else area
@@ -207,7 +207,7 @@ WRONG = {
     "no padding": (by(functools.partial(free, padded=(1, 1))), "no padding:"),
     "no padding along axis 0": (by(functools.partial(free, padded=(1, 2))), "no padding along axis 0:"),
     "no padding along axis 1": (by(functools.partial(free, padded=(2, 1))), "no padding along axis 1:"),
-    "periodic for free": (by(periodic), "the answer of a periodic half-space: no padding:"),
+    "periodic for free": (by(periodic), "no padding:"),
     "periodic waves on a padded grid": (by(functools.partial(periodic, padded=(2, 2))), "on a padded grid:"),
     "dx and dy swapped": (by(lambda shape, d: free(shape, d[::-1])), "the answer with dx and dy exchanged:"),
     "square cells in the kernel": (by(lambda shape, d: free(shape, (d[0], d[0]))), "the answer with dx for dy:"),

@@ -151,7 +151,11 @@ def _by_kept_operator(contact: JudgedContact) -> float:
     others = [
         replace(problem, spacing=spacing, modulus=modulus, periodic=periodic) for spacing, modulus, periodic in kept
     ]
-    return max((_by_problem(contact, other) for other in others), default=float(contact.is_right))
+    # with its cells, by its kernel alone, and by that for the right modulus
+    parts = [_by_problem(contact, other) for other in others]
+    for other in (*others, *(replace(other, modulus=problem.modulus) for other in others)):
+        parts.append(contact.explained(contact.under(displacement=other.half_space.displacement(contact.pressure))))
+    return max(parts, default=float(contact.is_right))
 
 
 def _by_problem(contact: JudgedContact, problem: ContactProblem) -> float:
@@ -257,7 +261,8 @@ def _spoiled_answers(contact: JudgedContact) -> Iterator[tuple[str, Way]]:
     for weights in ([0.25, 0.5, 0.25], [0.1, 0.8, 0.1], [1 / 3] * 3, [0.2] * 5):
         yield "smoothed pressures", partial(blurred, weights=weights)
         yield "smoothed pressures", lambda answer, weights=weights: to_force(blurred(answer, weights))  # type: ignore[misc]
-    yield "smoothed pressures", partial(most_alike, pressure=p, mode=mode)
+    for edge in (mode, "reflect", "wrap"):
+        yield "smoothed pressures", partial(most_alike, pressure=p, mode=edge)
 
 
 def most_alike(answer: FloatArray, pressure: FloatArray, mode: str) -> FloatArray:
