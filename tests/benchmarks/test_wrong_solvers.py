@@ -47,6 +47,7 @@ def few_problems(monkeypatch):
     monkeypatch.setattr(judged, "problems", lambda: few)
     monkeypatch.setattr(judged, "RECTANGLE", ("odd grid",))
     monkeypatch.setattr(judged, "RECTANGLES", {(15, 11): 1.0})
+    monkeypatch.setattr(judged, "GRIDS", ())
     monkeypatch.setattr(diagnosis, "SAMPLE", 8)
 
 
@@ -58,7 +59,22 @@ def said_first(points):
 OPTIONS = {"single precision": {"residual": 1e-8}}
 
 
-@pytest.mark.parametrize("name", WRONG)
+QUICK = (
+    "no padding along axis 1",
+    "E for E*, nu = 0.3",
+    "mean pressure for the load",
+    "boundary excluded",
+    "flipped on odd grids",
+    "clipped",
+    "tension",
+    "elongated cells",
+    "kept operator",
+    "random",
+)
+"""One of each family; the others take a minute together."""
+
+
+@pytest.mark.parametrize("name", [pytest.param(one, marks=() if one in QUICK else pytest.mark.slow) for one in WRONG])
 def test_a_wrong_solver_is_caught_and_its_cause_is_named_first(name, few_problems):
     function, cause = WRONG[name]
     points = findings(Asked(solver(on_free_space(function), **OPTIONS.get(name, {}))))
@@ -116,13 +132,11 @@ def test_a_solver_of_both_loads_is_judged_by_both(few_problems):
     assert [point for point in points if point.verdict != AGREE] == []
     places = {str(point.where["problem"]) for point in points}
     assert {f"{name}, by approach" for name in FEW} < places and set(FEW) < places
+
     # a mistake in one of them is found
-    wrong = lambda approach=None, **given: (
-        (1 if approach is None else 1.2)
-        * to_force_or_approach(  # noqa: E731
-            approach=approach, **given
-        )
-    )
+    def wrong(approach=None, **given):
+        return to_force_or_approach(approach=approach, **given) * (1 if approach is None else 1.2)
+
     points, _ = judged.judged(Called(Offered("contact_solver", "both", wrong, asks, KINDS["contact_solver"].options)))
     failed = {str(point.where["problem"]) for point in points if point.verdict != AGREE}
     assert failed and all(name.endswith(", by approach") for name in failed)
