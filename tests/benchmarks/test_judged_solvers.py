@@ -43,8 +43,12 @@ def wrong_in(solve, load="force", **options):
 @pytest.mark.parametrize("load", ["force", "approach"])
 def test_our_solver_is_right_on_every_problem(load):
     found = list(findings(asked(ours, load, periodic=True, residual=1e-6)))
-    assert {finding.where["problem"] for finding in found} > set(STATED)
-    assert {"mirror", "shift", "superposition", "monotone stiffness"} < {finding.quantity for finding in found}
+    # of a full periodic contact an approach determines nothing
+    every = set(STATED) if load == "force" else set(STATED) - {"full contact, periodic"}
+    assert {finding.where["problem"] for finding in found} > every
+    assert {"mirror", "shift", "superposition", "monotone stiffness", "repeated call"} < {
+        finding.quantity for finding in found
+    }
     assert [finding for finding in found if finding.verdict != AGREE] == []
 
 
@@ -54,7 +58,7 @@ def test_a_solver_of_forty_lines_is_accepted_and_not_asked_what_it_does_not_serv
     assert all(finding.verdict == AGREE for finding in found)
     assert not any("periodic" in finding.where["problem"] for finding in found)
     periodic = {one.where["problem"] for one in findings(asked(ours, free=False, periodic=True))}
-    assert len(periodic) == 5 and all("periodic" in name for name in periodic)
+    assert len(periodic) == 17 and all("periodic" in name for name in periodic)
 
 
 @pytest.mark.parametrize(
@@ -69,7 +73,7 @@ def test_the_solvers_of_other_packages_are_right(package, solver, load):
         return solver(ContactProblem(**{"force": math.nan, **given}), tolerance / 10)()[0]
 
     found = list(findings(asked(solve, load, periodic=True)))
-    assert {finding.where["problem"] for finding in found} > set(STATED)
+    assert {finding.where["problem"] for finding in found} > set(STATED) - {"full contact, periodic"}
     assert [finding for finding in found if finding.verdict != AGREE] == []
 
 
@@ -104,31 +108,35 @@ FAULTS = {
     "a factor 2 in the operator": (changed(modulus=0.5), "complementarity", "an operator with a factor of 2"),
     "no padding": (lambda **given: ours(**given | {"periodic": True}), "penetration", "no padding"),
     "half a cell": (spoiled(lambda p: (p + np.roll(p, 1, 0)) / 2), "pressure", "shifted by 0.5 cells along axis 0"),
-    "a loose stop": (changed(tolerance=300.0), "penetration", "near the answer: a stop too early"),
+    "a loose stop": (changed(tolerance=300.0), "penetration", "it does not converge to the residual that it names"),
     "pressure outside": (
         spoiled(lambda p: p + 0.01 * p.max() * (p == 0)),
         "complementarity",
-        "is outside of the contact",
+        "pressure outside of the contact",
     ),
-    "a force that is not held": (changed(force=1.01), "force balance", "force not held"),
+    "a force that is not held": (changed(force=1.01), "force balance", "the force is not held"),
     "more force": (changed(force=1.01), "pressure", "the answer under another load"),
-    "tension": (spoiled(lambda p: p - 0.01 * p.max() * (p == 0)), "tension", "tension, -0.01 of the largest pressure"),
+    "tension": (spoiled(lambda p: p - 0.01 * p.max() * (p == 0)), "tension", "negative pressures: p >= 0 is not held"),
     "spacings exchanged": (
         lambda spacing, **given: ours(spacing=spacing[::-1], **given),
         "pressure",
         "the answer with dx and dy exchanged",
     ),
-    "a little tension": (spoiled(lambda p: p - 1e-3 * p.max() * (p == 0)), "tension", "tension, -0.001 of the largest"),
+    "a little tension": (
+        spoiled(lambda p: p - 1e-3 * p.max() * (p == 0)),
+        "tension",
+        "negative pressures: p >= 0 is not held",
+    ),
     "one answer for all of a shape": (
         lambda gap, answers={}, **given: answers.setdefault(gap.shape, ours(gap=gap, **given)),
         "pressure",
         "the answer of another problem: sphere",
     ),
-    "over E*": (lambda **given: ours(**given) / given["modulus"], "approach", "1e-11 times the "),
+    "over E*": (lambda **given: ours(**given) / given["modulus"], "approach", "over the modulus"),
     "cells of a rectangle in another order": (
         spoiled(lambda p: p.ravel(order="F" if p.shape[0] != p.shape[1] else "C").reshape(p.shape)),
         "mirror",
-        "another one",
+        "rows and columns exchanged in memory",
     ),
     "a rectangle without padding along one axis": (on_a_side, "penetration", "more than the residual"),
     "heights in single precision far from zero": (
@@ -153,7 +161,7 @@ SOFTER = {
     "heights from their mean": (
         lambda gap, **given: ours(gap=gap - gap.mean(), **given),
         "",
-        "the answer under another load",
+        "the approach counts from the mean plane of the gap",
     ),
 }
 

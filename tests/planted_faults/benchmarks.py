@@ -12,7 +12,7 @@ from tests.benchmarks import test_judged_solvers as test_solvers
 from tests.planted_faults.wrong import Fault, Times
 from validation.benchmarks import solvers as comparison
 from validation.benchmarks import timing
-from validation.benchmarks.judging import diagnosis, discrete
+from validation.benchmarks.judging import discrete, factors
 from validation.benchmarks.judging import judged as judging
 from validation.benchmarks.work_precision import case as precision_case
 from validation.benchmarks.work_precision import errors as precision_error
@@ -89,7 +89,7 @@ FAULTS = [
         test_solvers.test_a_planted_fault_is_caught_and_named,
         *test_solvers.FAULTS["cells of a rectangle in another order"],
     ),
-    Fault("properties of nothing but a square").at(judging, "_rectangle", lambda problem: problem),
+    Fault("properties of nothing but a square").at(judging, "_rectangle", lambda problem, shape, longer: problem),
     functools.partial(
         test_solvers.test_a_solver_that_is_right_on_small_grids_alone_is_wrong, *test_solvers.LARGE["an even pressure"]
     ),
@@ -97,7 +97,7 @@ FAULTS = [
         judging, "timed", lambda asked: (([], times) for _, times in timed(asked))
     ),
     functools.partial(test_solvers.test_a_fault_is_caught_by_approach_too, "heights from their mean"),
-    Fault("causes of a pressure under a force that it does not have").at(
-        diagnosis, "_left", lambda problem, p: problem.worst(p, True)
+    Fault("the approach of an answer for the one that is prescribed, in causes").at(
+        factors, "_shift", lambda contact: 0.0
     ),
 ]

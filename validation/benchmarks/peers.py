@@ -36,7 +36,7 @@ class PeerSolver:
     function that solves from a cold start; tolerances: its own, tried in this order, as parts of the residual asked
     for, until the residual is reached: rounding may leave a little more than was asked; serves: "free", "periodic"
     half-spaces; by_force: what it is given, else the approach; file: of somebody's own, which has no package; alone:
-    its name with one thread.
+    its name with one thread; cells: the most of a grid that it serves.
     """
 
     name: str
@@ -48,6 +48,7 @@ class PeerSolver:
     by_force: bool = True
     file: str = ""
     alone: str = ""
+    cells: float = math.inf
 
     @property
     def version(self) -> str | None:
@@ -258,7 +259,8 @@ def _solvers_in(file: str) -> list[Offered]:
 def _own(offered: Offered, file: str, name: str) -> PeerSolver:
     served, by_force = tuple(kind for kind in ("free", "periodic") if offered.options[kind]), "force" in offered.asks
     mode, prepare = "by force" if by_force else "by approach", partial(of_file, file, offered.name)
-    return PeerSolver(name, "", mode, prepare, TIGHTER, served, by_force, file)
+    cells = float(offered.options["cells"])
+    return PeerSolver(name, "", mode, prepare, TIGHTER, served, by_force, file, cells=cells)
 
 
 def of_file(file: str, name: str, problem: ContactProblem, tolerance: float) -> ColdSolve:

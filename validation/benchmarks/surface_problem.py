@@ -42,7 +42,8 @@ class SurfaceProblem:
     def solvers(self) -> tuple[PeerSolver, ...]:
         """Those that serve it."""
         every = (*solvers_with(self.own), *with_threads(self.threads))
-        return tuple(solver for solver in every if self.half_space in solver.serves)
+        served = (solver for solver in every if self.half_space in solver.serves)
+        return tuple(solver for solver in served if self.cells**2 <= solver.cells)
 
     @property
     def name(self) -> str:

@@ -16,7 +16,7 @@ from validation.benchmarks.isolation import isolated_process, one_thread, timed
 from validation.simulation.method import Method, Prepared, Resolution, Result
 from validation.simulation.model import Target, all_models
 
-FINISHED, OUT_OF_RANGE, FAILED = "finished", "out of range", "failed"
+FINISHED, OUT_OF_RANGE, FAILED, NOT_SERVED = "finished", "out of range", "failed", "not served"
 OURS = "ours"
 FEWEST_RUNS, MOST_RUNS = 5, 15
 ALONE = 0.25
@@ -227,4 +227,6 @@ def _caught(function: Callable[[], Any]) -> tuple[Any, str]:
 def _reason(error: Exception) -> str:
     if isinstance(error, ValueError):
         return f"{OUT_OF_RANGE}: {error}"
+    if isinstance(error, NotImplementedError):
+        return f"{NOT_SERVED}: {error}"[:300]
     return f"{FAILED}: {type(error).__name__}: {error}"[:300]

@@ -64,7 +64,7 @@ def for_a_paper(
     how = "" if wrong or not asked else " to its residual, by an operator that is not its own"
     left = f"; {len(_problems(unserved) - _problems(checks))} others it does not serve" if unserved else ""
     periodic = {"periodic" in name for name in _problems(checks)}
-    of = {(False,): " of free half-spaces", (True,): " of periodic half-spaces"}.get(tuple(periodic), "")
+    of = "" if len(periodic) != 1 else " of periodic half-spaces" if True in periodic else " of free half-spaces"
     return f"{model!r} {what} discrete problems{of} of mdr-validation {metadata.version('mdr-validation')}{how}{left}."
 
 

@@ -119,12 +119,13 @@ def causes(contact: JudgedContact) -> Causes:
 
 
 def _by_tension(contact: JudgedContact) -> float:
-    """Where nothing but the sign is wrong, all conditions but that hold."""
+    """Where nothing but the sign is wrong, all other conditions hold, or all without the negative pressures."""
     left, p = contact.problem.left(contact.pressure, contact.by_force)[0], contact.pressure
     if contact.is_right or p.min() >= -contact.residual * np.abs(p).max():
         return float(contact.is_right)
     rest = max(value for name, value in left.items() if name != "tension")
-    return contact.explained(rest) if math.isfinite(rest) else 0.0
+    part = contact.explained(rest) if math.isfinite(rest) else 0.0
+    return max(part, contact.explained(contact.under(pressure=p.clip(0))))
 
 
 def _by_operator(contact: JudgedContact, operator: Operator) -> float:
@@ -150,7 +151,11 @@ def _by_kept_operator(contact: JudgedContact) -> float:
     others = [
         replace(problem, spacing=spacing, modulus=modulus, periodic=periodic) for spacing, modulus, periodic in kept
     ]
-    return max((_by_problem(contact, other) for other in others), default=float(contact.is_right))
+    # with its cells, by its kernel alone, and by that for the right modulus
+    parts = [_by_problem(contact, other) for other in others]
+    for other in (*others, *(replace(other, modulus=problem.modulus) for other in others)):
+        parts.append(contact.explained(contact.under(displacement=other.half_space.displacement(contact.pressure))))
+    return max(parts, default=float(contact.is_right))
 
 
 def _by_problem(contact: JudgedContact, problem: ContactProblem) -> float:
@@ -231,7 +236,7 @@ def _spoiled_answers(contact: JudgedContact) -> Iterator[tuple[str, Way]]:
 
     def cut(answer: FloatArray) -> FloatArray:
         lost = answer[(p <= 0) & (answer > 0)]
-        return np.where(p > 0, answer, 0) if lost.size and lost.max() < SMALL * answer.max() else answer
+        return np.where(p > 0, answer, 0) if lost.size and lost.max() < SMALL * answer.max() else math.nan * answer
 
     def clipped(_: FloatArray) -> FloatArray:
         small = p.size <= DENSE and not contact.problem.periodic
@@ -242,10 +247,12 @@ def _spoiled_answers(contact: JudgedContact) -> Iterator[tuple[str, Way]]:
             answer = ndimage.convolve1d(answer, weights, axis, mode=mode)
         return np.asarray(answer)
 
-    yield "small pressures are clipped to zero and the force is not restored", cut
+    restored = " and the force is not restored" if contact.by_force else ""
+    yield f"small pressures are clipped to zero{restored}", cut
     yield "small pressures are clipped to zero and all others are scaled", lambda answer: to_force(cut(answer))
+    yield "pressure outside of the contact", lambda answer: np.where(answer > 0, answer, p)
     yield "pressures are cut at a largest value", lambda answer: np.minimum(answer, p.max())
-    yield "negative pressures are clipped once and the force is not restored", clipped
+    yield f"negative pressures are clipped once{restored}", clipped
     yield "negative pressures are clipped once and all others are scaled", lambda answer: to_force(clipped(answer))
     for axis in (0, 1):
         for cells in (1, -1):
@@ -254,7 +261,8 @@ def _spoiled_answers(contact: JudgedContact) -> Iterator[tuple[str, Way]]:
     for weights in ([0.25, 0.5, 0.25], [0.1, 0.8, 0.1], [1 / 3] * 3, [0.2] * 5):
         yield "smoothed pressures", partial(blurred, weights=weights)
         yield "smoothed pressures", lambda answer, weights=weights: to_force(blurred(answer, weights))  # type: ignore[misc]
-    yield "smoothed pressures", partial(most_alike, pressure=p, mode=mode)
+    for edge in (mode, "reflect", "wrap"):
+        yield "smoothed pressures", partial(most_alike, pressure=p, mode=edge)
 
 
 def most_alike(answer: FloatArray, pressure: FloatArray, mode: str) -> FloatArray:

@@ -13,6 +13,8 @@ from validation.engine.offered import FloatArray
 EXPLAINED, MOST, SAMPLE, FEW = 0.75, 5, 16, 2
 """Part of an error from which a cause explains it; causes that are named; wrong answers that each is sought in, and the
 fewest that it must explain, of more."""
+EXACTLY = 0.999
+"""Part of an error that a cause does not explain by chance."""
 TIGHTER = (1e-3, 1e-2)
 """Of the residual: a tolerance under which a solver is asked again."""
 LOOSE = "it does not converge to the residual that it names"
@@ -93,11 +95,12 @@ def diagnosed(contacts: Sequence[JudgedContact], tightened: Tightened) -> dict[J
         pool = [one for one in rest if one.pressure.size <= LARGE] or rest
         sample = [pool[i] for i in sorted({round(i) for i in np.linspace(0, len(pool) - 1, SAMPLE)})]
         table = explained(sample)
-        scores = {name: sum(part for part in parts if part > 0.5) for name, parts in table.items()}
+        scores = {name: sum(part for part in parts if part > EXPLAINED) for name, parts in table.items()}
         best = next((name for name, score in scores.items() if score >= max(scores.values()) - BEFORE), "")
         fewest = max(0.05 * len(sample), FEW if len(wrong) > FEW else 1)
-        # one problem of many may fit anything
-        if not best or sum(part > EXPLAINED for part in table[best]) < fewest:
+        fits = [part for part in table[best] if part > EXPLAINED] if best else []
+        # one problem of many may fit anything, but not exactly
+        if not fits or (len(fits) < fewest and max(fits) < EXACTLY):
             break
         mine = [one for one, part in zip(rest, _parts_of(best, sample, rest), strict=True) if part > EXPLAINED]
         # what would make right answers wrong is there on some problems alone
@@ -168,6 +171,10 @@ def kind_of(wrong: Sequence[JudgedContact], right: Sequence[JudgedContact]) -> s
         return ""
     for kind in KINDS_OF_PROBLEM:
         if all(map(kind.has, wrong)) and not any(map(kind.has, right)):
+            return kind.name
+    for kind in KINDS_OF_PROBLEM:
+        # some may be right whatever is wrong: they are symmetric, or have one cell in contact
+        if len(wrong) > FEW and all(map(kind.has, wrong)) and sum(map(kind.has, right)) <= len(wrong) / 2:
             return kind.name
     for name, of in NUMBERS.items():
         mine, others = [of(one) for one in wrong], [of(one) for one in right]

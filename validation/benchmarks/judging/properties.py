@@ -113,13 +113,16 @@ def apart(one: FloatArray, other: FloatArray) -> float:
     return float(np.linalg.norm(one - other)) / norm if norm else math.inf
 
 
+LEFT = {"force balance": "force not held", "tension": "negative pressures: p >= 0 is not held"}
+"""What is said of a condition that is left."""
+
+
 def conditions(asked: Asked, problem: ContactProblem) -> Iterator[JudgedPoint]:
     """No tension, no pressure at a gap, no overlap, and a force that is held, by the operator that judges."""
     left, _ = problem.left(asked.pressure(problem), asked.by_force)
     asked.judged["", problem.name] = problem
     for name, value in left.items():
-        said = "force not held" if name == "force balance" else "more than the residual that it names"
-        yield checked(name, problem, value, asked.residual, said)
+        yield checked(name, problem, value, asked.residual, LEFT.get(name, "more than the residual that it names"))
 
 
 def told(problem: ContactProblem, *, modulus: float = 1.0, length: float = 1.0, height: float = 1.0) -> ContactProblem:

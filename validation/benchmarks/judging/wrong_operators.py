@@ -88,6 +88,8 @@ def operators(problem: ContactProblem) -> Iterator[tuple[str, Operator]]:
         yield "no padding along axis 0", _kernel(padded=(False, True))
         yield "no padding along axis 1", _kernel(padded=(True, False))
         yield "the waves of a periodic half-space on a padded grid", _kernel("waves")
+        yield "no padding along axis 0, by the waves of a periodic half-space", _kernel("waves", (False, True))
+        yield "no padding along axis 1, by the waves of a periodic half-space", _kernel("waves", (True, False))
         yield "point loads instead of Love's rectangles", point_loads
         for half in ("half a cell along axis 0", "half a cell along axis 1", "half a cell"):
             yield f"a kernel that is off by {half}", _kernel(half)
