@@ -1,4 +1,4 @@
-"""Files that are no tables of text and that nothing here reads: what they are, and how their numbers get out of them."""
+"""Files of other programs, which nothing here reads: what they are, and how their numbers get out of them."""
 
 from pathlib import Path
 

@@ -25,10 +25,10 @@ LASTS, OF_STEP = 20, 0.6
 """Points to both sides whose medians are a step apart, and share of it, at the least."""
 MOST_STEPS = 20
 LONG_RUN, OF_USUAL, ELEVENTH = 8, 3.0, 11
-"""Points of a run of equal values, at the least, and over the length of the eleventh longest, since crests have some."""
+"""Points of a run of equal values, at the least, and over the length of the eleventh longest: crests have some, too."""
 ROUNDED, JUMP = 0.01, 3.0
-"""Share of neighbours that are equal, from which on a line is rounded coarsely; a run that begins or ends with a jump of
-so many steps of the sensor is no crest of such a line, and is compared with the length of nineteen of twenty runs."""
+"""Share of neighbours that are equal, from which on a line is rounded coarsely; a run that begins or ends with a jump
+of so many steps of the sensor is no crest of it, and is compared with the length of nineteen of twenty runs."""
 CLIPPED, CROWDED = 10, 4.0
 """Points at the largest or smallest value, at the least, and over those at each of the next three."""
 NEAR_END = 0.05
