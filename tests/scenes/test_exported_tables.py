@@ -147,12 +147,42 @@ def test_a_curve_has_no_use_for_the_keys_of_a_file(tmp_path):
         loaded(tmp_path, (CURVE, f"{CURVE}\nskip = 3"))
 
 
+GROUPED = ["1.000,5", '"1,000.5"', "1 000,5", "1'000.5", "1\N{NARROW NO-BREAK SPACE}000,5", "1\N{NO-BREAK SPACE}000.5"]
+
+
+@pytest.mark.parametrize("number", GROUPED)
+def test_signs_between_thousands_are_read_where_they_can_be_nothing_else(number):
+    decimal = "," if ",5" in number else "."
+    text = "x [mm];z [um]\n" + f"999.5;3.5\n{number};3.5\n-{number.strip(chr(34))};1\n".replace("9.5", f"9{decimal}5")
+    table = in_memory(text.replace("3.5", f"3{decimal}5"))
+    assert table.values.tolist() == [[999.5, 3.5], [1000.5, 3.5], [-1000.5, 1.0]]
+    assert "2 of its rows have a sign between thousands" in table.notes
+
+
 @pytest.mark.parametrize(
-    "number", ["1.000,5", '"1,000.5"', "1 000,5", "1'000.5", "1.234.567", "1\N{NARROW NO-BREAK SPACE}000,5"]
+    ("number", "value"),
+    [("1.234.567", 1234567.0), ("1'234", 1234.0), ("1,234,567.5", 1234567.5), ("12 345 678", 12345678.0)],
 )
-def test_signs_between_thousands_are_refused(tmp_path, number):
-    contents = "wavelength [mm];L [dB]\n" + f"{number};3\n" * 4
-    refused(tmp_path, "levels", contents, said=r"numbers must have no sign between thousands, got '1")
+def test_whole_thousands_are_read(number, value):
+    assert in_memory(f"x;z\n1;2\n{number};3\n4;5\n").values[1, 0] == value
+
+
+@pytest.mark.parametrize(("number", "decimal"), [("1,234", "."), ("1.234", ",")])
+def test_one_sign_that_may_be_either_asks_for_the_decimal_sign(number, decimal):
+    text = f"x;z\n1{decimal}5;2\n{number};3\n4{decimal}5;5\n"
+    with pytest.raises(
+        ValueError, match=rf"got '{number}' in line 3, which may be either: say it, as: decimal = .{decimal}."
+    ):
+        in_memory(text)
+    assert in_memory(text, decimal=decimal).values[:, 0].tolist() == [1.5, 1234.0, 4.5]
+    # where it is the decimal sign of the table it is no other
+    assert in_memory(f"x;z\n{number};2\n1;3\n2;4\n").values[0, 0] == 1.234
+
+
+@pytest.mark.parametrize("number", ["1.23,4", "1,2345.0", "1'23", "12.34.567", "1,234.567,8", "1 2345"])
+def test_other_signs_within_numbers_are_refused(number):
+    with pytest.raises(ValueError, match="got '1"):
+        in_memory(f"x;z\n1;2\n{number};3\n4;5\n6;7\n")
 
 
 # Foreign files
@@ -358,14 +388,14 @@ def test_a_table_is_read_as_it_is_written_or_asked_for_its_decimal_sign(way, val
 
 def test_other_columns_than_the_chosen_may_be_texts():
     header = "Points;3\nStep;0.5\nGain;2\nstamp;z [um]\n"
-    numbers, texts = (header + "".join(f"{stamp}{i};{i}.5\n" for i in range(40)) for stamp in ("7", "12:0"))
+    numbers, texts = (header + "".join(f"{stamp}{i};{i}.5\n" for i in range(40)) for stamp in ("7", "12:00:"))
     for text in (numbers, texts):
         for chosen in ("z", 2):
             assert in_memory(text, columns=(chosen,)).values[:, 0].tolist() == [i + 0.5 for i in range(40)]
-    with pytest.raises(ValueError, match=r"the time stamp '12:00' in column 1 of line 5, .* columns = \[2\]"):
+    with pytest.raises(ValueError, match=r"the time stamp '12:00:0' in column 1 of line 5, .* columns = \[2\]"):
         in_memory(texts)
     with pytest.raises(ValueError, match=r"got 'broken' in column 1 of line 25"):
-        in_memory(texts.replace("12:020;20.5", "broken;broken"), columns=(2,))
+        in_memory(texts.replace("12:00:20;20.5", "broken;broken"), columns=(2,))
 
 
 def test_a_header_with_a_decimal_comma_is_no_pair_of_names_nor_a_mark_part_of_one():

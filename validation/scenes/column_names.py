@@ -19,6 +19,7 @@ KNOWN = {unit: unit for unit in (*UNITS["length"], *WAVENUMBERS) if unit != "µm
 AT_THE_END = re.compile(
     rf"(?:^|[\s_/,])({'|'.join(map(re.escape, sorted(KNOWN, key=len, reverse=True)))})(?:,?\s+\(?(?:re|ref|rel)\b.*)?$"
 )
+BRACKETS = str.maketrans("()", "[]")
 IN_BRACKETS = re.compile(r"\[([^\[\]]*)\]|\(([^()]*)\)")
 REFERENCE = re.compile(r"\b(?:re|ref|rel)\b\.?:?\s*([^\])]*)")
 UNIT_OF_ALL = re.compile(
@@ -45,8 +46,9 @@ class Column:
 
 
 def plain(text: str) -> str:
-    """A name without what does not tell it from another: case, kinds of spaces and of micro signs, quotation marks."""
-    return " ".join(MICRO.sub("u", unicodedata.normalize("NFKC", text)).strip(' "').casefold().split())
+    """A name without what does not tell it from another: case, kinds of spaces, brackets and micro signs, quotes."""
+    words = MICRO.sub("u", unicodedata.normalize("NFKC", text)).strip(' "').translate(BRACKETS)
+    return " ".join(words.casefold().split())
 
 
 def column_of(text: str) -> Column:

@@ -32,6 +32,7 @@ EVEN = 1e-6
 EPOCH = 9e8, 2.2e9
 """Seconds since 1970 from 1998 to 2039; a place so far from its origin is in metres at most."""
 TIME_NAMES = re.compile(r"(?i)(?:time|date|datum|zeit|uhrzeit|timestamp|time[ _-]?stamp|zeitstempel|utc|datetime)s?")
+EXAMPLE = '["-10 mm", "0 mm"]'
 EVENLY = 3
 """Places of a first row that can run evenly, at the least."""
 
@@ -107,9 +108,12 @@ def _positions_of(
     if given is None:
         if len(rest) == 1:
             return (0.0,), {}
+        row = numbers.values[0, rest]
+        even = np.isfinite(row).all() and _runs_evenly(row)
+        first = ", and its first row runs evenly, as such places do" if even else ""
         raise ValueError(
-            f"positions is missing: the file has {len(rest)} lines, whose places across the rail are needed, "
-            'as: positions = ["-10 mm", "0 mm"]'
+            f"positions is missing: the file has {len(rest)} lines, whose places across the rail are needed{first}, "
+            f"as: positions = {_as_key(row) if even else EXAMPLE}"
         )
     if len(given) == len(lines):
         shown = {i: f" at {1e3 * given[lines.index(i)]:g} mm" for i in dead}
@@ -158,10 +162,9 @@ def _without_first_row(numbers: NumberTable, positions: Sequence[float] | None) 
             continue
         shown = ", ".join(f"{value:g}" for value in inside)
         if positions is None:
-            keys = ", ".join(f'"{value:g} mm"' for value in inside)
             raise ValueError(
                 f"positions is missing: the first row of the file, {shown}, runs evenly and is far from the others, as "
-                f"positions do, as: positions = [{keys}]"
+                f"positions do, as: positions = {_as_key(inside)}"
             )
         return replace(numbers, values=below), (f"its first row, {shown}, has positions and is no row of heights",)
     return numbers, ()
@@ -180,6 +183,11 @@ def _without_repeats(numbers: NumberTable) -> tuple[NumberTable, tuple[str, ...]
         note = f"{words}, the first {values[at]:.6g} in row {at + 1}, and {'is' if count == 1 else 'are'} left out"
         return replace(numbers, values=numbers.values[kept]), (note,)
     return numbers, ()
+
+
+def _as_key(row: FloatArray) -> str:
+    """Numbers as positions in a scene file, which nearly all are in millimetres."""
+    return "[" + ", ".join(f'"{value:g} mm"' for value in row) + "]"
 
 
 def _are(row: FloatArray, positions: FloatArray) -> bool:
@@ -221,7 +229,9 @@ def _kinds(numbers: NumberTable, count: int | None) -> tuple[dict[int, Places], 
         elif np.ptp(values) == 0:
             nothing[i] = f"is {values[0]:g} everywhere"
         elif fault := faults_of_places(values):
-            raise ValueError(f"columns must have places that run evenly, got {numbers.names([i])}, which {fault}")
+            raise ValueError(
+                f"columns must have places that run evenly, got {numbers.names([i])}, which {fault}: cut the file there"
+            )
     # beside places, or where all columns are told to be lines, a line may be as tilted as that
     if one_way and not places and count != len(numbers.columns):
         fault = faults_of_places(numbers.values[:, one_way[0]])

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from validation.analysis.nominal_bands import NominalBands
 from validation.analysis.statistics import FloatArray
 from validation.scenes.line_outliers import Outlier, interpolated, without_outliers
-from validation.scenes.line_steps import MOST_STEPS, points_of, runs_of, without_steps
+from validation.scenes.line_steps import DRIFTS, MOST_STEPS, drift_of, points_of, runs_of, without_steps
 from validation.scenes.units import in_unit
 
 Outliers = Literal["remove", "keep"]
@@ -25,6 +25,8 @@ OF_SHIFTS, WIDER = 1.5, 4
 """
 BARELY, MISSED = 1.5, 0.1
 """Margin of outliers below which as many again may have been missed; share of the others that is."""
+MOVED = ("step", "drift")
+"""Kinds that leave all points where they are, but for a height."""
 DROPOUT = 3.0
 """Height of a dropout over the span of all else."""
 SHOWN = 30
@@ -36,6 +38,7 @@ KINDS = {
     "run": ("run of equal values", "runs of equal values"),
     "clipping": ("clipped part", "clipped parts"),
     "step": ("step", "steps"),
+    "drift": ("drift", "drifts"),
 }
 """One and several of a kind."""
 
@@ -63,12 +66,15 @@ class EditedLine:
         span, middle = float(np.ptp(clean)), float(np.median(clean))
         named = [_named(one, abs(one.size) > DROPOUT * span) for one in high]
         named += [_named(one, one.kind == "run" and abs(one.size - middle) > DROPOUT * span) for one in runs]
-        return cls(height, clean, (*steps, *sorted(named, key=lambda one: one.first)), spacing)
+        bend, over_rest = drift_of(clean)
+        drift = [Outlier("drift", 0, clean.size - 1, float(np.ptp(bend)))] if over_rest > DRIFTS else []
+        found = (*drift, *steps, *sorted(named, key=lambda one: one.first))
+        return cls(height, clean - bend if drift else clean, found, spacing)
 
     @property
     def replaced(self) -> NDArray[np.bool_]:
         """Points with a straight line in their place."""
-        return points_of(tuple(one for one in self.outliers if one.kind != "step"), self.height.size)
+        return points_of(tuple(one for one in self.outliers if one.kind not in MOVED), self.height.size)
 
     def of_kind(self, kind: str) -> list[Outlier]:
         return [one for one in self.outliers if one.kind == kind]
@@ -105,6 +111,8 @@ class EditedLine:
         for step in self.of_kind("step"):
             residue = powers(np.where(np.arange(self.clean.size) >= step.last, step.spread, 0.0))
             found += residue + 2 * np.sqrt(residue * own)
+        if self.of_kind("drift"):
+            found += np.abs(powers(self.clean + drift_of(self.height)[0]) - own)
         return found
 
     def kept(self, bands: NominalBands) -> FloatArray:
@@ -117,7 +125,7 @@ class EditedLine:
         """Points of outliers that are half as wide again."""
         points = self.replaced
         for one in self.outliers:
-            if one.kind != "step":
+            if one.kind not in MOVED:
                 more = max(1, (one.last - one.first + 1) // WIDER)
                 points[max(0, one.first - more) : one.last + 1 + more] = True
         return points
@@ -140,25 +148,27 @@ def _named(one: Outlier, far: bool) -> Outlier:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class LineEdits:
-    """Lines that have outliers, by their number from zero, and what was done about these."""
+    """Lines that have outliers, by their number from zero, what was done about these, and what else is in doubt."""
 
     lines: tuple[tuple[int, EditedLine], ...] = ()
     outliers: Outliers = "remove"
+    doubt: str = ""
 
     @property
     def fault(self) -> str:
         """Why no error of the levels is known; empty where one is."""
-        return "; ".join(f"measured line {i + 1} is {line.unknown}" for i, line in self.lines if line.unknown)
+        unknown = [f"measured line {i + 1} is {line.unknown}" for i, line in self.lines if line.unknown]
+        return "; ".join(filter(None, (*unknown, self.doubt)))
 
     def errors(self, bands: NominalBands, powers: FloatArray) -> tuple[float, ...]:
         """Half-width of 95 % of the levels of the mean of all lines [dB], none where no line has outliers.
 
         powers: mean squares of each line in each band, (lines, bands). Linear, since outliers raise all levels.
         """
-        if not self.lines:
-            return ()
         if self.fault:
             return (math.inf,) * len(bands)
+        if not self.lines:
+            return ()
         total = powers.sum(axis=0)
         change = np.sum([line.change(bands) for _, line in self.lines], axis=0)
         if self.outliers == "remove":
@@ -186,6 +196,10 @@ class LineEdits:
             if not those:
                 continue
             count = f"{len(those)} {one if len(those) == 1 else several}"
+            if kind == "drift":
+                size = in_unit(those[0].size, "length", digits=3)
+                yield f"{name} has a drift of {size} from its beginning to its end: {self._done(line, kind)}."
+                continue
             shown = ", ".join(f"{line.spacing * (i.last if kind == 'step' else i.first):.4g}" for i in those[:SHOWN])
             more = f" and {len(those) - SHOWN} more places" if len(those) > SHOWN else ""
             yield f"{name} has {count}{_sizes(kind, those, line.spacing)} at {shown} m{more}: {self._done(line, kind)}."
@@ -197,7 +211,7 @@ class LineEdits:
             return "left as measured"
         if self.outliers == "keep":
             return "kept, as asked by outliers, and the error of each band has what they change"
-        done = "the part behind is moved" if kind == "step" else "replaced by straight lines"
+        done = {"step": "the part behind is moved", "drift": "subtracted"}.get(kind, "replaced by straight lines")
         return f'{done}, and the error of each band has what this leaves; outliers = "keep" leaves them in'
 
 
@@ -206,7 +220,7 @@ def _sizes(kind: str, those: list[Outlier], spacing: float) -> str:
     heights = sorted(one.size for one in those)
     if kind in ("spike", "pit", "step"):
         heights = sorted(map(abs, heights)) if kind != "step" else heights
-    ends = dict.fromkeys(in_unit(end, "length", digits=3) for end in (heights[0], heights[-1]))
+    ends = dict.fromkeys(in_unit(end, "length", digits=3) if end else "0" for end in (heights[0], heights[-1]))
     wide = in_unit(spacing * max(one.last - one.first + 1 for one in those), "length", digits=3)
     if kind in ("run", "clipping"):
         return f" at {' to '.join(ends)}, up to {wide} long,"

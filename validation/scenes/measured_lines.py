@@ -1,7 +1,7 @@
 """Measured lines along a rail, one or several side by side: their levels, and the files that have them."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from pathlib import Path
 from typing import get_args
@@ -12,6 +12,7 @@ from mdr.checks import finite, positive
 from validation.analysis.nominal_bands import Detrend, NominalBands
 from validation.analysis.statistics import FloatArray
 from validation.scenes.height_edits import edited_lines, known_heights, without_unknown_ends
+from validation.scenes.level_files import curve
 from validation.scenes.line_columns import along_the_track
 from validation.scenes.line_edits import UNTOUCHED, LineEdits, Outliers, edited
 from validation.scenes.measured import MeasuredHeights
@@ -23,6 +24,8 @@ from validation.scenes.units import in_unit, quantity, unit_of
 
 WAVES_PER_LINE = 4
 """Of the longest band, at the least: with fewer waves it is narrower than what a line resolves."""
+SMOOTHEST, ROUGHEST = -35.0, 45.0
+"""Levels of a rail re the limit curve of ISO 3095 [dB], in the middle: others are heights in another unit."""
 POINTS_PER_WAVE = 2.5
 """Of the shortest band, at the least: EN 15610 has 1 mm for 2.5 mm."""
 
@@ -145,9 +148,28 @@ def lines_in(name: str, given: object, *, folder: Path, told: list[str]) -> Meas
             _ = measured.levels  # heights in a wrong unit are refused here, by their levels
         except ValueError as problem:
             raise ValueError(f'{problem} As: unit = "um"') from None
+    if unit is None and (doubt := _doubt(measured.levels)):
+        measured = replace(measured, edits=replace(flaws, doubt=doubt))
+        told.append(f"{printable(path.name)}: {doubt}.")
     told += [*sentence_about(path, (*numbers.notes, *lines.notes, *ends)), *edits.notes]
     told += [f"{printable(path.name)}: {sentence}" for sentence in flaws.notes(measured.positions)]
     return measured
+
+
+def _doubt(levels: RoughnessLevels) -> str:
+    """What is wrong with the unit that a file names; empty where nothing is.
+
+    The middle of the differences from the limit curve of ISO 3095, in the bands that both have.
+    """
+    limit = dict(zip(*(getattr(curve("iso3095-2013"), of) for of in ("wavelengths", "levels")), strict=True))
+    both = zip(levels.wavelengths, levels.levels, strict=True)
+    over = float(np.median([level - limit[wave] for wave, level in both if wave in limit] or [0.0]))
+    if SMOOTHEST <= over <= ROUGHEST:
+        return ""
+    return (
+        f"the levels are {over:+.0f} dB re the limit curve of ISO 3095, which no rail has: is the unit another than "
+        'the file names? A unit in the scene is taken at its word, as: unit = "um"'
+    )
 
 
 def _positions(name: str, given: object) -> list[float]:

@@ -173,7 +173,7 @@ def _has_errors(missing: Counter[str]) -> bool:
 
 def known_alone(table: NumberTable, nodata: Sequence[str | float] = ()) -> NumberTable:
     """NaN in place of the values of nodata, and of those that instruments write for it, far from all others."""
-    values, notes = table.values, list(table.notes)
+    values, notes, missing = table.values, list(table.notes), [table.missing]
     wanted = [float(one) for one in nodata if not isinstance(one, str) or NUMERIC.fullmatch(one.strip())]
     gone = np.isin(values, wanted)
     for i in range(values.shape[1]) if values.shape[1] <= FEW else [slice(None)]:
@@ -183,7 +183,11 @@ def known_alone(table: NumberTable, nodata: Sequence[str | float] = ()) -> Numbe
         for shown, where in [*found.items(), *([(f"more than {HUGE:g}", huge)] if huge.any() else [])]:
             gone[:, i] |= where
             notes.append(f"{shown} stands for no data at {int(where.sum())} of {part.size} points, far from all others")
-    return replace(table, values=np.where(gone, np.nan, values), notes=tuple(notes)) if gone.any() else table
+            missing.append(f"{shown} {int(where.sum())}")
+    if not gone.any():
+        return table
+    values = np.where(gone, np.nan, values)
+    return replace(table, values=values, notes=tuple(notes), missing=", ".join(filter(None, missing)))
 
 
 def _is_lonely(values: FloatArray, one: float) -> bool:

@@ -39,7 +39,7 @@ NO_DATA = re.compile(r"(?i)\bno data\b")
 THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:(?P<sign>[.,' \u00a0\u2009\u202f’])\d{3})(?:(?P=sign)\d{3})*(?P<rest>[.,]\d*)?")
 """Numbers with a sign between thousands."""
 TIME = re.compile(
-    r"\d{4}[-/.]\d{1,2}[-/.]\d{1,2}(?:[T ]\d{1,2}:.*)?|\d{1,2}[./-]\d{1,2}[./-]\d{2,4}(?: \d{1,2}:.*)?"
+    r"\d{4}[-/.]\d{1,2}[-/.]\d{1,2}(?:[T ]\d{1,2}:.*)?|\d{1,2}[./-]\d{1,2}[./-]\d{2}(?:\d{2})?(?: \d{1,2}:.*)?"
     r"|\d{1,2}:\d{1,2}(?::\d{1,2}(?:[.,:]\d+)?)?(?: ?[aApP][mM])?(?:Z|[+-]\d{2}:?\d{2})?"
 )
 """Dates and times of a day."""
@@ -272,12 +272,12 @@ def _no_table(lines: Sequence[str], skip: int, ways: Sequence[Dialect]) -> str:
     if skip >= len(lines):
         return f"the file must hold rows of numbers, got no line below the {skip} to skip"
     last = max(i for i, line in enumerate(lines) if line.strip())
-    numbers = {way: list(map(way.is_number, way.cells(lines[last]))) for way in ways}
+    numbers = {way: [_is_value(way, cell) for cell in way.cells(lines[last])] for way in ways}
     best = max(ways, key=lambda way: sum(numbers[way]))
     if 2 * sum(numbers[best]) >= len(numbers[best]):
         # the first of the lines above that are all like the last
         above = range(last, skip - 1, -1)
-        alike = (i for i in above if list(map(best.is_number, best.cells(lines[i]))) != numbers[best])
+        alike = (i for i in above if [_is_value(best, cell) for cell in best.cells(lines[i])] != numbers[best])
         at = next(alike, skip - 1) + 1
         return about_row(lines[at], at, best, len(numbers[best]))
     if THOUSANDS.fullmatch(cell := best.cells(lines[last])[0].strip()):
@@ -286,6 +286,11 @@ def _no_table(lines: Sequence[str], skip: int, ways: Sequence[Dialect]) -> str:
         f"the file must hold rows of numbers, got none in its first {len(lines)} lines: skip leaves out more of them, "
         "encoding says how they are written"
     )
+
+
+def _is_value(way: Dialect, cell: str) -> bool:
+    """Whether a cell is a number or a time."""
+    return way.is_number(cell) or bool(TIME.fullmatch(cell.strip().strip('"')))
 
 
 def about_row(line: str, index: int, dialect: Dialect, columns: int) -> str:
