@@ -8,10 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.scenes.test_rail_files import CURVE, LEVELS, loaded
-from validation.scenes import level_files, measured_lines
+from validation.scenes import level_files
 from validation.scenes.column_names import Column, column_of, columns_of, unit_of_all
 from validation.scenes.description import description_lines
 from validation.scenes.height_edits import edited_lines
+from validation.scenes.line_columns import along_the_track
 from validation.scenes.measured_lines import MeasuredLines
 from validation.scenes.number_table import TableForm, table_of_text
 from validation.scenes.positions import places_of
@@ -102,7 +103,11 @@ TWO = "wavelength [cm],left [dB],right [dB]\n" + rows(((w / 10, level, level + 1
         ("wavelength [mm];L [dB]\n125;x\n" + rows(BANDS), 'nodata = "x"', 'as: nodata = "x"'),
         ("wavelength [mm];L [dB]\n" + rows(BANDS) + "25;77.7\n", "nodata = 77.7", "level"),
         (GERMAN.replace("µ", "u").encode("cp500"), 'encoding = "cp500"', "got none in its first 8 lines: .*, encoding"),
-        (TIMED, 'columns = ["lambda", "L"]', "got '12:30:5' in column 1 of line 7: .* a column by columns"),
+        (
+            TIMED,
+            'columns = ["lambda", "L"]',
+            r"the time stamp '12:30:0' in column 1 of line 2, .* as: columns = \[2, 3\]; of lines",
+        ),
         ("text\n" * 3000 + "lambda [mm];L [dB]\n" + rows(BANDS), "skip = 3000", "skip leaves out more"),
         (TWO.replace(" [dB]", ""), "columns = [1, 2]", "left and right: the key columns has the two that are read"),
     ],
@@ -120,7 +125,10 @@ def test_keys_decide_where_recognition_cannot(tmp_path, contents, key, said):
     [
         ("skip = -1", r"levels\.skip must be at least 0"),
         ("columns = []", r"levels\.columns must be names or numbers"),
-        ('columns = [1, "x"]', r'columns must name one column each, got "x": the table has 2, "wavelength", "level"'),
+        (
+            'columns = [1, "x"]',
+            r'columns must name one column each, got "x": the table has 2, "wavelength \[mm\]", "level \[dB\]"',
+        ),
         ("columns = [1, 3]", r"columns must be numbers from 1 to 2, or names, got 3"),
         ('decimal = ";"', r'levels\.decimal must be "\." or ","'),
         ('encoding = "klingon"', r'levels\.encoding must be an encoding, as "latin-1"'),
@@ -139,12 +147,42 @@ def test_a_curve_has_no_use_for_the_keys_of_a_file(tmp_path):
         loaded(tmp_path, (CURVE, f"{CURVE}\nskip = 3"))
 
 
+GROUPED = ["1.000,5", '"1,000.5"', "1 000,5", "1'000.5", "1\N{NARROW NO-BREAK SPACE}000,5", "1\N{NO-BREAK SPACE}000.5"]
+
+
+@pytest.mark.parametrize("number", GROUPED)
+def test_signs_between_thousands_are_read_where_they_can_be_nothing_else(number):
+    decimal = "," if ",5" in number else "."
+    text = "x [mm];z [um]\n" + f"999.5;3.5\n{number};3.5\n-{number.strip(chr(34))};1\n".replace("9.5", f"9{decimal}5")
+    table = in_memory(text.replace("3.5", f"3{decimal}5"))
+    assert table.values.tolist() == [[999.5, 3.5], [1000.5, 3.5], [-1000.5, 1.0]]
+    assert "2 of its rows have a sign between thousands" in table.notes
+
+
 @pytest.mark.parametrize(
-    "number", ["1.000,5", '"1,000.5"', "1 000,5", "1'000.5", "1.234.567", "1\N{NARROW NO-BREAK SPACE}000,5"]
+    ("number", "value"),
+    [("1.234.567", 1234567.0), ("1'234", 1234.0), ("1,234,567.5", 1234567.5), ("12 345 678", 12345678.0)],
 )
-def test_signs_between_thousands_are_refused(tmp_path, number):
-    contents = "wavelength [mm];L [dB]\n" + f"{number};3\n" * 4
-    refused(tmp_path, "levels", contents, said=r"numbers must have no sign between thousands, got '1")
+def test_whole_thousands_are_read(number, value):
+    assert in_memory(f"x;z\n1;2\n{number};3\n4;5\n").values[1, 0] == value
+
+
+@pytest.mark.parametrize(("number", "decimal"), [("1,234", "."), ("1.234", ",")])
+def test_one_sign_that_may_be_either_asks_for_the_decimal_sign(number, decimal):
+    text = f"x;z\n1{decimal}5;2\n{number};3\n4{decimal}5;5\n"
+    with pytest.raises(
+        ValueError, match=rf"got '{number}' in line 3, which may be either: say it, as: decimal = .{decimal}."
+    ):
+        in_memory(text)
+    assert in_memory(text, decimal=decimal).values[:, 0].tolist() == [1.5, 1234.0, 4.5]
+    # where it is the decimal sign of the table it is no other
+    assert in_memory(f"x;z\n{number};2\n1;3\n2;4\n").values[0, 0] == 1.234
+
+
+@pytest.mark.parametrize("number", ["1.23,4", "1,2345.0", "1'23", "12.34.567", "1,234.567,8", "1 2345"])
+def test_other_signs_within_numbers_are_refused(number):
+    with pytest.raises(ValueError, match="got '1"):
+        in_memory(f"x;z\n1;2\n{number};3\n4;5\n6;7\n")
 
 
 # Foreign files
@@ -244,7 +282,7 @@ def test_a_spacing_that_disagrees_with_the_places_is_refused(tmp_path):
         (columns("", AT, AT / 2), (), r"file must have heights beside places, got column 1 and column 2 al"),
         (columns("x [mm],y [mm],z [um]", AT, AT / 2, 1 + 0 * AT), (), "one that runs evenly, .*columns"),
         (columns("", AT), ('spacing = "1 mm"',), "got one column that runs evenly"),
-        (XZ, ('positions = ["-5 mm", "5 mm"]',), r"positions must be one a line, got 2 for 1: x \[mm\] is"),
+        (XZ, ('positions = ["-5 mm", "5 mm"]',), r"positions must be one a line, got 2 for 1 line, z"),
         (XZ, ('unit = "mm"',), "unit must be that of the file, um, or be left out, got 1 mm"),
         (XZ.replace("z [um]", "v [m/s]"), (), r"columns must be lengths, got v \[m/s\]: .*columns = \[1\]"),
         (columns("v [m/s],x [mm],z [um]", Z, AT, Z), (), r"got v \[m/s\]: .*columns = \[2, 3\]"),
@@ -303,8 +341,8 @@ def in_memory(text, **form):
 
 def test_the_place_along_the_track_is_no_line():
     table = in_memory("x [mm];z [um]\n" + rows(enumerate(Z)))
-    height, _, _ = measured_lines._along_the_track(table, metre=None, spacing=1e-3)
-    assert height.shape == (800, 1) and height[:, 0] == pytest.approx(1e-6 * Z)
+    lines = along_the_track(table, metre=None, spacing=1e-3, positions=None)
+    assert lines.height.shape == (800, 1) and lines.height[:, 0] == pytest.approx(1e-6 * Z)
 
 
 def test_wavenumbers_are_cycles_over_a_metre():
@@ -350,14 +388,14 @@ def test_a_table_is_read_as_it_is_written_or_asked_for_its_decimal_sign(way, val
 
 def test_other_columns_than_the_chosen_may_be_texts():
     header = "Points;3\nStep;0.5\nGain;2\nstamp;z [um]\n"
-    numbers, texts = (header + "".join(f"{stamp}{i};{i}.5\n" for i in range(40)) for stamp in ("7", "12:0"))
+    numbers, texts = (header + "".join(f"{stamp}{i};{i}.5\n" for i in range(40)) for stamp in ("7", "12:00:"))
     for text in (numbers, texts):
         for chosen in ("z", 2):
             assert in_memory(text, columns=(chosen,)).values[:, 0].tolist() == [i + 0.5 for i in range(40)]
-    with pytest.raises(ValueError, match=r"a column by columns"):
+    with pytest.raises(ValueError, match=r"the time stamp '12:00:0' in column 1 of line 5, .* columns = \[2\]"):
         in_memory(texts)
     with pytest.raises(ValueError, match=r"got 'broken' in column 1 of line 25"):
-        in_memory(texts.replace("12:020;20.5", "broken;broken"), columns=(2,))
+        in_memory(texts.replace("12:00:20;20.5", "broken;broken"), columns=(2,))
 
 
 def test_a_header_with_a_decimal_comma_is_no_pair_of_names_nor_a_mark_part_of_one():

@@ -115,7 +115,7 @@ def test_wheel_and_rail_add_their_energies(tmp_path):
 def test_lines_have_the_levels_of_their_mean_energy(tmp_path):
     """Two lines, one of which carries a wave of 40 mm and 3 um: half of its power."""
     x = np.arange(4000)
-    lines = 0.01 * np.random.default_rng(3).standard_normal((4000, 2))
+    lines = 0.01 * np.cumsum(np.random.default_rng(3).standard_normal((4000, 2)), axis=0)
     lines[:, 0] += 3 * np.cos(2 * np.pi * x / 40)
     keys = ('spacing = "1 mm"', 'unit = "um"', 'positions = ["-5 mm", "5 mm"]', 'shortest = "20 mm"')
     scene = with_lines(tmp_path, lines, *keys)
@@ -232,10 +232,10 @@ PLACES = 'positions = ["0 mm", "5 mm"]'
         (LINE, (PLACES, 'shortest = "1 mm"'), "lines.shortest must be 2.5 points or more, 1 mm apart, got 1 mm"),
         (LINE, (PLACES, 'shortest = "100 mm"', 'longest = "50 mm"'), "lines.spacing must be .*no band lies between"),
         (LINE, (), r"lines.positions is missing: the file has 2 lines.*as: positions = "),
-        (LINE.T, (PLACES,), r"lines.positions must be one a line, got 2 for heights of shape \(2, 1000\)"),
+        (LINE.T, (PLACES,), "lines.positions must be one a line, got 2 for 1000 lines, .* in a table of 2 rows"),
         (LINE, ('positions = ["5 mm", "5 mm"]',), "lines.positions must ascend"),
         (LINE, ('positions = "0 mm"',), "lines.positions must be a list of lengths"),
-        (LINE * [1, np.nan], (PLACES,), "lines.heights must be known everywhere, got 1000 of"),
+        (np.where(np.arange(1000)[:, None] == 500, np.nan, LINE), (PLACES,), "lines.heights must be known everywhere"),
         (1e6 * LINE, (PLACES,), "lines.levels must lie between .* is the unit another"),
         (0 * LINE, (PLACES,), "lines.file must have heights that differ along a line, got zeros alone"),
     ],

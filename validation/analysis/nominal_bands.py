@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise
+from typing import Literal
 
 import numpy as np
 import scipy
@@ -17,6 +18,8 @@ from numpy.typing import ArrayLike
 from validation.analysis.spectra import Bands, levels, waves
 from validation.analysis.statistics import FloatArray
 
+Detrend = Literal["none", "mean", "plane"]
+"""What is subtracted from measured heights: nothing, their mean, or the plane of least squares, of a line its tilt."""
 MANTISSAS = (1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0)
 """Of nominal wavelengths, over a decade."""
 LONGEST, SHORTEST = 3, -31
@@ -125,13 +128,15 @@ class NominalBands:
         """h', the rms slope along a line of the waves in all bands, h'^2 = 2 int q^2 C_line dq [-]; C_line as above."""
         return math.sqrt(float(self.powers_of_spectrum(lambda q: q**2 * c_line(q)).sum()))
 
-    def powers_of_records(self, records: ArrayLike, *, spacing: float) -> FloatArray:
+    def powers_of_records(self, records: ArrayLike, *, spacing: float, detrend: Detrend = "plane") -> FloatArray:
         """Mean square in each band [m^2] of lines that do not repeat, along the last axis; bands come last.
 
-        Each is levelled and seen through Hann's window. Its density is even on each wave's share of the wavenumbers, of
-        which a band may have a part.
+        Each is seen through Hann's window, less its straight line of least squares, its mean, or nothing. Its density
+        is even on each wave's share of the wavenumbers, of which a band may have a part.
         """
-        heights = scipy.signal.detrend(np.asarray(records, dtype=np.float64))
+        heights = np.asarray(records, dtype=np.float64)
+        if detrend != "none":
+            heights = scipy.signal.detrend(heights, type="linear" if detrend == "plane" else "constant")
         points = heights.shape[-1]
         window = np.sin(np.pi * (np.arange(points) + 0.5) / points) ** 2 * math.sqrt(8 / 3)
         found = waves(window * heights, spacing=spacing)

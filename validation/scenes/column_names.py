@@ -2,8 +2,9 @@
 
 import math
 import re
+import unicodedata
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 from validation.scenes.units import UNITS
 
@@ -18,6 +19,7 @@ KNOWN = {unit: unit for unit in (*UNITS["length"], *WAVENUMBERS) if unit != "µm
 AT_THE_END = re.compile(
     rf"(?:^|[\s_/,])({'|'.join(map(re.escape, sorted(KNOWN, key=len, reverse=True)))})(?:,?\s+\(?(?:re|ref|rel)\b.*)?$"
 )
+BRACKETS = str.maketrans("()", "[]")
 IN_BRACKETS = re.compile(r"\[([^\[\]]*)\]|\(([^()]*)\)")
 REFERENCE = re.compile(r"\b(?:re|ref|rel)\b\.?:?\s*([^\])]*)")
 UNIT_OF_ALL = re.compile(
@@ -28,18 +30,33 @@ UNIT_OF_ALL = re.compile(
 
 @dataclass(frozen=True)
 class Column:
-    """What a table says about one of its columns, as far as it does; reference: of its decibels."""
+    """What a table says about one of its columns, as far as it does; reference: of its decibels; written: its cell."""
 
     name: str = ""
     unit: str = ""
     reference: str = ""
+    written: str = field(default="", compare=False)
 
     def __str__(self) -> str:
         return f"{self.name} [{self.unit}]".strip() if self.unit else self.name
 
+    def is_called(self, name: str) -> bool:
+        """Whether it has this name, without its unit or with it, as the file writes it or as it is printed."""
+        return plain(name) in {plain(one) for one in (self.name, str(self), self.written) if one}
+
+
+def plain(text: str) -> str:
+    """A name without what does not tell it from another: case, kinds of spaces, brackets and micro signs, quotes."""
+    words = MICRO.sub("u", unicodedata.normalize("NFKC", text)).strip(' "').translate(BRACKETS)
+    return " ".join(words.casefold().split())
+
 
 def column_of(text: str) -> Column:
     """Name, unit and reference in a cell of a header. A unit in brackets need not be one of ours."""
+    return replace(_column_of(text), written=text.strip())
+
+
+def _column_of(text: str) -> Column:
     words = MICRO.sub("u", text.strip().strip('"').strip())
     inside = [(found, (found[1] or found[2] or "").strip()) for found in IN_BRACKETS.finditer(words)]
     known = [(found, unit) for found, unit in inside if _unit(unit) in KNOWN]
@@ -76,7 +93,9 @@ def columns_of(above: Sequence[str], count: int, delimiter: str) -> tuple[Column
         return columns
     # a line of units below one of names
     names = found[with_units[0] + 1]
-    return tuple(Column(one.name, two.unit, two.reference) for one, two in zip(names, columns, strict=True))
+    return tuple(
+        Column(one.name, two.unit, two.reference, one.written) for one, two in zip(names, columns, strict=True)
+    )
 
 
 def _cells(line: str, count: int, delimiter: str) -> list[str] | None:

@@ -75,11 +75,27 @@ class HeightEdits:
 UNTOUCHED = HeightEdits()
 
 
-def edited_lines(height: FloatArray, *, fill: bool, asked_by: str) -> tuple[FloatArray, HeightEdits]:
-    """Lines, shape (points, lines), filled in by interpolation along each if asked for, and what was done."""
-    count, share = points_to_fill(height, fill=fill, asked_by=asked_by)
+def edited_lines(height: FloatArray, *, fill: bool, asked_by: str, missing: str = "") -> tuple[FloatArray, HeightEdits]:
+    """Lines, shape (points, lines), filled in by interpolation along each if asked for, and what was done.
+
+    missing: what stands in the cells of a file without data.
+    """
+    count, share = points_to_fill(height, fill=fill, asked_by=asked_by, missing=missing)
     found = np.stack([_filled_line(line) for line in height.T], axis=1) if count else height
     return found, HeightEdits(filled=count, share=share)
+
+
+def without_unknown_ends(height: FloatArray) -> tuple[FloatArray, tuple[str, ...]]:
+    """Lines, shape (points, lines), less the rows at both ends in which a line has no data, and a note of that."""
+    known = np.flatnonzero(~np.isnan(height).any(axis=1))
+    if not known.size or known.size == len(height):
+        return height, ()
+    first, last = int(known[0]), int(known[-1])
+    ends = [f"{count} at its {end}" for count, end in ((first, "beginning"), (len(height) - 1 - last, "end")) if count]
+    note = f"rows without data are left out, {' and '.join(ends)}"
+    # most of a line, or one of several lines, is no end
+    kept = 2 * (last + 1 - first) > len(height)
+    return (height[first : last + 1], (note,) if ends else ()) if kept else (height, ())
 
 
 def _filled_line(line: FloatArray) -> FloatArray:
@@ -89,9 +105,12 @@ def _filled_line(line: FloatArray) -> FloatArray:
     return np.asarray(mean + np.interp(at, at[known], (line - mean)[known]))
 
 
-def points_to_fill(height: FloatArray, *, fill: bool = False, asked_by: str = "") -> tuple[int, float]:
+def points_to_fill(
+    height: FloatArray, *, fill: bool = False, asked_by: str = "", missing: str = ""
+) -> tuple[int, float]:
     """How many points have no data, and their share. asked_by: how fill is asked for, empty where nothing here does it.
 
+    missing: what stands in the cells of a file without data.
     Raises ValueError for infinite heights, for points without data that are not to be filled in, and for `MOST_FILLED`
     of them and more.
     """
@@ -105,7 +124,7 @@ def points_to_fill(height: FloatArray, *, fill: bool = False, asked_by: str = ""
         advice = f"fewer than 1 % can be filled in from their neighbours, as: {asked_by}" if asked_by else BY_HAND
         if asked_by and share >= MOST_FILLED:
             advice = f"cut out a part that is known; {advice}"
-        found = _counted(unknown, "without data (NaN or masked)")
+        found = _counted(unknown, "without data (NaN or masked)") + (f", cells with {missing}" if missing else "")
         raise ValueError(f"heights must be known everywhere, got {found}: {advice}")
     return count, share
 

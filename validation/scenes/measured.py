@@ -3,13 +3,14 @@
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import ClassVar
+from typing import ClassVar, get_args
 
 import numpy as np
 import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from mdr.checks import positive
+from validation.analysis.nominal_bands import Detrend
 from validation.analysis.statistics import FloatArray
 from validation.scenes.height_edits import UNTOUCHED, HeightEdits, known_heights
 from validation.scenes.units import in_unit
@@ -29,7 +30,7 @@ few long waves. Plateaus begin lower, and are much stiffer than a spectrum says.
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class MeasuredHeights:
-    """Heights of a surface on a regular grid, their mean plane removed.
+    """Heights of a surface on a regular grid, by default about their mean plane.
 
     Parameters
     ----------
@@ -37,13 +38,15 @@ class MeasuredHeights:
         Heights, positive towards the other body [m]; 16 or more along each side.
     spacing : tuple of float
         Distances (dx, dy) of the points [m]. Square cells read the heights linearly between points.
+    detrend : "none", "mean" or "plane", optional
+        What is subtracted from the heights: nothing, their mean, or their plane of least squares.
     edits : HeightEdits, optional
         What was done to the heights before: nothing, unless `measured` or a scene file filled points in or cropped.
 
     Attributes
     ----------
     tilt : float
-        Root mean square of the plane that was removed, over that of the heights that are left [-].
+        Root mean square of the mean plane over that of the heights about it [-].
 
     Raises
     ------
@@ -67,9 +70,12 @@ class MeasuredHeights:
     height: FloatArray
     spacing: tuple[float, float]
     edits: HeightEdits = UNTOUCHED
+    detrend: Detrend = "plane"
     tilt: float = field(init=False)
 
     def __post_init__(self) -> None:
+        if self.detrend not in get_args(Detrend):
+            raise ValueError(f"detrend must be one of {', '.join(get_args(Detrend))}, got {self.detrend!r}")
         height = known_heights(self.height)
         check_grid(height)
         for name, side in zip(("spacing[0]", "spacing[1]"), self.spacing, strict=True):
@@ -77,7 +83,8 @@ class MeasuredHeights:
         level = _levelled(height)
         if not level.std() > 1e-9 * np.abs(height).max():
             raise ValueError("heights must be rough, got a plane")
-        object.__setattr__(self, "height", level)
+        kept = {"none": height, "mean": height - height.mean(), "plane": level}[self.detrend]
+        object.__setattr__(self, "height", kept)
         object.__setattr__(self, "tilt", float((height - level).std() / level.std()))
 
     @property
@@ -165,9 +172,10 @@ class MeasuredHeights:
                 "of heights and of their spacing right?"
             )
         if self.tilt > TILTED:
+            removed = "removed" if self.detrend == "plane" else "kept, as asked by detrend"
             found.append(
-                f"heights are tilted: the mean plane, which was removed, is {self.tilt:.2g} times as rough as what is "
-                "left; it would matter for a body that cannot rotate."
+                f"heights are tilted: the mean plane, which was {removed}, is {self.tilt:.2g} times as rough as "
+                "what is left; it would matter for a body that cannot rotate."
             )
         (nx, ny), (dx, dy) = self.height.shape, self.spacing
         if nx != ny and abs(dx * nx / (dy * ny) * nx / ny - 1) < 1e-6:

@@ -2,26 +2,30 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 
 from mdr.checks import finite, positive
-from validation.analysis.nominal_bands import NominalBands
+from validation.analysis.nominal_bands import Detrend, NominalBands
 from validation.analysis.statistics import FloatArray
-from validation.scenes.height_edits import edited_lines, known_heights
+from validation.scenes.height_edits import edited_lines, known_heights, without_unknown_ends
+from validation.scenes.level_files import curve
+from validation.scenes.line_columns import along_the_track
+from validation.scenes.line_edits import UNTOUCHED, LineEdits, Outliers, edited
 from validation.scenes.measured import MeasuredHeights
-from validation.scenes.number_table import NumberTable
-from validation.scenes.positions import Places, metres_of_step, own_spacing, places_of, runs_one_way
-from validation.scenes.printable import shortened
-from validation.scenes.reader import Reader, errors_of, table, values
+from validation.scenes.printable import printable, shortened
+from validation.scenes.reader import Reader, errors_of, one_word, table, values
 from validation.scenes.roughness_levels import LEAST, MICROMETRE, RoughnessLevels
-from validation.scenes.table_files import FORM, heights_of_columns, sentence_about, table_beside
-from validation.scenes.units import LENGTHS, in_unit, quantity, unit_of
+from validation.scenes.table_files import FORM, sentence_about, table_beside
+from validation.scenes.units import in_unit, quantity, unit_of
 
 WAVES_PER_LINE = 4
 """Of the longest band, at the least: with fewer waves it is narrower than what a line resolves."""
+SMOOTHEST, ROUGHEST = -35.0, 45.0
+"""Levels of a rail re the limit curve of ISO 3095 [dB], in the middle: others are heights in another unit."""
 POINTS_PER_WAVE = 2.5
 """Of the shortest band, at the least: EN 15610 has 1 mm for 2.5 mm."""
 
@@ -32,8 +36,11 @@ class MeasuredLines:
 
     spacing: of the points along the track [m]; positions: of the lines across it, ascending [m]; longest, shortest:
     nominal wavelengths of the first and the last band [m], None for all that lines of four waves and points of 2.5 to a
-    wave have. Raises ValueError or TypeError for heights that are no real numbers, masked or not finite, positions that
-    are not one a line and ascending, and waves that are too long for the lines or too short for the points.
+    wave have; detrend: what is subtracted from each line before its spectrum; edits: what was wrong in the lines, as
+    `edited` finds it, whose error the levels have.
+
+    Raises ValueError or TypeError for heights that are no real numbers, masked or not finite, positions that are not
+    one a line and ascending, and waves that are too long for the lines or too short for the points.
     """
 
     height: FloatArray
@@ -41,11 +48,14 @@ class MeasuredLines:
     positions: Sequence[float] = (0.0,)
     longest: float | None = None
     shortest: float | None = None
+    detrend: Detrend = "plane"
+    edits: LineEdits = UNTOUCHED
 
     def __post_init__(self) -> None:
         values = known_heights(self.height)
         height = values[:, np.newaxis] if values.ndim == 1 else values
         positive("spacing", self.spacing)
+        one_word("detrend", self.detrend, words=get_args(Detrend))
         positions = tuple(finite(f"positions[{i}]", position) for i, position in enumerate(self.positions))
         if height.ndim != 2 or height.shape[1] != len(positions):
             raise ValueError(
@@ -84,7 +94,8 @@ class MeasuredLines:
     @cached_property
     def levels(self) -> RoughnessLevels:
         """Levels of the mean energy of all lines, which expects that of one and scatters less."""
-        powers = self.bands.powers_of_records(self.height.T, spacing=self.spacing).mean(axis=0)
+        of_lines = self.bands.powers_of_records(self.height.T, spacing=self.spacing, detrend=self.detrend)
+        powers = of_lines.mean(axis=0)
         empty = powers < MICROMETRE**2 * 10 ** (LEAST / 10)
         if empty.any() and not empty.all():
             raise ValueError(
@@ -93,7 +104,8 @@ class MeasuredLines:
             )
         count = len(self.positions)
         source = f"{count} measured {'line' if count == 1 else 'lines'}"
-        return RoughnessLevels.of_powers(self.bands, powers, source=source)
+        errors = self.edits.errors(self.bands, of_lines)
+        return RoughnessLevels.of_powers(self.bands, powers, source=source, errors=errors, fault=self.edits.fault)
 
     def _check_bands(self) -> None:
         slack = 1 + 1e-9
@@ -109,128 +121,61 @@ class MeasuredLines:
 # Of a file in a scene
 
 
-MOSTLY = 0.9
-"""Of the rows of a column of places, at the least, that have one."""
-
-
 def lines_in(name: str, given: object, *, folder: Path, told: list[str]) -> MeasuredLines:
     """Of a table in a scene file: the file beside it, and how to read it. told: takes what was assumed of it."""
-    own: dict[str, Reader] = {"unit": unit_of, "positions": _positions}
-    readers = values("file", "spacing") | own | values("longest", "shortest", "fill") | FORM
+    own: dict[str, Reader] = {"unit": unit_of, "positions": _positions, "outliers": _outliers}
+    readers = values("file", "spacing") | own | values("longest", "shortest", "fill", "detrend") | FORM
     found = table(readers, tuple(readers)[1:], name, given)
     path, numbers = table_beside(name, found, folder)
     with errors_of(f"{name}."):
-        count = len(found["positions"]) if "positions" in found else None
-        height, spacing, notes = _along_the_track(numbers, found.pop("unit", None), found.pop("spacing", None), count)
-        if count is None and height.shape[1] > 1:
-            raise ValueError(
-                f"positions is missing: the file has {height.shape[1]} lines, whose places across the rail are needed, "
-                'as: positions = ["-10 mm", "0 mm"]'
-            )
-        height, edits = edited_lines(height, fill=found.pop("fill", False), asked_by="fill = true")
-        if count == height.shape[1]:
-            order = np.argsort(found["positions"], kind="stable")
-            found["positions"], height = np.array(found["positions"])[order].tolist(), height[:, order]
-        measured = MeasuredLines(height=height, spacing=spacing, **found)
-        if not np.ptp(measured.height, axis=0).any():
+        unit, spacing, positions = (found.pop(key, None) for key in ("unit", "spacing", "positions"))
+        lines = along_the_track(numbers, unit, spacing, positions)
+        fill = found.pop("fill", False)
+        height, ends = (lines.height, ()) if fill else without_unknown_ends(lines.height)
+        height, edits = edited_lines(height, fill=fill, asked_by="fill = true", missing=numbers.missing)
+        if not np.ptp(height, axis=0).any():
             raise ValueError("file must have heights that differ along a line, got zeros alone, or one other number")
+        order = np.argsort(lines.positions, kind="stable")
+        flaws = edited(height[:, order], lines.spacing, found.pop("outliers", "remove"))
+        measured = MeasuredLines(
+            height=flaws.result(height[:, order]),
+            spacing=lines.spacing,
+            positions=np.array(lines.positions)[order].tolist(),
+            edits=flaws,
+            **found,
+        )
         try:
             _ = measured.levels  # heights in a wrong unit are refused here, by their levels
         except ValueError as problem:
             raise ValueError(f'{problem} As: unit = "um"') from None
-    told += [*sentence_about(path, (*numbers.notes, *notes)), *edits.notes]
+    if unit is None and (doubt := _doubt(measured.levels)):
+        measured = replace(measured, edits=replace(flaws, doubt=doubt))
+        told.append(f"{printable(path.name)}: {doubt}.")
+    told += [*sentence_about(path, (*numbers.notes, *lines.notes, *ends)), *edits.notes]
+    told += [f"{printable(path.name)}: {sentence}" for sentence in flaws.notes(measured.positions)]
     return measured
 
 
-def _along_the_track(
-    numbers: NumberTable, metre: float | None, spacing: float | None, count: int | None = None
-) -> tuple[FloatArray, float, tuple[str, ...]]:
-    """Heights of shape (points, lines) [m] in the order of their places, their spacing [m], and what was assumed.
+def _doubt(levels: RoughnessLevels) -> str:
+    """What is wrong with the unit that a file names; empty where nothing is.
 
-    metre, spacing: as given; count: how many lines there are, if it is known. Raises ValueError that begins with a key.
+    The middle of the differences from the limit curve of ISO 3095, in the bands that both have.
     """
-    numbers, spacing = _as_columns(numbers, metre, spacing)
-    places, left_out = _kinds(numbers, count) if len(numbers.columns) > 1 else ({}, {})
-    rest = [i for i in range(len(numbers.columns)) if i not in left_out]
-    if not rest:
-        raise ValueError(f"file must have heights beside places, got {numbers.names(sorted(left_out))} alone")
-    notes = [f"{numbers.names([i])} {why} and is left out" for i, why in sorted(left_out.items()) if i not in places]
-    height = heights_of_columns(numbers, rest, metre)
-    if not places:
-        if spacing is None:
-            raise ValueError(
-                'spacing is missing: no column of the file runs evenly, as places do, as: spacing = "1 mm"'
-            )
-        return height, spacing, tuple(notes)
-    ((at, place),) = places.items()
-    name = numbers.names([at])
-    step = metres_of_step(place.step, numbers.columns[at].unit, spacing, name)
-    lines = f"{numbers.names(rest)} {'is a line' if len(rest) == 1 else 'are lines'}"
-    notes.append(f"{name} is the place along the track, {in_unit(step, 'length')} apart, and {lines}")
-    if count not in (None, len(rest)):
-        raise ValueError(f"positions must be one a line, got {count} for {len(rest)}: {notes[-1]}")
-    whole = np.full((int(place.number[-1]) + 1, len(rest)), np.nan)
-    whole[place.number] = height[np.isfinite(numbers.values[:, at])]
-    if place.gaps:
-        notes.append(f"{place.gaps} of its places have no row")
-    return whole[:: -1 if place.step < 0 else 1], step, tuple(notes)
-
-
-def _as_columns(numbers: NumberTable, metre: float | None, spacing: float | None) -> tuple[NumberTable, float | None]:
-    """A column a line, and the spacing that is given, or that of an instrument. Raises ValueError."""
-    values = numbers.values
-    if values.ndim == 1 or (values.ndim == 2 and len(values) == 1):
-        numbers = replace(numbers, values=values.reshape(-1, 1), columns=(), spacing=None)
-    if numbers.values.ndim != 2:
-        raise ValueError(f"file must have a column a line, got an array of shape {shortened(values.shape)}")
-    alone = numbers.values.shape[1] == 1
-    if numbers.spacing is not None and not alone:
-        raise ValueError("file must have lines, got heights over an area: they belong to [rail.heights]")
-    if alone and places_of(numbers.values[:, 0]):
-        raise ValueError("file must have heights, got one column that runs evenly, as places do")
-    return numbers, spacing if numbers.spacing is None else own_spacing(numbers, metre, [spacing])[0]
-
-
-def _kinds(numbers: NumberTable, count: int | None) -> tuple[dict[int, Places], dict[int, str]]:
-    """The column of places, if any, and why columns are no lines. Raises ValueError."""
-    places: dict[int, Places] = {}
-    constant: dict[int, str] = {}
-    one_way = []
-    for i in range(len(numbers.columns)):
-        values = numbers.values[np.isfinite(numbers.values[:, i]), i]
-        if values.size < MOSTLY * len(numbers.values):
-            continue
-        if found := places_of(values):
-            places[i] = found
-        elif runs_one_way(values):
-            one_way.append(i)
-        elif values.size and np.ptp(values) == 0:
-            constant[i] = f"is {values[0]:g} everywhere"
-    # beside places, or where all columns are told to be lines, a line may be as tilted as that
-    if one_way and not places and count != len(numbers.columns):
-        raise ValueError(
-            f"columns must be lines of heights, got {numbers.names(one_way)}, which runs one way but not evenly, as "
-            "places do that are not equally far apart: resample the lines, or leave it out by columns"
-        )
-    evenly = dict.fromkeys(places, "runs evenly")
-    lines = len(numbers.columns) - len(evenly) - len(constant)
-    return _one_place(numbers, places), {**evenly, **constant} if lines else evenly
-
-
-def _one_place(numbers: NumberTable, places: dict[int, Places]) -> dict[int, Places]:
-    """The one column of places among those that run evenly. Raises ValueError."""
-    lengths = {i: one for i, one in places.items() if numbers.columns[i].unit in LENGTHS}
-    unnamed = {i: one for i, one in places.items() if not numbers.columns[i].unit}
-    found = lengths or {i: one for i, one in unnamed.items() if not one.counts} or unnamed
-    if len(found) > 1:
-        raise ValueError(
-            f"columns must have one that runs evenly, the place along the track, got {numbers.names(sorted(found))}: "
-            "say which to read by columns"
-        )
-    return found
+    limit = dict(zip(*(getattr(curve("iso3095-2013"), of) for of in ("wavelengths", "levels")), strict=True))
+    both = zip(levels.wavelengths, levels.levels, strict=True)
+    over = float(np.median([level - limit[wave] for wave, level in both if wave in limit] or [0.0]))
+    if SMOOTHEST <= over <= ROUGHEST:
+        return ""
+    return (
+        f"the levels are {over:+.0f} dB re the limit curve of ISO 3095, which no rail has: is the unit another than "
+        'the file names? A unit in the scene is taken at its word, as: unit = "um"'
+    )
 
 
 def _positions(name: str, given: object) -> list[float]:
     if not isinstance(given, list):
         raise ValueError(f'{name} must be a list of lengths, as ["-10 mm", "0 mm"], got {shortened(given)}')
     return [quantity(f"{name}[{i}]", one, "length") for i, one in enumerate(given)]
+
+
+_outliers = partial(one_word, words=get_args(Outliers))

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from mdr.checks import positive
+from validation.analysis.nominal_bands import Detrend
 from validation.analysis.statistics import FloatArray
 from validation.scenes.height_edits import HeightEdits, central_square, filled_in, points_to_fill, real_numbers
 from validation.scenes.measured import FEWEST, MeasuredHeights, check_grid
@@ -18,7 +19,9 @@ from validation.scenes.table_files import FORM, heights_of_columns, sentence_abo
 from validation.scenes.units import in_unit, metres_of, unit_of
 
 
-def measured(surface: Any, *, unit: str | None = None, crop: bool = False, fill: bool = False) -> MeasuredHeights:
+def measured(
+    surface: Any, *, unit: str | None = None, crop: bool = False, fill: bool = False, detrend: Detrend = "plane"
+) -> MeasuredHeights:
     """Measured heights of any object with heights and a size, as the `Topography` of SurfaceTopography.
 
     Parameters
@@ -33,12 +36,14 @@ def measured(surface: Any, *, unit: str | None = None, crop: bool = False, fill:
     fill : bool, optional
         Whether to fill in points without data, NaN or masked, where they are fewer than 1 %: by harmonic interpolation
         from their neighbours.
+    detrend : "none", "mean" or "plane", optional
+        What is subtracted from the heights: nothing, their mean, or their mean plane, which is the default.
 
     Returns
     -------
     MeasuredHeights
-        Heights about their mean plane, for the ``ground`` of a scene. Its notes and the description of the scene say
-        what was cropped and filled in.
+        Heights, by default about their mean plane, for the ``ground`` of a scene. Its notes and the description of
+        the scene say what was cropped and filled in.
 
     Raises
     ------
@@ -72,7 +77,7 @@ def measured(surface: Any, *, unit: str | None = None, crop: bool = False, fill:
     metres = _metres(surface, unit)
     sides = [length * metres for length in lengths]
     spacing = sides[0] / max(height.shape[0], 1), sides[1] / max(height.shape[1], 1)
-    return as_asked(height * metres, spacing, crop=crop, fill=fill, asked_by="fill=True")
+    return as_asked(height * metres, spacing, crop=crop, fill=fill, asked_by="fill=True", detrend=detrend)
 
 
 def as_asked(
@@ -83,18 +88,22 @@ def as_asked(
     fill: bool,
     asked_by: str,
     told: tuple[str, ...] = (),
+    missing: str = "",
+    detrend: Detrend = "plane",
 ) -> MeasuredHeights:
     """Heights in metres, NaN where there are no data, after the edits that were asked for.
 
     The square is cut out first, so that points without data count in it alone. asked_by: how fill is asked for; told:
-    what was assumed of their file. Raises ValueError as `central_square`, `points_to_fill` and `MeasuredHeights`.
+    what was assumed of their file; missing: what stands in its cells without data; detrend: what is
+    subtracted. Raises ValueError as `central_square`, `points_to_fill` and `MeasuredHeights`.
     """
     check_grid(height)
     part = central_square(height, spacing) if crop else height
-    count, share = points_to_fill(part, fill=fill, asked_by=asked_by)
+    count, share = points_to_fill(part, fill=fill, asked_by=asked_by, missing=missing)
     cropped = None if part.shape == height.shape else height.shape
     edits = HeightEdits(filled=count, share=share, cropped_from=cropped, told=told)
-    return MeasuredHeights(height=filled_in(part, spacing) if count else part, spacing=spacing, edits=edits)
+    known = filled_in(part, spacing) if count else part
+    return MeasuredHeights(height=known, spacing=spacing, edits=edits, detrend=detrend)
 
 
 def _metres(surface: Any, given: str | None) -> float:
@@ -133,11 +142,12 @@ def heights_of(name: str, given: object, *, folder: Path) -> MeasuredHeights:
         "spacing": _spacing,
         "unit": unit_of,
         **FORM,
-        **values("crop", "fill"),
+        **values("crop", "fill", "detrend"),
     }
     found = table(readers, tuple(readers)[1:], name, given)
     path, numbers = table_beside(name, found, folder)
-    wishes = {key: found.get(key, False) for key in ("crop", "fill")}
+    wishes = {"crop": found.get("crop", False), "fill": found.get("fill", False), "missing": numbers.missing}
+    wishes["detrend"] = found.get("detrend", "plane")
     try:
         height, known, notes = _face(numbers, found.get("unit"), found.get("spacing"))
         if known is None:
@@ -174,13 +184,25 @@ def _of_rows(numbers: NumberTable, metre: float | None, spacing: Spacing | None)
         across = None if across is None or across.gaps else across
         along = places_of(values[1 if across else 0 :, 0])
     if along is None or along.gaps:
-        return heights_of_columns(numbers, range(values.shape[1]), metre), spacing, ()
+        return _below_first_row(numbers, metre, spacing)
     axes = [(along, numbers.columns[0].unit, "first column"), *([(across, "", "first row")] if across else [])]
     height, notes = heights_of_columns(numbers, range(1, values.shape[1]), metre)[len(axes) - 1 :], []
     for (places, unit, what), given in zip(axes, spacing or (None, None), strict=False):
         step = metres_of_step(places.step, unit, given, f"the {what}")
         notes.append(f"its {what} runs evenly, {in_unit(step, 'length')} apart, and is left out of the heights")
     return height[tuple(slice(None, None, -1 if one.step < 0 else 1) for one, _, _ in axes)], spacing, tuple(notes)
+
+
+def _below_first_row(numbers: NumberTable, metre: float | None, spacing: Spacing | None) -> Face:
+    """A row for each x; a first row that runs evenly, as the second does not, has the places of y."""
+    values = numbers.values
+    height = heights_of_columns(numbers, range(values.shape[1]), metre)
+    across = places_of(values[0]) if min(values.shape) > FEWEST and places_of(values[1]) is None else None
+    if across is None or across.gaps:
+        return height, spacing, ()
+    step = metres_of_step(across.step, "", spacing[1] if spacing else None, "the first row")
+    note = f"its first row runs evenly, {in_unit(step, 'length')} apart, and is left out of the heights"
+    return height[1:, :: -1 if across.step < 0 else 1], spacing, (note,)
 
 
 def _of_three(numbers: NumberTable, metre: float | None, spacing: Spacing | None) -> Face:

@@ -1,8 +1,10 @@
 """A table of numbers in a text of others: levels, lines, heights and profiles as they are exported."""
 
 import codecs
+import math
 import re
 from array import array
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -23,6 +25,8 @@ SENTINELS = (-999.0, -9999.0, -99999.0, -32768.0, -32767.0, 32767.0, 9999.0, 999
 HUGE, LONELY = 1e30, 3.0
 """LONELY: how many spans of all other numbers lie between them and such a value, at the least."""
 NUMERIC = re.compile(r"[+-]?\d+\.?\d*")
+MOST_SHOWN = 12
+"""Texts of cells without data that a sentence names."""
 FEW = 8
 """Columns of a table whose columns may be different quantities."""
 
@@ -52,7 +56,8 @@ class TableForm:
 class NumberTable:
     """Numbers of shape (rows, columns), NaN without data; a name a column; the unit of all; how it was read.
 
-    spacing: of the points along the axes in that unit, where the file has it, which an instrument wrote.
+    spacing: of the points along the axes in that unit, where the file has it, which an instrument wrote; missing: what
+    stands in cells without data, and how often.
     """
 
     values: FloatArray
@@ -60,6 +65,7 @@ class NumberTable:
     unit: str = ""
     spacing: tuple[float, ...] | None = None
     notes: tuple[str, ...] = ()
+    missing: str = ""
 
     def __post_init__(self) -> None:
         if not self.columns and self.values.ndim > 1:
@@ -83,10 +89,10 @@ class NumberTable:
             if not 1 <= column <= width:
                 raise ValueError(f"columns must be numbers from 1 to {width}, or names, got {column}")
             return column - 1
-        names = [{one.name.lower(), str(one).lower()} for one in self.columns]
-        found = [i for i, name in enumerate(names) if column.strip().lower() in name]
+        found = [i for i, one in enumerate(self.columns) if one.is_called(column)]
         if len(found) != 1:
-            known = ", ".join(quoted(one.name) for one in self.columns[:FEW] if one.name) or "without names"
+            names = [one.written or one.name for one in self.columns[:FEW]]
+            known = ", ".join(map(quoted, filter(None, names))) or "without names"
             raise ValueError(f"columns must name one column each, got {quoted(column)}: the table has {width}, {known}")
         return found[0]
 
@@ -108,23 +114,31 @@ def _as_written(lines: Sequence[str], encoding: str, form: TableForm, numeric: i
     skip, nodata = form.skip or 0, frozenset(str(one).strip().lower() for one in form.nodata)
     sample = text_dialect.sample_of(lines, skip)
     dialect, first, width = text_dialect.recognised(sample, skip, form.decimal, nodata, numeric)
-    values, below = _values(lines[first:], first, dialect, width)
+    values, below, missing, grouped = _values(lines[first:], first, dialect, width)
     above = lines[skip:first]
     units, columns = unit_of_all(above), columns_of(above, width, dialect.delimiter)
     unit = units.pop() if len(units) == 1 and not any(column.unit for column in columns) else ""
     notes = _how(dialect, width, lines[:first], encoding)
     notes += (f"{below} {'line' if below == 1 else 'lines'} below its numbers",) if below else ()
+    notes += (f"{grouped} of its rows have a sign between thousands",) if grouped else ()
+    notes += (f"cells without a number have no data: {_counted(missing)}",) if _has_errors(missing) else ()
     notes += (f"its header has the unit {unit}",) if unit else ()
     if width > 1 and np.isnan(values[:, -1]).all() and not columns[-1].name:
         # a delimiter at the end of each line
         values, columns = values[:, :-1], columns[:-1]
-    table = NumberTable(values=values, columns=columns, unit=unit, notes=notes)
+    table = NumberTable(values=values, columns=columns, unit=unit, notes=notes, missing=_counted(missing))
     return known_alone(table, form.nodata).chosen(form.columns)
 
 
-def _values(lines: Iterable[str], first: int, dialect: Dialect, width: int) -> tuple[FloatArray, int]:
-    """Rows, up to the first line without a number; how many lines stand below, none of which has one."""
+def _values(
+    lines: Iterable[str], first: int, dialect: Dialect, width: int
+) -> tuple[FloatArray, int, Counter[str], int]:
+    """Rows, up to the first line without a number; how many lines stand below, none of which has one.
+
+    Also cells without data by what stands in them, and how many rows have signs between thousands.
+    """
     found, below, problem = array("d"), 0, ""
+    missing, grouped = Counter[str](), 0
     for index, line in enumerate(lines, first):
         if dialect.says_nothing(line):
             continue
@@ -132,7 +146,11 @@ def _values(lines: Iterable[str], first: int, dialect: Dialect, width: int) -> t
         try:
             if len(cells) != width or below:
                 raise ValueError
-            found.extend(dialect.numbers(cells))
+            plain = dialect.plain(cells)
+            found.extend(dialect.numbers(cells) if plain is None else plain)
+            if plain is None or any(map(math.isnan, plain)):
+                missing.update(token(cell, bare=True) for cell in cells if dialect.says_missing(cell))
+                grouped += any(dialect.without_thousands(text) != text for text in (cell.strip() for cell in cells))
         except ValueError:
             problem = problem or about_row(line, index, dialect, width)
             if any(map(text_dialect.STARTS, cells)):
@@ -140,12 +158,22 @@ def _values(lines: Iterable[str], first: int, dialect: Dialect, width: int) -> t
             below += 1
         if len(found) > MOST_VALUES * max(1, 3 * (width == 3)):
             raise ValueError(f"the table must hold at most {MOST_VALUES} heights, got more")
-    return np.frombuffer(found, dtype=np.float64).reshape(-1, width), below
+    return np.frombuffer(found, dtype=np.float64).reshape(-1, width), below, missing, grouped
+
+
+def _counted(missing: Counter[str]) -> str:
+    """What stands in cells without data, and how often; nothing of empty ones."""
+    shown = [f"{text} {count}" for text, count in missing.most_common(MOST_SHOWN) if text]
+    return ", ".join(shown) + (f" and {len(missing) - MOST_SHOWN} others" if len(missing) > MOST_SHOWN else "")
+
+
+def _has_errors(missing: Counter[str]) -> bool:
+    return any(text_dialect.ERRORS.fullmatch(text.lower()) for text in missing)
 
 
 def known_alone(table: NumberTable, nodata: Sequence[str | float] = ()) -> NumberTable:
     """NaN in place of the values of nodata, and of those that instruments write for it, far from all others."""
-    values, notes = table.values, list(table.notes)
+    values, notes, missing = table.values, list(table.notes), [table.missing]
     wanted = [float(one) for one in nodata if not isinstance(one, str) or NUMERIC.fullmatch(one.strip())]
     gone = np.isin(values, wanted)
     for i in range(values.shape[1]) if values.shape[1] <= FEW else [slice(None)]:
@@ -155,7 +183,11 @@ def known_alone(table: NumberTable, nodata: Sequence[str | float] = ()) -> Numbe
         for shown, where in [*found.items(), *([(f"more than {HUGE:g}", huge)] if huge.any() else [])]:
             gone[:, i] |= where
             notes.append(f"{shown} stands for no data at {int(where.sum())} of {part.size} points, far from all others")
-    return replace(table, values=np.where(gone, np.nan, values), notes=tuple(notes)) if gone.any() else table
+            missing.append(f"{shown} {int(where.sum())}")
+    if not gone.any():
+        return table
+    values = np.where(gone, np.nan, values)
+    return replace(table, values=values, notes=tuple(notes), missing=", ".join(filter(None, missing)))
 
 
 def _is_lonely(values: FloatArray, one: float) -> bool:

@@ -14,6 +14,8 @@ FEWEST = 8
 """Points of a column that can be told to run evenly."""
 CLOSE, ROUNDED = 1e-2, 0.45
 """Steps that places may be off, and steps over which the last digit to which they are rounded may go."""
+MOST_OFF = 0.2
+"""Of the steps of places that run evenly for the most part."""
 SAME = 1e-6
 """Over all places along an axis: what is closer is one place."""
 AGREE = 2e-3
@@ -32,6 +34,11 @@ class Places:
     def gaps(self) -> int:
         """Places of the grid that no row has."""
         return int(self.number.max()) + 1 - self.number.size
+
+    @property
+    def before_gap(self) -> float:
+        """The last place before the first gap."""
+        return self.first + self.step * float(self.number[int(np.argmax(np.diff(self.number) > 1))])
 
     @property
     def counts(self) -> bool:
@@ -71,6 +78,33 @@ def runs_one_way(values: FloatArray) -> bool:
     """Whether a column of some length ascends or descends all along, as no rough line does; rounded places may stay."""
     steps = np.diff(values)
     return values.size >= 2 * FEWEST and bool(steps.any()) and bool((steps >= 0).all() or (steps <= 0).all())
+
+
+def faults_of_places(values: FloatArray) -> str:
+    """Where a column that runs evenly for the most part turns back, repeats a place or jumps; empty of any other."""
+    steps = np.diff(values)
+    usual = float(np.median(steps)) if steps.size >= FEWEST else 0.0
+    if usual == 0 or not np.isfinite(values).all():
+        return ""
+    off = np.abs(steps - usual) > max(CLOSE * abs(usual), 1.01 * _last_digit(values))
+    if off.mean() > MOST_OFF:
+        return ""
+    faults = {
+        "runs back from {} to {}": steps * np.sign(usual) < 0,
+        "has {} and {} behind another": steps == 0,
+        "jumps from {} to {}": off,
+    }
+    for words, where in faults.items():
+        if where.any():
+            at = int(np.argmax(where))
+            ends = (f"{values[i]:.6g}" for i in (at, at + 1))
+            return f"{words.format(*ends)} in row {at + 2}, and in {int(where.sum()) - 1} other rows"
+    return ""
+
+
+def first_of_each(values: FloatArray) -> NDArray[np.bool_]:
+    """Rows that do not repeat the place of the row before."""
+    return np.append(True, np.diff(values) != 0)
 
 
 def metres_of_step(step: float, unit: str, given: float | None, what: str) -> float:

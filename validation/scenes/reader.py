@@ -7,12 +7,13 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 from mdr.checks import count, finite, positive
+from validation.analysis.nominal_bands import Detrend
 from validation.scenes.bundled import line_for, places_of
 from validation.scenes.input_files import SceneError, contents_of
-from validation.scenes.printable import is_printable, printable, shortened
+from validation.scenes.printable import is_printable, printable, quoted, shortened
 from validation.scenes.units import Dimension, quantity
 
 Reader = Callable[[str, object], Any]
@@ -133,6 +134,13 @@ def yes_or_no(name: str, given: object) -> bool:
     return given
 
 
+def one_word(name: str, given: object, *, words: tuple[str, ...]) -> str:
+    """Check one of some words."""
+    if given not in words:
+        raise ValueError(f"{name} must be one of {', '.join(map(quoted, words))}, got {shortened(given)}")
+    return str(given)
+
+
 def _number_or(dimension: Dimension, name: str, given: object) -> float:
     """A number, or a text with its unit."""
     return quantity(name, given, dimension) if isinstance(given, str) else float(NUMBER(name, given))
@@ -150,6 +158,7 @@ VALUES: dict[str, Reader] = {
     **{"load": FORCE, "axle_load": FORCE, "mass": MASS, "speed": SPEED, "youngs_modulus": PRESSURE},
     **{"pressure": PRESSURE, "contact_modulus": PRESSURE, "poisson_ratio": NUMBER, "alpha": POSITIVE, "springs": WHOLE},
     **{"wheels_per_axle": WHOLE, "damping": partial(_number_or, "share of critical")},
+    "detrend": partial(one_word, words=get_args(Detrend)),
     **{"name": nonblank_text, "file": nonblank_text, "curve": nonblank_text, "fill": yes_or_no, "crop": yes_or_no},
 }
 """How the value of a key is read that is the same in all tables which have it."""

@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,16 +24,23 @@ STEPS, CLOSE = 200, 1e-12
 class RoughnessLevels:
     """Levels L = 20 lg(rms / 1 um) of a line in base-ten one-third octaves.
 
-    wavelengths: nominal [m], the longest first, none left out; levels: dB re 1 um; source: where they come from.
-    Raises ValueError for wavelengths that are no such bands, and for levels that are none.
+    wavelengths: nominal [m], the longest first, none left out; levels: dB re 1 um; source: where they come from;
+    errors: half-widths of 95 % that faults of a measurement leave in each band [dB], none where there are no faults;
+    fault: why such an error is not known, where it is infinite.
+
+    Raises ValueError for wavelengths that are no such bands, and for levels or errors that are none.
     """
 
     wavelengths: tuple[float, ...]
     levels: tuple[float, ...]
     source: str = "given"
+    errors: tuple[float, ...] = ()
+    fault: str = ""
 
     def __post_init__(self) -> None:
         _ = self.bands
+        if len(self.errors) not in (0, len(self.levels)) or not all(error >= 0 for error in self.errors):
+            raise ValueError(f"errors must be none or one a level, zero or positive, got {self.errors}")
         if len(self.levels) != len(self.wavelengths):
             raise ValueError(
                 f"levels must be one a wavelength, got {len(self.levels)} for {len(self.wavelengths)} wavelengths"
@@ -45,11 +53,11 @@ class RoughnessLevels:
                 )
 
     @classmethod
-    def of_powers(cls, bands: NominalBands, powers: ArrayLike, *, source: str) -> "RoughnessLevels":
+    def of_powers(cls, bands: NominalBands, powers: ArrayLike, *, source: str, **faults: Any) -> "RoughnessLevels":
         """Of the mean square of the heights in each band [m^2]."""
         # a band without any power is refused with the others that are none
         levels = 10 * np.log10(np.maximum(np.asarray(powers, dtype=np.float64), 1e-99) / MICROMETRE**2)
-        return cls(wavelengths=tuple(bands.nominal.tolist()), levels=tuple(levels.tolist()), source=source)
+        return cls(wavelengths=tuple(bands.nominal.tolist()), levels=tuple(levels.tolist()), source=source, **faults)
 
     @cached_property
     def bands(self) -> NominalBands:
@@ -77,7 +85,9 @@ class RoughnessLevels:
         kept = self.bands.within(first if longest is None else longest, last if shortest is None else shortest)
         start = self.bands.longest - kept.longest
         inside = slice(start, start + len(kept))
-        return replace(self, wavelengths=self.wavelengths[inside], levels=self.levels[inside])
+        return replace(
+            self, wavelengths=self.wavelengths[inside], levels=self.levels[inside], errors=self.errors[inside]
+        )
 
     def raised(self, offset: float) -> "RoughnessLevels":
         """The same with so many dB more in each band."""
@@ -86,9 +96,23 @@ class RoughnessLevels:
 
     def __add__(self, other: "RoughnessLevels") -> "RoughnessLevels":
         """Energies of both, over these bands; where the other has no level it adds nothing."""
-        more = dict(zip(other.bands.numbers, other.powers, strict=True))
+        more, left = (
+            dict(zip(other.bands.numbers, values, strict=True)) for values in (other.powers, other._powers_of_errors)
+        )
         powers = self.powers + [more.get(number, 0.0) for number in self.bands.numbers]
-        return RoughnessLevels.of_powers(self.bands, powers, source=f"{self.source} and {other.source}")
+        change = self._powers_of_errors + [left.get(number, 0.0) for number in self.bands.numbers]
+        return RoughnessLevels.of_powers(
+            self.bands,
+            powers,
+            source=f"{self.source} and {other.source}",
+            errors=tuple((10 * np.log10(1 + change / powers)).tolist()) if self.errors or other.errors else (),
+            fault="; ".join(filter(None, (self.fault, other.fault))),
+        )
+
+    @property
+    def _powers_of_errors(self) -> FloatArray:
+        """What errors are of the mean squares, which add [m^2]."""
+        return np.asarray(self.powers * (10 ** (np.array(self.errors or (0.0,)) / 10) - 1))
 
     @cached_property
     def c_line(self) -> LineSpectrum:

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from mdr.checks import count, finite
 from validation.analysis.statistics import FloatArray
+from validation.scenes.foreign_formats import LONGEST_MARK, how_to_export
 from validation.scenes.height_edits import real_numbers
 from validation.scenes.input_files import check_regular
 from validation.scenes.number_table import MOST_VALUES, NumberTable, TableForm, known_alone, table_of_text
@@ -124,8 +125,17 @@ def _of_text(file: IO[bytes], path: Path, form: TableForm) -> NumberTable:
         try:
             return table_of_text(file, form)
         except NoTextError:
-            if form.of_text or form.columns:
+            file.seek(0)
+            exported = how_to_export(path, file.read(LONGEST_MARK))
+            of_text = form.of_text or form.columns
+            if of_text and not exported:
                 raise
+            # some files of these formats are read in spite of that
+            with contextlib.suppress(*([ValueError] if exported else [])):
+                if not of_text:
+                    return known_alone(_topography(path), form.nodata)
+            must = "must be a text, an array of numpy or heights of an instrument"
+            raise ValueError(f"the file {must}, got {exported}") from None
     return known_alone(_topography(path), form.nodata)
 
 

@@ -26,14 +26,23 @@ COMMENTS = ("#", "%", "//", ";")
 """How a line begins that holds no numbers; one of a table between semicolons may have an empty first cell."""
 WRITTEN = ((";", "."), (";", ","), ("\t", "."), ("\t", ","), (",", "."), ("", "."), ("", ","), (",", ","))
 """Delimiter, "" for white space, and decimal sign; commas for both stand between quotation marks."""
-MISSING = frozenset(
-    ("", "nan", "-nan", "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind", "na", "n/a", "#n/a", "#nv", "null")
-) | {"nodata", "bad", "-", "--", "---"}
-"""Cells of points without data, in small letters; asterisks are, too."""
-NO_DATA = re.compile(r"(?i)\bno data\b")
-THOUSANDS = re.compile(
-    r"^[+-]?\d{1,3}(?:([.,' \u00a0\u2009\u202f’])\d{3}(?:\1\d{3})*[.,]\d+|([.,'])\d{3}(?:\2\d{3})+)$"
+ERRORS = re.compile(
+    r"#(?:div/0|value|n/a|ref|name|num|null|getting_data|spill|calc|overflow|wert|nv|bezug|zahl)[!?]?|err:\d{3}"
+    r"|[+-]?(?:1\.#)?inf(?:inity)?"
 )
+"""Cells of a formula without a result, in small letters, as spreadsheets write them, and what divides by zero."""
+MISSING = frozenset(
+    ("", "nan", "-nan", "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind", "na", "n/a", "n.a.", "<na>", "null", "none")
+) | {"nodata", "bad", "-", "--", "---", "\N{EN DASH}", "\N{EM DASH}"}
+"""Cells of points without data, in small letters; asterisks and `ERRORS` are, too."""
+NO_DATA = re.compile(r"(?i)\bno data\b")
+THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:(?P<sign>[.,' \u00a0\u2009\u202f’])\d{3})(?:(?P=sign)\d{3})*(?P<rest>[.,]\d*)?")
+"""Numbers with a sign between thousands."""
+TIME = re.compile(
+    r"\d{4}[-/.]\d{1,2}[-/.]\d{1,2}(?:[T ]\d{1,2}:.*)?|\d{1,2}[./-]\d{1,2}[./-]\d{2}(?:\d{2})?(?: \d{1,2}:.*)?"
+    r"|\d{1,2}:\d{1,2}(?::\d{1,2}(?:[.,:]\d+)?)?(?: ?[aApP][mM])?(?:Z|[+-]\d{2}:?\d{2})?"
+)
+"""Dates and times of a day."""
 FORTRAN = re.compile(r"[+-]?[\d.]+[dD][+-]?\d+")
 COMMA = re.compile(r"[+-]?\d*,\d+")
 STARTS = re.compile(r"\s*[-+]?\d").match
@@ -46,13 +55,15 @@ SHOWN = 20
 class Dialect:
     """delimiter: "" for white space; decimal: "." or ","; nodata: cells, in small letters, of points without data.
 
-    numeric: cells of a row that are numbers, at the least, where others may be texts; None: all that have data.
+    numeric: cells of a row that are numbers, at the least, where others may be texts; None: all that have data; sure:
+    whether the decimal sign is given, so that the other one stands between thousands.
     """
 
     delimiter: str
     decimal: str
     nodata: frozenset[str] = MISSING
     numeric: int | None = None
+    sure: bool = False
 
     def cells(self, line: str) -> list[str]:
         """Those of one line."""
@@ -62,26 +73,51 @@ class Dialect:
 
     def number(self, cell: str) -> float:
         """Of one cell, NaN for one without data. Raises ValueError."""
-        text = cell.strip().strip('"')
-        if text.lower() in self.nodata or (text and not text.strip("*")):
+        text = cell.strip().strip('"').strip()
+        if self.says_missing(text):
             return math.nan
+        text = self.without_thousands(text)
         if "_" in text or (self.decimal == "," and "." in text):
             raise ValueError(text)
         text = text.replace("\N{MINUS SIGN}", "-").replace(self.decimal, ".")
         return float(re.sub("[dD]", "e", text) if FORTRAN.fullmatch(text) else text)
 
+    def says_missing(self, cell: str) -> bool:
+        """Whether it is one without data."""
+        text = cell.strip().strip('"').strip().lower()
+        return text in self.nodata or bool(text and not text.strip("*")) or bool(ERRORS.fullmatch(text))
+
+    def without_thousands(self, text: str) -> str:
+        """A number without signs between its thousands, where these can be nothing else: any other text as it is.
+
+        A comma or a point can be the decimal sign, unless it stands there twice or before the decimal sign.
+        """
+        found = THOUSANDS.fullmatch(text)
+        if found is None or found["sign"] == self.decimal:
+            return text
+        sign, rest = found["sign"], found["rest"] or ""
+        sure = rest[:1] == self.decimal or (not rest and (self.sure or sign not in ".," or text.count(sign) > 1))
+        return text.replace(sign, "") if sure else text
+
     def numbers(self, cells: Sequence[str]) -> list[float]:
         """Of a line. Raises ValueError for cells that are none."""
-        # most cells are plain numbers; Python alone reads 1_000
-        if not any("_" in cell or (self.decimal == "," and "." in cell) for cell in cells):
-            with suppress(ValueError):
-                return [float(cell.replace(self.decimal, ".")) for cell in cells]
+        if (plain := self.plain(cells)) is not None:
+            return plain
         if self.numeric is None:
             return list(map(self.number, cells))
         found = [self.number(cell) if self.is_number(cell) else math.nan for cell in cells]
         if len(found) - sum(map(math.isnan, found)) < self.numeric:
             raise ValueError
         return found
+
+    def plain(self, cells: Sequence[str]) -> list[float] | None:
+        """Of a line of numbers as Python writes them, as most are, but for the decimal sign; None of any other."""
+        # Python alone reads 1_000, and infinite ones are none
+        if not any("_" in cell or (self.decimal == "," and "." in cell) for cell in cells):
+            with suppress(ValueError):
+                found = [float(cell.replace(self.decimal, ".")) for cell in cells]
+                return None if any(map(math.isinf, found)) else found
+        return None
 
     def is_number(self, cell: str) -> bool:
         """Whether a cell is one, and no point without data."""
@@ -154,7 +190,11 @@ def recognised(
 
     skip: lines at the top that are none of the table; numeric: as of a `Dialect`. Raises ValueError.
     """
-    ways = [Dialect(sign, point, MISSING | nodata, numeric) for sign, point in WRITTEN if decimal in (None, point)]
+    ways = [
+        Dialect(sign, point, MISSING | nodata, numeric, sure=decimal is not None)
+        for sign, point in WRITTEN
+        if decimal in (None, point)
+    ]
     starts = {way: start for way in ways if (start := _start(lines, skip, way))}
     if not starts:
         raise ValueError(_no_table(lines, skip, ways))
@@ -232,17 +272,25 @@ def _no_table(lines: Sequence[str], skip: int, ways: Sequence[Dialect]) -> str:
     if skip >= len(lines):
         return f"the file must hold rows of numbers, got no line below the {skip} to skip"
     last = max(i for i, line in enumerate(lines) if line.strip())
-    numbers = {way: list(map(way.is_number, way.cells(lines[last]))) for way in ways}
+    numbers = {way: [_is_value(way, cell) for cell in way.cells(lines[last])] for way in ways}
     best = max(ways, key=lambda way: sum(numbers[way]))
     if 2 * sum(numbers[best]) >= len(numbers[best]):
-        return about_row(lines[last], last, best, len(numbers[best]))
-    cells = re.split(r"[;\t\"]", "\t".join(lines[skip:]))
-    if thousands := next((cell for cell in cells if THOUSANDS.match(cell.strip())), None):
-        return f"numbers must have no sign between thousands, got {token(thousands)}"
+        # the first of the lines above that are all like the last
+        above = range(last, skip - 1, -1)
+        alike = (i for i in above if [_is_value(best, cell) for cell in best.cells(lines[i])] != numbers[best])
+        at = next(alike, skip - 1) + 1
+        return about_row(lines[at], at, best, len(numbers[best]))
+    if THOUSANDS.fullmatch(cell := best.cells(lines[last])[0].strip()):
+        return _about_thousands(cell, last)
     return (
         f"the file must hold rows of numbers, got none in its first {len(lines)} lines: skip leaves out more of them, "
         "encoding says how they are written"
     )
+
+
+def _is_value(way: Dialect, cell: str) -> bool:
+    """Whether a cell is a number or a time."""
+    return way.is_number(cell) or bool(TIME.fullmatch(cell.strip().strip('"')))
 
 
 def about_row(line: str, index: int, dialect: Dialect, columns: int) -> str:
@@ -252,8 +300,10 @@ def about_row(line: str, index: int, dialect: Dialect, columns: int) -> str:
         try:
             dialect.number(cell)
         except ValueError:
-            if THOUSANDS.match(cell.strip()):
-                return f"numbers must have no sign between thousands, got {token(cell)} in line {index + 1}"
+            if THOUSANDS.fullmatch(cell.strip()):
+                return _about_thousands(cell, index)
+            if TIME.fullmatch(cell.strip().strip('"')):
+                return _about_times(cells, i, index, dialect)
             if dialect.decimal == "." and COMMA.fullmatch(cell.strip()):
                 return f'decimal commas must be told, as: decimal = ",", got {token(cell)} in line {index + 1}'
             return (
@@ -264,6 +314,23 @@ def about_row(line: str, index: int, dialect: Dialect, columns: int) -> str:
     return (
         f"rows must be of one length, got {len(cells)} {'cell' if len(cells) == 1 else 'cells'} in line {index + 1} of "
         f"a table of {columns}: lines above the numbers are left out by skip"
+    )
+
+
+def _about_thousands(cell: str, index: int) -> str:
+    sign = '"."' if "," in cell else '","'
+    return (
+        f"a comma or a point must be a decimal sign or stand between thousands, got {token(cell)} in line {index + 1}, "
+        f"which may be either: say it, as: decimal = {sign}"
+    )
+
+
+def _about_times(cells: Sequence[str], i: int, index: int, dialect: Dialect) -> str:
+    """The columns that can be read in place of time stamps."""
+    others = [j + 1 for j, cell in enumerate(cells) if dialect.is_number(cell) or dialect.says_missing(cell)]
+    return (
+        f"columns must be numbers, got the time stamp {token(cells[i])} in column {i + 1} of line {index + 1}, "
+        f'which is no place: it is left out, as: columns = {others or [2]}; of lines beside, as: spacing = "1 mm"'
     )
 
 

@@ -73,6 +73,7 @@ def _found(comparison: Comparison) -> dict[str, object]:
         **{name: _numbers(levels.get(name, ())) for name in (*AXES, "nominal_hz", *OF_RAIL)},
         **swept_of(comparison),
         "assumed": assumed(comparison.scene),
+        "notes": list(comparison.scene.diagnose()),
         "models": [_became(comparison, one, force) for one in comparison.models],
     }
 

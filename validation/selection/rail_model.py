@@ -45,6 +45,9 @@ class RailSceneModel(SceneModel):
 def what_would_state_the_ground(asked: RailQuantity) -> str:
     """Keys of a scene file by which the ground leaves less open, and why."""
     scene, stated = asked.scene, 'across = "ridges" in [rail], or a number alpha: waves with |k_y| < alpha k_x'
+    faults = asked.left_by_faults
+    if 2 * faults.max() > (asked.left_by_ground - faults).max() and faults.max() > 0:
+        return "a measurement without the outliers that the notes name, or a part of it that has none"
     if isinstance(scene.roughness, MeasuredHeights):
         return "a filter of this surface, by its own heights: of its lines both ends of what lies across are open"
     if scene.across is None:

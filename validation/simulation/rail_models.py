@@ -223,7 +223,9 @@ def reason_of(quantity: RailQuantity, a3: FloatArray, error: FloatArray) -> str:
     apart = f"ridges and isotropic ground are ± {quantity.half_width[at]:.2g} dB apart"
     off, smoothing = abs(a3[at] - quantity.linear.mean(axis=0)[at]), quantity.smoothing_error[at]
     is_open, of_strips = quantity.scene.across is None, strip_bands(quantity.scene).span
+    faults = quantity.left_by_faults[at]
     causes = {
+        f"outliers of the measured lines leave ± {faults:.2g} dB": faults > 0,
         f"across is not given, {apart}": is_open,
         f"no isotropic ground has this level, {apart}": quantity.stands_out[at] and not is_open,
         f"levels that scatter leave ± {smoothing:.2g} dB of isotropic ground": smoothing > 0,

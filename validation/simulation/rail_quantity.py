@@ -88,6 +88,8 @@ class RailQuantity:
     @cached_property
     def no_answer(self) -> str:
         """Why no model has one: no wave of the contact's length, or no band that counts; empty where one may have."""
+        if self.scene.levels.fault:
+            return f"the roughness is not known: {self.scene.levels.fault}"
         try:
             _ = self.lost
         except ValueError as reason:
@@ -128,8 +130,17 @@ class RailQuantity:
 
     @cached_property
     def left_by_ground(self) -> FloatArray:
-        """Half-width that what lies across, and a line that was smoothed for it, leave in each band [dB]."""
-        return self.half_width + self.smoothing_error
+        """Half-width that what lies across, a smoothed line, and faults of measured lines leave in each band [dB]."""
+        return self.half_width + self.smoothing_error + self.left_by_faults
+
+    @property
+    def left_by_faults(self) -> FloatArray:
+        """Half-width that faults of measured lines leave of the roughness, and so of what a filter leaves of it [dB].
+
+        A3 itself is a ratio and changes less: this is an upper bound for it. Longer bands have that of the first.
+        """
+        known = np.array(self.scene.levels.errors or (0.0,) * len(self.scene.levels.levels))
+        return np.concatenate([np.full(len(self.bands) - known.size, known[0]), known])
 
     @cached_property
     def smoothing_error(self) -> FloatArray:
