@@ -9,7 +9,7 @@ from pathlib import Path
 from validation.analysis.evidence import Table
 from validation.engine.engine import Engine
 from validation.engine.files import write_given
-from validation.engine.progress import progress_of
+from validation.engine.progress import Part, progress_of
 from validation.report.commands.arguments import Exit, add_options, add_workers, at_least, some_of
 from validation.report.commands.places import check_places
 from validation.scenes.load import Scene, bundled_for_compare, files_of, load_scene, load_varied
@@ -125,11 +125,15 @@ def _with_own(problems: list[SceneProblem], arguments: argparse.Namespace) -> li
     """And the models of a file, whose errors are measured first where they are not in the store."""
     if arguments.models_from is None:
         return problems
-    from validation.selection.own_models import calibrated, group_of, models_in  # imported where there is such a file
+    from validation.selection.own_models import NOT_IN_KEY, calibrated, group_of, models_in  # only of such a file
 
     groups = {group_of(one.scene, quantity) for one in problems for quantity in one.quantities}
-    engine = Engine(store=_store_of(arguments) / "realisations")
+    store, measured = _store_of(arguments), Part()
+    engine = Engine(store=store / "realisations", progress=measured)
     own = tuple(calibrated(one, groups, engine) for one in models_in(arguments.models_from))
+    if any(kind.found for kind in measured.kinds):
+        file = printable(arguments.models_from)
+        print(f"errors of {file} are those kept in {printable(store)}, {NOT_IN_KEY}", file=sys.stderr)
     return [replace(one, own=own) for one in problems]
 
 
