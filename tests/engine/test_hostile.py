@@ -214,6 +214,43 @@ def test_a_reply_to_another_call_is_none(tmp_path, monkeypatch):
         assert answers(hostile) == RIGHT
 
 
+CHANGES_ITSELF = """len(CALLS) > 1 and Path(__file__).with_name("{name}").write_text("# another " + str(len(CALLS)))"""
+
+
+@pytest.mark.parametrize("name", ["bad.py", "data.txt"])
+def test_another_function_of_a_file_that_was_changed_is_not_run(name, tmp_path):
+    """It would be of another file; where data alone are others, it is, and they are named."""
+    (tmp_path / "data.txt").write_text("as it was")
+    body = f"from pathlib import Path; Path(__file__).with_name('data.txt').read_text(); {CHANGES_ITSELF}"
+    with Visitor(file_of(tmp_path, body.format(name=name))) as visitor:
+        hostile, good = visitor.callers()
+        assert hostile.call(load=1.0) == 2.0 and not hostile.changed
+        before = visitor.digest
+        assert answers(hostile) == RIGHT and hostile.changed == good.changed == name
+        refused = ["cannot be run again: bad.py was changed since it was first run"] * 3
+        assert answers(good) == (refused if name == "bad.py" else RIGHT)
+        # the digest is of what was run, as it was then
+        assert visitor.digest == before
+
+
+OTHERS = """
+from pathlib import Path
+from validation import stiffness_model
+count = len(list(Path(__file__).parent.glob("start*")))
+Path(__file__).with_name(f"start{count}").touch()
+for name in ("a", "b") if count == 0 else ("b", "a"):
+    stiffness_model(name)(lambda load, name=None: load)
+"""
+
+
+def test_a_file_that_offers_other_functions_the_next_time_answers_no_more(tmp_path):
+    (tmp_path / "bad.py").write_text(OTHERS.replace(", name=None", ""))
+    with Visitor(tmp_path / "bad.py") as visitor:
+        a, b = visitor.callers()
+        assert answers(a) == LOADS
+        assert answers(b) == ["cannot be run again: bad.py offers other functions than at first"] * 3
+
+
 # --- arguments ---
 
 
@@ -256,7 +293,8 @@ def test_an_argument_that_is_changed_is_seen_and_the_next_call_has_a_fresh_one(c
     expected = 2.0 + len(vars(Ground)) + 2
     for _ in range(2):
         reply = caller.call(load=1.0, roughness=ground)
-        assert reply == expected if not CHANGES[change] else reply.reason == "changed roughness, which is not its own"
+        words = "changed roughness, which is not its own"
+        assert getattr(reply, "reason", reply) == (words if CHANGES[change] else expected)
     assert (ground.rms, ground.parts[0], ground.parts[1]["a"].tolist()) == (2.0, 1.0, [0.0, 0.0])
     assert ground.c2d(1.0) == 2.0
 

@@ -3,6 +3,7 @@
 import pytest
 
 import validation
+from validation.engine.named import named_in
 from validation.engine.offered import KINDS
 
 
@@ -92,3 +93,25 @@ def test_what_is_offered_already_is_not_offered_again():
     once = validation.stiffness_model("once")(lambda load: 1)
     with pytest.raises(TypeError, match="must stand above a function, got one that is offered already"):
         validation.stiffness_model("twice")(once)
+
+
+def test_a_model_that_draws_has_one_number_a_call_and_another_may_have_two():
+    shapes = KINDS["stiffness_model"].shapes
+    assert (shapes({"load": 1.0}), shapes({"load": 1.0, "rng": None})) == (((), (2,)), ((),))
+
+
+def test_a_function_is_named_by_its_file_and_kind(tmp_path):
+    """Decorated as another kind, it is none of this one; without a decorator it has the options of the kind."""
+    path = tmp_path / "named.py"
+    body = (
+        "@profile_spectrum('rule')\ndef rule(q, roughness): return q\ndef solve(gap, force): return gap\nnumber = 3\n"
+    )
+    path.write_text(f"from validation import profile_spectrum\n{body}")
+    assert named_in(f"{path}:rule", "profile_spectrum").name == "rule"
+    solver = named_in(f"{path}:solve", "contact_solver")
+    assert (solver.asks, solver.options) == (("gap", "force"), KINDS["contact_solver"].options)
+    for name in ("rule", "number", "nobody"):
+        with pytest.raises(ValueError, match=f"has no function '{name}' for @contact_solver"):
+            named_in(f"{path}:{name}", "contact_solver")
+    with pytest.raises(ValueError, match="there is no file"):
+        named_in(f"{tmp_path}/nothing.py:rule", "profile_spectrum")

@@ -143,7 +143,7 @@ def test_the_line_of_the_file_stands_with_an_error_of_a_library(tmp_path):
     assert reply.reason == f"raised LinAlgError: Singular matrix, line {HEAD.count(chr(10)) + 3} of bad.py"
 
 
-def test_in_this_process_a_function_of_a_console_refuses_too(tmp_path):
+def test_in_this_process_a_function_of_a_console_refuses_too():
     """Its code has a file that is none."""
     space = {"stiffness_model": stiffness_model}
     source = "@stiffness_model('mine')\ndef f(load):\n    if load > 1: raise ValueError('heavy')\n    return int('x')"

@@ -1,5 +1,6 @@
 """Faults planted in what `tests/analysis` looks at: where, what is wrong there, and the test that must catch it."""
 
+import json
 import math
 from dataclasses import replace
 from functools import partial
@@ -13,6 +14,7 @@ from tests.analysis import (
     test_error_bars,
     test_error_bars_of_grids,
     test_error_bars_of_rolling,
+    test_escapes,
     test_judged_claims,
     test_multilevel,
     test_nominal_bands,
@@ -22,7 +24,7 @@ from tests.analysis import (
 from tests.analysis import test_spectra as test_wheel_spectra
 from tests.cases import test_interface
 from tests.planted_faults.wrong import Fault, with_math
-from validation.analysis import claims, multilevel, nominal_bands, over_range, spectra, statistics
+from validation.analysis import claims, contents, multilevel, nominal_bands, over_range, spectra, statistics
 from validation.analysis import series as declared
 from validation.analysis import spectral_features as regions
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Number, Verdict
@@ -119,6 +121,14 @@ peak = regions.peak
 
 
 FAULTS = [
+    partial(test_escapes.test_a_text_that_a_spreadsheet_computes_is_quoted_in_every_cell_and_header, "=1+1"),
+    Fault("a cell that a spreadsheet computes").at(contents, "cell_text", contents.printable),
+    partial(test_escapes.test_names_of_folders_are_valid_and_apart_on_every_file_system, *test_escapes.NAMES[0]),
+    Fault("folders that upper case alone tells apart").at(contents, "_as_stored", str),
+    partial(test_escapes.test_names_of_folders_are_valid_and_apart_on_every_file_system, *test_escapes.NAMES[1]),
+    Fault("folders with names of devices").at(contents, "RESERVED", set()),
+    test_escapes.test_json_reads_back_and_has_no_character_that_acts,
+    Fault("JSON as Python writes it").at(contents, "json_text", lambda value: json.dumps(value, ensure_ascii=False)),
     test_nominal_bands.test_bands_are_base_ten_and_lie_beside_each_other,
     Fault("bands of base two for those of base ten").at(
         nominal_bands.NominalBands,

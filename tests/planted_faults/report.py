@@ -49,6 +49,7 @@ def enough_unless_it_differs(cell):
     return AGREE if right is Verdict.UNDECIDED and not cell.lacking else right
 
 
+STYLES = style.styles_of
 verdict_of_a_cell = strip.Cell.verdict.fget
 
 WITH_KEPT, SHEET = provenance.with_kept, test_colours.sheet()
@@ -68,6 +69,12 @@ CITATION = PageFigure.citation
 
 
 FAULTS = [
+    partial(test_texts_of_users.test_a_model_of_a_user_has_a_marker_however_its_name_begins, "Persson"),
+    Fault("a model of a user's in the style of one of the package").at(
+        style, "styles_of", lambda n, users=(): STYLES(n)
+    ),
+    test_texts_of_users.test_a_text_on_a_page_has_no_character_that_acts,
+    Fault("texts of users on a page as they are").at(formats, "printable", lambda text, lines: text),
     partial(test_symbols.test_a_symbol_is_a_word_of_its_own, "a wheel on E*", ["E*"]),
     Fault("a symbol found inside of words").at(symbols.Symbol, "stands_in", lambda symbol, text: symbol.name in text),
     test_columns.test_values_have_the_unit_of_their_table,

@@ -66,7 +66,7 @@ def test_a_formula_is_judged_and_written(file, tmp_path, capsys):
     assert "1; Fbar = 0.001 to 10; all at q_max / q_min = 64)." in said
     assert "They share: Fbar up to 0.00215" in printed
     names = {path.name for path in (tmp_path / "out").iterdir()}
-    assert names == {"judgement.json", "verdicts.csv", "summary.txt", "judgement.svg", "costs.csv"}
+    assert names == {"judgement.json", "verdicts.csv", "summary.txt", "judgement.svg", "costs.csv", "manifest.json"}
     costs = list(csv.DictReader((tmp_path / "out" / "costs.csv").read_text(encoding="utf-8").splitlines()))
     assert [(cost["model"], cost["unit"]) for cost in costs] == [("in series", "-"), ("springs", "-")]
     assert all(0 < float(cost["error"]) < 1 and float(cost["seconds"]) > 0 for cost in costs)

@@ -1,9 +1,11 @@
 """Names that a user gives are text in every figure: a $ begins no mathematics, and no name hides a curve."""
 
 import io
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from markupsafe import Markup
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
@@ -13,6 +15,8 @@ from validation.__main__ import main
 from validation.analysis.evidence import Evidence, Table
 from validation.report import compared, style
 from validation.report.compared import FORMATS, to_figure
+from validation.report.compared_sweep import names_of_users
+from validation.report.formats import templates
 from validation.selection.compare import Comparison
 from validation.selection.hierarchy import select_model
 
@@ -40,6 +44,37 @@ def of_name(name):
 @pytest.mark.parametrize(("form", "name"), [*((form, NAMES[0]) for form in FORMATS), *(("png", n) for n in NAMES)])
 def test_every_form_of_a_figure_is_drawn_whatever_a_scene_is_called(name, form):
     assert len(to_figure(of_name(name), form=form)) > 1000
+
+
+BEGINNINGS = [name for name, of in style.MODELS.items() if of["marker"] == "none"]
+
+
+@pytest.mark.parametrize("name", BEGINNINGS)
+def test_a_model_of_a_user_has_a_marker_however_its_name_begins(name):
+    """As points it would be invisible, and two of them one line."""
+    names = [f"{name} with a twist", f"{name} again", "boundary elements"]
+    first, second, own = style.styles_of(names, names[:2]).values()
+    assert "none" not in (first["marker"], second["marker"]) and first["marker"] != second["marker"]
+    assert (first["color"], first["linestyle"]) != (second["color"], second["linestyle"])
+    assert own == style.styles_of(["boundary elements"])["boundary elements"]
+
+
+def test_scenes_and_models_of_users_have_styles_of_their_own_in_the_figures_of_compare():
+    """What is neither a model of the package, nor was one of a scene, is of a user."""
+    assert names_of_users([of_name("fit")], ["fit", "Hertz wheel"]) == {"Hertz wheel"}
+    settings = {"Hertz of mine": "@stiffness_model", "Hertz": "a formula"}
+    models = [
+        SimpleNamespace(name=name, model=SimpleNamespace(model=SimpleNamespace(setting=setting)))
+        for name, setting in settings.items()
+    ]
+    found = [SimpleNamespace(selection=SimpleNamespace(candidates=models))]
+    assert names_of_users(found, list(settings)) == {"Hertz of mine"}
+
+
+def test_a_text_on_a_page_has_no_character_that_acts():
+    page = templates().from_string("{{ text }}|{{ ours }}")
+    said = page.render(text="a\x1b[31m<b>\u202e\nb", ours=Markup("<i>\x1b</i>"))
+    assert said == "a\\x1b[31m&lt;b&gt;\\u202e\nb|<i>\x1b</i>"
 
 
 @pytest.mark.filterwarnings("error")

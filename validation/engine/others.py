@@ -110,8 +110,7 @@ class Visitor:
     @property
     def changed(self) -> str:
         """The first of these files that is no longer what it was; nothing where all are."""
-        names = (path.name for path, digest in sorted(self._digests.items()) if digest_of_bytes(path) != digest)
-        return next(names, "")
+        return next((path.name for path in self.sources if digest_of_bytes(path) != self._digests[path]), "")
 
     def calls(
         self, offered: Offered, name: str, values: Sequence[Any], arguments: Mapping[str, Any]
@@ -172,8 +171,9 @@ class Visitor:
             self._serves = [offered]
             return
         self._end()
-        if name := self.changed:
-            raise OthersError(f"{name} was changed since it was first run")
+        code = (path for path in self.sources if path.suffix == ".py" or path == self.path.resolve())
+        if path := next((path for path in code if digest_of_bytes(path) != self._digests[path]), None):
+            raise OthersError(f"{path.name} was changed since it was first run")
         again = self._start()
         if [(each.kind, each.name, each.asks) for each in again] != [(o.kind, o.name, o.asks) for o in self.offered]:
             self._end()

@@ -37,6 +37,11 @@ CALL = 1e-4
 """Seconds of a realisation where none was timed."""
 FEWEST_SCENES = 20
 """On which a model must have an answer, for its error to be known."""
+NOT_IN_KEY = (
+    "by the bytes of the file and of what it has from its folder; environment variables, random seeds, time, network, "
+    "other programs, files elsewhere and those that C code reads are no part of that: with others take another --store"
+)
+"""What kept errors are known by."""
 VISITORS: dict[tuple[Path, str], Visitor] = {}
 """Processes of files, by what these had been when they were run."""
 RUNNING = ExitStack()

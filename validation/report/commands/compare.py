@@ -10,7 +10,7 @@ from validation.analysis.evidence import Table
 from validation.engine.engine import Engine
 from validation.engine.files import write_given
 from validation.engine.installed import is_installed
-from validation.engine.progress import progress_of
+from validation.engine.progress import Part, progress_of
 from validation.report.commands.arguments import Exit, add_options, add_workers, at_least, some_of
 from validation.report.commands.places import check_places
 from validation.scenes.load import Scene, bundled_for_compare, files_of, load_scene, load_varied
@@ -144,16 +144,21 @@ def _measured(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -
     """With the errors of models of somebody's own, which are measured first where they are not in the store."""
     if arguments.models_from is None:
         return problems
-    from validation.selection.own_models import OwnModel, calibrated, group_of  # imported where there is such a file
+    from validation.selection.own_models import NOT_IN_KEY, OwnModel, calibrated, group_of  # only of such a file
 
     groups = {group_of(one.scene, quantity) for one in problems for quantity in one.quantities}
-    engine = Engine(store=_store_of(arguments) / "realisations")
+    store, solved = _store_of(arguments), Part()
+    engine = Engine(store=store / "realisations", progress=solved)
 
     def measured(problem: SceneProblem) -> SceneProblem:
         own = tuple(calibrated(one, groups, engine) for one in problem.own if isinstance(one, OwnModel))
         return replace(problem, own=own)
 
-    return [measured(problem) for problem in problems]
+    with_errors = [measured(problem) for problem in problems]
+    if any(kind.found for kind in solved.kinds):
+        file = printable(arguments.models_from)
+        print(f"errors of {file} are those kept in {printable(store)}, {NOT_IN_KEY}", file=sys.stderr)
+    return with_errors
 
 
 def _store_of(arguments: argparse.Namespace) -> Path:
