@@ -5,7 +5,6 @@ import math
 import tempfile
 from collections.abc import Callable
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -19,14 +18,10 @@ from validation.selection import own_models
 from validation.selection.calibrate import LEFT, SAME
 from validation.selection.calibration_answers import Answers, answers_in
 from validation.selection.calibration_scenes import OTHER_SEED, CalibrationScene
-from validation.selection.hierarchy import REFUSALS
 from validation.selection.own_kinds import result_of
 from validation.selection.own_models import OwnPart, calibrated, measure_own, models_in
 from validation.simulation import calibration
-from validation.simulation.calibrated_range import SCATTER
-from validation.simulation.calibration import MeasuredErrors
 from validation.simulation.indentation import height_of
-from validation.simulation.method import Resolution
 from validation.simulation.model import Target, models_serving
 from validation.simulation.models import boundary_elements_pressed, rail
 from validation.simulation.sampling import distance
@@ -89,43 +84,6 @@ def test_each_error_is_that_of_its_own_scene_and_no_less_than_the_answer_leaves(
     scenes = [CalibrationScene(kind="punch", number=number, quantity="stiffness", seed=19).scene for number in numbers]
     np.testing.assert_allclose(measured.points[:, 0], np.log10([scene.reduced_load for scene in scenes]))
     assert sorted({*known.number.tolist()} - {OPEN}) == numbers
-
-
-def test_a_claim_for_one_measured_surface_has_its_scatter_about_the_mean():
-    """2 x SCATTER of a law that is given the spectrum alone; nothing of one that is given the surface."""
-    height = np.random.default_rng(4).normal(size=(32, 32)) * 1e-6
-    one = replace(ROUGH, ground=validation.MeasuredHeights(height=height, spacing=(ROUGH.size / 32,) * 2))
-    far = replace(one, load=10 * ROUGH.modulus * ROUGH.size * one.ground.rms)
-    drawn = replace(ROUGH, load=10 * ROUGH.modulus * ROUGH.size * ROUGH.ground.rms)
-
-    @validation.stiffness_of_surface("of the surface")
-    def of_the_surface(height, load, modulus):
-        return load * modulus
-
-    measured = MeasuredErrors(("F / (E* h L)",), np.linspace(-3, 2, 30)[:, np.newaxis], np.full(30, 0.1), np.ones(30))
-    left = []
-    for function, scene in ((series, drawn), (series, far), (of_the_surface, far)):
-        (own,) = own_models.of_functions([function], ROUGH, "stiffness")
-        own = replace(own, errors={PUNCH: own_models.OwnErrors("", measured, 1.0)})
-        target = Target(scene, "stiffness")
-        model = own.model()
-        expected = model.estimate(target, Resolution())
-        left.append(expected.model if expected.in_range else expected.reason)
-    assert left[1] - left[0] == pytest.approx(2 * SCATTER) and left[2] == pytest.approx(left[0])
-
-
-def test_a_file_that_is_changed_is_seen_before_it_is_called(tmp_path):
-    """No process is asked: the bytes of the file, or of a module of it, are others."""
-    (tmp_path / "mine.py").write_text("1\n")
-    (tmp_path / "data.txt").write_text("2\n")
-    sources = tuple(sorted(tmp_path.iterdir()))
-    about = {"digest": own_models.digest_of(sources), "path": tmp_path / "mine.py", "sources": sources}
-    own = own_models.OwnModel("stiffness_model", "mine", (), **about)
-    own.check_unchanged()
-    (tmp_path / "data.txt").write_text("3\n")
-    with pytest.raises(own_models.ChangedError, match=r"mine\.py, or what it reads, was changed while its models were"):
-        own.called()
-    assert not isinstance(own_models.ChangedError("a row of the table"), REFUSALS)
 
 
 def test_a_calibrated_function_is_chosen_like_any_other():

@@ -149,6 +149,8 @@ def select_model(
 
 def contradicting(found: Selection, one: Candidate) -> Candidate | None:
     """The least biased of the solved models that are less biased than this one and contradict it; None where none."""
+    if not any(one is other for other in found.known):
+        return None
     others = [other for other in found.known if other is not one and bias(other.found) < bias(one.found)]
     against = [other for other in others if contradict(one.found, other.found, found.tolerance)]
     return min(against, key=lambda other: bias(other.found), default=None)

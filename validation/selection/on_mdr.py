@@ -15,14 +15,15 @@ def springs_of(comparison: Comparison) -> Candidate | None:
     best, tolerance = comparison.selection.best, comparison.tolerance.relative
 
     def order(one: Candidate) -> tuple[bool, bool, float]:
-        enough = one in comparison.selection.solved and one.error <= tolerance
+        enough = is_solved(comparison, one) and one.error <= tolerance
         return one is not best, not enough, one.error
 
     return min((one for one in comparison.models if one.is_mdr), key=order, default=None)
 
 
 def is_solved(comparison: Comparison, springs: Candidate) -> bool:
-    return springs in comparison.selection.solved
+    """Whether they have an answer."""
+    return any(springs is one for one in comparison.selection.solved)
 
 
 def verdict(comparison: Comparison, springs: Candidate) -> tuple[str, str]:
