@@ -14,7 +14,7 @@ from validation.selection.columns import label
 from validation.selection.compare import Comparison, SceneProblem
 from validation.selection.contact_force import LEVELS, contact_force
 from validation.selection.hierarchy import select_model
-from validation.selection.summary import sentences_on_mdr
+from validation.selection.on_mdr import in_full
 
 ABOUT = dict.fromkeys(("version", "commit", "python", "system"), "0") | {"libraries": {}, "seeds": {"compare": 0}}
 
@@ -40,7 +40,7 @@ def test_the_page_has_scene_answer_claims_and_costs():
     for said in ("Rolling wheel: force-spectrum within 3 dB", "contact radius a 1.982 mm", "✓ tolerance met"):
         assert said in text
     assert all(label(one) in text and one.reason in text for one in found.models)
-    assert all(sentence in text for sentence in sentences_on_mdr(found))
+    assert all(sentence in text for sentence in in_full(found))
     assert files["figures/scene-1.svg"].startswith(b"<?xml") and files["figures/scene-1.pdf"].startswith(b"%PDF")
     assert files["comparison.json"].decode() == validation.to_json(found)
     assert files["data/levels.csv"].decode() == validation.to_csv(found)

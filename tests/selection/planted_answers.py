@@ -65,6 +65,7 @@ class Fake:
     seconds: float = 1.0
     failed: str = ""
     is_mdr: bool = False
+    is_sampled: bool = False
 
     def cost(self):
         return Cost(work=1, seconds=self.seconds)

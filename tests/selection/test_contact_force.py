@@ -54,6 +54,13 @@ def test_the_force_is_the_stiffness_of_hertz_times_the_equivalent_displacement()
     assert force.stiffness == pytest.approx(1.5 * 50e3 / 65.6e-6, rel=1e-3)
 
 
+def answering(found, which, **changes):
+    """The same comparison with another answer of one model."""
+    models = list(found.models)
+    models[which] = replace(models[which], answer=replace(models[which].answer, **changes))
+    return replace(found, selection=replace(found.selection, candidates=tuple(models)))
+
+
 def test_each_band_is_weighted_as_the_table_of_the_standard_has_its_frequency():
     """f = v / lambda of the exact wavelength of the band: a nominal one, as 160 for 158.5 mm, is off by 0.1 dB."""
     force = contact_force(filters(0.0))
@@ -65,10 +72,10 @@ def test_the_error_of_the_sum_counts_loud_bands_most():
     """All bands louder by their errors, over the sum as it is: a loud band of 3 dB among others that are known."""
     found = filters(0.0)
     loud = int(np.argmax(contact_force(found).levels["by 0 dB"]))
-    first, *others = found.models
-    errors = {**first.answer.band_errors, "model": np.where(np.arange(35) == loud, 3.0, 0.0)}
-    first = replace(first, answer=replace(first.answer, band_errors=errors))
-    force = contact_force(replace(found, selection=replace(found.selection, candidates=(first, *others))))
+    errors = found.models[0].answer.band_errors
+    force = contact_force(
+        answering(found, 0, band_errors={**errors, "model": np.where(np.arange(35) == loud, 3.0, 0.0)})
+    )
     powers = [10 ** (level / 10) for level in force.levels["by 0 dB"]]
     louder = sum(powers) + powers[loud] * (10**0.3 - 1)
     assert force.error == pytest.approx(10 * math.log10(louder / sum(powers)))
@@ -92,19 +99,17 @@ def test_the_error_of_the_sum_is_that_of_its_bands_and_says_which_are_unknown():
 
 def test_bands_without_an_answer_are_left_out_of_both_sums():
     """A filter is no quieter where it has no answer; its own sum is that of the bands that it has."""
-    found = filters(0.0, 2.0)
-    found.models[1].answer.value[15:25] = np.nan
-    force = contact_force(found)
+    number, found = np.arange(35), filters(0.0, 2.0)
+    value = found.models[1].answer.value
+    force = contact_force(answering(found, 1, value=np.where((number >= 15) & (number < 25), np.nan, value)))
     assert force.over_chosen("by 2 dB") == pytest.approx(2.0)
     assert force.total("by 2 dB") < force.total("by 0 dB")
-    found = filters(0.0, 2.0)
-    found.models[0].answer.value[:15] = np.nan
-    force = contact_force(found)
+    value = found.models[0].answer.value
+    force = contact_force(answering(found, 0, value=np.where(number < 15, np.nan, value)))
     assert force.over_chosen("by 2 dB") == pytest.approx(2.0)
     assert "summed over bands of 2000 to 0.8 mm, but for 15 without an answer" in force.sentences[1]
     assert math.isfinite(force.error) and math.isfinite(force.unsure)
-    found.models[0].answer.value[:] = np.nan
-    assert contact_force(found) is None
+    assert contact_force(answering(found, 0, value=value + np.nan)) is None
 
 
 def test_the_closed_filters_stand_beside_the_chosen_one_unasked():

@@ -2,14 +2,22 @@
 
 import json
 import sys
+import tempfile
+from dataclasses import replace
+from pathlib import Path
 
+import numpy as np
 import pytest
 
-from tests.selection.test_own_models import FILE, PUNCH, answers, stored, written
+import validation
+from tests.selection.test_own_models import FILE, PUNCH, ROUGH, answers, series, stored, written
 from validation.__main__ import main
 from validation.engine.engine import Engine
 from validation.selection import own_models
+from validation.selection.hierarchy import REFUSALS
 from validation.selection.own_models import ChangedError, calibrated, models_in
+from validation.simulation.calibrated_range import SCATTER
+from validation.simulation.calibration import MeasuredErrors
 from validation.simulation.method import Resolution
 from validation.simulation.model import Target
 
@@ -167,3 +175,47 @@ def test_a_file_that_is_changed_while_its_models_are_compared_ends_the_command(h
         calibrated(own, [PUNCH], Engine(store=here / "store"))
     assert not (here / "store").exists()
     assert main(["compare", "rough_punch", "--models-from", str(path), "--models", "mine"]) == 2
+
+
+def test_a_claim_for_one_measured_surface_has_its_scatter_about_the_mean():
+    height = np.random.default_rng(4).normal(size=(32, 32)) * 1e-6
+    one = replace(ROUGH, ground=validation.MeasuredHeights(height=height, spacing=(ROUGH.size / 32,) * 2))
+    far = replace(one, load=10 * ROUGH.modulus * ROUGH.size * one.ground.rms)
+    drawn = replace(ROUGH, load=10 * ROUGH.modulus * ROUGH.size * ROUGH.ground.rms)
+
+    @validation.stiffness_of_surface("of the surface")
+    def of_the_surface(height, load, modulus):
+        return load * modulus
+
+    measured = MeasuredErrors(("F / (E* h L)",), np.linspace(-3, 2, 30)[:, np.newaxis], np.full(30, 0.1), np.ones(30))
+    left = []
+    for function, scene in ((series, drawn), (series, far), (of_the_surface, far)):
+        (own,) = own_models.of_functions([function], ROUGH, "stiffness")
+        own = replace(own, errors={PUNCH: own_models.OwnErrors("", measured, 1.0)})
+        target = Target(scene, "stiffness")
+        model = own.model()
+        expected = model.estimate(target, Resolution())
+        left.append(expected.model if expected.in_range else expected.reason)
+    assert left[1] - left[0] == pytest.approx(2 * SCATTER) and left[2] == pytest.approx(left[0])
+
+
+def test_a_file_that_is_changed_is_seen_before_it_is_called():
+    tmp_path = Path(tempfile.mkdtemp())
+    (tmp_path / "mine.py").write_text("1\n")
+    (tmp_path / "data.txt").write_text("2\n")
+    sources = tuple(sorted(tmp_path.iterdir()))
+    about = {"digest": own_models.digest_of(sources), "path": tmp_path / "mine.py", "sources": sources}
+    own = own_models.OwnModel("stiffness_model", "mine", (), **about)
+
+    def said():
+        try:
+            own.check_unchanged()
+        except own_models.ChangedError as error:
+            return str(error)
+
+    assert said() is None
+    (tmp_path / "data.txt").write_text("3\n")
+    assert said() is not None
+    with pytest.raises(own_models.ChangedError, match=r"mine\.py, or what it reads, was changed while its models were"):
+        own.called()
+    assert not isinstance(own_models.ChangedError("a row of the table"), REFUSALS)

@@ -10,8 +10,8 @@ import pytest
 from validation import compare, load_scene, summary, to_json
 from validation.cases.selection.model_selection import EdgeTrial, true_error
 from validation.scenes.rail import RailScene
+from validation.selection.advice import what_would_help
 from validation.selection.rail_model import RailSceneModel
-from validation.selection.summary import what_would_help
 from validation.simulation.method import Resolution
 from validation.simulation.model import Target, models_serving
 from validation.simulation.rail_quantity import COUNTED

@@ -154,7 +154,7 @@ def test_the_curves_are_selected_reference_mdr_and_the_nearest():
         Finding(name="far", parts=(0.15, 0, 0), value=(1.5,)),
         Finding(name="near", parts=(0.15, 0, 0), value=(2.1,), claimed=0.5),
         Finding(name="poor", parts=(0.4, 0, 0), value=(9.0,), is_mdr=True),
-        Finding(name="best", parts=(0.01, 0, 0), value=(3.0,)),
+        Finding(name="best", parts=(0.01, 0, 0), value=(2.3,)),
         Finding(name="springs", parts=(0.3, 0, 0), value=(7.0,), is_mdr=True),
     ]
     found = compared(replace(models[0], name="chosen", value=(2.2,)), *models, solve_all=True)

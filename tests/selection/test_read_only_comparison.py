@@ -39,6 +39,7 @@ def test_no_array_of_a_comparison_can_be_written(scene, quantity, through):
 def test_one_number_cannot_be_written_either():
     found = compared(Finding(value=(3.0,)))
     for array in (found.value, compared().value):
+        assert not array.flags.writeable
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 7.0
 

@@ -47,7 +47,10 @@ def test_what_would_help_is_said_of_each_that_is_not_met(capsys):
     words = ["compare", "rough_punch", "--models", "springs", "--tolerance", "20%", "--workers", "1"]
     assert main([*words, "--sweep", "punch.load=1 N,50 N"]) == 3
     text = " ".join(capsys.readouterr().out.split())
-    assert re.search(r"load = 1 N: what would help: boundary elements \d+², which was not asked and claims \S+ %", text)
+    assert re.search(
+        r"load = 1 N: what would help: boundary elements \d+², which was not asked, with a predicted error of \S+ %",
+        text,
+    )
     assert "load = 50 N: what" not in text
 
 

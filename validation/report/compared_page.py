@@ -9,7 +9,7 @@ from validation.report.compared import to_figure
 from validation.report.formats import templates
 from validation.scenes.description import describe
 from validation.scenes.rolling import RollingScene
-from validation.selection import columns, side_by_side, summary
+from validation.selection import advice, columns, on_mdr, side_by_side, summary
 from validation.selection.compare import Comparison
 from validation.selection.contact_force import LEVELS, contact_force
 from validation.selection.exported import SCHEMA_OF_JSON, by_quantity, table_of_several, to_json_of
@@ -66,8 +66,8 @@ def _of_scene(name: str, found: Comparison) -> dict[str, object]:
         "found": found,
         "answer": summary.result_of(found, answer) if answer else "No model has a result with a known error",
         "counted": answer.counted if answer else "",
-        "on_mdr": summary.sentences_on_mdr(found),
-        "help": summary.what_would_help(found),
+        "on_mdr": on_mdr.in_full(found),
+        "help": advice.what_would_help(found),
         "notes": _notes(found),
         "understood": (*describe(found.scene), ("assumed", summary.ASSUMED)),
         "models": columns.models_of_page(found),

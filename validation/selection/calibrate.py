@@ -26,7 +26,7 @@ from validation.selection.scene_model import SceneModel
 from validation.simulation import calibration
 from validation.simulation.calibrated_range import CONDITIONS
 from validation.simulation.calibration import TABLE, Key
-from validation.simulation.model import Model, Target
+from validation.simulation.model import Model, Target, all_models
 from validation.simulation.sampling import distance
 
 COLUMNS = ("kind", "quantity", "number", "model", *CONDITIONS, "shape", "error", "reference", "code")
@@ -62,6 +62,11 @@ def measure_alone(alone: MeasuredAlone) -> Outcome:
     point, truth = alone.point, np.array(alone.truth)
     errors = [_error(one, point.target(), truth) if one.name == alone.model else math.nan for one in point.cheap]
     return {"error": np.array(errors), "reference": np.array(alone.reference), "failed": np.array(0.0)}
+
+
+def is_of_package(name: str) -> bool:
+    """Whether a model of the package has this name."""
+    return any(name == model.name for model in all_models())
 
 
 def measured_alone(name: str, engine: Engine = SERIAL, path: Path = TABLE) -> bytes:

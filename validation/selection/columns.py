@@ -23,6 +23,7 @@ from validation.selection.cells import (
 from validation.selection.compare import Comparison
 from validation.selection.contact_force import ContactForce, contact_force
 from validation.selection.hierarchy import Candidate, Status
+from validation.selection.on_mdr import is_solved, springs_of
 from validation.selection.quantities import UNITS
 from validation.selection.side_by_side import TOGETHER, differences, error_of_difference, per_cent, reference_of
 
@@ -95,7 +96,7 @@ def models_of_page(comparison: Comparison) -> list[dict[str, str]]:
             "claims": tolerance.shown(one.claimed) if one.estimate.in_range else "out of range",
             "found": NONE if one.answer is None else tolerance.shown_beside(one.error),
             "apart": _apart(comparison, one) if one in solved else NONE,
-            "cost": format_seconds(one.cost),
+            "cost": format_seconds(one.cost if one.answer is None else one.answer.cost.seconds),
             "took": format_seconds(comparison.seconds_of(one), least="< 1 ms"),
             "became": BECAME[one.status].removeprefix("not " if one.answer else ""),
             "why": one.reason,
@@ -205,7 +206,7 @@ def overview_of(comparisons: Sequence[Comparison]) -> Columns:
 def _row_of_scene(comparison: Comparison, several: bool) -> dict[str, str]:
     """several: whether quantities are told apart."""
     best, shown, scene = comparison.selection.best, comparison.tolerance.shown, comparison.scene.name
-    mdr = min((one.error for one in comparison.models if one.is_mdr), default=None)
+    springs = springs_of(comparison)
     if best is None:
         result = ""
     elif comparison.is_level:
@@ -217,6 +218,11 @@ def _row_of_scene(comparison: Comparison, several: bool) -> dict[str, str]:
         "scene": f"{scene}: {comparison.quantity}" if several else scene,
         "model": label(best) if best and comparison.met else "none is enough",
         "error": shown(best.error) if best else "none",
-        "MDR": NONE if mdr is None else shown(mdr),
+        "MDR": NONE if springs is None else f"{shown(springs.error)}{_how(comparison, springs)}",
         "result": result,
     }
+
+
+def _how(comparison: Comparison, springs: Candidate) -> str:
+    """Where an error is predicted alone."""
+    return "" if is_solved(comparison, springs) or not math.isfinite(springs.error) else ", predicted"

@@ -18,6 +18,7 @@ from validation.scenes.load import Scene
 from validation.scenes.printable import shortened
 from validation.scenes.rail import RailScene
 from validation.scenes.rolling import RollingScene
+from validation.selection.elasticity import beyond_elasticity
 from validation.selection.hierarchy import Candidate, Selection, select_model
 from validation.selection.named_models import ComparedModels, models_named
 from validation.selection.own_candidates import Own, names_and_own, own_candidates
@@ -28,6 +29,8 @@ from validation.selection.tolerance import Tolerance, decibels, tolerance_of
 from validation.simulation.model import Target
 from validation.simulation.rolling_quantity import RollingQuantity
 
+ENSEMBLE_MEAN, SINGLE_SURFACE = "ensemble mean", "single surface"
+MOST_REALISATIONS = 100_000
 LONGEST_BEYOND_RANGE = 60.0
 """Seconds that a model may take whose error is unknown."""
 
@@ -69,6 +72,11 @@ class Comparison:
         Name of the model that gives ``value``; empty where none has an answer.
     met : bool
         Whether the tolerance is met.
+    statistic : str
+        What ``value`` and its error are of: "ensemble mean", over all surfaces of the roughness that is drawn, or
+        "single surface", that was measured; empty of smooth bodies.
+    beyond_elasticity : str
+        Why no model is within tolerance whatever its error: the mean pressure is above 0.1 E*. Empty where it is not.
     models : ComparedModels
         All models, the cheapest first: ``models[0]``, or by name, ``models["springs"]``. Each has ``name``,
         ``status``, ``error`` (relative), ``cost`` (seconds on one core) and ``reason``.
@@ -182,7 +190,18 @@ class Comparison:
 
     @property
     def met(self) -> bool:
-        return self.selection.met
+        return self.selection.met and not self.beyond_elasticity
+
+    @property
+    def beyond_elasticity(self) -> str:
+        return beyond_elasticity(self.scene)
+
+    @property
+    def statistic(self) -> str:
+        if isinstance(self.scene, RailScene):
+            return ENSEMBLE_MEAN
+        ground = self.scene.ground
+        return "" if ground is None else SINGLE_SURFACE if ground.is_single else ENSEMBLE_MEAN
 
     @property
     def models(self) -> ComparedModels:
@@ -212,6 +231,7 @@ def compare(
     *,
     solve_all: bool = False,
     models: str | Offered | Sequence[str | Offered] | None = None,
+    realisations: int | None = None,
     callback: Callable[[SceneModel], None] = lambda _: None,
 ) -> Comparison:
     """Select the cheapest model of a scene whose error is within the tolerance.
@@ -234,6 +254,9 @@ def compare(
         Solve these models and no others: "mdr", "bem", or names of models of this scene, in one text with commas too;
         functions of your own with a decorator, as `stiffness_model`. One that a file defines is measured first, beside
         stored answers of boundary elements, and has an error then; of any other, that is unknown.
+    realisations : int, optional
+        How many surfaces, or strips under a wheel, boundary elements solve where roughness is drawn, from 2 to 100000;
+        by default as many as the tolerance takes, up to 1000 surfaces or 32 strips.
     callback : callable, optional
         Called with each model before its solve, as for a note that it takes a while.
 
@@ -263,15 +286,16 @@ def compare(
     count("seed", seed, least=0)
     asked = quantity or quantities_of(scene)[0]
     names, own = names_and_own(models, scene, asked)
-    return SceneProblem(scene, (asked,), tolerance, seed, solve_all, names, own).compared(callback)[asked]
+    problem = SceneProblem(scene, (asked,), tolerance, seed, solve_all, names, own, realisations)
+    return problem.compared(callback)[asked]
 
 
 @dataclass(frozen=True)
 class SceneProblem:
     """What `compare` is asked of one scene, of each quantity.
 
-    own: models of somebody's own; content: digest of all that the scene is made of, since its repr leaves out most of
-    an array.
+    own: models of somebody's own; realisations: as of `compare`; content: digest of all that the scene is made of,
+    since its repr leaves out most of an array.
     """
 
     scene: Scene = field(repr=False)
@@ -281,9 +305,14 @@ class SceneProblem:
     solve_all: bool = False
     models: Sequence[str] = ()
     own: tuple[Own, ...] = ()
+    realisations: int | None = None
     content: str = field(init=False)
 
     def __post_init__(self) -> None:
+        if self.realisations is not None:
+            object.__setattr__(self, "realisations", count("realisations", self.realisations, least=2))
+            if self.realisations > MOST_REALISATIONS:
+                raise ValueError(f"realisations must be from 2 to {MOST_REALISATIONS}, got {self.realisations}")
         object.__setattr__(self, "content", content_of(self.scene))
 
     @property
@@ -293,7 +322,11 @@ class SceneProblem:
     def offered(self, quantity: str, shared: Shared | None = None) -> tuple[list[SceneModel], list[SceneModel]]:
         """The models that are listed, the cheapest first, and those of them that may be solved. Raises ValueError."""
         tolerance = self.wanted.relative
-        every = models_of(self.scene, quantity, tolerance, self.seed, shared, every=bool(self.models))
+        every = models_of(
+            *(self.scene, quantity, tolerance, self.seed, shared),
+            every=bool(self.models),
+            realisations=self.realisations,
+        )
         own = own_candidates(self.own, Target(self.scene, quantity, tolerance, self.seed), every)
         every = sorted([*every, *own], key=lambda one: one.cost().seconds)
         only = models_named(every, self.models, tolerance) if self.models else every

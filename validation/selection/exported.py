@@ -67,6 +67,8 @@ def _found(comparison: Comparison) -> dict[str, object]:
         "tolerance": comparison.tolerance.relative,
         "tolerance_dB": decibels(comparison.tolerance.relative),
         "met": comparison.met,
+        "statistic": comparison.statistic or None,
+        "beyond_elasticity": comparison.beyond_elasticity or None,
         "model": comparison.model or None,
         **{name: _numbers(levels[name]) for name in ("value", "error")},
         "error_parts": {name: _numbers(halves) for name, halves in parts.items()},
@@ -90,8 +92,9 @@ def to_csv(comparison: OneOrSeveral) -> str:
     -------
     str
         Columns wavelength_mm, frequency_hz, value, low, high, unit, model, selected; low and high end the 95 %
-        interval. Of a rail also the levels roughness_dB, a3_dB and equivalent_dB, with a speed those of the force; of
-        all models their seconds; of a sweep its value. A cell is empty where there is no number.
+        interval; of rough bodies statistic, "ensemble mean" or "single surface". Of a rail also the levels
+        roughness_dB, a3_dB and equivalent_dB, with a speed those of the force; of all models their seconds; of a sweep
+        its value. A cell is empty where there is no number.
 
     Examples
     --------
@@ -133,6 +136,7 @@ def _rows_of_model(comparison: Comparison, one: Candidate, force: ContactForce |
     found: dict[str, Any] = {name: levels[name] if levels[name].size else math.nan for name in AXES}
     found |= {"value": value, "low": value - half, "high": value + half}
     found |= {"unit": comparison.unit, "model": one.name, "selected": one.name == comparison.model}
+    found |= {"statistic": comparison.statistic} if comparison.statistic else {}
     found |= {name: levels[name] for name in OF_RAIL if name in levels}
     if force:
         found |= {"force_sum_dBA": force.total(one.name), "force_over_selected_dB": force.over_chosen(one.name)}

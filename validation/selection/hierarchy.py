@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 
 from validation.engine.convergence import NotConvergedError, as_not_converged
+from validation.selection.agreement import ALIKE, bias, contradict, distance_of
 from validation.selection.scene_model import Answer, SceneModel
 from validation.simulation.model import ErrorEstimate
 
@@ -45,6 +46,13 @@ class Candidate:
         return self.estimate.error
 
     @property
+    def found(self) -> Answer:
+        """Of a model that was solved. Raises ValueError for another."""
+        if self.answer is None:
+            raise ValueError(f"{self.name} was not solved")
+        return self.answer
+
+    @property
     def error(self) -> float:
         """Relative half-width of 95 %: found by a solve, or estimated before it."""
         return (self.answer or self.estimate).error
@@ -68,10 +76,23 @@ class Selection:
 
     @property
     def best(self) -> Candidate | None:
-        """The accepted model, or else the one with the smallest error; None where no answer has a known error."""
+        """The accepted model, or else the least biased of those whose errors are alike the smallest.
+
+        None where no answer has a known error.
+        """
         accepted = [candidate for candidate in self.solved if candidate.status == "accepted"]
-        known = [candidate for candidate in self.solved if math.isfinite(candidate.error)]
-        return accepted[0] if accepted else min(known, key=lambda one: one.error, default=None)
+        alike = [candidate for candidate in self.known if candidate.error <= ALIKE * self.least_error]
+        return accepted[0] if accepted else min(alike, key=lambda one: bias(one.found), default=None)
+
+    @property
+    def known(self) -> tuple[Candidate, ...]:
+        """The models that have an answer with an error."""
+        return tuple(one for one in self.solved if math.isfinite(one.error))
+
+    @property
+    def least_error(self) -> float:
+        """Of `known`; infinite of none."""
+        return min((one.error for one in self.known), default=math.inf)
 
     @property
     def solved(self) -> tuple[Candidate, ...]:
@@ -97,7 +118,8 @@ def select_model(
     """Solve with models from the cheapest on, until the error of one is within the tolerance.
 
     models: in the order of their cost; tolerance: relative, positive; callback: called with each model before its
-    solve; solve_all: whether those that were not needed or skipped are solved, too, which selects no other model; only:
+    solve; solve_all: whether those that were not needed or skipped are solved, too, which selects another model only
+    where one of them contradicts the selected; only:
     of these, None for all; also: which are solved like this in any case; beyond: which of those out of range are
     solved, too, where all are: the errors of their answers stay unknown. A model without an estimate is out of range
     and not solved; one that expects to miss the tolerance is skipped. Where all miss it, the skipped one with the
@@ -122,7 +144,30 @@ def select_model(
         return is_left(one) and (solve_all or also(one.model))
 
     every = tuple(_solved(one, callback) if beside(one) else one for one in found.candidates)
-    return Selection(tolerance, every)
+    return without_contradiction(Selection(tolerance, every))
+
+
+def contradicting(found: Selection, one: Candidate) -> Candidate | None:
+    """The least biased of the solved models that are less biased than this one and contradict it; None where none."""
+    if not any(one is other for other in found.known):
+        return None
+    others = [other for other in found.known if other is not one and bias(other.found) < bias(one.found)]
+    against = [other for other in others if contradict(one.found, other.found, found.tolerance)]
+    return min(against, key=lambda other: bias(other.found), default=None)
+
+
+def without_contradiction(found: Selection) -> Selection:
+    """No model is selected that another one contradicts which is less biased: that one is, where its error allows."""
+    while (best := found.best) is not None and best.status == "accepted":
+        if (better := contradicting(found, best)) is None:
+            return found
+        apart = distance_of(best.found, better.found)
+        reason = f"{better.name}, with less bias, is {100 * apart:.2g} % away, beyond the errors of both; {best.reason}"
+        accepted: Status = "accepted" if better.error <= found.tolerance else "not accurate enough"
+        changed = {id(best): ("not accurate enough", reason), id(better): (accepted, better.reason)}
+        rows = [(one, changed.get(id(one), (one.status, one.reason))) for one in found.candidates]
+        found = replace(found, candidates=tuple(replace(one, status=row[0], reason=row[1]) for one, row in rows))
+    return found
 
 
 def needed(models: Sequence[SceneModel], tolerance: float) -> SceneModel | None:
@@ -168,4 +213,4 @@ def _least_estimate(found: Selection) -> Candidate | None:
     if all(one.estimate.of_scene > found.tolerance for one in skipped):
         skipped = skipped[-1:] if found.best is None else []
     least = min(skipped, key=lambda one: one.claimed, default=None)
-    return least if least and (found.best is None or least.claimed < found.best.error) else None
+    return least if least and least.claimed < found.least_error else None

@@ -1,14 +1,15 @@
 """What `compare` prints of a scene without `--verbose`: its models, its bands, and three lines that answer."""
 
-import math
 from collections.abc import Iterator, Sequence
 
+from validation.selection import on_mdr
+from validation.selection.advice import would_help
 from validation.selection.cells import scaled
 from validation.selection.columns import bands_of, columns_as_lines, side_by_side
 from validation.selection.compare import Comparison
 from validation.selection.contact_force import LEVELS, contact_force
 from validation.selection.scene_model import Answer
-from validation.selection.summary import error_of_levels, models_as_lines, no_answer, would_help
+from validation.selection.summary import error_of_levels, models_as_lines, no_answer
 
 
 def in_short(quantities: Sequence[Comparison]) -> Iterator[str]:
@@ -27,19 +28,20 @@ def in_short(quantities: Sequence[Comparison]) -> Iterator[str]:
         yield no_answer(comparison)
     else:
         yield from (_value(quantities, best.answer), _error(comparison, best.answer))
-    yield _on_mdr(comparison)
+    yield on_mdr.in_short(comparison)
 
 
 def _value(quantities: Sequence[Comparison], answer: Answer) -> str:
     """One number with its error, or how many bands there are, of a rail with the force that they leave."""
     comparison = quantities[0]
     name = comparison.quantity if len(quantities) == 1 else "both"
+    of = f", {comparison.statistic}" if comparison.statistic else ""
     if not comparison.is_level:
         value = float(answer.value[0])
-        return f"{name} = {scaled(value, value * answer.error)} {comparison.unit} by {comparison.model}"
+        return f"{name} = {scaled(value, value * answer.error)} {comparison.unit} by {comparison.model}{of}"
     force = contact_force(comparison)
     weighted = f", contact force {force.shown}" if force else ""
-    return f"{name} by {comparison.model}: {comparison.value.size} bands{weighted}"
+    return f"{name} by {comparison.model}: {comparison.value.size} bands{of}{weighted}"
 
 
 def _error(comparison: Comparison, answer: Answer) -> str:
@@ -50,22 +52,3 @@ def _error(comparison: Comparison, answer: Answer) -> str:
     of = ", ".join(f"{name} {tolerance.shown(part)}" for name, part in parts.items())
     of = f": {of}" if len(parts) > 1 else "".join(f"; all of it is the {name}'s" for name in parts)
     return f"error {found}, {'within' if comparison.met else 'not within'} {tolerance}{of}"
-
-
-def _on_mdr(comparison: Comparison) -> str:
-    """Whether springs are enough, and why: those that are selected, or else the ones with the smallest error."""
-    best = comparison.selection.best
-    springs = min(
-        (one for one in comparison.models if one.is_mdr), key=lambda one: (one is not best, one.error), default=None
-    )
-    if springs is None:
-        return "MDR has no springs for this scene"
-    shown = comparison.tolerance.shown_beside(springs.error)
-    why = f"its error is {shown}" if springs.answer else f"it claims an error of {shown} before a solve"
-    if not math.isfinite(springs.error):
-        enough, why = "not known to be enough", springs.reason
-    elif springs.error <= comparison.tolerance.relative:
-        enough, why = "enough", "the result is its own" if springs is best else why
-    else:
-        enough = "not enough" if springs.answer else "not sure to be enough"
-    return f"MDR ({springs.name}) is {enough}: {why}"

@@ -41,11 +41,19 @@ def quantities_of(scene: Scene) -> tuple[str, ...]:
 
 
 def models_of(
-    scene: Scene, quantity: str, tolerance: float, seed: int, shared: Shared | None = None, *, every: bool = False
+    scene: Scene,
+    quantity: str,
+    tolerance: float,
+    seed: int,
+    shared: Shared | None = None,
+    *,
+    every: bool = False,
+    realisations: int | None = None,
 ) -> list[SceneModel]:
     """Models of a scene, the cheapest first. Raises ValueError for a quantity that the scene has not.
 
-    shared: what is solved for several quantities of one scene; every: whether those of `BY_NAME` are among them.
+    shared: what is solved for several quantities of one scene; every: whether those of `BY_NAME` are among them;
+    realisations: as of `SceneModel`, for which a scene must have a model that draws surfaces.
     """
     if quantity not in quantities_of(scene):
         known = ", ".join(quantities_of(scene))
@@ -53,9 +61,18 @@ def models_of(
     target, solved = Target(scene, quantity, tolerance, seed), Shared() if shared is None else shared
     kind = RailSceneModel if isinstance(scene, RailScene) else SceneModel
     found = [
-        kind(model, target, resolution, solved)
+        kind(model, target, resolution, solved, realisations)
         for model in models_serving(scene, quantity)
         if every or model.name not in BY_NAME
         for resolution in model.resolutions(target)
     ]
+    if realisations is not None and not any(one.is_sampled for one in found):
+        raise ValueError(f"realisations must be left out for scene {scene.name!r}, got {realisations}: {_alone(scene)}")
     return sorted(found, key=lambda one: one.cost().seconds)
+
+
+def _alone(scene: Scene) -> str:
+    """Why no number of realisations is asked of a scene."""
+    if isinstance(scene, RailScene):
+        return "each model of a rail has as many strips as its errors were measured on"
+    return "its body is smooth" if scene.ground is None else "its heights are measured, one surface"

@@ -31,6 +31,7 @@ class RailSceneModel(SceneModel):
                 if counts.any()
                 else asked.none_counts
             ),
+            counts=tuple(counts.tolist()),
             band_errors={name: result.values[name] for name in ("model", "grid", "sample")},
             seconds=self._seconds(1),
         )

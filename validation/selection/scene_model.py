@@ -188,7 +188,7 @@ class SceneModel:
         """Whether the sample alone is expected to leave more than the tolerance, where nobody says how many."""
         return self.realisations is None and expected.sample > self.target.tolerance
 
-    def _answer(self, expected: ErrorEstimate, count: int, compared: int, before: Mapping[Resolution, int]) -> Answer:
+    def _answer(self, expected: ErrorEstimate, count: int, compared: int, before: dict[Resolution, int]) -> Answer:
         """Of so many realisations, of which so many are compared with other grids; before: solved by others."""
         found = self._first(self.resolution, count)
         others = [self._first(resolution, compared) for resolution in self.references]

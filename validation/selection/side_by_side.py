@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from validation.analysis.evidence import Table, table_of
 from validation.scenes.rail import RailScene
+from validation.selection.agreement import ALIKE, bias
 from validation.selection.compare import Comparison
 from validation.selection.hierarchy import Candidate
 from validation.selection.tolerance import decibels
@@ -17,8 +18,10 @@ TOGETHER = "both errors together: of the models the sum, of grid and sample the 
 
 
 def reference_of(comparison: Comparison) -> Candidate:
-    """The solved model with the smallest error, the dearest of several."""
-    return min(reversed(comparison.selection.solved), key=lambda one: one.error)
+    """The least biased of the solved models whose errors are alike the smallest, the dearest of several."""
+    solved, least = comparison.selection.solved[::-1], comparison.selection.least_error
+    alike = [one for one in solved if one.error <= ALIKE * least]
+    return min(alike, key=lambda one: bias(one.found))
 
 
 def differences(candidate: Candidate, reference: Candidate) -> np.ndarray:

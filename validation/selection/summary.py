@@ -1,6 +1,5 @@
 """The text that `compare` prints: what was understood, what became of each model, the result, whether MDR is enough."""
 
-import math
 import textwrap
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -8,19 +7,18 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from validation.scenes.description import description_lines
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import Scene
-from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rail import RailScene
+from validation.selection import on_mdr
+from validation.selection.advice import what_would_help
 from validation.selection.cells import format_seconds, scaled, short
 from validation.selection.columns import bands_of, columns_as_lines, models_of_page, overview_of, side_by_side
 from validation.selection.compare import Comparison, OneOrSeveral, listed
 from validation.selection.contact_force import LEVELS, contact_force
-from validation.selection.hierarchy import Candidate
 from validation.selection.quantities import MOVING
-from validation.selection.rail_model import what_would_state_the_ground
 from validation.selection.scene_model import Answer
 from validation.selection.tolerance import Tolerance, decibels
 from validation.simulation.model import Target
-from validation.simulation.rail_models import MEASURED_ON_STRIPS, rail_quantity
+from validation.simulation.rail_models import MEASURED_ON_STRIPS
 
 WIDTH = 100
 """Columns of a terminal."""
@@ -87,7 +85,7 @@ def in_full(quantities: Sequence[Comparison]) -> Iterator[str]:
             yield from ("", *force.sentences, *(f"  {line}" for line in columns_as_lines(force.table)), "")
         yield from side_by_side(comparison)
         yield from (age_of_errors(comparison), cost_of(comparison))
-    yield from (*what_would_help(comparison), *sentences_on_mdr(comparison))
+    yield from (*what_would_help(comparison), *on_mdr.in_full(comparison))
 
 
 def models_as_lines(comparison: Comparison) -> Iterator[str]:
@@ -157,46 +155,17 @@ def help_with(comparisons: Sequence[Comparison]) -> list[str]:
     return list(wrapped(lines, indent=4))
 
 
-def sentences_on_mdr(comparison: Comparison) -> list[str]:
-    """Whether springs by the method of dimensionality reduction are enough: one a model of them."""
-    springs = [one for one in comparison.models if one.is_mdr]
-    if not springs:
-        return ["MDR: no springs are among the models of this scene."]
-    several = len(springs) > 1
-    return [f"MDR{f' ({one.name})' if several else ''}: {_on_mdr(comparison, one)}." for one in springs]
-
-
-def _on_mdr(comparison: Comparison, springs: Candidate) -> str:
-    tolerance, selection = comparison.tolerance, comparison.selection
-    if not math.isfinite(springs.error):
-        return "not known to be enough"
-    shown = tolerance.shown_beside(springs.error)
-    if springs.answer is None:
-        scene = comparison.scene
-        heights = scene.roughness if isinstance(scene, RailScene) else scene.ground
-        # a report finds the mean over surfaces
-        asked = "this surface" if isinstance(heights, MeasuredHeights) else "this scene"
-        errors = f"for {asked} ({shown} claimed before a solve, {tolerance} wanted)"
-    else:
-        errors = f"({shown} found, {tolerance} wanted)"
-    if springs.error > selection.tolerance:
-        # what is claimed before a solve is an upper bound
-        return f"not {'enough' if springs.answer else 'sure to be enough'} {errors}"
-    cheaper = selection.best
-    others = f"; {cheaper.name} is cheaper" if cheaper is not None and cheaper.model is not springs.model else ""
-    return f"enough {errors}{others}"
-
-
 def result_of(comparison: Comparison, answer: Answer) -> str:
     """The number with its error, or the model of a spectrum with its error, and the parts of that."""
     shown = comparison.tolerance.shown
+    of = f", {comparison.statistic}" if comparison.statistic else ""
     parts = f"model {shown(answer.model)}, grid {shown(answer.grid)}, sample {shown(answer.sample)}"
     if not comparison.is_level:
         value = float(answer.value[0])
         number = f"{scaled(value, value * answer.error)} {comparison.unit}"
-        return f"{comparison.quantity} = {number} ({shown(answer.error)}: {parts}), by {comparison.model}"
+        return f"{comparison.quantity} = {number} ({shown(answer.error)}: {parts}), by {comparison.model}{of}"
     level = error_of_levels(comparison, answer)
-    return f"{comparison.quantity} by {comparison.model}, one-third octaves, ± {level}: {parts}"
+    return f"{comparison.quantity} by {comparison.model}{of}, one-third octaves, ± {level}: {parts}"
 
 
 def error_of_levels(comparison: Comparison, answer: Answer) -> str:
@@ -223,43 +192,6 @@ def cost_of(comparison: Comparison) -> str:
     text = f"cost of the solves: about {spent}, from counted operations, without program start"
     saved = sum(one.cost for one in comparison.models if one.answer is None and one.status != "out of range")
     return f"{text}; the models that were not solved would have cost {format_seconds(saved)}" if saved else text
-
-
-def what_would_help(comparison: Comparison) -> Iterator[str]:
-    """Where no model meets the tolerance: the error that is left, and `would_help`."""
-    best, tolerance = comparison.selection.best, comparison.tolerance
-    if best is not None and best.answer is not None and not comparison.met:
-        yield f"not reached: the tolerance of {tolerance}; the smallest error is {tolerance.shown_beside(best.error)}"
-    yield from would_help(comparison)
-
-
-def would_help(comparison: Comparison) -> Iterator[str]:
-    """The tolerance that would be met, and what most of the error is due to; nothing where one is met."""
-    best, tolerance = comparison.selection.best, comparison.tolerance
-    if comparison.met:
-        return
-    others = [one for one in comparison.models if one.status == "not asked" and one.claimed <= tolerance.relative]
-    other = others and f"{others[0].name}, which was not asked and claims {tolerance.shown(others[0].claimed)}"
-    if best is None or best.answer is None:
-        if comparison.models:
-            another = f"a scene for which this does not hold: {comparison.models[-1].reason}"
-            yield f"what would help: {other or another}"
-        return
-    if (left := best.estimate.of_scene) > min(tolerance.relative, best.answer.error / 2):
-        asked = rail_quantity(Target(comparison.scene, comparison.quantity))
-        yield (
-            f"what would help: {what_would_state_the_ground(asked)}: the ground leaves ± {tolerance.shown(left)}, "
-            f"whatever the model; or a tolerance of {tolerance.shown(1.05 * best.answer.error)}"
-        )
-        return
-    causes = {
-        "the model's: lower roughness has less": best.answer.model,
-        "left by the grid: longer waves (`shortest`), or heights on more points, have less": best.answer.grid,
-        "the scatter of the surfaces that are drawn": best.answer.sample,
-    }
-    met = f"{other}; or " if other else ""
-    met += f"a tolerance of {tolerance.shown(1.05 * best.answer.error)}"
-    yield f"what would help: {met}; most of the error is {max(causes, key=causes.__getitem__)}"
 
 
 def wrapped(lines: list[str], indent: int) -> Iterator[str]:

@@ -39,8 +39,9 @@ FINE, COARSE = 12, 8
 """Cells to the smaller semi-axis."""
 OF_FINE = 0.8
 """Error of the fine grid over its difference from the coarse one, of second order."""
-CLOSED, EVALUATION, ITEM = 2e-2, 5e-8, 1e-4
-"""Seconds of a closed filter on one ground at the least, and of a wave of it; of a position on springs, about."""
+CLOSED, EVALUATION, ITEM, DRAWN = 4e-2, 5e-8, 1e-4, 3e-7
+"""Seconds of a closed filter on one ground at the least, and of a wave of it; of a position on springs, and of a cell
+of a strip that is drawn and filtered, about."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,13 +49,15 @@ class ContactFilter:
     """A contact filter in bands: a linear one, whose mean over the stated ground is a quadrature, or a one-sided one.
 
     That is its linear twin on the stated ground, and on strips what it is over the twin. closed: A3 of the linear
-    filter or of the twin, (ends, bands) [dB]; seconds: that a position of a strip takes, about; is_reference: of the
-    errors of all others; across: what lies across on its strips, None for what is stated.
+    filter or of the twin, (ends, bands) [dB]; seconds: that a position of a strip takes, about; finer: springs to a
+    cell, for which a strip is drawn on finer cells, too; is_reference: of the errors of all others; across: what lies
+    across on its strips, None for what is stated.
     """
 
     name: str
     closed: Callable[[RailQuantity], FloatArray]
     seconds: float = ITEM
+    finer: int = 1
     is_reference: bool = False
     across: StatedAcross | None = None
 
@@ -149,12 +152,17 @@ class ContactFilter:
         return ""
 
     def cost(self, target: Target, resolution: Resolution) -> Cost:
+        """Positions, and cells that are drawn: all strips on both grids, of springs on finer ones as well."""
         quantity = rail_quantity(target)
         ends = len(quantity.ends)
-        if self.on_strips:
-            positions = STRIPS * ends * sum(positions_along(quantity.scene, cells) for cells in (COARSE, FINE))
-            return Cost(work=positions, seconds=self.seconds * positions)
-        return Cost(work=ends, seconds=max(CLOSED * ends, EVALUATION * quantity.evaluations))
+        closed = Cost(work=ends, seconds=max(CLOSED * ends, EVALUATION * quantity.evaluations))
+        if not self.on_strips:
+            return closed
+        shapes = [strip_of(quantity.scene, "ridges", cells, 0, 0).shape for cells in (COARSE, FINE)]
+        positions = STRIPS * ends * sum(positions_along(quantity.scene, cells) for cells in (COARSE, FINE))
+        drawn = STRIPS * ends * sum(along * across for along, across in shapes)
+        drawn *= 1 if self.finer == 1 else 1 + self.finer**2
+        return Cost(work=positions + drawn, seconds=closed.seconds + self.seconds * positions + DRAWN * drawn)
 
     def solve(self, target: Target, resolution: Resolution) -> Result:
         """Of both quantities, by their names, and what `find` has."""

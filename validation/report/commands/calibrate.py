@@ -19,6 +19,7 @@ from validation.selection.calibrate import (
     check_installable,
     errors_as_lines,
     install,
+    is_of_package,
     measured_alone,
     measured_answers,
     measured_table,
@@ -28,7 +29,6 @@ from validation.selection.calibration_answers import ANSWERS, Answers, Group, me
 from validation.selection.calibration_scenes import CalibrationRun
 from validation.selection.judging.from_report import references_of
 from validation.selection.judging.references import FOLDER as INSTALLED
-from validation.simulation.model import all_models
 
 OUT, OUT_OF_REFERENCES = Path("calibration"), Path("references")
 """Where a table is measured, and references are made, below the working folder."""
@@ -169,7 +169,7 @@ def _said(table: Path, made: Mapping[Group, Answers], arguments: argparse.Namesp
 def _is_own(name: str) -> bool:
     """Whether it is a file, or what an installed package offers; a model of the package goes before that."""
     is_file = name.endswith(".py") or Path(name).is_file()
-    return is_file or (is_installed(name) and all(name != one.name for one in all_models()))
+    return is_file or (is_installed(name) and not is_of_package(name))
 
 
 def _own(model: str, arguments: argparse.Namespace) -> Exit:

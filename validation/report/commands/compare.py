@@ -66,6 +66,13 @@ def describe(comparing: argparse.ArgumentParser) -> None:
         ("--sweep", "KEY=A,B,C", _sweep, 'the scene with each value, as wheel.load="5 kN,10 kN"'),
         ("--seed", "S", at_least(0), "seed of the random roughness (default: 0)"),
         (
+            "--realisations",
+            "N",
+            at_least(2),
+            "surfaces, or strips under a wheel, that boundary elements solve where roughness is drawn (default: as "
+            "many as the tolerance takes, up to 1000 surfaces or 32 strips)",
+        ),
+        (
             "--json",
             "FILE",
             Path,
@@ -119,7 +126,7 @@ def _problem(scene: Scene, arguments: argparse.Namespace) -> SceneProblem:
     quantities, seed = tuple(arguments.quantity or quantities_of(scene)[:1]), arguments.seed or 0
     names = () if arguments.models is None else arguments.models or ("",)
     timed = arguments.all or arguments.over is not None
-    return SceneProblem(scene, quantities, arguments.tolerance, seed, timed, names)
+    return SceneProblem(scene, quantities, arguments.tolerance, seed, timed, names, realisations=arguments.realisations)
 
 
 def _with_own(problems: list[SceneProblem], arguments: argparse.Namespace) -> list[SceneProblem]:

@@ -13,8 +13,8 @@ from validation.simulation.models.rolling import of_a_wheel
 from validation.simulation.rolling_levels import RollingGrid, on_boundary_elements
 from validation.simulation.sampling import distance
 
-CELL, POSITION = 2.0e-8, 1.0e-3
-"""Seconds that a cell takes in an application, and what else a contact, about."""
+CELL, POSITION = 5.0e-8, 1.0e-3
+"""Seconds that a cell takes in an application, its strip drawn, and what else a contact, about."""
 STRIP_RMS, STRIP_BANDS = 0.35, 0.7
 """Scatter of one strip over linear theory on itself, over h/d: how many strips are expected."""
 OF_FINE = 0.8

@@ -7,7 +7,7 @@ import numpy as np
 
 from validation.engine.engine import FloatArray
 from validation.simulation import model_names as named
-from validation.simulation.equivalent_displacement import geike_power
+from validation.simulation.equivalent_displacement import FINER, geike_power
 from validation.simulation.rail_models import STRIPS, rail_model
 from validation.simulation.rail_quantity import RailQuantity
 from validation.theory.contact_filters import remington_filter
@@ -52,10 +52,10 @@ LINEAR_BED = rail_model(named.BED, "2 J_1(S) / S, equal weights over the ellipse
 Source: Remington and Webb, J. Sound Vib. 193 (1996) 83; Ford and Thompson, J. Sound Vib. 293 (2006) 769."""
 BED_THAT_DOES_NOT_PULL = rail_model(named.ONE_SIDED_BED, ON_STRIPS, seconds=2e-4)
 """Its stiffness is matched to Hertz: the DPRS of the field, sums over the patch at each position."""
-ON_LINE = rail_model(named.SPRINGS_ON_LINE, ON_STRIPS, seconds=2e-5, is_mdr=True)
-ON_MEAN = rail_model(named.SPRINGS_ON_MEAN, ON_STRIPS, seconds=3e-5, is_mdr=True)
+ON_LINE = rail_model(named.SPRINGS_ON_LINE, ON_STRIPS, seconds=3e-5, finer=FINER, is_mdr=True)
+ON_MEAN = rail_model(named.SPRINGS_ON_MEAN, ON_STRIPS, seconds=3e-5, finer=FINER, is_mdr=True)
 """MDR on the middle line of a strip, and on the mean over |y| < a_y, which is already a filter."""
-READING = rail_model(named.SPRINGS_THAT_READ, ON_STRIPS, is_mdr=True)
+READING = rail_model(named.SPRINGS_THAT_READ, ON_STRIPS, finer=FINER, is_mdr=True)
 """MDR with the linear answer of three dimensions: springs that read the surface by the weight of the flat punch."""
 ON_ROLLING_SPECTRUM = rail_model(named.SPRINGS_ROLLING, ON_STRIPS, seconds=3e-5, is_mdr=True)
 """MDR with the level of the half-space for long and for short waves, of levels: a spectrum has no places."""

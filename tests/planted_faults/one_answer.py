@@ -1,0 +1,41 @@
+"""Faults planted in how one question gets one answer, and the test that must catch each."""
+
+import functools
+import math
+
+from tests.planted_faults.wrong import Fault
+from tests.selection import test_models_from, test_one_answer, test_read_only_comparison
+from tests.simulation import test_costs_by_counts
+from validation.scenes.measured import MeasuredHeights
+from validation.selection import advice, compare, elasticity, hierarchy, on_mdr, own_models, scene_model
+from validation.simulation import rail_models
+
+FAULTS = [
+    test_costs_by_counts.test_cells_that_are_drawn_are_most_of_the_cost_of_springs_on_a_line,
+    Fault("a cost without the strips that are drawn").at(rail_models, "DRAWN", 0.0),
+    test_one_answer.test_no_model_is_selected_that_a_less_biased_one_contradicts,
+    Fault("a contradiction that nobody looks for").at(hierarchy, "contradicting", lambda found, one: None),
+    Fault("the model with the smallest error, however biased").at(
+        hierarchy, "bias", lambda answer: (answer.error, 0.0)
+    ),
+    functools.partial(test_one_answer.test_of_errors_that_are_alike_the_less_biased_model_is_taken, 0.12, "grid"),
+    Fault("errors that a sample tells apart").at(hierarchy, "ALIKE", 1.0),
+    test_one_answer.test_a_sentence_on_springs_that_were_not_solved_says_predicted,
+    Fault("a prediction told as a solve").at(on_mdr, "is_solved", lambda comparison, springs: True),
+    functools.partial(test_one_answer.test_no_model_is_enough_beyond_linear_elasticity, *test_one_answer.BODIES[0]),
+    Fault("a half-space that bears any pressure").at(compare, "beyond_elasticity", lambda scene: ""),
+    functools.partial(test_one_answer.test_no_model_is_enough_beyond_linear_elasticity, *test_one_answer.BODIES[1]),
+    Fault("the peak for the mean pressure").at(
+        elasticity, "mean_pressure", lambda scene: 1.5 * scene.load / (math.pi * scene.contact_radius**2)
+    ),
+    test_one_answer.test_where_the_sample_is_the_error_a_number_of_realisations_is_advised_that_does,
+    Fault("no number of realisations would do").at(advice, "wanted_realisations", lambda one, tolerance: 0),
+    test_one_answer.test_so_many_realisations_are_solved_as_are_asked,
+    Fault("as many realisations as ever").at(scene_model, "replace", lambda plan, **_: plan),
+    test_read_only_comparison.test_one_number_cannot_be_written_either,
+    Fault("a value that can be written").at((compare, scene_model), "kept", lambda array: array.copy()),
+    test_models_from.test_a_claim_for_one_measured_surface_has_its_scatter_about_the_mean,
+    Fault("one measured surface without its scatter").at(MeasuredHeights, "is_single", False),
+    test_models_from.test_a_file_that_is_changed_is_seen_before_it_is_called,
+    Fault("a file that is changed while it is compared").at(own_models.OwnModel, "check_unchanged", lambda own: None),
+]
