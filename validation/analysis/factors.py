@@ -93,7 +93,7 @@ def _median(values: FloatArray, weights: FloatArray) -> float:
 
 
 def named(factor: float, half: float, names: Mapping[str, float]) -> str:
-    """What a factor may come from; nothing where it is none of these."""
+    """What a factor may come from, the nearest first; nothing where it is none of these."""
     apart = {name: abs(math.log(factor / known)) for name, known in names.items()}
-    name = min(apart, key=lambda one: apart[one])
-    return name if apart[name] <= NEAR + half else ""
+    near = sorted((name for name in apart if apart[name] <= NEAR + half), key=lambda one: apart[one])
+    return "; or ".join(near[:2])

@@ -106,13 +106,13 @@ def _linear(scene: RailScene, alpha: float) -> FloatArray:
 
 
 @cache
-def scene_of(load: float, diameter: float) -> RailScene:
-    """A conical wheel on a crowned rail of the roughness of ISO 3095."""
+def scene_of(load: float, diameter: float, crown: float = 0.0) -> RailScene:
+    """A conical wheel on a rail of the roughness of ISO 3095. crown: of its crown, by default of the table [m]."""
     return RailScene(
-        name=f"{load:g} kN, {diameter:g} mm",
+        name=f"{load:g} kN, {diameter:g} mm{f', crown {1000 * crown:g} mm' if crown else ''}",
         radius=diameter / 2000,
         load=1000 * load,
         modulus=STEEL,
         roughness=levels_of("iso3095-2013"),
-        crown_radius=about(FILTER)["settings"]["crown"],
+        crown_radius=crown or about(FILTER)["settings"]["crown"],
     )

@@ -213,7 +213,7 @@ class Punch(NamedTuple):
     refined: int
 
 
-PUNCHES = Punch(0.6, 1, 32, 4, 240, 40), Punch(0.45, 1, 8, 8, 600, 150), Punch(0.8, 8, 8, 4, 80, 24)
+PUNCHES = Punch(0.6, 1, 32, 4, 240, 40), Punch(0.45, 1, 8, 8, 300, 60), Punch(0.8, 8, 8, 4, 40, 10)
 LOADS = tuple(10.0 ** (-i / 6) for i in (13, 9, 5, 1))
 """Fbar, midway between loads of the table."""
 

@@ -111,12 +111,20 @@ def cause(model: Recorded, problems: Sequence[Problem], answers: Sequence[FloatA
             for one in (problem.answer, answer):
                 if model.answers.get(one.tobytes(), set()) - {digest_of(problem.arguments)}:
                     return f"{CACHED}: it has the answer of another problem"
+    first = problems[0].answer
     of_first = [answers[0], *answers[-(TIMES - 1) :]]
     one_after_the_other = max(change(of_first[0], one) for one in of_first)
-    if one_after_the_other > max(SAME, TREND * change(problems[0].answer, of_first[0])):
+    steps = np.diff([_along(first, one) for one in (first, *of_first)])
+    trend = (steps > 0).all() or (steps < 0).all()
+    if not trend and one_after_the_other > max(SAME, TREND * change(first, of_first[0])):
         asks = ": the same rng gives other draws" if "rng" in model.asks else ""
         return f"{RANDOM if not asks else 'random beside rng'}{asks or ': the same arguments have other answers'}"
     return f"{DRIFTING}: it has a state"
+
+
+def _along(first: FloatArray, answer: FloatArray) -> float:
+    """An answer as a part of the first one."""
+    return float(np.vdot(first, answer)) / (float(np.vdot(first, first)) or 1.0)
 
 
 def change(before: FloatArray, after: FloatArray) -> float:
