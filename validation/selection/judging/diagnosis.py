@@ -38,9 +38,9 @@ UNSIGNED = {APART.format(name) + end for name in ("force", "approach") for end i
 """Quantities that have no sign."""
 ALONG = FORCE, HEIGHT, SLOPE, Q, WAVE
 """Conditions along which a table has its points; a held-out point is compared with the nearest ones."""
-NEAREST, MOST, SHOWN = 0.8, 0.5, 3
-"""Part of the nearest points of a table that must agree, and of held-out points that then do not; scenes that are
-listed."""
+NEAREST, MOST, FEW, SHOWN = 0.8, 0.5, 0.2, 3
+"""Part of the nearest points of a table that must agree, of held-out points of a scene, and of all of them, that then do
+not; scenes that are listed."""
 SQUARED, LOWEST = 0.15, -8.0
 """Of levels that are twice, or half of, their references: what each may be off [dB, and of the reference], and the
 lowest reference [dB]."""
@@ -98,9 +98,11 @@ def _table(points: Sequence[JudgedPoint]) -> Iterator[Remark]:
         out = [point for point in there if point.verdict in (DIFFER, REFUSED, FAILED)]
         expected, wrong = expected + len(there), wrong + len(out)
         lost += sum(point.verdict != DIFFER for point in out)
-        if len(out) > MOST * len(there) and (len(there) > 1 or there[0].quantity in UNSIGNED):
+        if len(out) >= MOST * max(len(there), 1) and (
+            len(there) > 1 or there[0].quantity in UNSIGNED or there[0].reference == 1
+        ):
             failed.append(f"{scene or 'all'} ({len(out)} of {len(there)})")
-    if failed:
+    if failed and wrong >= FEW * expected:
         what = "has no value" if lost == wrong else "is outside of the tolerance"
         yield Remark(
             "right on the table alone" if wrong > MOST * expected else "wrong beside the table",
@@ -149,7 +151,9 @@ def _factor(points: Sequence[JudgedPoint]) -> Iterator[Remark]:
     ]
     for of, is_level in ((_of_values, False), (_of_levels, True)):
         some = [point for point in signed if (point.unit == LEVEL) == is_level]
-        if everywhere := list(of(some, "")):
+        table = [point for point in some if not point.quantity.endswith(SUFFIX)]
+        of_each = [[p for p in table if p.quantity == name] for name in dict.fromkeys(p.quantity for p in table)]
+        if everywhere := next(filter(None, (list(of(part, "")) for part in (some, table, *of_each))), []):
             yield from everywhere
             continue
         smooth = [point for point in some if float(point.where.get(SLOPE, math.inf)) <= SMOOTH]

@@ -11,9 +11,9 @@ import numpy as np
 from validation.analysis.statistics import FloatArray
 from validation.engine.offered import Caller, Failed, Offered
 
-SAME, TIMES, OTHERS = 1e-4, 5, 3
+SAME, TIMES, OTHERS, MANY = 1e-4, 5, 4, 4
 """Relative change of an answer that rounding, or the residual of a solver, may leave; how often the first problem is
-asked again; how many others are."""
+asked again; how many others are; different answers to one problem that only chance has."""
 TREND = 0.5
 """Of the change since the first call, that of calls one after the other, above which the answers are random."""
 RANDOM, DRIFTING, CACHED = "random without rng", "its answers drift with the number of calls", "cached by identity"
@@ -106,20 +106,28 @@ def repeated(model: Recorded) -> Repetition | None:
 
 def cause(model: Recorded, problems: Sequence[Problem], answers: Sequence[FloatArray]) -> str:
     """Random, drifting, or cached: an answer that is that of another problem to the last bit."""
+    first = problems[0].answer
+    of_first = [answers[0], *answers[-(TIMES - 1) :]]
+    steps = np.diff([_along(first, one) for one in (first, *of_first)])
+    trend = (steps > 0).all() or (steps < 0).all()
+    # what is cached has few answers to one problem
+    if len({one.tobytes() for one in (first, *of_first)}) >= MANY and not trend:
+        return _random(model)
     for problem, answer in zip(problems, answers, strict=True):
         if change(problem.answer, answer) > SAME:
             for one in (problem.answer, answer):
                 if model.answers.get(one.tobytes(), set()) - {digest_of(problem.arguments)}:
                     return f"{CACHED}: it has the answer of another problem"
-    first = problems[0].answer
-    of_first = [answers[0], *answers[-(TIMES - 1) :]]
     one_after_the_other = max(change(of_first[0], one) for one in of_first)
-    steps = np.diff([_along(first, one) for one in (first, *of_first)])
-    trend = (steps > 0).all() or (steps < 0).all()
     if not trend and one_after_the_other > max(SAME, TREND * change(first, of_first[0])):
-        asks = ": the same rng gives other draws" if "rng" in model.asks else ""
-        return f"{RANDOM if not asks else 'random beside rng'}{asks or ': the same arguments have other answers'}"
+        return _random(model)
     return f"{DRIFTING}: it has a state"
+
+
+def _random(model: Recorded) -> str:
+    if "rng" in model.asks:
+        return "random beside rng: the same rng gives other draws"
+    return f"{RANDOM}: the same arguments have other answers"
 
 
 def _along(first: FloatArray, answer: FloatArray) -> float:
