@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import groupby
 from operator import attrgetter
 
@@ -10,6 +10,9 @@ AGREE, DIFFER, UNDECIDED, REFUSED, FAILED = "agree", "differ", "undecided", "ref
 VERDICTS = (AGREE, DIFFER, UNDECIDED, REFUSED, FAILED)
 RATIO, LEVEL, DEVIATION = "-", "dB", "over the mean"
 """Units, by which a number is compared with its reference."""
+AGAIN = "the same problem again"
+"""Quantity of the point that says whether a model has one answer to one problem."""
+UNTRUSTED = "the answers to one problem differ"
 SMALL = 0.01
 """A deviation below it is judged by how far off it is in parts of it."""
 Conditions = Mapping[str, float | str]
@@ -41,6 +44,8 @@ class JudgedPoint:
         """The difference with its half-width: "+12 ± 3 %", or the reason."""
         if not math.isfinite(self.difference):
             return self.reason
+        if not math.isfinite(self.error):
+            return f"{in_unit(self.difference, self.unit, sign='+')}, of unknown error: {self.reason}"
         return f"{in_unit(self.difference, self.unit, sign='+')} ± {in_unit(self.error, self.unit)}"
 
 
@@ -98,6 +103,18 @@ def not_compared(
 ) -> JudgedPoint:
     """Without a number of the model."""
     return JudgedPoint(quantity, where, math.nan, reference, math.nan, math.nan, verdict, reason, unit, decides)
+
+
+def trusted(points: Sequence[JudgedPoint]) -> list[JudgedPoint]:
+    """The same numbers; undecided, where a model has more than one answer to one problem."""
+    if all(point.verdict == AGREE for point in points if point.quantity == AGAIN):
+        return list(points)
+    return [
+        replace(point, verdict=UNDECIDED, reason=UNTRUSTED)
+        if point.quantity != AGAIN and point.verdict in (AGREE, DIFFER)
+        else point
+        for point in points
+    ]
 
 
 @dataclass(frozen=True)

@@ -10,13 +10,24 @@ from typing import TYPE_CHECKING
 
 from validation.analysis.contents import as_csv, as_json
 from validation.analysis.evidence import Table, table_of
-from validation.analysis.judgement import DIFFER, FAILED, REFUSED, Conditions, Enough, JudgedPoint, enough, not_compared
+from validation.analysis.judgement import (
+    DIFFER,
+    FAILED,
+    REFUSED,
+    Conditions,
+    Enough,
+    JudgedPoint,
+    enough,
+    not_compared,
+    trusted,
+)
 from validation.engine.others import Called, visited
 from validation.engine.replies import raised
 from validation.report.folder import JUDGEMENT, Folder
 from validation.report.judged_solver import solver_lines
 from validation.report.judged_words import summary_lines
 from validation.scenes.printable import printable
+from validation.selection.judging.diagnosis import Remark, remarks
 from validation.selection.judging.judge import JUDGES, points_of
 from validation.selection.judging.own import ErrorOfCall, costs_of
 from validation.selection.tolerance import Tolerance, tolerance_of
@@ -76,6 +87,11 @@ class Judgement:
         return enough(self.verdicts)
 
     @property
+    def remarks(self) -> list[Remark]:
+        """What its points show of a reduced model as a whole, as a factor that is one everywhere."""
+        return remarks(self.verdicts) if self.kind in JUDGES else []
+
+    @property
     def answered(self) -> bool:
         """Whether there is any number to be judged."""
         return any(math.isfinite(point.difference) for point in self.verdicts)
@@ -101,6 +117,7 @@ class Judgement:
             "tolerance": self.tolerance.relative,
             "verdicts": [_as_dict(point) for point in self.verdicts],
             "enough": [_as_dict(some) for some in self.enough],
+            "remarks": [remark._asdict() for remark in self.remarks],
             "seconds": round(self.seconds, 3),
             **({"times": [time._asdict() for time in self.times]} if self.times else {}),
         }
@@ -200,7 +217,7 @@ def judged(model: Called, tolerance: Tolerance) -> Judgement:
         reason = f"{model.changed} was changed while it was judged: judge it again"
         points.append(not_compared("file", everywhere, FAILED, reason, decides=model.kind == "contact_solver"))
     seconds = time.perf_counter() - begin
-    return Judgement(model.name, model.kind, tolerance, tuple(points), seconds, tuple(times), tuple(costs))
+    return Judgement(model.name, model.kind, tolerance, tuple(trusted(points)), seconds, tuple(times), tuple(costs))
 
 
 def points_as_csv(judgements: Sequence[Judgement]) -> bytes:

@@ -24,9 +24,13 @@ from validation.analysis.judgement import (
     shared,
     worst,
 )
+from validation.selection.judging.held_out_solves import held_out
 from validation.selection.judging.laws import in_words, table_14_1
 from validation.selection.judging.own import MAIN
-from validation.selection.judging.rolling import APART
+from validation.selection.judging.rolling import APART, RMS, about_roughness, about_strip
+from validation.selection.judging.rolling import LEVEL as FORCE_LEVEL
+from validation.selection.judging.rolling import MAIN as WHEEL
+from validation.selection.judging.rolling import MEAN as MEAN_FORCE
 from validation.selection.judging.stiffness import BAND, DEVIATION, MEAN, ROLLED_OFF, WAVES
 from validation.selection.judging.sweeps import SWEPT
 from validation.selection.tolerance import Tolerance, decibels
@@ -39,10 +43,13 @@ WORD = {AGREE: "yes", DIFFER: "no", UNDECIDED: "open", REFUSED: "refused", FAILE
 POINTS = {AGREE: "agree", DIFFER: "differ", UNDECIDED: "left open"}
 COLUMNS, CURVES, LISTED = 110, 24, 6
 """Of a line; groups of a quantity that are shown; values of a condition that a paper lists."""
-NOTES = dict.fromkeys((MEAN, DEVIATION, ROLLED_OFF), f"all at {BAND} = {WAVES}") | {
-    APART.format(name): "rms of the difference over that of the fluctuation, which has no sign"
-    for name in ("force", "approach")
-}
+NO_SIGN = "rms of the difference over that of the fluctuation, which has no sign"
+NOTES = (
+    dict.fromkeys((MEAN, DEVIATION, ROLLED_OFF), f"all at {BAND} = {WAVES}")
+    | dict.fromkeys((FORCE_LEVEL, RMS, MEAN_FORCE), f"roughness of {about_roughness()}, wheel of {WHEEL}")
+    | {APART.format(name): f"{NO_SIGN}; {about_strip()}, wheel of {WHEEL}" for name in ("force", "approach")}
+    | {held_out(APART.format(name)): NO_SIGN for name in ("force", "approach")}
+)
 """What is asked of a quantity that its conditions do not say."""
 
 
@@ -53,6 +60,8 @@ def summary_lines(judgement: "Judgement") -> Iterator[str]:
     counted = ", ".join(f"{count[verdict]} {verdict}" for verdict in VERDICTS if count[verdict]) or "none"
     what, took = judgement.kind.replace("_", " "), f"{len(points)} points in {judgement.seconds:.1f} s"
     yield f"{judgement.model}: {what}, tolerance {judgement.tolerance}, {took}: {counted}"
+    for remark in judgement.remarks:
+        yield from textwrap.wrap(remark.sentence, COLUMNS, initial_indent="! ", subsequent_indent="  ")
     yield f"strips: {', '.join(f'{SIGN[verdict]} {WORD[verdict]}' for verdict in VERDICTS)}"
     for curves in curves_of(points):
         along = curves[0].along if len(curves[0].points) > 1 else ""
@@ -122,6 +131,7 @@ def paragraph(judgement: "Judgement") -> str:
         f"The model {judgement.model!r} was compared with {beside}, the references of mdr-validation {version}.",
         f"A number is within {tolerance} where its whole 95 % interval is, by the errors of both.",
     ]
+    said += [remark.sentence for remark in judgement.remarks]
     said += [_of_quantity(tolerance, curves) for curves in quantities]
     count = Counter(point.verdict for point in points)
     if known := count[AGREE] + count[DIFFER] + count[UNDECIDED]:

@@ -1,7 +1,7 @@
 """A contact filter of others beside boundary elements: A3 of five wheels on a rail, over what lies across."""
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache, partial
 from itertools import groupby
@@ -39,9 +39,13 @@ def judged(model: Caller) -> Iterator[Finding]:
     long = attempted(lambda: float(np.abs(_transfer(model, scene, 1.0)(k_x, 0 * k_x)[0])))
     yield rule(LONG, {"k_x a_x": LONG_WAVE}, long, LONG_WAVE)
     for (load, diameter, offset, alpha), ground in groupby(rows, _ground):
-        # a filter of the line that goes by alpha has none for isotropic ground
-        if math.isfinite(alpha) or "k_y" in model.asks or ALPHA not in model.asks:
+        if math.isfinite(alpha) or answers_isotropic(model):
             yield from _over(model, scene_of(load, diameter), offset, alpha, ground)
+
+
+def answers_isotropic(model: Caller) -> bool:
+    """A filter of the line that goes by alpha has no value for isotropic ground."""
+    return "k_y" in model.asks or ALPHA not in model.asks
 
 
 def _ground(row: Reference) -> tuple[float, ...]:
@@ -50,16 +54,20 @@ def _ground(row: Reference) -> tuple[float, ...]:
 
 def _over(model: Caller, scene: RailScene, offset: float, alpha: float, rows: Iterator[Reference]) -> Iterator[Finding]:
     """One ground, in the bands that count."""
-    across = alpha if "k_y" in model.asks else 0.0
     wheel = f"{scene.name}, {offset:+g} dB" if offset else scene.name
     waves = np.round(1000 * strip_bands(scene).nominal, 2).tolist()
     lowest = np.minimum.accumulate(_linear(scene, alpha))
     counted = [row for row in rows if lowest[waves.index(row[WAVE])] > COUNTED]
     bands = [waves.index(row[WAVE]) for row in counted]
     ground = {"wheel": wheel, ALPHA: "isotropic" if math.isinf(alpha) else alpha}
-    transfer = _transfer(model, scene, alpha)
-    found = attempted(lambda: _in_one_call(partial(a3, scene, across), transfer)[bands])
+    found = attempted(in_bands, model, scene, alpha, bands)
     yield from beside([replace(row, where={**ground, WAVE: row[WAVE]}) for row in counted], found)
+
+
+def in_bands(model: Caller, scene: RailScene, alpha: float, bands: Sequence[int]) -> FloatArray:
+    """A3 of a model in these bands of a strip [dB]."""
+    across = alpha if "k_y" in model.asks else 0.0
+    return _in_one_call(partial(a3, scene, across), _transfer(model, scene, alpha))[bands]
 
 
 def a3(scene: RailScene, alpha: float, transfer: Transfer) -> FloatArray:
@@ -98,13 +106,13 @@ def _linear(scene: RailScene, alpha: float) -> FloatArray:
 
 
 @cache
-def scene_of(load: float, diameter: float) -> RailScene:
-    """A conical wheel on a crowned rail of the roughness of ISO 3095."""
+def scene_of(load: float, diameter: float, crown: float = 0.0) -> RailScene:
+    """A conical wheel on a rail of the roughness of ISO 3095. crown: of its crown, by default of the table [m]."""
     return RailScene(
-        name=f"{load:g} kN, {diameter:g} mm",
+        name=f"{load:g} kN, {diameter:g} mm{f', crown {1000 * crown:g} mm' if crown else ''}",
         radius=diameter / 2000,
         load=1000 * load,
         modulus=STEEL,
         roughness=levels_of("iso3095-2013"),
-        crown_radius=about(FILTER)["settings"]["crown"],
+        crown_radius=crown or about(FILTER)["settings"]["crown"],
     )

@@ -22,8 +22,9 @@ from validation.analysis.statistics import DECIBEL
 from validation.engine.engine import Engine, Outcome
 from validation.engine.files import place_in
 from validation.scenes.dynamic_wheel import load_wheel_scene
-from validation.selection.judging import own, rolling, stiffness, surfaces
+from validation.selection.judging import held_out_solves, own, rolling, stiffness, surfaces
 from validation.selection.judging.filters import ALPHA, DIAMETER, FILTER, LOAD, OFFSET, WAVE
+from validation.selection.judging.held_out_solves import OF_FACES, OF_POSITIONS, OF_PUNCHES, held_out
 from validation.selection.judging.laws import FEATURE, REGION, by_region
 from validation.selection.judging.references import Reference, as_file, file_name, rows_of
 from validation.selection.judging.rolling import GRIDS, HEIGHT, HEIGHTS, SLOPE, Q, bands_of, spectrum_of
@@ -230,6 +231,30 @@ def _regions(report: Report, _: Engine) -> Iterator[Reference]:
 OF_STRIPS = {"heights": HEIGHTS, "cells": GRIDS, "length": rolling.ALONG, "width": rolling.ACROSS, "seed": rolling.SEED}
 OF_SURFACES = {name: getattr(surfaces, name.upper()) for name in ("hursts", "surfaces", "cells", "seed", "tolerance")}
 _of, _over = ReferenceFile, "dB, over F_Hertz^2 (h/d)^2"
+
+
+def _solved(solve: held_out_solves.Solve) -> Find:
+    """Without a report."""
+    return lambda report, engine: solve(engine)
+
+
+HELD_OUT: Mapping[str, ReferenceFile] = {
+    held_out(stiffness.MEAN): _of("k / (E* L)", "judging/held out", _solved(held_out_solves.pressed), OF_PUNCHES),
+    held_out(surfaces.OF_SURFACE): _of("k / (E* L)", "judging/held out", _solved(held_out_solves.faces), OF_FACES),
+    held_out(rolling.LEVEL): _of(
+        f"{_over}, of an octave", "judging/held out", _solved(held_out_solves.of_octaves), held_out_solves.OF_STRIPS
+    ),
+    held_out(rolling.RMS): _of(
+        _over, "judging/held out", _solved(held_out_solves.of_variance), held_out_solves.OF_STRIPS
+    ),
+    held_out(rolling.EACH): _of(
+        "over F_Hertz", "judging/held out", _solved(held_out_solves.at_positions(by_load=False)), OF_POSITIONS
+    ),
+    held_out(rolling.LIFT): _of(
+        "over d", "judging/held out", _solved(held_out_solves.at_positions(by_load=True)), OF_POSITIONS
+    ),
+}
+"""Between and beside the tables."""
 SOURCES: Mapping[str, ReferenceFile] = {
     stiffness.MEAN: _of("k / (E* L)", "fractal_punch", _punch("k / (E* L)", "mean stiffness")),
     stiffness.DEVIATION: _of(DEVIATION, "fractal_punch", _punch("relative deviation of k", "relative deviation")),
@@ -248,4 +273,5 @@ SOURCES: Mapping[str, ReferenceFile] = {
     FEATURE: _of("rad/s, but for the slope", "wheel", _features),
     own.ERRORS: _of("over the reference, of levels in dB", "judging/own", lambda *_: own.errors(), {}),
     REGION: _of("dB re 1 (m/s^2)^2 s", "wheel", _regions),
+    **HELD_OUT,
 }

@@ -6,10 +6,11 @@ from itertools import repeat
 from pkgutil import resolve_name
 from typing import Any, NamedTuple, TypeVar
 
-from validation.analysis.judgement import FAILED, LEVEL, REFUSED, Conditions, JudgedPoint, compared, not_compared
+from validation.analysis.judgement import AGAIN, FAILED, LEVEL, REFUSED, Conditions, JudgedPoint, compared, not_compared
 from validation.analysis.statistics import Estimate, FloatArray
 from validation.engine.offered import Caller, Failed
 from validation.selection.judging.references import Reference
+from validation.selection.judging.repeats import SAME, Recorded, repeated
 
 T = TypeVar("T")
 JUDGES: Mapping[str, str] = {
@@ -69,10 +70,16 @@ def rule(quantity: str, where: Conditions, found: Found, grid: float = 0.0, with
 
 
 def points_of(model: Caller, tolerance: float) -> Iterator[JudgedPoint]:
-    """Of a reduced model: by its judge, by rules of scaling, and past these scenes."""
-    for place in (JUDGES[model.kind], "scaling:judged", "sweeps:swept"):
+    """Of a reduced model: by its judge, at held-out points, by rules of scaling, past these scenes, and once again."""
+    recorded = Recorded(model)
+    for place in (JUDGES[model.kind], "held_out:judged", "scaling:judged", "sweeps:swept"):
         judge: Callable[[Caller], Iterator[Finding]] = resolve_name(f"{__package__}.{place}")
-        yield from (one.judged(tolerance) for one in judge(model))
+        yield from (one.judged(tolerance) for one in judge(recorded))
+    calls = float(recorded.count)
+    if found := repeated(recorded):
+        size = found.change
+        again = size if isinstance(size, Failed) else ModelAnswer(1 + size, reason=found.reason)
+        yield rule(AGAIN, {"calls": calls}, again, within=SAME).judged(tolerance)
 
 
 class LostError(ValueError):

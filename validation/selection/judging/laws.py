@@ -6,19 +6,26 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from validation.analysis.independent_records import independent_records, widened
 from validation.analysis.spectra import band_means, record_spectra
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed
 from validation.engine.offered import Caller, Failed
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.selection.judging.judge import Finding, LostError, ModelAnswer, asked, attempted, beside
-from validation.selection.judging.references import known
+from validation.selection.judging.references import Reference, about, known
 from validation.simulation.motion import Motion, simulate
 from validation.simulation.wheel_features import features_of
 from validation.simulation.wheel_on_springs import band_edges
 
 FEATURE, REGION = "feature of the wheel", "level of the acceleration"
-WHEELS, APART, DOUBLINGS, HALVINGS = 20, 10.0, 12, 60
-"""Wheels that roll, metres from one to the next; steps of the search for the load."""
+WHEELS, FARTHEST, GOLDEN, DOUBLINGS, HALVINGS = 20, 190.0, (3 - math.sqrt(5)) / 2, 12, 60
+"""Wheels that roll; where the last one starts [m]; share of a quadratic in the starts, with which no two distances
+between wheels are equal and none is a whole part of another; steps of the search for the load."""
+FEWEST = 4.0
+"""Independent records below which their scatter is unknown: of the peak that of the reference is taken, twice."""
+PEAK = "peak ω_eigen"
+AS_ONE = 0.1
+"""A share of repeated records of which nothing is said."""
 AT_REST = 1e-6
 """Change of the force along the track, over the load, that is none."""
 AT_ONCE, DIFFERENCE, NEAR, ROUNDS = 1000, 1e-4, 1e-6, 12
@@ -31,9 +38,23 @@ def judged(model: Caller) -> Iterator[Finding]:
     found = attempted(_found, model)
     if isinstance(found, Failed):
         return beside(rows, found)
+    estimates, records = found
     unseen = Failed("the spectrum does not show it")
-    answers = (ModelAnswer.of(one, row.unit) for row, one in zip(rows, found, strict=True))
+    answers = (_answer(row, one, records) for row, one in zip(rows, estimates, strict=True))
     return beside(rows, (one if math.isfinite(one.value) else unseen for one in answers))
+
+
+def _answer(row: Reference, one: Estimate, records: float) -> ModelAnswer:
+    """With the error of as many independent records: wheels on equal pieces of a track count as one."""
+    answer = ModelAnswer.of(widened(one, records), row.unit)
+    if records > (1 - AS_ONE) * WHEELS:
+        return answer
+    reason = f"{WHEELS} wheels are {records:.2g} independent records: the track repeats itself"
+    if records < FEWEST:
+        # a line spectrum has a peak, but no jump, slope or level of a continuous one
+        of_one = 2 * row.sample * math.sqrt(about(row.quantity)["settings"]["realisations"] / records)
+        answer = answer._replace(half=of_one if row.where.get("feature") == PEAK else math.inf)
+    return answer._replace(reason=reason)
 
 
 def table_14_1() -> WheelScene:
@@ -41,10 +62,16 @@ def table_14_1() -> WheelScene:
     return replace(table := load_wheel_scene("table_14_1"), springs=table.springs // 2)
 
 
-def _found(model: Caller) -> list[Estimate]:
-    """Features and levels, by the jackknife over the wheels."""
+def starts(scene: WheelScene) -> FloatArray:
+    """Where the wheels start [m], at whole places of a track: of any period it has few of them on equal pieces."""
+    part = np.arange(WHEELS) / (WHEELS - 1)
+    return np.asarray(scene.spacing * np.rint(FARTHEST * ((1 - GOLDEN) * part + GOLDEN * part**2) / scene.spacing))
+
+
+def _found(model: Caller) -> tuple[list[Estimate], float]:
+    """Features and levels, by the jackknife over the wheels; and as how many independent records these count."""
     scene = table_14_1()
-    motion = rolled(model, scene)
+    motion, along = rolled(model, scene)
     plain, hann = (record_spectra(motion.acceleration, time_step=motion.time_step, window=w) for w in ("none", "hann"))
     edges = band_edges(plain.omega)
     bands, centres = band_means(plain.omega, plain.density, edges), np.sqrt(edges[1:] * edges[:-1])
@@ -55,7 +82,7 @@ def _found(model: Caller) -> list[Estimate]:
         decibels = POWER_DECIBEL * np.log(bands[:, some].mean(axis=1))
         return np.array([*features.values(), *by_region(scene, centres, decibels).values()])
 
-    return list(jackknifed(of, np.arange(float(WHEELS))))
+    return list(jackknifed(of, np.arange(float(WHEELS)))), independent_records(along.T)
 
 
 @dataclass(frozen=True)
@@ -73,13 +100,15 @@ class LawAlongPaths:
         raise NotImplementedError
 
 
-def rolled(model: Caller, scene: WheelScene) -> Motion:
-    """Each wheel begins at rest, APART from the last. Raises LostError for a law without an answer, or a motion.
+def rolled(model: Caller, scene: WheelScene) -> tuple[Motion, FloatArray]:
+    """Each wheel begins at rest. Raises LostError for a law without an answer, or a motion.
+
+    Returns the motion, and the force along each track at the approach of rest, (places, wheels) [N].
 
     A law has no memory, so it is asked along whole paths at once: first where the wheels would be at rest, then where
     they rolled on the law that is linear about the last paths, until they do not change.
     """
-    places = scene.spacing * np.arange(scene.points + 1)[:, np.newaxis] + APART * np.arange(WHEELS)
+    places = scene.spacing * np.arange(scene.points + 1)[:, np.newaxis] + starts(scene)
 
     def force(d: FloatArray) -> FloatArray:
         """From the first place on, shape (places, wheels)."""
@@ -90,8 +119,9 @@ def rolled(model: Caller, scene: WheelScene) -> Motion:
 
     start = _at_rest(lambda d: force(d[np.newaxis])[0], scene)
     path = np.tile(start, (len(places), 1))
-    for _ in range(ROUNDS):
-        at_path = force(path)
+    along = at_path = force(path)
+    for attempt in range(ROUNDS):
+        at_path = force(path) if attempt else along
         if np.allclose(at_path, scene.load, rtol=AT_REST):
             raise LostError(
                 Failed(f"the wheel stays at rest: the force does not change with the position under {in_words(scene)}")
@@ -105,7 +135,7 @@ def rolled(model: Caller, scene: WheelScene) -> Motion:
         assert motion.path is not None  # which was asked for
         before, path = path, np.vstack([motion.path, motion.approach])
         if np.abs(path - before).max() < NEAR * scene.approach:
-            return motion
+            return motion, along
     raise LostError(Failed(f"no motion is found in {ROUNDS} attempts: the force jumps with the approach"))
 
 

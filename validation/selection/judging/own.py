@@ -49,7 +49,13 @@ def in_3d(q: FloatArray, contact_radius: float, modulus: float, roughness: mdr.S
 def half_space(
     height: FloatArray, spacing: tuple[float, float], radius: float, modulus: float, approach: float
 ) -> FloatArray:
-    return rolling.linear_force(height, spacing=spacing[0], radius=radius, modulus=modulus, approach=approach)
+    # as rolling.linear_force, on cells of two lengths
+    (nx, ny), a = height.shape, math.sqrt(radius * approach)
+    q_x, q_y = (2 * np.pi * np.fft.fftfreq(n, side) for n, side in zip((nx, ny), spacing, strict=True))
+    transfer = rolling.response(np.hypot(q_x[:, np.newaxis], q_y), contact_radius=a, modulus=modulus)
+    above_the_middle = np.exp(1j * q_y * spacing[1] * (ny - 1) / 2) / ny
+    change = np.fft.ifft(transfer * np.fft.fft2(height) @ above_the_middle).real
+    return np.asarray(4 / 3 * modulus * a * approach + change)
 
 
 ellipse = offered.contact_filter(LINEAR)(lambda k_x, k_y, a_x, a_y: half_space_filter(k_x, k_y, semi_axes=(a_x, a_y)))

@@ -2,10 +2,10 @@
 
 import math
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
-from itertools import repeat
+from itertools import groupby, repeat
 from typing import Any
 
 import numpy as np
@@ -15,8 +15,8 @@ from validation.analysis.statistics import FloatArray
 from validation.engine.offered import Caller, Failed
 from validation.engine.random_numbers import random_generator
 from validation.selection.judging.judge import Finding, LostError, asked, attempted, rule
-from validation.selection.judging.references import known
-from validation.selection.judging.rolling import CONTACT, MODULUS, of_density
+from validation.selection.judging.references import Reference, known
+from validation.selection.judging.rolling import Wheel, of_density
 from validation.selection.judging.stiffness import DEVIATION, MEAN, UNIT, AskedPunch, H, beside_punches, sampled
 from validation.theory.gauss_legendre import on_panels
 from validation.theory.rolling import force_spectrum_1d
@@ -36,17 +36,24 @@ def judged(model: Caller) -> Iterator[Finding]:
     for hurst in HURSTS:
         yield from properties_of_rule(model, hurst, FIRST, LAST, HEIGHT)
     for hurst in HURSTS:
-        rows = known(MEAN, DEVIATION, where={H: hurst})
-        punches = list(dict.fromkeys(AskedPunch.at(row.where) for row in rows))
+        yield from springs_beside(model, known(MEAN, DEVIATION, where={H: hurst}))
+    yield from of_density(partial(density_of_rule, model))
+
+
+def springs_beside(model: Caller, rows: Sequence[Reference]) -> Iterator[Finding]:
+    """Springs on profiles of that rule under each load, roughness by roughness."""
+    for _, there in groupby(rows, lambda row: replace(AskedPunch.at(row.where), force=1.0)):
+        some = list(there)
+        punches = list(dict.fromkeys(AskedPunch.at(row.where) for row in some))
         pressed = attempted(_pressed, model, punches)
         answers = repeat(pressed) if isinstance(pressed, Failed) else map(sampled, pressed.T)
-        yield from beside_punches(rows, dict(zip(punches, answers, strict=False)))
+        yield from beside_punches(some, dict(zip(punches, answers, strict=False)))
 
-    def density(q: FloatArray, ground: mdr.SelfAffine) -> FloatArray:
-        c1d = asked(model, q=q, roughness=ground)
-        return force_spectrum_1d(q, lambda _: c1d, contact_radius=CONTACT, modulus=MODULUS)
 
-    yield from of_density(density)
+def density_of_rule(model: Caller, q: FloatArray, wheel: Wheel, ground: mdr.SelfAffine) -> FloatArray:
+    """C_F [N^2 m] of springs under a wheel, by linear theory on a profile of that rule."""
+    c1d = asked(model, q=q, roughness=replace(ground))
+    return force_spectrum_1d(q, lambda _: c1d, contact_radius=wheel.contact, modulus=wheel.modulus)
 
 
 def properties_of_rule(model: Caller, hurst: float, first: float, last: float, height: float) -> Iterator[Finding]:
@@ -66,7 +73,7 @@ def properties_of_rule(model: Caller, hurst: float, first: float, last: float, h
     twice = replace(whole, rms=math.sqrt(2) * height)
     longer = replace(whole, q_min=first / 2, q_max=last / 2, rms=2 * height)
     arguments = [(q, whole), *((q, part) for part in parts), (q, twice), (q / 2, longer)]
-    found = attempted(lambda: [asked(model, q=at, roughness=one) for at, one in arguments])
+    found = attempted(lambda: [asked(model, q=at, roughness=replace(one)) for at, one in arguments])
     ratio = partial(rule, where={H: hurst}, grid=QUADRATURE)
     if isinstance(found, Failed) or not found[0].any():
         yield ratio(MOMENTS[0], found=found if isinstance(found, Failed) else Failed(NO_PROFILE))
@@ -98,14 +105,14 @@ def rms_of_profile(c1d: FloatArray, waves: FloatArray, ground: Any) -> float:
 def _pressed(model: Caller, punches: list[AskedPunch]) -> FloatArray:
     """k / (E* L) of each profile under the load of each punch, of one roughness: springs with L_1D = L."""
     load, side, modulus, ground = punches[0].arguments.values()
-    first, count = ground.q_min, punches[0].waves
-    waves = first * np.arange(1, count + 1)
-    found = asked(model, q=waves, roughness=ground)
+    step, first, last = 2 * math.pi / side, punches[0].first, punches[0].first * punches[0].waves
+    waves = step * np.arange(first, last + 1)
+    found = asked(model, q=waves, roughness=replace(ground))
     rms = rms_of_profile(found, waves, ground)
 
     def c1d(q: FloatArray) -> FloatArray:
-        number = np.rint(np.asarray(q) / first).astype(int)
-        return np.where((number >= 1) & (number <= count), found[np.clip(number, 1, count) - 1], 0.0)
+        number = np.rint(np.asarray(q) / step).astype(int)
+        return np.where((number >= first) & (number <= last), found[np.clip(number, first, last) - first], 0.0)
 
     rng = random_generator(SEED, round(1000 * ground.hurst))
     drawn = mdr.rough_profiles(c1d, length=side, points=POINTS, count=PROFILES, rng=rng, rms=rms)

@@ -1,11 +1,11 @@
 """The force of a wheel that rolls, of others, beside boundary elements: its spectrum, or its value at each position.
 
-Wheels here have a contact radius of 2 mm; all is compared over the force of Hertz, so that no scale matters.
+All is compared relative to the force of Hertz; wheels and roughness beside those of the table are in `held_out`.
 """
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache, partial
 from typing import Any
 
@@ -13,7 +13,7 @@ import numpy as np
 
 import mdr
 from validation.analysis.judgement import LEVEL as DECIBELS
-from validation.analysis.judgement import RATIO
+from validation.analysis.judgement import RATIO, Conditions
 from validation.analysis.series import Estimates
 from validation.analysis.spectra import Bands, levels, waves
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, mean_estimate
@@ -29,7 +29,6 @@ HEIGHT, SLOPE, Q = "h/d", "h' a/d", "q a"
 RADIUS, CONTACT, MODULUS = 0.5, 2e-3, 1.15e11
 APPROACH = CONTACT**2 / RADIUS
 FORCE = 4 / 3 * MODULUS * CONTACT * APPROACH
-SMOOTH_WHEEL = {"radius": RADIUS, "modulus": MODULUS, "approach": APPROACH, "load": FORCE}
 FINE = 800
 """Of the midpoint rule from zero to the end of the roughness."""
 NOTHING = 1e-30
@@ -38,11 +37,47 @@ EACH, LIFT = "force at a position", "approach at a position"
 APART, OF_APART = "{}, position by position", "rms of the fluctuation, and that with the rms of the difference on top"
 STRIPS, LENGTH, WIDTH, CELLS = 6, 64.0, 16.0, 16
 """On which levels are taken, as ratios to linear theory on the same strips."""
+OF_STRIP = 0.7, 1.0, 10.0
+"""H, first and last q a of the strips for each position."""
 HEIGHTS, GRIDS, ALONG, ACROSS, SEED = (0.03, 0.1, 0.3), (8, 24), 32.0, 16.0, 351
 """Of the strips for each position: h/d; cells to a contact radius, an odd ratio, so that centres meet; sides over a."""
 
-Density = Callable[[FloatArray, mdr.SelfAffine], FloatArray]
-"""Two-sided C_F(q, roughness) of the force [N^2 m]."""
+
+@dataclass(frozen=True)
+class Wheel:
+    """A wheel at a prescribed approach d = a^2 / R.
+
+    radius: R [m]; contact: a, the contact radius of the smooth wheel [m]; modulus: E* [Pa].
+    """
+
+    radius: float = RADIUS
+    contact: float = CONTACT
+    modulus: float = MODULUS
+
+    @property
+    def approach(self) -> float:
+        """d [m]."""
+        return self.contact**2 / self.radius
+
+    @property
+    def force(self) -> float:
+        """Of Hertz, 4/3 E* a d [N]."""
+        return 4 / 3 * self.modulus * self.contact * self.approach
+
+    @property
+    def arguments(self) -> dict[str, float]:
+        """Of a model, in SI units."""
+        return {"radius": self.radius, "modulus": self.modulus, "approach": self.approach, "load": self.force}
+
+    def __str__(self) -> str:
+        return f"R = {self.radius:g} m, a = {1e3 * self.contact:g} mm, E* = {self.modulus / 1e9:g} GPa"
+
+
+MAIN = Wheel()
+"""That of the tables."""
+SMOOTH_WHEEL = MAIN.arguments
+Density = Callable[[FloatArray, Wheel, mdr.SelfAffine], FloatArray]
+"""Two-sided C_F(q) of the force on a wheel over roughness [N^2 m]."""
 
 
 def judged(model: Caller) -> Iterator[Finding]:
@@ -55,11 +90,11 @@ def judged(model: Caller) -> Iterator[Finding]:
 
 def judged_spectrum(model: Caller) -> Iterator[Finding]:
     """Octaves of the force along the track, and its variance."""
-    return of_density(lambda q, ground: asked(model, **over(q, ground)))
+    return of_density(lambda q, wheel, ground: asked(model, **over(q, ground, wheel)))
 
 
 def of_density(density: Density) -> Iterator[Finding]:
-    return _at_heights((LEVEL, RMS), partial(_of_density, density))
+    return _at_heights((LEVEL, RMS), partial(_of_table, density))
 
 
 def _at_heights(quantities: Sequence[str], find: Callable[[float], Iterable[ModelAnswer | float]]) -> Iterator[Finding]:
@@ -73,6 +108,18 @@ def _at_heights(quantities: Sequence[str], find: Callable[[float], Iterable[Mode
 def spectrum_of(settings: Mapping[str, Any]) -> PiecewisePowerLaw:
     """The roughness of the case, of unit height and contact radius."""
     return self_affine(settings["hurst"], settings["first"], settings["last"])
+
+
+def about_roughness() -> str:
+    """That of the levels, in words."""
+    settings = about(LEVEL)["settings"]
+    return f"H = {settings['hurst']:g}, q a = {settings['first']:g} to {settings['last']:g}"
+
+
+def about_strip() -> str:
+    """That of the strip for each position, in words."""
+    (hurst, first, last) = OF_STRIP
+    return f"roughness of H = {hurst:g}, q a = {first:g} to {last:g}"
 
 
 def bands_of(settings: Mapping[str, Any]) -> Bands:
@@ -103,21 +150,34 @@ def ground_of(height: float) -> mdr.SelfAffine:
     return mdr.SelfAffine(hurst=settings["hurst"], q_min=first, q_max=last, rms=height * APPROACH)
 
 
-def over(q: FloatArray, ground: mdr.SelfAffine) -> dict[str, Any]:
-    """What a spectrum may ask for."""
-    return {"q": q, "roughness": ground, "contact_radius": CONTACT, **SMOOTH_WHEEL}
+def over(q: FloatArray, ground: mdr.SelfAffine, wheel: Wheel = MAIN) -> dict[str, Any]:
+    """What a spectrum may ask for; the roughness is a new object in each call."""
+    return {"q": q, "roughness": replace(ground), "contact_radius": wheel.contact, **wheel.arguments}
 
 
-def _of_density(density: Density, height: float) -> FloatArray:
-    """Octaves and variance by quadrature [dB over F_Hertz^2 (h/d)^2]."""
-    settings, ground = about(LEVEL)["settings"], ground_of(height)
-    last = settings["last"]
+def _of_table(density: Density, height: float) -> FloatArray:
+    settings = about(LEVEL)["settings"]
+    centres = list(dict.fromkeys(row[Q] for row in known(LEVEL)))
+    ground = ground_of(height)
+    return levels_of_density(lambda q: density(q, MAIN, ground), MAIN, height, settings, centres)
+
+
+def levels_of_density(
+    density: Callable[[FloatArray], FloatArray],
+    wheel: Wheel,
+    height: float,
+    settings: Mapping[str, Any],
+    centres: Sequence[float],
+) -> FloatArray:
+    """Octaves about these q a, and the variance, by quadrature [dB over F_Hertz^2 (h/d)^2]."""
+    last, bands = settings["last"], bands_of(settings)
 
     def power(q: FloatArray) -> FloatArray:
-        return density(q.ravel() / CONTACT, ground).reshape(q.shape) / CONTACT / (FORCE * height) ** 2
+        return density(q.ravel() / wheel.contact).reshape(q.shape) / wheel.contact / (wheel.force * height) ** 2
 
-    octaves = _octaves(over_bands(power, bands_of(settings)))
+    thirds = over_bands(power, bands)
     variance = 2 * power((np.arange(FINE) + 0.5) * last / FINE).sum() * last / FINE
+    octaves = [float(octave(thirds, bands, q)) for q in centres]
     return np.asarray(POWER_DECIBEL * np.log(np.maximum([*octaves, variance], NOTHING)))
 
 
@@ -148,23 +208,42 @@ def _strips() -> list[tuple[FloatArray, FloatArray]]:
 
 def strip_of(height: float) -> RoughStrip:
     """For each position, of rms height h/d."""
-    return RoughStrip(spectrum=self_affine(0.7, 1.0, 10.0), height=height, length=ALONG, width=ACROSS, seed=SEED)
+    return RoughStrip(spectrum=self_affine(*OF_STRIP), height=height, length=ALONG, width=ACROSS, seed=SEED)
 
 
 def _position_by_position(model: Caller, height: float) -> Finding:
-    """The rms of what boundary elements fluctuate beside the same with the rms of what is apart added."""
-    quantity, unit, name = (EACH, FORCE, "force") if "approach" in model.asks else (LIFT, APPROACH, "approach")
-    rows = known(quantity, where={HEIGHT: height})
-    values, grid = np.array([(row.value, row.value * row.grid) for row in rows]).T
-    cells, times = GRIDS[1], GRIDS[1] // GRIDS[0]
+    """On the strip of a height."""
+    cells = GRIDS[1]
     found = attempted(_rolled, model, strip_of(height).surface(cells, 0), cells)
-    fluctuation = Reference({HEIGHT: height}, float(values.std()), quantity=APART.format(name))
+    return position_by_position(model, known(_each(model), where={HEIGHT: height}), found, MAIN, {HEIGHT: height})
+
+
+def _each(model: Caller) -> str:
+    return EACH if "approach" in model.asks else LIFT
+
+
+def position_by_position(
+    model: Caller, rows: Sequence[Reference], found: FloatArray | Failed, wheel: Wheel, where: Conditions, of: str = ""
+) -> Finding:
+    """The rms of what boundary elements fluctuate beside the same with the rms of what is apart added.
+
+    found: force [N] or approach [m] on the finer grid; of: what stands behind the name of the quantity.
+    """
+    unit, name = (wheel.force, "force") if "approach" in model.asks else (wheel.approach, "approach")
+    values, grid = np.array([(row.value, row.value * row.grid) for row in rows]).T
+    fluctuation = Reference(where, float(values.std()), quantity=APART.format(name) + of)
     if isinstance(found, Failed):
         return Finding(fluctuation, found)
-    apart = found[times // 2 :: times] / unit - values
+    apart = at_centres(found) / unit - values
     value = fluctuation.value + math.sqrt(np.mean(apart**2))
     left = math.sqrt(np.mean(grid**2)) / value
     return Finding(replace(fluctuation, grid=left), ModelAnswer(value, reason=OF_APART))
+
+
+def at_centres(fine: FloatArray) -> FloatArray:
+    """Of values along the finer grid those at the centres of the coarser one."""
+    times = GRIDS[1] // GRIDS[0]
+    return fine[times // 2 :: times]
 
 
 def _rolled(model: Caller, surface: FloatArray, cells: int) -> FloatArray:
@@ -172,10 +251,13 @@ def _rolled(model: Caller, surface: FloatArray, cells: int) -> FloatArray:
     return asked(model, **on(surface, cells))
 
 
-def on(surface: FloatArray, cells: int) -> dict[str, Any]:
-    """What it may ask for, of a strip in units of a and d, in metres."""
-    height, line = APPROACH * crop_to_reach(surface, 1 / cells), APPROACH * middle_line(surface)
-    return {"height": height, "line": line, "spacing": (CONTACT / cells,) * 2, **SMOOTH_WHEEL}
+def on(surface: FloatArray, cells: int, wheel: Wheel = MAIN, lateral: int = 1) -> dict[str, Any]:
+    """What it may ask for, of a strip in units of a and d, in metres; lateral: cells across to one along."""
+    height, line = (
+        wheel.approach * one for one in (crop_to_reach(surface, 1 / (lateral * cells)), middle_line(surface))
+    )
+    spacing = wheel.contact / cells, wheel.contact / (lateral * cells)
+    return {"height": height, "line": line, "spacing": spacing, **wheel.arguments}
 
 
 def middle_line(surface: FloatArray) -> FloatArray:

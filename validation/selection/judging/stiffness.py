@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 import mdr
 from validation.analysis import judgement
@@ -32,7 +32,10 @@ number is one of three, so that it hardly ever goes by the clock."""
 TRIED, BETWEEN = 3, 10
 """Calls of which the fastest is counted; loads between two that are known, at which a formula must rise."""
 SEED, DRAWS = 14, 3
-H, FORCE, ROLL_OFF, BAND = "H", "Fbar", "q_r L / 2π", "q_max / q_min"
+EQUAL = 1e-6
+"""Relative difference of draws that are equal, but for rounding in single precision."""
+EQUAL_DRAWS, DIFFERENT_DRAWS = "rng is asked for and not used", "are different"
+H, FORCE, ROLL_OFF, BAND, FIRST = "H", "Fbar", "q_r L / 2π", "q_max / q_min", "q_min L / 2π"
 MEAN, DEVIATION = "mean stiffness", "deviation of the stiffness"
 ROLLED_OFF, BY_BAND = "mean stiffness with a roll-off", "deviation of the stiffness, by bandwidth"
 
@@ -50,28 +53,34 @@ class PlateauRoughness(PlateauSpectrum):
 
 @dataclass(frozen=True)
 class AskedPunch:
-    """One punch: H, Fbar, waves from the first of the band to the last on a side, and where it rolls off."""
+    """One punch: H, Fbar, q_max / q_min, where it rolls off, and as many of the longest waves as are on a side."""
 
     hurst: float
     force: float
     waves: int = WAVES
     roll_off: int = 0
+    first: int = 1
 
     @classmethod
     def at(cls, where: Conditions) -> "AskedPunch":
-        return cls(float(where[H]), float(where[FORCE]), int(where.get(BAND, WAVES)), int(where.get(ROLL_OFF, 0)))
+        whole = (int(where.get(name, usual)) for name, usual in ((BAND, WAVES), (ROLL_OFF, 0), (FIRST, 1)))
+        return cls(float(where[H]), float(where[FORCE]), *whole)
 
     @property
     def plain(self) -> bool:
         """Whether it is one of Fig. 14.1."""
-        return self.waves == WAVES and not self.roll_off
+        return self.waves == WAVES and not self.roll_off and self.first == 1
 
     @property
     def arguments(self) -> dict[str, Any]:
         """Of a model, in SI units."""
-        q, rms = 2 * math.pi / SIDE, HEIGHT * SIDE
+        q, rms = 2 * math.pi * self.first / SIDE, HEIGHT * SIDE
         band = {"hurst": self.hurst, "q_min": q, "q_max": q * self.waves, "rms": rms}
-        rough = PlateauRoughness(**band, q_roll_off=q * self.roll_off) if self.roll_off else mdr.SelfAffine(**band)
+        rough = (
+            PlateauRoughness(**band, q_roll_off=2 * math.pi / SIDE * self.roll_off)
+            if self.roll_off
+            else mdr.SelfAffine(**band)
+        )
         return {"load": load_of(self.force), "side": SIDE, "modulus": MODULUS, "roughness": rough}
 
 
@@ -129,7 +138,20 @@ def answers_of(model: Caller, punches: Iterable[AskedPunch], count: int = 0) -> 
     count = count or next(n for seconds, n in REALISATIONS.items() if seconds_of(model, punches[0]) <= seconds)
     slow = "" if count == REALISATIONS[FAST] else ", since a call takes long"
     found = {one: attempted(draws, model, one.arguments, count) for one in punches}
-    return {one: some if isinstance(some, Failed) else sampled(some / UNIT, slow) for one, some in found.items()}
+    apart = apart_draws([some for some in found.values() if not isinstance(some, Failed)])
+    return {one: some if isinstance(some, Failed) else sampled(some / UNIT, slow, apart) for one, some in found.items()}
+
+
+def apart_draws(found: Sequence[FloatArray]) -> NDArray[np.intp]:
+    """Number of the first draw that each one is equal to, under every load: of springs pressed flat all are equal.
+
+    found: the same draws in each, one value a draw.
+    """
+    if not found:
+        return np.arange(0)
+    rows = np.array(found).T
+    rows = rows / np.maximum(np.abs(rows).max(axis=0), np.finfo(float).tiny)
+    return np.array([np.argmax(np.abs(rows - row).max(axis=1) <= EQUAL) for row in rows])
 
 
 def seconds_of(model: Caller, punch: AskedPunch) -> float:
@@ -163,13 +185,24 @@ def _by_formula(model: Caller, punch: AskedPunch) -> Stiffness | Failed:
     return Stiffness(ModelAnswer(mean / UNIT), *(ModelAnswer(one / mean) for one in deviation))
 
 
-def sampled(values: FloatArray, so_few: str = "") -> Stiffness | Failed:
-    """Mean and deviation of a sample with their errors, by the moments of the realisations."""
+def sampled(values: FloatArray, so_few: str = "", apart: NDArray[np.intp] | None = None) -> Stiffness | Failed:
+    """Mean and deviation of a sample with their errors, by the moments of the realisations.
+
+    apart: number of the first draw that each is equal to, where any are. Equal draws are one: m of them, n_1 ... n_m
+    times, have the error of n^2 / sum n_i^2 independent ones; that of one is not known.
+    """
     if values.mean() <= 0:
         return Failed(f"a mean stiffness of {values.mean():.3g} E* L")
-    of = moments(values, np.isfinite(values))
-    deviation = of.log_relative_deviation
-    mean = ModelAnswer(float(values.mean()), of.log_mean.half_width, f"{values.size} realisations{so_few}")
+    first, times = np.unique(np.arange(values.size) if apart is None else apart, return_counts=True)
+    if first.size == 1:
+        equal = f"{values.size} equal realisations{so_few}: {EQUAL_DRAWS}"
+        mean = ModelAnswer(float(values.mean()), math.inf, equal)
+        return Stiffness(mean, ModelAnswer(math.nan, reason=f"{equal}; no deviation is known"))
+    of, records = moments(values[first], np.isfinite(values[first])), values.size**2 / float((times**2).sum())
+    deviation, count = of.log_relative_deviation, f"{values.size} realisations{so_few}"
+    if first.size < values.size:
+        count = f"{count}, of which {first.size} {DIFFERENT_DRAWS}"
+    mean = ModelAnswer(float(values.mean()), of.log_mean.half_width * math.sqrt(first.size / records), count)
     if math.isfinite(deviation.value):
         return Stiffness(mean, ModelAnswer(math.exp(deviation.value), deviation.half_width))
     # one draw in a hundred that is apart may leave the others equal, too
