@@ -176,7 +176,7 @@ def _own(model: str, arguments: argparse.Namespace) -> Exit:
     """Models of somebody's own, whose errors `compare` finds in the same store."""
     from validation.selection.own_models import calibrated, models_in  # imported where there is such a file
 
-    not_beside(arguments, f"beside --model {printable(path)}", "--workers")
+    not_beside(arguments, f"beside --model {printable(model)}", "--workers")
     if arguments.install:
         raise ValueError("--install is for models of the package, whose table has no rows of others")
     store = arguments.out or STORE
