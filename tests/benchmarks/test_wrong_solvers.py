@@ -23,6 +23,7 @@ FEW = (
     "oblong",
     "cells of 2:1",
     "cells of 1:4",
+    "cells of 4:1",
     "15 cells",
     "full contact",
     "odd cells of 2:1, light load",

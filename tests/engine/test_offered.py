@@ -71,6 +71,8 @@ def test_a_name_is_a_text_and_options_are_those_of_the_kind(name, options, sente
         validation.stiffness_model(*name, **options)
     with pytest.raises(TypeError, match=r"option residual must be as 0\.0001, got 'small'"):
         validation.contact_solver("mine", residual="small")
+    with pytest.raises(TypeError, match="option cells must be as inf, got True"):
+        validation.contact_solver("mine", cells=True)
 
 
 @pytest.mark.parametrize(
@@ -80,13 +82,15 @@ def test_a_name_is_a_text_and_options_are_those_of_the_kind(name, options, sente
         ({"residual": 0.01}, r"'mine': residual must be above zero and at most 0\.001, got 0\.01"),
         ({"residual": 0.0}, "residual must be above zero"),
         ({"residual": float("nan")}, "residual must be above zero"),
+        ({"cells": 0}, "'mine': cells must be one or more, the most that a grid may have, got 0"),
+        ({"cells": float("nan")}, "'mine': cells must be one or more"),
     ],
 )
 def test_a_solver_that_cannot_be_judged_is_refused_where_it_is_decorated(options, sentence):
     with pytest.raises(ValueError, match=sentence) as refused:
         validation.contact_solver("mine", **options)
     assert "\n" not in str(refused.value)
-    assert validation.contact_solver("mine", free=False, periodic=True, residual=1e-3)
+    assert validation.contact_solver("mine", free=False, periodic=True, residual=1e-3, cells=900)
 
 
 def test_what_is_offered_already_is_not_offered_again():

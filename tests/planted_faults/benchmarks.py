@@ -9,10 +9,11 @@ import numpy as np
 from tests.benchmarks import test_chart_points as test_points
 from tests.benchmarks import test_fronts, test_peers
 from tests.benchmarks import test_judged_solvers as test_solvers
+from tests.benchmarks import test_judging_bounds as test_bounds
 from tests.planted_faults.wrong import Fault, Times
 from validation.benchmarks import solvers as comparison
 from validation.benchmarks import timing
-from validation.benchmarks.judging import discrete, factors
+from validation.benchmarks.judging import discrete, factors, properties
 from validation.benchmarks.judging import judged as judging
 from validation.benchmarks.work_precision import case as precision_case
 from validation.benchmarks.work_precision import errors as precision_error
@@ -29,7 +30,7 @@ def rigid(problem):
     return SimpleNamespace(displacement=lambda pressure: 0 * pressure)
 
 
-left, timed = discrete.ContactProblem.left, judging.timed
+left, timed, checked = discrete.ContactProblem.left, judging.timed, properties.checked
 log_of_answer = precision_error.MethodValues.log
 
 
@@ -83,7 +84,9 @@ FAULTS = [
     Fault("decibels of an amplitude for those of a power").at(precision.Quantity, "distance", Times(2.0)),
     test_solvers.test_a_condition_that_is_left_has_its_size,
     Fault("the approach of a contact for the one that is prescribed").at(
-        discrete.ContactProblem, "left", lambda problem, pressure, by_force: left(problem, pressure, True)
+        discrete.ContactProblem,
+        "left",
+        lambda problem, pressure, by_force, *operator: left(problem, pressure, True, *operator),
     ),
     functools.partial(
         test_solvers.test_a_planted_fault_is_caught_and_named,
@@ -96,6 +99,24 @@ FAULTS = [
     Fault("answers that are timed and not judged").at(
         judging, "timed", lambda asked: (([], times) for _, times in timed(asked))
     ),
+    functools.partial(
+        test_bounds.test_a_number_agrees_within_its_bound_and_no_number_never, float("nan"), 0.0, "differ"
+    ),
+    Fault("no number agrees").at(
+        properties, "checked", lambda *point: dataclasses.replace(checked(*point), verdict="agree", reason="")
+    ),
+    functools.partial(test_bounds.test_an_answer_may_be_off_by_fifty_residuals, "approach", "force", 55, "differ"),
+    Fault("an approach that may be off by ten times as much").at(properties, "OF_ANSWER", Times(10.0)),
+    functools.partial(test_bounds.test_the_order_of_convergence_is_one_to_the_next_term, 0.8, "differ"),
+    Fault("an order of convergence that may be off by 0.1 more").at(judging, "NEXT_TERM", 0.25),
+    functools.partial(test_bounds.test_a_contact_that_shrinks_under_more_load_is_found, 0.03, "differ"),
+    Fault("a contact that may shrink under more load").at(properties, "SINGLE_CELLS", float("inf")),
+    test_bounds.test_a_full_periodic_contact_is_not_asked_by_approach,
+    Fault("an approach for a full periodic contact, which determines nothing").at(
+        discrete.ContactProblem, "is_determined_by_approach", True
+    ),
+    test_bounds.test_what_a_solver_does_not_serve_is_a_status_of_its_own,
+    Fault("what is not served for a failure").at(timing, "NOT_SERVED", "failed"),
     functools.partial(test_solvers.test_a_fault_is_caught_by_approach_too, "heights from their mean"),
     Fault("the approach of an answer for the one that is prescribed, in causes").at(
         factors, "_shift", lambda contact: 0.0

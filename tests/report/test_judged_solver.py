@@ -24,7 +24,7 @@ SOLVE = """
 @pytest.mark.parametrize(
     ("body", "status", "said"),
     [
-        (SOLVE.format(modulus="modulus"), 0, "contact solver, right in all 77 checks"),
+        (SOLVE.format(modulus="modulus"), 0, "contact solver, right in all 162 checks"),
         (SOLVE.format(modulus="modulus / 0.91"), 1, "the answer for 1.099 times the modulus"),
         ("    print('hello')\n" + SOLVE.format(modulus="modulus"), 0, "  printing, any: printed 'hello'\n"),
         ("    raise ArithmeticError('no luck')", 3, "raised ArithmeticError: no luck"),

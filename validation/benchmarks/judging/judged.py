@@ -38,6 +38,8 @@ FLAT, NEXT_TERM = "flat", 0.15
 COARSEST, FINEST = 12, (48, 24)
 """Cells on a side of a flat punch; the latter of a solver that serves fewer."""
 OFF, NO_CAUSE = "off by more than the residual that it names allows", "not the answer of any half-space"
+MEASURED = ("monotone area", "monotone stiffness", "order of convergence")
+"""Properties of several answers: their reasons are what is measured."""
 RANDOM, STATE = "each call gives another answer: random numbers", "the answer depends on earlier calls"
 
 
@@ -169,7 +171,7 @@ def explained(asked: Asked, points: Sequence[JudgedPoint]) -> list[JudgedPoint]:
     )
 
     def with_cause(point: JudgedPoint) -> JudgedPoint:
-        if point.verdict != DIFFER or not commonest:
+        if point.verdict != DIFFER or not commonest or point.quantity in MEASURED:
             return point
         name = str(point.where["problem"])
         cause = of.get((point.quantity, name)) or of.get(("", name), "")
