@@ -11,11 +11,13 @@ from tests.scenes import (
     test_damping_key,
     test_exported_tables,
     test_height_edits,
+    test_limits_of_scenes,
     test_materials,
     test_measured_heights,
     test_profiled_rail,
     test_rail,
     test_steadiness,
+    test_units,
 )
 from validation.scenes import (
     height_edits,
@@ -48,6 +50,14 @@ def half_of_the_level(height, spacing):
 
 
 FAULTS = [
+    partial(test_units.test_a_quantity_is_the_nearest_float, "40 uN", "force", 4e-5),
+    Fault("a load in uN taken for one in mN").at(
+        units, "UNITS", {**units.UNITS, "force": {**units.UNITS["force"], "uN": Fraction(1, 1000)}}
+    ),
+    test_limits_of_scenes.test_two_bodies_yield_each_by_itself,
+    Fault("E of one body for E / (1 - nu^2)").at(
+        material.Elastic, "against_rigid", property(lambda body: body.youngs_modulus)
+    ),
     partial(test_profiled_rail.test_a_parabola_has_its_radius_under_any_load, 5e4),
     Fault("y^2 / R for y^2 / (2 R) in the radius of a transverse profile").at(
         TransverseProfile, "radius_within", Times(2.0)

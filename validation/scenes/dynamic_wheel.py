@@ -13,6 +13,7 @@ from mdr.checks import count
 from validation.scenes.bundled import bundled, path_of
 from validation.scenes.damping import DampedWheel, check_damping
 from validation.scenes.material import Material, check_scene, material_of
+from validation.scenes.printable import shortened
 from validation.scenes.rail_file import is_rail
 from validation.scenes.reader import Reader, errors_of_file, table, tables_of, values
 from validation.scenes.roughness import Roughness, check_band, roughness_of
@@ -266,7 +267,9 @@ def _check_lengths(scene: WheelScene) -> None:
         raise ValueError(f"simulation.distance must be longer than the contact, {2 * a:g} m, got {distance:g} m")
     most = MAX_POINTS * a / max(distance, circumference)
     if scene.springs > most:
-        raise ValueError(f"simulation.springs must be at most {most:.0f} on such a track, got {scene.springs}")
+        raise ValueError(
+            f"simulation.springs must be at most {most:.0f} on such a track, got {shortened(scene.springs)}"
+        )
     for key, rough in scene._rough.items():
         longest, shortest = rough.longest, rough.shortest
         period = scene.length if key.startswith("rail") else scene.circumference_points * scene.spacing

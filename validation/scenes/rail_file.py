@@ -22,6 +22,8 @@ OWN = {
 """What stands in the scene of a rail alone."""
 GROUNDS = ("levels", "lines", "heights")
 Shape = TransverseProfile | float | None
+MOST_WHEELS = 8
+"""That share the load of an axle; two, but for running gear of many wheels."""
 CROWN, FLANGE = 0.026, 0.015
 """Half of the width of a head without its corners [m], 52 mm of 60E1; height that a flange has and a tread has not [m].
 """
@@ -108,6 +110,8 @@ def _load(wheel: dict[str, Any]) -> tuple[float, tuple[str, ...]]:
         raise ValueError(
             "wheel.wheels_per_axle is missing: wheel.axle_load must be shared out among wheels, as wheels_per_axle = 2"
         )
+    if wheels > MOST_WHEELS:
+        raise ValueError(f"wheel.wheels_per_axle must be at most {MOST_WHEELS}, got {shortened(wheels)}")
     loads = in_unit(one, "force"), in_unit(one / wheels, "force")
     return one / wheels, (f"the axle load of {loads[0]} is shared by {wheels} wheels: {loads[1]} each.",)
 

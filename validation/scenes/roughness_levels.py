@@ -82,7 +82,11 @@ class RoughnessLevels:
     def within(self, longest: float | None, shortest: float | None) -> "RoughnessLevels":
         """Bands between two nominal wavelengths [m] alone, None for the end that there is. ValueError for none."""
         first, last = self.bands.nominal[[0, -1]]
-        kept = self.bands.within(first if longest is None else longest, last if shortest is None else shortest)
+        try:
+            kept = self.bands.within(first if longest is None else longest, last if shortest is None else shortest)
+        except ValueError as none:
+            known = f"one of the bands of {self.bands.span}"
+            raise ValueError(f"longest and shortest must leave {known}, got that {none}") from None
         start = self.bands.longest - kept.longest
         inside = slice(start, start + len(kept))
         return replace(
