@@ -5,6 +5,7 @@ import sys
 
 import pytest
 
+from tests.engine.toys import wait_until
 from validation.engine import progress
 from validation.engine.progress import Part, Progress
 
@@ -64,8 +65,7 @@ def printed(monkeypatch, *, terminal):
     monkeypatch.setattr(progress, "SECONDS_BETWEEN_REFRESHES" if terminal else "SECONDS_BETWEEN_LINES", 0.01)
     with Progress({"hertz": 1.0}) as run:
         for lines in (2, 4):
-            while stream.getvalue().count("hertz") < lines:
-                run._over.wait(0.01)
+            wait_until(lambda lines=lines: stream.getvalue().count("hertz") >= lines)
             with run.aside():
                 stream.write("a section\n")
     return stream.getvalue()

@@ -107,7 +107,7 @@ def test_workers_end_though_some_of_their_work_was_cancelled():
     waiting = [workers.submit(time.sleep, 30) for _ in range(8)]
     assert waiting[-1].cancel()
     workers.end()
-    wait(waiting[:-1])
+    assert not wait(waiting[:-1], HANG).not_done
     assert all(future.cancelled() or future.exception() for future in waiting)
 
 
