@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from validation.analysis.nominal_bands import NominalBands
 from validation.analysis.statistics import FloatArray
-from validation.scenes.line_outliers import Outlier, interpolated, without_outliers
+from validation.scenes.line_outliers import Outlier, interpolated, sensor_step, without_outliers
 from validation.scenes.line_steps import DRIFTS, MOST_STEPS, drift_of, points_of, runs_of, without_steps
 from validation.scenes.units import in_unit
 
@@ -61,8 +61,9 @@ class EditedLine:
         runs = runs_of(height)
         if (first := cls(height, height, runs, spacing)).unknown:
             return first
-        clean, high = without_outliers(interpolated(height, points_of(runs, height.size)), spacing)
-        clean, steps = without_steps(clean, spacing)
+        sensor = sensor_step(height)
+        clean, high = without_outliers(interpolated(height, points_of(runs, height.size)), spacing, sensor)
+        clean, steps = without_steps(clean, spacing, sensor)
         span, middle = float(np.ptp(clean)), float(np.median(clean))
         named = [_named(one, abs(one.size) > DROPOUT * span) for one in high]
         named += [_named(one, one.kind == "run" and abs(one.size - middle) > DROPOUT * span) for one in runs]
