@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from validation.analysis.nominal_bands import NominalBands
 from validation.analysis.statistics import FloatArray
-from validation.scenes.line_outliers import Outlier, interpolated, without_outliers
+from validation.scenes.line_outliers import Outlier, interpolated, sensor_step, without_outliers
 from validation.scenes.line_steps import DRIFTS, MOST_STEPS, drift_of, points_of, runs_of, without_steps
 from validation.scenes.units import in_unit
 
@@ -27,8 +27,8 @@ BARELY, MISSED = 1.5, 0.1
 """Margin of outliers below which as many again may have been missed; share of the others that is."""
 MOVED = ("step", "drift")
 """Kinds that leave all points where they are, but for a height."""
-DROPOUT = 3.0
-"""Height of a dropout over the span of all else."""
+DROPOUT, LEAST_DROPOUT = 3.0, 0.3e-3
+"""Height of a dropout over the span of all else, and in metres, at the least: nothing on a rail is so high."""
 SHOWN = 30
 """Places of outliers of one kind in a sentence."""
 KINDS = {
@@ -61,11 +61,12 @@ class EditedLine:
         runs = runs_of(height)
         if (first := cls(height, height, runs, spacing)).unknown:
             return first
-        clean, high = without_outliers(interpolated(height, points_of(runs, height.size)), spacing)
-        clean, steps = without_steps(clean, spacing)
-        span, middle = float(np.ptp(clean)), float(np.median(clean))
-        named = [_named(one, abs(one.size) > DROPOUT * span) for one in high]
-        named += [_named(one, one.kind == "run" and abs(one.size - middle) > DROPOUT * span) for one in runs]
+        sensor = sensor_step(height)
+        clean, high = without_outliers(interpolated(height, points_of(runs, height.size)), spacing, sensor)
+        clean, steps = without_steps(clean, spacing, sensor)
+        far, middle = max(DROPOUT * float(np.ptp(clean)), LEAST_DROPOUT), float(np.median(clean))
+        named = [_named(one, abs(one.size) > far) for one in high]
+        named += [_named(one, one.kind == "run" and abs(one.size - middle) > far) for one in runs]
         bend, over_rest = drift_of(clean)
         drift = [Outlier("drift", 0, clean.size - 1, float(np.ptp(bend)))] if over_rest > DRIFTS else []
         found = (*drift, *steps, *sorted(named, key=lambda one: one.first))

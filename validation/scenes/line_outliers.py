@@ -61,9 +61,12 @@ def interpolated(line: FloatArray, replaced: NDArray[np.bool_]) -> FloatArray:
 
 
 def sensor_step(line: FloatArray) -> float:
-    """The least difference of two values [m]: that to which a line was rounded, if it was."""
-    steps = np.diff(np.unique(line))
-    steps = steps[steps > 1e-9 * max(float(np.ptp(line)), 1e-300)]
+    """The least difference of two values [m], of those that repeat where most do: that to which a line was rounded."""
+    values, counts = np.unique(line, return_counts=True)
+    several = counts > 1
+    # outliers may be rounded otherwise
+    steps = np.diff(values[several] if 2 * counts[several].sum() > line.size else values)
+    steps = steps[steps > 1e-9 * float(np.ptp(line))]
     return float(steps.min()) if steps.size else 0.0
 
 
@@ -75,18 +78,18 @@ def scale_of(values: FloatArray, stretch: int) -> tuple[FloatArray, float]:
     return np.repeat(around, [part.size for part in parts]), float(np.quantile(np.abs(values), SHARE) / OF_NORMAL)
 
 
-def without_outliers(line: FloatArray, spacing: float) -> tuple[FloatArray, tuple[Outlier, ...]]:
+def without_outliers(line: FloatArray, spacing: float, sensor: float) -> tuple[FloatArray, tuple[Outlier, ...]]:
     """A line [m] with straight lines in place of its spikes and pits, and these, in the order of their places.
 
     The narrowest are taken out first, since what lies between two of them stands out, too; then the line is searched
-    again, until none is left.
+    again, until none is left. sensor: the step to which the line was rounded as it was measured [m].
     """
-    replaced, step = np.zeros(line.size, dtype=bool), sensor_step(line)
+    replaced = np.zeros(line.size, dtype=bool)
     if line.size < FEWEST:
         return line, ()
     clean = line
     for _ in range(ROUNDS):
-        prominent = _Prominent.of(clean, spacing, step)
+        prominent = _Prominent.of(clean, spacing, sensor)
         new = np.zeros(line.size, dtype=bool)
         for i in prominent.narrowest():
             if not new[max(0, i - 1) : i + 2].any():

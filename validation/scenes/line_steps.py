@@ -8,7 +8,9 @@ from numpy.typing import NDArray
 
 from validation.analysis.statistics import FloatArray
 from validation.scenes.line_outliers import (
+    OF_NORMAL,
     PERIODS,
+    SHARE,
     STEP_OF_SENSOR,
     STRETCH,
     Outlier,
@@ -24,13 +26,16 @@ APART = 1, 2, 4, 8
 LASTS, OF_STEP = 20, 0.6
 """Points to both sides whose medians are a step apart, and share of it, at the least."""
 MOST_STEPS = 20
-LONG_RUN, OF_USUAL, ELEVENTH = 8, 3.0, 11
-"""Points of a run of equal values, at the least, and over the length of the eleventh longest: crests have some, too."""
+LONG_RUN, OF_USUAL, ELEVENTH, FAR_LONGER = 8, 3.0, 11, 10.0
+"""Points of a run of equal values, at the least, and over the length of the eleventh longest, since crests have some;
+over that, where nothing else tells a run from a crest."""
 ROUNDED, JUMP = 0.01, 3.0
 """Share of neighbours that are equal, from which on a line is rounded coarsely; a run that begins or ends with a jump
-of so many steps of the sensor is no crest of it, and is compared with the length of nineteen of twenty runs."""
-CLIPPED, CROWDED = 10, 4.0
-"""Points at the largest or smallest value, at the least, and over those at each of the next three."""
+of so many steps of the sensor, or usual differences of neighbours, is no crest of it, and is compared with the length
+of nineteen of twenty runs."""
+CLIPPED, CROWDED, SHORT_RUN = 10, 4.0, 3
+"""Points at the largest or smallest value, at the least, and over those at each of the next three; of runs that half of
+them have."""
 NEAR_END = 0.05
 """Of the span of a line: the next value to that at which it is clipped."""
 BENDS, DRIFTS = 4, 15.0
@@ -45,9 +50,10 @@ def runs_of(line: FloatArray) -> tuple[Outlier, ...]:
     """Runs of equal values, and those at an end of the range at which a line is clipped."""
     starts = np.flatnonzero(np.concatenate([[True], np.diff(line) != 0]))
     lengths = np.diff(np.append(starts, line.size))
-    step, ends = sensor_step(line), _clipped_at(line)
-    if not step:
+    step, ends = sensor_step(line), _clipped_at(line, starts, lengths)
+    if starts.size == 1:
         return ()
+    usual_step = max(step, float(np.quantile(np.abs(np.diff(line)), SHARE)) / OF_NORMAL)
     equal = 1 - lengths.size / line.size
     usual, longest = float(np.quantile(lengths, 0.95)), float(np.sort(lengths)[-ELEVENTH:][0])
     found = []
@@ -58,28 +64,33 @@ def runs_of(line: FloatArray) -> tuple[Outlier, ...]:
         elif length >= max(LONG_RUN, OF_USUAL * usual):
             jumps = [abs(line[i] - line[j]) for i, j in ((first, first - 1), (last, last + 1)) if 0 <= j < line.size]
             fine = equal - length / line.size < ROUNDED and length >= OF_USUAL * longest
-            if fine or (equal >= ROUNDED and max(jumps, default=0.0) > JUMP * step):
+            jumped = equal >= ROUNDED and max(jumps, default=0.0) > JUMP * usual_step
+            if fine or jumped or length >= FAR_LONGER * longest:
                 found.append(Outlier("run", first, last, value))
     return tuple(found)
 
 
-def _clipped_at(line: FloatArray) -> set[float]:
-    """The largest or the smallest value, where many points have it and few the next ones."""
+def _clipped_at(line: FloatArray, starts: NDArray[np.intp], lengths: NDArray[np.intp]) -> set[float]:
+    """The largest or the smallest value, where many points have it, in runs, and few the next ones."""
     values, counts = np.unique(line, return_counts=True)
     found = set[float]()
     for order in (1, -1):
         value, count = values[::order], counts[::order]
         near = value.size > 4 and abs(value[1] - value[0]) < NEAR_END * abs(value[-1] - value[1])
-        if near and count[0] >= CLIPPED and count[0] > CROWDED * count[1:4].max():
+        runs = lengths[line[starts] == value[0]]
+        lasting = 2 * runs[runs >= SHORT_RUN].sum() > count[0]
+        if near and lasting and count[0] >= CLIPPED and count[0] > CROWDED * count[1:4].max():
             found.add(float(value[0]))
     return found
 
 
-def without_steps(line: FloatArray, spacing: float) -> tuple[FloatArray, tuple[Outlier, ...]]:
-    """A line without its steps, the part behind each moved, and these, the largest first; at most `MOST_STEPS`."""
-    found = list[Outlier]()
-    clean, step = line, sensor_step(line)
-    while len(found) < MOST_STEPS and (one := _largest_step(clean, spacing, step)) is not None:
+def without_steps(line: FloatArray, spacing: float, sensor: float) -> tuple[FloatArray, tuple[Outlier, ...]]:
+    """A line without its steps, the part behind each moved, and these, the largest first; at most `MOST_STEPS`.
+
+    sensor: the step to which the line was rounded as it was measured [m].
+    """
+    found, clean = list[Outlier](), line
+    while len(found) < MOST_STEPS and (one := _largest_step(clean, spacing, sensor)) is not None:
         moved = clean.copy()
         moved[one.last :] -= one.size
         between = np.zeros(line.size, dtype=bool)

@@ -1,0 +1,115 @@
+"""Faults planted in measured lines and their files: where, what is wrong, and the test that must catch it."""
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from tests.planted_faults.wrong import Fault
+from tests.scenes import test_exported_tables, test_line_columns, test_line_outliers
+from validation.scenes import (
+    column_names,
+    line_columns,
+    line_edits,
+    line_outliers,
+    line_steps,
+    number_table,
+    table_files,
+    text_dialect,
+)
+from validation.scenes.line_edits import EditedLine, LineEdits
+from validation.scenes.roughness_levels import RoughnessLevels
+from validation.simulation import rail_quantity
+
+of_clean_lines = (
+    test_line_outliers.test_levels_without_outliers_are_those_of_the_clean_line_within_the_error_that_is_left
+)
+change, kept, of_columns = EditedLine.change, EditedLine.kept, table_files.heights_of_columns
+errors, without_steps, positions_of = LineEdits.errors, line_steps.without_steps, line_columns._positions_of
+
+
+def in_the_unit_of_the_first(table, places, metre):
+    one = table.columns[places[0]]
+    return of_columns(replace(table, columns=(one,) * len(table.columns)), places, metre)
+
+
+def steps_downwards(line, spacing, sensor):
+    clean, steps = without_steps(line, spacing, sensor)
+    return 2 * line - clean, steps
+
+
+def positions_without_the_last(numbers, given, rest, dead):
+    where, words = positions_of(numbers, given, rest, dead)
+    return (given[: len(rest)] if given else where), words
+
+
+FAULTS = [
+    partial(test_line_outliers.test_clean_lines_have_no_outliers, "H = 0.5", 0.0),
+    Fault("roughness taken for spikes").at(line_outliers, "STANDS_OUT", 3.0),
+    partial(test_line_outliers.test_clean_lines_have_no_outliers, "corrugated in part", 0.0),
+    Fault("one scale of a line of two grounds").at(line_outliers, "STRETCH", 1e3),
+    partial(test_line_outliers.test_clean_lines_have_no_outliers, "rail", 1.0),
+    Fault("a step of the sensor taken for a spike").at(line_outliers, "STEP_OF_SENSOR", 0.01),
+    partial(test_line_outliers.test_clean_lines_have_no_outliers, "H = 1.0, smooth", 1.0),
+    Fault("a crest taken for a sensor that stands still").at(line_steps, "OF_USUAL", 0.0),
+    partial(test_line_outliers.test_all_that_is_planted_is_found_where_it_is, "spikes"),
+    Fault("spikes that nobody finds").at(line_outliers, "STANDS_OUT", 100.0),
+    partial(test_line_outliers.test_all_that_is_planted_is_found_where_it_is, "wide pits"),
+    Fault("pits wider than a few points that are not seen").at(line_outliers, "DISTANCES", line_outliers.DISTANCES[:4]),
+    partial(test_line_outliers.test_all_that_is_planted_is_found_where_it_is, "step down"),
+    Fault("steps of a hundred scales alone").at(line_steps, "STEP", 100.0),
+    partial(of_clean_lines, "step"),
+    Fault("the part behind a step moved the other way").at(line_edits, "without_steps", steps_downwards),
+    partial(of_clean_lines, "zeros"),
+    Fault("no error of what a straight line replaces").at(
+        EditedLine, "change", lambda line, bands: 0 * change(line, bands)
+    ),
+    partial(test_line_outliers.test_outliers_that_are_kept_are_in_the_error, "spikes"),
+    Fault("no error of outliers that are kept").at(EditedLine, "kept", lambda line, bands: 0 * kept(line, bands)),
+    partial(test_line_outliers.test_lines_of_which_too_much_is_gone_have_no_error, "above"),
+    Fault("clipping at one end that is not seen").at(line_steps, "CROWDED", np.inf),
+    partial(test_line_outliers.test_lines_of_which_too_much_is_gone_have_no_error, "a gap"),
+    Fault("half of a line that is made up").at(line_edits, "MOST_REPLACED", 1.0),
+    test_line_outliers.test_errors_of_several_lines_are_those_of_their_mean_energy,
+    Fault("the error of the worst line for that of the mean").at(
+        LineEdits, "errors", lambda edits, bands, powers: errors(edits, bands, powers / len(powers))
+    ),
+    test_line_outliers.test_errors_are_cut_and_added_with_their_levels,
+    Fault("errors of the wheel left out of the sum").at(
+        RoughnessLevels, "_powers_of_errors", property(lambda levels: 0 * levels.powers)
+    ),
+    partial(test_line_columns.test_a_dead_line_is_left_out_with_its_position, "a constant"),
+    Fault("positions of the first lines for those that are left").at(
+        line_columns, "_positions_of", positions_without_the_last
+    ),
+    partial(test_line_columns.test_a_dead_line_is_left_out_with_its_position, "noise"),
+    Fault("noise of a sensor taken for roughness").at(line_columns, "noise_among", lambda lines: []),
+    test_line_columns.test_a_first_row_of_positions_is_no_row_of_heights,
+    Fault("a row of positions read as a point").at(
+        line_columns, "_without_first_row", lambda numbers, given: (numbers, ())
+    ),
+    test_line_columns.test_each_column_has_its_own_unit,
+    Fault("all columns in the unit of the first").at(
+        (table_files, test_line_columns), "heights_of_columns", in_the_unit_of_the_first
+    ),
+    test_line_columns.test_a_value_is_no_data_where_it_is_far_from_all_others_alone,
+    Fault("a large height taken for no data").at(number_table, "LONELY", 0.0),
+    partial(test_line_columns.test_a_column_is_named_as_the_file_has_it_or_without_its_unit, "Höhe [µm]"),
+    Fault("names of columns without their units alone").at(
+        column_names.Column, "is_called", lambda column, name: name.casefold() == column.name.casefold()
+    ),
+    partial(test_line_columns.test_time_stamps_are_named_with_keys_that_can_be_pasted, "", "ISO"),
+    Fault("time stamps that are no times").at(text_dialect, "TIME", text_dialect.COMMA),
+    partial(test_exported_tables.test_one_sign_that_may_be_either_asks_for_the_decimal_sign, "1,234", "."),
+    Fault("any comma before three digits taken for thousands").at(
+        text_dialect.Dialect,
+        "without_thousands",
+        lambda way, text: text.replace("," if way.decimal == "." else ".", ""),
+    ),
+    test_line_columns.test_the_error_of_a_filter_has_what_outliers_leave,
+    Fault("a filter without the error of its lines").at(
+        rail_quantity.RailQuantity, "left_by_faults", property(lambda asked: np.zeros(len(asked.bands)))
+    ),
+    test_line_columns.test_nothing_is_within_a_tolerance_on_clipped_lines,
+    Fault("clipping that is forgiven").at(line_edits, "MOST_CLIPPED", 1.0),
+]
