@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from validation.engine.installed import package_of
+from validation.engine.installed import ENTRY, package_of
 
 OPENED: set[Path] = set()
 """What this process has opened for reading since it is watched."""
@@ -53,6 +53,7 @@ def _roots_of(package: str) -> tuple[Path, ...]:
 
 
 def digest_of(sources: Iterable[Path]) -> str:
-    """Of the bytes of these files; one that is gone has none."""
-    contents = (path.read_bytes() if path.is_file() else b"" for path in sources)
+    """Of the bytes of these files; one that is gone has none. A file of `file_of`, whose folder is new, comes first."""
+    ordered = sorted(sources, key=lambda path: (not path.name.startswith(ENTRY), path))
+    contents = (path.read_bytes() if path.is_file() else b"" for path in ordered)
     return hashlib.sha256(b"".join(hashlib.sha256(some).digest() for some in contents)).hexdigest()
