@@ -4,11 +4,11 @@ import functools
 import math
 
 from tests.planted_faults.wrong import Fault
-from tests.selection import test_models_from, test_one_answer, test_read_only_comparison
+from tests.selection import test_limits_of_compare, test_models_from, test_one_answer, test_read_only_comparison
 from tests.simulation import test_costs_by_counts
 from validation.scenes.measured import MeasuredHeights
 from validation.selection import advice, compare, elasticity, hierarchy, on_mdr, own_models, scene_model
-from validation.simulation import rail_models
+from validation.simulation import rail_models, rail_quantity
 
 FAULTS = [
     test_costs_by_counts.test_cells_that_are_drawn_are_most_of_the_cost_of_springs_on_a_line,
@@ -38,4 +38,14 @@ FAULTS = [
     Fault("one measured surface without its scatter").at(MeasuredHeights, "is_single", False),
     test_models_from.test_a_file_that_is_changed_is_seen_before_it_is_called,
     Fault("a file that is changed while it is compared").at(own_models.OwnModel, "check_unchanged", lambda own: None),
+    test_limits_of_compare.test_a_grid_whose_error_is_noise_is_compared_on_more_surfaces,
+    Fault("noise taken for the error of a grid").at(scene_model, "FALLS", 0.5),
+    test_limits_of_compare.test_a_grid_whose_error_is_its_own_is_given_up_soon,
+    Fault("the error of a grid taken for noise").at(scene_model, "FALLS", 1.0),
+    functools.partial(
+        test_limits_of_compare.test_out_of_its_range_a_model_is_solved_that_takes_a_minute_at_the_most, 61.0, False
+    ),
+    Fault("a model out of its range that takes as long as it likes").at(compare, "LONGEST_BEYOND_RANGE", math.inf),
+    test_limits_of_compare.test_bands_count_in_which_something_is_left,
+    Fault("bands of which nothing is left").at(rail_quantity, "COUNTED", -math.inf),
 ]

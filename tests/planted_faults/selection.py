@@ -111,7 +111,7 @@ def another_strip_on_the_coarse_grid(target, resolution):
 real_weighting, real_models_of = contact_force.a_weighting, compare.models_of
 
 
-def of_its_own_grid(model, count):
+def of_its_own_grid(model, count, compared=0):
     return sum(model.shared[model.model, model.resolution].seconds[:count])
 
 

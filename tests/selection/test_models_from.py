@@ -47,17 +47,8 @@ def here(monkeypatch):
     ("asked", "store"), [*((name, []) for name in ASKED), ("swept", ["--store", "kept"]), ("alone", ["--store", "new"])]
 )
 def test_a_report_of_models_of_ones_own_is_written_and_written_again(asked, store, here):
-    words = [
-        "compare",
-        "rough_punch",
-        "--models-from",
-        "mine.py",
-        "--tolerance",
-        "60%",
-        "--workers",
-        "1",
-        *ASKED[asked],
-    ]
+    own = ["--models-from", "mine.py", "--tolerance", "60%", "--workers", "1"]
+    words = ["compare", "rough_punch", *ASKED[asked], *own]
     for _ in range(2):
         assert main([*words, *store, "--report", "new", *FILES]) == 0
     found = json.loads((here / "new/comparison.json").read_text())
@@ -142,6 +133,24 @@ def test_an_installed_model_is_compared_and_calibrated_by_its_name(package, here
     # a file of that name goes before
     (here / "series").write_text("1 / 0\n")
     assert main(words) == 2
+
+
+def test_a_digest_goes_by_the_bytes_and_not_by_the_folder_of_an_entry_point(tmp_path):
+    found = set()
+    for before, after in (("a", "b"), ("b", "a")):
+        for folder, name, text in (
+            (before, "entry point 'x' (y)", "import y"),
+            (after, "y.py", "1"),
+            (after, "z.py", "2"),
+        ):
+            (tmp_path / folder).mkdir(exist_ok=True)
+            (tmp_path / folder / name).write_text(text)
+        files = [tmp_path / before / "entry point 'x' (y)", tmp_path / after / "y.py", tmp_path / after / "z.py"]
+        found.add(own_models.digest_of(sorted(files)))
+    assert len(found) == 1
+    (tmp_path / "a/y.py").write_text("2")
+    (tmp_path / "a/z.py").write_text("1")
+    assert own_models.digest_of(sorted(files)) not in found
 
 
 @pytest.mark.slow

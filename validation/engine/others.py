@@ -16,7 +16,7 @@ from typing import Any
 from validation.engine.channel import Channel, ForeignBytesError
 from validation.engine.installed import file_of
 from validation.engine.offered import KINDS, Caller, Failed, FloatArray, Offered
-from validation.engine.read_files import digest_of_all, digest_of_bytes
+from validation.engine.read_files import digest_of_all, digest_of_bytes, in_order
 from validation.engine.replies import SHOWN, Reply, called, has_forked, number
 from validation.engine.serving import MUTE, SERVING
 from validation.engine.serving import OthersError as OthersError
@@ -100,7 +100,7 @@ class Visitor:
 
     @property
     def sources(self) -> tuple[Path, ...]:
-        return tuple(sorted(self._digests))
+        return in_order(self._digests)
 
     @property
     def digest(self) -> str:

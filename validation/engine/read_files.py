@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from validation.engine.installed import package_of
+from validation.engine.installed import ENTRY, package_of
 
 OPENED: set[Path] = set()
 """What this process has opened for reading since it is watched."""
@@ -45,7 +45,7 @@ def sources_of(path: Path) -> tuple[Path, ...]:
     own = {path.resolve(), *(file.resolve() for file in near if without.isdisjoint(file.parts))}
     roots = _roots_of(package_of(path))
     own |= {file.resolve() for file in (*loaded, *data) if any(file.is_relative_to(root) for root in roots)}
-    return tuple(sorted(file for file in own if file.suffix != ".pyc"))
+    return in_order(file for file in own if file.suffix != ".pyc")
 
 
 def _roots_of(package: str) -> tuple[Path, ...]:
@@ -79,4 +79,9 @@ def digest_of_all(digests: Iterable[bytes]) -> str:
 
 def digest_of(sources: Iterable[Path]) -> str:
     """Of the bytes of these files; one that is gone has none."""
-    return digest_of_all(map(digest_of_bytes, sources))
+    return digest_of_all(map(digest_of_bytes, in_order(sources)))
+
+
+def in_order(sources: Iterable[Path]) -> tuple[Path, ...]:
+    """By their names; a file of `file_of`, whose folder is new each time, comes first."""
+    return tuple(sorted(sources, key=lambda path: (not path.name.startswith(ENTRY), path)))

@@ -24,7 +24,7 @@ ROUND = 2
 def what_would_help(comparison: Comparison) -> Iterator[str]:
     """Where no model meets the tolerance: the error that is left, and `would_help`."""
     best, tolerance = comparison.selection.best, comparison.tolerance
-    if best is not None and best.answer is not None and not comparison.selection.met:
+    if best is not None and best.answer is not None and not (comparison.met or comparison.beyond_elasticity):
         yield f"not reached: the tolerance of {tolerance}; the error is {tolerance.shown_beside(best.error)}"
     yield from would_help(comparison)
 

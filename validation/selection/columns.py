@@ -98,12 +98,20 @@ def models_of_page(comparison: Comparison) -> list[dict[str, str]]:
             "apart": _apart(comparison, one) if one in solved else NONE,
             "cost": format_seconds(one.cost if one.answer is None else one.answer.cost.seconds),
             "took": format_seconds(comparison.seconds_of(one), least="< 1 ms"),
-            "became": BECAME[one.status].removeprefix("not " if one.answer else ""),
+            "became": _became(comparison, one),
             "why": one.reason,
             "selected": "selected" if one.name == comparison.model else "",
         }
         for one in comparison.models
     ]
+
+
+def _became(comparison: Comparison, one: Candidate) -> str:
+    """In words; beyond linear elasticity none is enough, and none is not needed for that."""
+    solved = "solved" if one.answer else "not solved"
+    if comparison.beyond_elasticity and one.status in ("accepted", "not accurate enough", "not needed"):
+        return f"{solved}: no elastic half-space"
+    return BECAME[one.status].removeprefix("not " if one.answer else "")
 
 
 def label(candidate: Candidate) -> str:

@@ -19,7 +19,7 @@ from validation.scenes.printable import shortened
 from validation.scenes.rail import RailScene
 from validation.scenes.rolling import RollingScene
 from validation.selection.elasticity import beyond_elasticity
-from validation.selection.hierarchy import Candidate, Selection, select_model
+from validation.selection.hierarchy import Candidate, Selection, rejected, select_model
 from validation.selection.named_models import ComparedModels, models_named
 from validation.selection.own_candidates import Own, names_and_own, own_candidates
 from validation.selection.quantities import BY_NAME, LEVELS, REFERENCES, UNITS, models_of, quantities_of
@@ -347,6 +347,8 @@ class SceneProblem:
                 also=lambda one: not self.models and any(one.kind == own.name for own in self.own),
                 beyond=_beyond,
             )
+            if reason := beyond_elasticity(self.scene):
+                selection = rejected(selection, reason)
             found[asked] = Comparison(self.scene, asked, selection, self.wanted.in_decibels, timed=self.solve_all)
         return found
 

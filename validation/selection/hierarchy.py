@@ -147,6 +147,17 @@ def select_model(
     return without_contradiction(Selection(tolerance, every))
 
 
+def rejected(found: Selection, reason: str) -> Selection:
+    """The same without a model that is accepted, for a reason that the scene has."""
+    rows = [
+        replace(one, status="not accurate enough", reason=f"{reason}; {one.reason}")
+        if one.status == "accepted"
+        else one
+        for one in found.candidates
+    ]
+    return replace(found, candidates=tuple(rows))
+
+
 def contradicting(found: Selection, one: Candidate) -> Candidate | None:
     """The least biased of the solved models that are less biased than this one and contradict it; None where none."""
     if not any(one is other for other in found.known):
