@@ -150,18 +150,18 @@ def pytest_addoption(parser):
 
 def test_options_of_other_projects_may_have_any_names(tmp_path):
     """Of a project whose conftest has options that ours were called before."""
-    (tmp_path / "conftest.py").write_text(OTHERS)
+    (tmp_path / "conftest.py").write_text(OTHERS, encoding="utf-8")
     (tmp_path / "test_theirs.py").write_text(
-        "def test_theirs(pytestconfig):\n    assert pytestconfig.getoption('--mapping') == 'mine'\n"
+        "def test_theirs(pytestconfig):\n    assert pytestconfig.getoption('--mapping') == 'mine'\n", encoding="utf-8"
     )
     words = [sys.executable, "-m", "pytest", "-q", "--mapping", "mine", "--contact-solver=none"]
-    run = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True)
+    run = subprocess.run(words, cwd=tmp_path, capture_output=True, encoding="utf-8")
     assert run.returncode == 0 and "1 passed" in run.stdout, run.stdout + run.stderr
 
 
 @pytest.mark.parametrize("words", [["--contact-solver", "none.py:solve"], ["--contact-solver=none.py:solve"]])
 def test_old_names_of_options_are_read_with_the_tests_that_had_them(words, tmp_path):
     told = [sys.executable, "-m", "pytest", "-q", "--pyargs", "validation.conformance", *words]
-    run = subprocess.run(told, cwd=tmp_path, capture_output=True, text=True)
+    run = subprocess.run(told, cwd=tmp_path, capture_output=True, encoding="utf-8")
     assert run.returncode == pytest.ExitCode.USAGE_ERROR
     assert "--mdr-solver: a function is named as FILE:NAME, and there is no file 'none.py'" in run.stderr

@@ -177,7 +177,9 @@ def test_a_prescribed_load_is_that_which_is_named():
 
 def test_a_solver_of_few_cells_is_not_raced_on_more(tmp_path):
     (tmp_path / "few.py").write_text(
-        "from validation import contact_solver\n\n@contact_solver('few', cells=1000)\ndef few(gap, force): return gap\n"
+        "from validation import contact_solver\n\n"
+        "@contact_solver('few', cells=1000)\ndef few(gap, force): return gap\n",
+        encoding="utf-8",
     )
     for cells, there in ((16, True), (32, False)):
         problem = SurfaceProblem("sphere", 0.01, cells, False, 1, 1e-6, own=str(tmp_path / "few.py"))

@@ -40,7 +40,7 @@ RIGHT = [2.0, 4.0, 6.0]
 
 def file_of(folder, body):
     path = folder / "bad.py"
-    path.write_text(HEAD.format(body=body))
+    path.write_text(HEAD.format(body=body), encoding="utf-8")
     return path
 
 
@@ -119,7 +119,7 @@ HANGS = [body for body in HARMFUL if "sleep" in body or "STOP" in body]
 def test_what_a_function_does_to_its_process_is_its_own_failure_alone(body, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     path = file_of(tmp_path, body)
-    path.write_text(path.read_text() + STAT)
+    path.write_text(path.read_text(encoding="utf-8") + STAT, encoding="utf-8")
     with Visitor(path, seconds=2.0 if body in HANGS else others.SECONDS) as visitor:
         hostile, good = visitor.callers()
         said = answers(hostile)
@@ -136,13 +136,13 @@ def test_a_descriptor_that_is_another_file_now_is_not_written_into(tmp_path, mon
     keeps = "    KEPT = [open(f'own{n}', 'r+') for n in range(9)]; CALLS.append(KEPT)"
     with Visitor(file_of(tmp_path, f"{body}\n{keeps}")) as visitor:
         assert answers(visitor.callers()[0]) == [CLOSED] * 3
-    assert {path.read_text() for path in tmp_path.glob("own*")} == {"mine"}
+    assert {path.read_text(encoding="utf-8") for path in tmp_path.glob("own*")} == {"mine"}
 
 
 def runs(process):
     """Whether a process is there, and no zombie."""
     try:
-        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+        return Path(f"/proc/{process}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()[0] != "Z"
     except OSError:
         return False
 
@@ -156,8 +156,8 @@ def test_no_process_of_a_file_outlives_it(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     with Visitor(file_of(tmp_path, DAEMON)) as visitor:
         assert answers(visitor.callers()[0])[0] == 2.0
-        wait_until(lambda: (tmp_path / "daemon").exists() and (tmp_path / "daemon").read_text())
-        daemon = int((tmp_path / "daemon").read_text())
+        wait_until(lambda: (tmp_path / "daemon").exists() and (tmp_path / "daemon").read_text(encoding="utf-8"))
+        daemon = int((tmp_path / "daemon").read_text(encoding="utf-8"))
         assert runs(daemon)
     wait_until(lambda: not runs(daemon))
 
@@ -176,7 +176,7 @@ with Visitor(Path(sys.argv[1]), seconds=1e6) as visitor:
 def test_a_file_that_hangs_ends_with_the_process_that_asks_also_where_that_is_killed(tmp_path):
     path = file_of(tmp_path, "open('begun', 'w')\n    while True: pass")
     words = [sys.executable, "-c", ASKS, str(path)]
-    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=ENVIRONMENT, cwd=tmp_path) as asks:
+    with subprocess.Popen(words, stdout=subprocess.PIPE, encoding="utf-8", env=ENVIRONMENT, cwd=tmp_path) as asks:
         process = int(asks.stdout.readline())
         wait_until((tmp_path / "begun").exists, asks)
         os.kill(asks.pid, signal.SIGKILL)
@@ -220,7 +220,7 @@ CHANGES_ITSELF = """len(CALLS) > 1 and Path(__file__).with_name("{name}").write_
 @pytest.mark.parametrize("name", ["bad.py", "data.txt"])
 def test_another_function_of_a_file_that_was_changed_is_not_run(name, tmp_path):
     """It would be of another file; where data alone are others, it is, and they are named."""
-    (tmp_path / "data.txt").write_text("as it was")
+    (tmp_path / "data.txt").write_text("as it was", encoding="utf-8")
     body = f"from pathlib import Path; Path(__file__).with_name('data.txt').read_text(); {CHANGES_ITSELF}"
     with Visitor(file_of(tmp_path, body.format(name=name))) as visitor:
         hostile, good = visitor.callers()
@@ -244,7 +244,7 @@ for name in ("a", "b") if count == 0 else ("b", "a"):
 
 
 def test_a_file_that_offers_other_functions_the_next_time_answers_no_more(tmp_path):
-    (tmp_path / "bad.py").write_text(OTHERS.replace(", name=None", ""))
+    (tmp_path / "bad.py").write_text(OTHERS.replace(", name=None", ""), encoding="utf-8")
     with Visitor(tmp_path / "bad.py") as visitor:
         a, b = visitor.callers()
         assert answers(a) == LOADS
@@ -337,7 +337,7 @@ def test_a_fork_of_a_function_of_this_process_never_comes_back(tmp_path):
     caller, process = Called(function), os.getpid()
     reply = caller.call(load=1.0)
     if os.getpid() != process:
-        mark.write_text("it did")
+        mark.write_text("it did", encoding="utf-8")
         os._exit(0)
     assert reply == 2.0 and caller.forked and not mark.exists()
     assert not isinstance(caller.call(load=2.0), Failed)

@@ -110,7 +110,7 @@ def test_a_function_is_named_by_its_file_and_kind(tmp_path):
     body = (
         "@profile_spectrum('rule')\ndef rule(q, roughness): return q\ndef solve(gap, force): return gap\nnumber = 3\n"
     )
-    path.write_text(f"from validation import profile_spectrum\n{body}")
+    path.write_text(f"from validation import profile_spectrum\n{body}", encoding="utf-8")
     assert named_in(f"{path}:rule", "profile_spectrum").name == "rule"
     solver = named_in(f"{path}:solve", "contact_solver")
     assert (solver.asks, solver.options) == (("gap", "force"), KINDS["contact_solver"].options)

@@ -119,12 +119,12 @@ def bug():
 
 
 def answer(folder, body):
-    (folder / "helper.py").write_text(HELPER)
+    (folder / "helper.py").write_text(HELPER, encoding="utf-8")
     (folder / "below").mkdir(exist_ok=True)
-    (folder / "below" / "deeper.py").write_text(HELPER)
+    (folder / "below" / "deeper.py").write_text(HELPER, encoding="utf-8")
     path = folder / "bad.py"
     functions = (f'@stiffness_model("{i}")\ndef f{i}(load):\n    {b}\n' for i, b in enumerate(body))
-    path.write_text(HEAD + "".join(functions))
+    path.write_text(HEAD + "".join(functions), encoding="utf-8")
     with Visitor(path) as visitor:
         # in one process: these do no harm
         visitor._serve = lambda offered: None
@@ -182,7 +182,9 @@ print([Called(f).call(load=load).refused for load in (2.0, 1.0)])
 
 
 def test_a_script_refuses_whatever_way_it_is_named(tmp_path):
-    (tmp_path / "script.py").write_text(SCRIPT)
+    (tmp_path / "script.py").write_text(SCRIPT, encoding="utf-8")
     for words in (["script.py"], ["-c", SCRIPT], [str(tmp_path / "script.py")]):
-        run = subprocess.run([sys.executable, *words], cwd=tmp_path, env=ENVIRONMENT, capture_output=True, text=True)
+        run = subprocess.run(
+            [sys.executable, *words], cwd=tmp_path, env=ENVIRONMENT, capture_output=True, encoding="utf-8"
+        )
         assert (run.stdout, run.stderr) == ("[True, False]\n", "")

@@ -5,7 +5,7 @@ from functools import partial
 
 from tests.planted_faults.wrong import Fault, with_math
 from tests.selection import test_own_models
-from validation.engine import others
+from validation.engine import others, read_files
 from validation.selection import own_kinds, own_models
 from validation.selection.calibration_answers import Answers
 from validation.simulation.model import ErrorEstimate
@@ -23,13 +23,13 @@ def next_scenes(answers, group):
 
 
 def code_of(visitor):
-    return others.digest_of(path for path in visitor.sources if path.suffix == ".py")
+    return read_files.digest_of(path for path in visitor.sources if path.suffix == ".py")
 
 
 FAULTS = [
     test_own_models.test_the_key_has_the_bytes_of_modules_and_data_that_a_call_reads,
     Fault("a key without the bytes of a module that the file loads").at(
-        others.Visitor, "digest", property(lambda visitor: others.digest_of([visitor.path]))
+        others.Visitor, "digest", property(lambda visitor: read_files.digest_of([visitor.path]))
     ),
     Fault("a key without the bytes of data that the file reads").at(others.Visitor, "digest", property(code_of)),
     Fault("a key that is taken before a call loads a module").at(own_models, "_probe", lambda called: None),

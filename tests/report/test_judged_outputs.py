@@ -32,7 +32,7 @@ def law(name):
 
 
 def laws(path, names, body="pass"):
-    path.write_text(LAWS.format(body=body) + "".join(f"law({name!r})\n" for name in names))
+    path.write_text(LAWS.format(body=body) + "".join(f"law({name!r})\n" for name in names), encoding="utf-8")
     return path
 
 
@@ -67,7 +67,7 @@ def test_no_result_is_lost_whatever_models_are_called(names, folders, quick, fil
     out = tmp_path / "out"
     for _ in range(2):  # a second time in the place of the first
         assert main(["judge", str(laws(file, names)), "--out", str(out)]) == 0
-        found = [json.loads((out / name / "judgement.json").read_text())["model"] for name in folders]
+        found = [json.loads((out / name / "judgement.json").read_text(encoding="utf-8"))["model"] for name in folders]
         assert found == names
     assert sorted(path.name for path in out.rglob("summary.txt")) == ["summary.txt"] * len(names)
 
@@ -102,19 +102,19 @@ def test_what_cannot_be_written_is_said_before_anything_is_judged(
     if there:
         place = tmp_path / there
         place.parent.mkdir(parents=True, exist_ok=True)
-        place.write_text("of somebody else")
+        place.write_text("of somebody else", encoding="utf-8")
     assert main(["judge", str(laws(file, ["a", "b"])), *words.split()]) == 2
     printed = capsys.readouterr()
     assert sentence in printed.err and printed.err.count("\n") == 1 and not printed.out
-    assert not there or (tmp_path / there).read_text() == "of somebody else"
+    assert not there or (tmp_path / there).read_text(encoding="utf-8") == "of somebody else"
 
 
 def test_a_file_that_is_read_only_is_not_replaced(file, tmp_path, monkeypatch, capsys):
     place = tmp_path / "a.json"
-    place.write_text("kept")
+    place.write_text("kept", encoding="utf-8")
     monkeypatch.setattr("os.access", lambda path, mode: str(path) != str(place))
     assert main(["judge", str(file), "--json", str(place)]) == 2
-    assert "got " in capsys.readouterr().err and place.read_text() == "kept"
+    assert "got " in capsys.readouterr().err and place.read_text(encoding="utf-8") == "kept"
 
 
 def test_no_control_character_and_no_formula_leaves(quick, file, tmp_path, capsys):
@@ -126,16 +126,16 @@ def test_no_control_character_and_no_formula_leaves(quick, file, tmp_path, capsy
     assert len(texts) == 7
     for text in texts:
         assert text.replace("\n", "").replace("\t", "").isprintable()
-    rows = list(csv.DictReader(page.read_text().splitlines()))
+    rows = list(csv.DictReader(page.read_text(encoding="utf-8").splitlines()))
     assert {row["model"] for row in rows} == {"'" + name}
-    assert json.loads((out / "judgement.json").read_text())["model"] == name
-    assert "\\x1b[2J" in (out / "summary.txt").read_text()
+    assert json.loads((out / "judgement.json").read_text(encoding="utf-8"))["model"] == name
+    assert "\\x1b[2J" in (out / "summary.txt").read_text(encoding="utf-8")
 
 
 def test_a_fork_is_named_and_its_answers_are_left_out(quick, file, tmp_path, capsys):
     body = "import os\n        child = os.fork()\n        if child: os.waitpid(child, 0)"
     assert main(["judge", str(laws(file, ["forks"], body)), "--json", str(tmp_path / "a.json")]) == 0
-    *points, last = json.loads((tmp_path / "a.json").read_text())["verdicts"]
+    *points, last = json.loads((tmp_path / "a.json").read_text(encoding="utf-8"))["verdicts"]
     assert [point["value"] for point in points] == [1.1523] * 2
     assert (last["quantity"], last["verdict"]) == ("forking", "failed") and "a process that it forked" in last["reason"]
     assert capsys.readouterr().out.count("forks: stiffness model") == 1
@@ -144,17 +144,17 @@ def test_a_fork_is_named_and_its_answers_are_left_out(quick, file, tmp_path, cap
 @pytest.mark.parametrize("name", ["mine.py", "helper.py", "data.txt"])
 def test_a_file_that_is_changed_while_it_is_judged_is_named(name, quick, file, tmp_path, capsys):
     """And so is what it has from its folder; nothing is said of one that is not changed."""
-    (tmp_path / "helper.py").write_text("FACTOR = 1.0\n")
-    (tmp_path / "data.txt").write_text("1.0\n")
+    (tmp_path / "helper.py").write_text("FACTOR = 1.0\n", encoding="utf-8")
+    (tmp_path / "data.txt").write_text("1.0\n", encoding="utf-8")
     body = "import helper, pathlib; pathlib.Path(__file__).with_name('data.txt').read_text()"
     assert main(["judge", str(laws(file, ["steady"], body))]) == 0
     assert "was changed" not in capsys.readouterr().out
-    text = repr(f"{(tmp_path / name).read_text()}\n# another\n")
+    text = repr(f"{(tmp_path / name).read_text(encoding='utf-8')}\n# another\n")
     body += f"; load > 1 and pathlib.Path({str(tmp_path / name)!r}).write_text({text})"
     if name == "mine.py":
         body = body.replace(text, "'# another'")
     assert main(["judge", str(laws(file, ["changes"], body)), "--json", str(tmp_path / "a.json")]) == 0
-    last = json.loads((tmp_path / "a.json").read_text())["verdicts"][-1]
+    last = json.loads((tmp_path / "a.json").read_text(encoding="utf-8"))["verdicts"][-1]
     assert (last["quantity"], last["verdict"]) == ("file", "failed")
     assert last["reason"] == f"{name} was changed while it was judged: judge it again"
 

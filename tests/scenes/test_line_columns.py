@@ -272,11 +272,11 @@ def test_files_of_other_programs_are_exported_as_one_sentence_says(tmp_path, fil
 def test_a_first_row_of_coordinates_alone_is_no_row_of_heights(tmp_path):
     heights = np.round(np.random.default_rng(4).standard_normal((64, 48)), 3)
     text = ",".join(str(float(i)) for i in range(48)) + "\n" + rows(heights, ",")
-    (tmp_path / "h.csv").write_text(text)
+    (tmp_path / "h.csv").write_text(text, encoding="utf-8")
     scene = tmp_path / "punch.toml"
     face = '[heights]\nfile = "h.csv"\nspacing = "1 um"\nunit = "um"\ncrop = true\n'
     body = 'name = "a"\n[punch]\nside = "48 um"\nload = "1 mN"\n[material]\ncontact_modulus = "1 GPa"\n'
-    scene.write_text(body + face)
+    scene.write_text(body + face, encoding="utf-8")
     ground = load_scene(scene).ground
     assert ground.edits.cropped_from == (64, 48)
     assert any("its first row runs evenly, 1 µm apart, and is left out" in note for note in ground.notes())

@@ -54,7 +54,7 @@ def folder(tmp_path_factory):
     np.save(place / "patch.npy", 2e-6 * RNG.normal(size=(400, 40)))
     nominal = (400, 315, 250, 200, 160, 125, 100, 80, 63, 50, 40, 31.5, 25, 20, 16, 12.5, 10, 8, 6.3, 5, 4)
     rows = [f"{wave},{40 if wave == 400 else 5 - i}" for i, wave in enumerate(nominal)]
-    (place / "peaks.csv").write_text("\n".join(["wavelength [mm],level [dB re 1 um]", *rows]) + "\n")
+    (place / "peaks.csv").write_text("\n".join(["wavelength [mm],level [dB re 1 um]", *rows]) + "\n", encoding="utf-8")
     for name, (scene, changes) in KINDS.items():
         text = path_of(scene).read_text(encoding="utf-8")
         for old, new in changes:

@@ -37,7 +37,7 @@ FILES = ["--json", "j.json", "--csv", "c.csv", "--figure", "f.svg"]
 def here(monkeypatch):
     """A working folder with a model, and few answers beside which it is measured."""
     with stored((PUNCH, answers())) as folder:
-        (folder / "mine.py").write_text("import validation\n" + OWN.format(name="mine", law=LAW))
+        (folder / "mine.py").write_text("import validation\n" + OWN.format(name="mine", law=LAW), encoding="utf-8")
         monkeypatch.setattr("validation.selection.compare.LONGEST_BEYOND_RANGE", 0.0)
         yield folder
 
@@ -51,7 +51,7 @@ def test_a_report_of_models_of_ones_own_is_written_and_written_again(asked, stor
     words = ["compare", "rough_punch", *ASKED[asked], *own]
     for _ in range(2):
         assert main([*words, *store, "--report", "new", *FILES]) == 0
-    found = json.loads((here / "new/comparison.json").read_text())
+    found = json.loads((here / "new/comparison.json").read_text(encoding="utf-8"))
     first = found if isinstance(found, dict) else found[0]
     assert "mine" in [model["model"] for model in first["models"]]
     assert (here / "j.json").read_bytes() == (here / "new/comparison.json").read_bytes()
@@ -75,7 +75,7 @@ def test_a_report_of_models_of_ones_own_is_written_and_written_again(asked, stor
 )
 @pytest.mark.slow
 def test_bad_input_leaves_no_folder(words, said, here, capsys):
-    (here / "broken.py").write_text("1 / 0\n")
+    (here / "broken.py").write_text("1 / 0\n", encoding="utf-8")
     before = sorted(here.rglob("*"))
     assert main(["compare", *words, "--report", "new"]) == 2
     assert said in capsys.readouterr().err
@@ -103,19 +103,19 @@ def package(here, monkeypatch):
     folder = here / "site-packages"
     about = folder / "contact_pack-1.dist-info"
     about.mkdir(parents=True)
-    (about / "METADATA").write_text("Metadata-Version: 2.1\nName: contact-pack\nVersion: 1\n")
+    (about / "METADATA").write_text("Metadata-Version: 2.1\nName: contact-pack\nVersion: 1\n", encoding="utf-8")
     (about / "entry_points.txt").write_text(
-        "[mdr_validation.models]\nseries = contact_pack.laws:theirs\nfit = contact_pack.laws\n"
+        "[mdr_validation.models]\nseries = contact_pack.laws:theirs\nfit = contact_pack.laws\n", encoding="utf-8"
     )
     (folder / "contact_pack").mkdir()
-    (folder / "contact_pack/__init__.py").write_text("")
+    (folder / "contact_pack/__init__.py").write_text("", encoding="utf-8")
     monkeypatch.syspath_prepend(folder)
     monkeypatch.setenv("PYTHONPATH", str(folder))
 
     def offers(law):
         text = "import validation\nfrom contact_pack.constants import HALF\n" + OWN.format(name="theirs", law=law)
-        (folder / "contact_pack/laws.py").write_text(text)
-        (folder / "contact_pack/constants.py").write_text("HALF = 0.48\n")
+        (folder / "contact_pack/laws.py").write_text(text, encoding="utf-8")
+        (folder / "contact_pack/constants.py").write_text("HALF = 0.48\n", encoding="utf-8")
         return folder / "contact_pack"
 
     return offers
@@ -126,12 +126,12 @@ def test_an_installed_model_is_compared_and_calibrated_by_its_name(package, here
     package(LAW)
     words = ["compare", "rough_punch", "--models-from", "series", "--models", "theirs", "--tolerance", "60%"]
     assert main([*words, "--json", "o.json"]) == 0
-    assert json.loads((here / "o.json").read_text())["model"] == "theirs"
+    assert json.loads((here / "o.json").read_text(encoding="utf-8"))["model"] == "theirs"
     assert "contact_pack" not in sys.modules
     assert main(["calibrate", "--model", "series"]) == 0
     assert "theirs" in capsys.readouterr().out
     # a file of that name goes before
-    (here / "series").write_text("1 / 0\n")
+    (here / "series").write_text("1 / 0\n", encoding="utf-8")
     assert main(words) == 2
 
 
@@ -144,12 +144,12 @@ def test_a_digest_goes_by_the_bytes_and_not_by_the_folder_of_an_entry_point(tmp_
             (after, "z.py", "2"),
         ):
             (tmp_path / folder).mkdir(exist_ok=True)
-            (tmp_path / folder / name).write_text(text)
+            (tmp_path / folder / name).write_text(text, encoding="utf-8")
         files = [tmp_path / before / "entry point 'x' (y)", tmp_path / after / "y.py", tmp_path / after / "z.py"]
         found.add(own_models.digest_of(sorted(files)))
     assert len(found) == 1
-    (tmp_path / "a/y.py").write_text("2")
-    (tmp_path / "a/z.py").write_text("1")
+    (tmp_path / "a/y.py").write_text("2", encoding="utf-8")
+    (tmp_path / "a/z.py").write_text("1", encoding="utf-8")
     assert own_models.digest_of(sorted(files)) not in found
 
 
@@ -157,10 +157,10 @@ def test_a_digest_goes_by_the_bytes_and_not_by_the_folder_of_an_entry_point(tmp_
 def test_errors_of_an_installed_model_are_kept_by_the_bytes_of_its_package(package):
     folder = package(LAW)
     first, again = (models_in("series")[0].digest for _ in range(2))
-    (folder / "constants.py").write_text("HALF = 0.5\n")
+    (folder / "constants.py").write_text("HALF = 0.5\n", encoding="utf-8")
     assert first == again != models_in("series")[0].digest
-    (folder / "of_no_use.py").write_text("OTHER = 1\n")
-    (folder / "constants.py").write_text("HALF = 0.48\n")
+    (folder / "of_no_use.py").write_text("OTHER = 1\n", encoding="utf-8")
+    (folder / "constants.py").write_text("HALF = 0.48\n", encoding="utf-8")
     assert models_in("series")[0].digest == first
 
 
@@ -171,11 +171,13 @@ def test_a_file_that_is_changed_while_its_models_are_compared_ends_the_command(h
     own = models_in(path)[0]
     target = Target(own_models.load_scene("rough_punch"), "stiffness")
     assert own.model().prepare(target, Resolution())(0)().values["stiffness"].size == 1
-    (here / "own_constants.py").write_text("HALF = 0.5\n")
+    (here / "own_constants.py").write_text("HALF = 0.5\n", encoding="utf-8")
     with pytest.raises(ChangedError, match=r"mine.py, or what it reads, was changed while its models were compared"):
         own.called()
     written(here)
-    (here / "mine.py").write_text(FILE.replace("square *", f"(open({str(path)!r}, 'a').write('#'), square)[1] *"))
+    (here / "mine.py").write_text(
+        FILE.replace("square *", f"(open({str(path)!r}, 'a').write('#'), square)[1] *"), encoding="utf-8"
+    )
     own = models_in(path)[0]
     with pytest.raises(ChangedError):
         own.model().prepare(target, Resolution())(0)()
@@ -210,8 +212,8 @@ def test_a_claim_for_one_measured_surface_has_its_scatter_about_the_mean():
 
 def test_a_file_that_is_changed_is_seen_before_it_is_called():
     tmp_path = Path(tempfile.mkdtemp())
-    (tmp_path / "mine.py").write_text("1\n")
-    (tmp_path / "data.txt").write_text("2\n")
+    (tmp_path / "mine.py").write_text("1\n", encoding="utf-8")
+    (tmp_path / "data.txt").write_text("2\n", encoding="utf-8")
     sources = tuple(sorted(tmp_path.iterdir()))
     about = {"digest": own_models.digest_of(sources), "path": tmp_path / "mine.py", "sources": sources}
     own = own_models.OwnModel("stiffness_model", "mine", (), **about)
@@ -223,7 +225,7 @@ def test_a_file_that_is_changed_is_seen_before_it_is_called():
             return str(error)
 
     assert said() is None
-    (tmp_path / "data.txt").write_text("3\n")
+    (tmp_path / "data.txt").write_text("3\n", encoding="utf-8")
     assert said() is not None
     with pytest.raises(own_models.ChangedError, match=r"mine\.py, or what it reads, was changed while its models were"):
         own.called()
