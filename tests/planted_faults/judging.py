@@ -5,12 +5,18 @@ from functools import partial
 
 import numpy as np
 
-from tests.analysis import test_judgement
+from tests.analysis import test_factors, test_independent_records, test_judgement
 from tests.planted_faults.wrong import Fault, with_math
-from tests.selection import test_judged_ends, test_judged_kinds, test_judged_stiffness
-from validation.analysis import judgement
+from tests.selection import (
+    test_judged_diagnosis,
+    test_judged_ends,
+    test_judged_kinds,
+    test_judged_stiffness,
+    test_references,
+)
+from validation.analysis import factors, independent_records, judgement
 from validation.engine import others
-from validation.selection.judging import laws, own, scaling, stiffness, sweeps
+from validation.selection.judging import held_out_solves, laws, own, repeats, scaling, stiffness, sweeps
 from validation.selection.judging.judge import ModelAnswer
 from validation.simulation.rough_punch import PlateauSpectrum
 
@@ -66,4 +72,36 @@ FAULTS = [
     ),
     test_judged_stiffness.test_realisations_have_their_mean_and_deviation_with_the_error_of_the_sample,
     Fault("realisations without the error of their sample").at(stiffness, "sampled", without_the_error_of_the_sample),
+    test_judged_ends.test_draws_that_scale_wrong_by_more_than_two_intervals_are_found,
+    Fault("a rule of scaling by ten times the interval of its draws").at(scaling, "OF_SAMPLE", 20.0),
+    partial(test_judged_kinds.test_a_right_law_is_nowhere_wrong_on_a_track_that_repeats_itself, 10.0),
+    Fault("wheels on equal pieces of a track that count as many").at(
+        laws, "independent_records", lambda records: float(len(records))
+    ),
+    partial(test_judged_kinds.test_a_wrong_law_is_wrong_on_a_track_that_repeats_itself, 0.5, 1.5, 0.1, 0.5),
+    Fault("a peak of a single record that is left open").at(laws, "PEAK", "another"),
+    test_judged_kinds.test_wheels_start_on_no_equal_pieces_of_a_track,
+    Fault("wheels that are all as far apart").at(laws, "BENDS", (0.0, 0.0)),
+    test_independent_records.test_overlapping_pieces_are_between,
+    Fault("records of which none is alike").at(independent_records, "CHANCE", 1.0),
+    test_independent_records.test_pieces_of_a_short_track_are_about_as_many_as_it_has_room_for,
+    Fault("red noise that is not whitened").at(independent_records, "NEIGHBOURS", 100001),
+    partial(test_judged_diagnosis.test_noise_is_random_without_rng, 0.05),
+    Fault("noise of ten per cent that is the same").at(repeats, "SAME", 0.5),
+    Fault("noise that is a drift").at(repeats, "MANY", 99),
+    partial(test_judged_diagnosis.test_a_counter_drifts, 1e-3),
+    Fault("a drift that is chance").at(repeats, "TREND", -1.0),
+    test_judged_diagnosis.test_arguments_are_new_objects_in_each_call,
+    Fault("arguments that calls have in common").at(repeats, "own", dict),
+    test_judged_diagnosis.test_draws_that_differ_under_any_load_are_draws,
+    Fault("draws that are equal under one load").at(stiffness, "EQUAL", 10.0),
+    partial(
+        test_factors.test_a_factor_is_named_by_what_is_commonly_forgotten,
+        0.909,
+        factors.OF_VALUES,
+        "E for E*, at nu = 0.3",
+    ),
+    Fault("a factor that no name is near").at(factors, "NEAR", 0.0),
+    test_references.test_held_out_scenes_are_none_of_the_tables,
+    Fault("held-out loads that are those of the table").at(held_out_solves, "LOADS", (0.01, 0.1)),
 ]

@@ -199,3 +199,14 @@ def test_errors_are_medians_of_the_quantity_of_their_kind():
     known = [abs(p.difference) for p in of(points, "contact filter")]
     assert own.error_of("contact_filter", points) == pytest.approx(np.median(known))
     assert math.isnan(own.error_of("contact_law", points))
+
+
+def test_draws_that_scale_wrong_by_more_than_two_intervals_are_found():
+    """Each draw has its own power of E*, whose mean is off one by 4 %; the interval of eight draws is some 1.5 %."""
+
+    def powers(load, side, modulus, rng):
+        return flat(load, side, modulus) * (modulus / 1e9) ** rng.normal(0.04, 0.012)
+
+    found = of(judged("stiffness_model", powers, by=SCALING), "scaling with the modulus")
+    assert {point.verdict for point in found} == {"differ"}
+    assert all(0.02 < point.difference < 0.07 for point in found)

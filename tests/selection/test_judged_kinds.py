@@ -329,3 +329,56 @@ def test_the_wheel_rolls_on_the_law_itself():
     assert motion.force == pytest.approx(exact, abs=1e-4 * scene.load)
     assert np.ptp(motion.path) > 0.05 * scene.approach
     assert len(calls) < 200
+
+
+# --- a law whose track repeats itself ---
+
+PLACE = 5e-5
+"""Of the tracks [m]."""
+
+
+@cache
+def hertz_on_a_track(period, factor=1.0, power=1.5):
+    """A law on one rail of that period, whose roughness is filtered by the contact; right for a factor of one."""
+    scene = laws.table_14_1()
+    rail, points = scene.rail, round(period / PLACE)
+    q = 2 * math.pi * np.fft.rfftfreq(points, PLACE)
+    ground = mdr.SelfAffine(
+        hurst=rail.hurst, q_min=2 * math.pi / rail.longest, q_max=2 * math.pi / rail.shortest, rms=rail.rms
+    )
+    c1d = np.where(q > 0, ground.c1d(np.maximum(q, 1e-9)), 0.0) * np.sinc(q * scene.contact_radius / math.pi) ** 2
+    phases = np.exp(2j * math.pi * np.random.default_rng(4).random(q.size))
+    height = np.fft.irfft(np.sqrt(2 * math.pi * c1d / period) * phases, points) * points
+    around, places = np.append(height, height[0]), PLACE * np.arange(points + 1)
+
+    def law(approach, position):
+        d = np.maximum(approach + np.interp(position % period, places, around), 0.0)
+        return factor * scene.load * (d / scene.approach) ** power
+
+    return law
+
+
+@pytest.mark.parametrize("period", [0.05, 0.5, 2.0, 10.0])
+def test_a_right_law_is_nowhere_wrong_on_a_track_that_repeats_itself(period):
+    points = judged("contact_law", hertz_on_a_track(period))
+    assert "differ" not in {p.verdict for p in points}
+    peak = of(points, laws.FEATURE, feature=laws.PEAK)[0]
+    assert peak.verdict == "agree" and "independent records: the track repeats itself" in peak.reason
+
+
+@pytest.mark.parametrize(("factor", "power", "tolerance"), [(0.5, 1.5, 0.1), (1.0, 1.0, 0.1), (1.1, 1.5, 0.01)])
+@pytest.mark.parametrize("period", [0.5, 10.0])
+def test_a_wrong_law_is_wrong_on_a_track_that_repeats_itself(factor, power, tolerance, period):
+    points = judged("contact_law", hertz_on_a_track(period, factor, power), tolerance)
+    assert verdicts(points, laws.FEATURE, feature=laws.PEAK) == {"differ"}
+
+
+def test_wheels_start_on_no_equal_pieces_of_a_track():
+    """Of any period: no two pairs of wheels are as far apart as each other."""
+    scene = laws.table_14_1()
+    starts = laws.starts(scene)
+    assert starts[0] == 0 and starts[-1] == pytest.approx(laws.FARTHEST) and (np.diff(starts) > 3).all()
+    apart = np.sort(np.abs(starts[:, np.newaxis] - starts)[np.triu_indices(laws.WHEELS, 1)])
+    assert np.diff(apart).min() > scene.spacing
+    for period in (5.0, 10.0, 20.0, 50.0):
+        assert np.unique(np.round(starts % period, 2)).size > 0.8 * laws.WHEELS

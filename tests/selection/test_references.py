@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from validation.engine.engine import SERIAL
-from validation.selection.judging import references, rolling, surfaces
-from validation.selection.judging.from_report import SOURCES, Report
+from validation.selection.judging import held_out_solves, references, rolling, surfaces
+from validation.selection.judging.from_report import HELD_OUT, SOURCES, Report
+from validation.selection.judging.held_out_solves import held_out
 from validation.selection.judging.own import ERRORS
 from validation.selection.judging.references import about, as_file, file_name, known
 from validation.selection.judging.rolling import EACH, GRIDS, HEIGHTS, LIFT, MEAN
@@ -15,7 +16,7 @@ from validation.selection.judging.surfaces import OF_SURFACE
 from validation.simulation.rolling_strip import roll_strip
 
 REPORT = Path(__file__).parents[2] / "reports" / "reference"
-SOLVED = (MEAN, EACH, LIFT, OF_SURFACE, ERRORS)
+SOLVED = (MEAN, EACH, LIFT, OF_SURFACE, ERRORS, *HELD_OUT)
 """Take solves that the report does not keep."""
 
 
@@ -104,3 +105,51 @@ def test_what_is_written_is_read_and_what_is_unknown_is_refused(tmp_path, monkey
 def test_a_folder_without_a_full_report_is_refused(tmp_path):
     with pytest.raises(ValueError, match="the folder of a full report"):
         Report(tmp_path)
+
+
+def test_held_out_faces_are_those_of_boundary_elements_on_the_finer_grid():
+    """Two of them under the heavier loads, by transforms alone."""
+    rows = [row for row in known(held_out(OF_SURFACE)) if row["Fbar"] > 0.05]
+    for face in held_out_solves.FACES[1:3]:
+        found = held_out_solves.press_face(held_out_solves.PressedFace(face, held_out_solves.FACE_CELLS))
+        stored = [row for row in rows if row.where["surface"] == str(face)]
+        for row, value in zip(stored, found["stiffness"][1:], strict=True):
+            assert value == pytest.approx(row.value, rel=1.5 * row.grid) and row.grid < 0.02
+
+
+def test_a_face_whose_waves_are_elongated_is_rougher_across_than_along():
+    """A gradient of twice the size along axis 1, on one face as on any grid."""
+    plain, elongated = (held_out_solves.HeldOutSurface(0.6, n, 0).height(192) for n in (1, 2))
+    along, across = (float(np.std(np.diff(elongated, axis=axis))) for axis in (0, 1))
+    assert across / along == pytest.approx(2.0, rel=0.1)
+    assert np.std(np.diff(plain, axis=1)) / np.std(np.diff(plain, axis=0)) == pytest.approx(1.0, rel=0.1)
+    fine = held_out_solves.HeldOutSurface(0.6, 2, 0).height(576)
+    assert fine[1::3, 1::3] == pytest.approx(elongated, abs=1e-9)
+
+
+def test_held_out_positions_are_those_of_boundary_elements_on_cells_of_two_lengths():
+    """The coarse grid is three times as far off as what the two grids leave."""
+    scene, height = held_out_solves.THIRD, held_out_solves.HEIGHTS[-1]
+    found = held_out_solves.roll_oblong(held_out_solves.OblongStrip(scene, height, GRIDS[0], by_load=False))
+    rows = [row for row in known(held_out(EACH), where=scene.where) if row["h/d"] == height]
+    left = np.array([2 * abs(row.value) * row.grid for row in rows])
+    assert np.abs(found["value"] - [row.value for row in rows]) == pytest.approx(left * 1.5, abs=2e-4)
+    assert scene.lateral == 2 and scene.surface(height, 8).shape[1] == 2 * 8 * round(held_out_solves.WIDTH)
+
+
+def test_held_out_scenes_are_none_of_the_tables():
+    table = {(row["H"], 64) for row in known("mean stiffness")}
+    assert not {(one.hurst, one.ratio) for one in held_out_solves.PUNCHES} & table
+    loads = {round(row["Fbar"], 6) for row in known("mean stiffness")}
+    assert not {round(force, 6) for force in held_out_solves.LOADS} & loads
+    assert all(scene.wheel != rolling.MAIN and scene.hurst != 0.7 for scene in held_out_solves.SCENES)
+
+
+def test_held_out_levels_are_those_of_linear_theory_on_smooth_roughness():
+    """Within their errors, which are less than half a decibel; and below it on rougher ones."""
+    for scene in held_out_solves.SCENES:
+        for row in known(held_out(rolling.RMS), where=scene.where):
+            linear = 10 * np.log10(rolling.variance_of(scene.spectrum))
+            half = row.sample + row.grid
+            assert half < 0.5
+            assert abs(row.value - linear) < half + 0.02 if row["h/d"] < 0.1 else row.value < linear

@@ -39,8 +39,8 @@ UNSIGNED = {APART.format(name) + end for name in ("force", "approach") for end i
 ALONG = FORCE, HEIGHT, SLOPE, Q, WAVE
 """Conditions along which a table has its points; a held-out point is compared with the nearest ones."""
 NEAREST, MOST, FEW, SHOWN = 0.8, 0.5, 0.2, 3
-"""Part of the nearest points of a table that must agree, of held-out points of a scene, and of all of them, that then do
-not; scenes that are listed."""
+"""Part of the nearest points of a table that must agree; part of the held-out points of a scene, and of all, that fail;
+scenes that are listed."""
 SQUARED, LOWEST = 0.15, -8.0
 """Of levels that are twice, or half of, their references: what each may be off [dB, and of the reference], and the
 lowest reference [dB]."""

@@ -21,7 +21,16 @@ from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Engine, Outcome
 from validation.engine.random_numbers import random_generator
 from validation.selection.judging.references import Reference
-from validation.selection.judging.rolling import GRIDS, HEIGHT, SLOPE, Q, Wheel, at_centres, octave, variance_of
+from validation.selection.judging.rolling import (
+    GRIDS,
+    HEIGHT,
+    SLOPE,
+    Q,
+    WheelAtApproach,
+    at_centres,
+    octave,
+    variance_of,
+)
 from validation.selection.judging.stiffness import BAND, FIRST, FORCE, H
 from validation.simulation.light_punch import press_lightly
 from validation.simulation.rolling_strip import HERTZ, SMOOTH, RoughStrip, crop_to_reach, level_3d, roll_strip
@@ -44,7 +53,7 @@ def held_out(quantity: str) -> str:
 class HeldOutScene:
     """A wheel over isotropic roughness. hurst: H; first, last: q a of the band; lateral: cells across to one along."""
 
-    wheel: Wheel
+    wheel: WheelAtApproach
     hurst: float
     first: float
     last: float
@@ -81,9 +90,11 @@ class HeldOutScene:
         return np.asarray(height * draw_surface(self.spectrum.c2d, shape=shape, spacing=spacing, rng=rng, rms=1.0))
 
 
-SECOND = HeldOutScene(wheel=Wheel(radius=0.35, contact=3e-3, modulus=9e10), hurst=0.4, first=0.5, last=8.0, lateral=1)
+SECOND = HeldOutScene(
+    wheel=WheelAtApproach(radius=0.35, contact=3e-3, modulus=9e10), hurst=0.4, first=0.5, last=8.0, lateral=1
+)
 THIRD = HeldOutScene(
-    wheel=Wheel(radius=0.2, contact=1.2e-3, modulus=2.1e11), hurst=0.55, first=0.8, last=13.0, lateral=2
+    wheel=WheelAtApproach(radius=0.2, contact=1.2e-3, modulus=2.1e11), hurst=0.55, first=0.8, last=13.0, lateral=2
 )
 SCENES = SECOND, THIRD
 HEIGHTS, OCTAVES, STRIPS, CELLS = (0.03, 0.3), tuple(math.pi / 2 ** (k / 3) for k in (4, 1, -2)), 8, (8, 16)

@@ -18,9 +18,9 @@ from validation.simulation.wheel_features import features_of
 from validation.simulation.wheel_on_springs import band_edges
 
 FEATURE, REGION = "feature of the wheel", "level of the acceleration"
-WHEELS, FARTHEST, GOLDEN, DOUBLINGS, HALVINGS = 20, 190.0, (3 - math.sqrt(5)) / 2, 12, 60
-"""Wheels that roll; where the last one starts [m]; share of a quadratic in the starts, with which no two distances
-between wheels are equal and none is a whole part of another; steps of the search for the load."""
+WHEELS, FARTHEST, BENDS, DOUBLINGS, HALVINGS = 20, 190.0, ((3 - math.sqrt(5)) / 2, math.sqrt(2) - 1.2), 12, 60
+"""Wheels that roll; where the last one starts [m]; shares of the square and the cube in the starts, with which no
+two distances between wheels are equal, and no period is in many of them; steps of the search for the load."""
 FEWEST = 4.0
 """Independent records below which their scatter is unknown: of the peak that of the reference is taken, twice."""
 PEAK = "peak ω_eigen"
@@ -65,7 +65,9 @@ def table_14_1() -> WheelScene:
 def starts(scene: WheelScene) -> FloatArray:
     """Where the wheels start [m], at whole places of a track: of any period it has few of them on equal pieces."""
     part = np.arange(WHEELS) / (WHEELS - 1)
-    return np.asarray(scene.spacing * np.rint(FARTHEST * ((1 - GOLDEN) * part + GOLDEN * part**2) / scene.spacing))
+    square, cube = BENDS
+    places = FARTHEST * ((1 - square - cube) * part + square * part**2 + cube * part**3)
+    return np.asarray(scene.spacing * np.rint(places / scene.spacing))
 
 
 def _found(model: Caller) -> tuple[list[Estimate], float]:

@@ -16,7 +16,7 @@ from validation.engine.offered import Caller, Failed
 from validation.engine.random_numbers import random_generator
 from validation.selection.judging.judge import Finding, LostError, asked, attempted, rule
 from validation.selection.judging.references import Reference, known
-from validation.selection.judging.rolling import Wheel, of_density
+from validation.selection.judging.rolling import WheelAtApproach, of_density
 from validation.selection.judging.stiffness import DEVIATION, MEAN, UNIT, AskedPunch, H, beside_punches, sampled
 from validation.theory.gauss_legendre import on_panels
 from validation.theory.rolling import force_spectrum_1d
@@ -50,7 +50,7 @@ def springs_beside(model: Caller, rows: Sequence[Reference]) -> Iterator[Finding
         yield from beside_punches(some, dict(zip(punches, answers, strict=False)))
 
 
-def density_of_rule(model: Caller, q: FloatArray, wheel: Wheel, ground: mdr.SelfAffine) -> FloatArray:
+def density_of_rule(model: Caller, q: FloatArray, wheel: WheelAtApproach, ground: mdr.SelfAffine) -> FloatArray:
     """C_F [N^2 m] of springs under a wheel, by linear theory on a profile of that rule."""
     c1d = asked(model, q=q, roughness=replace(ground))
     return force_spectrum_1d(q, lambda _: c1d, contact_radius=wheel.contact, modulus=wheel.modulus)

@@ -19,7 +19,7 @@ TREND = 0.5
 RANDOM, DRIFTING, CACHED = "random without rng", "its answers drift with the number of calls", "cached by identity"
 
 
-class Problem(NamedTuple):
+class AnsweredProblem(NamedTuple):
     """Arguments of one call, and the answer to it."""
 
     arguments: Mapping[str, Any]
@@ -32,7 +32,7 @@ class Recorded(Caller):
 
     model: Caller
     count: int = field(default=0, init=False)
-    kept: list[Problem] = field(default_factory=list, init=False)
+    kept: list[AnsweredProblem] = field(default_factory=list, init=False)
     answers: dict[bytes, set[bytes]] = field(default_factory=dict, init=False, repr=False)
     """Problems that have each answer, to the last bit."""
 
@@ -59,7 +59,7 @@ class Recorded(Caller):
                 continue
             self.answers.setdefault(answer.tobytes(), set()).add(digest)
             if problem_kept is not None and len(self.kept) <= OTHERS and self.count >= 4 ** len(self.kept):
-                self.kept.append(Problem(problem_kept, answer))
+                self.kept.append(AnsweredProblem(problem_kept, answer))
         return found
 
 
@@ -104,7 +104,7 @@ def repeated(model: Recorded) -> Repetition | None:
     return Repetition(largest, "" if largest <= SAME else cause(model, problems, answers))
 
 
-def cause(model: Recorded, problems: Sequence[Problem], answers: Sequence[FloatArray]) -> str:
+def cause(model: Recorded, problems: Sequence[AnsweredProblem], answers: Sequence[FloatArray]) -> str:
     """Random, drifting, or cached: an answer that is that of another problem to the last bit."""
     first = problems[0].answer
     of_first = [answers[0], *answers[-(TIMES - 1) :]]

@@ -44,7 +44,7 @@ HEIGHTS, GRIDS, ALONG, ACROSS, SEED = (0.03, 0.1, 0.3), (8, 24), 32.0, 16.0, 351
 
 
 @dataclass(frozen=True)
-class Wheel:
+class WheelAtApproach:
     """A wheel at a prescribed approach d = a^2 / R.
 
     radius: R [m]; contact: a, the contact radius of the smooth wheel [m]; modulus: E* [Pa].
@@ -73,10 +73,10 @@ class Wheel:
         return f"R = {self.radius:g} m, a = {1e3 * self.contact:g} mm, E* = {self.modulus / 1e9:g} GPa"
 
 
-MAIN = Wheel()
+MAIN = WheelAtApproach()
 """That of the tables."""
 SMOOTH_WHEEL = MAIN.arguments
-Density = Callable[[FloatArray, Wheel, mdr.SelfAffine], FloatArray]
+Density = Callable[[FloatArray, WheelAtApproach, mdr.SelfAffine], FloatArray]
 """Two-sided C_F(q) of the force on a wheel over roughness [N^2 m]."""
 
 
@@ -150,7 +150,7 @@ def ground_of(height: float) -> mdr.SelfAffine:
     return mdr.SelfAffine(hurst=settings["hurst"], q_min=first, q_max=last, rms=height * APPROACH)
 
 
-def over(q: FloatArray, ground: mdr.SelfAffine, wheel: Wheel = MAIN) -> dict[str, Any]:
+def over(q: FloatArray, ground: mdr.SelfAffine, wheel: WheelAtApproach = MAIN) -> dict[str, Any]:
     """What a spectrum may ask for; the roughness is a new object in each call."""
     return {"q": q, "roughness": replace(ground), "contact_radius": wheel.contact, **wheel.arguments}
 
@@ -164,7 +164,7 @@ def _of_table(density: Density, height: float) -> FloatArray:
 
 def levels_of_density(
     density: Callable[[FloatArray], FloatArray],
-    wheel: Wheel,
+    wheel: WheelAtApproach,
     height: float,
     settings: Mapping[str, Any],
     centres: Sequence[float],
@@ -223,7 +223,12 @@ def _each(model: Caller) -> str:
 
 
 def position_by_position(
-    model: Caller, rows: Sequence[Reference], found: FloatArray | Failed, wheel: Wheel, where: Conditions, of: str = ""
+    model: Caller,
+    rows: Sequence[Reference],
+    found: FloatArray | Failed,
+    wheel: WheelAtApproach,
+    where: Conditions,
+    of: str = "",
 ) -> Finding:
     """The rms of what boundary elements fluctuate beside the same with the rms of what is apart added.
 
@@ -251,7 +256,7 @@ def _rolled(model: Caller, surface: FloatArray, cells: int) -> FloatArray:
     return asked(model, **on(surface, cells))
 
 
-def on(surface: FloatArray, cells: int, wheel: Wheel = MAIN, lateral: int = 1) -> dict[str, Any]:
+def on(surface: FloatArray, cells: int, wheel: WheelAtApproach = MAIN, lateral: int = 1) -> dict[str, Any]:
     """What it may ask for, of a strip in units of a and d, in metres; lateral: cells across to one along."""
     height, line = (
         wheel.approach * one for one in (crop_to_reach(surface, 1 / (lateral * cells)), middle_line(surface))
