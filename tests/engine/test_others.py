@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 
 from validation import stiffness_model, stiffness_of_surface
+from validation.engine import read_files
 from validation.engine.offered import Failed
 from validation.engine.others import Called, OthersError, Visitor, offered_in, visited
+from validation.engine.read_files import digest_of
 
 FACE = "from validation import stiffness_model, stiffness_of_surface\n"
 BAD = {
@@ -226,3 +228,22 @@ def test_only_decorated_functions_and_files_are_judged():
         visited(len),
     ):
         pass
+
+
+def test_a_digest_tells_files_whose_contents_are_exchanged(tmp_path):
+    first, second = written(tmp_path, "1", "a.py"), written(tmp_path, "2", "b.py")
+    before = digest_of([first, second])
+    first.write_text("2")
+    second.write_text("1")
+    assert digest_of([first, second]) != before
+
+
+def test_installed_packages_below_the_folder_of_a_file_are_no_part_of_it(tmp_path, monkeypatch):
+    """An environment may lie there."""
+    names = ("mine.py", "data.txt", "env/lib/site-packages/pack/data.txt", "__pycache__/mine.pyc")
+    for name in names:
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        written(tmp_path, "1", name)
+        os.utime(tmp_path / name, (1e9, 1e9))
+    monkeypatch.setattr(read_files, "OPENED", {tmp_path / name for name in names})
+    assert [path.name for path in read_files.sources_of(tmp_path / "mine.py")] == ["data.txt", "mine.py"]
