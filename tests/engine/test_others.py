@@ -247,3 +247,24 @@ def test_installed_packages_below_the_folder_of_a_file_are_no_part_of_it(tmp_pat
         os.utime(tmp_path / name, (1e9, 1e9))
     monkeypatch.setattr(read_files, "OPENED", {tmp_path / name for name in names})
     assert [path.name for path in read_files.sources_of(tmp_path / "mine.py")] == ["data.txt", "mine.py"]
+
+
+WRITES = """
+from pathlib import Path
+SCRATCH = Path(__file__).with_name("scratch.txt")
+@stiffness_model("writes")
+def writes(load):
+    SCRATCH.write_text(str(load))
+    return load
+@stiffness_model("reads")
+def reads(load):
+    return float(SCRATCH.read_text())
+"""
+
+
+def test_what_one_function_of_a_file_has_written_is_no_data_of_the_next_one(tmp_path):
+    """Which has a later process."""
+    with Visitor(written(tmp_path, FACE + WRITES)) as visitor:
+        writes, reads = visitor.callers()
+        assert (writes.call(load=2.0), reads.call(load=1.0)) == (2.0, 2.0)
+        assert [path.name for path in visitor.sources] == ["bad.py"] and not reads.changed
