@@ -262,12 +262,13 @@ def test_a_figure_of_a_solver_has_seconds_over_cells_of_both(monkeypatch):
 def test_what_is_no_number_is_null_and_one_answer_is_enough():
     lost = not_compared("k", {"Fbar": 1.0}, "failed", "no number")
     point = compared("k", {"Fbar": 2.0}, 2.0, 2.0, 0.0, 0.1)
-    found = judged.Judgement("mine", "stiffness_model", judged.tolerance_of(0.1), (lost, point), 1.0)
-    first, second = found.as_dict()["verdicts"]
+    other = replace(point, where={"Fbar": 3.0})
+    found = judged.Judgement("mine", "stiffness_model", judged.tolerance_of(0.1), (lost, point, other), 1.0)
+    first, second, _ = found.as_dict()["verdicts"]
     assert first["value"] is first["difference"] is None and second["value"] == 2.0
     assert found.answered and not replace(found, verdicts=(lost,)).answered
     ranges = [(some["from"], some["to"], some["verdict"]) for some in found.as_dict()["enough"]]
-    assert ranges == [(1.0, 1.0, "failed"), (2.0, 2.0, "agree")]
+    assert ranges == [(1.0, 1.0, "failed"), (2.0, 3.0, "agree")]
 
 
 @pytest.mark.parametrize("verdict", ["differ", "failed", "refused"])
