@@ -9,10 +9,12 @@ import threading
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+import numpy as np
 import pytest
 
 from validation.__main__ import main
-from validation.engine.files import ERRORS_OF_A_PATH, write_given, write_whole
+from validation.engine import stored
+from validation.engine.files import ERRORS_OF_A_PATH, read_plain, write_given, write_whole
 
 
 @pytest.fixture
@@ -137,3 +139,23 @@ def test_every_option_that_names_a_file_follows_a_link(tmp_path):
     main(words)
     for link in (path for path in tmp_path.iterdir() if not path.name.startswith("real-")):
         assert link.is_symlink() and link.stat().st_size > 100
+
+
+def test_a_link_is_not_read_as_a_plain_file(tmp_path):
+    (tmp_path / "real").write_bytes(b"it")
+    (tmp_path / "link").symlink_to("real")
+    assert read_plain(tmp_path / "real") == b"it"
+    with pytest.raises(OSError):
+        read_plain(tmp_path / "link")
+
+
+def test_a_stored_result_is_known_by_its_seal_alone(tmp_path):
+    """Whatever reads the archive would not see it."""
+    path = tmp_path / "it.npz"
+    stored.save(path, "key", {"value": np.arange(3.0)})
+    whole = path.read_bytes()
+    assert stored.load(path, "key")["value"].tolist() == [0.0, 1.0, 2.0] and stored.load(path, "other") is None
+    path.write_bytes(whole[:-1] + bytes([whole[-1] ^ 1]))
+    assert stored.load(path, "key") is None
+    stored.forget({path: "key"})
+    assert path.exists()

@@ -98,7 +98,7 @@ HARMFUL = {
     "return [bytes(10**9) for n in range(10**6)]": "raised MemoryError, line",
     "return (n for n in iter(int, 1))": "returned generator, must be real numbers",
     "return np.broadcast_to(load, (10**7,) * 2)": "returned shape (10000000, 10000000), must be one number or (2,)",
-    "np.isfinite = lambda x: x * 0 == 0; return float('nan')": "returned NaN or infinity",
+    "np.isfinite = lambda x: np.ones(np.shape(x), bool); return float('nan')": "returned NaN or infinity",
     "return type('A', (), {'__array__': lambda s, *a, **k: 1 / 0})()": "returned A, whose numbers cannot be read: Zer",
     "raise type('E', (Exception,), {'__str__': lambda s: 1 / 0})": "raised E, line",
     "raise ValueError(chr(0xdc80))": "raised ValueError: \udc80, line",

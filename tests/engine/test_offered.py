@@ -1,8 +1,12 @@
 """What a function may ask for: every other argument is refused in a sentence that lists those that it can have."""
 
+from importlib.metadata import EntryPoint
+from pathlib import Path
+
 import pytest
 
 import validation
+from validation.engine import installed
 from validation.engine.named import named_in
 from validation.engine.offered import KINDS
 
@@ -119,3 +123,14 @@ def test_a_function_is_named_by_its_file_and_kind(tmp_path):
             named_in(f"{path}:{name}", "contact_solver")
     with pytest.raises(ValueError, match="there is no file"):
         named_in(f"{tmp_path}/nothing.py:rule", "profile_spectrum")
+
+
+def test_a_file_comes_before_what_a_package_offers_under_its_name(tmp_path, monkeypatch):
+    entry = EntryPoint("mine", "pack.models:series", installed.GROUP)
+    monkeypatch.setattr(installed, "installed", lambda: {"mine": entry})
+    monkeypatch.chdir(tmp_path)
+    with installed.file_of("mine") as path:
+        assert path.read_text() == "from pack.models import series\n" and path.name.startswith(installed.ENTRY)
+    (tmp_path / "mine").touch()
+    with installed.file_of("mine") as path:
+        assert path == Path("mine")

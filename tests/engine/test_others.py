@@ -8,8 +8,10 @@ import pytest
 
 from tests.engine.toys import HANG
 from validation import stiffness_model, stiffness_of_surface
+from validation.engine import read_files
 from validation.engine.offered import Failed
 from validation.engine.others import Called, OthersError, Visitor, offered_in, visited
+from validation.engine.read_files import digest_of
 
 FACE = "from validation import stiffness_model, stiffness_of_surface\n"
 BAD = {
@@ -231,3 +233,43 @@ def test_only_decorated_functions_and_files_are_judged():
         visited(len),
     ):
         pass
+
+
+def test_a_digest_tells_files_whose_contents_are_exchanged(tmp_path):
+    first, second = written(tmp_path, "1", "a.py"), written(tmp_path, "2", "b.py")
+    before = digest_of([first, second])
+    first.write_text("2")
+    second.write_text("1")
+    assert digest_of([first, second]) != before
+
+
+def test_installed_packages_below_the_folder_of_a_file_are_no_part_of_it(tmp_path, monkeypatch):
+    """An environment may lie there."""
+    names = ("mine.py", "data.txt", "env/lib/site-packages/pack/data.txt", "__pycache__/mine.pyc")
+    for name in names:
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        written(tmp_path, "1", name)
+        os.utime(tmp_path / name, (1e9, 1e9))
+    monkeypatch.setattr(read_files, "OPENED", {tmp_path / name for name in names})
+    assert [path.name for path in read_files.sources_of(tmp_path / "mine.py")] == ["data.txt", "mine.py"]
+
+
+WRITES = """
+from pathlib import Path
+SCRATCH = Path(__file__).with_name("scratch.txt")
+@stiffness_model("writes")
+def writes(load):
+    SCRATCH.write_text(str(load))
+    return load
+@stiffness_model("reads")
+def reads(load):
+    return float(SCRATCH.read_text())
+"""
+
+
+def test_what_one_function_of_a_file_has_written_is_no_data_of_the_next_one(tmp_path):
+    """Which has a later process."""
+    with Visitor(written(tmp_path, FACE + WRITES)) as visitor:
+        writes, reads = visitor.callers()
+        assert (writes.call(load=2.0), reads.call(load=1.0)) == (2.0, 2.0)
+        assert [path.name for path in visitor.sources] == ["bad.py"] and not reads.changed

@@ -2,7 +2,9 @@
 
 import csv
 import json
+import math
 import re
+from dataclasses import replace
 
 import pytest
 
@@ -10,6 +12,7 @@ import validation
 from tests.report.test_judge_command import RIGHT, broken, pointed
 from validation.__main__ import main
 from validation.analysis.judgement import compared, not_compared
+from validation.benchmarks.judging.judged import SolverTime
 from validation.engine.others import Called
 from validation.report import judged
 from validation.report.judged_figure import figure_of, left_out
@@ -205,3 +208,71 @@ def test_a_model_of_a_user_has_a_marker_of_its_own_and_a_name_in_the_legend(name
     labels += [text.get_text() for text in axes.texts]
     expected = {"springs": "springs (this model)", "_mine": " _mine"}.get(name, name)
     assert sorted(labels) == sorted([expected, "springs"])
+
+
+def axes_of(found, monkeypatch):
+    figures = []
+    monkeypatch.setattr("validation.report.judged_figure.picture", lambda figure, form: figures.append(figure))
+    figure_of([found], "svg")
+    return [axis for axis in figures[0].axes if axis.lines or axis.patches]
+
+
+@pytest.mark.parametrize(
+    ("unit", "values", "label", "shown", "within"),
+    [
+        ("-", [2.0, 2.2, 1.0], "off the reference [%]", [0.0, 10.0, -50.0], 10.0),
+        ("dB", [2.0, 5.0, 1.0], "off the reference [dB]", [0.0, 3.0, -1.0], 20 * math.log10(1.1)),
+    ],
+)
+def test_a_figure_has_the_points_and_the_tolerance_on_the_axes_that_it_names(
+    unit, values, label, shown, within, monkeypatch
+):
+    places = [{"H": 0.7, "Fbar": x} for x in (1.0, 10.0, 99.0)]
+    known = zip(places, values, strict=True)
+    points = tuple(compared("k", where, value, 2.0, 0.05, 0.1, unit=unit) for where, value in known)
+    costs = (ErrorOfCall("mine", 0.25, unit, 1e-3), ErrorOfCall("springs", 0.5, unit, 1e-2))
+    found = judged.Judgement("mine", "stiffness_model", judged.tolerance_of(0.1), points, 1.0, costs=costs)
+    differences, seconds = axes_of(found, monkeypatch)
+    assert (differences.get_xlabel(), " ".join(differences.get_ylabel().split())) == ("Fbar", label)
+    (line,) = [line for line in differences.lines if len(line.get_xdata()) == 3]
+    assert line.get_xdata().tolist() == [1.0, 10.0, 99.0] and line.get_ydata() == pytest.approx(shown)
+    shade = differences.patches[0].get_extents().transformed(differences.transData.inverted())
+    assert (shade.y0, shade.y1) == pytest.approx((-within, within))
+    assert (seconds.get_xlabel(), " ".join(seconds.get_ylabel().split())) == (
+        "seconds of a call",
+        f"median error [{label.partition('[')[2]}",
+    )
+    places = [(line.get_xdata()[0], line.get_ydata()[0]) for line in seconds.lines if len(line.get_xdata()) == 1]
+    factor = 100 if unit == "-" else 1
+    assert places == [(1e-3, pytest.approx(0.25 * factor)), (1e-2, pytest.approx(0.5 * factor))]
+
+
+def test_a_figure_of_a_solver_has_seconds_over_cells_of_both(monkeypatch):
+    times = (SolverTime(32.0, 0.1, 0.2), SolverTime(64.0, 0.4, 0.6))
+    found = judged.Judgement("bem3d", "contact_solver", judged.tolerance_of(0.1), (RIGHT,), 1.0, times=times)
+    (axis,) = axes_of(found, monkeypatch)
+    assert (axis.get_xlabel(), axis.get_ylabel()) == ("cells on a side", "seconds")
+    drawn = {tuple(line.get_ydata()) for line in axis.lines if len(line.get_xdata()) == 2}
+    assert drawn >= {(0.1, 0.4), (0.2, 0.6)}
+    assert "in its time grows" not in found.summary() and "32²         0.1 s      0.5 times" in found.summary()
+    # 4 times the cells take 4 times as long, and 3 times
+    assert "power 1, that of bem3d 0.79" in found.summary()
+
+
+def test_what_is_no_number_is_null_and_one_answer_is_enough():
+    lost = not_compared("k", {"Fbar": 1.0}, "failed", "no number")
+    point = compared("k", {"Fbar": 2.0}, 2.0, 2.0, 0.0, 0.1)
+    other = replace(point, where={"Fbar": 3.0})
+    found = judged.Judgement("mine", "stiffness_model", judged.tolerance_of(0.1), (lost, point, other), 1.0)
+    first, second, _ = found.as_dict()["verdicts"]
+    assert first["value"] is first["difference"] is None and second["value"] == 2.0
+    assert found.answered and not replace(found, verdicts=(lost,)).answered
+    ranges = [(some["from"], some["to"], some["verdict"]) for some in found.as_dict()["enough"]]
+    assert ranges == [(1.0, 1.0, "failed"), (2.0, 3.0, "agree")]
+
+
+@pytest.mark.parametrize("verdict", ["differ", "failed", "refused"])
+def test_a_solver_is_wrong_by_whatever_decides_and_does_not_agree(verdict):
+    point = replace(RIGHT, verdict=verdict)
+    found = judged.Judgement("mine", "contact_solver", judged.tolerance_of(0.1), (RIGHT, point), 1.0)
+    assert found.wrong and not replace(found, verdicts=(RIGHT, replace(point, decides=False))).wrong
