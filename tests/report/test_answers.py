@@ -24,7 +24,7 @@ from validation.cases.wheel.features import LEVEL as LEVEL_OF_WHEEL
 from validation.cases.wheel.half_space import GEIKE, OVER_BEM
 from validation.report.answers import seconds
 from validation.report.answers.first_screen import answered_questions, from_to, plain
-from validation.report.answers.questions import in_decibels, per_cent, times
+from validation.report.answers.questions import QUESTIONS, in_decibels, per_cent, times
 from validation.report.answers.strip import Cell, span
 from validation.report.contents import CASES, TIMED
 from validation.report.section import Section, case_results
@@ -248,6 +248,54 @@ def test_a_report_without_any_of_the_cases_has_no_rows():
 
 
 # --- every row finds its numbers ---
+
+OF_SPRINGS = "springs over boundary elements"
+SOURCES = {
+    "mean-stiffness": ("fractal_punch", "mean stiffness", OF_SPRINGS, "Fbar"),
+    "scatter": ("fractal_punch", "relative deviation", OF_SPRINGS, "Fbar"),
+    "area-and-gap": ("interface", ("contact fraction", "mean gap"), OF_SPRINGS, "contact in Persson's theory [%]"),
+    "roll-off": ("interface", "stiffness", OF_SPRINGS, "contact in Persson's theory [%]"),
+    "rolling-rms": ("rolling", "rms force", OF_SPRINGS, "h' a/d"),
+    "rolling-spectrum": ("rolling", "rms of level of an octave", OF_SPRINGS, "h' a/d"),
+    "contact-filter": ("across", "A3 over that of boundary elements", "linear, on the line", "across"),
+    "dynamic-wheel": ("wheel_3d", "level", "springs, Geike's rule over boundary elements", "range"),
+}
+INSTEAD = {
+    ("mean-stiffness", "the fit"): ("fractal_punch", "mean stiffness", "fit"),
+    ("rolling-rms", "linear filter, 3D"): ("rolling", "rms force", "linear filter, 3D over boundary elements"),
+    ("rolling-spectrum", "linear filter, 3D"): (
+        *("rolling", "rms of level of an octave", "linear filter, 3D over boundary elements"),
+    ),
+    ("rolling-spectrum", "boundary elements, 4 cells"): (
+        "reduced_models",
+        "rms over octaves of the level over boundary elements",
+        "boundary elements, 1/3 of the cells",
+    ),
+    ("contact-filter", "linear, ellipse"): ("across", "A3 over that of boundary elements", "linear, ellipse"),
+    ("contact-filter", "spring bed"): ("across", "A3 over that of boundary elements", "spring bed wider by 2/√3"),
+    ("dynamic-wheel", "linear filter, 3D"): ("wheel_3d", "level", "linear filter, 3D over boundary elements"),
+    ("dynamic-wheel", "on a rail"): (
+        "rail_dynamic",
+        "rms of filter in motion, of two models",
+        "springs that read the surface over boundary elements",
+    ),
+}
+
+
+def test_a_question_is_answered_by_the_quantity_that_it_asks_for_and_so_is_what_else_is_offered():
+    """By the names in the data, written out."""
+    sources = {question.name: question.source for question in QUESTIONS}
+    assert {name: (one.case, one.quantity, one.model, one.axis) for name, one in sources.items()} == SOURCES
+    offered = {
+        key: (other.source.case, other.source.quantity, other.source.model)
+        for question in QUESTIONS
+        for other in question.instead
+        if other.source
+        for key in INSTEAD
+        if key[0] == question.name and other.name.startswith(key[1])
+    }
+    assert offered == INSTEAD
+    assert sum(other.source is not None for question in QUESTIONS for other in question.instead) == len(INSTEAD)
 
 
 def rolling(quantity, model, value, half=0.1):

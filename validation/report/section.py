@@ -20,7 +20,8 @@ from validation.analysis.evidence import (
 )
 
 PREDICTED = "predicted before a solve, for a single surface and not for ensemble means"
-"""What the model of a case is that it needs by the a-priori error estimates: no answer of the page."""
+STATED = "stated by the case"
+"""What the model is that a case needs, by the a-priori error estimates or by itself: no answer of the page."""
 FIRST_WORDS = 10
 """Of a claim, by which it is found."""
 
@@ -130,7 +131,7 @@ def case_results(section: Section) -> dict[str, object]:
         ],
         "answers": section.entry.answers,
         "model needed": section.needed,
-        "model needed is": PREDICTED,
+        "model needed is": PREDICTED if callable(section.entry.needs) else STATED,
         "settings": section.settings,
         "numbers": [
             {
