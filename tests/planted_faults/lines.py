@@ -6,16 +6,14 @@ from functools import partial
 import numpy as np
 
 from tests.planted_faults.wrong import Fault
-from tests.scenes import test_exported_tables, test_line_columns, test_line_outliers
+from tests.scenes import test_line_columns, test_line_outliers
 from validation.scenes import (
-    column_names,
     line_columns,
     line_edits,
     line_outliers,
     line_steps,
     number_table,
     table_files,
-    text_dialect,
 )
 from validation.scenes.line_edits import EditedLine, LineEdits
 from validation.scenes.roughness_levels import RoughnessLevels
@@ -48,10 +46,6 @@ FAULTS = [
     Fault("roughness taken for spikes").at(line_outliers, "STANDS_OUT", 3.0),
     partial(test_line_outliers.test_clean_lines_have_no_outliers, "corrugated in part", 0.0),
     Fault("one scale of a line of two grounds").at(line_outliers, "STRETCH", 1e3),
-    partial(test_line_outliers.test_clean_lines_have_no_outliers, "rail", 1.0),
-    Fault("a step of the sensor taken for a spike").at(line_outliers, "STEP_OF_SENSOR", 0.01),
-    partial(test_line_outliers.test_clean_lines_have_no_outliers, "H = 1.0, smooth", 1.0),
-    Fault("a crest taken for a sensor that stands still").at(line_steps, "OF_USUAL", 0.0),
     partial(test_line_outliers.test_all_that_is_planted_is_found_where_it_is, "spikes"),
     Fault("spikes that nobody finds").at(line_outliers, "STANDS_OUT", 100.0),
     partial(test_line_outliers.test_all_that_is_planted_is_found_where_it_is, "wide pits"),
@@ -78,13 +72,13 @@ FAULTS = [
     Fault("errors of the wheel left out of the sum").at(
         RoughnessLevels, "_powers_of_errors", property(lambda levels: 0 * levels.powers)
     ),
-    partial(test_line_columns.test_a_dead_line_is_left_out_with_its_position, "a constant"),
+    test_line_columns.test_positions_of_dead_lines_go_with_them,
     Fault("positions of the first lines for those that are left").at(
         line_columns, "_positions_of", positions_without_the_last
     ),
-    partial(test_line_columns.test_a_dead_line_is_left_out_with_its_position, "noise"),
+    test_line_columns.test_noise_beside_rough_lines_is_no_line,
     Fault("noise of a sensor taken for roughness").at(line_columns, "noise_among", lambda lines: []),
-    test_line_columns.test_a_first_row_of_positions_is_no_row_of_heights,
+    test_line_columns.test_positions_in_a_first_row_are_no_point,
     Fault("a row of positions read as a point").at(
         line_columns, "_without_first_row", lambda numbers, given: (numbers, ())
     ),
@@ -94,22 +88,12 @@ FAULTS = [
     ),
     test_line_columns.test_a_value_is_no_data_where_it_is_far_from_all_others_alone,
     Fault("a large height taken for no data").at(number_table, "LONELY", 0.0),
-    partial(test_line_columns.test_a_column_is_named_as_the_file_has_it_or_without_its_unit, "Höhe [µm]"),
-    Fault("names of columns without their units alone").at(
-        column_names.Column, "is_called", lambda column, name: name.casefold() == column.name.casefold()
-    ),
-    partial(test_line_columns.test_time_stamps_are_named_with_keys_that_can_be_pasted, "", "ISO"),
-    Fault("time stamps that are no times").at(text_dialect, "TIME", text_dialect.COMMA),
-    partial(test_exported_tables.test_one_sign_that_may_be_either_asks_for_the_decimal_sign, "1,234", "."),
-    Fault("any comma before three digits taken for thousands").at(
-        text_dialect.Dialect,
-        "without_thousands",
-        lambda way, text: text.replace("," if way.decimal == "." else ".", ""),
-    ),
-    test_line_columns.test_the_error_of_a_filter_has_what_outliers_leave,
+    test_line_outliers.test_no_filter_has_less_error_than_its_lines,
     Fault("a filter without the error of its lines").at(
         rail_quantity.RailQuantity, "left_by_faults", property(lambda asked: np.zeros(len(asked.bands)))
     ),
-    test_line_columns.test_nothing_is_within_a_tolerance_on_clipped_lines,
+    partial(test_line_outliers.test_lines_of_which_too_much_is_gone_have_no_error, "below"),
     Fault("clipping that is forgiven").at(line_edits, "MOST_CLIPPED", 1.0),
+    test_line_columns.test_seconds_since_1970_are_no_places,
+    Fault("times taken for places").at(line_columns, "EPOCH", (0.0, 0.0)),
 ]

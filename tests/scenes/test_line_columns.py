@@ -8,6 +8,7 @@ import pytest
 from tests.scenes.test_exported_tables import columns, in_memory, line_of, rail_with, refused, rows, told
 from tests.scenes.test_line_outliers import rail
 from validation.analysis.nominal_bands import NominalBands
+from validation.scenes.line_columns import along_the_track
 from validation.scenes.load import load_scene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_surface import measured
@@ -63,6 +64,32 @@ def test_one_line_of_noise_is_no_line_that_others_show_to_be_dead(tmp_path):
     noise = np.round(np.random.default_rng(2).standard_normal((2, POINTS)), 3)
     scene = rail_with(tmp_path, "lines", columns("", *noise), *with_positions(0, 5))
     assert scene.roughness.height.shape == (POINTS, 2)
+
+
+# Without a file
+
+
+def lines_of(*values, header="", positions=None):
+    return along_the_track(in_memory(columns(header, *values)), metre=1e-6, spacing=1e-3, positions=positions)
+
+
+def test_positions_of_dead_lines_go_with_them():
+    found = lines_of(LINES[0], np.full(POINTS, 3.25), LINES[1], positions=[-0.01, 0.0, 0.01])
+    assert list(found.positions) == [-0.01, 0.01] and found.height == pytest.approx(1e-6 * LINES[:2].T)
+
+
+def test_noise_beside_rough_lines_is_no_line():
+    found = lines_of(LINES[0], DEAD["noise"][0], LINES[1], positions=[-0.01, 0.0, 0.01])
+    assert found.height.shape == (POINTS, 2) and list(found.positions) == [-0.01, 0.01]
+
+
+def test_positions_in_a_first_row_are_no_point():
+    found = lines_of(*np.concatenate([[[-10.0], [-5.0], [0.0]], LINES], axis=1), positions=[-0.01, -0.005, 0.0])
+    assert found.height == pytest.approx(1e-6 * LINES.T)
+
+
+def test_seconds_since_1970_are_no_places():
+    assert any("has time stamps" in note for note in lines_of(1714730400000 + AT, Z).notes)
 
 
 # Rows and columns of places

@@ -1,14 +1,17 @@
 """Spikes, pits, dropouts, steps, runs and clipping of measured lines: found, named, replaced, and the error left."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from validation.analysis.nominal_bands import NominalBands
 from validation.scenes.line_edits import EditedLine, LineEdits, edited
+from validation.scenes.load import load_scene
 from validation.scenes.measured_lines import MeasuredLines
 from validation.scenes.roughness_levels import RoughnessLevels
+from validation.simulation.rail_quantity import RailQuantity
 
 POINTS, UM = 12000, 1e-6
 """Of a line at 1 mm."""
@@ -320,6 +323,15 @@ def test_errors_are_cut_and_added_with_their_levels():
     assert (plain + plain).errors == () and one.raised(3.0).errors == one.errors
     with pytest.raises(ValueError, match="errors must be none or one a level"):
         RoughnessLevels.of_powers(bands, [1e-12] * 3, source="", errors=(1.0,))
+
+
+def test_no_filter_has_less_error_than_its_lines():
+    """Which is added linearly to that of what lies across."""
+    height, _ = changed(spikes, 21)
+    of_lines = lines(height, "keep")
+    scene = replace(load_scene("rail"), roughness=of_lines, across="ridges")
+    left = RailQuantity(scene, "contact-filter").left_by_ground
+    assert (left >= np.array(of_lines.levels.errors)).all() and left.max() > 3
 
 
 def test_a_line_may_keep_its_tilt_or_its_mean():

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from validation.analysis.statistics import FloatArray
 
 STANDS_OUT = 6.5
-"""Prominence of an outlier over the scale of the line. The largest of 432 clean lines of 15000 points is 5.1: smooth,
+"""Prominence of an outlier over the scale of the line. The largest of 420 clean lines of 15000 points is 5.1: smooth,
 rough, corrugated, of Hurst exponents 0.3 to 1, as they are and rounded to 0.1 and 1 um."""
 DISTANCES = 1e-3 * np.array([1, 2, 3, 4, 6, 8, 12, 16, 24, 32])
 """To both sides [m]: wider than the last is a wave, and no outlier."""
