@@ -8,6 +8,7 @@ import signal
 import sys
 import tempfile
 from contextlib import suppress
+from functools import partial
 from importlib.machinery import SourceFileLoader
 from pathlib import Path
 from typing import IO
@@ -16,6 +17,7 @@ from validation.engine.channel import Channel
 from validation.engine.offered import DECORATED, KINDS, Offered
 from validation.engine.read_files import OPENED, sources_of, watch_opened
 from validation.engine.replies import SHOWN, called, has_forked, raised
+from validation.engine.termination import end_after
 
 SERVING: list[Path] = []
 """The file whose functions this process has, where it is the other one."""
@@ -70,13 +72,15 @@ def serve(handle: int, life: int, begun: float) -> None:
 
 
 def _end_with(life: int) -> None:
-    """The system kills this process and those that it starts where the other end of the pipe is closed, as by a kill
-    of the process that asks; but for macOS, which has no such signal."""
-    if hasattr(fcntl, "F_SETSIG"):
-        with suppress(OSError):
-            fcntl.fcntl(life, fcntl.F_SETOWN, -os.getpgrp())
-            fcntl.fcntl(life, fcntl.F_SETSIG, signal.SIGKILL)
-            fcntl.fcntl(life, fcntl.F_SETFL, fcntl.fcntl(life, fcntl.F_GETFL) | os.O_ASYNC)
+    """This process and those that it starts end where the other end of the pipe is closed, as by a kill of the process
+    that asks: the system kills them, or where it has no such signal, as on macOS, a thread that waits."""
+    if not hasattr(fcntl, "F_SETSIG"):
+        end_after(partial(os.read, life, 1))
+        return
+    with suppress(OSError):
+        fcntl.fcntl(life, fcntl.F_SETOWN, -os.getpgrp())
+        fcntl.fcntl(life, fcntl.F_SETSIG, signal.SIGKILL)
+        fcntl.fcntl(life, fcntl.F_SETFL, fcntl.fcntl(life, fcntl.F_GETFL) | os.O_ASYNC)
 
 
 def _printed(file: IO[bytes], place: os.stat_result) -> str:
