@@ -62,3 +62,8 @@ def test_a_factor_of_no_origin_has_no_name():
 def test_two_origins_that_are_as_near_are_both_named():
     """9/8 and 2/sqrt(pi)."""
     assert "nu = 1/3" in named(1.126, 1e-3, OF_VALUES) and "circular punch" in named(1.126, 1e-3, OF_VALUES)
+
+
+def test_a_factor_of_less_than_two_per_cent_is_none():
+    assert common_factor(np.full(40, 1.015), np.full(40, 1e-3)) is None
+    assert common_factor(np.full(40, 1.025), np.full(40, 1e-3)) is not None

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from validation.analysis.independent_records import independent_records, widened
+from validation.analysis.independent_records import half_width, independent_records
 from validation.analysis.statistics import Estimate, student
 
 POINTS = 4096
@@ -59,5 +59,6 @@ def test_the_interval_of_a_mean_of_repeated_values_is_that_of_the_values_without
     repeated = np.repeat(values, 5)
     plain = Estimate(4.0, float(repeated.std(ddof=1)) / math.sqrt(20), 20)
     exact = student(3) * values.std(ddof=1) / 2
-    assert widened(plain, 4.0).half_width == pytest.approx(exact)
-    assert widened(plain, 20.0) == plain and math.isinf(widened(plain, 1.0).half_width)
+    assert half_width(plain, 4.0) == pytest.approx(exact)
+    assert half_width(plain, 20.0) == plain.half_width and math.isinf(half_width(plain, 1.0))
+    assert half_width(plain, 4.0, among=8) / exact == pytest.approx(student(3, 1 - 0.05 / 8) / student(3))

@@ -85,3 +85,25 @@ def test_a_point_without_a_number_has_its_reason():
     assert (point.verdict, point.shown, point.reference) == ("refused", "too light", 2.0)
     assert math.isnan(point.value) and math.isnan(point.difference)
     assert set(judgement.VERDICTS) == {"agree", "differ", "undecided", "refused", "failed"}
+
+
+def test_the_error_of_a_small_deviation_is_that_of_the_larger_of_both():
+    """In parts of 1 %."""
+    for value, reference in ((0.004, 0.008), (0.008, 0.004)):
+        point = judgement.compared("deviation", {}, value, reference, 0.1, 0.1, unit=judgement.DEVIATION)
+        assert point.error == pytest.approx(0.08)
+
+
+def test_what_has_one_reference_that_is_one_by_chance_is_no_rule():
+    points = [judgement.compared("level", {"q a": x}, 1.0, x, 0.0, 0.1) for x in (1.0, 2.0)]
+    assert not judgement.curves_of(points)[0][0].is_rule and judgement.curves_of(points[:1])[0][0].is_rule
+
+
+def test_what_is_no_number_neither_agrees_nor_differs():
+    for value, half in ((math.nan, 0.01), (1.0, math.nan), (5.0, math.inf)):
+        assert judgement.compared("force", {}, value, 1.0, half, 0.1).verdict == "undecided"
+
+
+def test_an_error_that_is_unknown_is_told_with_its_reason():
+    point = judgement.compared("force", {}, 1.2, 1.0, math.inf, 0.1, reason="equal draws")
+    assert point.shown == "+20 %, of unknown error: equal draws"

@@ -105,6 +105,21 @@ def test_what_has_one_answer_to_each_problem_is_not_named(function):
     assert found.change == 0 and not found.reason
 
 
+def test_a_problem_that_has_the_answer_of_another_one_when_it_is_asked_twice_is_found():
+    """In one call alone, which is not asked again at the end."""
+    answers = []
+
+    def mixed(load, side, modulus, roughness):
+        answers.append(series(load, side, modulus, roughness))
+        return answers[2] if len(answers) == 6 else answers[-1]
+
+    model = Recorded(Called(offer("stiffness_model", "mine", {}, mixed)))
+    for force in (0.01, 0.02, 0.04, 0.1, 0.2, 0.2, 0.2):
+        model.call(**stiffness.AskedPunch(0.7, force).arguments)
+    found = repeated(model)
+    assert found.change > 0.1 and found.reason.startswith(repeats.CACHED)
+
+
 def test_what_a_solver_leaves_from_another_initial_guess_is_no_drift():
     calls = []
 

@@ -1,7 +1,6 @@
 """How many independent records there are, where some are pieces of the same one."""
 
 import math
-from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
@@ -25,7 +24,7 @@ def independent_records(records: FloatArray) -> float:
     taper = np.sin(np.pi / 2 * np.minimum(rise, rise[::-1])) ** 2
     spectra = np.fft.rfft(taper * (records - records.mean(axis=1, keepdims=True)), 2 * points)
     power = np.abs(spectra) ** 2
-    kernel = np.ones(NEIGHBOURS) / NEIGHBOURS
+    kernel = np.full(neighbours := min(NEIGHBOURS, points), 1 / neighbours)
     smooth = np.array([np.convolve(one, kernel, mode="same") for one in power])
     white = np.where(power > FLOOR * power.max(axis=1, keepdims=True), spectra, 0.0)
     white /= np.sqrt(np.maximum(smooth, np.finfo(float).tiny))
@@ -40,16 +39,17 @@ def independent_records(records: FloatArray) -> float:
     return float(count**2 / total)
 
 
-def widened(estimate: Estimate, records: float) -> Estimate:
-    """The error of a mean over n records of which so many are independent: those that are equal hide their scatter.
+def half_width(estimate: Estimate, records: float, among: int = 1) -> float:
+    """Half of the 95 % interval of a mean over n records of which so many are independent; infinite for one record.
 
-    Sum (x - mean)^2 / n is on average the variance times 1 - 1 / records, and the variance of the mean is the variance
-    over the records. Its half-width has Student's quantile of them; infinite for one record.
+    Equal records hide their scatter: sum (x - mean)^2 / n is on average the variance times 1 - 1 / records, and the
+    variance of the mean is the variance over the records. Student's quantile is that of them; among: how many intervals
+    hold together, by Bonferroni.
     """
     count = estimate.samples
     if records >= count:
-        return estimate
+        return estimate.half_width_among(among)
     if records <= 1 + 1e-9:
-        return replace(estimate, error=math.inf)
-    factor = math.sqrt((count - 1) / (records - 1)) * student(records - 1) / student(count - 1)
-    return replace(estimate, error=factor * estimate.error)
+        return math.inf
+    quantile = student(records - 1, 1 - 0.05 / among)
+    return quantile * math.sqrt((count - 1) / (records - 1)) * estimate.error

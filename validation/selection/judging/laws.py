@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from validation.analysis.independent_records import independent_records, widened
+from validation.analysis.independent_records import half_width, independent_records
+from validation.analysis.judgement import LEVEL
 from validation.analysis.spectra import band_means, record_spectra
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed
 from validation.engine.offered import Caller, Failed
@@ -40,13 +41,14 @@ def judged(model: Caller) -> Iterator[Finding]:
         return beside(rows, found)
     estimates, records = found
     unseen = Failed("the spectrum does not show it")
-    answers = (_answer(row, one, records) for row, one in zip(rows, estimates, strict=True))
+    halves = [half_width(one, records, among=len(rows)) for one in estimates]
+    answers = (_answer(row, one.value, half, records) for row, one, half in zip(rows, estimates, halves, strict=True))
     return beside(rows, (one if math.isfinite(one.value) else unseen for one in answers))
 
 
-def _answer(row: Reference, one: Estimate, records: float) -> ModelAnswer:
+def _answer(row: Reference, value: float, half: float, records: float) -> ModelAnswer:
     """With the error of as many independent records: wheels on equal pieces of a track count as one."""
-    answer = ModelAnswer.of(widened(one, records), row.unit)
+    answer = ModelAnswer(value, half / (1.0 if row.unit == LEVEL else abs(value) or 1.0))
     if records > (1 - AS_ONE) * WHEELS:
         return answer
     reason = f"{WHEELS} wheels are {records:.2g} independent records: the track repeats itself"

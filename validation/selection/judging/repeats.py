@@ -14,6 +14,8 @@ from validation.engine.offered import Caller, Failed, Offered
 SAME, TIMES, OTHERS, MANY = 1e-4, 5, 4, 4
 """Relative change of an answer that rounding, or the residual of a solver, may leave; how often the first problem is
 asked again; how many others are; different answers to one problem that only chance has."""
+SMALL = 64
+"""Numbers of an answer that is kept for each problem."""
 TREND = 0.5
 """Of the change since the first call, that of calls one after the other, above which the answers are random."""
 RANDOM, DRIFTING, CACHED = "random without rng", "its answers drift with the number of calls", "cached by identity"
@@ -35,6 +37,9 @@ class Recorded(Caller):
     kept: list[AnsweredProblem] = field(default_factory=list, init=False)
     answers: dict[bytes, set[bytes]] = field(default_factory=dict, init=False, repr=False)
     """Problems that have each answer, to the last bit."""
+    first: dict[bytes, FloatArray] = field(default_factory=dict, init=False, repr=False)
+    changed: list[tuple[bytes, FloatArray, FloatArray]] = field(default_factory=list, init=False, repr=False)
+    """The first answer to each problem; problems that were asked twice, with both answers, where these differ."""
 
     @property
     def offered(self) -> Offered:  # type: ignore[override]  # is read alone
@@ -58,6 +63,9 @@ class Recorded(Caller):
             if isinstance(answer, Failed):
                 continue
             self.answers.setdefault(answer.tobytes(), set()).add(digest)
+            before = self.first.setdefault(digest, answer) if answer.size <= SMALL else answer
+            if change(before, answer) > SAME:
+                self.changed.append((digest, before, answer))
             if problem_kept is not None and len(self.kept) <= OTHERS and self.count >= 4 ** len(self.kept):
                 self.kept.append(AnsweredProblem(problem_kept, answer))
         return found
@@ -101,7 +109,17 @@ def repeated(model: Recorded) -> Repetition | None:
         return Repetition(Failed(f"answered the first time, and then: {lost.reason}"))
     answers = [answer for answer in again if not isinstance(answer, Failed)]
     largest = max(change(problem.answer, answer) for problem, answer in zip(problems, answers, strict=True))
-    return Repetition(largest, "" if largest <= SAME else cause(model, problems, answers))
+    if largest > SAME:
+        return Repetition(largest, cause(model, problems, answers))
+    return _asked_twice(model) if model.changed else Repetition(largest)
+
+
+def _asked_twice(model: Recorded) -> Repetition:
+    """Of a problem that more than one judge has asked."""
+    digest, before, after = max(model.changed, key=lambda one: change(one[1], one[2]))
+    is_cached = any(model.answers[one.tobytes()] - {digest} for one in (before, after))
+    reason = f"{CACHED}: it has the answer of another problem" if is_cached else f"{DRIFTING}: it has a state"
+    return Repetition(change(before, after), reason)
 
 
 def cause(model: Recorded, problems: Sequence[AnsweredProblem], answers: Sequence[FloatArray]) -> str:
