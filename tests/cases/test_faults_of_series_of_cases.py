@@ -35,6 +35,7 @@ def found_in_fig_14_1(contact=lambda *_: 1e9):
         case=PUNCH,
         contact=contact,
         ratio=lambda hurst, method, *_: Resolved(linearised(ratio[method]), 0.02),
+        counted=lambda hurst, method, *_: Resolved(linearised(ratio[method]), 0.02),
         exponent=lambda hurst, method, *_: Resolved(linearised(exponent[method]), grid[method]),
         at=lambda hurst, method, statistic, level: Resolved(linearised(-0.1), 0.02),
     )
@@ -94,8 +95,8 @@ def test_a_decade_that_is_not_whole_is_not_judged():
 
 @pytest.mark.parametrize(("value", "seen", "left"), [(0.3, 0.3, 0.0), (0.009, 0.01, 0.018), (0.001, 0.01, 0.0)])
 def test_a_deviation_below_a_hundredth_counts_as_one(value, seen, left):
-    """And is left open by as much as its interval, of 10 % here, reaches above."""
-    one = fractal_punch.seen(Resolved(Linearised(math.log(value), np.full(9, 0.0)), 0.0 if left == 0 else 0.123))
+    """In verdicts, which are left open by as much as its interval, of 10 % here, reaches above."""
+    one = fractal_punch.at_least(Resolved(Linearised(math.log(value), np.full(9, 0.0)), 0.0 if left == 0 else 0.123))
     assert (math.exp(one.value.value), one.grid) == pytest.approx((seen, left), abs=1e-3)
 
 
