@@ -96,14 +96,24 @@ def test_the_order_of_convergence_is_one_to_the_next_term(order, verdict):
         assert point.value == pytest.approx(order) and point.verdict == verdict
 
 
-@pytest.mark.parametrize(("lost", "verdict"), [(0.0, AGREE), (0.015, AGREE), (0.03, DIFFER)])
-def test_a_contact_that_shrinks_under_more_load_is_found(lost, verdict):
-    """By the part of the force that lay on the cells that are lost."""
-    less = np.zeros((4, 5))
-    less[1:3, 1:3], less[0, 0] = (1 - lost) / 4, lost
-    more = np.where(less == lost, 0.0, less)
-    points = {p.quantity: p for p in monotone(answers(less, less, more), loaded(GRID, 1.0))}
-    assert points["monotone area"].verdict == verdict and points["monotone area"].value == pytest.approx(lost)
+@pytest.mark.parametrize("step", [0, 1])
+@pytest.mark.parametrize(("lost", "verdict"), [(0.0, AGREE), (0.015, AGREE), (0.03, DIFFER), (0.4, DIFFER)])
+def test_a_contact_that_shrinks_under_more_load_is_found(lost, verdict, step):
+    """At the first or the second step of the load, by the part of the force that lay on the cells that are lost."""
+    before = np.zeros((4, 5))
+    before[1:3, 1:3], before[0, 0] = (1 - lost) / 4, lost
+    after = before.copy()
+    after[0, 0] = 0.0
+    pressures = [before, after, after] if step == 0 else [before, before, after]
+    points = {p.quantity: p for p in monotone(answers(*pressures), loaded(GRID, 1.0))}
+    area = points["monotone area"]
+    assert area.verdict == verdict and area.value == pytest.approx(lost)
+    assert (area.reason == "the contact shrinks under more load") == (verdict == DIFFER)
+
+
+@pytest.mark.parametrize(("residual", "bound"), [(1e-6, 5e-5), (1e-4, 5e-3), (1e-9, 1e-5)])
+def test_the_bound_of_an_answer_is_fifty_residuals_and_no_less_than_rounding(residual, bound):
+    assert solver(ours, residual=residual).of_answer == pytest.approx(bound)
 
 
 def test_the_worst_of_the_timed_runs_is_judged(monkeypatch):

@@ -130,7 +130,9 @@ def test_a_file_comes_before_what_a_package_offers_under_its_name(tmp_path, monk
     monkeypatch.setattr(installed, "installed", lambda: {"mine": entry})
     monkeypatch.chdir(tmp_path)
     with installed.file_of("mine") as path:
-        assert path.read_text() == "from pack.models import series\n" and path.name.startswith(installed.ENTRY)
+        assert path.read_text(encoding="utf-8") == "from pack.models import series\n" and path.name.startswith(
+            installed.ENTRY
+        )
     (tmp_path / "mine").touch()
     with installed.file_of("mine") as path:
         assert path == Path("mine")

@@ -238,8 +238,8 @@ def test_only_decorated_functions_and_files_are_judged():
 def test_a_digest_tells_files_whose_contents_are_exchanged(tmp_path):
     first, second = written(tmp_path, "1", "a.py"), written(tmp_path, "2", "b.py")
     before = digest_of([first, second])
-    first.write_text("2")
-    second.write_text("1")
+    first.write_text("2", encoding="utf-8")
+    second.write_text("1", encoding="utf-8")
     assert digest_of([first, second]) != before
 
 

@@ -4,30 +4,24 @@ import math
 from functools import partial
 
 from tests.analysis import test_conditions
-from tests.benchmarks import test_bounds_of_judged_solvers as bounds
 from tests.cases import test_exact_cases, test_no_floor_in_data
-from tests.planted_faults.wrong import Fault, with_math
+from tests.planted_faults.wrong import Fault
 from tests.report import test_answers, test_axes, test_columns, test_front
 from validation.analysis import conditions
 from validation.analysis.judgement import AGREE
 from validation.analysis.series import Series
-from validation.benchmarks.judging import judged, properties
 from validation.cases.exact import hertz
 from validation.cases.limits import limits
 from validation.cases.punch import fractal_punch
 from validation.report import columns
 from validation.report.answers import first_screen, front_tables, strip
 
-checked, order, shown, apart, draw = judged.checked, hertz.order, limits.shown, strip._apart, test_axes.draw
+order, shown, apart, draw = hertz.order, limits.shown, strip._apart, test_axes.draw
 
 
 def floored(statistics, hurst, method, statistic, level):
     """The ratio as it is judged, in the place of the one that was found."""
     return statistics.counted(hurst, method, level)
-
-
-def ten_times_as_far(quantity, problem, value, within, *more):
-    return checked(quantity, problem, value, 10 * within if quantity == "approach" else within, *more)
 
 
 def last_of_those_that_join(found):
@@ -83,14 +77,6 @@ FAULTS = [
         *("fractal_punch", "mean stiffness, judged", "ensemble mean"),
     ),
     Fault("a mean that is called nothing").at(columns, "_MEANINGS", {}),
-    partial(bounds.test_an_approach_or_a_force_may_be_off_by_fifty_residuals, 400, bounds.DIFFER, 1),
-    Fault("an approach that may be ten times as far off").at(judged, "checked", ten_times_as_far),
-    partial(bounds.test_a_contact_that_shrinks_under_more_load_is_found, 0.4, bounds.DIFFER, 1),
-    Fault("a contact that shrinks and is never found").at(properties, "SINGLE_CELLS", 1.0),
-    partial(bounds.test_the_order_of_a_solver_is_that_of_its_errors, 0.84, bounds.DIFFER),
-    Fault("a tenth more in the order of a solver").at(
-        judged, "math", with_math(log2=lambda ratio: math.log2(ratio) + 0.2)
-    ),
     partial(test_exact_cases.test_a_case_has_the_order_of_its_errors, 1.0),
     Fault("a tenth more in the order of a case").at(hertz, "order", lambda cells, errors: order(cells, errors) + 0.1),
 ]

@@ -19,6 +19,7 @@ WORDS = {
     "--quantity": "stiffness",
     "--models": "bem",
     "--seconds": "0.1",
+    "--realisations": "2",
 }
 """A value of an option that is neither a whole number, a choice nor a text."""
 REPEATABLE = {("report", "--only")}

@@ -186,7 +186,7 @@ def test_an_extreme_value_is_one_sentence_or_a_bounded_amount_of_work(tmp_path, 
 def test_every_key_of_a_number_is_tried():
     known = {*reader.VALUES, *rail_file.WHEEL, *rail_file.RAIL, *dynamic_wheel.WHEEL} - OF_FILES
     tried = {key[-1] for _, key in KEYS}
-    assert known - tried == {"offset", "roughness"} - tried
+    assert known - tried == {"detrend", "offset", "roughness"} - tried
     assert {"rms", "hurst", "longest", "shortest", "distance", "springs", "offset"} <= tried
 
 

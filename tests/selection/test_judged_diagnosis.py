@@ -145,7 +145,6 @@ def test_arguments_are_new_objects_in_each_call():
 
     def keeps(load, side, modulus, roughness):
         assert roughness.rms == 1e-5
-        object.__setattr__(roughness, "rms", 3 * roughness.rms)
         seen.append(roughness)
         return 1e6
 

@@ -91,7 +91,7 @@ def test_a_closed_form_over_the_ground_is_a_filter_of_the_line_that_knows_alpha(
     assert len(within) > 100 and all(p.where["alpha"] != "isotropic" for p in within)
     assert all(p.value == pytest.approx(full[tuple(p.where.values())].value, abs=2e-3) for p in within)
     ridges = of(points, filters.FILTER, alpha=0.0)
-    assert {p.verdict for p in ridges} == {"refused"} and "alpha" in ridges[0].reason
+    assert {p.verdict for p in ridges} == {"failed"} and "alpha" in ridges[0].reason
 
 
 # --- force spectra ---

@@ -168,7 +168,7 @@ def test_a_punch_at_an_absurd_load_ends_with_status_3_and_the_rail_is_no_excepti
     assert "solved: no elastic half-space" in summary(found) and "is enough" not in summary(found)
     assert "cheapest that is" not in summary(found)
     rail = validation.load_scene("rail")
-    loaded = Comparison(type(rail)(**{**vars_of(rail), "load": 1e12}), "contact-filter", found.selection)
+    loaded = Comparison(type(rail)(**{**vars_of(rail), "load": 1e10}), "contact-filter", found.selection)
     assert "wheel.load, wheel.radius" in loaded.beyond_elasticity and not loaded.met
 
 

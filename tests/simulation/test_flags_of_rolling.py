@@ -18,6 +18,7 @@ from validation.scenes.load import load_scene
 from validation.scenes.transverse_profile import TransverseProfile
 from validation.scenes.wheel_body import Wheel
 from validation.selection.judging import from_report
+from validation.selection.judging.held_out_solves import THIRD, OblongStrip, roll_oblong
 from validation.simulation import rail_models, ridges, rolling_strip, wheel_on_rail
 from validation.simulation.contact_laws import BoundaryElementsLaw
 from validation.simulation.equivalent_displacement import RolledRail, roll_rail
@@ -42,6 +43,7 @@ ON_A_RAIL = "validation.simulation.equivalent_displacement:roll_boundary_element
 RIDGES = ridges.RidgesTrack(ridges=RollingOverRidges(length=8, shortest=4.0).ridges, method="bem3d", cells=4)
 MOVING = WheelOnRail(strip=RAIL, mass=500.0, speed=22.0, model=BEM, tolerance=1e-6)
 BOTH_WAYS = WideRail(strip=RAIL, width=RAIL.width, bands=Bands((120.0, 400.0, 1200.0)))
+OBLONG = OblongStrip(scene=THIRD, height=0.2, cells=6, by_load=False)
 HELD = HeldWheel(strip=RAIL, model=BEM, first=0, last=4, tolerance=1e-6)
 ROLLERS = ("bem3d.roll", "bem3d.rolling_force", "bem3d.RollingContact")
 ONE_POSITION = ("validation.simulation.exact_contacts:press_ellipse",)
@@ -87,6 +89,7 @@ PATHS = {
     ),
     "validation.simulation.limits_of_half_space:strip_widths": lambda: strip_widths((13, 18), finer=6),
     "validation.selection.judging.from_report:roll_under_load": lambda: from_report.roll_under_load(STRIP),
+    "validation.selection.judging.held_out_solves:roll_oblong": lambda: roll_oblong(OBLONG),
 }
 
 

@@ -39,7 +39,7 @@ def planted(powers, grid=0.0):
 
     def strip(scene, across, cells, realisation, seed):
         power = (powers[across] if isinstance(powers, dict) else powers)[realisation]
-        return SimpleNamespace(spacing=length / white.size, cells=cells, power=power)
+        return SimpleNamespace(spacing=length / white.size, cells=cells, power=power, shape=(white.size, cells))
 
     def roll(model, scene, strip):
         off = grid if strip.cells == rail_models.COARSE else 0.0

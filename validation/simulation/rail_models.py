@@ -156,8 +156,8 @@ class ContactFilter:
         quantity = rail_quantity(target)
         ends = len(quantity.ends)
         closed = Cost(work=ends, seconds=max(CLOSED * ends, EVALUATION * quantity.evaluations))
-        if not self.on_strips:
-            return closed
+        if not self.on_strips or quantity.no_answer:
+            return closed  # nothing rolls
         shapes = [strip_of(quantity.scene, "ridges", cells, 0, 0).shape for cells in (COARSE, FINE)]
         positions = STRIPS * ends * sum(positions_along(quantity.scene, cells) for cells in (COARSE, FINE))
         drawn = STRIPS * ends * sum(along * across for along, across in shapes)
