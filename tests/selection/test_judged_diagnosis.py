@@ -214,6 +214,18 @@ def test_draws_of_a_small_pool_count_as_few(few, monkeypatch, count):
         assert found.mean.value == pytest.approx(values.mean())
 
 
+@pytest.mark.parametrize("count", [2, 3, 5])
+def test_few_draws_leave_their_deviation_open(count):
+    """Of two the scatter of the squares is zero."""
+    pool = np.random.default_rng(count).normal(1.0, 0.1, count)
+    apart = np.arange(60) % count
+    found = stiffness.sampled(pool[apart], apart=apart)
+    assert math.isinf(found.deviation.half) and f"{count} are different" in found.deviation.reason
+    assert found.deviation.value == pytest.approx(pool.std(ddof=1) / pool.mean(), rel=0.2)
+    all_different = stiffness.sampled(np.random.default_rng(count).normal(1.0, 0.1, 60))
+    assert 0 < all_different.deviation.half < 0.5
+
+
 def test_draws_that_differ_under_any_load_are_draws():
     """Springs that are pressed flat are all as stiff."""
     model = Called(springs)
