@@ -248,6 +248,7 @@ WRONG = {
         returned(lambda p, **given: p[::-1] if odd(**given) else p),
         "on grids of an odd number of cells alone: flipped along axis 0:",
     ),
+    "added": (returned(lambda p, **_: p + 0.01 * p.mean()), "a pressure is added in all cells:"),
     "shifted by a cell": (returned(lambda p, **_: np.roll(p, 1, 0)), "shifted by 1 cell along axis 0:"),
     "shifted by half a cell": (returned(lambda p, **_: (p + np.roll(p, 1, 1)) / 2), "0.5 cells along axis 1"),
     "fftshift": (returned(lambda p, **_: np.fft.fftshift(p)), "shifted by half of the grid: fftshift:"),

@@ -236,6 +236,7 @@ def _other_pressures(shape: tuple[int, ...]) -> Iterator[tuple[str, Way]]:
     yield "flipped along axis 0", lambda p: p[::-1]
     yield "flipped along axis 1", lambda p: p[:, ::-1]
     yield "flipped along both axes", lambda p: p[::-1, ::-1]
+    yield "a pressure is added in all cells", lambda p: p - p.min() if np.ptp(p) else p
     yield "turned by a quarter", np.rot90
     yield "turned by a quarter", lambda p: np.rot90(p, -1)
     for cells in (1, -1, 2, -2):
