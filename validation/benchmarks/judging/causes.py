@@ -123,8 +123,8 @@ def causes(contact: JudgedContact) -> Causes:
 
 def is_same(problem: ContactProblem, other: ContactProblem) -> bool:
     """Whether two are one, told twice; an approach may be NaN in both."""
-    numbers = [(*one.spacing, one.modulus, one.force, one.approach, one.periodic) for one in (problem, other)]
-    return bool(np.array_equal(problem.gap, other.gap) and np.array_equal(*numbers, equal_nan=True))
+    mine, others = ((*one.spacing, one.modulus, one.force, one.approach, one.periodic) for one in (problem, other))
+    return bool(np.array_equal(problem.gap, other.gap) and np.array_equal(mine, others, equal_nan=True))
 
 
 def _by_single_cell(contact: JudgedContact) -> float:
