@@ -138,6 +138,10 @@ def without_boundary(gap, **_):
     return np.pad(gap[1:-1, 1:-1], 1, constant_values=gap.max() + 1) if min(gap.shape) > 2 else gap
 
 
+def without_two_of_boundary(gap, **_):
+    return np.pad(gap[2:-2, 2:-2], 2, constant_values=gap.max() + 1) if min(gap.shape) > 5 else gap
+
+
 def without_last_row(gap, **_):
     return np.vstack([gap[:-1], np.full_like(gap[:1], gap.max() + 1)]) if len(gap) > 1 else gap
 
@@ -233,6 +237,7 @@ WRONG = {
     # gap
     "sign of the gap": (on(gap=lambda gap, **_: -gap), "the sign of the gap:"),
     "boundary excluded": (on(gap=without_boundary), "cells of the boundary excluded:"),
+    "two cells of the boundary excluded": (on(gap=without_two_of_boundary), "two cells of the boundary excluded:"),
     "last row excluded": (on(gap=without_last_row), "the last row excluded:"),
     "first row": (on(gap=lambda gap, **_: np.repeat(gap[:1], len(gap), 0)), "the first row for the whole gap:"),
     # answers
@@ -243,6 +248,7 @@ WRONG = {
         returned(lambda p, **given: p[::-1] if odd(**given) else p),
         "on grids of an odd number of cells alone: flipped along axis 0:",
     ),
+    "added": (returned(lambda p, **_: p + 0.01 * p.mean()), "a pressure is added in all cells:"),
     "shifted by a cell": (returned(lambda p, **_: np.roll(p, 1, 0)), "shifted by 1 cell along axis 0:"),
     "shifted by half a cell": (returned(lambda p, **_: (p + np.roll(p, 1, 1)) / 2), "0.5 cells along axis 1"),
     "fftshift": (returned(lambda p, **_: np.fft.fftshift(p)), "shifted by half of the grid: fftshift:"),
@@ -275,6 +281,10 @@ WRONG = {
     "light load": (
         returned(lambda p, **_: np.roll(p, 1, 0) if share(p) < 0.02 else p),
         "on light loads, below 2 % of contact alone: shifted by 1 cell along axis 0:",
+    ),
+    "one cell": (
+        returned(lambda p, **_: np.where(p < p.max(), 0, p.sum()) if 1 < (p > 0).sum() < 30 else p),
+        "all of the force in one cell:",
     ),
     "full contact": (
         returned(lambda p, **_: np.full_like(p, p.mean()) if share(p) == 1 else p),

@@ -130,7 +130,7 @@ FAULTS = {
     "one answer for all of a shape": (
         lambda gap, answers={}, **given: answers.setdefault(gap.shape, ours(gap=gap, **given)),
         "pressure",
-        "the answer of another problem: sphere",
+        "the answer of another problem",
     ),
     "over E*": (lambda **given: ours(**given) / given["modulus"], "approach", "over the modulus"),
     "cells of a rectangle in another order": (

@@ -10,7 +10,9 @@ from tests.benchmarks.foreign_solver import WRONG, free, pressed, pressed_to
 from tests.benchmarks.foreign_solver import periodic as periodic_waves
 from validation.analysis.judgement import AGREE, REFUSED
 from validation.benchmarks.judging import diagnosis, discrete, judged
+from validation.benchmarks.judging.causes import JudgedContact, causes
 from validation.benchmarks.judging.discrete import STATED
+from validation.benchmarks.judging.factors import numbered
 from validation.benchmarks.judging.judged import findings
 from validation.benchmarks.judging.properties import Asked
 from validation.engine.offered import KINDS, Offered
@@ -65,6 +67,8 @@ QUICK = (
     "E for E*, nu = 0.3",
     "mean pressure for the load",
     "boundary excluded",
+    "two cells of the boundary excluded",
+    "one cell",
     "flipped on odd grids",
     "clipped",
     "tension",
@@ -81,6 +85,43 @@ def test_a_wrong_solver_is_caught_and_its_cause_is_named_first(name, few_problem
     points = findings(Asked(solver(on_free_space(function), **OPTIONS.get(name, {}))))
     assert any(point.verdict != AGREE and point.decides for point in points)
     assert cause in said_first(points)
+
+
+def contact_of(name, pressure=None, earlier=()):
+    problem = next(problem for problem in discrete.problems() if problem.name == name)
+    p = problem.pressure if pressure is None else pressure
+    return JudgedContact(problem, p, True, 1e-5, earlier)
+
+
+def test_what_all_problems_have_in_common_is_no_kind_of_them():
+    wrong = [contact_of(name) for name in ("oblong", "cells of 2:1", "cells of 4:1", "full contact")]
+    assert diagnosis.kind_of(wrong, [contact_of("cells of 1:4")]) == ""
+    assert diagnosis.kind_of(wrong, [contact_of("odd grid")]) == "grids of an even number of cells"
+
+
+def test_a_problem_that_is_asked_twice_is_no_other_problem():
+    problem = contact_of("oblong").problem
+    again, heavier = dataclasses.replace(problem), dataclasses.replace(problem, force=2 * problem.force)
+    names = {
+        other: [name for name, _ in causes(contact_of("oblong", earlier=[(one, problem.pressure)]))]
+        for other, one in {"again": again, "heavier": heavier}.items()
+    }
+    assert "the answer of another problem" in names["heavier"]
+    assert "the answer of another problem" not in names["again"]
+
+
+def test_a_pressure_that_is_far_too_high_is_not_explained_by_none():
+    heavy = contact_of("rough, heavy load").pressure
+    light = contact_of("rough, light load", heavy)
+    parts = dict(numbered([light], [light]))
+    assert parts["over the area of a cell"] == parts["over the modulus"] == [0.0]
+
+
+def test_answers_of_two_other_problems_are_one_cause():
+    earlier = [(contact_of(name).problem, contact_of(name).pressure) for name in ("sphere", "rough, heavy load")]
+    wrong = [contact_of("rough, light load", earlier[i][1], earlier) for i in (0, 1)]
+    found = diagnosis.diagnosed(wrong, lambda *_: None)
+    assert set(found.values()) == {"the answer of another problem"} and len(found) == 2
 
 
 # --- right ones ---
@@ -152,6 +193,8 @@ def test_what_a_solver_does_not_serve_is_counted_apart_and_never_wrong():
     lines = list(solver_lines("foreign", points, (), 0.0))
     asked = len({point.where["problem"] for point in points if point.decides})
     assert f"{len(unserved)} not served" in lines[0] and f"the verdict covers {asked} problems" in lines[1]
+    in_part = {str(p.where["problem"]) for p in unserved} & {str(p.where["problem"]) for p in points if p.decides}
+    assert ("in part" in lines[1]) == bool(in_part) and "of 0" not in lines[1]
     assert "not served: raised NotImplementedError: square cells alone" in lines[2]
     assert f"solves the {asked} discrete problems of free half-spaces" in lines[-1] and "does not serve" in lines[-1]
 

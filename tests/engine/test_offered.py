@@ -1,14 +1,17 @@
 """What a function may ask for: every other argument is refused in a sentence that lists those that it can have."""
 
+from functools import partial
 from importlib.metadata import EntryPoint
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import validation
 from validation.engine import installed
 from validation.engine.named import named_in
-from validation.engine.offered import KINDS
+from validation.engine.offered import KINDS, OfferedError
+from validation.engine.others import Called
 
 
 def test_a_decorated_function_is_called_as_before():
@@ -57,6 +60,17 @@ def test_another_signature_is_refused_in_one_sentence(kind, function, sentence):
 def test_both_of_a_pair_are_served_where_both_are_none_by_default():
     solver = validation.contact_solver("both")(lambda gap, force=None, approach=None: gap)
     assert solver.asks == ("gap", "force", "approach")
+
+
+def test_what_a_partial_function_has_already_is_not_asked_for():
+    def solve(gap, force, tolerance, smoother):
+        return gap * 0 + force + tolerance + smoother
+
+    offered = validation.contact_solver("bound")(partial(solve, tolerance=2.0, smoother=3.0))
+    assert offered.asks == ("gap", "force")
+    assert Called(offered).call(gap=np.zeros((2, 2)), force=1.0, tolerance=7.0) == pytest.approx(6.0)
+    with pytest.raises(OfferedError, match="gap must be asked for"):
+        validation.contact_solver("bound")(partial(solve, gap=1.0, smoother=3.0))
 
 
 @pytest.mark.parametrize(

@@ -217,6 +217,27 @@ def axes_of(found, monkeypatch):
     return [axis for axis in figures[0].axes if axis.lines or axis.patches]
 
 
+def judgement_of(name, values):
+    points = tuple(
+        compared("k", {"H": 0.7, "Fbar": 10.0**i}, value, 2.0, 0.05, 0.1, unit="-") for i, value in enumerate(values)
+    )
+    costs = (ErrorOfCall(name, abs(values[0] / 2 - 1), "-", 1e-3), ErrorOfCall("springs", 0.5, "-", 1e-2))
+    return judged.Judgement(name, "stiffness_model", judged.tolerance_of(0.1), points, 1.0, costs=costs)
+
+
+def test_a_model_that_is_far_off_leaves_the_scale_of_another_one(monkeypatch):
+    figures = []
+    monkeypatch.setattr("validation.report.judged_figure.picture", lambda figure, form: figures.append(figure))
+    figure_of([judgement_of("good", [2.0, 2.2, 1.9]), judgement_of("bad", [2e3, 4e3, 2.0])], "svg")
+    good, bad = [axis.get_ylim() for axis in figures[0].axes if axis.get_ylabel().startswith("off") or axis.patches][:2]
+    assert -20 < good[0] < -10 and 12 < good[1] < 20 and bad[1] > 1e5
+
+
+@pytest.mark.parametrize("values", [[2e300, 3e300], [2.0, 2e306], [1e-300, 2.0]])
+def test_a_number_that_no_axis_has_room_for_is_no_fault(values):
+    assert figure_of([judgement_of("huge", values)], "svg").startswith(b"<?xml")
+
+
 @pytest.mark.parametrize(
     ("unit", "values", "label", "shown", "within"),
     [

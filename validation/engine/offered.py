@@ -1,5 +1,6 @@
 """What somebody offers to be judged: a function, its name, and what it asks for by the names of its arguments."""
 
+import functools
 import inspect
 import math
 import sys
@@ -198,7 +199,9 @@ def _asked(kind: str, function: Callable[..., Any]) -> tuple[str, ...]:
     if not callable(function) or isinstance(function, type | Offered):
         what = "one that is offered already" if isinstance(function, Offered) else repr(function)
         raise TypeError(f"@{kind} must stand above a function, got {what}")
-    given = inspect.signature(function).parameters
+    # what a partial function has already is not asked for
+    bound = function.keywords if isinstance(function, functools.partial) else {}
+    given = {name: one for name, one in inspect.signature(function).parameters.items() if name not in bound}
     for name, parameter in given.items():
         if parameter.kind not in (parameter.POSITIONAL_OR_KEYWORD, parameter.KEYWORD_ONLY):
             raise TypeError(f"arguments go by name, one by one, got {parameter}: {known}")

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 MOST, PANELS, TITLE = 6, 60, 25
 """Curves of a panel, of more there are several; panels of a figure; characters of a line of a title."""
+MARGIN, LARGEST = 0.05, 1e100
+"""Of a scale beyond its points; of a number that an axis has room for."""
 YOURS = " (this model)"
 """After a name that a model of the package has as well."""
 Drawn = tuple[Panel, Table]
@@ -101,8 +103,20 @@ def _difference(judgement: "Judgement", curves: Sequence[JudgedCurve], about: st
     name, log = f"{judgement.model}: {first.quantity}", "x" if first.at[-1] > 20 * first.at[0] > 0 else ""
     y, title = f"off the reference [{unit}]", "\n".join(in_two_lines(words, TITLE) for words in (name, about) if words)
     name = f"{name}, {about}"
-    panel = Panel(first.along, y, title=title, log=log, shade=(-within, within))
+    limits = _limits_of(judgement, first.quantity, factor, within)
+    panel = Panel(first.along, y, title=title, log=log, shade=(-within, within), ylim=limits)
     return panel.of(Curve(name, by=("model",), bars=True)), table_of(name, rows)
+
+
+def _limits_of(judgement: "Judgement", quantity: str, factor: float, within: float) -> tuple[float, float]:
+    """One scale of a quantity of one model: another one that is far off leaves it readable."""
+    shown = [
+        _with(factor * one.difference, factor * one.error) for one in judgement.verdicts if one.quantity == quantity
+    ]
+    ends = [end for row in shown for end in row.values() if math.isfinite(end)]
+    low, high = min(ends, default=0.0), max(ends, default=0.0)
+    low, high = min(low, -within), max(high, within)
+    return low - MARGIN * (high - low), high + MARGIN * (high - low)
 
 
 def _times(judgement: "Judgement") -> Drawn:
@@ -121,7 +135,7 @@ def _costs(judgement: "Judgement") -> Drawn:
     unit, factor = ("dB", 1.0) if judgement.costs[0].unit == LEVEL else ("%", 100.0)
     x, name = "seconds of a call", f"{judgement.model}: {MAIN[judgement.kind]}"
     rows = [{"model": one.model, x: one.seconds, **_with(factor * one.error)} for one in costs]
-    errors = [factor * one.error for one in judgement.costs if one.error > 0]
+    errors = [factor * one.error for one in judgement.costs if 0 < factor * one.error < LARGEST]
     # room for a tick, however near they are
     ylim = (min(errors) / 2, 2 * max(errors)) if errors else None
     panel = Panel(x, f"median error [{unit}]", title=in_two_lines(name, TITLE), log="xy", ylim=ylim)
@@ -129,5 +143,6 @@ def _costs(judgement: "Judgement") -> Drawn:
 
 
 def _with(value: float, half: float = 0.0) -> dict[str, float]:
-    """Its interval."""
-    return {"value": value, "low": value - half, "high": value + half}
+    """Its interval; what is too large for an axis is not drawn."""
+    ends = {"value": value, "low": value - half, "high": value + half}
+    return {name: end if abs(end) < LARGEST else math.nan for name, end in ends.items()}

@@ -73,10 +73,9 @@ def not_served(unserved: Sequence[JudgedPoint], checks: Sequence[JudgedPoint]) -
     if not unserved:
         return
     lost, asked = _problems(unserved), _problems(checks)
-    yield (
-        f"  the verdict covers {len(asked)} problems that the solver serves; "
-        f"of {len(lost - asked)} others, and of {len(lost & asked)} in part, it says nothing"
-    )
+    left = {"of {} others": len(lost - asked), "of {} in part": len(lost & asked)}
+    silent = ", and ".join(words.format(count) for words, count in left.items() if count)
+    yield f"  the verdict covers {len(asked)} problems that the solver serves; {silent} it says nothing"
     yield from reasons(unserved)
 
 

@@ -103,11 +103,12 @@ Causes = Iterator[tuple[str, Explaining]]
 def causes(contact: JudgedContact) -> Causes:
     """All that have no number of their own, the more specific first; nothing is computed before it is asked for."""
     yield "negative pressures: p >= 0 is not held", partial(_by_tension, contact)
+    yield "all of the force in one cell", partial(_by_single_cell, contact)
     for name, operator in operators(contact.problem):
         yield name, partial(_by_operator, contact, operator)
     for other, pressure in contact.earlier:
-        if pressure.shape == contact.pressure.shape and other is not contact.problem:
-            yield f"the answer of another problem: {other.name}", partial(_by_earlier, contact, pressure)
+        if pressure.shape == contact.pressure.shape and not is_same(other, contact.problem):
+            yield "the answer of another problem", partial(_by_earlier, contact, pressure)
     yield "an operator that is kept from an earlier call on as many cells", partial(_by_kept_operator, contact)
     for name, problem in _other_problems(contact.problem):
         yield name, partial(_by_problem, contact, problem)
@@ -118,6 +119,21 @@ def causes(contact: JudgedContact) -> Causes:
     yield "the same pressure in all cells", partial(_by_evenness, contact)
     yield "each cell by itself: springs without a half-space", partial(_by_fit, contact, iterations=0)
     yield "one iteration from an even pressure", partial(_by_fit, contact, iterations=1)
+
+
+def is_same(problem: ContactProblem, other: ContactProblem) -> bool:
+    """Whether two are one, told twice; an approach may be NaN in both."""
+    mine, others = ((*one.spacing, one.modulus, one.force, one.approach, one.periodic) for one in (problem, other))
+    return bool(np.array_equal(problem.gap, other.gap) and np.array_equal(mine, others, equal_nan=True))
+
+
+def _by_single_cell(contact: JudgedContact) -> float:
+    """Where the contact has more cells, or the cell is another one; its force is held."""
+    p = contact.pressure
+    if contact.is_right:
+        return float(np.count_nonzero(contact.answer) == 1)
+    held = abs(contact.problem.force_of(p) / contact.problem.force - 1) <= contact.residual or not contact.by_force
+    return float(held and np.count_nonzero(p) == 1)
 
 
 def _by_tension(contact: JudgedContact) -> float:
@@ -183,6 +199,7 @@ def _other_problems(problem: ContactProblem) -> Iterator[tuple[str, ContactProbl
             "cells of the boundary excluded": (slice(1, -1), slice(1, -1)),
             "cells of the boundary of axis 0 excluded": (slice(1, -1), slice(None)),
             "cells of the boundary of axis 1 excluded": (slice(None), slice(1, -1)),
+            "two cells of the boundary excluded": (slice(2, -2), slice(2, -2)),
             "the last row and column excluded": (slice(None, -1), slice(None, -1)),
             "the last row excluded": (slice(None, -1), slice(None)),
             "the last column excluded": (slice(None), slice(None, -1)),
@@ -219,6 +236,7 @@ def _other_pressures(shape: tuple[int, ...]) -> Iterator[tuple[str, Way]]:
     yield "flipped along axis 0", lambda p: p[::-1]
     yield "flipped along axis 1", lambda p: p[:, ::-1]
     yield "flipped along both axes", lambda p: p[::-1, ::-1]
+    yield "a pressure is added in all cells", lambda p: p - p.min() if np.ptp(p) else p
     yield "turned by a quarter", np.rot90
     yield "turned by a quarter", lambda p: np.rot90(p, -1)
     for cells in (1, -1, 2, -2):

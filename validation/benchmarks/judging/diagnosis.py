@@ -169,10 +169,12 @@ def kind_of(wrong: Sequence[JudgedContact], right: Sequence[JudgedContact]) -> s
     """What all wrong ones have in common and no right one has; nothing where there is none."""
     if not wrong or not right:
         return ""
-    for kind in KINDS_OF_PROBLEM:
+    # what all have in common tells none from another
+    kinds = [kind for kind in KINDS_OF_PROBLEM if not all(map(kind.has, right))]
+    for kind in kinds:
         if all(map(kind.has, wrong)) and not any(map(kind.has, right)):
             return kind.name
-    for kind in KINDS_OF_PROBLEM:
+    for kind in kinds:
         # some may be right whatever is wrong: they are symmetric, or have one cell in contact
         if len(wrong) > FEW and all(map(kind.has, wrong)) and sum(map(kind.has, right)) <= len(wrong) / 2:
             return kind.name

@@ -13,6 +13,8 @@ NEAR = 0.02
 """A factor that is so near another is that."""
 CLOSE = 30.0
 """Residuals that may be left under another force."""
+NO_ANSWER = 0.5
+"""What is left where a pressure is no answer; that of none is one."""
 FEW = 8
 """Cells of a contact from which no factor is read."""
 Numbers = Sequence[float]
@@ -160,7 +162,9 @@ def _of_pressure(wrong: Contacts, asked: Contacts) -> Parts:
     """The answer times a number."""
 
     def over(contact: JudgedContact, factor: float) -> float:
-        return contact.explained(contact.under(pressure=contact.pressure / factor))
+        left = contact.under(pressure=contact.pressure / factor)
+        # no pressure at all is nearer to the answer than one that is far too high
+        return contact.explained(left) if left < NO_ANSWER else 0.0
 
     with np.errstate(all="ignore"):
         parts = [_part(contact.pressure, contact.answer) for contact in wrong]

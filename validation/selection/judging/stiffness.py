@@ -204,7 +204,11 @@ def sampled(values: FloatArray, so_few: str = "", apart: NDArray[np.intp] | None
         count = f"{count}, of which {first.size} {DIFFERENT_DRAWS}"
     mean = ModelAnswer(float(values.mean()), of.log_mean.half_width * math.sqrt(first.size / records), count)
     if math.isfinite(deviation.value):
-        return Stiffness(mean, ModelAnswer(math.exp(deviation.value), deviation.half_width))
+        value = math.exp(deviation.value)
+        if first.size < FEWEST:
+            # two draws are as far from their mean: the scatter of squares is zero, and that of a few says nothing
+            return Stiffness(mean, ModelAnswer(value, math.inf, count))
+        return Stiffness(mean, ModelAnswer(value, deviation.half_width))
     # one draw in a hundred that is apart may leave the others equal, too
     equal = f"{values.size} equal realisations{so_few}"
     return Stiffness(mean._replace(reason=equal), ModelAnswer(math.nan, reason=f"{equal}: no deviation is known"))
