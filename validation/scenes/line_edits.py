@@ -86,9 +86,9 @@ class EditedLine:
         clipped = points_of(tuple(self.of_kind("clipping")), self.height.size).mean()
         if clipped > MOST_CLIPPED:
             ends = " and ".join(sorted({in_unit(one.size, "length", digits=4) for one in self.of_kind("clipping")}))
-            return f"clipped at {ends} in {100 * clipped:.2g} % of its points"
+            return f"clipped at {ends} in {100 * clipped:.3g} % of its points"
         if (share := self.replaced.mean()) > MOST_REPLACED:
-            return f"none of a rail in {100 * share:.2g} % of its points"
+            return f"none of a rail in {100 * share:.3g} % of its points"
         steps = len(self.of_kind("step"))
         return f"broken by {steps} steps or more" if steps >= MOST_STEPS else ""
 
