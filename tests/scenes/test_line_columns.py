@@ -9,6 +9,7 @@ from tests.scenes.test_exported_tables import columns, in_memory, line_of, rail_
 from tests.scenes.test_line_outliers import rail
 from validation.analysis.nominal_bands import NominalBands
 from validation.scenes.line_columns import along_the_track
+from validation.scenes.line_edits import edited
 from validation.scenes.load import load_scene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_surface import measured
@@ -461,3 +462,16 @@ def test_bars_and_utf_16_without_a_mark_are_read(tmp_path):
     for encoding in ("utf-16-le", "utf-16-be"):
         scene = rail_with(tmp_path, "lines", contents.encode(encoding), *UM)
         assert scene.roughness.height[:, 0] == pytest.approx(1e-6 * Z, abs=1e-9)
+
+
+def test_the_error_of_long_gaps_covers_nineteen_of_twenty_bands():
+    off, bands = [], NominalBands().within(0.9, 2.5e-3)
+    for seed in range(12):
+        line = 1e-6 * rail(seed)[:4000]
+        held = line.copy()
+        held[2000:2160] = 12.345e-6
+        edits = edited(held[:, np.newaxis], 1e-3)
+        both = bands.powers_of_records(np.array([line, edits.result(held[:, np.newaxis])[:, 0]]), spacing=1e-3)
+        change = np.abs(10 * np.log10(both[1] / both[0]))
+        off.append(change > np.array(edits.errors(bands, both[1:])))
+    assert np.mean(off) < 0.05

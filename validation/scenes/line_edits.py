@@ -18,7 +18,7 @@ Outliers = Literal["remove", "keep"]
 """What is done about outliers."""
 MOST_REPLACED, MOST_CLIPPED = 0.1, 0.01
 """Of the points of a line: beyond, what stood there is not known well enough for an error."""
-SHIFTS = 8
+SHIFTS = 24
 """Places along a line at which what replaces outliers is tried on points without any."""
 OF_SHIFTS, WIDER = 1.5, 4
 """Error over the largest change of these trials; parts of its width by which an outlier may be wider than it was taken.
