@@ -193,6 +193,7 @@ def test_every_key_of_a_number_is_tried():
 @pytest.mark.parametrize(
     ("variant", "key", "value", "said"),
     [
+        ("rail", ("wheel", "load"), "0.001 N", "wheel.load must press a contact that filters a wavelength"),
         ("rail", ("rail", "across"), 1e5, "rail.across must be a number alpha from 0.1 to 10, waves within 6 to 84"),
         ("rail", ("rail", "across"), 1e12, "rail.across must be a number alpha from 0.1 to 10"),
         ("axle", ("rail", "alpha"), 0.09, "rail.across must be a number alpha from 0.1 to 10"),

@@ -9,6 +9,7 @@ from tests.scenes.test_exported_tables import columns, in_memory, line_of, rail_
 from tests.scenes.test_line_outliers import rail
 from validation.analysis.nominal_bands import NominalBands
 from validation.scenes.line_columns import along_the_track
+from validation.scenes.line_edits import edited
 from validation.scenes.load import load_scene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_surface import measured
@@ -108,7 +109,9 @@ def test_a_first_row_of_positions_is_no_row_of_heights(tmp_path):
     refused(
         tmp_path, "lines", "1000,2000,3000\n" + body, *UM, said=r'as: positions = \["1000 mm", "2000 mm", "3000 mm"\]$'
     )
-    refused(tmp_path, "lines", body, *UM, said=r'positions is missing: .*, as: positions = \["-10 mm", "0 mm"\]$')
+    refused(
+        tmp_path, "lines", body, *UM, said=r'positions is missing: .*, as: positions = \["-10 mm", "0 mm", "10 mm"\]$'
+    )
     placed = "".join(f"{i},{row}\n" for i, row in enumerate(("\n" + body).strip().split("\n")))
     scene = rail_with(tmp_path, "lines", ",-10,0,10\n" + placed, *with_positions(-10, 0, 10))
     assert scene.roughness.height == pytest.approx(1e-6 * LINES.T) and len(told(scene)) == 1
@@ -274,10 +277,10 @@ def test_a_unit_that_no_rail_has_is_doubted_unless_the_scene_says_it(tmp_path):
 
 FOREIGN = {
     "it.h5": (b"\x89HDF\r\n\x1a\n" + bytes(500), "h5py"),
-    "it.xlsx": (b"PK\x03\x04" + bytes(500), "saves a sheet as"),
-    "it.ods": (b"PK\x03\x04" + bytes(500), "saves a sheet as"),
+    "it.xlsx": (b"PK\x03\x04" + bytes(500), "save its sheet as"),
+    "it.ods": (b"PK\x03\x04" + bytes(500), "save its sheet as"),
     "it.csv": (b"PK\x03\x04" + bytes(500), "a sheet is saved as CSV"),
-    "it.xls": (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + bytes(500), "saves a sheet as"),
+    "it.xls": (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + bytes(500), "save its sheet as"),
     "it.mat": (b"MATLAB 5.0 MAT-file, Platform: GLNXA64" + bytes(500), "writematrix"),
     "it.al3d": (b"AliconaImaging\x00\r\n" + bytes(500), "exports heights as a text"),
     "it.parquet": (b"PAR1" + bytes(500), "read_parquet"),
@@ -398,4 +401,77 @@ def test_a_spreadsheet_is_an_archive(tmp_path):
     with zipfile.ZipFile(tmp_path / "it.xlsx", "w") as archive:
         archive.writestr("xl/workbook.xml", "secret")
     contents = (tmp_path / "it.xlsx").read_bytes()
-    refused(tmp_path, "lines", contents, *UM, said="a spreadsheet, which saves a sheet", file="it.xlsx")
+    refused(tmp_path, "lines", contents, *UM, said="a spreadsheet: save its sheet", file="it.xlsx")
+
+
+THOUSANDS = [f"{i:,}" for i in range(2000)]
+
+
+@pytest.mark.parametrize(("sign", "decimal"), [(",", "."), (".", ",")])
+def test_whole_numbers_with_signs_between_thousands_are_no_decimals(tmp_path, sign, decimal):
+    rng = np.random.default_rng(2)
+    heights = np.rint(1e3 * np.cumsum(rng.standard_normal(2000)))
+    rows = [f"{place};{height:,.0f}" for place, height in zip(THOUSANDS, heights, strict=True)]
+    contents = "x [mm];z [nm]\n" + "\n".join(rows).replace(",", sign) + "\n"
+    refused(tmp_path, "lines", contents, said=rf'which may be either: say it, as: decimal = "\{decimal}"$')
+    scene = rail_with(tmp_path, "lines", contents, f'decimal = "{decimal}"', 'outliers = "keep"')
+    assert scene.roughness.height[:, 0] == pytest.approx(1e-9 * heights)
+
+
+def test_names_of_columns_that_are_places_are_no_units_of_heights(tmp_path):
+    body = columns("", *LINES)[1:]
+    for header in ("-10 mm,0 mm,10 mm\n", "-10,0,10\n"):
+        contents = "x [mm]," + header + "".join(f"{i},{row}\n" for i, row in enumerate(body.strip().split("\n")))
+        refused(tmp_path, "lines", contents, 'unit = "um"', said=r'positions = \["-10 mm", "0 mm", "10 mm"\]$')
+        scene = rail_with(tmp_path, "lines", contents, 'unit = "um"', 'positions = ["-10 mm", "0 mm", "10 mm"]')
+        assert scene.roughness.height == pytest.approx(1e-6 * LINES.T)
+
+
+def test_a_line_that_mostly_has_no_data_is_left_out_with_its_position(tmp_path):
+    dead = LINES[1].copy()
+    dead[10:-10] = np.nan
+    contents = columns("", LINES[0], dead, LINES[2])
+    scene = rail_with(tmp_path, "lines", contents, *with_positions(-10, 0, 10))
+    assert scene.roughness.height == pytest.approx(1e-6 * LINES[[0, 2]].T)
+    assert scene.roughness.positions == pytest.approx((-0.01, 0.01))
+    assert any("column 2 at 0 mm has no data in" in note for note in told(scene))
+
+
+@pytest.mark.parametrize(
+    "stamp", ["03-May-2024 10:00:00.001", "May 3, 2024 10:00", "3. Mai 2024 10:00", "Fri 3 May 2024"]
+)
+def test_dates_with_names_of_months_are_time_stamps(tmp_path, stamp):
+    contents = "Time;z [um]\n" + "".join(f"{stamp};{z:.3f}\n" for z in Z)
+    refused(
+        tmp_path, "lines", contents, said=r"the time stamp .* in line|the time stamp .* of line 2, .* columns = \[2\]"
+    )
+
+
+def test_a_unit_that_the_header_has_wrong_is_changed_as_the_message_says(tmp_path):
+    contents = "x [mm],z [mm]\n" + "".join(f"{i},{z:.3f}\n" for i, z in enumerate(Z))
+    refused(
+        tmp_path, "lines", contents, said=r'skip = 1 leaves out the header, beside unit = "um" and spacing = "1 mm"'
+    )
+    scene = rail_with(tmp_path, "lines", contents, "skip = 1", *UM)
+    assert scene.roughness.height[:, 0] == pytest.approx(1e-6 * Z, abs=1e-9)
+
+
+def test_bars_and_utf_16_without_a_mark_are_read(tmp_path):
+    contents = "".join(f"{i}|{z:.3f}\n" for i, z in enumerate(Z))
+    assert "bars between its columns" in told(rail_with(tmp_path, "lines", contents, *UM))[0]
+    for encoding in ("utf-16-le", "utf-16-be"):
+        scene = rail_with(tmp_path, "lines", contents.encode(encoding), *UM)
+        assert scene.roughness.height[:, 0] == pytest.approx(1e-6 * Z, abs=1e-9)
+
+
+def test_the_error_of_long_gaps_covers_nineteen_of_twenty_bands():
+    off, bands = [], NominalBands().within(0.9, 2.5e-3)
+    for seed in range(12):
+        line = 1e-6 * rail(seed)[:4000]
+        held = line.copy()
+        held[2000:2160] = 12.345e-6
+        edits = edited(held[:, np.newaxis], 1e-3)
+        both = bands.powers_of_records(np.array([line, edits.result(held[:, np.newaxis])[:, 0]]), spacing=1e-3)
+        change = np.abs(10 * np.log10(both[1] / both[0]))
+        off.append(change > np.array(edits.errors(bands, both[1:])))
+    assert np.mean(off) < 0.05

@@ -166,7 +166,7 @@ def test_an_error_that_is_left_is_no_larger_than_what_is_gained(name):
     """It says that spikes are gone, and not that nothing is known; a gap of 0.2 m leaves decibels in few long bands."""
     height, _ = changed(PLANTED[name], 21)
     errors = np.array(lines(height).levels.errors)
-    assert np.median(errors) < 0.5
+    assert np.median(errors) < 0.7
     assert (errors > 0).all()
 
 

@@ -21,6 +21,8 @@ AT_THE_END = re.compile(
 )
 BRACKETS = str.maketrans("()", "[]")
 IN_BRACKETS = re.compile(r"\[([^\[\]]*)\]|\(([^()]*)\)")
+PLACE = re.compile(r"([+-]?\d+(?:[.,]\d+)?)(?:\s+(mm|cm|m))?")
+"""A name that is the place of a line across the rail, whose unit is none of its heights."""
 REFERENCE = re.compile(r"\b(?:re|ref|rel)\b\.?:?\s*([^\])]*)")
 UNIT_OF_ALL = re.compile(
     r"(?i)^(?:z|height|heights|value|values|data|hoehe|höhe)?[\s_-]*(?:unit|units|einheit)s?\W+(.+)$"
@@ -58,6 +60,8 @@ def column_of(text: str) -> Column:
 
 def _column_of(text: str) -> Column:
     words = MICRO.sub("u", text.strip().strip('"').strip())
+    if PLACE.fullmatch(words):
+        return Column(words)
     inside = [(found, (found[1] or found[2] or "").strip()) for found in IN_BRACKETS.finditer(words)]
     known = [(found, unit) for found, unit in inside if _unit(unit) in KNOWN]
     if not known and (last := AT_THE_END.search(words)):

@@ -2,12 +2,12 @@
 
 from pathlib import Path
 
-SHEET = 'a spreadsheet, which saves a sheet as "CSV UTF-8", with the numbers alone below one line of names'
-BY_PYTHON = "a file of {kind}, whose array {loaded} and numpy.savetxt write as a text"
+SHEET = 'a spreadsheet: save its sheet as "CSV UTF-8", with the numbers alone below one line of names'
+BY_PYTHON = 'a file of {kind}: numpy.savetxt("heights.txt", {loaded}) writes its array as a text'
 HDF5 = BY_PYTHON.format(kind="HDF5", loaded='h5py.File("{name}")["heights"][:]')
-MATLAB = "a file of MATLAB, where writematrix(heights, 'heights.csv') writes its array as a text"
-TABLES = "a table of Apache {kind}, which pandas.{read}(...).to_csv(...) writes as a text"
-INSTRUMENT = "a file of an instrument, whose software exports heights as a text, as XYZ or CSV"
+MATLAB = "a file of MATLAB: writematrix(heights, 'heights.csv') writes its array as a text there"
+TABLES = "a table of Apache {kind}: pandas.{read}(...).to_csv(...) writes it as a text"
+INSTRUMENT = "a file of an instrument: its software exports heights as a text, as XYZ or CSV"
 ENDINGS = {
     ".xlsx": SHEET,
     ".xlsm": SHEET,

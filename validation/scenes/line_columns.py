@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from validation.analysis.statistics import FloatArray
-from validation.scenes.column_names import Column
+from validation.scenes.column_names import PLACE, Column
 from validation.scenes.line_outliers import STANDS_OUT
 from validation.scenes.line_steps import noise_among
 from validation.scenes.number_table import NumberTable
@@ -32,7 +32,8 @@ EVEN = 1e-6
 EPOCH = 9e8, 2.2e9
 """Seconds since 1970 from 1998 to 2039; a place so far from its origin is in metres at most."""
 TIME_NAMES = re.compile(r"(?i)(?:time|date|datum|zeit|uhrzeit|timestamp|time[ _-]?stamp|zeitstempel|utc|datetime)s?")
-EXAMPLE = '["-10 mm", "0 mm"]'
+HALF = 0.5
+"""Of its rows have heights, of a line that measured something, at the least."""
 EVENLY = 3
 """Places of a first row that can run evenly, at the least."""
 
@@ -110,10 +111,20 @@ def _positions_of(
             return (0.0,), {}
         row = numbers.values[0, rest]
         even = np.isfinite(row).all() and _runs_evenly(row)
+        # places in the names of columns, or an example
+        names = [PLACE.fullmatch(numbers.columns[i].name) for i in rest]
+        named = [f"{name[1].replace(',', '.')} {name[2] or 'mm'}" for name in names if name]
         first = ", and its first row runs evenly, as such places do" if even else ""
+        if len(named) == len(rest):
+            first, example = (
+                ", which the names of its columns may be",
+                "[" + ", ".join(f'"{one}"' for one in named) + "]",
+            )
+        else:
+            example = _as_key(row if even else np.asarray(10.0 * np.arange(-(len(rest) // 2), (len(rest) + 1) // 2)))
         raise ValueError(
             f"positions is missing: the file has {len(rest)} lines, whose places across the rail are needed{first}, "
-            f"as: positions = {_as_key(row) if even else EXAMPLE}"
+            f"as: positions = {example}"
         )
     if len(given) == len(lines):
         shown = {i: f" at {1e3 * given[lines.index(i)]:g} mm" for i in dead}
@@ -216,8 +227,8 @@ def _kinds(numbers: NumberTable, count: int | None) -> tuple[dict[int, Places], 
     one_way = []
     for i in range(len(numbers.columns)):
         values = numbers.values[np.isfinite(numbers.values[:, i]), i]
-        if not values.size:
-            nothing[i] = "has no data"
+        if (known := values.size / len(numbers.values)) < HALF:
+            nothing[i] = f"has no data in {100 - 100 * known:.3g} % of its rows" if values.size else "has no data"
         if values.size < MOSTLY * len(numbers.values):
             continue
         if is_time(numbers.columns[i], values):

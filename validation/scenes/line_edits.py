@@ -18,7 +18,7 @@ Outliers = Literal["remove", "keep"]
 """What is done about outliers."""
 MOST_REPLACED, MOST_CLIPPED = 0.1, 0.01
 """Of the points of a line: beyond, what stood there is not known well enough for an error."""
-SHIFTS = 8
+SHIFTS = 24
 """Places along a line at which what replaces outliers is tried on points without any."""
 OF_SHIFTS, WIDER = 1.5, 4
 """Error over the largest change of these trials; parts of its width by which an outlier may be wider than it was taken.
@@ -86,9 +86,9 @@ class EditedLine:
         clipped = points_of(tuple(self.of_kind("clipping")), self.height.size).mean()
         if clipped > MOST_CLIPPED:
             ends = " and ".join(sorted({in_unit(one.size, "length", digits=4) for one in self.of_kind("clipping")}))
-            return f"clipped at {ends} in {100 * clipped:.2g} % of its points"
+            return f"clipped at {ends} in {100 * clipped:.3g} % of its points"
         if (share := self.replaced.mean()) > MOST_REPLACED:
-            return f"none of a rail in {100 * share:.2g} % of its points"
+            return f"none of a rail in {100 * share:.3g} % of its points"
         steps = len(self.of_kind("step"))
         return f"broken by {steps} steps or more" if steps >= MOST_STEPS else ""
 

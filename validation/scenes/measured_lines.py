@@ -16,11 +16,12 @@ from validation.scenes.level_files import curve
 from validation.scenes.line_columns import along_the_track
 from validation.scenes.line_edits import UNTOUCHED, LineEdits, Outliers, edited
 from validation.scenes.measured import MeasuredHeights
+from validation.scenes.number_table import NumberTable
 from validation.scenes.printable import printable, shortened
 from validation.scenes.reader import Reader, errors_of, one_word, table, values
 from validation.scenes.roughness_levels import LEAST, MICROMETRE, RoughnessLevels
 from validation.scenes.table_files import FORM, sentence_about, table_beside
-from validation.scenes.units import in_unit, quantity, unit_of
+from validation.scenes.units import LENGTHS, in_unit, quantity, unit_of
 
 WAVES_PER_LINE = 4
 """Of the longest band, at the least: with fewer waves it is narrower than what a line resolves."""
@@ -147,8 +148,8 @@ def lines_in(name: str, given: object, *, folder: Path, told: list[str]) -> Meas
         try:
             _ = measured.levels  # heights in a wrong unit are refused here, by their levels
         except ValueError as problem:
-            raise ValueError(f'{problem} As: unit = "um"') from None
-    if unit is None and (doubt := _doubt(measured.levels)):
+            raise ValueError(f"{problem} If so, {_other_unit(numbers)}") from None
+    if unit is None and (doubt := _doubt(measured.levels, _other_unit(numbers))):
         measured = replace(measured, edits=replace(flaws, doubt=doubt))
         told.append(f"{printable(path.name)}: {doubt}.")
     told += [*sentence_about(path, (*numbers.notes, *lines.notes, *ends)), *edits.notes]
@@ -156,8 +157,15 @@ def lines_in(name: str, given: object, *, folder: Path, told: list[str]) -> Meas
     return measured
 
 
-def _doubt(levels: RoughnessLevels) -> str:
-    """What is wrong with the unit that a file names; empty where nothing is.
+def _other_unit(numbers: NumberTable) -> str:
+    """Keys that say another unit of heights than a file does: of one that names units the header is left out."""
+    if not numbers.unit and not any(column.unit in LENGTHS for column in numbers.columns):
+        return 'as: unit = "um"'
+    return f'skip = {numbers.header} leaves out the header, beside unit = "um" and spacing = "1 mm"'
+
+
+def _doubt(levels: RoughnessLevels, other: str) -> str:
+    """What is wrong with the unit that a file names; empty where nothing is. other: the keys that change it.
 
     The middle of the differences from the limit curve of ISO 3095, in the bands that both have.
     """
@@ -167,8 +175,8 @@ def _doubt(levels: RoughnessLevels) -> str:
     if SMOOTHEST <= over <= ROUGHEST:
         return ""
     return (
-        f"the levels are {over:+.0f} dB re the limit curve of ISO 3095, which no rail has: is the unit another than "
-        'the file names? A unit in the scene is taken at its word, as: unit = "um"'
+        f"the levels are {over:+.0f} dB re the limit curve of ISO 3095, which no rail has: is the unit another "
+        f"than the file names? If so, {other}"
     )
 
 

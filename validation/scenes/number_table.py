@@ -25,6 +25,10 @@ SENTINELS = (-999.0, -9999.0, -99999.0, -32768.0, -32767.0, 32767.0, 9999.0, 999
 HUGE, LONELY = 1e30, 3.0
 """LONELY: how many spans of all other numbers lie between them and such a value, at the least."""
 NUMERIC = re.compile(r"[+-]?\d+\.?\d*")
+UP_TO_999, LIKE_THOUSANDS = re.compile(r"[+-]?\d{1,3}"), re.compile(r"[+-]?[1-9]\d{0,2}(?:[.,]\d{3})+")
+FEWEST_SIGNS, HUNDRED = 10, 3
+"""Whole numbers below a thousand, and others as they may be written beside these; cells of a column with a sign that
+may stand between thousands, and digits of a whole number beside them, at the least."""
 MOST_SHOWN = 12
 """Texts of cells without data that a sentence names."""
 FEW = 8
@@ -57,7 +61,7 @@ class NumberTable:
     """Numbers of shape (rows, columns), NaN without data; a name a column; the unit of all; how it was read.
 
     spacing: of the points along the axes in that unit, where the file has it, which an instrument wrote; missing: what
-    stands in cells without data, and how often.
+    stands in cells without data, and how often; header: lines of a text above its numbers.
     """
 
     values: FloatArray
@@ -66,6 +70,7 @@ class NumberTable:
     spacing: tuple[float, ...] | None = None
     notes: tuple[str, ...] = ()
     missing: str = ""
+    header: int = 0
 
     def __post_init__(self) -> None:
         if not self.columns and self.values.ndim > 1:
@@ -114,6 +119,7 @@ def _as_written(lines: Sequence[str], encoding: str, form: TableForm, numeric: i
     skip, nodata = form.skip or 0, frozenset(str(one).strip().lower() for one in form.nodata)
     sample = text_dialect.sample_of(lines, skip)
     dialect, first, width = text_dialect.recognised(sample, skip, form.decimal, nodata, numeric)
+    _check_thousands(sample[first:], first, dialect, width)
     values, below, missing, grouped = _values(lines[first:], first, dialect, width)
     above = lines[skip:first]
     units, columns = unit_of_all(above), columns_of(above, width, dialect.delimiter)
@@ -126,8 +132,27 @@ def _as_written(lines: Sequence[str], encoding: str, form: TableForm, numeric: i
     if width > 1 and np.isnan(values[:, -1]).all() and not columns[-1].name:
         # a delimiter at the end of each line
         values, columns = values[:, :-1], columns[:-1]
-    table = NumberTable(values=values, columns=columns, unit=unit, notes=notes, missing=_counted(missing))
+    table = NumberTable(values=values, columns=columns, unit=unit, notes=notes, missing=_counted(missing), header=first)
     return known_alone(table, form.nodata).chosen(form.columns)
+
+
+def _check_thousands(lines: Sequence[str], first: int, dialect: Dialect, columns: int) -> None:
+    """Raises ValueError where a decimal sign may stand between thousands.
+
+    A column then has whole numbers below a thousand, and three digits behind each sign.
+    """
+    if dialect.sure:
+        return
+    rows = [(i, dialect.cells(line)) for i, line in enumerate(lines, first) if dialect.row(line) == columns]
+    for column in zip(*(cells for _, cells in rows), strict=True):
+        bare = ((i, cell.strip().strip('"').strip()) for (i, _), cell in zip(rows, column, strict=True))
+        texts = {i: text for i, text in bare if not dialect.says_missing(text)}
+        signed = {i: text for i, text in texts.items() if dialect.decimal in text}
+        whole = [text for text in texts.values() if UP_TO_999.fullmatch(text)]
+        both = len(signed) >= FEWEST_SIGNS and any(len(text) >= HUNDRED for text in whole)
+        if both and len(signed) + len(whole) == len(texts) and all(map(LIKE_THOUSANDS.fullmatch, signed.values())):
+            at = min(signed)
+            raise ValueError(text_dialect.about_thousands(signed[at], at))
 
 
 def _values(
@@ -202,7 +227,9 @@ def _is_lonely(values: FloatArray, one: float) -> bool:
 
 def _how(dialect: Dialect, width: int, header: Sequence[str], encoding: str) -> tuple[str, ...]:
     """What is not as in a plain CSV: commas, points, one line of names, UTF-8."""
-    delimiter = {";": "semicolons", "\t": "tabs", "": "spaces", ",": ""}[dialect.delimiter] if width > 1 else ""
+    delimiter = (
+        {";": "semicolons", "\t": "tabs", "|": "bars", "": "spaces", ",": ""}[dialect.delimiter] if width > 1 else ""
+    )
     above = sum(bool(line.strip()) and not line.strip().startswith(COMMENTS) for line in header)
     found = [
         f"{delimiter} between its columns" if delimiter else "",

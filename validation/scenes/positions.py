@@ -98,7 +98,9 @@ def faults_of_places(values: FloatArray) -> str:
         if where.any():
             at = int(np.argmax(where))
             ends = (f"{values[i]:.6g}" for i in (at, at + 1))
-            return f"{words.format(*ends)} in row {at + 2}, and in {int(where.sum()) - 1} other rows"
+            others = int(where.sum()) - 1
+            more = f", and in {others} other {'row' if others == 1 else 'rows'}" if others else ""
+            return f"{words.format(*ends)} in row {at + 2}{more}"
     return ""
 
 

@@ -36,6 +36,8 @@ axis over the shorter: ten million at these ends."""
 LEAST_ALPHA, MOST_ALPHA = 0.1, 10.0
 """Waves within 6 and 84 degrees of the track: less are ridges to a strip, whose width holds no wave as long; of more,
 hardly any run along the track."""
+LONGEST_OF_CONTACT, SHORTEST_OF_CONTACT = 10.0, 0.45
+"""Wavelengths over the half-length of the contact, one of which at least the roughness must have."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -115,6 +117,8 @@ class RailScene:
                 )
             along, across = self.contact.along, self.contact.across
             check_covers("rail.heights", self.roughness, (4 * math.pi * along, 3 * across), min(along, across))
+        else:
+            _check_bands(self)
 
     @property
     def radii(self) -> tuple[float, float]:
@@ -208,6 +212,20 @@ def _check_alpha(alpha: Any) -> None:
             f"rail.across must be a number alpha from {LEAST_ALPHA:g} to {MOST_ALPHA:g}, waves within 6 to 84 degrees "
             f'of the track, got {alpha:g}; "ridges" stands for less, "isotropic" for all directions'
         )
+
+
+def _check_bands(scene: RailScene) -> None:
+    """Raises ValueError for roughness of which no band is near the length of the contact, which no model filters."""
+    along, waves = scene.contact.along, scene.levels.wavelengths
+    ends = LONGEST_OF_CONTACT * along, SHORTEST_OF_CONTACT * along
+    try:
+        scene.levels.bands.within(*ends)
+    except ValueError:
+        far, near, first, last, half = (in_unit(x, "length", digits=3) for x in (*ends, waves[0], waves[-1], along))
+        raise ValueError(
+            f"wheel.load must press a contact that filters a wavelength of the roughness, {first} to {last}: between "
+            f"{near} and {far}, got a contact of {half} to both sides: is the unit of the load right?"
+        ) from None
 
 
 def _check_contact(scene: RailScene) -> None:

@@ -24,16 +24,19 @@ CONTROL = re.compile(rb"[\x00-\x08\x0e-\x19\x1b-\x1f]")
 MARKS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16"))
 COMMENTS = ("#", "%", "//", ";")
 """How a line begins that holds no numbers; one of a table between semicolons may have an empty first cell."""
-WRITTEN = ((";", "."), (";", ","), ("\t", "."), ("\t", ","), (",", "."), ("", "."), ("", ","), (",", ","))
+WRITTEN = (
+    *((sign, point) for sign in (";", "\t") for point in (".", ",")),
+    *((",", "."), ("", "."), ("", ","), ("|", "."), ("|", ","), (",", ",")),
+)
 """Delimiter, "" for white space, and decimal sign; commas for both stand between quotation marks."""
 ERRORS = re.compile(
-    r"#(?:div/0|value|n/a|ref|name|num|null|getting_data|spill|calc|overflow|wert|nv|bezug|zahl)[!?]?|err:\d{3}"
+    r"#(?:div/0|value|n/a|ref|name|num|null|getting_data|spill|calc|overflow|wert|nv|bezug|zahl|error)[!?]?|#+|err:\d{3}"
     r"|[+-]?(?:1\.#)?inf(?:inity)?"
 )
 """Cells of a formula without a result, in small letters, as spreadsheets write them, and what divides by zero."""
 MISSING = frozenset(
     ("", "nan", "-nan", "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind", "na", "n/a", "n.a.", "<na>", "null", "none")
-) | {"nodata", "bad", "-", "--", "---", "\N{EN DASH}", "\N{EM DASH}"}
+) | {"nodata", "bad", "(null)", "n.d.", "nd", "missing", "error", "?", "-", "--", "---", "\N{EN DASH}", "\N{EM DASH}"}
 """Cells of points without data, in small letters; asterisks and `ERRORS` are, too."""
 NO_DATA = re.compile(r"(?i)\bno data\b")
 THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:(?P<sign>[.,' \u00a0\u2009\u202f’])\d{3})(?:(?P=sign)\d{3})*(?P<rest>[.,]\d*)?")
@@ -41,8 +44,10 @@ THOUSANDS = re.compile(r"[+-]?\d{1,3}(?:(?P<sign>[.,' \u00a0\u2009\u202f’])\d{
 TIME = re.compile(
     r"\d{4}[-/.]\d{1,2}[-/.]\d{1,2}(?:[T ]\d{1,2}:.*)?|\d{1,2}[./-]\d{1,2}[./-]\d{2}(?:\d{2})?(?: \d{1,2}:.*)?"
     r"|\d{1,2}:\d{1,2}(?::\d{1,2}(?:[.,:]\d+)?)?(?: ?[aApP][mM])?(?:Z|[+-]\d{2}:?\d{2})?"
+    r"|(?:[A-Za-z]{2,9}[.,]? )?(?:\d{1,2}\.?[ /-]?[A-Za-z]{3,9}\.?|[A-Za-z]{3,9}\.? \d{1,2},?)[ /-]\d{2,4}"
+    r"(?:,?[ T]\d{1,2}:.*)?"
 )
-"""Dates and times of a day."""
+"""Dates, with names of months, too, and times of a day."""
 FORTRAN = re.compile(r"[+-]?[\d.]+[dD][+-]?\d+")
 COMMA = re.compile(r"[+-]?\d*,\d+")
 STARTS = re.compile(r"\s*[-+]?\d").match
@@ -151,8 +156,9 @@ def lines_of(file: IO[bytes], given: str | None) -> tuple[list[str], str]:
     known = given or next((name for mark, name in MARKS if contents.startswith(mark)), "")
     if known and codecs.lookup(known).name == "utf-8":
         known = "utf-8-sig"
-    if not known and contents[1:4:2] == b"\x00\x00" and 0 not in contents[:4:2]:
-        known = "utf-16-le"
+    for half, name in ((1, "utf-16-le"), (0, "utf-16-be")):
+        if not known and contents[half:4:2] == b"\x00\x00" and 0 not in contents[1 - half : 4 : 2]:
+            known = name
     if not re.search("16|32", known) and CONTROL.search(contents):
         raise NoTextError("the file must be a text of numbers, got one with bytes that no text has")
     for encoding in (known,) if known else ("utf-8", "cp1252", "latin-1"):
@@ -281,7 +287,7 @@ def _no_table(lines: Sequence[str], skip: int, ways: Sequence[Dialect]) -> str:
         at = next(alike, skip - 1) + 1
         return about_row(lines[at], at, best, len(numbers[best]))
     if THOUSANDS.fullmatch(cell := best.cells(lines[last])[0].strip()):
-        return _about_thousands(cell, last)
+        return about_thousands(cell, last)
     return (
         f"the file must hold rows of numbers, got none in its first {len(lines)} lines: skip leaves out more of them, "
         "encoding says how they are written"
@@ -301,15 +307,16 @@ def about_row(line: str, index: int, dialect: Dialect, columns: int) -> str:
             dialect.number(cell)
         except ValueError:
             if THOUSANDS.fullmatch(cell.strip()):
-                return _about_thousands(cell, index)
+                return about_thousands(cell, index)
             if TIME.fullmatch(cell.strip().strip('"')):
                 return _about_times(cells, i, index, dialect)
             if dialect.decimal == "." and COMMA.fullmatch(cell.strip()):
                 return f'decimal commas must be told, as: decimal = ",", got {token(cell)} in line {index + 1}'
+            whole = len(cell.strip()) <= SHOWN
+            told = f', a cell without data told, as: nodata = "{token(cell, bare=True)}"' if whole else ""
             return (
                 f"rows must be numbers, got {token(cell)} in column {i + 1} of line {index + 1}: a comment begins with "
-                f"a #, a header is left out by skip, a column by columns, a cell without data told, as: nodata = "
-                f'"{token(cell, bare=True)}"'
+                f"a #, a header is left out by skip, a column by columns{told}"
             )
     return (
         f"rows must be of one length, got {len(cells)} {'cell' if len(cells) == 1 else 'cells'} in line {index + 1} of "
@@ -317,7 +324,8 @@ def about_row(line: str, index: int, dialect: Dialect, columns: int) -> str:
     )
 
 
-def _about_thousands(cell: str, index: int) -> str:
+def about_thousands(cell: str, index: int) -> str:
+    """What decides about a number whose sign may be either."""
     sign = '"."' if "," in cell else '","'
     return (
         f"a comma or a point must be a decimal sign or stand between thousands, got {token(cell)} in line {index + 1}, "
@@ -330,7 +338,8 @@ def _about_times(cells: Sequence[str], i: int, index: int, dialect: Dialect) -> 
     others = [j + 1 for j, cell in enumerate(cells) if dialect.is_number(cell) or dialect.says_missing(cell)]
     return (
         f"columns must be numbers, got the time stamp {token(cells[i])} in column {i + 1} of line {index + 1}, "
-        f'which is no place: it is left out, as: columns = {others or [2]}; of lines beside, as: spacing = "1 mm"'
+        f"which is no place: it is left out, as: columns = {others or [2]}; of lines without a column of "
+        'places spacing is told, too, as: spacing = "1 mm"'
     )
 
 
