@@ -217,6 +217,15 @@ def test_a_function_of_this_process_is_checked_in_the_same_way(capsys):
     assert not capsys.readouterr().out
 
 
+def test_a_masked_value_is_no_number_though_there_is_one_below_the_mask():
+    @stiffness_model("masked")
+    def masked(load):
+        return np.ma.masked_array([load, 5.0], mask=[False, load > 1])
+
+    assert Called(masked).call(load=1.0).tolist() == [1.0, 5.0]
+    assert Called(masked).call(load=2.0).reason == "returned masked values, must be real numbers"
+
+
 def test_an_own_raise_is_a_refusal_and_a_mistake_is_none():
     @stiffness_model("refuses")
     def refuses(load):

@@ -56,6 +56,16 @@ def test_levels_contradict_by_the_root_mean_square_and_those_of_a_rail_in_bands_
         assert contradict(answer(flat, **about), answer(once, **about), 0.1) is apart
 
 
+@pytest.mark.parametrize(("decibels", "apart"), [(0.8, False), (0.95, False), (1.05, True)])
+def test_errors_in_bands_of_two_answers_add_up_as_if_they_went_opposite_ways(decibels, apart):
+    """Both of 0.5 dB: intervals of levels that are less than 1 dB apart overlap."""
+    one, other = (
+        answer(np.array([1.0, value]), band_errors={"model": half, "grid": 0 * half, "sample": 0 * half})
+        for value, half in ((1.0, np.full(2, 0.5)), (10 ** (decibels / 20), np.full(2, 0.5)))
+    )
+    assert contradict(one, other, 0.05) is contradict(other, one, 0.05) is apart
+
+
 def test_no_model_is_selected_that_a_less_biased_one_contradicts():
     """Springs find 4 % and are 30 % off boundary elements: those are the answer, within the tolerance or not."""
     springs = Finding(name="springs", is_mdr=True, parts=(0.04, 0, 0), value=(1.0,))
