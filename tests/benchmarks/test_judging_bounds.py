@@ -106,6 +106,16 @@ def test_a_contact_that_shrinks_under_more_load_is_found(lost, verdict):
     assert points["monotone area"].verdict == verdict and points["monotone area"].value == pytest.approx(lost)
 
 
+def test_an_approach_that_falls_under_more_load_is_no_stiffness():
+    """Though its compliance falls from one step to the next, as it must."""
+    spread, cell = np.ones(GRID.gap.shape) / GRID.gap.size, np.zeros(GRID.gap.shape)
+    cell[2, 2] = 1.0
+    grown = {p.quantity: p for p in monotone(answers(0.3 * spread, 0.6 * spread, spread), GRID)}
+    fallen = {p.quantity: p for p in monotone(answers(0.3 * spread, 0.6 * cell, spread), GRID)}
+    assert grown["monotone stiffness"].verdict == AGREE and fallen["monotone stiffness"].verdict == DIFFER
+    assert fallen["monotone stiffness"].value > 0.1
+
+
 def test_the_worst_of_the_timed_runs_is_judged(monkeypatch):
     """A solver that is right twice and wrong once."""
     calls = []

@@ -171,6 +171,25 @@ def test_data_that_a_file_reads_from_its_folder_belong_to_it_and_what_it_writes_
     assert digests[0] == digests[1] != digests[2]
 
 
+def test_data_that_a_later_call_alone_reads_belong_to_a_file_as_well(tmp_path):
+    """Whether or not that call also loads a module."""
+    body = """
+from pathlib import Path
+@stiffness_model('a name')
+def bad(load):
+    return float(Path(__file__).with_name(f"{load:g}.txt").read_text(encoding="utf-8"))
+"""
+    for load in (1, 2, 3):
+        written(tmp_path, str(10 * load), f"{load}.txt")
+        os.utime(tmp_path / f"{load}.txt", (1e9, 1e9))
+    with Visitor(written(tmp_path, FACE + body)) as visitor:
+        (caller,) = visitor.callers()
+        for load in (1, 2, 3):
+            before = visitor.digest
+            assert caller.call(load=float(load)) == 10 * load and visitor.digest != before
+            assert [path.name for path in visitor.sources] == [*(f"{n}.txt" for n in range(1, load + 1)), "bad.py"]
+
+
 BROKEN = {
     "x = 1\n": "bad.py: no function has a decorator, which is one of @stiffness_model, ",
     "def f(:\n": r"bad.py: SyntaxError: ",
