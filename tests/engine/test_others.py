@@ -190,6 +190,27 @@ def bad(load):
             assert [path.name for path in visitor.sources] == [*(f"{n}.txt" for n in range(1, load + 1)), "bad.py"]
 
 
+def test_data_that_are_others_for_a_later_process_are_named_and_the_digest_is_that_of_the_first(tmp_path):
+    """As a copy that keeps its date, which no process of the file has written."""
+    data, body = tmp_path / "data.txt", f"FACTOR = float(Path(__file__).with_name('data.txt').read_text())\n{TWO}"
+
+    def copied(text):
+        data.write_text(text, encoding="utf-8")
+        os.utime(data, (1e9, 1e9))
+
+    copied("2")
+    with Visitor(written(tmp_path, f"{FACE}from pathlib import Path\n{body}")) as visitor:
+        first, second = visitor.callers()
+        before = visitor.digest
+        assert first.call(load=1.0) == 2.0 and not visitor.changed
+        copied("3")
+        assert second.call(load=1.0) == 3.0  # in a process of its own
+        assert visitor.digest == before and first.changed == second.changed == "data.txt"
+
+
+TWO = """
+a, b = (stiffness_model(name)(lambda load: FACTOR * load) for name in "ab")
+"""
 BROKEN = {
     "x = 1\n": "bad.py: no function has a decorator, which is one of @stiffness_model, ",
     "def f(:\n": r"bad.py: SyntaxError: ",
