@@ -46,6 +46,15 @@ def test_one_value_has_the_verdict_of_its_worst_number():
     assert alone(numbers, DIFFER, ("H",)) == "q = 2 alone"
 
 
+def test_a_value_does_not_have_a_verdict_that_its_worst_number_has_not():
+    """One number that differs is enough against it, and one that is undecided keeps it from agreeing."""
+    numbers = [at(letter, H=h, q=q) for letter, h, q in (("a", 0.4, 1.0), ("a", 0.4, 2.0), ("a", 1.0, 1.0))]
+    assert alone([*numbers, at("d", H=1.0, q=2.0)], AGREE, ("q",)) == "H = 0.4 alone"
+    assert alone([*numbers, at("u", H=1.0, q=2.0)], AGREE, ("q",)) == "H = 0.4 alone"
+    undecided = [at("u", H=0.4, q=1.0), at("u", H=1.0, q=1.0), at("d", H=1.0, q=2.0)]
+    assert alone(undecided, UNDECIDED, ("q",)) == "H = 0.4 alone"
+
+
 def test_conditions_are_named_until_they_explain_the_verdict():
     """A second one that goes with the first, or a range over which a number is the worst, adds nothing."""
     numbers = [

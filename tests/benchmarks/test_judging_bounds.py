@@ -116,6 +116,16 @@ def test_the_bound_of_an_answer_is_fifty_residuals_and_no_less_than_rounding(res
     assert solver(ours, residual=residual).of_answer == pytest.approx(bound)
 
 
+def test_an_approach_that_falls_under_more_load_is_no_stiffness():
+    """Though its compliance falls from one step to the next, as it must."""
+    spread, cell = np.ones(GRID.gap.shape) / GRID.gap.size, np.zeros(GRID.gap.shape)
+    cell[2, 2] = 1.0
+    grown = {p.quantity: p for p in monotone(answers(0.3 * spread, 0.6 * spread, spread), GRID)}
+    fallen = {p.quantity: p for p in monotone(answers(0.3 * spread, 0.6 * cell, spread), GRID)}
+    assert grown["monotone stiffness"].verdict == AGREE and fallen["monotone stiffness"].verdict == DIFFER
+    assert fallen["monotone stiffness"].value > 0.1
+
+
 def test_the_worst_of_the_timed_runs_is_judged(monkeypatch):
     """A solver that is right twice and wrong once."""
     calls = []

@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -17,6 +18,7 @@ from tests.engine.toys import ENVIRONMENT, HANG, ROOT, wait_until
 from tests.report.test_command_line import SMALL
 from validation import __main__ as command
 from validation.benchmarks.isolation import isolated_process
+from validation.engine import termination
 from validation.engine.engine import Engine, WorkerLostError
 from validation.report import pictures
 from validation.report.contents import CASES
@@ -31,6 +33,27 @@ def raising(error):
 
 def report(folder, *words):
     return command.main(["report", "--only", "hertz", "--out", str(folder), "--workers", "2", *words])
+
+
+def test_a_request_that_is_ignored_on_purpose_ends_no_run():
+    """As a hang-up under nohup; one that has a handler of its own keeps that; all are as before, afterwards."""
+    taken = list[int]()
+    wanted = {signal.SIGHUP: signal.SIG_IGN, signal.SIGTERM: lambda number, frame: taken.append(number)}
+    before = {number: signal.signal(number, handler) for number, handler in wanted.items()}
+    try:
+        # which would interrupt pytest itself
+        with suppress(termination.TerminatedError), termination.terminable():
+            for number in wanted:
+                signal.raise_signal(number)
+        assert taken == [signal.SIGTERM]
+        assert {number: signal.getsignal(number) for number in wanted} == wanted
+        signal.signal(signal.SIGHUP, signal.SIG_DFL)
+        with pytest.raises(termination.TerminatedError, match="SIGHUP"), termination.terminable():
+            signal.raise_signal(signal.SIGHUP)
+        assert signal.getsignal(signal.SIGHUP) is signal.SIG_DFL
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 @pytest.mark.slow

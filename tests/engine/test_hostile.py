@@ -323,6 +323,14 @@ def test_arrays_cannot_be_written_and_are_compared_to_the_byte():
     assert not lent.as_argument(lent.copy_of(before["x"])).flags.writeable
 
 
+def test_a_key_that_a_mapping_has_gained_or_lost_is_a_change():
+    """Unlike a new attribute, which may be a cache."""
+    for before, after in (({}, {"b": 1.0}), ({"a": 1.0}, {"a": 1.0, "b": 1.0}), ({"a": 1.0, "b": 1.0}, {"a": 1.0})):
+        assert lent.changed({"x": before}, {"x": dict(before)}) == ""
+        assert lent.changed({"x": before}, {"x": after}) == "x"
+        assert lent.changed({"x": [0.0, before]}, {"x": [0.0, after]}) == "x"
+
+
 def test_a_fork_of_a_function_of_this_process_never_comes_back(tmp_path):
     """It would judge on beside the first, and write the same files."""
     mark = tmp_path / "returned"

@@ -171,6 +171,46 @@ def test_data_that_a_file_reads_from_its_folder_belong_to_it_and_what_it_writes_
     assert digests[0] == digests[1] != digests[2]
 
 
+def test_data_that_a_later_call_alone_reads_belong_to_a_file_as_well(tmp_path):
+    """Whether or not that call also loads a module."""
+    body = """
+from pathlib import Path
+@stiffness_model('a name')
+def bad(load):
+    return float(Path(__file__).with_name(f"{load:g}.txt").read_text(encoding="utf-8"))
+"""
+    for load in (1, 2, 3):
+        written(tmp_path, str(10 * load), f"{load}.txt")
+        os.utime(tmp_path / f"{load}.txt", (1e9, 1e9))
+    with Visitor(written(tmp_path, FACE + body)) as visitor:
+        (caller,) = visitor.callers()
+        for load in (1, 2, 3):
+            before = visitor.digest
+            assert caller.call(load=float(load)) == 10 * load and visitor.digest != before
+            assert [path.name for path in visitor.sources] == [*(f"{n}.txt" for n in range(1, load + 1)), "bad.py"]
+
+
+def test_data_that_are_others_for_a_later_process_are_named_and_the_digest_is_that_of_the_first(tmp_path):
+    """As a copy that keeps its date, which no process of the file has written."""
+    data, body = tmp_path / "data.txt", f"FACTOR = float(Path(__file__).with_name('data.txt').read_text())\n{TWO}"
+
+    def copied(text):
+        data.write_text(text, encoding="utf-8")
+        os.utime(data, (1e9, 1e9))
+
+    copied("2")
+    with Visitor(written(tmp_path, f"{FACE}from pathlib import Path\n{body}")) as visitor:
+        first, second = visitor.callers()
+        before = visitor.digest
+        assert first.call(load=1.0) == 2.0 and not visitor.changed
+        copied("3")
+        assert second.call(load=1.0) == 3.0  # in a process of its own
+        assert visitor.digest == before and first.changed == second.changed == "data.txt"
+
+
+TWO = """
+a, b = (stiffness_model(name)(lambda load: FACTOR * load) for name in "ab")
+"""
 BROKEN = {
     "x = 1\n": "bad.py: no function has a decorator, which is one of @stiffness_model, ",
     "def f(:\n": r"bad.py: SyntaxError: ",
@@ -215,6 +255,15 @@ def test_a_function_of_this_process_is_checked_in_the_same_way(capsys):
     assert (height == 0).all() and caller.printed == "hello"
     assert Called(two).call(load=2.0).tolist() == [2.0, 0.2]
     assert not capsys.readouterr().out
+
+
+def test_a_masked_value_is_no_number_though_there_is_one_below_the_mask():
+    @stiffness_model("masked")
+    def masked(load):
+        return np.ma.masked_array([load, 5.0], mask=[False, load > 1])
+
+    assert Called(masked).call(load=1.0).tolist() == [1.0, 5.0]
+    assert Called(masked).call(load=2.0).reason == "returned masked values, must be real numbers"
 
 
 def test_an_own_raise_is_a_refusal_and_a_mistake_is_none():

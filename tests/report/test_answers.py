@@ -341,6 +341,13 @@ def test_ranges_that_join_keep_all_of_their_numbers(off):
     assert cell.alone == f"H = {(0.4, 0.55, 0.7, 1.0)[off]:g} alone"
 
 
+def test_a_range_within_another_does_not_shorten_it():
+    """One H has a part of what another was measured over."""
+    numbers = [at((1.0, 10.0), 0.0, hurst=0.4), at((2.15, 4.64), 0.0, hurst=0.7), at((10.0, 100.0), 0.0, hurst=0.4)]
+    places = [place for place, _ in strip_of(mean_stiffness(*numbers))]
+    assert places == ["< 1", "1 to 10", "10 to 1e+02", "> 1e+02"]
+
+
 def test_differences_below_and_above_are_told_apart():
     """What differs is nowhere near zero: a single range would say that it were."""
     row = mean_stiffness(*(at((0.1, 1.0), value, hurst=value) for value in (-3.0, -2.0, 2.0, 3.0)))

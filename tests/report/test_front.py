@@ -93,6 +93,9 @@ def test_seconds_at_equal_error_stand_on_the_page():
         # a finer setting that has a larger error
         ("%", 9.0, 0.5, 30.0, "inconclusive"),
         ("%", 12.0, 1.9, 13.9, "outside tolerance"),
+        # across the tolerance from above
+        ("%", 12.0, 2.5, 14.5, "inconclusive"),
+        ("dB", 1.2, 0.3, 1.5, "inconclusive"),
         ("dB", 0.65, 0.85, 1.5, "inconclusive"),
         ("dB", 0.65, 0.35, 1.0, "within tolerance"),
         ("dB", 4.8, 0.4, 5.2, "outside tolerance"),

@@ -275,6 +275,19 @@ def test_a_spacing_that_disagrees_with_the_places_is_refused(tmp_path):
     assert rail_with(tmp_path, "lines", contents, 'spacing = "0.3333 mm"').roughness.spacing == 0.3333e-3
 
 
+def test_a_spacing_may_differ_from_that_of_the_places_by_its_rounding_alone(tmp_path):
+    """By 0.2 %: a spacing that is a hundredth off would shift all wavelengths by as much."""
+    contents = columns("x [mm],z [um]", AT, Z)
+    for near in ("1.0015 mm", "0.9985 mm"):
+        assert rail_with(tmp_path, "lines", contents, f'spacing = "{near}"').roughness.spacing == pytest.approx(
+            1e-3 * float(near.split()[0])
+        )
+    for far in ("1.0025 mm", "0.9975 mm", "1.01 mm"):
+        refused(tmp_path, "lines", contents, f'spacing = "{far}"', said=r"spacing must be that of x \[mm\], 1 mm, ")
+    bare = columns("", AT, Z)
+    refused(tmp_path, "lines", bare, 'spacing = "1.01 mm"', 'unit = "um"', said="spacing must be that of column 1, 1 a")
+
+
 @pytest.mark.parametrize(
     ("contents", "keys", "said"),
     [
@@ -337,6 +350,15 @@ def test_lines_keep_the_slope_beyond_their_last_known_point(tmp_path):
 
 def in_memory(text, **form):
     return table_of_text(io.BytesIO(text.encode()), TableForm(**form))
+
+
+@pytest.mark.parametrize("between", ["End of part 1;", "End of part 1"])
+def test_numbers_below_a_line_that_is_none_are_refused_at_that_line(between):
+    """What stood there is not known, and one table of both parts would be made up."""
+    part = rows([(1, 2.5), (2, 3.5), (3, 4.5)])
+    assert in_memory(f"x;z\n{part}{between}\n").values.shape == (3, 2)
+    with pytest.raises(ValueError, match="line 5"):
+        in_memory(f"x;z\n{part}{between}\n{part}")
 
 
 def test_the_place_along_the_track_is_no_line():

@@ -45,6 +45,8 @@ def test_what_is_noted(scene, beyond, before, words):
         ('radius = "460 mm"', 'diameter = "920 mm"', {"radius": 0.46}),
         ('load = "50 kN"', 'axle_load = "400 kN"\nwheels_per_axle = 8', {"load": 5e4}),
         ('load = "50 kN"', 'axle_load = "400 kN"\nwheels_per_axle = 9', "wheels_per_axle must be at most 8, got 9"),
+        ('load = "50 kN"', 'axle_load = "50 kN"\nwheels_per_axle = 1', {"load": 5e4}),
+        ('load = "50 kN"', 'axle_load = "400 kN"\nwheels_per_axle = 0', "wheels_per_axle must be at least 1, got 0"),
         ("poisson_ratio = 0.3", "poisson_ratio = 0.5", {}),
         ("poisson_ratio = 0.3", "poisson_ratio = 0.501", "poisson_ratio must lie in"),
         ("poisson_ratio = 0.3", "poisson_ratio = -0.001", "poisson_ratio must lie in"),

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from validation.analysis.nominal_bands import NominalBands
+from validation.scenes import line_outliers, line_steps
 from validation.scenes.line_edits import EditedLine, LineEdits, edited
 from validation.scenes.load import load_scene
 from validation.scenes.measured_lines import MeasuredLines
@@ -204,6 +205,19 @@ def test_heights_of_outliers_are_those_that_were_planted():
     assert [high.size, low.size] == pytest.approx([80e-6, -60e-6], abs=4e-6)
 
 
+def test_the_spread_of_a_step_is_the_half_width_of_95_per_cent_of_its_height():
+    """Of steps of a known height at many places of lines whose differences are normal."""
+    inside = []
+    for seed in range(21, 26):
+        line = UM * rail(seed)
+        for place in range(300, 2700, 60):
+            stepped = line[:3000] + np.where(np.arange(3000) >= place, 300e-6, 0.0)
+            _, (one,) = line_steps.without_steps(stepped, 1e-3, 0.0)
+            assert one.last == place
+            inside.append(abs(one.size - 300e-6) <= one.spread)
+    assert 0.9 < np.mean(inside) < 0.99
+
+
 def test_a_spike_is_replaced_by_a_straight_line_and_all_else_stays():
     line = UM * rail(21)
     spiked = line.copy()
@@ -232,6 +246,17 @@ def test_outliers_of_rounded_lines_are_found(rounded):
         line = np.round(rail(22) / rounded) * rounded
         height, places = changed(plant, 22, line)
         assert len(EditedLine.of(height, 1e-3).outliers) == len(places)
+
+
+@pytest.mark.parametrize("distance", [3, 8])
+def test_beyond_its_ends_a_straight_line_goes_on_though_its_ends_stand_out(distance):
+    """By the median of the six points beside each end, so that a spike there has its own height."""
+    straight = 3.0 + 0.5 * np.arange(40)
+    line = straight.copy()
+    line[[0, -1]] += [90.0, -70.0]
+    before, behind = line_outliers._sides(line, distance)
+    assert before[:distance] == pytest.approx(straight[:distance] - 0.5 * distance)
+    assert behind[-distance:] == pytest.approx(straight[-distance:] + 0.5 * distance)
 
 
 # What is not known

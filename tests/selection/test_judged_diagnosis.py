@@ -225,6 +225,19 @@ def test_few_draws_leave_their_deviation_open(count):
     assert 0 < all_different.deviation.half < 0.5
 
 
+@pytest.mark.parametrize("times", [(10, 1, 1), (6, 3, 3), (1, 1, 10)])
+def test_draws_that_are_drawn_unequally_often_have_the_error_of_fewer(times):
+    """sum n_i x_i / n has the variance of x times sum n_i^2 / n^2, which for equal numbers is that over three."""
+    pool = np.array([0.96, 1.0, 1.05])
+    n = sum(times)
+    alike = stiffness.sampled(np.repeat(pool, 4), "", np.repeat([0, 4, 8], 4))
+    apart = np.repeat(np.cumsum((0, *times[:-1])), times)
+    found = stiffness.sampled(np.repeat(pool, times), "", apart)
+    exact = math.sqrt(3 * sum(one**2 for one in times)) / n
+    assert found.mean.half / alike.mean.half == pytest.approx(exact)
+    assert found.mean.value == pytest.approx(np.dot(pool, times) / n)
+
+
 def test_draws_that_differ_under_any_load_are_draws():
     """Springs that are pressed flat are all as stiff."""
     model = Called(springs)

@@ -13,8 +13,9 @@ from validation.engine import replies
 from validation.engine.offered import offer
 from validation.engine.others import Called
 from validation.selection.judging import own, sweeps
-from validation.selection.judging.judge import points_of
+from validation.selection.judging.judge import Finding, ModelAnswer, points_of
 from validation.selection.judging.own import ellipse, half_space, in_3d
+from validation.selection.judging.references import Reference
 
 
 def flat(load, side, modulus):
@@ -32,6 +33,16 @@ def smooth(line, radius, modulus, approach):
 
 def under_load(line, radius, modulus, load):
     return (3 * load / (4 * modulus * radius**0.5)) ** (2 / 3) - line
+
+
+def test_the_grid_of_a_reference_is_added_linearly_to_the_samples_of_both():
+    """What the cells leave goes one way in all surfaces: 0.05 + sqrt(0.03^2 + 0.04^2) = 0.1."""
+    known = Reference({"H": 0.7}, 1.0, sample=0.03, grid=0.05, quantity="k")
+    for value, verdict in ((1.0, "agree"), (1.09, "undecided"), (1.25, "differ")):
+        point = Finding(known, ModelAnswer(value, 0.04)).judged(0.101)
+        assert point.verdict == verdict and point.error == pytest.approx(0.1 * value)
+    level = Reference({"H": 0.7}, 3.0, sample=0.3, grid=0.5, unit="dB", quantity="k")
+    assert Finding(level, ModelAnswer(3.0, 0.4)).judged(0.1).error == pytest.approx(1.0)
 
 
 RIGHT = {

@@ -373,6 +373,19 @@ def test_a_wrong_law_is_wrong_on_a_track_that_repeats_itself(factor, power, tole
     assert verdicts(points, laws.FEATURE, feature=laws.PEAK) == {"differ"}
 
 
+@pytest.mark.parametrize("records", [1.0, 2.5])
+def test_of_few_records_a_peak_has_twice_the_scatter_of_the_reference_and_all_else_none_that_is_known(records):
+    """That of the reference is of the mean of many wheels, so that one record has it times the root of their number."""
+    wheels = laws.about(laws.FEATURE)["settings"]["realisations"]
+    assert wheels > 100
+    for row in laws.known(laws.FEATURE, laws.REGION):
+        found = laws._answer(row, row.value, 0.001, records)
+        is_peak = row.where.get("feature") == laws.PEAK
+        assert found.half == (pytest.approx(2 * row.sample * math.sqrt(wheels / records)) if is_peak else math.inf)
+        assert "the track repeats itself" in found.reason
+        assert laws._answer(row, row.value, 0.001, laws.FEWEST).half < 0.1
+
+
 def test_wheels_start_on_no_equal_pieces_of_a_track():
     """Of any period: no two pairs of wheels are as far apart as each other."""
     scene = laws.table_14_1()

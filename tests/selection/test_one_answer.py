@@ -5,6 +5,7 @@ import io
 import json
 import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -15,11 +16,14 @@ from validation.selection import advice, on_mdr
 from validation.selection.agreement import ALIKE, contradict
 from validation.selection.columns import overview_of
 from validation.selection.compare import Comparison, SceneProblem
+from validation.selection.elasticity import mean_pressure
 from validation.selection.exported import to_csv
+from validation.selection.hierarchy import Candidate
 from validation.selection.in_short import in_short
+from validation.selection.quantities import models_of
 from validation.selection.scene_model import Answer
 from validation.selection.summary import findings, summary
-from validation.simulation.model import Cost
+from validation.simulation.model import Cost, ErrorEstimate
 
 
 def answer(value, model=0.0, grid=0.0, sample=0.0, **more):
@@ -54,6 +58,16 @@ def test_levels_contradict_by_the_root_mean_square_and_those_of_a_rail_in_bands_
     for counts, apart in (((True,) * 4, True), ((False, True, True, True), False)):
         about = {"band_errors": bands, "counts": counts}
         assert contradict(answer(flat, **about), answer(once, **about), 0.1) is apart
+
+
+@pytest.mark.parametrize(("decibels", "apart"), [(0.8, False), (0.95, False), (1.05, True)])
+def test_errors_in_bands_of_two_answers_add_up_as_if_they_went_opposite_ways(decibels, apart):
+    """Both of 0.5 dB: intervals of levels that are less than 1 dB apart overlap."""
+    one, other = (
+        answer(np.array([1.0, value]), band_errors={"model": half, "grid": 0 * half, "sample": 0 * half})
+        for value, half in ((1.0, np.full(2, 0.5)), (10 ** (decibels / 20), np.full(2, 0.5)))
+    )
+    assert contradict(one, other, 0.05) is contradict(other, one, 0.05) is apart
 
 
 def test_no_model_is_selected_that_a_less_biased_one_contradicts():
@@ -189,6 +203,42 @@ def test_where_the_sample_is_the_error_a_number_of_realisations_is_advised_that_
     )
     assert match and match[1] == match[3]
     assert "scatter of the surfaces" in line and "lower roughness" not in line
+
+
+@pytest.mark.parametrize(("model", "tolerance"), [(0.05, 0.15), (0.2, 0.3)])
+def test_realisations_that_are_advised_leave_the_sample_what_the_model_does_not_take(model, tolerance):
+    """One that leaves 5 % of 15 % needs as many as one that leaves none of 10 %; none do where it leaves all."""
+
+    def wanted(left, within):
+        found = answer(1.0, model=left, sample=0.4, realisations=8)
+        estimate = ErrorEstimate(model=left, reason="")
+        one = Candidate(Fake(is_sampled=True), "not accurate enough", "", estimate, found)
+        return advice.wanted_realisations(one, within)
+
+    alone = wanted(0.0, 0.1)
+    assert alone > 50 and wanted(model, tolerance) == alone
+    assert wanted(model, model) == wanted(model, 0.9 * model) == 0
+
+
+@pytest.mark.parametrize("crown", [0.1, 1.0])
+def test_the_mean_pressure_on_a_rail_is_that_of_its_ellipse(crown):
+    """Two thirds of the largest, by which the load is the integral over half of an ellipsoid."""
+    rail = replace(validation.load_scene("rail"), crown_radius=crown)
+    x, y = np.meshgrid(*2 * [(np.arange(1000) + 0.5) / 500 - 1], indexing="ij")
+    a, b = rail.contact.along, rail.contact.across
+    assert abs(a / b - 1) > 0.05
+    shape = np.sqrt(np.maximum(1 - x**2 - y**2, 0)).mean() * 4 * a * b
+    assert mean_pressure(rail) == pytest.approx(2 / 3 * rail.load / shape, rel=1e-3)
+
+
+@pytest.mark.parametrize("count", [9, 36, 400])
+def test_the_sample_that_is_claimed_of_so_many_realisations_is_half_of_a_95_per_cent_interval(count):
+    """About two standard errors, and never less than those of a normal mean."""
+    model = next(
+        one for one in models_of(ROUGH, "stiffness", 0.01, 0, realisations=count) if one.name == "boundary elements 64²"
+    )
+    standard_error = model.sampling.scatter / math.sqrt(count)
+    assert 1.96 * standard_error <= model.estimate().sample <= 2.5 * standard_error
 
 
 def test_so_many_realisations_are_solved_as_are_asked():

@@ -12,6 +12,7 @@ import validation
 from tests.selection.planted_answers import punch
 from validation.__main__ import main
 from validation.engine.engine import Engine
+from validation.scenes.measured_lines import MeasuredLines
 from validation.selection.compare import SceneProblem, content_of
 from validation.selection.several_scenes import compare_scenes
 from validation.selection.summary import summary
@@ -115,6 +116,18 @@ def test_an_interrupted_sweep_goes_on(monkeypatch, capsys):
     assert "the same command goes on" in capsys.readouterr().err
     assert main(SWEEP) == 0
     assert solved == ["Rolling wheel, load = 2000 N", *["Rolling wheel, load = 4905 N"] * 2]
+
+
+@pytest.mark.parametrize("place", [0, 1, 700, 1500, 2999])
+def test_no_place_of_a_measured_line_is_left_out_of_the_digest_of_its_scene(place):
+    def content(height):
+        rail = validation.load_scene("rail")
+        return content_of(replace(rail, roughness=MeasuredLines(height=height, spacing=1e-3), across="ridges"))
+
+    line = np.random.default_rng(6).standard_normal(3000) * 1e-6
+    changed = line.copy()
+    changed[place] *= 1.001
+    assert content(line) == content(line.copy()) != content(changed)
 
 
 def test_heights_that_differ_in_one_point_are_another_scene():

@@ -10,7 +10,7 @@ import pytest
 import validation
 from tests.selection.planted_answers import Fake, Finding, compared, planted, wheel
 from validation.scenes.load import bundled_for_compare
-from validation.selection.columns import BECAME, side_by_side
+from validation.selection.columns import BECAME, models_of_page, side_by_side
 from validation.selection.on_mdr import in_full
 from validation.selection.quantities import quantities_of
 from validation.selection.side_by_side import error_of_difference
@@ -152,6 +152,18 @@ def test_the_error_of_a_difference_is_both_errors_together():
     unknown = replace(coarse, parts=(math.inf, 0, 0))
     (line, _) = list(side_by_side(compared(unknown, fine, solve_all=True)))[3:-1]
     assert line.count("± unknown") == 2
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_the_difference_on_the_page_is_that_of_the_band_that_is_farthest_off_on_either_side(sign):
+    scene = wheel(mass=None, speed=None)
+    count = RollingQuantity(scene, "force-spectrum").bands.centres.size
+    values = [10 ** (sign * (-6.0 if i == 1 else 1.0) / 20) for i in range(count)]
+    rough = Finding(value=tuple(values), parts=(0.1, 0, 0))
+    fine = Finding(value=(1.0,) * count, parts=(0.01, 0, 0), name="fine")
+    found = compared(rough, fine, scene=scene, quantity="force-spectrum", solve_all=True)
+    shown, nothing = (row["apart"] for row in models_of_page(found))
+    assert (shown, nothing) == (f"{-6 * sign:+d} ± 0.91 dB", "—")
 
 
 def test_spectra_stand_side_by_side_in_decibels():
