@@ -155,7 +155,7 @@ def test_the_first_screen_finds_the_numbers_of_rolling(rolled):
     section = Section("rolling", CASE, "", asdict(SMALL), CASE.evidence(rolled))
     rows = {row.question.name: row for row in answered_questions([section])}
     for name in ("rolling-rms", "rolling-spectrum"):
-        assert rows[name].strip[1][0] == f"{0.01 * SMALL.spectrum.slope_along:.2g}"
+        assert rows[name].strip[1].place == f"{0.01 * SMALL.spectrum.slope_along:.2g}"
         assert rows[name].measured.endswith("H = 0.7")
     assert rows["rolling-spectrum"].word == "No"
 

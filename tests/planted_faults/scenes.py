@@ -22,7 +22,6 @@ from tests.scenes import (
 from validation.scenes import (
     height_edits,
     level_files,
-    line_columns,
     material,
     measured,
     measured_surface,
@@ -82,8 +81,6 @@ FAULTS = [
     Fault("surfaces that do not give way beside the contact").at(
         transverse_profile, "_check_alone", lambda *of: check_alone(*of[:3], 0.0)
     ),
-    test_exported_tables.test_the_place_along_the_track_is_no_line,
-    Fault("a column of places as a second line of heights").at(line_columns, "_kinds", lambda numbers, count: ({}, {})),
     test_exported_tables.test_wavenumbers_are_cycles_over_a_metre,
     Fault("wavenumbers in cycles taken for radians").at(
         level_files, "WAVENUMBERS", {"1/m": 1 / (2 * math.pi), "1/cm": 1e2 / (2 * math.pi)}

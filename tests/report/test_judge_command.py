@@ -48,7 +48,7 @@ def test_a_formula_is_judged_and_written(file, tmp_path, capsys):
     words = [word for pair in zip(("--json", "--csv", "--figure"), map(str, places), strict=True) for word in pair]
     assert main(["judge", str(file), "--out", str(tmp_path / "out"), *words]) == 0
     printed, found = capsys.readouterr().out, json.loads(places[0].read_text(encoding="utf-8"))
-    assert list(found) == ["model", "kind", "tolerance", "verdicts", "enough", "seconds"]
+    assert list(found) == ["model", "kind", "tolerance", "verdicts", "enough", "remarks", "seconds"]
     assert (found["model"], found["kind"], found["tolerance"]) == ("in series", "stiffness_model", 0.1)
     point = found["verdicts"][0]
     assert {"quantity", "where", "value", "reference", "difference", "error", "verdict", "reason"} <= set(point)

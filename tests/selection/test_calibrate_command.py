@@ -164,6 +164,8 @@ def test_what_cannot_be_done_is_refused_before_anything_is_measured(words, said,
 
 
 ANSWERS = ("calibrate", "--answers", *ONE_PUNCH[1:-1], "3")
+OTHERS = ("--rolling", "0", "--wheels", "0", "--workers", "1", "--punches", "0")
+TWO_SPHERES = ("calibrate", "--answers", *OTHERS, "--spheres", "2")
 
 
 @pytest.mark.slow
@@ -171,7 +173,7 @@ def test_answers_alone_are_made_and_each_kind_is_installed_beside_the_others(tmp
     """Readable with numpy alone; scenes without an answer are left out; a table in the folder stays."""
     (tmp_path / "package").mkdir()
     assert main([*ONE_PUNCH]) == main([*ANSWERS, "--install"]) == 0
-    assert main([*ANSWERS, "--punches", "0", "--spheres", "2", "--install"]) == 0
+    assert main([*TWO_SPHERES, "--install"]) == 0
     assert "sphere stiffness: 1 answers, 2 numbers" in capsys.readouterr().out
     assert (tmp_path / "calibration" / "calibration.csv").exists()
     with np.load(tmp_path / "package" / "calibration_answers.npz") as arrays:

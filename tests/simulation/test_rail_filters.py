@@ -208,12 +208,10 @@ def test_measured_lines_of_isotropic_ground_have_its_filter(lines, across):
     assert (found.left_by_ground >= found.smoothing_error).all()
 
 
-def test_levels_without_a_wave_of_the_length_of_the_contact_have_no_answer():
+def test_levels_without_a_wave_of_the_length_of_the_contact_are_rejected():
     long = replace(RAIL.levels, wavelengths=RAIL.levels.wavelengths[:15], levels=RAIL.levels.levels[:15])
-    asked = Target(replace(RAIL, roughness=long), "contact-filter")
-    for model in models_serving(asked.scene, "contact-filter"):
-        claimed = model.estimate(asked, model.resolutions(asked)[0])
-        assert not claimed.in_range and "2000 to 80 mm" in claimed.reason
+    with pytest.raises(ValueError, match=r"a wavelength of the roughness, 2 m to 80 mm; .* shorter wavelengths"):
+        replace(RAIL, roughness=long)
 
 
 @pytest.mark.slow
