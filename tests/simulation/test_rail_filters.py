@@ -210,7 +210,7 @@ def test_measured_lines_of_isotropic_ground_have_its_filter(lines, across):
 
 def test_levels_without_a_wave_of_the_length_of_the_contact_are_rejected():
     long = replace(RAIL.levels, wavelengths=RAIL.levels.wavelengths[:15], levels=RAIL.levels.levels[:15])
-    with pytest.raises(ValueError, match=r"a wavelength of the roughness, 2 m to 80 mm; .* shorter wavelengths"):
+    with pytest.raises(ValueError, match=r"a wavelength of the roughness, 2 m to 80 mm, got .* shorter waves"):
         replace(RAIL, roughness=long)
 
 

@@ -223,8 +223,8 @@ def _check_bands(scene: RailScene) -> None:
     except ValueError:
         far, near, first, last, half = (in_unit(x, "length", digits=3) for x in (*ends, waves[0], waves[-1], along))
         raise ValueError(
-            f"wheel.load must press a contact that filters a wavelength of the roughness, {first} to {last}, got one of "
-            f"{half} to both sides, which filters {near} to {far}: another load, or shorter wavelengths, are needed"
+            f"wheel.load must press a contact that filters a wavelength of the roughness, {first} to {last}, "
+            f"got one of {half} to both sides, which filters {near} to {far}: another load or shorter waves are needed"
         ) from None
 
 
