@@ -38,10 +38,10 @@ class MeasuredHeights:
         Heights, positive towards the other body [m]; 16 or more along each side.
     spacing : tuple of float
         Distances (dx, dy) of the points [m]. Square cells read the heights linearly between points.
-    detrend : "none", "mean" or "plane", optional
-        What is subtracted from the heights: nothing, their mean, or their plane of least squares.
     edits : HeightEdits, optional
         What was done to the heights before: nothing, unless `measured` or a scene file filled points in or cropped.
+    detrend : "none", "mean" or "plane", optional
+        What is subtracted from the heights: nothing, their mean, or their plane of least squares.
 
     Attributes
     ----------
