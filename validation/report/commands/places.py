@@ -85,8 +85,9 @@ def _nearest(path: Path) -> Path:
 
 def _too_long(path: Path) -> str:
     """Whether a part of it that is not there yet is longer than a name may be."""
-    path = Path(os.path.realpath(path))
     near = _nearest(path)
+    if near == path:  # also a link that leads to nothing
+        return ""
     most = os.pathconf(near, "PC_NAME_MAX")
     is_long = any(len(os.fsencode(part)) > most for part in path.relative_to(near).parts)
     return os.strerror(errno.ENAMETOOLONG) if is_long else ""
