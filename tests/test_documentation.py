@@ -11,7 +11,7 @@ import pytest
 import bem3d
 import mdr
 import validation
-from validation.scenes import rail_file
+from validation.railway.scenes import rail_file
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "reports" / "docs"
@@ -23,7 +23,7 @@ HELPERS = {
     "validation.theory.closed_forms.positive",
     "validation.theory.gauss_legendre.gauss_legendre",
     "validation.theory.gauss_legendre.on_panels",
-    "validation.theory.transverse_structure.gauss",
+    "validation.railway.theory.transverse_structure.gauss",
 }
 METHODS = {
     *("mdr.geike", "mdr.line_trace", "mdr.load_curve", "mdr.rough_profile", "mdr.roll", "mdr.roll_surface"),

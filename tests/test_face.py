@@ -11,9 +11,9 @@ import pytest
 
 import validation
 from validation.__main__ import main
-from validation.selection.compare import Comparison
-from validation.selection.hierarchy import Candidate, Selection
-from validation.selection.scene_model import Answer
+from validation.advice.compare import Comparison
+from validation.advice.hierarchy import Candidate, Selection
+from validation.advice.scene_model import Answer
 from validation.simulation.model import Cost, ErrorEstimate
 from validation.simulation.rolling_quantity import RollingQuantity
 

@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from validation.analysis import judgement
-from validation.analysis.judgement import DEVIATION, LEVEL, compared, enough, not_compared, shared, worst
+from validation.judging import judgement
+from validation.judging.judgement import DEVIATION, LEVEL, compared, enough, not_compared, shared, worst
 
 
 @pytest.mark.parametrize(

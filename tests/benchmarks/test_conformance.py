@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from hypothesis import Phase
 
-from validation.benchmarks.judging.properties import PROPERTIES
-from validation.report import judged_by_pytest
+from validation.judging import pytest_properties as judged_by_pytest
+from validation.judging.solvers.properties import PROPERTIES
 
 OWN = """
 import numpy as np
-from validation.benchmarks.judging.discrete import ContactProblem, pressed
+from validation.benchmarks.discrete import ContactProblem, pressed
 
 def solve(gap, spacing, modulus, force):
     problem = ContactProblem(gap=gap, spacing=spacing, modulus=modulus, periodic=False, force=force)
@@ -26,7 +26,7 @@ def rule(q, roughness):
 
 PEER = """
 from validation.benchmarks import peers
-from validation.benchmarks.judging.discrete import ContactProblem
+from validation.benchmarks.discrete import ContactProblem
 from validation import contact_solver
 
 @contact_solver("a peer", periodic=True)
@@ -92,7 +92,7 @@ def test_the_solvers_of_other_packages_pass_where_they_are_installed(package, so
 
 SERVED = """
 from validation import contact_solver
-from validation.benchmarks.judging.discrete import ContactProblem, pressed
+from validation.benchmarks.discrete import ContactProblem, pressed
 
 def answer(gap, spacing, modulus, periodic, **load):
     problem = ContactProblem(gap=gap, spacing=spacing, modulus=modulus, periodic=periodic, force=1.0)

@@ -12,14 +12,14 @@ import bem3d
 from bem3d import kernel
 from tests import oracles
 from validation import contact_solver
-from validation.analysis.judgement import AGREE
-from validation.benchmarks import peers
-from validation.benchmarks.judging import discrete, judged
-from validation.benchmarks.judging.discrete import STATED, ContactProblem, pressed
-from validation.benchmarks.judging.judged import findings
-from validation.benchmarks.judging.properties import PROPERTIES, Asked
-from validation.engine.offered import KINDS, LOOSEST, Failed, Offered
-from validation.engine.others import Called
+from validation.benchmarks import discrete, peers
+from validation.benchmarks.discrete import STATED, ContactProblem, pressed
+from validation.judging.judgement import AGREE
+from validation.judging.registry import KINDS, LOOSEST, Failed, Offered
+from validation.judging.solvers import judged
+from validation.judging.solvers.judged import findings
+from validation.judging.solvers.properties import PROPERTIES, Asked
+from validation.judging.worker import Called
 
 EXAMPLE = str(Path(discrete.__file__).parents[2] / "examples" / "own_solver.py")
 OPTIONS = KINDS["contact_solver"].options

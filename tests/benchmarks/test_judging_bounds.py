@@ -7,15 +7,15 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from validation.analysis.judgement import AGREE, DIFFER
-from validation.benchmarks import peers, timing
+from validation.benchmarks import discrete, peers, timing
 from validation.benchmarks import solvers as comparison
-from validation.benchmarks.judging import discrete, judged, properties
-from validation.benchmarks.judging.discrete import ContactProblem, pressed
-from validation.benchmarks.judging.properties import Asked, loaded, monotone
+from validation.benchmarks.discrete import ContactProblem, pressed
 from validation.benchmarks.surface_problem import SurfaceProblem
-from validation.engine.offered import KINDS, Offered
-from validation.engine.others import Called
+from validation.judging.judgement import AGREE, DIFFER
+from validation.judging.registry import KINDS, Offered
+from validation.judging.solvers import judged, properties
+from validation.judging.solvers.properties import Asked, loaded, monotone
+from validation.judging.worker import Called
 
 SMALL = next(problem for problem in discrete.problems() if problem.name == "odd cells of 2:1, light load")
 GRID = ContactProblem(

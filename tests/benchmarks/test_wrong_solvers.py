@@ -8,16 +8,17 @@ import pytest
 
 from tests.benchmarks.foreign_solver import WRONG, free, pressed, pressed_to
 from tests.benchmarks.foreign_solver import periodic as periodic_waves
-from validation.analysis.judgement import AGREE, REFUSED
-from validation.benchmarks.judging import diagnosis, discrete, judged
-from validation.benchmarks.judging.causes import JudgedContact, causes
-from validation.benchmarks.judging.discrete import STATED
-from validation.benchmarks.judging.factors import numbered
-from validation.benchmarks.judging.judged import findings
-from validation.benchmarks.judging.properties import Asked
-from validation.engine.offered import KINDS, Offered
-from validation.engine.others import Called
-from validation.report.judged_solver import solver_lines
+from validation.benchmarks import discrete
+from validation.benchmarks.discrete import STATED
+from validation.judging.judgement import AGREE, REFUSED
+from validation.judging.registry import KINDS, Offered
+from validation.judging.solver_words import solver_lines
+from validation.judging.solvers import diagnosis, judged
+from validation.judging.solvers.causes import JudgedContact, causes
+from validation.judging.solvers.factors import numbered
+from validation.judging.solvers.judged import findings
+from validation.judging.solvers.properties import Asked
+from validation.judging.worker import Called
 
 FEW = (
     "odd grid",

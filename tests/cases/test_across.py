@@ -12,13 +12,13 @@ import bem3d
 from validation.analysis.evidence import number_with, numbers_with
 from validation.analysis.series import numbers_of
 from validation.analysis.statistics import POWER_DECIBEL
-from validation.cases.rail import across, filters
-from validation.cases.rail.filters import GROUNDS, RailWheel, scene_of
-from validation.cases.rail.rolled_filters import OVER_BEM
-from validation.simulation.equivalent_displacement import transfer_of
+from validation.railway.cases import across, filters
+from validation.railway.cases.filters import GROUNDS, RailWheel, scene_of
+from validation.railway.cases.rolled_filters import OVER_BEM
+from validation.railway.problems.equivalent_displacement import transfer_of
+from validation.railway.problems.rail_across import roll_both_ways, wide_rail
+from validation.railway.problems.rail_strip import line_of, strip_bands
 from validation.simulation.model_names import BED, BEM, LINEAR, LINEAR_ON_LINE
-from validation.simulation.rail_across import roll_both_ways, wide_rail
-from validation.simulation.rail_strip import line_of, strip_bands
 
 WHEEL = RailWheel(50, 360)
 """The contact is wider than long: filters differ the most."""

@@ -9,10 +9,8 @@ import numpy as np
 import pytest
 
 import bem3d
-from validation.analysis.evidence import grouped
-from validation.analysis.series import numbers_of
-from validation.cases.selection import edge_scenes, model_selection
-from validation.cases.selection.edge_scenes import (
+from validation.advice.cases import edge_scenes, model_selection
+from validation.advice.cases.edge_scenes import (
     EDGE_KINDS,
     EDGE_QUANTITIES,
     MEASURED,
@@ -22,17 +20,19 @@ from validation.cases.selection.edge_scenes import (
     SPHERE,
     edge_scene,
 )
-from validation.cases.selection.model_selection import PARTS, EdgeTrial, edge_trials, solve_edge, true_error
-from validation.cases.selection.model_selection_study import OF_EDGES, at_edges, edges_of
+from validation.advice.cases.model_selection import PARTS, EdgeTrial, edge_trials, solve_edge, true_error
+from validation.advice.cases.model_selection_study import OF_EDGES, at_edges, edges_of
+from validation.advice.compare import compare
+from validation.advice.quantities import models_of, quantities_of
+from validation.advice.scene_model import Answer
+from validation.analysis.evidence import grouped
+from validation.analysis.series import numbers_of
 from validation.engine.convergence import NotConvergedError
+from validation.railway.problems.rail_models import rail_quantity
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
-from validation.selection.compare import compare
-from validation.selection.quantities import models_of, quantities_of
-from validation.selection.scene_model import Answer
 from validation.simulation import rolling_levels
 from validation.simulation.model import Cost, GridModel
-from validation.simulation.rail_models import rail_quantity
 from validation.simulation.rolling_levels import by_linear_theory, strip_of
 from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.sampling import distance

@@ -8,10 +8,10 @@ import pytest
 from scipy import stats
 
 from tests.selection.planted_answers import Finding
+from validation.advice.cases import model_selection as ladder
+from validation.advice.cases import model_selection_study as calibration
+from validation.advice.cases.random_scenes import KINDS
 from validation.analysis.study import Outcomes
-from validation.cases.selection import model_selection as ladder
-from validation.cases.selection import model_selection_study as calibration
-from validation.cases.selection.random_scenes import KINDS
 
 
 @pytest.mark.slow

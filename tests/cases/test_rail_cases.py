@@ -9,11 +9,11 @@ import pytest
 from tests.simulation.power_law_ground import power_law_ground
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL
-from validation.cases.rail import filters, rolled_filters, rough_rail
-from validation.simulation import equivalent_displacement as displacement
+from validation.railway.cases import filters, rolled_filters, rough_rail
+from validation.railway.problems import equivalent_displacement as displacement
+from validation.railway.problems.rail_strip import RailStrip, line_of, strip_bands
+from validation.railway.theory.transverse_structure import IsotropicGround
 from validation.simulation.model_names import BEM, LINEAR, LINEAR_ON_LINE, SPRINGS_THAT_READ
-from validation.simulation.rail_strip import RailStrip, line_of, strip_bands
-from validation.theory.transverse_structure import IsotropicGround
 
 WHEEL = filters.RailWheel(50, 920)
 SMALL = {"length": 0.12, "width": 0.04, "spacing": 1e-3, "realisation": 0, "seed": 3}

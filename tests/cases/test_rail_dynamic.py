@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from validation.analysis.evidence import ClaimStatus
-from validation.cases.rail.rail_dynamic import AIRBORNE, FINE, STUDY, RailDynamic, RailDynamicResult, series
+from validation.railway.cases.rail_dynamic import AIRBORNE, FINE, STUDY, RailDynamic, RailDynamicResult, series
+from validation.railway.problems.wheel_on_rail import hann, over_dynamic_stiffness
 from validation.simulation.model_names import BEM
 from validation.simulation.motion import simulate
-from validation.simulation.wheel_on_rail import hann, over_dynamic_stiffness
 
 CASE = RailDynamic(strips=6, compared=6, width=0.5)
 KEY = (0.0, CASE.damping, BEM, FINE)

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from validation.cases.rail.rail_sound import RailSound, RailSoundResult, shipped_rail
-from validation.cases.rail.rail_sound_study import IN_BANDS, STUDY
+from validation.railway.cases.rail_sound import RailSound, RailSoundResult, shipped_rail
+from validation.railway.cases.rail_sound_study import IN_BANDS, STUDY
+from validation.railway.problems.rail_sound import GEIKE
 from validation.simulation.model_names import BEM, LINEAR, SPRINGS_THAT_READ
-from validation.simulation.rail_sound import GEIKE
 
 CASE = RailSound(rail=shipped_rail(), seconds=0.1, repeats=1)
 TIME = np.arange(CASE.samples) / CASE.rate

@@ -15,10 +15,12 @@ import pytest
 import mdr
 from tests.engine.toys import ENVIRONMENT, wait_until
 from validation import stiffness_model
-from validation.engine import lent, others, serving
-from validation.engine.channel import Channel, ForeignBytesError
-from validation.engine.offered import Failed, offer
-from validation.engine.others import Called, Visitor
+from validation.judging import arguments as lent
+from validation.judging import worker as others
+from validation.judging import worker_main as serving
+from validation.judging.channel import Channel, ForeignBytesError
+from validation.judging.registry import Failed, offer
+from validation.judging.worker import Called, Visitor
 
 HEAD = """
 import os, signal, sys, threading, time
@@ -102,7 +104,7 @@ HARMFUL = {
     "return type('A', (), {'__array__': lambda s, *a, **k: 1 / 0})()": "returned A, whose numbers cannot be read: Zer",
     "raise type('E', (Exception,), {'__str__': lambda s: 1 / 0})": "raised E, line",
     "raise ValueError(chr(0xdc80))": "raised ValueError: \udc80, line",
-    "import validation.engine.replies as r; r.Reply.__new__ = None": "ended its process with status 1",
+    "import validation.judging.replies as r; r.Reply.__new__ = None": "ended its process with status 1",
     "sys.modules.clear()": "ended its process with status 1",
 }
 STAT = """
@@ -165,7 +167,7 @@ def test_no_process_of_a_file_outlives_it(tmp_path, monkeypatch):
 ASKS = """
 import sys
 from pathlib import Path
-from validation.engine.others import Visitor
+from validation.judging.worker import Visitor
 with Visitor(Path(sys.argv[1]), seconds=1e6) as visitor:
     print(visitor._process.pid, flush=True)
     visitor.callers()[0].call(load=1.0)

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import validation
-from validation.engine import installed
-from validation.engine.named import named_in
-from validation.engine.offered import KINDS, OfferedError
-from validation.engine.others import Called
+from validation.judging import entry_points as installed
+from validation.judging.by_name import named_in
+from validation.judging.registry import KINDS, OfferedError
+from validation.judging.worker import Called
 
 
 def test_a_decorated_function_is_called_as_before():

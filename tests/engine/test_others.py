@@ -8,10 +8,10 @@ import pytest
 
 from tests.engine.toys import HANG
 from validation import stiffness_model, stiffness_of_surface
-from validation.engine import read_files
-from validation.engine.offered import Failed
-from validation.engine.others import Called, OthersError, Visitor, offered_in, visited
-from validation.engine.read_files import digest_of
+from validation.judging import files_read as read_files
+from validation.judging.files_read import digest_of
+from validation.judging.registry import Failed
+from validation.judging.worker import Called, OthersError, Visitor, offered_in, visited
 
 FACE = "from validation import stiffness_model, stiffness_of_surface\n"
 BAD = {

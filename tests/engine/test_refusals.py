@@ -7,9 +7,9 @@ import pytest
 
 from tests.engine.toys import ENVIRONMENT, ROOT
 from validation import stiffness_model
-from validation.engine import refusals
-from validation.engine.others import Called, Visitor
-from validation.engine.refusals import is_own
+from validation.judging import refusals
+from validation.judging.refusals import is_own
+from validation.judging.worker import Called, Visitor
 
 HEAD = """
 import contextlib, functools, math, os, warnings
@@ -172,7 +172,7 @@ def test_a_file_beside_the_packages_is_not_their_author(tmp_path, monkeypatch):
 
 SCRIPT = """
 import validation
-from validation.engine.others import Called
+from validation.judging.worker import Called
 @validation.stiffness_model("mine")
 def f(load):
     if load > 1: raise ValueError("heavy")

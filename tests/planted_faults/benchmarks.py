@@ -11,15 +11,15 @@ from tests.benchmarks import test_fronts, test_peers
 from tests.benchmarks import test_judged_solvers as test_solvers
 from tests.benchmarks import test_judging_bounds as test_bounds
 from tests.planted_faults.wrong import Fault, Times
+from validation.benchmarks import discrete, timing
 from validation.benchmarks import solvers as comparison
-from validation.benchmarks import timing
-from validation.benchmarks.judging import discrete, factors, properties
-from validation.benchmarks.judging import judged as judging
 from validation.benchmarks.work_precision import case as precision_case
 from validation.benchmarks.work_precision import errors as precision_error
 from validation.benchmarks.work_precision import faster as precision_faster
 from validation.benchmarks.work_precision import problem as precision
 from validation.benchmarks.work_precision.pareto import Point
+from validation.judging.solvers import factors, properties
+from validation.judging.solvers import judged as judging
 
 
 def at_first_order(answer, quantity, rows):

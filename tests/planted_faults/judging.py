@@ -14,10 +14,11 @@ from tests.selection import (
     test_judged_stiffness,
     test_references,
 )
-from validation.analysis import factors, independent_records, judgement
-from validation.engine import others
-from validation.selection.judging import held_out_solves, laws, own, repeats, scaling, stiffness, sweeps
-from validation.selection.judging.judge import ModelAnswer
+from validation.analysis import independent_records
+from validation.judging import judgement
+from validation.judging import worker as others
+from validation.judging.models import factors, held_out_solves, laws, own, repeats, scaling, stiffness, sweeps
+from validation.judging.models.judge import ModelAnswer
 from validation.simulation.rough_punch import PlateauSpectrum
 
 given, verdict_of = stiffness.AskedPunch.arguments.fget, judgement.verdict_of

@@ -7,17 +7,11 @@ import numpy as np
 
 from tests.planted_faults.wrong import Fault
 from tests.scenes import test_line_columns, test_line_outliers
-from validation.scenes import (
-    line_columns,
-    line_edits,
-    line_outliers,
-    line_steps,
-    number_table,
-    table_files,
-)
-from validation.scenes.line_edits import EditedLine, LineEdits
-from validation.scenes.roughness_levels import RoughnessLevels
-from validation.simulation import rail_quantity
+from validation.railway.problems import rail_quantity
+from validation.railway.scenes import line_columns, line_edits, line_outliers, line_steps
+from validation.railway.scenes.line_edits import EditedLine, LineEdits
+from validation.railway.scenes.roughness_levels import RoughnessLevels
+from validation.scenes import number_table, table_files
 
 of_clean_lines = (
     test_line_outliers.test_levels_without_outliers_are_those_of_the_clean_line_within_the_error_that_is_left

@@ -6,9 +6,10 @@ import math
 from tests.planted_faults.wrong import Fault
 from tests.selection import test_limits_of_compare, test_models_from, test_one_answer, test_read_only_comparison
 from tests.simulation import test_costs_by_counts
+from validation.advice import advice, compare, elasticity, hierarchy, on_mdr, scene_model
+from validation.judging import own_models
+from validation.railway.problems import rail_models, rail_quantity
 from validation.scenes.measured import MeasuredHeights
-from validation.selection import advice, compare, elasticity, hierarchy, on_mdr, own_models, scene_model
-from validation.simulation import rail_models, rail_quantity
 
 FAULTS = [
     test_costs_by_counts.test_cells_that_are_drawn_are_most_of_the_cost_of_springs_on_a_line,

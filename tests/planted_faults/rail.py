@@ -12,16 +12,18 @@ from tests.scenes import test_isotropic_line
 from tests.selection import test_contact_force, test_filter_table, test_own_scene
 from tests.selection import test_no_band_counts as silent
 from tests.simulation import test_calibration, test_rail_error_bars, test_rail_filters, test_scattered_levels
-from validation.analysis import graduation
+from validation.advice import calibration_scenes, exported, side_by_side
+from validation.advice.scene_model import Answer
 from validation.analysis.nominal_bands import NominalBands
-from validation.cases.rail import across, filters, rolled_filters
-from validation.scenes import isotropic_line
-from validation.selection import calibration_scenes, contact_force, exported, rail_model, side_by_side
-from validation.selection.scene_model import Answer
-from validation.simulation import equivalent_displacement, rail_across, rail_models, rail_quantity, rail_strip
+from validation.railway import contact_force
+from validation.railway import scene_model as rail_model
+from validation.railway.cases import across, filters, rolled_filters
+from validation.railway.problems import equivalent_displacement, rail_across, rail_models, rail_quantity, rail_strip
+from validation.railway.problems.rail_models import ContactFilter
+from validation.railway.problems.rail_quantity import RailQuantity
+from validation.railway.scenes import isotropic_line
+from validation.railway.theory import graduation
 from validation.simulation.model_names import ONE_SIDED_BED
-from validation.simulation.rail_models import ContactFilter
-from validation.simulation.rail_quantity import RailQuantity
 
 graduated, model_error, over_twin = graduation.graduated, ContactFilter.model_error, ContactFilter.over_twin
 

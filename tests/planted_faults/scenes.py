@@ -19,22 +19,19 @@ from tests.scenes import (
     test_steadiness,
     test_units,
 )
+from validation.railway.scenes import level_files, rail, roughness_levels, transverse_profile
+from validation.railway.scenes.roughness_levels import RoughnessLevels
+from validation.railway.scenes.transverse_profile import TransverseProfile
 from validation.scenes import (
     height_edits,
-    level_files,
     material,
     measured,
     measured_surface,
-    rail,
     roughness,
-    roughness_levels,
     steadiness,
     text_dialect,
-    transverse_profile,
     units,
 )
-from validation.scenes.roughness_levels import RoughnessLevels
-from validation.scenes.transverse_profile import TransverseProfile
 
 real_spectrum, check_alone = measured._spectrum, transverse_profile._check_alone
 both_together = transverse_profile.both_together

@@ -24,16 +24,12 @@ from tests.selection import (
 )
 from tests.selection import test_model_hierarchy as test_ladder
 from tests.simulation import test_calibration
-from validation.benchmarks.work_precision import errors as precision_error
-from validation.cases.selection import model_selection_study
-from validation.engine.random_numbers import random_generator
-from validation.report import compared
-from validation.scenes import measured, rail
-from validation.selection import (
+from validation.advice import (
     calibrate,
+    calibrated_range,
+    calibration,
     columns,
     compare,
-    contact_force,
     hierarchy,
     quantities,
     scene_model,
@@ -41,17 +37,19 @@ from validation.selection import (
     swept,
     tolerance,
 )
-from validation.simulation import calibrated_range, calibration, sampling, surface
+from validation.advice import figure as compared
+from validation.advice.calibrated_range import LOAD
+from validation.advice.cases import model_selection_study
+from validation.advice.models import boundary_elements_pressed, boundary_elements_rolling, pressed, rolling
+from validation.benchmarks.work_precision import errors as precision_error
+from validation.engine.random_numbers import random_generator
+from validation.railway import contact_force
+from validation.railway.scenes import rail
+from validation.scenes import measured
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
 from validation.simulation import rolling_quantity as rolling_question
-from validation.simulation.calibrated_range import LOAD
-from validation.simulation.models import (
-    boundary_elements_pressed,
-    boundary_elements_rolling,
-    pressed,
-    rolling,
-)
+from validation.simulation import sampling, surface
 from validation.theory import closed_forms
 from validation.theory import rolling as rolling_theory
 

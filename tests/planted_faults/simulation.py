@@ -25,23 +25,20 @@ from tests.simulation import (
     test_wheel_motion,
     test_wheel_on_rail,
 )
+from validation.railway.problems import equivalent_displacement, rail_models, rail_quantity, wheel_on_rail
 from validation.scenes import dynamic_wheel
 from validation.scenes.wheel_body import Wheel
 from validation.simulation import (
     contact_laws,
-    equivalent_displacement,
     integrators,
     light_punch,
     mean_contact,
     pressed_layer,
-    rail_models,
-    rail_quantity,
     ridges,
     rolling_strip,
     rough_punch,
     surface,
     wheel_on_half_space,
-    wheel_on_rail,
 )
 from validation.simulation import motion as wheel_in_motion
 from validation.simulation.model_names import LINE

@@ -10,11 +10,11 @@ from matplotlib.colors import same_color
 
 from tests.cases.test_model_selection import outcome
 from tests.report.remade import REFERENCE, sections
+from validation.advice.cases import model_selection as ladder
+from validation.advice.cases import model_selection_study as calibration
 from validation.analysis.contents import csv_name
 from validation.analysis.study import Outcomes
 from validation.cases.limits.sweeps import LIMITS
-from validation.cases.selection import model_selection as ladder
-from validation.cases.selection import model_selection_study as calibration
 from validation.report.contents import CASES, TIMED
 from validation.report.drawing import draw
 from validation.report.figures import drawing

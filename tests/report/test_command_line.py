@@ -14,6 +14,7 @@ import pytest
 import bem3d
 import mdr
 from validation import __main__ as command
+from validation.advice.cases import model_selection as ladder
 from validation.analysis.case import Case
 from validation.analysis.contents import as_csv, as_json, csv_name, from_csv
 from validation.analysis.evidence import Role
@@ -21,19 +22,18 @@ from validation.cases.exact import geike, hertz
 from validation.cases.limits import limits
 from validation.cases.punch import bandwidth, interface
 from validation.cases.punch.fractal_punch import FractalPunch
-from validation.cases.rail.across import Across
-from validation.cases.rail.rail_dynamic import RailDynamic
-from validation.cases.rail.rail_sound import RailSound, shipped_rail
-from validation.cases.rail.rough_rail import RoughRail
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import reduced_models, ridges, track_stiffness
-from validation.cases.selection import model_selection as ladder
 from validation.cases.stability import wheel_stability
 from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import spectrum as wheel
 from validation.cases.wheel.features import QUANTITIES
 from validation.engine import sources, stored
+from validation.railway.cases.across import Across
+from validation.railway.cases.rail_dynamic import RailDynamic
+from validation.railway.cases.rail_sound import RailSound, shipped_rail
+from validation.railway.cases.rough_rail import RoughRail
 from validation.report import build
 from validation.report.chapter import ENTRIES
 from validation.report.contents import CASES

@@ -9,12 +9,12 @@ import pytest
 import validation
 from tests.selection.planted_answers import Fake, Finding, punch
 from validation.__main__ import main
-from validation.report.compared_page import PAGE, files_of_comparison
-from validation.selection.columns import label
-from validation.selection.compare import Comparison, SceneProblem
-from validation.selection.contact_force import LEVELS, contact_force
-from validation.selection.hierarchy import select_model
-from validation.selection.on_mdr import in_full
+from validation.advice.columns import label
+from validation.advice.compare import Comparison, SceneProblem
+from validation.advice.hierarchy import select_model
+from validation.advice.on_mdr import in_full
+from validation.advice.page import PAGE, files_of_comparison
+from validation.railway.contact_force import LEVELS, contact_force
 
 ABOUT = dict.fromkeys(("version", "commit", "python", "system"), "0") | {"libraries": {}, "seeds": {"compare": 0}}
 

@@ -15,7 +15,7 @@ from validation.benchmarks.work_precision.faster import FASTER
 from validation.benchmarks.work_precision.pressed import RoughPunchProblem
 from validation.benchmarks.work_precision.rolling import RollingProblem
 from validation.cases.limits.limits import SUMMARY
-from validation.cases.rail.across_study import LOUDER
+from validation.railway.cases.across_study import LOUDER
 from validation.report.answers.failures import failures
 from validation.report.answers.front_tables import (
     OF_A3,

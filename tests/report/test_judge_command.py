@@ -12,13 +12,13 @@ import pytest
 
 import validation
 from validation.__main__ import main
-from validation.analysis.judgement import LEVEL, compared, not_compared
-from validation.benchmarks.judging.judged import SolverTime
-from validation.report import judged
-from validation.report.judged_figure import figure_of
-from validation.report.judged_words import paragraph
-from validation.selection.judging.own import ErrorOfCall
-from validation.selection.judging.sweeps import HEAVY, LIGHT
+from validation.judging import judge as judged
+from validation.judging.figure import figure_of
+from validation.judging.judgement import LEVEL, compared, not_compared
+from validation.judging.models.own import ErrorOfCall
+from validation.judging.models.sweeps import HEAVY, LIGHT
+from validation.judging.solvers.judged import SolverTime
+from validation.judging.words import paragraph
 
 SERIES = """
 from validation import stiffness_model
@@ -95,10 +95,10 @@ def broken(model, *_):
 @pytest.mark.parametrize(
     "place",
     [
-        "validation.selection.judging.stiffness._rise",
-        "validation.selection.judging.sweeps.swept",
-        "validation.report.judged.costs_of",
-        "validation.benchmarks.judging.judged.judged",
+        "validation.judging.models.stiffness._rise",
+        "validation.judging.models.sweeps.swept",
+        "validation.judging.judge.costs_of",
+        "validation.judging.solvers.judged.judged",
     ],
 )
 def test_an_error_of_ours_is_a_row_and_takes_no_other_model_with_it(place, file, tmp_path, capsys, monkeypatch):
@@ -231,7 +231,7 @@ LOST = not_compared("approach", {"problem": "rough"}, "failed", "raised MemoryEr
     ("points", "status"), [([RIGHT, RIGHT, BESIDE], 0), ([RIGHT, LOST], 1), ([LOST], 3), ([], 3), ([BESIDE], 0)]
 )
 def test_a_solver_that_differs_where_that_decides_ends_with_one(points, status, monkeypatch, file, capsys):
-    monkeypatch.setattr("validation.report.commands.judge.judged", lambda model, tolerance: solver(*points))
+    monkeypatch.setattr("validation.judging.commands.judge.judged", lambda model, tolerance: solver(*points))
     assert main(["judge", str(file)]) == status
 
 

@@ -11,12 +11,12 @@ import pytest
 import validation
 from tests.report.test_judge_command import RIGHT, broken, pointed
 from validation.__main__ import main
-from validation.analysis.judgement import compared, not_compared
-from validation.benchmarks.judging.judged import SolverTime
-from validation.engine.others import Called
-from validation.report import judged
-from validation.report.judged_figure import figure_of, left_out
-from validation.selection.judging.own import ErrorOfCall
+from validation.judging import judge as judged
+from validation.judging.figure import figure_of, left_out
+from validation.judging.judgement import compared, not_compared
+from validation.judging.models.own import ErrorOfCall
+from validation.judging.solvers.judged import SolverTime
+from validation.judging.worker import Called
 
 
 @pytest.fixture
@@ -66,7 +66,7 @@ def quick(monkeypatch):
     ],
 )
 def test_no_result_is_lost_whatever_models_are_called(names, folders, quick, file, tmp_path, monkeypatch):
-    monkeypatch.setattr("validation.report.judged_figure.figure_of", lambda found, form: b"<svg/>")
+    monkeypatch.setattr("validation.judging.figure.figure_of", lambda found, form: b"<svg/>")
     out = tmp_path / "out"
     for _ in range(2):  # a second time in the place of the first
         assert main(["judge", str(laws(file, names)), "--out", str(out)]) == 0
@@ -101,7 +101,7 @@ def test_what_cannot_be_written_is_said_before_anything_is_judged(
     there, words, sentence, file, tmp_path, monkeypatch, capsys
 ):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("validation.report.commands.judge.judged", broken)
+    monkeypatch.setattr("validation.judging.commands.judge.judged", broken)
     if there:
         place = tmp_path / there
         place.parent.mkdir(parents=True, exist_ok=True)
@@ -179,7 +179,7 @@ def several(count, curves=2):
 @pytest.mark.parametrize(("count", "curves", "missing"), [(13, 2, 0), (1, 15, 0), (9, 1, 5)])
 def test_a_figure_shows_all_models_and_curves_or_names_what_it_leaves_out(count, curves, missing, monkeypatch):
     if missing:
-        monkeypatch.setattr("validation.report.judged_figure.PANELS", count - missing)
+        monkeypatch.setattr("validation.judging.figure.PANELS", count - missing)
     found = list(several(count, curves))
     drawn = figure_of(found, "svg").decode()
     words = [" ".join(text.split()) for text in re.findall(r">([^<>]+)</", drawn)]
@@ -199,7 +199,7 @@ def test_a_model_of_a_user_has_a_marker_of_its_own_and_a_name_in_the_legend(name
     costs = tuple(ErrorOfCall(other, 0.1, "-", 1e-5 * i) for i, other in enumerate((name, "springs"), 1))
     found = judged.Judgement(name, "stiffness_model", judged.tolerance_of(0.1), (), 1.0, costs=costs)
     figures = []
-    monkeypatch.setattr("validation.report.judged_figure.picture", lambda figure, form: figures.append(figure))
+    monkeypatch.setattr("validation.judging.figure.picture", lambda figure, form: figures.append(figure))
     figure_of([found], "svg")
     axes = figures[0].axes[0]
     own, springs = [line for line in axes.lines if len(line.get_xdata())]
@@ -212,7 +212,7 @@ def test_a_model_of_a_user_has_a_marker_of_its_own_and_a_name_in_the_legend(name
 
 def axes_of(found, monkeypatch):
     figures = []
-    monkeypatch.setattr("validation.report.judged_figure.picture", lambda figure, form: figures.append(figure))
+    monkeypatch.setattr("validation.judging.figure.picture", lambda figure, form: figures.append(figure))
     figure_of([found], "svg")
     return [axis for axis in figures[0].axes if axis.lines or axis.patches]
 
@@ -227,7 +227,7 @@ def judgement_of(name, values):
 
 def test_a_model_that_is_far_off_leaves_the_scale_of_another_one(monkeypatch):
     figures = []
-    monkeypatch.setattr("validation.report.judged_figure.picture", lambda figure, form: figures.append(figure))
+    monkeypatch.setattr("validation.judging.figure.picture", lambda figure, form: figures.append(figure))
     figure_of([judgement_of("good", [2.0, 2.2, 1.9]), judgement_of("bad", [2e3, 4e3, 2.0])], "svg")
     good, bad = [axis.get_ylim() for axis in figures[0].axes if axis.get_ylabel().startswith("off") or axis.patches][:2]
     assert -20 < good[0] < -10 and 12 < good[1] < 20 and bad[1] > 1e5

@@ -5,7 +5,7 @@ import json
 import pytest
 
 from validation.__main__ import main
-from validation.benchmarks.judging import judged as solvers
+from validation.judging.solvers import judged as solvers
 
 HEAD = """
 import bem3d

@@ -11,7 +11,7 @@ from validation.scenes.dynamic_wheel import bundled_wheels
 
 HEAVY = {"matplotlib", "pyfftw", "joblib", "dask", "distributed", "jinja2", "scipy.optimize", "scipy.stats"}
 """Each takes a tenth of a second or more to import."""
-UNASKED = ("validation.selection.calibrate", "validation.selection.exported")
+UNASKED = ("validation.advice.calibrate", "validation.advice.exported")
 """What `--verbose` and files take."""
 PAGE = ("validation.report.build", "validation.report.contents", "validation.report.figures", "validation.cases")
 COMMAND = """

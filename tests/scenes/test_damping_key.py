@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from tests.scenes.test_scene_files import TABLE, written
+from validation.advice.exported import assumed
 from validation.scenes.bundled import SCENES
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.scenes.load import load_scene
 from validation.scenes.reader import VALUES
 from validation.scenes.rolling import RollingScene
-from validation.selection.exported import assumed
 from validation.simulation.rolling_quantity import RollingQuantity
 
 RAIL, STILL = ((SCENES / f"{name}.toml").read_text(encoding="utf-8") for name in ("rail", "rolling_wheel"))

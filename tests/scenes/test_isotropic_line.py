@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from validation.scenes.isotropic_line import isotropic_line
-from validation.scenes.level_files import curve
-from validation.scenes.roughness_levels import RoughnessLevels
-from validation.theory.transverse_structure import has_isotropic_surface
+from validation.railway.scenes.isotropic_line import isotropic_line
+from validation.railway.scenes.level_files import curve
+from validation.railway.scenes.roughness_levels import RoughnessLevels
+from validation.railway.theory.transverse_structure import has_isotropic_surface
 
 ISO = curve("iso3095-2013")
 NOMINAL, EVEN = 1000 * ISO.bands.nominal, np.ones(35)

@@ -7,19 +7,19 @@ import pytest
 
 from tests.scenes.test_exported_tables import columns, in_memory, line_of, rail_with, refused, rows, told
 from tests.scenes.test_line_outliers import rail
+from validation.advice.compare import compare
+from validation.advice.exported import to_json
+from validation.advice.summary import summary
 from validation.analysis.nominal_bands import NominalBands
-from validation.scenes.line_columns import along_the_track
-from validation.scenes.line_edits import edited
+from validation.railway.problems.rail_models import rail_quantity, reason_of
+from validation.railway.scene_model import what_would_state_the_ground
+from validation.railway.scenes.line_columns import along_the_track
+from validation.railway.scenes.line_edits import edited
 from validation.scenes.load import load_scene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_surface import measured
 from validation.scenes.table_files import heights_of_columns
-from validation.selection.compare import compare
-from validation.selection.exported import to_json
-from validation.selection.rail_model import what_would_state_the_ground
-from validation.selection.summary import summary
 from validation.simulation.model import Target
-from validation.simulation.rail_models import rail_quantity, reason_of
 
 POINTS = 2400
 """Of a line at 1 mm."""

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from validation.analysis.nominal_bands import NominalBands
-from validation.scenes import line_outliers, line_steps
-from validation.scenes.line_edits import EditedLine, LineEdits, edited
+from validation.railway.problems.rail_quantity import RailQuantity
+from validation.railway.scenes import line_outliers, line_steps
+from validation.railway.scenes.line_edits import EditedLine, LineEdits, edited
+from validation.railway.scenes.measured_lines import MeasuredLines
+from validation.railway.scenes.roughness_levels import RoughnessLevels
 from validation.scenes.load import load_scene
-from validation.scenes.measured_lines import MeasuredLines
-from validation.scenes.roughness_levels import RoughnessLevels
-from validation.simulation.rail_quantity import RailQuantity
 
 POINTS, UM = 12000, 1e-6
 """Of a line at 1 mm."""

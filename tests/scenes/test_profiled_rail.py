@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from tests.scenes.test_rail_files import written
+from validation.railway.scenes.rail import ProfiledRail
+from validation.railway.scenes.transverse_profile import TransverseProfile, both_together, fitted_radius
 from validation.scenes.description import describe
 from validation.scenes.load import load_scene
-from validation.scenes.rail import ProfiledRail
-from validation.scenes.transverse_profile import TransverseProfile, both_together, fitted_radius
 
 CROWN = 'crown_radius = "300 mm"'
 PROFILE = 'profile = "head.csv"'

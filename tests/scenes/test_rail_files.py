@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from tests.scenes import test_scene_files
+from validation.railway.scenes.level_files import curve
+from validation.railway.scenes.measured_lines import MeasuredLines
+from validation.railway.scenes.rail import RailScene
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import load_wheel_scene
-from validation.scenes.level_files import curve
 from validation.scenes.load import load_scene
 from validation.scenes.measured import MeasuredHeights
-from validation.scenes.measured_lines import MeasuredLines
-from validation.scenes.rail import RailScene
 
 TEXT = """
 name = "regional train"

@@ -1,11 +1,11 @@
 """Models of a scene by their kind, so that a model added to `simulation/models` changes no test."""
 
+from validation.advice.models import boundary_elements_pressed
+from validation.advice.quantities import models_of
+from validation.advice.scene_model import SceneModel
 from validation.scenes.load import Scene
-from validation.selection.quantities import models_of
-from validation.selection.scene_model import SceneModel
 from validation.simulation.method import Resolution
 from validation.simulation.model import ErrorEstimate, GridModel, Target
-from validation.simulation.models import boundary_elements_pressed
 
 BOUNDARY_ELEMENTS = GridModel.name
 CHEAP = ("closed form", "fit", "linear filter, 1D", "linear filter, 3D", "springs")

@@ -8,15 +8,15 @@ from itertools import cycle
 import numpy as np
 
 import validation
+from validation.advice.compare import Comparison
+from validation.advice.hierarchy import Candidate, Selection, select_model
+from validation.advice.quantities import LEVELS, models_of
+from validation.advice.scene_model import Answer
+from validation.advice.tolerance import tolerance_of
+from validation.railway.scenes.rail import RailScene
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.rail import RailScene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
-from validation.selection.compare import Comparison
-from validation.selection.hierarchy import Candidate, Selection, select_model
-from validation.selection.quantities import LEVELS, models_of
-from validation.selection.scene_model import Answer
-from validation.selection.tolerance import tolerance_of
 from validation.simulation.model import Cost, ErrorEstimate
 from validation.simulation.rolling_quantity import RollingQuantity
 

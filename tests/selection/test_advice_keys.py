@@ -8,16 +8,16 @@ import numpy as np
 import pytest
 
 from tests.selection.planted_answers import Finding
+from validation.advice.advice import would_help
+from validation.advice.compare import Comparison
+from validation.advice.hierarchy import Candidate, Selection
+from validation.advice.quantities import models_of, quantities_of
+from validation.railway.problems.rail_models import rail_quantity
+from validation.railway.scene_model import what_would_state_the_ground
+from validation.railway.scenes.rail import RailScene
 from validation.scenes.bundled import path_of
 from validation.scenes.load import bundled_for_compare, load_scene
-from validation.scenes.rail import RailScene
-from validation.selection.advice import would_help
-from validation.selection.compare import Comparison
-from validation.selection.hierarchy import Candidate, Selection
-from validation.selection.quantities import models_of, quantities_of
-from validation.selection.rail_model import what_would_state_the_ground
 from validation.simulation.model import ErrorEstimate, Target
-from validation.simulation.rail_models import rail_quantity
 
 RNG = np.random.default_rng(3)
 LINES = 'file = "lines.npy"\nspacing = "1 mm"\npositions = ["-10 mm", "0 mm", "10 mm"]'

@@ -10,17 +10,17 @@ from scipy import stats
 import bem3d
 from tests.selection.by_kind import OURS, estimates_by_kind, grid_of, grids_of, model_of_kind
 from tests.selection.planted_answers import ROUGH, ball, punch, waves, wheel
+from validation.advice.calibration import calibrated
+from validation.advice.compare import compare
+from validation.advice.hierarchy import select_model
+from validation.advice.models import boundary_elements_pressed, boundary_elements_rolling, pressed
+from validation.advice.models import rolling as rolling_models
+from validation.advice.quantities import models_of, quantities_of
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.roughness import Roughness
-from validation.selection.compare import compare
-from validation.selection.hierarchy import select_model
-from validation.selection.quantities import models_of, quantities_of
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
-from validation.simulation.calibration import calibrated
 from validation.simulation.model import Target
-from validation.simulation.models import boundary_elements_pressed, boundary_elements_rolling, pressed
-from validation.simulation.models import rolling as rolling_models
 from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.sampling import grid_error, mean_error
 from validation.theory.closed_forms import SQUARE_PUNCH

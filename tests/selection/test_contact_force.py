@@ -11,10 +11,10 @@ import pytest
 
 import validation
 from tests.selection.planted_answers import Finding, compared, planted
-from validation.selection.columns import bands_of
-from validation.selection.contact_force import contact_force
-from validation.selection.scene_model import Answer
-from validation.selection.summary import summary
+from validation.advice.columns import bands_of
+from validation.advice.scene_model import Answer
+from validation.advice.summary import summary
+from validation.railway.contact_force import contact_force
 from validation.simulation.model import Cost
 
 RAIL = validation.load_scene("rail")

@@ -15,12 +15,12 @@ import validation
 from tests.selection.json_schema import faults
 from tests.selection.planted_answers import Fake, Finding, compared, planted
 from validation.__main__ import main
+from validation.advice.exported import to_json_of
+from validation.advice.hierarchy import Status
+from validation.advice.quantities import QUANTITIES, quantities_of
+from validation.advice.swept import Swept
 from validation.scenes.bundled import path_of
 from validation.scenes.load import bundled_for_compare
-from validation.selection.exported import to_json_of
-from validation.selection.hierarchy import Status
-from validation.selection.quantities import QUANTITIES, quantities_of
-from validation.selection.swept import Swept
 
 
 def refuse_constant(name):
@@ -114,7 +114,7 @@ def test_no_result_replaces_a_file_that_the_scene_reads(place, tmp_path, capsys)
     assert main([*words, "--json", "/dev/null", "--csv", "/dev/null"]) == 0
 
 
-SCHEMA = json.loads((resources.files("validation.selection") / "comparison.schema.json").read_text(encoding="utf-8"))
+SCHEMA = json.loads((resources.files("validation.advice") / "comparison.schema.json").read_text(encoding="utf-8"))
 
 
 @pytest.mark.parametrize("name", bundled_for_compare())

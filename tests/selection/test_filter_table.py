@@ -10,8 +10,8 @@ import pytest
 import validation
 from tests.selection.planted_answers import Finding, compared
 from validation.__main__ import main
-from validation.selection.compare import compare
-from validation.selection.exported import filter_table
+from validation.advice.compare import compare
+from validation.advice.exported import filter_table
 from validation.simulation.model_names import SPRINGS_GEIKE
 
 PUBLISHED = Path(validation.__file__).parent / "cases" / "rail" / "cnossos_a3_2021.csv"

@@ -7,10 +7,10 @@ import pytest
 import validation
 from tests.selection.planted_answers import REASON, Fake, Finding, compared, planted, wheel
 from validation.__main__ import main
+from validation.advice.in_short import in_short
+from validation.advice.quantities import quantities_of
+from validation.advice.summary import WIDTH, findings
 from validation.scenes.load import bundled_for_compare
-from validation.selection.in_short import in_short
-from validation.selection.quantities import quantities_of
-from validation.selection.summary import WIDTH, findings
 
 
 def answer_of(*quantities):

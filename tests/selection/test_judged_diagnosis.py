@@ -8,15 +8,15 @@ import pytest
 import mdr
 from tests.selection.test_judged_stiffness import as_known, series
 from validation import judge, stiffness_model
-from validation.analysis.judgement import AGAIN, UNTRUSTED, trusted
-from validation.engine.offered import offer
-from validation.engine.others import Called
-from validation.selection.judging import filters, profiles, repeats, stiffness
-from validation.selection.judging.diagnosis import remarks
-from validation.selection.judging.judge import points_of
-from validation.selection.judging.own import OWN, bed, ellipse, geike, half_space, in_1d, in_3d, line, springs, trace
-from validation.selection.judging.references import known
-from validation.selection.judging.repeats import Recorded, repeated
+from validation.judging.judgement import AGAIN, UNTRUSTED, trusted
+from validation.judging.models import filters, profiles, repeats, stiffness
+from validation.judging.models.diagnosis import remarks
+from validation.judging.models.judge import points_of
+from validation.judging.models.own import OWN, bed, ellipse, geike, half_space, in_1d, in_3d, line, springs, trace
+from validation.judging.models.references import known
+from validation.judging.models.repeats import Recorded, repeated
+from validation.judging.registry import offer
+from validation.judging.worker import Called
 from validation.theory.rolling import linear_force
 
 MODULUS = 0.91

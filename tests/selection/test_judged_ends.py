@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from tests.selection.judged_points import SCALING, SWEEPS, judged, of, verdicts
-from validation.engine import replies
-from validation.engine.offered import offer
-from validation.engine.others import Called
-from validation.selection.judging import own, sweeps
-from validation.selection.judging.judge import Finding, ModelAnswer, points_of
-from validation.selection.judging.own import ellipse, half_space, in_3d
-from validation.selection.judging.references import Reference
+from validation.judging import replies
+from validation.judging.models import own, sweeps
+from validation.judging.models.judge import Finding, ModelAnswer, points_of
+from validation.judging.models.own import ellipse, half_space, in_3d
+from validation.judging.models.references import Reference
+from validation.judging.registry import offer
+from validation.judging.worker import Called
 
 
 def flat(load, side, modulus):

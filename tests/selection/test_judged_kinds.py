@@ -10,14 +10,15 @@ import pytest
 
 import mdr
 from tests.selection.judged_points import judged, of, verdicts
-from validation.engine.offered import offer
-from validation.engine.others import Called
+from validation.judging.models import filters, laws, profiles, rolling
+from validation.judging.models.from_report import Report
+from validation.judging.models.own import bed, ellipse, geike, half_space, in_1d, in_3d, line, trace
+from validation.judging.registry import offer
+from validation.judging.worker import Called
+from validation.railway.theory import contact_filters
 from validation.scenes.dynamic_wheel import load_wheel_scene
-from validation.selection.judging import filters, laws, profiles, rolling
-from validation.selection.judging.from_report import Report
-from validation.selection.judging.own import bed, ellipse, geike, half_space, in_1d, in_3d, line, trace
 from validation.simulation.wheel_on_springs import WheelEnsemble, linear_law_1d
-from validation.theory import closed_forms, contact_filters
+from validation.theory import closed_forms
 from validation.theory import rolling as linear_theory
 
 REPORT = Path(__file__).parents[2] / "reports" / "reference"

@@ -8,12 +8,12 @@ import pytest
 
 from tests.selection import judged_points
 from tests.selection.judged_points import of, verdicts
-from validation.analysis.judgement import enough
-from validation.engine.offered import offer
-from validation.engine.others import Called
-from validation.selection.judging import stiffness, surfaces
-from validation.selection.judging.references import Reference, known
-from validation.selection.judging.stiffness import AskedPunch
+from validation.judging.judgement import enough
+from validation.judging.models import stiffness, surfaces
+from validation.judging.models.references import Reference, known
+from validation.judging.models.stiffness import AskedPunch
+from validation.judging.registry import offer
+from validation.judging.worker import Called
 from validation.theory.closed_forms import SQUARE_PUNCH
 
 MEAN, DEVIATION = "mean stiffness", "deviation of the stiffness"

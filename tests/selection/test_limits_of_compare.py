@@ -12,14 +12,15 @@ import pytest
 import validation
 from tests.selection.planted_answers import Finding, compared
 from tests.selection.test_own_models import OPEN, PUNCH, SCENES, answers, stored
-from validation.selection import compare, own_models
-from validation.selection.quantities import models_of
-from validation.selection.rail_model import RailSceneModel
-from validation.selection.scene_model import Answer, SceneModel
+from validation.advice import compare
+from validation.advice.quantities import models_of
+from validation.advice.scene_model import Answer, SceneModel
+from validation.judging import own_models
+from validation.railway.models.rail import LINEAR_ELLIPSE
+from validation.railway.problems.rail_quantity import COUNTED
+from validation.railway.scene_model import RailSceneModel
 from validation.simulation.method import Resolution
 from validation.simulation.model import Cost, ErrorEstimate, Sampling, Target
-from validation.simulation.models.rail import LINEAR_ELLIPSE
-from validation.simulation.rail_quantity import COUNTED
 from validation.theory.closed_forms import rough_punch_stiffness
 
 ROUGH = validation.load_scene("rough_punch")

@@ -14,19 +14,19 @@ import bem3d
 import mdr
 from tests.selection.by_kind import CHEAP, estimates_by_kind, grid_of, grids_of, model_of_kind
 from tests.selection.planted_answers import PARTS, ROUGH, Fake, Finding, compared, punch, wheel
-from validation.cases.selection.random_scenes import KINDS, random_scene
+from validation.advice import calibration_scenes
+from validation.advice.cases.random_scenes import KINDS, random_scene
+from validation.advice.columns import bands_of
+from validation.advice.compare import compare
+from validation.advice.hierarchy import needed, select_model
+from validation.advice.models import boundary_elements_pressed
+from validation.advice.quantities import QUANTITIES, RAIL_QUANTITIES, models_of, quantities_of
+from validation.advice.summary import summary
 from validation.report.contents import CASES
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
-from validation.selection import calibration_scenes
-from validation.selection.columns import bands_of
-from validation.selection.compare import compare
-from validation.selection.hierarchy import needed, select_model
-from validation.selection.quantities import QUANTITIES, RAIL_QUANTITIES, models_of, quantities_of
-from validation.selection.summary import summary
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
-from validation.simulation.models import boundary_elements_pressed
 from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.sampling import distance, mean_error
 

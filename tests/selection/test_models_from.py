@@ -12,12 +12,12 @@ import pytest
 import validation
 from tests.selection.test_own_models import FILE, PUNCH, ROUGH, answers, series, stored, written
 from validation.__main__ import main
+from validation.advice.calibrated_range import SCATTER
+from validation.advice.calibration import MeasuredErrors
+from validation.advice.hierarchy import REFUSALS
 from validation.engine.engine import Engine
-from validation.selection import own_models
-from validation.selection.hierarchy import REFUSALS
-from validation.selection.own_models import ChangedError, calibrated, models_in
-from validation.simulation.calibrated_range import SCATTER
-from validation.simulation.calibration import MeasuredErrors
+from validation.judging import own_models
+from validation.judging.own_models import ChangedError, calibrated, models_in
 from validation.simulation.method import Resolution
 from validation.simulation.model import Target
 
@@ -38,7 +38,7 @@ def here(monkeypatch):
     """A working folder with a model, and few answers beside which it is measured."""
     with stored((PUNCH, answers())) as folder:
         (folder / "mine.py").write_text("import validation\n" + OWN.format(name="mine", law=LAW), encoding="utf-8")
-        monkeypatch.setattr("validation.selection.compare.LONGEST_BEYOND_RANGE", 0.0)
+        monkeypatch.setattr("validation.advice.compare.LONGEST_BEYOND_RANGE", 0.0)
         yield folder
 
 
@@ -90,8 +90,8 @@ def test_a_failure_while_a_model_is_measured_does_not_refuse_the_next_run(here, 
         raise KeyboardInterrupt
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("validation.report.commands.compare.compare_scenes", lost)
-        patch.setattr("validation.report.commands.compare.SceneProblem.compared", lost)
+        patch.setattr("validation.advice.commands.compare.compare_scenes", lost)
+        patch.setattr("validation.advice.commands.compare.SceneProblem.compared", lost)
         assert main([*words, "--report", "new"]) == 130
     assert list((here / "new/realisations").iterdir())
     assert main([*words, "--report", "new"]) == 0

@@ -9,12 +9,12 @@ import pytest
 import validation
 from tests.selection.planted_answers import Fake, Finding, compared, punch
 from validation.__main__ import main
+from validation.advice.compare import SceneProblem
+from validation.advice.hierarchy import select_model
+from validation.advice.named_models import models_named
+from validation.advice.quantities import models_of
+from validation.advice.summary import WIDTH, summary
 from validation.scenes.load import load_varied
-from validation.selection.compare import SceneProblem
-from validation.selection.hierarchy import select_model
-from validation.selection.named_models import models_named
-from validation.selection.quantities import models_of
-from validation.selection.summary import WIDTH, summary
 from validation.simulation.model_names import SPRINGS_THAT_READ
 
 SPECTRUM = "rolling_wheel --quantity force-spectrum"

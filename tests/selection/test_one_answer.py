@@ -12,17 +12,17 @@ import pytest
 
 import validation
 from tests.selection.planted_answers import Fake, Finding, compared, planted, punch, wheel
-from validation.selection import advice, on_mdr
-from validation.selection.agreement import ALIKE, contradict
-from validation.selection.columns import overview_of
-from validation.selection.compare import Comparison, SceneProblem
-from validation.selection.elasticity import mean_pressure
-from validation.selection.exported import to_csv
-from validation.selection.hierarchy import Candidate
-from validation.selection.in_short import in_short
-from validation.selection.quantities import models_of
-from validation.selection.scene_model import Answer
-from validation.selection.summary import findings, summary
+from validation.advice import advice, on_mdr
+from validation.advice.agreement import ALIKE, contradict
+from validation.advice.columns import overview_of
+from validation.advice.compare import Comparison, SceneProblem
+from validation.advice.elasticity import mean_pressure
+from validation.advice.exported import to_csv
+from validation.advice.hierarchy import Candidate
+from validation.advice.in_short import in_short
+from validation.advice.quantities import models_of
+from validation.advice.scene_model import Answer
+from validation.advice.summary import findings, summary
 from validation.simulation.model import Cost, ErrorEstimate
 
 

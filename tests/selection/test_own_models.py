@@ -13,17 +13,18 @@ import pytest
 import mdr
 import validation
 from validation.__main__ import main
+from validation.advice import calibration
+from validation.advice.calibrate import LEFT, SAME
+from validation.advice.calibration_answers import Answers, answers_in
+from validation.advice.calibration_scenes import OTHER_SEED, CalibrationScene
+from validation.advice.models import boundary_elements_pressed
 from validation.engine.engine import Engine
-from validation.selection import own_models
-from validation.selection.calibrate import LEFT, SAME
-from validation.selection.calibration_answers import Answers, answers_in
-from validation.selection.calibration_scenes import OTHER_SEED, CalibrationScene
-from validation.selection.own_kinds import result_of
-from validation.selection.own_models import OwnPart, calibrated, measure_own, models_in
-from validation.simulation import calibration
+from validation.judging import own_models
+from validation.judging.own_kinds import result_of
+from validation.judging.own_models import OwnPart, calibrated, measure_own, models_in
+from validation.railway.models import rail
 from validation.simulation.indentation import height_of
 from validation.simulation.model import Target, models_serving
-from validation.simulation.models import boundary_elements_pressed, rail
 from validation.simulation.sampling import distance
 from validation.theory.closed_forms import rough_punch_stiffness
 

@@ -13,15 +13,15 @@ from matplotlib.figure import Figure
 import validation
 from tests.selection.planted_answers import Fake, Finding, compared, planted
 from validation.__main__ import main
-from validation.report import compared as figures
-from validation.report.compared_seconds import figure_over_seconds
-from validation.report.compared_sweep import draw_sweep
-from validation.selection import scene_model
-from validation.selection.compare import SceneProblem
-from validation.selection.side_by_side import shown_models, speed_and_accuracy
-from validation.selection.summary import findings, in_full, summary
-from validation.selection.swept import swept_values
-from validation.simulation.rail_models import ContactFilter
+from validation.advice import figure as figures
+from validation.advice import scene_model
+from validation.advice.compare import SceneProblem
+from validation.advice.figure_of_sweep import draw_sweep
+from validation.advice.figure_over_seconds import figure_over_seconds
+from validation.advice.side_by_side import shown_models, speed_and_accuracy
+from validation.advice.summary import findings, in_full, summary
+from validation.advice.swept import swept_values
+from validation.railway.problems.rail_models import ContactFilter
 
 RAIL = validation.load_scene("rail")
 CLOSED = ["linear, ellipse", "linear, on the line", "Remington"]

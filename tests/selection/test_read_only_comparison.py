@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tests.selection.planted_answers import Finding, compared, planted, wheel
-from validation.selection.scene_model import Answer
+from validation.advice.scene_model import Answer
 from validation.simulation.model import Cost
 
 COPIES = [lambda found: found, copy.copy, copy.deepcopy, lambda found: pickle.loads(pickle.dumps(found))]

@@ -11,11 +11,11 @@ import pytest
 import validation
 from tests.selection.planted_answers import punch
 from validation.__main__ import main
+from validation.advice.compare import SceneProblem, content_of
+from validation.advice.several_scenes import compare_scenes
+from validation.advice.summary import summary
 from validation.engine.engine import Engine
-from validation.scenes.measured_lines import MeasuredLines
-from validation.selection.compare import SceneProblem, content_of
-from validation.selection.several_scenes import compare_scenes
-from validation.selection.summary import summary
+from validation.railway.scenes.measured_lines import MeasuredLines
 
 SWEEP = ["compare", "rolling_wheel", "--tolerance", "10%", "--workers", "1", "--sweep", "wheel.load=2000 N,4905 N"]
 HEIGHTS = np.random.default_rng(4).standard_normal((64, 64)) * 1e-3

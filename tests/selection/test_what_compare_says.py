@@ -9,13 +9,13 @@ import pytest
 
 import validation
 from tests.selection.planted_answers import Fake, Finding, compared, planted, wheel
+from validation.advice.columns import BECAME, models_of_page, side_by_side
+from validation.advice.on_mdr import in_full
+from validation.advice.quantities import quantities_of
+from validation.advice.side_by_side import error_of_difference
+from validation.advice.summary import WIDTH, summary
+from validation.advice.tolerance import Tolerance, tolerance_of
 from validation.scenes.load import bundled_for_compare
-from validation.selection.columns import BECAME, models_of_page, side_by_side
-from validation.selection.on_mdr import in_full
-from validation.selection.quantities import quantities_of
-from validation.selection.side_by_side import error_of_difference
-from validation.selection.summary import WIDTH, summary
-from validation.selection.tolerance import Tolerance, tolerance_of
 from validation.simulation.rolling_quantity import RollingQuantity
 
 ENDS = tuple(end for words in BECAME.values() for end in (words, words.replace("not solved", "solved")))

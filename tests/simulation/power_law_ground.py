@@ -2,8 +2,8 @@
 
 import math
 
-from validation.simulation.rail_strip import RailGround, RailStrip, StatedAcross
-from validation.theory.line_spectrum import LineSpectrum
+from validation.railway.problems.rail_strip import RailGround, RailStrip, StatedAcross
+from validation.railway.theory.line_spectrum import LineSpectrum
 
 
 def power_law_ground(rms: float, first: float, last: float, across: StatedAcross = "isotropic") -> RailGround:

@@ -6,10 +6,7 @@ import numpy as np
 import pytest
 
 from tests.selection.planted_answers import punch, waves, wheel
-from validation.scenes.indentation import IndentationScene
-from validation.scenes.measured import MeasuredHeights
-from validation.scenes.roughness import Roughness
-from validation.simulation.calibrated_range import (
+from validation.advice.calibrated_range import (
     HEIGHT,
     HURST,
     LOAD,
@@ -24,6 +21,9 @@ from validation.simulation.calibrated_range import (
     rolling_conditions,
     sphere_shape,
 )
+from validation.scenes.indentation import IndentationScene
+from validation.scenes.measured import MeasuredHeights
+from validation.scenes.roughness import Roughness
 from validation.simulation.rolling_quantity import RollingQuantity
 
 ROUGH = Roughness(rms=1e-7, hurst=0.7, longest=2e-3, shortest=1e-4)

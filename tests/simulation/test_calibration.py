@@ -10,13 +10,12 @@ import numpy as np
 import pytest
 
 from tests.selection.planted_answers import punch, waves, wheel
-from validation.selection import calibrate, calibration_scenes
-from validation.selection.calibrate import as_table, calibration_age, check_calibration, measured_table
-from validation.selection.calibration_scenes import QUANTITIES, RESONANCES, CalibrationRun, CalibrationScene
-from validation.selection.scene_model import Answer, Realisations
-from validation.simulation import calibration
-from validation.simulation.calibrated_range import HEIGHT, HURST, LOAD, LONG, RATIO, WAVES
-from validation.simulation.calibration import MeasuredErrors, calibrated, conditions_by_kind
+from validation.advice import calibrate, calibration, calibration_scenes
+from validation.advice.calibrate import as_table, calibration_age, check_calibration, measured_table
+from validation.advice.calibrated_range import HEIGHT, HURST, LOAD, LONG, RATIO, WAVES
+from validation.advice.calibration import MeasuredErrors, calibrated, conditions_by_kind
+from validation.advice.calibration_scenes import QUANTITIES, RESONANCES, CalibrationRun, CalibrationScene
+from validation.advice.scene_model import Answer, Realisations
 from validation.simulation.model import Cost, GridModel, Target, all_models, models_serving
 from validation.simulation.rolling_quantity import RollingQuantity
 

@@ -5,13 +5,13 @@ import math
 import pytest
 
 import mdr
+from validation.advice.models import boundary_elements_pressed as pressed
+from validation.advice.models import pressed as on_profiles
+from validation.advice.quantities import models_of
+from validation.railway.problems import rail_models, rail_strip
 from validation.scenes.load import load_scene
-from validation.selection.quantities import models_of
-from validation.simulation import rail_models, rail_strip
 from validation.simulation.model import Target, models_serving
 from validation.simulation.model_names import BEM, SPRINGS, SPRINGS_THAT_READ
-from validation.simulation.models import boundary_elements_pressed as pressed
-from validation.simulation.models import pressed as on_profiles
 
 RAIL = load_scene("rail")
 ON_STRIPS = [

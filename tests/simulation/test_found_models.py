@@ -7,18 +7,18 @@ from dataclasses import replace
 import pytest
 
 from tests.benchmarks.made_up import use_a_clock_of_its_own
+from validation.advice import models
+from validation.advice.compare import compare
+from validation.advice.models import rolling
+from validation.advice.quantities import models_of
+from validation.advice.summary import summary
 from validation.benchmarks import timing
 from validation.benchmarks.peers import all_methods
 from validation.benchmarks.work_precision.errors import points
 from validation.benchmarks.work_precision.pressed import RoughPunchProblem
 from validation.benchmarks.work_precision.problem import Grids, measure
 from validation.benchmarks.work_precision.rolling import RollingProblem
-from validation.selection.compare import compare
-from validation.selection.quantities import models_of
-from validation.selection.summary import summary
-from validation.simulation import models
 from validation.simulation.model_names import FILTER_3D
-from validation.simulation.models import rolling
 from validation.simulation.rough_punch import PunchRoughness
 
 TOY = """

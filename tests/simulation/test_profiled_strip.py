@@ -8,17 +8,17 @@ import pytest
 
 import bem3d
 from validation import compare, load_scene
-from validation.scenes.rail import ProfiledRail
-from validation.scenes.transverse_profile import TransverseProfile, both_together
-from validation.simulation import rail_models
-from validation.simulation.equivalent_displacement import (
+from validation.railway.problems import rail_models
+from validation.railway.problems.equivalent_displacement import (
     heights_across,
     lifted,
     linear_displacement,
     roll_boundary_elements,
 )
+from validation.railway.problems.rail_strip import strip_of
+from validation.railway.scenes.rail import ProfiledRail
+from validation.railway.scenes.transverse_profile import TransverseProfile, both_together
 from validation.simulation.model_names import BEM, LINEAR
-from validation.simulation.rail_strip import strip_of
 
 RAIL = load_scene("rail")
 Y = np.linspace(-30e-3, 30e-3, 241)

@@ -11,14 +11,14 @@ from scipy import stats
 from scipy.optimize import brentq
 
 from validation import load_scene
-from validation.selection.rail_model import RailSceneModel
-from validation.simulation import rail_models
+from validation.railway.models.rail import BOUNDARY_ELEMENTS
+from validation.railway.problems import rail_models
+from validation.railway.problems.rail_quantity import RailQuantity
+from validation.railway.problems.rail_strip import strip_bands
+from validation.railway.scene_model import RailSceneModel
 from validation.simulation.method import Resolution
 from validation.simulation.model import Target, models_serving
 from validation.simulation.model_names import BEM, LINEAR
-from validation.simulation.models.rail import BOUNDARY_ELEMENTS
-from validation.simulation.rail_quantity import RailQuantity
-from validation.simulation.rail_strip import strip_bands
 
 RAIL = load_scene("rail")
 OPEN = replace(RAIL, across=None)

@@ -7,13 +7,17 @@ import numpy as np
 import pytest
 
 from validation import compare, load_scene
-from validation.scenes.level_files import curve
-from validation.scenes.measured_lines import MeasuredLines
-from validation.scenes.roughness_levels import RoughnessLevels
-from validation.selection.quantities import QUANTITIES
-from validation.selection.rail_model import RailSceneModel
-from validation.simulation import rail_models
-from validation.simulation.equivalent_displacement import ONE_SIDED, RolledRail, linear_displacement, roll_rail
+from validation.advice.quantities import QUANTITIES
+from validation.railway.problems import rail_models
+from validation.railway.problems.equivalent_displacement import ONE_SIDED, RolledRail, linear_displacement, roll_rail
+from validation.railway.problems.rail_models import COARSE, FINE, RailModel
+from validation.railway.problems.rail_quantity import RAIL_QUANTITIES, RailQuantity
+from validation.railway.problems.rail_strip import strip_of
+from validation.railway.scene_model import RailSceneModel
+from validation.railway.scenes.level_files import curve
+from validation.railway.scenes.measured_lines import MeasuredLines
+from validation.railway.scenes.roughness_levels import RoughnessLevels
+from validation.railway.theory.transverse_structure import IsotropicGround
 from validation.simulation.model import Target, models_serving
 from validation.simulation.model_names import (
     BED,
@@ -24,11 +28,7 @@ from validation.simulation.model_names import (
     SPRINGS_ROLLING,
     twin_of,
 )
-from validation.simulation.rail_models import COARSE, FINE, RailModel
-from validation.simulation.rail_quantity import RAIL_QUANTITIES, RailQuantity
-from validation.simulation.rail_strip import strip_of
 from validation.theory.elliptic_contact import elliptic_contact
-from validation.theory.transverse_structure import IsotropicGround
 
 RAIL = load_scene("rail")
 LINES = (SPRINGS_ROLLING, LINEAR_ON_LINE, LINEAR)

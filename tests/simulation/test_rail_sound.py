@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 import mdr
+from validation.railway.problems.equivalent_displacement import geike_track, linear_displacement
+from validation.railway.problems.rail_sound import HeldWheel, roll_held_wheel, samples_of, sounding_strip
+from validation.railway.problems.rail_strip import line_of
+from validation.railway.theory.transverse_structure import IsotropicGround
 from validation.scenes.load import load_scene
-from validation.simulation.equivalent_displacement import geike_track, linear_displacement
 from validation.simulation.model_names import BEM, LINE, LINEAR, SPRINGS_THAT_READ
-from validation.simulation.rail_sound import HeldWheel, roll_held_wheel, samples_of, sounding_strip
-from validation.simulation.rail_strip import line_of
-from validation.theory.transverse_structure import IsotropicGround
 
 RAIL = load_scene("rail")
 RATE, SAMPLES = 24000, 720

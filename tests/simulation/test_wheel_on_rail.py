@@ -5,12 +5,12 @@ import pytest
 
 import mdr
 from tests.simulation.power_law_ground import isotropic_strip
-from validation.simulation import wheel_on_rail
+from validation.railway.problems import wheel_on_rail
+from validation.railway.problems.wheel_on_rail import SurfaceSpringsLaw, WheelOnRail
 from validation.simulation.contact_laws import HertzLaw
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS_THAT_READ as SPRINGS
 from validation.simulation.motion import simulate
-from validation.simulation.wheel_on_rail import SurfaceSpringsLaw, WheelOnRail
 
 CELL = 1e-3
 STRIP = isotropic_strip(1e-7, 0.18, CELL)

@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import bem3d
-from validation.benchmarks.judging.discrete import ContactProblem
-from validation.engine.offered import Offered
-from validation.engine.others import OthersError, offered_in
+from validation.benchmarks.discrete import ContactProblem
+from validation.judging.registry import Offered
+from validation.judging.worker import OthersError, offered_in
 from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.model import all_models
 

@@ -3,13 +3,13 @@
 import math
 from functools import partial
 
+from validation.railway.scenes.measured_lines import MeasuredLines
+from validation.railway.scenes.rail import ProfiledRail, RailScene
 from validation.scenes.damping import in_per_cent
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.material import Material
 from validation.scenes.measured import MeasuredHeights
-from validation.scenes.measured_lines import MeasuredLines
-from validation.scenes.rail import ProfiledRail, RailScene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import RoughSurface
 from validation.scenes.units import in_unit

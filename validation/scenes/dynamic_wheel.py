@@ -10,11 +10,11 @@ from typing import Any
 from scipy.fft import next_fast_len
 
 from mdr.checks import count
+from validation.railway.scenes.rail_file import is_rail
 from validation.scenes.bundled import bundled, path_of
 from validation.scenes.damping import DampedWheel, check_damping
 from validation.scenes.material import Material, check_scene, material_of
 from validation.scenes.printable import shortened
-from validation.scenes.rail_file import is_rail
 from validation.scenes.reader import Reader, errors_of_file, table, tables_of, values
 from validation.scenes.roughness import Roughness, check_band, roughness_of
 from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer

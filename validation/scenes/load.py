@@ -8,6 +8,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from validation.railway.scenes.rail import RailScene
+from validation.railway.scenes.rail_file import is_rail, rail_of
 from validation.scenes.bundled import bundled, path_of
 from validation.scenes.dynamic_wheel import wheel_of
 from validation.scenes.indentation import IndentationScene
@@ -15,8 +17,6 @@ from validation.scenes.material import material_of
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_surface import heights_of, measured
 from validation.scenes.printable import printable
-from validation.scenes.rail import RailScene
-from validation.scenes.rail_file import is_rail, rail_of
 from validation.scenes.reader import Reader, errors_of_file, one_of, table, tables_of, values
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import roughness_of

@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 
 from mdr.checks import positive
+from validation.advice import models
 from validation.engine.engine import FloatArray
-from validation.simulation import models
 from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.model_names import BEM, MODELS
 from validation.simulation.rolling_quantity import RollingQuantity

@@ -17,8 +17,8 @@ from validation.analysis.series import Margin, Series, single
 from validation.analysis.study import Outcomes, Study
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.selection import model_needed
 from validation.simulation import exact_contacts as contacts
+from validation.simulation import model_needed
 from validation.simulation.exact_contacts import CosineWave, FlatPunches, PublishedContact, SmoothSphere
 from validation.theory import closed_forms
 

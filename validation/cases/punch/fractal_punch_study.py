@@ -18,7 +18,7 @@ from validation.analysis.statistics import DECIBEL
 from validation.analysis.study import Outcomes, Study
 from validation.cases.punch import fractal_punch as shown
 from validation.cases.punch.ensembles import DEVIATION, FEW, FORCE, MEAN, OVER
-from validation.selection import model_needed
+from validation.simulation import model_needed
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS as MDR
 from validation.simulation.rough_punch import FEW_CELLS

@@ -36,7 +36,7 @@ from validation.cases.punch.interface import (
     series,
 )
 from validation.cases.punch.work import worked
-from validation.selection import model_needed
+from validation.simulation import model_needed
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS as MDR
 from validation.theory.closed_forms import INTERFACE

@@ -35,7 +35,7 @@ from validation.cases.rolling.force_spectrum import (
     run,
     series,
 )
-from validation.selection import model_needed
+from validation.simulation import model_needed
 from validation.simulation.roughness_from_force import ASSUMED
 from validation.simulation.track_spectrum import INPUT_NAMES
 

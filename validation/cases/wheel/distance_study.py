@@ -12,7 +12,7 @@ from validation.analysis.study import Outcomes, Study
 from validation.cases.wheel import distance
 from validation.cases.wheel.distance import BOOK, CUT, HANN, LINEAR, PERIODIC, SECOND_ORDER, SPRINGS
 from validation.cases.wheel.features import DENSITY, FIRST, FOURTH, OMEGA, PLATEAU, TABLE, regions_of
-from validation.selection import model_needed
+from validation.simulation import model_needed
 from validation.simulation.wheel_on_springs import WAVES_APART
 
 BY_DISTANCE = Panel(OMEGA, DENSITY, log="xy").of(

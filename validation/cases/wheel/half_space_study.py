@@ -20,7 +20,7 @@ from validation.cases.wheel import half_space as wheel
 from validation.cases.wheel.features import LEVEL, OMEGA, QUANTITIES, SLOPE, decibels
 from validation.scenes.description import slope_ratio
 from validation.scenes.dynamic_wheel import WheelScene
-from validation.selection import model_needed
+from validation.simulation import model_needed
 
 LEVELS, OVER = "one-third octave level [dB over (m/s²)²]", "level over boundary elements"
 MARKS = "marks [rad/s]"

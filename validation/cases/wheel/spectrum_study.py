@@ -14,8 +14,7 @@ from validation.cases.wheel import features, spectrum
 from validation.cases.wheel.features import DENSITY, OMEGA, QUANTITIES, TABLE
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import WheelScene
-from validation.selection import model_needed
-from validation.simulation import wheel_features
+from validation.simulation import model_needed, wheel_features
 from validation.simulation.wheel_on_springs import WAVES_APART
 
 PARAMETERS = Matrix(

@@ -11,8 +11,8 @@ from validation.benchmarks.work_precision.pressed import RoughPunchProblem
 from validation.benchmarks.work_precision.problem import SPRINGS
 from validation.benchmarks.work_precision.rolling import RollingProblem
 from validation.cases.punch.ensembles import FORCE
-from validation.cases.rail.across_study import LOUDER
 from validation.cases.rolling.force_spectrum import SLOPE
+from validation.railway.cases.across_study import LOUDER
 from validation.report.answers.seconds import ENOUGH, TIMES
 from validation.report.answers.strip import TERMS
 from validation.report.section import Section

@@ -9,13 +9,13 @@ from validation.analysis.statistics import DECIBEL
 from validation.cases.punch import ensembles as punch
 from validation.cases.punch import fractal_punch_study as fig_14_1
 from validation.cases.punch import interface
-from validation.cases.rail import across, filters, rail_dynamic
-from validation.cases.rail.rolled_filters import OVER_BEM
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import reduced_models as reduced
 from validation.cases.wheel import half_space as wheel
 from validation.cases.wheel.features import LEVEL
 from validation.cases.wheel.half_space_study import WHEEL
+from validation.railway.cases import across, filters, rail_dynamic
+from validation.railway.cases.rolled_filters import OVER_BEM
 from validation.report.answers.seconds import Timed, a_surface, a_track, a_wheel, an_integral
 from validation.report.answers.strip import Source
 

@@ -1,0 +1,1 @@
+"""The cheapest model that is accurate enough for a scene, and why."""

@@ -1,0 +1,1 @@
+"""Models and solvers from elsewhere, judged beside the references of the suite."""

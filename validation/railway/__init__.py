@@ -1,0 +1,1 @@
+"""A wheel on a real rail."""
