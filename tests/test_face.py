@@ -14,8 +14,8 @@ from validation.__main__ import main
 from validation.advice.compare import Comparison
 from validation.advice.hierarchy import Candidate, Selection
 from validation.advice.scene_model import Answer
+from validation.scenes.rolling_quantity import RollingQuantity
 from validation.simulation.model import Cost, ErrorEstimate
-from validation.simulation.rolling_quantity import RollingQuantity
 
 SPHERE = validation.load_scene("sphere")
 SPECTRUM = {"quantity": "force-spectrum", "tolerance": 0.3}

@@ -31,10 +31,10 @@ from validation.engine.convergence import NotConvergedError
 from validation.railway.problems.rail_models import rail_quantity
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
+from validation.scenes.rolling_quantity import RollingQuantity
 from validation.simulation import rolling_levels
 from validation.simulation.model import Cost, GridModel
 from validation.simulation.rolling_levels import by_linear_theory, strip_of
-from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.sampling import distance
 
 

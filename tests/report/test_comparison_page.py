@@ -5,6 +5,7 @@ import json
 import re
 
 import pytest
+from validation.railway.contact_force import LEVELS, contact_force
 
 import validation
 from tests.selection.planted_answers import Fake, Finding, punch
@@ -14,7 +15,6 @@ from validation.advice.compare import Comparison, SceneProblem
 from validation.advice.hierarchy import select_model
 from validation.advice.on_mdr import in_full
 from validation.advice.page import PAGE, files_of_comparison
-from validation.railway.contact_force import LEVELS, contact_force
 
 ABOUT = dict.fromkeys(("version", "commit", "python", "system"), "0") | {"libraries": {}, "seeds": {"compare": 0}}
 

@@ -14,7 +14,7 @@ from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.scenes.load import load_scene
 from validation.scenes.reader import VALUES
 from validation.scenes.rolling import RollingScene
-from validation.simulation.rolling_quantity import RollingQuantity
+from validation.scenes.rolling_quantity import RollingQuantity
 
 RAIL, STILL = ((SCENES / f"{name}.toml").read_text(encoding="utf-8") for name in ("rail", "rolling_wheel"))
 MASS = '# mass = "500 kg"   # of a wheel that moves'

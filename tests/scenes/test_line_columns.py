@@ -4,6 +4,7 @@ import zipfile
 
 import numpy as np
 import pytest
+from validation.railway.scene_model import what_would_state_the_ground
 
 from tests.scenes.test_exported_tables import columns, in_memory, line_of, rail_with, refused, rows, told
 from tests.scenes.test_line_outliers import rail
@@ -12,7 +13,6 @@ from validation.advice.exported import to_json
 from validation.advice.summary import summary
 from validation.analysis.nominal_bands import NominalBands
 from validation.railway.problems.rail_models import rail_quantity, reason_of
-from validation.railway.scene_model import what_would_state_the_ground
 from validation.railway.scenes.line_columns import along_the_track
 from validation.railway.scenes.line_edits import edited
 from validation.scenes.load import load_scene

@@ -16,9 +16,9 @@ from validation.advice.tolerance import tolerance_of
 from validation.railway.scenes.rail import RailScene
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.rolling import RollingScene
+from validation.scenes.rolling_quantity import RollingQuantity
 from validation.scenes.roughness import Roughness
 from validation.simulation.model import Cost, ErrorEstimate
-from validation.simulation.rolling_quantity import RollingQuantity
 
 PARTS = (0.1, 0.02, 0.003)
 """Errors of a model, a grid and a sample."""

@@ -6,6 +6,7 @@ from functools import partial
 
 import numpy as np
 import pytest
+from validation.railway.scene_model import what_would_state_the_ground
 
 from tests.selection.planted_answers import Finding
 from validation.advice.advice import would_help
@@ -13,7 +14,6 @@ from validation.advice.compare import Comparison
 from validation.advice.hierarchy import Candidate, Selection
 from validation.advice.quantities import models_of, quantities_of
 from validation.railway.problems.rail_models import rail_quantity
-from validation.railway.scene_model import what_would_state_the_ground
 from validation.railway.scenes.rail import RailScene
 from validation.scenes.bundled import path_of
 from validation.scenes.load import bundled_for_compare, load_scene

@@ -17,11 +17,11 @@ from validation.advice.models import boundary_elements_pressed, boundary_element
 from validation.advice.models import rolling as rolling_models
 from validation.advice.quantities import models_of, quantities_of
 from validation.scenes.measured import MeasuredHeights
+from validation.scenes.rolling_quantity import RollingQuantity
 from validation.scenes.roughness import Roughness
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
 from validation.simulation.model import Target
-from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.sampling import grid_error, mean_error
 from validation.theory.closed_forms import SQUARE_PUNCH
 from validation.theory.rolling import contact_lost

@@ -8,13 +8,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from validation.railway.contact_force import contact_force
 
 import validation
 from tests.selection.planted_answers import Finding, compared, planted
 from validation.advice.columns import bands_of
 from validation.advice.scene_model import Answer
 from validation.advice.summary import summary
-from validation.railway.contact_force import contact_force
 from validation.simulation.model import Cost
 
 RAIL = validation.load_scene("rail")

@@ -8,6 +8,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from validation.railway.scene_model import RailSceneModel
 
 import validation
 from tests.selection.planted_answers import Finding, compared
@@ -18,7 +19,6 @@ from validation.advice.scene_model import Answer, SceneModel
 from validation.judging import own_models
 from validation.railway.models.rail import LINEAR_ELLIPSE
 from validation.railway.problems.rail_quantity import COUNTED
-from validation.railway.scene_model import RailSceneModel
 from validation.simulation.method import Resolution
 from validation.simulation.model import Cost, ErrorEstimate, Sampling, Target
 from validation.theory.closed_forms import rough_punch_stiffness

@@ -25,9 +25,9 @@ from validation.advice.summary import summary
 from validation.report.contents import CASES
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
+from validation.scenes.rolling_quantity import RollingQuantity
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
-from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.sampling import distance, mean_error
 
 

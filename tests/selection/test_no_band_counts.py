@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from validation.railway.scene_model import RailSceneModel
 
 from validation import compare, load_scene, summary, to_json
 from validation.advice.advice import what_would_help
 from validation.advice.cases.model_selection import EdgeTrial, true_error
 from validation.railway.problems.rail_quantity import COUNTED
-from validation.railway.scene_model import RailSceneModel
 from validation.railway.scenes.rail import RailScene
 from validation.simulation.method import Resolution
 from validation.simulation.model import Target, models_serving

@@ -16,7 +16,7 @@ from validation.advice.side_by_side import error_of_difference
 from validation.advice.summary import WIDTH, summary
 from validation.advice.tolerance import Tolerance, tolerance_of
 from validation.scenes.load import bundled_for_compare
-from validation.simulation.rolling_quantity import RollingQuantity
+from validation.scenes.rolling_quantity import RollingQuantity
 
 ENDS = tuple(end for words in BECAME.values() for end in (words, words.replace("not solved", "solved")))
 """Of the rows of models."""

@@ -23,8 +23,8 @@ from validation.advice.calibrated_range import (
 )
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
+from validation.scenes.rolling_quantity import RollingQuantity
 from validation.scenes.roughness import Roughness
-from validation.simulation.rolling_quantity import RollingQuantity
 
 ROUGH = Roughness(rms=1e-7, hurst=0.7, longest=2e-3, shortest=1e-4)
 SPHERE = IndentationScene(name="s", shape="sphere", size=0.5, load=4905.0, modulus=1e11, ground=ROUGH)

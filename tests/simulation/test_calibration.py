@@ -16,8 +16,8 @@ from validation.advice.calibrated_range import HEIGHT, HURST, LOAD, LONG, RATIO,
 from validation.advice.calibration import MeasuredErrors, calibrated, conditions_by_kind
 from validation.advice.calibration_scenes import QUANTITIES, RESONANCES, CalibrationRun, CalibrationScene
 from validation.advice.scene_model import Answer, Realisations
+from validation.scenes.rolling_quantity import RollingQuantity
 from validation.simulation.model import Cost, GridModel, Target, all_models, models_serving
-from validation.simulation.rolling_quantity import RollingQuantity
 
 PUNCH = {LOAD: 1.0, WAVES: 1.0, RATIO: 8.0, HURST: 0.7}
 NAMES = {"punch": (LOAD, WAVES, RATIO, HURST), "sphere": (HEIGHT, LONG, RATIO, HURST)}

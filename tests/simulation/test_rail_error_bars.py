@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from scipy import stats
 from scipy.optimize import brentq
+from validation.railway.scene_model import RailSceneModel
 
 from validation import load_scene
 from validation.railway.models.rail import BOUNDARY_ELEMENTS
 from validation.railway.problems import rail_models
 from validation.railway.problems.rail_quantity import RailQuantity
 from validation.railway.problems.rail_strip import strip_bands
-from validation.railway.scene_model import RailSceneModel
 from validation.simulation.method import Resolution
 from validation.simulation.model import Target, models_serving
 from validation.simulation.model_names import BEM, LINEAR

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from validation.railway.scene_model import RailSceneModel
 
 from validation import compare, load_scene
 from validation.advice.quantities import QUANTITIES
@@ -13,7 +14,6 @@ from validation.railway.problems.equivalent_displacement import ONE_SIDED, Rolle
 from validation.railway.problems.rail_models import COARSE, FINE, RailModel
 from validation.railway.problems.rail_quantity import RAIL_QUANTITIES, RailQuantity
 from validation.railway.problems.rail_strip import strip_of
-from validation.railway.scene_model import RailSceneModel
 from validation.railway.scenes.level_files import curve
 from validation.railway.scenes.measured_lines import MeasuredLines
 from validation.railway.scenes.roughness_levels import RoughnessLevels

@@ -9,12 +9,7 @@ from validation.advice.compare import MOST_REALISATIONS, Comparison
 from validation.advice.hierarchy import Candidate
 from validation.advice.scene_model import SAMPLE_SHARE
 from validation.analysis.statistics import student
-from validation.railway.problems.rail_models import rail_quantity
-from validation.railway.scene_model import what_would_state_the_ground
-from validation.railway.scenes.rail import RailScene
-from validation.scenes.indentation import IndentationScene
-from validation.scenes.load import Scene
-from validation.simulation.model import Target
+from validation.scenes.scene import Scene
 from validation.simulation.sampling import realisations
 
 ROUND = 2
@@ -48,9 +43,9 @@ def would_help(comparison: Comparison) -> Iterator[str]:
             yield f"what would help: {other or another}"
         return
     if (left := best.estimate.of_scene) > min(tolerance.relative, best.answer.error / 2):
-        asked = rail_quantity(Target(comparison.scene, comparison.quantity))
+        stated = best.model.model.helps(best.model.target)
         yield (
-            f"what would help: {what_would_state_the_ground(asked)}: the ground leaves ± {tolerance.shown(left)}, "
+            f"what would help: {stated}: the ground leaves ± {tolerance.shown(left)}, "
             f"whatever the model; or a tolerance of {tolerance.shown(1.05 * best.answer.error)}"
         )
         return
@@ -101,16 +96,15 @@ def _cause(scene: Scene, best: Candidate) -> str:
 
 def _lower(scene: Scene) -> str:
     """Of a model; measured roughness is as it is."""
-    if isinstance(scene, RailScene) or scene.ground is None or scene.ground.is_single:
+    if scene.ground is None or scene.ground.is_single:
         return ""
     return ": lower roughness has less"
 
 
 def _coarser(scene: Scene) -> str:
     """Of a grid."""
-    if isinstance(scene, RailScene):
+    if not scene.roughness_key:
         return "cells of a strip"
     if scene.ground is not None and scene.ground.is_single:
         return "heights on more points have less"
-    table = "roughness" if isinstance(scene, IndentationScene) else "rail.roughness"
-    return f"longer waves (`shortest` in [{table}]) have less"
+    return f"longer waves (`shortest` in [{scene.roughness_key}]) have less"

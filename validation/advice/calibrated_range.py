@@ -7,9 +7,9 @@ import numpy as np
 
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.rolling import RollingScene
+from validation.scenes.rolling_quantity import RollingQuantity
 from validation.scenes.roughness import RoughSurface
 from validation.simulation.indentation import ground_of
-from validation.simulation.rolling_quantity import RollingQuantity
 from validation.theory.rolling import contact_lost
 
 Conditions = Mapping[str, float]
@@ -87,8 +87,8 @@ def lost_contact(scene: IndentationScene | RollingScene) -> float:
     """Share of the contact of a smooth sphere or wheel that linear theory loses to the roughness."""
     ground = scene.ground
     assert ground is not None  # as asked
-    radius = scene.size if isinstance(scene, IndentationScene) else scene.radius
-    return contact_lost(ground.c2d, edges=ground.edges, contact_radius=scene.contact_radius, radius=radius)
+    smooth = {"contact_radius": scene.contact_radius, "radius": scene.body.radius}
+    return contact_lost(ground.c2d, edges=ground.edges, **smooth)
 
 
 def sphere_shape(scene: IndentationScene) -> float:

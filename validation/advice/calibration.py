@@ -24,7 +24,6 @@ from validation.advice.calibrated_range import (
 )
 from validation.engine.engine import FloatArray
 from validation.engine.sources import version_of
-from validation.scenes.indentation import IndentationScene
 from validation.simulation.method import Resolution
 from validation.simulation.model import ErrorEstimate, GridModel, Model, Target, models_serving
 
@@ -144,15 +143,14 @@ def calibrated_by_spectrum(
 
 def kind_of(target: Target) -> str:
     """Of the scene, in the table."""
-    if isinstance(target.scene, IndentationScene):
-        return target.scene.shape
-    return "wheel" if target.rolling.dynamic else "rolling"
+    kind: str = target.scene.kind
+    return "rolling" if kind == "wheel" and not target.rolling.dynamic else kind
 
 
 def conditions_by_kind(target: Target) -> tuple[str, dict[str, float]]:
     """Kind of the scene, and what decides how far cheap models are off."""
-    pressed = isinstance(target.scene, IndentationScene)
-    return kind_of(target), conditions_of(target.scene) if pressed else rolling_conditions(target.rolling)
+    rolls = target.scene.kind == "wheel"
+    return kind_of(target), rolling_conditions(target.rolling) if rolls else conditions_of(target.scene)
 
 
 def _coordinate(name: str, value: float) -> float:

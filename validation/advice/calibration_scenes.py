@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 
 from validation.advice.hierarchy import try_to_solve
-from validation.advice.quantities import MOVING, PRESSED, ROLLING
 from validation.advice.scene_model import SceneModel
 from validation.engine.engine import Outcome
 from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.load import Scene
+from validation.scenes.quantity import MOVING, PRESSED, ROLLING
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
+from validation.scenes.scene import Scene
 from validation.simulation.model import GridModel, Model, Target, models_serving
 from validation.theory.closed_forms import hertz_force
 
@@ -30,7 +30,10 @@ RADIUS, APPROACH = 1.0, 1e-4
 """Of spheres and wheels: no error depends on units."""
 HEIGHT = 1e-3
 """Of the roughness of punches, over their side."""
-QUANTITIES = {"punch": PRESSED, "sphere": PRESSED, "rolling": ROLLING, "wheel": MOVING[::-1]}
+QUANTITIES = {
+    kind: tuple(map(str, known))
+    for kind, known in {"punch": PRESSED, "sphere": PRESSED, "rolling": ROLLING, "wheel": MOVING[::-1]}.items()
+}
 DESIGNS: Mapping[str, tuple[tuple[float, float], ...]] = {
     "punch": ((-2.2, 2.0), (0.0, math.log10(5.4)), (math.log10(3), math.log10(48)), (0.2, 1.2)),
     "sphere": ((-2.5, 0.0), (math.log10(0.3), math.log10(2)), (math.log10(2), math.log10(12)), (0.2, 1.2)),

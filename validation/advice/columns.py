@@ -19,13 +19,11 @@ from validation.advice.cells import (
     two_digits,
 )
 from validation.advice.compare import Comparison
+from validation.advice.contact_force import ContactForce
 from validation.advice.hierarchy import Candidate, Status
 from validation.advice.on_mdr import is_solved, springs_of
-from validation.advice.quantities import UNITS
 from validation.advice.side_by_side import TOGETHER, differences, error_of_difference, per_cent, reference_of
 from validation.engine.engine import FloatArray
-from validation.railway.contact_force import ContactForce, contact_force
-from validation.scenes.rolling import RollingScene
 
 ABREAST = 10
 """Models in a table, so that its lines fit."""
@@ -70,12 +68,12 @@ def levels_of(comparison: Comparison, one: Candidate | None, force: ContactForce
 def bands_of(comparison: Comparison, one: Candidate) -> Columns:
     """A row a band: wavelength, frequency, q a, root mean square, levels and their error, as the scene has them."""
     assert one.answer is not None  # of a model that was solved
-    found, scene = levels_of(comparison, one, contact_force(comparison)), comparison.scene
-    if isinstance(scene, RollingScene):
-        found |= {"q a": scene.contact_radius * comparison.wavenumbers, "amplitude": one.answer.value}
+    found, contact = levels_of(comparison, one, comparison.force), comparison.scene.smooth_contact
     if comparison.roughness.size:
         del found["value"]
-    units = {"unit": comparison.unit, "amplitude": UNITS[comparison.quantity]}
+    elif contact:
+        found |= {"q a": contact.along * comparison.wavenumbers, "amplitude": one.answer.value}
+    units = {"unit": comparison.unit, "amplitude": comparison.asked.unit}
     return _cells(found, units)
 
 
@@ -218,7 +216,7 @@ def _row_of_scene(comparison: Comparison, several: bool) -> dict[str, str]:
     if best is None:
         result = ""
     elif comparison.is_level:
-        result = force.shown if (force := contact_force(comparison)) else f"{comparison.value.size} bands"
+        result = force.shown if (force := comparison.force) else f"{comparison.value.size} bands"
     else:
         (value,), (half,) = comparison.value, comparison.errors_of(best)
         result = f"{scaled(float(value), float(half))} {comparison.unit}"

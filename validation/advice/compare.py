@@ -5,31 +5,29 @@ import json
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from bem3d.read_only import kept
 from mdr.checks import count
+from validation.advice.contact_force import ContactForce
 from validation.advice.elasticity import beyond_elasticity
 from validation.advice.hierarchy import Candidate, Selection, rejected, select_model
 from validation.advice.named_models import ComparedModels, models_named
-from validation.advice.own_candidates import Own, names_and_own, own_candidates
-from validation.advice.quantities import BY_NAME, LEVELS, REFERENCES, UNITS, models_of, quantities_of
+from validation.advice.own_candidates import Decorated, Own, names_and_own, own_candidates
+from validation.advice.quantities import BY_NAME, models_of, quantities_of, quantity_of
 from validation.advice.scene_model import SceneModel, Shared
 from validation.advice.swept import Swept
 from validation.advice.tolerance import Tolerance, decibels, tolerance_of
 from validation.analysis.nominal_bands import MANTISSAS
 from validation.engine.engine import FloatArray
-from validation.judging.registry import Offered
-from validation.railway.scenes.rail import RailScene
-from validation.scenes.load import Scene
 from validation.scenes.printable import shortened
-from validation.scenes.rolling import RollingScene
+from validation.scenes.quantity import Quantity
+from validation.scenes.scene import Scene
 from validation.simulation.model import Target
-from validation.simulation.rolling_quantity import RollingQuantity
 
-ENSEMBLE_MEAN, SINGLE_SURFACE = "ensemble mean", "single surface"
 MOST_REALISATIONS = 100_000
 LONGEST_BEYOND_RANGE = 60.0
 """Seconds that a model may take whose error is unknown."""
@@ -96,6 +94,11 @@ class Comparison:
     swept: Swept | None = None
 
     @property
+    def asked(self) -> Quantity:
+        """The quantity with its unit, and how it is judged."""
+        return quantity_of(self.scene, self.quantity)
+
+    @property
     def tolerance(self) -> Tolerance:
         return Tolerance(self.selection.tolerance, self.in_decibels)
 
@@ -107,9 +110,8 @@ class Comparison:
     def value_of(self, candidate: Candidate) -> FloatArray:
         """Of a model that was solved, as value."""
         assert candidate.answer is not None  # as said
-        reference = REFERENCES.get(self.quantity, 1.0)
         value = candidate.answer.value
-        return kept(20 * np.log10(value / reference) if self.is_level else value)
+        return kept(20 * np.log10(value / self.asked.reference) if self.is_level else value)
 
     def errors_of(self, candidate: Candidate) -> FloatArray:
         """Half-widths of 95 % of a model that was solved, one a number, in dB for levels and else in ``unit``."""
@@ -128,7 +130,7 @@ class Comparison:
     @property
     def roughness(self) -> FloatArray:
         """L_r of a rail in each band [dB re 1 µm]; empty of any other scene."""
-        return kept(np.array(self.scene.levels.levels if isinstance(self.scene, RailScene) else ()))
+        return kept(self.scene.roughness_levels)
 
     def a3_of(self, candidate: Candidate) -> FloatArray:
         """Contact filter of a model of a rail that was solved, whichever quantity was asked [dB]."""
@@ -151,23 +153,21 @@ class Comparison:
 
     @property
     def unit(self) -> str:
-        if self.quantity == "contact-filter":
-            return "dB"
-        return f"dB re 1 {UNITS[self.quantity]}" if self.is_level else UNITS[self.quantity]
+        unit = self.asked.unit
+        if not self.is_level:
+            return unit
+        return "dB" if unit == "1" else f"dB re 1 {unit}"
 
     @property
     def is_level(self) -> bool:
         """Whether the value is a level in each one-third octave."""
-        return self.quantity in LEVELS
+        return self.asked.in_bands
 
     @property
     def wavenumbers(self) -> FloatArray:
         if not self.is_level or not self.selection.solved:
             return kept(np.empty(0))
-        if isinstance(self.scene, RailScene):
-            return kept(2 * math.pi / self.scene.levels.bands.nominal)
-        centres = RollingQuantity(self.scene, self.quantity).bands.centres  # type: ignore[arg-type]  # a wheel has it
-        return kept(centres)
+        return kept(self.scene.bands(self.quantity))
 
     @property
     def wavelength_mm(self) -> FloatArray:
@@ -198,10 +198,13 @@ class Comparison:
 
     @property
     def statistic(self) -> str:
-        if isinstance(self.scene, RailScene):
-            return ENSEMBLE_MEAN
-        ground = self.scene.ground
-        return "" if ground is None else SINGLE_SURFACE if ground.is_single else ENSEMBLE_MEAN
+        return self.scene.statistic
+
+    @cached_property
+    def force(self) -> ContactForce | None:
+        """A-weighted force of a wheel on a rail at a constant height, by each model; None of any other scene."""
+        force: ContactForce | None = self.scene.contact_force(self)
+        return force
 
     @property
     def models(self) -> ComparedModels:
@@ -230,7 +233,7 @@ def compare(
     seed: int = 0,
     *,
     solve_all: bool = False,
-    models: str | Offered | Sequence[str | Offered] | None = None,
+    models: str | Decorated | Sequence[str | Decorated] | None = None,
     realisations: int | None = None,
     callback: Callable[[SceneModel], None] = lambda _: None,
 ) -> Comparison:
@@ -281,7 +284,7 @@ def compare(
     >>> result.quantity, result.model, result.met
     ('stiffness', 'closed form', True)
     """
-    if not isinstance(scene, Scene):
+    if not hasattr(scene, "quantities"):
         raise TypeError(f"scene must be what load_scene returns, got {type(scene).__name__}")
     count("seed", seed, least=0)
     asked = quantity or quantities_of(scene)[0]
@@ -337,7 +340,7 @@ class SceneProblem:
         found, shared, tolerance = dict[str, Comparison](), Shared(), self.wanted.relative
         for asked in self.quantities:
             every, only = self.offered(asked, shared)
-            announced = found and isinstance(self.scene, RailScene)  # both quantities of a rail have the same solves
+            announced = found and self.scene.shares_solves
             selection = select_model(
                 every,
                 tolerance,
@@ -359,11 +362,14 @@ def content_of(scene: Scene) -> str:
     def of_array(value: Any) -> object:
         return value.dtype.str, value.shape, hashlib.sha256(value.tobytes()).hexdigest()
 
-    made_of = json.dumps([type(scene).__name__, asdict(scene)], default=of_array)
+    made_of = json.dumps(
+        [type(scene).__name__, asdict(scene)],  # type: ignore[call-overload]  # scenes are dataclasses
+        default=of_array,
+    )
     return hashlib.sha256(made_of.encode()).hexdigest()[:16]
 
 
 def _beyond(model: SceneModel) -> bool:
     """Whether the scene has an answer at all, and the model is expected to find one soon."""
-    rolls = isinstance(model.target.scene, RollingScene)
-    return model.cost().seconds <= LONGEST_BEYOND_RANGE and not (rolls and model.target.rolling.no_answer)
+    scene, quantity = model.target.scene, model.target.quantity
+    return model.cost().seconds <= LONGEST_BEYOND_RANGE and not scene.no_answer(quantity)

@@ -1,30 +1,58 @@
-"""The result of `compare` for other programs: strict JSON, one table of all models, and a filter for noise maps."""
+"""The result of `compare` for other programs: strict JSON, and one table of all models."""
 
 import math
-from collections.abc import Iterable, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from pkgutil import resolve_name
 from typing import Any
 
 import numpy as np
 
 from validation.advice.columns import levels_of
 from validation.advice.compare import Comparison, OneOrSeveral, listed
+from validation.advice.contact_force import ContactForce
 from validation.advice.hierarchy import Candidate
 from validation.advice.tolerance import decibels
 from validation.analysis.contents import as_csv, as_json
 from validation.analysis.evidence import Table
-from validation.analysis.nominal_bands import LONGEST, NominalBands
-from validation.engine.engine import FloatArray
-from validation.railway.contact_force import ContactForce, contact_force
-from validation.railway.problems.rail_models import RailModel, rail_quantity
-from validation.railway.scenes.rail import RailScene
-from validation.scenes.indentation import IndentationScene
-from validation.scenes.load import Scene
-from validation.simulation.model import Target
+from validation.scenes.scene import Scene
 
 SCHEMA_OF_JSON = Path(__file__).with_name("comparison.schema.json")
 AXES, OF_RAIL = ("wavelength_mm", "frequency_hz"), ("roughness_dB", "a3_dB", "equivalent_dB", "force_dBA")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Export:
+    """A file of one quantity for other programs, as an option of the command `compare`.
+
+    option: as "--name"; quantity: its key; of: what has that quantity, in words; help: what it writes; place: of the
+    function that makes the table of a comparison of that quantity, "module:function", imported when it is used.
+    """
+
+    option: str
+    quantity: str
+    of: str
+    help: str
+    place: str
+
+    @property
+    def name(self) -> str:
+        return self.option.strip("-").replace("-", "_")
+
+    def check(self, quantities: Iterable[str]) -> None:
+        """Raises ValueError where it is not among those that are asked."""
+        if self.quantity not in quantities:
+            raise ValueError(
+                f"{self.option} is for the quantity {self.quantity} of {self.of}, got {', '.join(quantities)}"
+            )
+
+    def written(self, comparisons: Iterable[Comparison]) -> bytes:
+        """The rows of all scenes, as CSV."""
+        table: Callable[[Comparison], Table] = resolve_name(self.place)
+        tables = [table(one) for one in comparisons if one.quantity == self.quantity]
+        rows = {name: [value for one in tables for value in one.columns[name]] for name in tables[0].columns}
+        return as_csv(Table(self.quantity, rows))
 
 
 def to_json(comparison: OneOrSeveral) -> str:
@@ -57,7 +85,7 @@ def to_json_of(comparisons: Sequence[Comparison]) -> str:
 
 
 def _found(comparison: Comparison) -> dict[str, object]:
-    best, force = comparison.selection.best, contact_force(comparison)
+    best, force = comparison.selection.best, comparison.force
     levels = levels_of(comparison, best, force)
     parts = comparison.error_parts_of(best) if best else {}
     return {
@@ -123,7 +151,7 @@ def by_quantity(comparisons: Sequence[Comparison]) -> dict[str, list[Comparison]
 
 def _rows(comparison: Comparison) -> list[dict[str, object]]:
     """A row a number or a band, of each model that was solved; NaN where there is no number."""
-    force, swept = contact_force(comparison), swept_of(comparison) if comparison.swept else {}
+    force, swept = comparison.force, swept_of(comparison) if comparison.swept else {}
     found = [row for one in comparison.selection.solved for row in _rows_of_model(comparison, one, force)]
     none = dict.fromkeys((*AXES, "value", "low", "high"), math.nan)
     return [row | swept for row in found or [{**none, "unit": comparison.unit, "model": "", "selected": False}]]
@@ -155,16 +183,12 @@ def swept_of(comparison: Comparison) -> dict[str, object]:
 def assumed(scene: Scene) -> dict[str, float]:
     """The contact of the smooth bodies, in SI units, and a damping ratio: a scene that was misread shows here."""
     found = {"E_star_Pa": scene.modulus, "load_N": scene.load}
-    if not isinstance(scene, IndentationScene) and scene.mass is not None:
+    if scene.mass is not None:
         found["damping_ratio"] = scene.damping
-    if isinstance(scene, RailScene):
-        a_x, a_y, approach = scene.contact.along, scene.contact.across, scene.contact.approach
-    elif isinstance(scene, IndentationScene) and scene.shape == "punch":
+    if (contact := scene.smooth_contact) is None:
         return found
-    else:
-        a_x, a_y, approach = scene.contact_radius, scene.contact_radius, scene.approach
-    pressure = 1.5 * scene.load / (math.pi * a_x * a_y)
-    return {**found, "a_x_m": a_x, "a_y_m": a_y, "approach_m": approach, "largest_pressure_Pa": pressure}
+    axes = {"a_x_m": contact.along, "a_y_m": contact.across, "approach_m": contact.approach}
+    return {**found, **axes, "largest_pressure_Pa": contact.largest_pressure}
 
 
 def _became(comparison: Comparison, one: Candidate, force: ContactForce | None) -> dict[str, object]:
@@ -189,38 +213,3 @@ def _numbers(values: Iterable[float]) -> list[float | None]:
 
 def _number(value: float) -> float | None:
     return float(value) if math.isfinite(value) else None
-
-
-def filter_table(comparison: Comparison) -> Table:
-    """A contact filter in the columns of CNOSSOS-EU: wheel load and diameter, A3 to a tenth of a decibel.
-
-    A row a nominal wavelength from 2000 to 0.8 mm. Waves longer than those of the scene have the closed filter of the
-    model, of a one-sided one that of its linear twin; shorter ones are NaN. Raises ValueError for any other quantity,
-    and where no model has an answer.
-    """
-    scene, best = comparison.scene, comparison.selection.best
-    if not isinstance(scene, RailScene) or comparison.quantity != "contact-filter":
-        raise ValueError(f"--cnossos is for the quantity contact-filter of a rail, got {comparison.quantity}")
-    if best is None:
-        raise ValueError("--cnossos needs a contact filter, got none: no model has a result")
-    bands, own = NominalBands(), scene.levels.bands
-    a3 = np.full(len(bands), np.nan)
-    first = bands.longest - own.longest
-    if first and isinstance(best.model.model, RailModel):
-        a3[:first] = of_longer_waves(best.model.model, best.model.target)[:first]
-    a3[first : first + len(own)] = comparison.value
-    return Table(
-        "contact-filter",
-        {
-            "wheel_load_kN": [scene.load / 1e3] * len(bands),
-            "wheel_diameter_mm": [2e3 * scene.radius] * len(bands),
-            "wavelength_mm": (1e3 * bands.nominal).tolist(),
-            "a3_dB": (a3.round(1) + 0.0).tolist(),  # no minus in front of a zero
-        },
-    )
-
-
-def of_longer_waves(model: RailModel, target: Target) -> FloatArray:
-    """A3 of the linear filter in all bands from 2000 mm to the last of the roughness [dB]."""
-    asked = replace(rail_quantity(target), longest=LONGEST)
-    return np.asarray(model.filter.closed(asked).mean(axis=0))

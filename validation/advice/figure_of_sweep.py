@@ -11,7 +11,6 @@ from matplotlib.figure import SubFigure
 
 from validation.advice.compare import Comparison
 from validation.advice.side_by_side import counts, reference_of, shown_models
-from validation.railway.contact_force import contact_force
 from validation.report.style import in_two_lines, legend_name, styles_of, tick
 
 Interval = tuple[float, float, float]
@@ -104,7 +103,7 @@ def _panels(found: Sequence[Comparison]) -> Iterator[SweepPanel]:
     if not found[0].is_level:
         yield "", label, partial(_at, wave=None)
         return
-    force = all(contact_force(one) for one in found)
+    force = all(one.force for one in found)
     if force:
         yield "contact force at a constant height", "A-weighted [dB re 1 N]", _force
     for wave in _changing(found, PANELS - force):
@@ -122,7 +121,7 @@ def _at(comparison: Comparison, name: str, wave: float | None) -> Interval:
 
 def _force(comparison: Comparison, name: str) -> Interval:
     """The sum over all bands; the error of the selected model alone is known."""
-    force = contact_force(comparison)
+    force = comparison.force
     if force is None or name not in force.levels:
         return math.nan, math.nan, math.nan
     return _interval(force.total(name), force.error if name == force.chosen else math.inf)

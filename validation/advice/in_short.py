@@ -7,9 +7,9 @@ from validation.advice.advice import would_help
 from validation.advice.cells import scaled
 from validation.advice.columns import bands_of, columns_as_lines, side_by_side
 from validation.advice.compare import Comparison
+from validation.advice.contact_force import LEVELS
 from validation.advice.scene_model import Answer
 from validation.advice.summary import error_of_levels, models_as_lines, no_answer
-from validation.railway.contact_force import LEVELS, contact_force
 
 
 def in_short(quantities: Sequence[Comparison]) -> Iterator[str]:
@@ -39,7 +39,7 @@ def _value(quantities: Sequence[Comparison], answer: Answer) -> str:
     if not comparison.is_level:
         value = float(answer.value[0])
         return f"{name} = {scaled(value, value * answer.error)} {comparison.unit} by {comparison.model}{of}"
-    force = contact_force(comparison)
+    force = comparison.force
     weighted = f", contact force {force.shown}" if force else ""
     return f"{name} by {comparison.model}: {comparison.value.size} bands{of}{weighted}"
 

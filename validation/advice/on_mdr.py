@@ -5,7 +5,6 @@ import math
 from validation.advice.calibration import SHARE
 from validation.advice.compare import Comparison
 from validation.advice.hierarchy import Candidate, contradicting
-from validation.railway.scenes.rail import RailScene
 
 SOLVES_IT = "not solved (--models mdr solves it)"
 
@@ -36,7 +35,7 @@ def verdict(comparison: Comparison, springs: Candidate) -> tuple[str, str]:
         return "not known to be enough", springs.reason
     if not is_solved(comparison, springs):
         enough = "predicted to be enough" if springs.error <= limit else "not sure to be enough"
-        bound = "" if isinstance(comparison.scene, RailScene) else f", an upper bound in {100 * SHARE:.0f} % of scenes"
+        bound = "" if comparison.scene.error_source else f", an upper bound in {100 * SHARE:.0f} % of scenes"
         return enough, f"its predicted error{of} is {shown}{bound}; {SOLVES_IT}"
     if against := contradicting(comparison.selection, springs):
         return "not enough", f"{against.name}, with less bias, contradicts it"

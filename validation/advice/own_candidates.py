@@ -2,20 +2,26 @@
 
 from collections.abc import Collection, Sequence
 from pkgutil import resolve_name
-from typing import Protocol
+from typing import Any, Protocol, runtime_checkable
 
 from validation.advice.scene_model import SceneModel
-from validation.judging.registry import Offered
-from validation.railway.scene_model import RailSceneModel
-from validation.railway.scenes.rail import RailScene
-from validation.scenes.load import Scene
+from validation.engine.street import places
 from validation.scenes.printable import quoted
+from validation.scenes.scene import Scene
 from validation.simulation.method import Resolution
 from validation.simulation.model import Model, Target
 from validation.simulation.model_names import SHORT
 
-OF_FUNCTIONS = "validation.judging.own_models:of_functions"
-"""By name: what is stored of scenes without such models must not be keyed by their code."""
+
+@runtime_checkable
+class Decorated(Protocol):
+    """A function with one of the decorators of the face, as `stiffness_model`."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def kind(self) -> str: ...
+    def __call__(self, *arguments: Any, **named: Any) -> Any: ...
 
 
 class Own(Protocol):
@@ -29,7 +35,7 @@ class Own(Protocol):
 
 
 def names_and_own(
-    models: str | Offered | Sequence[str | Offered] | None, scene: Scene, quantity: str
+    models: str | Decorated | Sequence[str | Decorated] | None, scene: Scene, quantity: str
 ) -> tuple[Sequence[str], tuple[Own, ...]]:
     """Names of all that are asked, and functions as models; none for None.
 
@@ -37,15 +43,19 @@ def names_and_own(
     """
     if models is None or isinstance(models, str):
         return () if models is None else models or ("",), ()
-    asked = [models] if isinstance(models, Offered) else models
+    asked = [models] if isinstance(models, Decorated) else models
     if not isinstance(asked, Collection) or len(asked) == 0:
         raise ValueError(f"models must be names, functions with a decorator, or left out for all, got {quoted(asked)}")
-    functions = [one for one in asked if isinstance(one, Offered)]
+    functions = [one for one in asked if isinstance(one, Decorated)]
     names = [one.name for one in functions]
     if twice := next((name for name in names if names.count(name) > 1), ""):
         raise ValueError(f"two functions are offered as {twice!r}")
-    own = resolve_name(OF_FUNCTIONS)(functions, scene, quantity) if functions else ()
-    return tuple(one.name if isinstance(one, Offered) else one for one in asked), own
+    own: tuple[Own, ...] = ()
+    if functions:
+        # not `brought`: what is stored of scenes without such models is not keyed by their code
+        (place,) = places("models_of_functions")
+        own = resolve_name(place)(functions, scene, quantity)
+    return tuple(one.name if isinstance(one, Decorated) else one for one in asked), own
 
 
 def own_candidates(own: Sequence[Own], target: Target, others: Sequence[SceneModel]) -> list[SceneModel]:
@@ -57,5 +67,4 @@ def own_candidates(own: Sequence[Own], target: Target, others: Sequence[SceneMod
     if own and not found:
         served = "; ".join(one.serves for one in own)
         raise ValueError(f"no model of your own has {target.quantity} of scene {target.scene.name!r}: {served}")
-    kind = RailSceneModel if isinstance(target.scene, RailScene) else SceneModel
-    return [kind(model, target, Resolution()) for model in found]
+    return [SceneModel(model, target, Resolution()) for model in found]

@@ -6,15 +6,14 @@ from pathlib import Path
 
 from validation.advice import advice, columns, on_mdr, side_by_side, summary
 from validation.advice.compare import Comparison
+from validation.advice.contact_force import LEVELS
 from validation.advice.exported import SCHEMA_OF_JSON, by_quantity, table_of_several, to_json_of
 from validation.advice.figure import to_figure
-from validation.advice.quantities import MOVING
 from validation.analysis.contents import as_csv, as_json
-from validation.railway.contact_force import LEVELS, contact_force
 from validation.report.formats import templates
 from validation.scenes.description import describe
-from validation.scenes.rolling import RollingScene
 
+TEMPLATES = Path(__file__).parent / "templates"
 PAGE, JSON, SCHEMA, CSV = "index.html", "comparison.json", "comparison.schema.json", "data/levels.csv"
 
 
@@ -42,7 +41,7 @@ def _page(found: Sequence[Comparison], files: Mapping[str, bytes], about: dict[s
         for name, contents in files.items()
         if name.endswith(".svg")
     }
-    page = templates().get_template("comparison.html")
+    page = templates(TEMPLATES).get_template("comparison.html")
     text = page.render(
         title=_asked(found),
         scenes=[_of_scene(f"scene-{i}", one) for i, one in enumerate(found, 1)],
@@ -73,7 +72,7 @@ def _of_scene(name: str, found: Comparison) -> dict[str, object]:
         "models": columns.models_of_page(found),
         "bands": columns.bands_of(found, best) if best and found.is_level else None,
         "levels": LEVELS if found.roughness.size else "",
-        "force": contact_force(found),
+        "force": found.force,
         "beside": levels or (columns.numbers_beside(found) if beside else None),
         "letters": letters,
         "reference": side_by_side.reference_of(found).name if beside else "",
@@ -91,5 +90,5 @@ def _asked(found: Sequence[Comparison]) -> str:
 def _notes(found: Comparison) -> list[str]:
     """Why there is no steady answer, and what may be wrong about the scene."""
     scene = found.scene
-    reason = scene.no_steady_answer() if isinstance(scene, RollingScene) and found.quantity in MOVING else ""
+    reason = scene.no_steady_answer() if found.asked.of_motion else ""
     return [*([f"no steady answer: {reason}"] if reason else []), *scene.diagnose()]

@@ -12,6 +12,7 @@ import numpy as np
 
 from bem3d.read_only import kept
 from validation.engine.engine import FloatArray
+from validation.scenes.quantity import STIFFNESS
 from validation.simulation.method import Prepared, Resolution, Result
 from validation.simulation.model import Cost, ErrorEstimate, GridModel, Model, Sampling, Target
 from validation.simulation.sampling import STUDENT, mean_error, realisations, too_few
@@ -167,6 +168,9 @@ class SceneModel:
         those that it is compared with where the grid does, as long as its error falls by that. Where as many as there
         may be are expected to leave more than the tolerance, the fewest are solved.
         """
+        if self.model.answer is not None:
+            answer: Answer = self.model.answer(self)
+            return answer
         expected, plan, before = self.estimate(), self.sampling, self._solved()
         most = plan.fewest if self._beyond_reach(expected) else plan.most
         count, compared, earlier = plan.fewest, plan.compared, math.inf
@@ -190,8 +194,8 @@ class SceneModel:
 
     def _answer(self, expected: ErrorEstimate, count: int, compared: int, before: dict[Resolution, int]) -> Answer:
         """Of so many realisations, of which so many are compared with other grids; before: solved by others."""
-        found = self._first(self.resolution, count)
-        others = [self._first(resolution, compared) for resolution in self.references]
+        found = self.first(self.resolution, count)
+        others = [self.first(resolution, compared) for resolution in self.references]
         if failed := next((one.failed for one in itertools.chain(found, *others) if one.failed), ""):
             return Answer(value=np.array([np.nan]), cost=self._spent(before), failed=failed)
         values = self._rows(found)
@@ -209,11 +213,12 @@ class SceneModel:
             sample=sample,
             reason=reason,
             failed=self._too_few(found) or unknown,
-            seconds=self._seconds(count, compared),
+            seconds=self.seconds_of(count, compared),
             realisations=len(values),
         )
 
-    def _first(self, resolution: Resolution, count: int) -> list[Result]:
+    def first(self, resolution: Resolution, count: int) -> list[Result]:
+        """So many realisations, solved once."""
         prepare = partial(self.model.prepare, self.target, resolution)
         return self.shared.setdefault((self.model, resolution), Realisations(prepare)).first(count)
 
@@ -222,7 +227,7 @@ class SceneModel:
         shared = [(one, self.shared.get((self.model, one))) for one in (self.resolution, *self.references)]
         return {one: len(found.solved) if found else 0 for one, found in shared}
 
-    def _seconds(self, count: int, compared: int = 0) -> float:
+    def seconds_of(self, count: int, compared: int = 0) -> float:
         """Of so many realisations, and of those on the grids that they are compared with."""
         counts = {self.resolution: count, **dict.fromkeys(self.references, compared)}
         return sum(sum(self.shared[self.model, one].seconds[:some]) for one, some in counts.items())
@@ -235,7 +240,7 @@ class SceneModel:
         """Of a stiffness itself, of levels of their logarithms; and what the sample leaves of it."""
         if len(rows) == 1:
             return rows[0], 0.0
-        if self.target.quantity == "stiffness":
+        if self.target.quantity == str(STIFFNESS):
             mean = rows.mean(axis=0)
             return mean, mean_error(rows / mean)
         return np.exp(np.log(rows).mean(axis=0)), mean_error(np.log(rows))

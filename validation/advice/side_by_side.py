@@ -10,8 +10,6 @@ from validation.advice.compare import Comparison
 from validation.advice.hierarchy import Candidate
 from validation.advice.tolerance import decibels
 from validation.analysis.evidence import Table, table_of
-from validation.railway.problems.rail_quantity import COUNTED
-from validation.railway.scenes.rail import RailScene
 
 TOGETHER = "both errors together: of the models the sum, of grid and sample the root of the sum of squares"
 """How the half-width of a difference follows from the errors of both models."""
@@ -50,7 +48,7 @@ def per_cent(level: float) -> float:
 def counts(comparison: Comparison, one: Candidate) -> NDArray[np.bool_]:
     """Where the tolerance counts: of a rail not in bands of which next to nothing is left."""
     level = comparison.a3_of(one) if comparison.roughness.size else np.zeros(comparison.value_of(one).size)
-    return np.asarray(level > COUNTED)
+    return np.asarray(level > comparison.asked.counted_above)
 
 
 def shown_models(comparison: Comparison) -> list[str]:
@@ -95,7 +93,7 @@ def _apart(comparison: Comparison, one: Candidate) -> tuple[float, float]:
     within = counts(comparison, reference) & np.isfinite(off)
     if not within.any():
         return math.nan, math.nan
-    if isinstance(comparison.scene, RailScene):
+    if comparison.asked.by_worst_band:
         at = int(np.argmax(np.where(within, off, -1.0)))
         return float(off[at]), float(half[at])
     return float(np.sqrt(np.mean(off[within] ** 2))), float(np.sqrt(np.mean(half[within] ** 2)))

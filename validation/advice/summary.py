@@ -9,15 +9,12 @@ from validation.advice.advice import what_would_help
 from validation.advice.cells import format_seconds, scaled, short
 from validation.advice.columns import bands_of, columns_as_lines, models_of_page, overview_of, side_by_side
 from validation.advice.compare import Comparison, OneOrSeveral, listed
-from validation.advice.quantities import MOVING
+from validation.advice.contact_force import LEVELS
+from validation.advice.quantities import quantity_of
 from validation.advice.scene_model import Answer
 from validation.advice.tolerance import Tolerance, decibels
-from validation.railway.contact_force import LEVELS, contact_force
-from validation.railway.problems.rail_models import MEASURED_ON_STRIPS
-from validation.railway.scenes.rail import RailScene
 from validation.scenes.description import description_lines
-from validation.scenes.indentation import IndentationScene
-from validation.scenes.load import Scene
+from validation.scenes.scene import Scene
 from validation.simulation.model import Target
 
 WIDTH = 100
@@ -55,7 +52,7 @@ def summary(comparison: OneOrSeveral) -> str:
 
 def heading(scene: Scene, quantities: Sequence[str], tolerance: Tolerance) -> str:
     """What was understood, before anything is solved: what is asked, bodies, contact, roughness, what is assumed."""
-    described = description_lines(scene, moving=any(quantity in MOVING for quantity in quantities))
+    described = description_lines(scene, moving=any(quantity_of(scene, key).of_motion for key in quantities))
     lines = [f"{scene.name}: {', '.join(quantities)} within {tolerance}", *described, f"  {'assumed':18s}  {ASSUMED}"]
     return "\n".join(part for line in lines for part in wrapped([line], indent=22 if line[0] == " " else 4))
 
@@ -81,7 +78,7 @@ def in_full(quantities: Sequence[Comparison]) -> Iterator[str]:
         yield from (result_of(one, best.answer) for one in quantities)
         yield from (line for line in (best.answer.counted, LEVELS if comparison.roughness.size else "") if line)
         yield from columns_as_lines(bands_of(comparison, best)) if comparison.is_level else ()
-        if force := contact_force(comparison):
+        if force := comparison.force:
             yield from ("", *force.sentences, *(f"  {line}" for line in columns_as_lines(force.table)), "")
         yield from side_by_side(comparison)
         yield from (age_of_errors(comparison), cost_of(comparison))
@@ -177,10 +174,8 @@ def error_of_levels(comparison: Comparison, answer: Answer) -> str:
 
 def age_of_errors(comparison: Comparison) -> str:
     """Where the errors of the models are from."""
-    if isinstance(comparison.scene, RailScene):
-        return MEASURED_ON_STRIPS
-    if isinstance(comparison.scene, IndentationScene) and comparison.scene.ground is None:
-        return "errors of models: closed forms are exact for smooth bodies, no measured error is used"
+    if source := comparison.scene.error_source:
+        return source
     from validation.advice.calibrate import calibration_age  # imported where errors were measured
 
     return calibration_age(target=Target(comparison.scene, comparison.quantity))

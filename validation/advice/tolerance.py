@@ -16,6 +16,11 @@ def decibels(error: float) -> float:
     return 20 * math.log10(1 + error)
 
 
+def relative(level: float) -> float:
+    """Of an amplitude, from its error [dB]."""
+    return float(10 ** (level / 20) - 1)
+
+
 @dataclass(frozen=True)
 class Tolerance:
     """relative: half-width over value; in_decibels: whether it was asked in dB, 20 lg(1 + relative)."""

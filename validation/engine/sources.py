@@ -12,6 +12,8 @@ from dataclasses import fields, is_dataclass
 from functools import cache
 from pathlib import Path
 
+from validation.engine.street import ROOT, houses, places
+
 PACKAGES = ("mdr", "bem3d", "validation")
 LIBRARIES = ("numpy", "scipy", "pyfftw")
 NO_NUMERICS = "report"
@@ -22,6 +24,8 @@ FACE = "validation"
 """Imports by name for its users: who imports it may use anything."""
 BY_NAME, LISTS = {"import_module", "__import__"}, "iter_modules"
 """Functions that import what no statement names; what lists the packages that its statements name."""
+BROUGHT, FOLDERS = "brought", "modules_in"
+"""Functions of the street that import what houses bring."""
 PARSING = threading.Lock()
 
 
@@ -185,10 +189,24 @@ def _named(module: str) -> set[str]:
             above = module.rsplit(".", node.level)[0] + "." if node.level else ""
             start = (above + (node.module or "")).rstrip(".")
             found |= {start, *(f"{start}.{alias.name}" for alias in node.names)}
+    found |= _of_houses(path)
     if path and LISTS in _words(path):
         listed = found - {module.rpartition(".")[0]}
         found |= {name for name in modules() if name.rpartition(".")[0] in listed}
     return found
+
+
+@cache
+def _of_houses(path: Path | None) -> frozenset[str]:
+    """Modules of the houses that `brought` and `modules_in` find for it, by the texts that it gives them."""
+    asked: dict[str, set[str]] = {BROUGHT: set(), FOLDERS: set()}
+    for node in ast.walk(_tree(path)) if path else ():
+        match node:
+            case ast.Call(func=ast.Name(id=name), args=[ast.Constant(value=str(text))]) if name in asked:
+                asked[name].add(text)
+    found = {place.partition(":")[0] for use in asked[BROUGHT] for place in places(use)}
+    folders = {f"{ROOT}.{house}.{folder}" for folder in asked[FOLDERS] for house in houses()}
+    return frozenset(found | {name for name in modules() if name.rpartition(".")[0] in folders})
 
 
 # read when the code is loaded: an edit during a run does not make old results new

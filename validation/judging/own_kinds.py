@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
 from types import SimpleNamespace
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,14 +23,12 @@ from validation.judging.registry import Caller, FloatArray, Given
 from validation.railway.problems.rail_models import ContactFilter, rail_quantity
 from validation.railway.problems.rail_quantity import RAIL_QUANTITIES
 from validation.railway.problems.rail_strip import structure_of
-from validation.railway.scenes.rail import RailScene
-from validation.scenes.rolling import RollingScene
+from validation.scenes.rolling_quantity import QUANTITIES, RollingQuantity
 from validation.scenes.roughness import Roughness, RoughSurface
 from validation.simulation.indentation import cells_wanted, ground_of, height_of, is_rough, side_of
 from validation.simulation.method import Resolution, Result
 from validation.simulation.model import Target
 from validation.simulation.rolling_levels import by_linear_theory, levels_of, strip_of
-from validation.simulation.rolling_quantity import QuantityName, RollingQuantity
 from validation.simulation.sampling import FEWEST, STUDENT, realisations
 from validation.simulation.wheel_on_half_space import crop_to_reach
 from validation.theory.gauss_legendre import on_panels
@@ -107,7 +105,7 @@ def _stiffness_of_surfaces(caller: Caller, target: Target, count: int) -> FloatA
 
 
 def _is_rolling(scene: Any, quantity: str) -> bool:
-    return isinstance(scene, RollingScene) and quantity in get_args(QuantityName)
+    return scene.kind == "wheel" and quantity in QUANTITIES
 
 
 def _levels(caller: Caller, target: Target, count: int) -> FloatArray:
@@ -143,7 +141,7 @@ def _of_rule(caller: Caller, target: Target, count: int) -> FloatArray:
     def c1d(q: ArrayLike) -> FloatArray:
         return asked(caller, q=np.asarray(q), roughness=roughness)
 
-    if isinstance(scene, RollingScene):
+    if scene.kind == "wheel":
         contact = {"contact_radius": scene.contact_radius, "modulus": scene.modulus}
         return _of_density(target.rolling, lambda q: force_spectrum_1d(q, c1d, **contact))
     points = max(256, math.ceil(NODES * scene.size * scene.ground.q_max / (2 * math.pi)))
@@ -233,12 +231,12 @@ SERVED: Mapping[str, ServedKind] = {
         "stiffness of rough punches, and force and acceleration of rolling wheels",
         lambda scene, quantity: _is_rough_punch(scene, quantity) or _is_rolling(scene, quantity),
         _of_rule,
-        lambda asks, target: 0.0 if isinstance(target.scene, RollingScene) else SCATTER,
+        lambda asks, target: 0.0 if target.scene.kind == "wheel" else SCATTER,
         own=0.5,
     ),
     "contact_filter": ServedKind(
         "contact filter and equivalent roughness of rails",
-        lambda scene, quantity: isinstance(scene, RailScene) and quantity in RAIL_QUANTITIES,
+        lambda scene, quantity: scene.kind == "rail" and quantity in RAIL_QUANTITIES,
         _filtered,
     ),
 }
@@ -248,7 +246,7 @@ SERVED: Mapping[str, ServedKind] = {
 def result_of(caller: Caller, target: Target, count: int) -> Result:
     """So many realisations. Raises ArithmeticError for no answer, ValueError for one that is not positive."""
     rows = SERVED[caller.kind].rows(caller, target, count)
-    if isinstance(target.scene, RailScene):
+    if caller.kind == "contact_filter":
         return filter_of(caller.name, rows).solve(target, Resolution())
     if not (rows > 0).all():
         raise ValueError(f"a {target.quantity} of {rows.min():.3g}, must be positive")

@@ -26,9 +26,9 @@ from validation.judging.files_read import digest_of, sources_of
 from validation.judging.own_kinds import CALIBRATED, SERVED, SURFACES, filter_of, result_of
 from validation.judging.registry import Offered
 from validation.judging.worker import Called, OthersError, Visitor
-from validation.railway.scenes.rail import RailScene
-from validation.scenes.load import Scene, load_scene
+from validation.scenes.load import load_scene
 from validation.scenes.printable import quoted
+from validation.scenes.scene import Scene
 from validation.simulation.method import Resolution, Result
 from validation.simulation.model import Cost, ErrorEstimate, Model, Target, model
 from validation.simulation.sampling import distance
@@ -124,7 +124,7 @@ class OwnModel:
 
     def _claim(self, of: Model, target: Target, resolution: Resolution) -> ErrorEstimate:
         """As measured, what the sample leaves, and what one measured surface has beside all that have its spectrum."""
-        if isinstance(target.scene, RailScene):
+        if self.kind == "contact_filter":
             try:
                 a3 = SERVED[self.kind].rows(self.called(), target, 1)
             except (ValueError, ArithmeticError) as problem:
@@ -155,7 +155,7 @@ class OwnModel:
 
 def group_of(scene: Scene, quantity: str) -> Group:
     """Which answers a model of it is measured beside; of rails there are none."""
-    return ("rail" if isinstance(scene, RailScene) else kind_of(Target(scene, quantity))), quantity
+    return kind_of(Target(scene, quantity)), quantity
 
 
 def _group(target: Target) -> Group:

@@ -6,30 +6,30 @@ from functools import partial
 from itertools import groupby
 from typing import Any
 
-from validation.advice.hierarchy import needed
-from validation.advice.quantities import MOVING, PRESSED, ROLLING, models_of
+from validation.engine.street import brought
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.load import Scene
+from validation.scenes.quantity import MOVING, PRESSED, ROLLING, Quantity
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
+from validation.scenes.scene import Scene
 from validation.simulation.model_names import BEM
 from validation.simulation.rough_punch import PunchRoughness
 
 TOLERANCE = 0.1
 
 
-def model_for(scene: Scene, quantity: str) -> str:
-    """The first model whose estimated error is small enough; all grids of boundary elements are one model."""
-    model = needed(models_of(scene, quantity, TOLERANCE, 0), TOLERANCE)
-    return "none" if model is None else model.kind
+def model_for(scene: Scene, quantity: Quantity) -> str:
+    """The cheapest whose estimated error is small enough; where nothing selects models that is not known."""
+    selections = brought("model_for")
+    return next((select(scene, quantity, TOLERANCE) or "none" for select in selections), "not known")
 
 
-def of_each(quantities: Sequence[str], shown: Callable[[str], str]) -> str:
+def of_each(quantities: Sequence[Quantity], shown: Callable[[Quantity], str]) -> str:
     """ "stiffness: springs", and so for each quantity: what is enough for one is not for another."""
     return ". ".join(f"{quantity}: {shown(quantity)}" for quantity in quantities)
 
 
-def along(name: str, scenes: Sequence[tuple[float, Scene]], quantity: str) -> str:
+def along(name: str, scenes: Sequence[tuple[float, Scene]], quantity: Quantity) -> str:
     """Models along a parameter, in pieces: "springs for Fbar from 0.02 to 0.5; ..."."""
     found = [(value, model_for(scene, quantity)) for value, scene in scenes]
     pieces = []

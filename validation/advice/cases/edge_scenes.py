@@ -7,26 +7,27 @@ from typing import Any
 import numpy as np
 
 from validation.advice.calibration_scenes import QUANTITIES
+from validation.advice.cases.random_scenes import EdgeKind, log_uniform
 from validation.engine.engine import FloatArray
 from validation.engine.random_numbers import random_generator
-from validation.railway.scenes.level_files import curve
-from validation.railway.scenes.rail import Across, RailScene
-from validation.railway.scenes.roughness_levels import MOST, RoughnessLevels
+from validation.engine.street import brought
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.load import Scene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
+from validation.scenes.scene import Scene
 from validation.simulation.surface import draw_surface
 from validation.theory.closed_forms import hertz_force
 
 Generator = np.random.Generator
 
-PUNCH, SPHERE, ROLLING, WHEEL, RAIL = "punch", "sphere", "rolling", "wheel", "rail"
+PUNCH, SPHERE, ROLLING, WHEEL = "punch", "sphere", "rolling", "wheel"
+OF_HOUSES: dict[str, EdgeKind] = {one.name: one for one in brought("edge_scenes")}
+"""Kinds of scenes that other houses have at the edges."""
 MEASURED = "measured "
 """Before the name of a body: one surface of points, no two of the same texture after each other."""
-EDGE_KINDS = (*(start + body for start in ("", MEASURED) for body in (PUNCH, SPHERE, ROLLING, WHEEL)), RAIL)
-EDGE_QUANTITIES = {**QUANTITIES, ROLLING: QUANTITIES[ROLLING][::-1], RAIL: ("contact-filter",)}
+EDGE_KINDS = (*(start + body for start in ("", MEASURED) for body in (PUNCH, SPHERE, ROLLING, WHEEL)), *OF_HOUSES)
+EDGE_QUANTITIES = {**QUANTITIES, ROLLING: QUANTITIES[ROLLING][::-1]}
 LOADS = (-6.0, 2.0)
 """lg of F / (E* h L) of punches."""
 HEIGHTS = {SPHERE: (-2.5, 1.0), ROLLING: (-2.5, 0.3), WHEEL: (-2.5, -0.3)}
@@ -44,8 +45,8 @@ POINTS, TRACK, TO_A_RADIUS = (40, 128), (256, 64), (4, 5, 6, 8, 12)
 RANGES = (
     "F / (E* h L) of punches 1e-6 to 100, one to 32 of the longest waves on a side, Hurst exponent 0.2 to 1.2, h/d to "
     "10 under spheres, to 2 under rolling and to 0.5 under dynamic wheels, the longest wave half to 20 contact radii, "
-    "and measured heights: Gaussian, ridges, honed, log-normal, outliers, pits; rails under ellipses 0.3 to 2.5 times "
-    "as wide as long, up to 25 dB above the limit of ISO 3095, with corrugation"
+    "and measured heights: Gaussian, ridges, honed, log-normal, outliers, pits"
+    + "".join(f"; {one.ranges}" for one in OF_HOUSES.values())
 )
 """In words."""
 
@@ -54,10 +55,10 @@ def edge_scene(kind: str, number: int, seed: int) -> tuple[Scene, str]:
     """A scene of one of `EDGE_KINDS` and a quantity of it; the same for the same numbers."""
     rng = random_generator(seed, EDGE_KINDS.index(kind), number)
     body, name = kind.removeprefix(MEASURED), f"{kind} {number}"
+    if house := OF_HOUSES.get(kind):
+        return house.scene(rng, name), house.quantity
     draw_face = TEXTURES[number % len(TEXTURES)] if kind.startswith(MEASURED) else None
     quantity = EDGE_QUANTITIES[body][number // 2 % len(EDGE_QUANTITIES[body])]
-    if body == RAIL:
-        return edge_rail(rng, name), quantity
     make = _punch if body == PUNCH else _round
     return make(rng, body, name, draw_face), quantity
 
@@ -79,7 +80,7 @@ def _round(rng: Generator, body: str, name: str, draw_face: "Face | None") -> Sc
     modulus, radius = 10 ** rng.uniform(6, 11.5), 10 ** rng.uniform(-3, 0)
     approach = radius * 10 ** rng.uniform(-5, -3.5)
     a = math.sqrt(radius * approach)
-    longest = a * _log_uniform(rng, LONGEST)
+    longest = a * log_uniform(rng, LONGEST)
     band = _band(rng, approach * 10 ** rng.uniform(*HEIGHTS[body]), longest)
     settings: dict[str, Any] = {"name": name, "modulus": modulus, "ground": band}
     settings["load"] = hertz_force(radius=radius, modulus=modulus, approach=approach)
@@ -93,59 +94,14 @@ def _round(rng: Generator, body: str, name: str, draw_face: "Face | None") -> Sc
         resonance = math.sqrt(2 * a * modulus / mass)
         ground = settings["ground"]
         # so fast at least that a band of waves is left an octave above the resonance
-        fast = max(_log_uniform(rng, RESONANCES), 3.5 * ground.q_min / ground.q_resolved)
+        fast = max(log_uniform(rng, RESONANCES), 3.5 * ground.q_min / ground.q_resolved)
         settings |= {"mass": mass, "speed": fast * resonance / ground.q_min}
     return RollingScene(radius=radius, **settings)
 
 
 def _band(rng: Generator, height: float, longest: float) -> Roughness:
-    ratio = _log_uniform(rng, BANDS)
+    ratio = log_uniform(rng, BANDS)
     return Roughness(rms=height, hurst=rng.uniform(*HURSTS), longest=longest, shortest=longest / ratio)
-
-
-# --- wheels on rails: long and flat ellipses, corrugated rails ---
-
-RADII, CROWNS = (0.15, 0.6), (0.15, 4.0)
-"""Of the wheel along the track [m], and of the crown over that: the ellipse is 0.3 to 2.5 times as wide as long."""
-WHEEL_LOADS, MODULI = (5e3, 1.5e5), (2e10, 2e11)
-"""Of a wheel [N], and E* [Pa]."""
-OFFSETS, TILTS, CORRUGATION = (-10.0, 25.0), (-5.0, 5.0), 20.0
-"""Of levels over the limit of ISO 3095 [dB]: of all bands, a decade of wavelength, and the most of one band."""
-ALPHAS = (0.2, 5.0)
-"""Oblique waves, |k_y| < alpha k_x."""
-
-
-def edge_rail(rng: Generator, name: str) -> RailScene:
-    """A wheel on a rail whose ground is stated in one of four ways."""
-    radius = _log_uniform(rng, RADII)
-    stated: tuple[Across, ...] = ("ridges", "isotropic", _log_uniform(rng, ALPHAS), None)
-    across = stated[int(rng.integers(len(stated)))]
-    # isotropic ground has no corrugation along one line alone
-    levels = _levels(rng, bent=across not in ("isotropic", None))
-    return RailScene(
-        name=name,
-        radius=radius,
-        crown_radius=radius * _log_uniform(rng, CROWNS),
-        load=_log_uniform(rng, WHEEL_LOADS),
-        modulus=_log_uniform(rng, MODULI),
-        roughness=levels,
-        across=across,
-    )
-
-
-def _levels(rng: Generator, bent: bool) -> RoughnessLevels:
-    """bent: whether the levels are tilted and have a corrugation, its neighbouring bands by half."""
-    limit = curve("iso3095-2013")
-    numbers = np.array(limit.bands.numbers)
-    corrugated = np.clip(1 - np.abs(numbers - rng.choice(numbers)) / 2, 0, None)
-    tilt, height = rng.uniform(*TILTS), rng.uniform(0, CORRUGATION)
-    raised = rng.uniform(*OFFSETS) + bent * (tilt * (numbers / 10 + 1.5) + height * corrugated)
-    levels = tuple(np.minimum(np.array(limit.levels) + raised, MOST).tolist())
-    return RoughnessLevels(wavelengths=limit.wavelengths, levels=levels, source="the limit of ISO 3095, changed")
-
-
-def _log_uniform(rng: Generator, ends: tuple[float, float]) -> float:
-    return float(np.exp(rng.uniform(math.log(ends[0]), math.log(ends[1]))))
 
 
 # --- measured faces, made from Gaussian heights ---

@@ -12,19 +12,18 @@ from operator import itemgetter
 import numpy as np
 
 from validation.advice.calibration_scenes import OTHER_SEED, QUANTITIES
-from validation.advice.cases.edge_scenes import MEASURED, PUNCH, RAIL, ROLLING, SPHERE, WHEEL, edge_scene
+from validation.advice.cases.edge_scenes import MEASURED, OF_HOUSES, PUNCH, ROLLING, SPHERE, WHEEL, edge_scene
 from validation.advice.cases.random_scenes import KINDS, random_scene
 from validation.advice.hierarchy import REFUSALS, select_model, try_to_solve, unsolved
-from validation.advice.quantities import models_of
+from validation.advice.quantities import models_of, quantity_of
 from validation.advice.scene_model import Answer, SceneModel, Shared
+from validation.advice.tolerance import relative
 from validation.analysis.study import Outcomes
 from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.railway.problems.rail_models import RailModel, relative
-from validation.railway.problems.rail_quantity import COUNTED
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.load import Scene
 from validation.scenes.measured import MeasuredHeights
+from validation.scenes.scene import Scene
 from validation.simulation.model import GridModel, all_models
 from validation.simulation.sampling import distance
 
@@ -34,7 +33,7 @@ PARTS = 4
 """Of a measured point along each side."""
 DRAWN = 4
 """Times as many scenes as are solved: a sphere with h/d = 10 costs as much as a hundred others."""
-ROLLED = (ROLLING, WHEEL, *TRACKS, RAIL)
+ROLLED = (ROLLING, WHEEL, *TRACKS, *OF_HOUSES)
 """Asked for nothing finer than the tolerance of their references: that would cost several times as much."""
 CHEAP_EDGES = tuple((kind, 1) for kind in (PUNCH, SPHERE, ROLLING, MEASURED + PUNCH, MEASURED + SPHERE))
 """Kinds of scenes at the edges whose references take seconds."""
@@ -46,10 +45,10 @@ EDGE_SCENES = (
     *((kind, MANY) for kind in (PUNCH, SPHERE, ROLLING, MEASURED + PUNCH, MEASURED + SPHERE)),
     *((kind, ENOUGH) for kind in (WHEEL, MEASURED + ROLLING)),
     (MEASURED + WHEEL, SOME),
-    (RAIL, FEW),
+    *((kind, FEW) for kind in OF_HOUSES),
 )
 COARSE, FINE = "coarse boundary elements", "fine boundary elements"
-CHEAP = tuple(dict.fromkeys(one.name for one in all_models() if not isinstance(one, GridModel | RailModel)))
+CHEAP = tuple(dict.fromkeys(one.name for one in all_models() if not isinstance(one, GridModel) and one.answer is None))
 MODELS = (*CHEAP, COARSE, FINE)
 """What selection may end on: the models below boundary elements by their kind, and those on two kinds of grid."""
 
@@ -279,9 +278,10 @@ def true_error(trial: EdgeTrial, value: np.ndarray, truth: np.ndarray) -> float:
 
     NaN where none counts.
     """
-    if trial.kind != RAIL:
+    asked = quantity_of(trial.scene, trial.quantity)
+    if not asked.by_worst_band:
         return distance(value, truth)
-    counted = 20 * np.log10(truth) > COUNTED
+    counted = 20 * np.log10(truth / asked.reference) > asked.counted_above
     return relative(float(np.abs(20 * np.log10(value / truth))[counted].max())) if counted.any() else math.nan
 
 

@@ -1,6 +1,8 @@
 """Scenes drawn at random over wide ranges, for the calibration test of model selection."""
 
 import math
+from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
@@ -9,14 +11,29 @@ from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
+from validation.scenes.scene import Scene
 from validation.theory.closed_forms import hertz_force
 
+Generator = np.random.Generator
 KINDS = tuple(QUANTITIES)
 RANGES = (
     "Hurst exponent 0.3 to 1, h/d from 0.003 to 1, F / (E* h L) from 0.003 to 30, q a of the longest wave from 0.5 to "
     "2, the shortest three to ten times shorter, of punches up to three of the longest waves on a side"
 )
 """In words."""
+
+
+class EdgeKind(NamedTuple):
+    """Scenes of a house at the edges of their ranges. ranges: in words; scene: of random numbers, with a name."""
+
+    name: str
+    quantity: str
+    ranges: str
+    scene: Callable[[Generator, str], Scene]
+
+
+def log_uniform(rng: Generator, ends: tuple[float, float]) -> float:
+    return float(np.exp(rng.uniform(math.log(ends[0]), math.log(ends[1]))))
 
 
 def random_scene(kind: str, number: int, seed: int) -> IndentationScene | RollingScene:
@@ -48,7 +65,7 @@ def random_scene(kind: str, number: int, seed: int) -> IndentationScene | Rollin
     )
 
 
-def _punch(rng: np.random.Generator, modulus: float, name: str) -> IndentationScene:
+def _punch(rng: Generator, modulus: float, name: str) -> IndentationScene:
     side = 10 ** rng.uniform(-4, -1)
     first, last = int(rng.choice([1, 1, 1, 2, 3])), int(rng.choice([8, 12, 16]))
     height = side * 10 ** rng.uniform(-5, -3)

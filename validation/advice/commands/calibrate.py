@@ -8,9 +8,7 @@ from validation.advice.calibrate import (
     calibration_lines,
     check_calibration,
     check_installable,
-    errors_as_lines,
     install,
-    is_of_package,
     measured_alone,
     measured_answers,
     measured_table,
@@ -18,20 +16,17 @@ from validation.advice.calibrate import (
 )
 from validation.advice.calibration_answers import ANSWERS, Answers, Group, merged
 from validation.advice.calibration_scenes import CalibrationRun
-from validation.advice.commands.compare import STORE
 from validation.engine.engine import Engine
 from validation.engine.files import write_whole
 from validation.engine.progress import progress_of
-from validation.judging.entry_points import is_installed
-from validation.judging.models.from_report import references_of
-from validation.judging.models.references import FOLDER as INSTALLED
+from validation.engine.street import brought
 from validation.report.commands.arguments import Exit, add_options, add_workers, at_least, not_beside
 from validation.report.commands.places import check_places
-from validation.report.folder import CALIBRATION, REALISATIONS, REFERENCES, Folder
+from validation.report.folder import CALIBRATION, REALISATIONS, Folder
 from validation.scenes.printable import printable
 
-OUT, OUT_OF_REFERENCES = Path("calibration"), Path("references")
-"""Where a table is measured, and references are made, below the working folder."""
+OUT = Path("calibration")
+"""Where a table is measured, below the working folder."""
 PLACES = f"default: {OUT}; of --show and --check: the table of the package"
 COUNTED = {
     "punches": "rough punches",
@@ -69,19 +64,13 @@ def describe(calibrating: argparse.ArgumentParser) -> None:
         "--model",
         metavar="FILE|NAME",
         help="measure this model alone, beside stored answers of boundary elements: of the package, by its name, whose "
-        "rows alone change in the table; or those of a Python file, or of an installed package by a name of "
-        "`judge --list`, which is run as a program, with your rights",
+        f"rows alone change in the table{''.join(house.file for house in brought('calibrations'))}",
     )
     alone.add_argument(
         "--check", type=at_least(1), metavar="N", help="measure N scenes of each kind again, and report which differ"
     )
-    alone.add_argument(
-        "--references",
-        type=Path,
-        metavar="REPORT",
-        help="make the references of `judge` anew from the folder of a full report, which takes hours; the few solves "
-        "that it does not keep take two minutes (default of --out: references)",
-    )
+    for house in brought("calibrations"):
+        house.add(alone)
     calibrating.set_defaults(command=calibrate, seed=run.seed)
 
 
@@ -94,12 +83,12 @@ def calibrate(arguments: argparse.Namespace) -> Exit:
     if arguments.show:
         not_beside(arguments, "beside --show", "--workers", "--seed", *counts)
     for name in ("check", "model", "references"):
-        if getattr(arguments, name):
+        if getattr(arguments, name, None):
             not_beside(arguments, f"beside --{name}", "--seed", *counts)
-    if arguments.references:
-        return _references(arguments)
-    if arguments.model and _is_own(arguments.model):
-        return _own(arguments.model, arguments)
+    for house in brought("calibrations"):
+        if (done := house.command(arguments)) is not None:
+            status: Exit = done
+            return status
     if arguments.install and (arguments.show or (arguments.check and arguments.out is not None)):
         raise ValueError("--install is for a table that is measured, or for --check of that of the package")
     if arguments.check:
@@ -164,46 +153,3 @@ def _said(table: Path, made: Mapping[Group, Answers], arguments: argparse.Namesp
     used = "goes on with that of the package: the same command with --install"
     where = f"{table}, installed: `compare` claims errors by it" if arguments.install else f"{table}; `compare` {used}"
     return [*calibration_lines(table), printable(f"table: {where}")]
-
-
-def _is_own(name: str) -> bool:
-    """Whether it is a file, or what an installed package offers; a model of the package goes before that."""
-    is_file = name.endswith(".py") or Path(name).is_file()
-    return is_file or (is_installed(name) and not is_of_package(name))
-
-
-def _own(model: str, arguments: argparse.Namespace) -> Exit:
-    """Models of somebody's own, whose errors `compare` finds in the same store."""
-    from validation.judging.own_models import calibrated, models_in  # imported where there is such a file
-
-    not_beside(arguments, f"beside --model {printable(model)}", "--workers")
-    if arguments.install:
-        raise ValueError("--install is for models of the package, whose table has no rows of others")
-    store = arguments.out or STORE
-    engine = Engine(store=store / REALISATIONS)
-    found = [calibrated(one, None, engine) for one in models_in(model)]
-    errors = {(*group, one.name): known.measured for one in found for group, known in one.errors.items()}
-    known = {key: measured for key, measured in errors.items() if measured}
-    lines = errors_as_lines(known)
-    for one in found:
-        if not any(one.name == name for *_, name in known):
-            lines.append(f"{one.serves}; {one.unknown(next(iter(one.errors.values()), None))}")
-    lines.append(f"errors: in {store}, by the bytes of {Path(model).name} and of what it loads and reads")
-    print(printable("\n".join(lines), lines=True))
-    return Exit.MET
-
-
-def _references(arguments: argparse.Namespace) -> Exit:
-    """Of the judges, in a folder of the user's own, and in the package if asked for."""
-    out = arguments.out or OUT_OF_REFERENCES
-    with Folder(out, kind=REFERENCES) as folder, progress_of("references", arguments.workers) as progress:
-        engine = Engine(workers=arguments.workers, store=out / REALISATIONS, progress=progress)
-        files = references_of(arguments.references, engine)
-        folder.replace(files)
-    for name, contents in files.items() if arguments.install else ():
-        write_whole(INSTALLED / name, contents)
-    where = (
-        f"{INSTALLED}, where `judge` reads them" if arguments.install else f"{out}; `judge` reads those of the package"
-    )
-    print(printable(f"{len(files)} files of references in {where}"))
-    return Exit.MET

@@ -5,25 +5,28 @@ import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from validation.advice.cells import format_seconds
 from validation.advice.compare import Comparison, SceneProblem
+from validation.advice.exported import Export, table_of_several, to_json_of
 from validation.advice.in_short import in_short
-from validation.advice.quantities import QUANTITIES, quantities_of
+from validation.advice.quantities import all_quantities, quantities_of
 from validation.advice.scene_model import SceneModel
 from validation.advice.several_scenes import compare_scenes
 from validation.advice.summary import findings, heading, in_full, summary
 from validation.advice.swept import Swept, swept_values
 from validation.advice.tolerance import tolerance_of
-from validation.analysis.evidence import Table
+from validation.analysis.contents import as_csv
 from validation.engine.engine import Engine
 from validation.engine.files import write_given
-from validation.engine.progress import Part, progress_of
-from validation.judging.entry_points import is_installed
+from validation.engine.progress import progress_of
+from validation.engine.street import brought
 from validation.report.commands.arguments import Exit, add_options, add_workers, at_least, some_of
 from validation.report.commands.places import check_places
-from validation.scenes.load import Scene, bundled_for_compare, files_of, load_scene, load_varied
+from validation.scenes.load import bundled_for_compare, files_of, load_scene, load_varied
 from validation.scenes.printable import printable
+from validation.scenes.scene import Scene
 
 STORE = Path("reports", "compared")
 """Where finished scenes of several are kept, below the working folder."""
@@ -42,9 +45,9 @@ def describe(comparing: argparse.ArgumentParser) -> None:
     )
     comparing.add_argument(
         "--quantity",
-        type=some_of(QUANTITIES),
+        type=some_of(all_quantities()),
         metavar="A,B",
-        help=f"of {', '.join(QUANTITIES)}, one or several (default: the first of the scene)",
+        help=f"of {', '.join(all_quantities())}, one or several (default: the first of the scene)",
     )
     comparing.add_argument(
         "--verbose", "-v", action="store_true", help="of one scene also why, what errors rest on, what solves cost"
@@ -56,13 +59,7 @@ def describe(comparing: argparse.ArgumentParser) -> None:
     )
     add_options(
         comparing,
-        (
-            "--models-from",
-            "FILE",
-            str,
-            "models of your own beside the others: a Python file with decorated functions, as @stiffness_model, or the "
-            "name of what an installed package offers, see `judge --list`; it is run as a program, with your rights",
-        ),
+        *((one.option, "FILE", str, one.help) for one in brought("models_from")),
         ("--sweep", "KEY=A,B,C", _sweep, 'the scene with each value, as wheel.load="5 kN,10 kN"'),
         ("--seed", "S", at_least(0), "seed of the random roughness (default: 0)"),
         (
@@ -79,7 +76,7 @@ def describe(comparing: argparse.ArgumentParser) -> None:
             "write the result for other programs; `--report` adds a schema that describes its keys",
         ),
         ("--csv", "FILE", Path, "write a row a number or a band, of each model that was solved"),
-        ("--cnossos", "FILE", Path, "write a contact filter in the columns of the table of CNOSSOS-EU, as CSV"),
+        *((one.option, "FILE", Path, one.help) for one in brought("exports")),
         (
             "--figure",
             "FILE",
@@ -101,7 +98,8 @@ def compare(arguments: argparse.Namespace) -> Exit:
     scenes = [scene for name in arguments.scene for scene in _scenes_of(name, arguments)]
     problems = [_problem(scene, arguments) for scene, _ in scenes]
     _check_files(problems, arguments)
-    problems = _with_own(problems, arguments)
+    for own in _models_from(arguments):
+        problems = own.with_models(problems, arguments.models_from)
     for problem in problems:
         for quantity in problem.quantities:
             problem.offered(quantity)  # or an error, before anything is measured, written or solved
@@ -129,43 +127,15 @@ def _problem(scene: Scene, arguments: argparse.Namespace) -> SceneProblem:
     return SceneProblem(scene, quantities, arguments.tolerance, seed, timed, names, realisations=arguments.realisations)
 
 
-def _with_own(problems: list[SceneProblem], arguments: argparse.Namespace) -> list[SceneProblem]:
-    """And the models of a file, or of an installed package; of several scenes those that these serve have them."""
-    if arguments.models_from is None:
-        return problems
-    from validation.judging.own_models import models_in  # imported where there is such a file
-
-    own = tuple(models_in(arguments.models_from))
-
-    def is_served(problem: SceneProblem) -> bool:
-        return any(one.model().serves(problem.scene, asked) for one in own for asked in problem.quantities)
-
-    served = [is_served(problem) for problem in problems]
-    # where none is served, all have them, which is refused with the reason
-    return [
-        replace(one, own=own if here or not any(served) else ()) for one, here in zip(problems, served, strict=True)
-    ]
+def _models_from(arguments: argparse.Namespace) -> list[Any]:
+    """What reads the models of a file or of an installed package, where one is given."""
+    return [one for one in brought("models_from") if getattr(arguments, one.name) is not None]
 
 
-def _measured(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> Sequence[SceneProblem]:
-    """With the errors of models of somebody's own, which are measured first where they are not in the store."""
-    if arguments.models_from is None:
-        return problems
-    from validation.judging.own_models import NOT_IN_KEY, OwnModel, calibrated, group_of  # only of such a file
-
-    groups = {group_of(one.scene, quantity) for one in problems for quantity in one.quantities}
-    store, solved = _store_of(arguments), Part()
-    engine = Engine(store=store / "realisations", progress=solved)
-
-    def measured(problem: SceneProblem) -> SceneProblem:
-        own = tuple(calibrated(one, groups, engine) for one in problem.own if isinstance(one, OwnModel))
-        return replace(problem, own=own)
-
-    with_errors = [measured(problem) for problem in problems]
-    if any(kind.found for kind in solved.kinds):
-        file = printable(arguments.models_from)
-        print(f"errors of {file} are those kept in {printable(store)}, {NOT_IN_KEY}", file=sys.stderr)
-    return with_errors
+def _exports(arguments: argparse.Namespace) -> list[tuple[Export, Path]]:
+    """Files of houses that are asked for."""
+    every: list[Export] = brought("exports")
+    return [(one, path) for one in every if (path := getattr(arguments, one.name)) is not None]
 
 
 def _store_of(arguments: argparse.Namespace) -> Path:
@@ -176,26 +146,26 @@ def _store_of(arguments: argparse.Namespace) -> Path:
 def _check_files(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> None:
     """Raises ValueError before anything is solved."""
     read = {file: "the scene reads" for name in arguments.scene for file in files_of(name)}
-    if (model := arguments.models_from) is not None:
-        if not Path(model).is_file() and not is_installed(model):
-            known = "a Python file, or a name of `judge --list`"
-            raise ValueError(f"--models-from must be {known}, got {printable(model)}: No such file")
-        read[Path(model)] = "is --models-from"
+    for own in _models_from(arguments):
+        own.check(arguments.models_from)
+        read[Path(arguments.models_from)] = f"is {own.option}"
     check_places(arguments, read)
     quantities = list(dict.fromkeys(name for problem in problems for name in problem.quantities))
     if arguments.over is not None and (arguments.figure is None or not (arguments.all or arguments.models)):
         raise ValueError("--over seconds must have --figure, and --all or --models, which say what is solved and timed")
     if arguments.over is not None and (len(problems) > 1 or len(quantities) > 1):
         raise ValueError(f"--over seconds is for one quantity of one scene, got {len(problems) * len(quantities)}")
-    if arguments.cnossos is not None and "contact-filter" not in quantities:
-        raise ValueError(f"--cnossos is for the quantity contact-filter of a rail, got {', '.join(quantities)}")
+    for export, _ in _exports(arguments):
+        export.check(quantities)
 
 
 def _found(
     problems: Sequence[SceneProblem], swept: Sequence[Swept | None], arguments: argparse.Namespace
 ) -> list[Comparison]:
     """Solve, print, and write the files that are asked for."""
-    solved = _solved(_measured(problems, arguments), arguments)
+    for own in _models_from(arguments):
+        problems = own.measured(problems, arguments.models_from, _store_of(arguments))
+    solved = _solved(problems, arguments)
     found = [replace(one, swept=of) for one, of in zip(solved, swept, strict=True)]
     said = in_full if arguments.verbose else in_short
     print(printable(findings(found, said) if len(problems) == 1 else summary(found), lines=True))
@@ -243,8 +213,7 @@ def _announce(model: SceneModel) -> None:
 
 def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
     """The files that are asked for, each of them whole; of several scenes a list, and a column for the scene."""
-    if arguments.json or arguments.csv or arguments.cnossos:
-        _write_data(found, arguments)
+    _write_data(found, arguments)
     if arguments.figure is not None:
         from validation.advice.figure import to_figure  # which takes half a second to import
         from validation.advice.figure_over_seconds import figure_over_seconds
@@ -255,18 +224,12 @@ def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
 
 
 def _write_data(found: list[Comparison], arguments: argparse.Namespace) -> None:
-    # imported where a file is asked for
-    from validation.advice.exported import filter_table, table_of_several, to_json_of
-    from validation.analysis.contents import as_csv
-
     if arguments.json:
         write_given(arguments.json, to_json_of(found).encode())
     if arguments.csv:
         write_given(arguments.csv, as_csv(table_of_several(found)))
-    if arguments.cnossos:
-        filters = [filter_table(one) for one in found if one.quantity == "contact-filter"]
-        rows = {name: [value for one in filters for value in one.columns[name]] for name in filters[0].columns}
-        write_given(arguments.cnossos, as_csv(Table("contact-filter", rows)))
+    for export, path in _exports(arguments):
+        write_given(path, export.written(found))
 
 
 def _sweep(word: str) -> tuple[str, list[str]]:

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from validation.advice.calibrated_range import beyond_envelope, beyond_spectrum,
 from validation.advice.calibration import calibrated
 from validation.engine.engine import FloatArray
 from validation.scenes.measured import OBLONG
-from validation.scenes.rolling import RollingScene
+from validation.scenes.rolling_quantity import QUANTITIES, RollingQuantity
 from validation.simulation.method import Resolution, Result
 from validation.simulation.model import Cost, ErrorEstimate, Function, Model, Target, model
 from validation.simulation.model_names import FILTER_1D, FILTER_3D, SPRINGS
@@ -24,7 +24,6 @@ from validation.simulation.rolling_levels import (
     springs_to_a_radius,
     strip_of,
 )
-from validation.simulation.rolling_quantity import QuantityName, RollingQuantity
 from validation.simulation.sampling import distance
 
 Rule = tuple[float, float, float]
@@ -51,8 +50,8 @@ SPRING = 1.0e-6
 """Seconds that a position on springs takes, about."""
 
 
-def of_a_wheel(scene: object, quantity: str) -> bool:
-    return isinstance(scene, RollingScene) and quantity in get_args(QuantityName)
+def of_a_wheel(scene: Any, quantity: str) -> bool:
+    return scene.kind == "wheel" and quantity in QUANTITIES
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,7 +5,7 @@ model is its difference from linear theory and that of linear theory. What is no
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
@@ -13,13 +13,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from validation.advice.scene_model import Answer, SceneModel
+from validation.advice.tolerance import relative
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL
 from validation.engine.engine import FloatArray, Outcome
 from validation.railway.problems.equivalent_displacement import RolledRail, log_over, roll_rail, transfer_of
 from validation.railway.problems.rail_quantity import RAIL_QUANTITIES, RailQuantity
 from validation.railway.problems.rail_strip import RailStrip, StatedAcross, positions_along, strip_bands, strip_of
-from validation.railway.scenes.rail import ProfiledRail, RailScene
+from validation.railway.scenes.measured_lines import MeasuredLines
+from validation.railway.scenes.rail import COUNTED, ProfiledRail, RailScene
+from validation.scenes.measured import MeasuredHeights
 from validation.simulation.method import Resolution, Result, Values
 from validation.simulation.model import Cost, ErrorEstimate, Model, Target, model
 from validation.simulation.model_names import LINEAR, twin_of
@@ -67,7 +71,7 @@ class ContactFilter:
         return twin_of(self.name) != self.name
 
     def serves(self, scene: Any, quantity: str) -> bool:
-        known = isinstance(scene, RailScene) and quantity in RAIL_QUANTITIES
+        known = scene.kind == "rail" and quantity in RAIL_QUANTITIES
         return known and (self.across is None or scene.across in (self.across, None))
 
     def find(self, quantity: RailQuantity, seed: int) -> Values:
@@ -187,7 +191,7 @@ def rail_model(name: str, setting: str, *, is_mdr: bool = False, **of_filter: An
         return quantity.filtered(transfer_of(twin_of(name), quantity.scene.contact))
 
     one = ContactFilter(**{"name": name, "closed": linear, **of_filter})
-    about = {"name": name, "setting": setting, "is_mdr": is_mdr, "charted": False}
+    about = {"name": name, "setting": setting, "is_mdr": is_mdr, "charted": False, **IN_BANDS}
     plain = model(serves=one.serves, cost=one.cost, claim=one.claim, **about)(one.solve)
     return RailModel(filter=one, **vars(plain))
 
@@ -218,11 +222,6 @@ def worst(quantity: RailQuantity, a3: FloatArray, error: FloatArray) -> float:
     return float(counted.max()) if counted.size else math.inf
 
 
-def relative(decibels: float) -> float:
-    """Of an amplitude."""
-    return float(10 ** (decibels / 20) - 1)
-
-
 def reason_of(quantity: RailQuantity, a3: FloatArray, error: FloatArray) -> str:
     """The band in which the error is largest, and what it is due to there."""
     if not quantity.counted(a3).any():
@@ -242,3 +241,55 @@ def reason_of(quantity: RailQuantity, a3: FloatArray, error: FloatArray) -> str:
     }
     due = "; ".join(cause for cause, holds in causes.items() if holds)
     return f"its error is largest at {1e3 * quantity.bands.nominal[at]:g} mm: {due}"
+
+
+def answer_in_bands(one: SceneModel) -> Answer:
+    """Of one solve, which has all of its strips: the largest errors of the bands in which the tolerance counts, and
+    those of each band."""
+    (result,) = one.first(one.resolution, 1)
+    if result.failed:
+        return Answer(value=np.array([np.nan]), cost=one.cost(), failed=result.failed)
+    asked, a3 = rail_quantity(one.target), result.values["a3"]
+    counts = asked.counted(a3)
+    answer = Answer(
+        value=result.values[asked.name],
+        cost=one.cost(),
+        counted=(
+            f"the tolerance counts where A3 is above {COUNTED:g} dB: {asked.bands.names(counts)}"
+            if counts.any()
+            else asked.none_counts
+        ),
+        counts=tuple(counts.tolist()),
+        band_errors={name: result.values[name] for name in ("model", "grid", "sample")},
+        seconds=one.seconds_of(1),
+    )
+    error = answer.error_in_bands
+    at = int(np.argmax(np.where(counts, error, -1.0)))
+    grid, sample = (relative(float(answer.band_errors[name][at]) * counts[at]) for name in ("grid", "sample"))
+    left = relative(worst(asked, a3, error)) - math.hypot(grid, sample)
+    reason = reason_of(asked, a3, error) if np.isfinite(error).any() else ""
+    return replace(answer, model=max(left, 0.0), grid=grid, sample=sample, reason=reason)
+
+
+def what_would_state_the_ground(target: Target) -> str:
+    """Keys of a scene file by which the ground leaves less open, and why."""
+    asked = rail_quantity(target)
+    scene, stated = asked.scene, 'across = "ridges" in [rail], or a number alpha: waves with |k_y| < alpha k_x'
+    faults = asked.left_by_faults
+    if 2 * faults.max() > (asked.left_by_ground - faults).max() and faults.max() > 0:
+        return "a measurement without the outliers that the notes name, or a part of it that has none"
+    if isinstance(scene.roughness, MeasuredHeights):
+        return "a filter of this surface, by its own heights: of its lines both ends of what lies across are open"
+    if scene.across is None:
+        return f'to tell what lies across the rail, as across = "isotropic" or {stated[9:]}'
+    table = "rail.lines" if isinstance(scene.roughness, MeasuredLines) else "rail.levels"
+    if not asked.stands_out.any():
+        return f"levels of more lines or of longer ones, which scatter less; or {stated}"
+    rest = asked.bands.nominal[~asked.stands_out]
+    long = asked.stands_out[0] and rest.size
+    cut = f'; or longest = "{1e3 * rest.max():g} mm" in [{table}]' if long else ""
+    return f"{stated}{cut}, since no isotropic ground has the levels at {asked.bands.names(asked.stands_out)}"
+
+
+IN_BANDS: Mapping[str, Any] = {"answer": answer_in_bands, "helps": what_would_state_the_ground}
+"""What all models of a rail declare."""

@@ -6,7 +6,6 @@ line decides it: where the scene leaves that out, ridges and isotropic ground ar
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,17 +14,13 @@ from validation.analysis.nominal_bands import NominalBands
 from validation.engine.engine import FloatArray
 from validation.railway.problems.equivalent_displacement import transfer_of
 from validation.railway.problems.rail_strip import StatedAcross, line_of, lost_contact_number, structure_of
-from validation.railway.scenes.rail import RailScene
+from validation.railway.scenes.rail import CONTACT_FILTER, COUNTED, RailScene
 from validation.railway.scenes.roughness_levels import MICROMETRE
 from validation.railway.theory.line_spectrum import LineSpectrum
 from validation.railway.theory.transverse_structure import Filter, IsotropicGround, TransverseStructure
 from validation.simulation.model_names import LINEAR
 
-RailQuantityName = Literal["contact-filter", "equivalent-roughness"]
-
-RAIL_QUANTITIES: tuple[RailQuantityName, ...] = ("contact-filter", "equivalent-roughness")
-COUNTED = -15.0
-"""A3 [dB] above which the tolerance counts: below it nothing is left to hear, and models differ by decibels."""
+RAIL_QUANTITIES = tuple(map(str, RailScene.quantities))
 TILT = 0.3
 """Of the exponent of a line, over which A3 changes in proportion."""
 OF_SMOOTHING = 3.0
@@ -41,7 +36,7 @@ class RailQuantity:
     """
 
     scene: RailScene
-    name: RailQuantityName
+    name: str
     longest: int | None = None
 
     @property
@@ -175,6 +170,6 @@ class RailQuantity:
 
     def amplitude(self, a3: FloatArray) -> FloatArray:
         """Of A3 in dB: the ratio of amplitudes, or the root mean square of the equivalent roughness [m]."""
-        if self.name == "contact-filter":
+        if self.name == str(CONTACT_FILTER):
             return np.asarray(10 ** (a3 / 20))
         return np.asarray(MICROMETRE * 10 ** ((a3 + self.scene.levels.levels) / 20))

@@ -4,26 +4,37 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
 from mdr.checks import positive
 from validation.analysis.nominal_bands import NominalBands
+from validation.analysis.statistics import FloatArray
 from validation.railway.scenes.isotropic_line import IsotropicLine, isotropic_line
 from validation.railway.scenes.measured_lines import MeasuredLines
-from validation.railway.scenes.roughness_levels import RoughnessLevels
+from validation.railway.scenes.roughness_levels import MICROMETRE, RoughnessLevels
 from validation.railway.scenes.transverse_profile import TransverseProfile, fitted_radius
 from validation.scenes.damping import check_damping
+from validation.scenes.description import damping_of
 from validation.scenes.material import Material, check_scene
 from validation.scenes.measured import MeasuredHeights, check_covers
+from validation.scenes.quantity import Quantity
 from validation.scenes.reader import errors_of
+from validation.scenes.scene import ENSEMBLE_MEAN, Pairs, SceneDefaults, SmoothContact
 from validation.scenes.units import in_unit
 from validation.theory.elliptic_contact import EllipticContact, elliptic_contact
 
 Across = Literal["ridges", "isotropic"] | float | None
 """What lies across a measured line: ridges; isotropic ground; waves with |k_y| < alpha k_x; None: nobody knows."""
 
+COUNTED = -15.0
+"""A3 [dB] above which the tolerance counts: below it nothing is left to hear, and models differ by decibels."""
+CONTACT_FILTER = Quantity("contact-filter", "1", in_bands=True, by_worst_band=True, counted_above=COUNTED)
+EQUIVALENT_ROUGHNESS = Quantity(
+    "equivalent-roughness", "µm", MICROMETRE, in_bands=True, by_worst_band=True, counted_above=COUNTED
+)
+QUANTITIES = CONTACT_FILTER, EQUIVALENT_ROUGHNESS
 MAX_PRESSURE = 4e9
 """Largest pressure [Pa] that a half-space of steel is asked for."""
 HALF_HEAD = 0.036
@@ -41,7 +52,7 @@ LONGEST_OF_CONTACT, SHORTEST_OF_CONTACT = 10.0, 0.45
 
 
 @dataclass(frozen=True, kw_only=True)
-class RailScene:
+class RailScene(SceneDefaults):
     """A wheel that rolls along a rail with rough surfaces.
 
     Parameters
@@ -81,6 +92,13 @@ class RailScene:
     >>> print(f"{contact.along:.3g} m along, {contact.across:.3g} m across, pressed by {contact.approach:.3g} m")
     0.00568 m along, 0.00428 m across, pressed by 6.56e-05 m
     """
+
+    kind: ClassVar[str] = "rail"
+    ground = None
+    quantities: ClassVar[tuple[Quantity, ...]] = QUANTITIES
+    shares_solves: ClassVar[bool] = True
+    size_key: ClassVar[str] = "wheel.radius"
+    roughness_key: ClassVar[str] = ""
 
     name: str
     radius: float
@@ -131,6 +149,16 @@ class RailScene:
         """Of the smooth bodies under the static load."""
         return elliptic_contact(self.radii, modulus=self.modulus, force=self.load)
 
+    @property
+    def smooth_contact(self) -> SmoothContact:
+        """The ellipse of Hertz."""
+        return SmoothContact(self.contact.along, self.contact.across, self.contact.approach, self.load)
+
+    @property
+    def mean_pressure(self) -> float:
+        """F / (pi a_x a_y) [Pa]."""
+        return self.smooth_contact.mean_pressure
+
     @cached_property
     def levels(self) -> RoughnessLevels:
         """Levels of one line along the track; of several that were measured, of their mean energy."""
@@ -154,6 +182,91 @@ class RailScene:
     def frequency(self, wavelength: float) -> float:
         """f = v / lambda [Hz], NaN without a speed."""
         return math.nan if self.speed is None else self.speed / wavelength
+
+    @property
+    def statistic(self) -> str:
+        """Of strips that are drawn."""
+        return ENSEMBLE_MEAN
+
+    @property
+    def sample_note(self) -> str:
+        """Why nobody may ask for a number of realisations."""
+        return "each model of a rail has as many strips as its errors were measured on"
+
+    @property
+    def roughness_levels(self) -> FloatArray:
+        """L_r in each band [dB re 1 µm]."""
+        return np.array(self.levels.levels)
+
+    def bands(self, quantity: str) -> FloatArray:
+        """2 pi over the nominal wavelengths [rad/m]."""
+        return 2 * math.pi / self.levels.bands.nominal
+
+    @property
+    def error_source(self) -> str:
+        """What errors of models rest on, in words."""
+        # imported here, since models are of this scene
+        from validation.railway.problems.rail_models import MEASURED_ON_STRIPS
+
+        return MEASURED_ON_STRIPS
+
+    def contact_force(self, comparison: Any) -> Any:
+        """A-weighted force by each model, where the wheel has a speed."""
+        from validation.railway.exported import contact_force
+
+        return contact_force(self, comparison)
+
+    def describe(self) -> Pairs:
+        """Bodies, the contact that is assumed, motion, roughness, and what lies across."""
+        contact, levels = self.contact, self.levels
+        axes = f"a_x = {_short(contact.along)} along, a_y = {_short(contact.across)} across"
+        slope, ratio = levels.slope_along, levels.slope_along * contact.along / contact.approach
+        return (
+            *self._bodies(),
+            ("contact ellipse", f"{axes}, of the smooth bodies"),
+            ("approach d", _short(contact.approach)),
+            ("peak pressure p0", in_unit(contact.pressure, "pressure", digits=3)),
+            ("motion", self._motion()),
+            ("roughness", f"rms {_short(levels.rms)} over all bands: {self._source()}"),
+            ("bands", f"{len(levels.bands)} one-third octaves, {levels.bands.span}"),
+            ("rms slope h'", f"{slope:.3g} along the track, of all bands, h' a_x/d = {ratio:.3g}"),
+            ("what lies across", self._structure()),
+        )
+
+    def _bodies(self) -> Pairs:
+        radius, load = f"radius {in_unit(self.radius, 'length')}", f"load {in_unit(self.load, 'force')} of one wheel"
+        wheel, rail = (
+            "straight across" if across is None else f"radius {in_unit(across, 'length')} across"
+            for across in (self.transverse_radius, self.crown_radius)
+        )
+        return ("wheel", f"{radius}, {wheel}, {load}"), ("rail", rail)
+
+    def _motion(self) -> str:
+        if self.speed is None:
+            return "none: wavelengths have no frequencies"
+        mass = "" if self.mass is None else f"mass {in_unit(self.mass, 'mass')}"
+        return ", ".join(filter(None, (f"speed {3.6 * self.speed:.5g} km/h", mass, damping_of(self.damping))))
+
+    def _source(self) -> str:
+        if isinstance(self.roughness, MeasuredHeights):
+            return self.roughness.waves
+        if isinstance(self.roughness, MeasuredLines) and len(self.roughness.positions) > 1:
+            places = ", ".join(f"{1000 * position:g}" for position in self.roughness.positions)
+            return f"{self.levels.source}, at {places} mm across"
+        return self.levels.source
+
+    def _structure(self) -> str:
+        if isinstance(self.roughness, MeasuredHeights):
+            return "measured"
+        words = {
+            None: "not given: from ridges to isotropic ground",
+            "isotropic": "isotropic ground",
+            "ridges": "ridges",
+        }
+        if self.across is None or isinstance(self.across, str):
+            return words[self.across]
+        angle = math.degrees(math.atan(self.across))
+        return f"waves within {angle:.3g} degrees of the track, alpha = {self.across:g}"
 
     def diagnose(self) -> tuple[str, ...]:
         """What may be wrong about this scene though it is valid, in sentences with numbers."""
@@ -204,6 +317,10 @@ class RailScene:
                 f"no isotropic ground has the levels at {self.levels.bands.names(ground.stands_out)}, which rise too "
                 f"steeply or stand out of their neighbours: there it has {taken}."
             )
+
+
+def _short(length: float) -> str:
+    return in_unit(length, "length", digits=3)
 
 
 def _check_alpha(alpha: Any) -> None:
@@ -272,6 +389,12 @@ class ProfiledRail(RailScene):
         fitted = fitted_radius(self.profile, along=self.radius, modulus=self.modulus, load=self.load)
         object.__setattr__(self, "crown_radius", fitted)
         super().__post_init__()
+
+    def _bodies(self) -> Pairs:
+        """The profile of both stands with the rail."""
+        radius, load = f"radius {in_unit(self.radius, 'length')}", f"load {in_unit(self.load, 'force')} of one wheel"
+        both = f"profile of {self.profile.source} across, radius {_short(self.radii[1])} fitted over the contact"
+        return ("wheel", f"{radius}, {load}"), ("wheel and rail", both), ("contact lies at", self.contact_place)
 
     def diagnose(self) -> tuple[str, ...]:
         """With what stands in for the profile."""

@@ -139,6 +139,14 @@ def _across(name: str, given: object) -> Any:
     return POSITIVE(name, given)
 
 
+class RailReader:
+    """Reads the scenes of this house."""
+
+    what = "a wheel on a rail with two radii"
+    reads = staticmethod(is_rail)
+    scene_of = staticmethod(rail_of)
+
+
 LOADED = values("radius", "diameter", "transverse_radius", "load", "axle_load", "wheels_per_axle")
 WHEEL = LOADED | values("speed", "mass", "damping") | {"offset": partial(quantity, dimension="length")}
 RAIL = {**values("crown_radius"), "across": _across, **values("alpha")}

@@ -5,6 +5,7 @@ Names and destinations are of this package alone: pytest of any project loads ev
 
 from collections.abc import Generator
 from copy import copy
+from importlib.util import find_spec
 from typing import Any
 
 import pytest
@@ -18,6 +19,8 @@ TESTS = "validation.conformance"
 
 
 def pytest_addoption(parser: Any) -> None:
+    if find_spec("validation.judging") is None:
+        return
     group = parser.getgroup("validation.conformance", "a contact solver or a mapping of your own")
     for option, (kind, ours) in OPTIONS.items():
         group.addoption(option, metavar="FILE:NAME", help=f"a function for @{kind}; by default {ours}")
@@ -39,7 +42,7 @@ def pytest_load_initial_conftests(early_config: Any, parser: Any, args: list[str
 def pytest_configure(config: Any) -> None:
     """Raises pytest.UsageError, which is one line, for what is no such function."""
     for option, (kind, _) in OPTIONS.items():
-        if place := config.getoption(option):
+        if place := config.getoption(option, None):
             from validation.judging.by_name import named_in
 
             try:

@@ -1,4 +1,4 @@
-"""What a contact filter makes of a rail: L_r, A3, L_eq, and the A-weighted force of a wheel at a constant height."""
+"""The A-weighted force of a wheel at a constant height, by each contact filter of a comparison."""
 
 import math
 from collections.abc import Mapping
@@ -7,13 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from validation.advice.cells import NAMES, NONE, Columns, half_width, signed
-from validation.advice.compare import Comparison
-from validation.advice.hierarchy import Candidate
-from validation.analysis.sound import a_weighting, energy_sum
+from validation.analysis.sound import energy_sum
 from validation.engine.engine import FloatArray
-from validation.railway.problems.rail_models import RailModel, rail_quantity
-from validation.railway.scenes.rail import RailScene
-from validation.railway.scenes.roughness_levels import MICROMETRE
 
 LEVELS = (
     "L_r: roughness, A3: contact filter, L_eq = L_r + A3: equivalent roughness [dB re 1 µm]; L_FA: contact force, "
@@ -99,35 +94,3 @@ class ContactForce:
         others = [signed(self.over_chosen(model), 1) for model in self.levels if model != self.chosen]
         sums = [f"{self.total(model):.1f}" for model in self.levels]
         return {NAMES: list(self.levels), "sum [dB(A) re 1 N]": sums, "over the chosen [dB]": [NONE, *others]}
-
-
-def contact_force(comparison: Comparison) -> ContactForce | None:
-    """Of all filters that were solved or are closed forms; None without a rail, a speed or an answer."""
-    scene, chosen = comparison.scene, comparison.selection.best
-    if not isinstance(scene, RailScene) or scene.speed is None or chosen is None:
-        return None
-    bands, stiffness = scene.levels.bands, scene.contact.stiffness
-    of_force = comparison.roughness + 20 * math.log10(stiffness * MICROMETRE)
-    of_force = of_force + a_weighting(scene.speed / bands.wavelengths)
-    filters = {one.name: _a3(comparison, one) for one in (chosen, *comparison.models)}
-    if not np.isfinite(comparison.a3_of(chosen)).any():
-        return None
-    return ContactForce(
-        levels={name: of_force + a3 for name, a3 in filters.items() if a3 is not None},
-        half_width=comparison.errors_of(chosen),
-        stiffness=stiffness,
-        speed=scene.speed,
-        span=bands.span,
-    )
-
-
-def _a3(comparison: Comparison, one: Candidate) -> FloatArray | None:
-    """Of a model that was solved, or has a closed form on this ground."""
-    if one in comparison.selection.solved:
-        return comparison.a3_of(one)
-    if not isinstance(one.model.model, RailModel):
-        return None
-    closed_form = one.model.model.filter
-    if closed_form.on_strips or not one.estimate.in_range:
-        return None
-    return np.asarray(closed_form.closed(rail_quantity(one.model.target)).mean(axis=0))

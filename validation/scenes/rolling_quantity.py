@@ -4,20 +4,20 @@ import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import Literal
 
 import numpy as np
 
 from validation.analysis.spectra import Bands
-from validation.engine.engine import FloatArray
+from validation.analysis.statistics import FloatArray
+from validation.scenes.quantity import MOVING, ROLLING
 from validation.scenes.rolling import RollingScene
 from validation.scenes.steadiness import force_on_the_way
 from validation.theory.gauss_legendre import on_panels
 from validation.theory.rolling import force_spectrum_1d, force_spectrum_3d, force_variance
 from validation.theory.wheel import dynamic_stiffness
 
-QuantityName = Literal["force-rms", "force-spectrum", "acceleration", "acceleration-rms"]
-
+QUANTITIES = tuple(map(str, (*ROLLING, *MOVING)))
+"""Keys of all that a wheel may be asked."""
 NODES = 8
 """Of Gauss and Legendre, on half a wave of sin^2."""
 PANEL = 1.4
@@ -35,7 +35,7 @@ class RollingQuantity:
     """
 
     scene: RollingScene
-    name: QuantityName
+    name: str
 
     @property
     def dynamic(self) -> bool:
