@@ -7,12 +7,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from tests.advice.test_model_selection import outcome as selected
 from tests.cases.test_fractal_punch import synthetic
 from tests.cases.test_interface import CASE as INTERFACE
 from tests.cases.test_interface import outcome as pressed
 from tests.cases.test_interface import theory
 from tests.cases.test_limits import STEEP
-from tests.cases.test_model_selection import outcome as selected
 from validation.advice.cases import model_selection as ladder
 from validation.advice.cases import model_selection_study as calibration
 from validation.analysis.evidence import Verdict, numbers_with

@@ -8,8 +8,8 @@ import numpy as np
 
 from tests.benchmarks import test_chart_points as test_points
 from tests.benchmarks import test_fronts, test_peers
-from tests.benchmarks import test_judged_solvers as test_solvers
-from tests.benchmarks import test_judging_bounds as test_bounds
+from tests.judging import test_judged_solvers as test_solvers
+from tests.judging import test_judging_bounds as test_bounds
 from tests.planted_faults.wrong import Fault, Times
 from validation.benchmarks import discrete, timing
 from validation.benchmarks import solvers as comparison

@@ -10,16 +10,14 @@ import numpy as np
 import bem3d
 import mdr
 from bem3d import kernel
+from tests.advice import test_edge_scenes
 from tests.cases import (
     test_bandwidth,
-    test_edge_scenes,
     test_exact_cases,
     test_flags,
     test_fractal_punch,
     test_interface,
     test_limits,
-    test_rail_cases,
-    test_rail_sound,
     test_rolling_cases,
     test_wheel_cases,
     test_wheel_ensembles,
@@ -27,6 +25,8 @@ from tests.cases import (
 )
 from tests.cases import test_from_force_to_roughness_and_stiffness as test_force
 from tests.planted_faults.wrong import Fault, Times
+from tests.railway import test_rail_cases
+from tests.railway import test_rail_sound_case as test_rail_sound
 from validation.advice.cases import model_selection as calibration
 from validation.analysis import multilevel
 from validation.analysis import series as analysis_series

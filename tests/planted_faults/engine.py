@@ -3,7 +3,8 @@
 from functools import partial
 
 from tests.engine import test_engine as test_ensemble
-from tests.engine import test_files, test_hostile, test_refusals
+from tests.engine import test_files
+from tests.judging import test_hostile, test_refusals
 from tests.planted_faults.wrong import Fault
 from validation.engine import files, sources
 from validation.judging import arguments as lent

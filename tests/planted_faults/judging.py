@@ -5,15 +5,17 @@ from functools import partial
 
 import numpy as np
 
-from tests.analysis import test_factors, test_independent_records, test_judgement
-from tests.planted_faults.wrong import Fault, with_math
-from tests.selection import (
+from tests.analysis import test_independent_records
+from tests.judging import (
+    test_factors,
     test_judged_diagnosis,
     test_judged_ends,
     test_judged_kinds,
     test_judged_stiffness,
+    test_judgement,
     test_references,
 )
+from tests.planted_faults.wrong import Fault, with_math
 from validation.analysis import independent_records
 from validation.judging import judgement
 from validation.judging import worker as others

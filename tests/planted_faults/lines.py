@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 
 from tests.planted_faults.wrong import Fault
-from tests.scenes import test_line_columns, test_line_outliers
+from tests.railway import test_line_columns, test_line_outliers
 from validation.railway.problems import rail_quantity
 from validation.railway.scenes import line_columns, line_edits, line_outliers, line_steps
 from validation.railway.scenes.line_edits import EditedLine, LineEdits

@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 
 from tests.planted_faults.wrong import Fault, Times, with_math
+from tests.railway import test_profiled_rail, test_rail
 from tests.scenes import (
     test_damping_key,
     test_exported_tables,
@@ -14,8 +15,6 @@ from tests.scenes import (
     test_limits_of_scenes,
     test_materials,
     test_measured_heights,
-    test_profiled_rail,
-    test_rail,
     test_steadiness,
     test_units,
 )

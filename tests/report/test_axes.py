@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from matplotlib.colors import same_color
 
-from tests.cases.test_model_selection import outcome
+from tests.advice.test_model_selection import outcome
 from tests.report.remade import REFERENCE, sections
 from validation.advice.cases import model_selection as ladder
 from validation.advice.cases import model_selection_study as calibration

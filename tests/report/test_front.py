@@ -16,15 +16,9 @@ from validation.benchmarks.work_precision.pressed import RoughPunchProblem
 from validation.benchmarks.work_precision.rolling import RollingProblem
 from validation.cases.limits.limits import SUMMARY
 from validation.railway.cases.across_study import LOUDER
+from validation.railway.front_page import OF_A3, WORST, rail_filters, right_filters
 from validation.report.answers.failures import failures
-from validation.report.answers.front_tables import (
-    OF_A3,
-    WORST,
-    rail_filters,
-    right_filters,
-    times_faster,
-    times_faster_said,
-)
+from validation.report.answers.front_tables import times_faster, times_faster_said
 from validation.report.chapter import BOOK_FIGURES, book_figures
 from validation.report.contents import CASES, TIMED
 from validation.report.figures import drawing

@@ -10,7 +10,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 import validation.scenes.bundled
-from tests.selection.planted_answers import Finding, punch
+from tests.advice.planted_answers import Finding, punch
 from validation.__main__ import main
 from validation.advice import figure as compared
 from validation.advice.compare import Comparison

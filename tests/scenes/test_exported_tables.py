@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.scenes.test_rail_files import CURVE, LEVELS, loaded
+from tests.railway.test_rail_files import CURVE, LEVELS, loaded
 from validation.railway.scenes import level_files
 from validation.railway.scenes.line_columns import along_the_track
 from validation.railway.scenes.measured_lines import MeasuredLines

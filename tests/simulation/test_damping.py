@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tests.cases.planted import LOW
-from tests.simulation.power_law_ground import isotropic_strip
+from tests.railway.power_law_ground import isotropic_strip
 from tests.simulation.test_wheel_motion import strips
 from tests.simulation.wheels import SCHEMES, ULP, WHEEL, springs_law, track
 from validation.railway.problems import wheel_on_rail

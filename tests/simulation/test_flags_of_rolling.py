@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import bem3d
-from tests.selection.planted_answers import wheel
-from tests.simulation.power_law_ground import isotropic_strip
+from tests.advice.planted_answers import wheel
+from tests.railway.power_law_ground import isotropic_strip
 from validation.advice.models.boundary_elements_rolling import MODEL as ROLLING
 from validation.analysis.spectra import Bands
 from validation.benchmarks.work_precision import rolling as rolling_chart
