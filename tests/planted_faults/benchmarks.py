@@ -81,7 +81,7 @@ FAULTS = [
     functools.partial(test_points.test_two_grids_of_a_power_law_are_extrapolated_to_the_truth, 2.0),
     Fault("first order for second in an extrapolation").at(precision_error.MethodValues, "log", at_first_order),
     test_points.test_levels_differ_by_the_root_mean_square_of_decibels,
-    Fault("decibels of an amplitude for those of a power").at(precision.Quantity, "distance", Times(2.0)),
+    Fault("decibels of an amplitude for those of a power").at(precision.ChartQuantity, "distance", Times(2.0)),
     test_solvers.test_a_condition_that_is_left_has_its_size,
     Fault("the approach of a contact for the one that is prescribed").at(
         discrete.ContactProblem,

@@ -12,7 +12,7 @@ from validation.scenes.measured import MeasuredHeights, check_covers
 from validation.scenes.printable import shortened
 from validation.scenes.quantity import PRESSED, Quantity
 from validation.scenes.roughness import Roughness, RoughSurface, check_band
-from validation.scenes.scene import Pairs, SceneDefaults, SmoothContact
+from validation.scenes.scene import ContactEllipse, Pairs, SceneDefaults
 from validation.scenes.units import in_unit
 from validation.scenes.wheel_body import OnHalfSpace, Wheel
 from validation.theory.closed_forms import square_punch_stiffness
@@ -91,7 +91,7 @@ class IndentationScene(OnHalfSpace, SceneDefaults):
         return self.load / self.size**2
 
     @property
-    def smooth_contact(self) -> SmoothContact | None:
+    def smooth_contact(self) -> ContactEllipse | None:
         """Of a sphere; that of a flat punch has no approach of Hertz."""
         return self.contact_of_hertz if self.shape == "sphere" else None
 

@@ -12,7 +12,7 @@ from validation.scenes.material import Material, check_scene
 from validation.scenes.measured import MeasuredHeights, check_covers
 from validation.scenes.quantity import MOVING, ROLLING, Quantity
 from validation.scenes.roughness import Roughness, RoughSurface, check_band
-from validation.scenes.scene import Pairs, SceneDefaults, SmoothContact
+from validation.scenes.scene import ContactEllipse, Pairs, SceneDefaults
 from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
 from validation.scenes.units import in_unit
 from validation.scenes.wheel_body import OnHalfSpace
@@ -109,7 +109,7 @@ class RollingScene(OnHalfSpace, SceneDefaults):
         return self._asked(quantity).bands.centres
 
     @property
-    def smooth_contact(self) -> SmoothContact:
+    def smooth_contact(self) -> ContactEllipse:
         """Of Hertz."""
         return self.contact_of_hertz
 

@@ -15,7 +15,7 @@ Pairs = tuple[tuple[str, str], ...]
 ENSEMBLE_MEAN, SINGLE_SURFACE = "ensemble mean", "single surface"
 
 
-class SmoothContact(NamedTuple):
+class ContactEllipse(NamedTuple):
     """Of the bodies without roughness: semi-axes a_x along the track and a_y, and the approach [m], and F [N]."""
 
     along: float
@@ -69,7 +69,7 @@ class Scene(Protocol):
         """Centres of the one-third octaves of a quantity [rad/m], none of one number."""
 
     @property
-    def smooth_contact(self) -> SmoothContact | None:
+    def smooth_contact(self) -> ContactEllipse | None:
         """None under a flat punch."""
 
     @property

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from validation.scenes.scene import SmoothContact
+from validation.scenes.scene import ContactEllipse
 from validation.theory.closed_forms import circular_punch_stiffness, hertz_approach, hertz_contact_radius
 from validation.theory.wheel import eigenfrequency
 
@@ -74,9 +74,9 @@ class OnHalfSpace:
         return self.body.contact_radius
 
     @property
-    def contact_of_hertz(self) -> SmoothContact:
+    def contact_of_hertz(self) -> ContactEllipse:
         """Of the smooth body."""
-        return SmoothContact(self.contact_radius, self.contact_radius, self.approach, self.body.load)
+        return ContactEllipse(self.contact_radius, self.contact_radius, self.approach, self.body.load)
 
     def diagnose_contact_radius(self, name: str = "wheel") -> Iterator[str]:
         """A contact as large as a part of the body is not on a half-space. name: of the body's table in a scene."""

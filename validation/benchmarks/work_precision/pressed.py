@@ -14,7 +14,7 @@ import numpy as np
 import bem3d
 import mdr
 from validation.benchmarks.timing import Configuration, NamedMethod, along
-from validation.benchmarks.work_precision.problem import CLOSED, MDR, ChartProblem, Grids, Quantity, mean_of
+from validation.benchmarks.work_precision.problem import CLOSED, MDR, ChartProblem, ChartQuantity, Grids, mean_of
 from validation.engine.engine import FloatArray
 from validation.scenes.indentation import IndentationScene
 from validation.simulation.method import Prepared, Resolution, Result, Solve, Values
@@ -187,7 +187,7 @@ class RoughPunchProblem(PressedProblem):
     name: ClassVar = "fractal punch"
     quantities: ClassVar = (
         mean_of("mean stiffness", "stiffness"),
-        Quantity(name="relative deviation", log=log_deviation, needs=("stiffness",)),
+        ChartQuantity(name="relative deviation", log=log_deviation, needs=("stiffness",)),
     )
     hurst: float = 0.7
     waves: int = 15

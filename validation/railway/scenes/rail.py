@@ -21,7 +21,7 @@ from validation.scenes.material import Material, check_scene
 from validation.scenes.measured import MeasuredHeights, check_covers
 from validation.scenes.quantity import Quantity
 from validation.scenes.reader import errors_of
-from validation.scenes.scene import ENSEMBLE_MEAN, Pairs, SceneDefaults, SmoothContact
+from validation.scenes.scene import ENSEMBLE_MEAN, ContactEllipse, Pairs, SceneDefaults
 from validation.scenes.units import in_unit
 from validation.theory.elliptic_contact import EllipticContact, elliptic_contact
 
@@ -150,9 +150,9 @@ class RailScene(SceneDefaults):
         return elliptic_contact(self.radii, modulus=self.modulus, force=self.load)
 
     @property
-    def smooth_contact(self) -> SmoothContact:
+    def smooth_contact(self) -> ContactEllipse:
         """The ellipse of Hertz."""
-        return SmoothContact(self.contact.along, self.contact.across, self.contact.approach, self.load)
+        return ContactEllipse(self.contact.along, self.contact.across, self.contact.approach, self.load)
 
     @property
     def mean_pressure(self) -> float:
