@@ -10,6 +10,8 @@ from validation.railway.cases.across_study import LOUDER
 from validation.report.section import Section
 
 TEMPLATES, TEMPLATE = Path(__file__).parent / "templates", "rail_filters.html"
+LINK = "filters", "Contact filters"
+"""Address and title of its part of the page."""
 GROUNDS = ("ridges", "alpha = 1", "isotropic ground")
 """Of what lies across a rail, that the front page shows."""
 OF_A3 = "A3 over that of boundary elements"

@@ -126,9 +126,11 @@ def pages(
         "kept": kept_from(about),
         "scene": scene_summary(scene) if scene else None,
     }
+    parts = {house: house.globals_of(sections) for house in houses}
+    for shown in parts.values():
+        environment.globals |= shown
     environment.globals["front_parts"] = [house.TEMPLATE for house in houses]
-    for house in houses:
-        environment.globals |= house.globals_of(sections)
+    environment.globals["front_links"] = tuple((*house.LINK, any(shown.values())) for house, shown in parts.items())
     made = {
         some[0].page: environment.get_template("chapter.html").render(chapter=chapter, some=some)
         for chapter, some in chapters
