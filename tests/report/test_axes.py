@@ -156,6 +156,12 @@ def label_of(axis, axes, name):
     )
 
 
+def corner_of(axis):
+    """The factor or the offset of its numbers."""
+    axis.get_majorticklabels()  # which gives the numbers to their formatter
+    return axis.get_major_formatter().get_offset()
+
+
 def judged_lines(axis):
     return [line for line in axis.lines if same_color(line.get_color(), "#000000") and line.get_linewidth() == 2]
 
@@ -174,6 +180,7 @@ def test_a_panel_has_the_axes_that_it_declares_and_draws_the_columns_that_they_n
         scales = ["log" if letter in panel.log else "linear" for letter in "xy"]
         assert [axis.get_xscale(), axis.get_yscale()] == scales
         assert axis.xaxis_inverted() == panel.downward and not axis.yaxis_inverted()
+        assert [text for one in (axis.xaxis, axis.yaxis) if (text := corner_of(one))] == []
         points, judged = allowed(case, panel, facet), judged_lines(axis)
         lines = [line for line in axis.lines if line.get_transform() == axis.transData and line not in judged]
         drawn = np.concatenate([np.zeros((0, 2)), *(np.transpose(line.get_data()).astype(float) for line in lines)])

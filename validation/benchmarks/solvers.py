@@ -256,6 +256,7 @@ STUDY = Study(
         Claim(quantity=SPEED, along="-cells", printed=times_source).saying(
             "Our solver is the fastest at the same residual.",
             short="Our solver is the fastest at the same residual",
+            key="fastest",
         ),
     ),
     charts=(

@@ -27,7 +27,7 @@ Answer = dict[str, str | None]
 class ChapterTest:
     """What tests a statement: numbers of a case by quantity and model, or a claim of the case.
 
-    claim: words that the claim has and no other, by default its first; where: conditions of the numbers; no: the words
+    claim: its key, by default that of the first; where: conditions of the numbers; no: the words
     of a contradiction.
     """
 
@@ -43,8 +43,7 @@ class ChapterTest:
         if self.quantity:
             claim = Claim(quantity=self.quantity, model=self.model, where=self.where, no=self.no).saying(statement)
             return claim.judged(evidence.numbers) if claim.numbers(evidence.numbers) else None
-        claims = [claim for claim in evidence.claims if self.claim in claim.claim]
-        return claims[0] if len(claims) == 1 or (claims and not self.claim) else None
+        return next((claim for claim in evidence.claims if self.claim in ("", claim.key)), None)
 
 
 @dataclass(frozen=True, kw_only=True)

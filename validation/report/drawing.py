@@ -127,7 +127,8 @@ def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidenc
     for name in names:
         if name not in panel.log:
             axis.locator_params(axis=name, nbins=5)
-            axis.ticklabel_format(axis=name, scilimits=(-3, 5))
+            # each number as it is: a factor or an offset in the corner of an axis is overlooked
+            axis.ticklabel_format(axis=name, style="plain", useOffset=False)
 
 
 def _verdicts(axis: Axes, judged: Table) -> None:

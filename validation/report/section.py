@@ -6,7 +6,6 @@ from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 from validation.analysis.case import Case, Profile
-from validation.analysis.contents import plain_name
 from validation.analysis.evidence import (
     ClaimStatus,
     Evidence,
@@ -22,8 +21,6 @@ from validation.analysis.evidence import (
 PREDICTED = "predicted before a solve, for a single surface and not for ensemble means"
 STATED = "stated by the case"
 """What the model is that a case needs, by the a-priori error estimates or by itself: no answer of the page."""
-FIRST_WORDS = 10
-"""Of a claim, by which it is found."""
 
 
 @dataclass(frozen=True)
@@ -75,8 +72,7 @@ class Section:
 
     def address_of(self, claim: JudgedClaim) -> str:
         """On its page: by its first words, so that it lasts when others come or go."""
-        words = " ".join(claim.claim.split()[:FIRST_WORDS])
-        return f"claim-{self.name}-{plain_name(words)}"
+        return f"claim-{self.name}-{claim.key}"
 
     @property
     def missed(self) -> tuple[Number, ...]:
@@ -121,7 +117,7 @@ def case_results(section: Section) -> dict[str, object]:
         "claim": section.entry.claim,
         "claims": [
             {
-                **{name: getattr(claim, name) for name in ("claim", "whose", "status", "answer", "limits")},
+                **{name: getattr(claim, name) for name in ("key", "claim", "whose", "status", "answer", "limits")},
                 "verdicts": {verdict: claim.count(verdict) for verdict in Verdict},
                 "numbers": [number.label for number in claim.numbers],
                 "confirmed by": claim.confirmed_by,

@@ -255,10 +255,12 @@ STUDY = Study(
             "The true error of the model that is selected lies within the estimated one, at the edges of all ranges "
             "too.",
             short="The true error of the selected model lies within the estimated one",
+            key="errors",
         ),
         Claim(quantity=SPENT, printed=lambda n: f"{plus_minus(n.value, n.uncertainty)} % of the time").saying(
             "Over all scenes together selection takes less time than fine boundary elements.",
             short="Selection takes less time than fine boundary elements",
+            key="time",
         ),
     ),
     charts=(

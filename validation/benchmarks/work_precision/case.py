@@ -249,9 +249,11 @@ STUDY = Study(
         Claim(quantity=TIME, printed=times_source).saying(
             "At each error springs are the cheapest method, or boundary elements where springs do not reach it.",
             short="Springs, or boundary elements below their error, are the cheapest method",
+            key="cheapest",
         ),
         Claim(quantity=COST, differ=True, whose=Whose.BOOK, printed=hours).saying(
-            "The rolling contact of a rough wheel in three dimensions is too costly for boundary elements."
+            "The rolling contact of a rough wheel in three dimensions is too costly for boundary elements.",
+            key="too-costly",
         ),
     ),
     charts=(

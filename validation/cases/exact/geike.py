@@ -112,6 +112,7 @@ STUDY = Study(
         Claim(quantity=NAMED, model=OVER_SURFACE).saying(
             "A profile drawn by Geike's rule has the mean square height, gradient and curvature of the surface.",
             short="A profile by Geike's rule agrees with the surface",
+            key="moments",
         ),
     ),
     charts=(

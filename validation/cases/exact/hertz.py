@@ -286,14 +286,17 @@ STUDY = Study(
         Claim(quantity=EXACT, printed=off_by).saying(
             "Boundary elements give the contacts of Hertz, of flat punches and of Westergaard, springs that of Hertz.",
             short="Boundary elements and springs agree with closed forms",
+            key="closed-forms",
         ),
         Claim(quantity=tuple(CONTACT)).saying(
             "The closed form of an ellipse and boundary elements give the contact that the program CONTACT publishes.",
             short="Closed form and boundary elements agree with CONTACT",
+            key="contact-program",
         ),
         Claim(quantity=FULL, differ=True, printed=in_per_cent).saying(
             "Springs on the length L_1D = L lack the stiffness of a square punch of side L in full contact.",
             short="Springs on L_1D = L lack the stiffness of the square punch in full contact",
+            key="square-punch",
         ),
     ),
     charts=(

@@ -198,10 +198,12 @@ STUDY = Study(
         Claim(quantity=THRESHOLD, printed=said).saying(
             "Each method fails where its condition says.",
             short="Failures of the methods agree with their predicted thresholds",
+            key="failure",
         ),
         Claim(quantity=WARNED, printed=said).saying(
             "The software warns past each limit and only there.",
             short="Warnings of the software agree with the limits",
+            key="warning",
         ),
     ),
     charts=(

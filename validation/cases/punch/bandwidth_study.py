@@ -124,6 +124,7 @@ STUDY = Study(
             "From one decade of bandwidth to the next, MDR's relative deviation of the stiffness over that of boundary "
             "elements stays the same.",
             short="The ratio of deviations agrees with that at a tenth of the bandwidth",
+            key="drift",
         ),
     ),
     charts=(

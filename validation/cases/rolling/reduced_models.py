@@ -193,14 +193,17 @@ STUDY = Study(
         in_octaves(model=LINEAR).saying(
             "Linear theory in three dimensions has the levels of boundary elements in octaves.",
             short="Linear theory in 3D agrees with boundary elements",
+            key="linear-theory",
         ),
         in_octaves(model=COARSEST).saying(
             "Boundary elements on {c.coarsest} cells to a contact radius have the levels of those on {c.cells}.",
             short=f"Boundary elements on {CELLS // 3} cells per contact radius agree with those on {CELLS}",
+            key="coarse-grid",
         ),
         Claim(quantity=KEPT, along=SLOPE).saying(
             "At one h' a/d the same part of the contact is lost, whatever h/d, the band and the Hurst exponent.",
             short="The share of contact kept at one h' a/d agrees with that of other spectra",
+            key="lost-contact",
         ),
     ),
     charts=(

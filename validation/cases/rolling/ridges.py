@@ -169,6 +169,7 @@ STUDY = Study(
             "Over ridges across the track the one-dimensional model is exact in three dimensions, (14.11), but for "
             "what the grids leave.",
             short="Over ridges, springs and boundary elements agree with (14.11)",
+            key="exact",
         ),
     ),
     charts=(

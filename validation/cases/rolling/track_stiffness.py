@@ -205,6 +205,7 @@ STUDY = Study(
         Claim(quantity=DEVIATION).saying(
             "Under a constant load the stiffness of springs fluctuates along a track as that of boundary elements.",
             short="The fluctuation of stiffness of springs along a track agrees with that of boundary elements",
+            key="fluctuation",
         ),
     ),
     charts=(

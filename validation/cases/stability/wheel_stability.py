@@ -213,10 +213,12 @@ STUDY = Study(
         Claim(quantity=GROWTH, printed=printed).saying(
             "Time stepping becomes unstable where theory says.",
             short="The growth of a step agrees with theory on both sides of its limit",
+            key="instability",
         ),
         Claim(quantity=OCTAVE).saying(
             "On low roughness springs a quarter of the shortest wave apart have the last one-third octave within 1 dB.",
             short="The last one-third octave of springs a quarter wave apart agrees with that of the finest",
+            key="last-octave",
         ),
     ),
     charts=(

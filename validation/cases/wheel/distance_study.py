@@ -86,6 +86,7 @@ STUDY = Study(
             "Regions 1 and 2 arise from the non-linearity of the contact: in a steady state a linear contact has "
             "neither.",
             short="A linear contact in a steady state has none of the power of springs in regions 1 and 2",
+            key="regions-1-and-2",
         ),
         Claim(
             whose=Whose.BOOK,
@@ -93,11 +94,13 @@ STUDY = Study(
         ).saying(
             "Region 4 is an artefact: leakage through the ends of the finite record.",
             short="Region 4 agrees with leakage of the finite record",
+            key="region-4",
         ),
         Claim(quantity=(distance.CONTRAST, distance.OVER), along=distance.H_OVER_D).saying(
             "A closed theory of second order in the roughness, without a free parameter, gives regions 1 and 2 of "
             "springs.",
             short="Regions 1 and 2 of springs agree with a closed theory of second order",
+            key="second-order",
         ),
     ),
     charts=(

@@ -206,10 +206,12 @@ STUDY = Study(
             "The one-dimensional model describes the dynamics of the wheel: boundary elements in the time loop have "
             "the regions of Fig. 14.4.",
             short="Springs of Fig. 14.4 agree with boundary elements in the time loop",
+            key="regions",
         ),
         Claim(quantity=LEVEL, model=wheel.OVER_BEM[wheel.LINEAR_3D], along="range").saying(
             "Linear theory in three dimensions gives the acceleration of the wheel.",
             short="Linear theory in 3D agrees with boundary elements in the time loop",
+            key="linear-theory",
         ),
     ),
     charts=(

@@ -104,6 +104,7 @@ STUDY = Study(
         ).saying(
             "The peak of Fig. 14.4 lies at ω_eigen and its jump at q_min v₀, whatever q_min, q_max, v₀ and H.",
             short="Peak and jump of Fig. 14.4 agree with ω_eigen and q_min v₀",
+            key="peak-and-jump",
         ),
         Claim(
             whose=Whose.BOOK,
@@ -113,6 +114,7 @@ STUDY = Study(
         ).saying(
             "Region 3 of Fig. 14.4 follows ω^(-2H-3) sin²(ω a / v₀).",
             short="Region 3 agrees with ω^(-2H-3) sin²(ω a / v₀)",
+            key="region-3",
         ),
     ),
     charts=(

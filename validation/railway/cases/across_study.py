@@ -149,15 +149,18 @@ STUDY = Study(
         Claim(quantity=OVER_BEM, model=LINEAR, printed=decibels).saying(
             "Linear theory of the ellipse gives the contact filter of boundary elements, whatever lies across.",
             short="Linear theory of the ellipse agrees with boundary elements",
+            key="linear-theory",
         ),
         replace(from_ridges, quantity=across.ONE_LINE, whose=Whose.FIELD).saying(
             "Springs on one line agree with a three-dimensional elastic analysis within 3 dB in one-third octaves "
             "(Ford and Thompson 2006).",
             short="Springs on one line agree with boundary elements",
+            key="one-line",
         ),
         replace(from_ridges, model=filters.BED_WIDER).saying(
             "A bed of springs (DPRS) on a patch wider by 2/√3 gives the contact filter of boundary elements.",
             short="DPRS on a wider patch agrees with boundary elements",
+            key="wide-bed",
         ),
     ),
     charts=(

@@ -209,6 +209,7 @@ STUDY = Study(
         Claim(quantity=RMS + MOVING, whose=Whose.FIELD, along=OFFSET, printed=decibels_rms).saying(
             "The contact filter of constant load holds for a wheel in motion.",
             short="The contact filter in motion agrees with that of constant load, rms over bands",
+            key="motion",
         ),
     ),
     charts=(

@@ -141,6 +141,7 @@ STUDY = Study(
             "On a rail that is rougher than the limit of ISO 3095, linear theory of the ellipse gives the contact "
             "filter of boundary elements.",
             short="Linear theory of the ellipse agrees with boundary elements on rougher rails",
+            key="linear-theory",
         ),
     ),
     charts=(
