@@ -7,6 +7,7 @@ from typing import Any
 from validation.analysis.claims import listed
 from validation.analysis.evidence import Evidence, Table, Verdict, VerdictCell
 from validation.railway.cases.across_study import LOUDER
+from validation.railway.cases.rolled_filters import OVER_BEM
 from validation.report.section import Section
 
 TEMPLATES, TEMPLATE = Path(__file__).parent / "templates", "rail_filters.html"
@@ -14,7 +15,7 @@ LINK = "filters", "Contact filters"
 """Address and title of its part of the page."""
 GROUNDS = ("ridges", "alpha = 1", "isotropic ground")
 """Of what lies across a rail, that the front page shows."""
-OF_A3 = "A3 over that of boundary elements"
+OF_A3 = OVER_BEM
 WORST, FILTERED = "worst band over", "contact filters beside boundary elements"
 
 

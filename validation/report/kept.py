@@ -9,6 +9,7 @@ from typing import Any
 from validation.analysis.case import Profile
 from validation.analysis.contents import csv_name, from_csv
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, Verdict, VerdictCell, Whose
+from validation.analysis.quantity import quantity_with
 from validation.analysis.sound import Sound, Sounds
 from validation.engine.files import name_in, place_in
 from validation.report.contents import CASES, TIMED
@@ -63,7 +64,8 @@ def _section(folder: Path, name: str, case: Mapping[str, Any]) -> Section:
 def _evidence(folder: Path, name: str, case: Mapping[str, Any]) -> Evidence:
     numbers = {number["label"]: _number(number) for number in case["numbers"]}
     sounds = case["sounds"]
-    paths = {table: place_in(folder / DATA, csv_name(name, table)) for table in case["tables"]}
+    tables = [quantity_with(table) for table in case["tables"]]
+    paths = {table: place_in(folder / DATA, csv_name(name, table)) for table in tables}
     return Evidence(
         **{word: case[word] for word in WORDS},
         numbers=tuple(numbers.values()),
@@ -81,6 +83,7 @@ def _evidence(folder: Path, name: str, case: Mapping[str, Any]) -> Evidence:
 
 def _number(told: Mapping[str, Any]) -> Number:
     known = {field.name: told[field.name] for field in fields(Number)}
+    known["quantity"] = quantity_with(told["quantity"])
     where = {name: tuple(place) if isinstance(place, list) else place for name, place in told["where"].items()}
     return Number(**{**known, "where": where, "role": Role(told["role"])})
 

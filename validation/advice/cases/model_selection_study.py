@@ -1,7 +1,7 @@
 """What the calibration test shows: how often the true error is within the estimated one, and what selection saves."""
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 from scipy import stats
@@ -20,19 +20,29 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim
 from validation.analysis.evidence import Columns, Table, grouped, plus_minus, table_of
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Margin, Series
 from validation.analysis.statistics import Interval
 from validation.analysis.study import Outcomes, Study
 from validation.engine.engine import Outcome
 from validation.engine.random_numbers import random_generator
 
-COVERAGE = "share of scenes whose true error is within the estimated one"
-SPENT = "time of selection over that of fine boundary elements, all scenes together"
-HELD = "share of answers at the edges whose true error is within the estimated one"
-REFUSED = "share of questions at the edges that are refused, though fine boundary elements meet the tolerance"
-FAR_OFF = "true error at the edges above the estimated one where the tolerance is met, worst"
+COVERAGE = Quantity("share_of_scenes_whose_true_error_is_within_the_estimated_one")
+SPENT = Quantity(
+    "time_of_selection_over_that_of_fine_boundary_elements_all_scenes_together",
+    "time of selection over that of fine boundary elements, all scenes together",
+)
+HELD = Quantity("share_of_answers_at_the_edges_whose_true_error_is_within_the_estimated_one")
+REFUSED = Quantity(
+    "share_of_questions_at_the_edges_that_are_refused_though_fine_boundary_elements_meet_the_tolerance",
+    "share of questions at the edges that are refused, though fine boundary elements meet the tolerance",
+)
+FAR_OFF = Quantity(
+    "true_error_at_the_edges_above_the_estimated_one_where_the_tolerance_is_met_worst",
+    "true error at the edges above the estimated one where the tolerance is met, worst",
+)
 UPPER = "an upper bound of the error"
-MARGINS = {
+MARGINS: Mapping[str, Margin] = {
     quantity: Margin(tolerance=tolerance, reason=reason, source=source)
     for quantity, (tolerance, reason, source) in {
         COVERAGE: (6.0, "94 %: a 95 % interval; what is too wide is not tight", UPPER),
@@ -45,8 +55,9 @@ MARGINS = {
 RESAMPLED, NONE = 400, "none"
 """Bootstrap samples of scenes; no model."""
 Some = slice | np.ndarray
-ESTIMATED, TRUE, OF_REFERENCE = "estimated error", "true error", "error of the reference"
-OF_FINE, SAVED, SMALLEST = "error of fine boundary elements", "fine boundary elements over the selection", 1e-4
+ESTIMATED, TRUE, OF_REFERENCE = "estimated error", Quantity("true_error"), "error of the reference"
+SAVED = Quantity("fine_boundary_elements_over_the_selection")
+OF_FINE, SMALLEST = "error of fine boundary elements", 1e-4
 """Smaller errors are drawn there."""
 
 
@@ -191,11 +202,12 @@ def _saved(table: Table) -> str:
     return f"{1 / part_of_time(known):.3g} ({low:.2g} to {high:.2g})"
 
 
-BY_KIND, AT_EDGES, UNTESTED = (
+BY_KIND = Quantity(
+    "Estimated_errors_of_selected_models_fine_boundary_elements_on_every_scene_over_the_selection_95_interval",
     "Estimated errors of selected models; fine boundary elements on every scene over the selection (95 % interval)",
-    "Answers at the edges of the ranges",
-    "Scenes at the edges that test nothing, since their reference refuses them",
 )
+AT_EDGES = Quantity("Answers_at_the_edges_of_the_ranges")
+UNTESTED = "Scenes at the edges that test nothing, since their reference refuses them"
 OF_EDGES: Columns = {
     "scenes times tolerances": lambda t: len(t["kind"]),
     "answers": lambda t: int(np.isfinite(t[ESTIMATED]).sum()),

@@ -19,6 +19,7 @@ from validation.engine.engine import FloatArray
 from validation.scenes.indentation import IndentationScene
 from validation.simulation.method import Prepared, Resolution, Result, Solve, Values
 from validation.simulation.pressed import FIXED_AREA_RESIDUAL, press_on_grid, press_on_springs
+from validation.simulation.quantities import MEAN_STIFFNESS, RELATIVE_DEVIATION
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory import closed_forms
 
@@ -186,8 +187,8 @@ class RoughPunchProblem(PressedProblem):
 
     name: ClassVar = "fractal punch"
     quantities: ClassVar = (
-        mean_of("mean stiffness", "stiffness"),
-        ChartQuantity(name="relative deviation", log=log_deviation, needs=("stiffness",)),
+        mean_of(MEAN_STIFFNESS, "stiffness"),
+        ChartQuantity(name=RELATIVE_DEVIATION, log=log_deviation, needs=("stiffness",)),
     )
     hurst: float = 0.7
     waves: int = 15

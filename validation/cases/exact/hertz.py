@@ -13,6 +13,7 @@ from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim
 from validation.analysis.evidence import Number, Role
 from validation.analysis.printed import off_by
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Margin, Series, single
 from validation.analysis.study import Outcomes, Study
 from validation.engine.convergence import NotConvergedError
@@ -122,20 +123,16 @@ EDGE = "an error in both edge cells as large as the pressure one cell inside the
 HALF_A_CELL = "half a cell at the edge; a is the radius of a circle with the area of the cells; 2 dx / L"
 SINGULAR = "first order, since the pressure is singular at the edge; the next term, of order 1.5, changes it"
 HALF_LOAD = "p ~ dx^(1/2) at the edge, which at half load lies between cells on every grid"
-FORCE, PRESSURE, ERROR = "force F [N]", "pressure p [MPa]", "relative error"
+FORCE, PRESSURE, ERROR = "force F [N]", Quantity("pressure_p_MPa", "pressure p [MPa]"), "relative error"
 APPROACH, DISTANCE, CELLS = "approach d [µm]", "distance from the centre [mm]", "cells"
-SQUARE, LIMIT, CIRCLE = (
-    "k / (E* L) of the square",
-    "k / (E* L) of the square, extrapolated",
-    "k / (2 E* a) of the circle",
-)
-LOAD, PLACE, WAVE_PRESSURE = "mean p / p*", "x / wavelength", "pressure p / p*"
-ORDER, PRESSURE_ERROR, WIDTH = (
-    "order of the error in the cell size",
-    "L2 error of the pressure",
-    "half-width of the wave",
-)
-FULL, LENGTHS = "stiffness of springs in full contact", ("L_1D = L", "L_1D = 1.1523 L")
+SQUARE = Quantity("k_E_L_of_the_square", "k / (E* L) of the square")
+LIMIT = Quantity("k_E_L_of_the_square_extrapolated", "k / (E* L) of the square, extrapolated")
+CIRCLE = Quantity("k_2_E_a_of_the_circle", "k / (2 E* a) of the circle")
+LOAD, PLACE, WAVE_PRESSURE = "mean p / p*", "x / wavelength", Quantity("pressure_p_p", "pressure p / p*")
+ORDER = Quantity("order_of_the_error_in_the_cell_size")
+PRESSURE_ERROR = Quantity("L2_error_of_the_pressure")
+WIDTH = Quantity("half-width_of_the_wave")
+FULL, LENGTHS = Quantity("stiffness_of_springs_in_full_contact"), ("L_1D = L", "L_1D = 1.1523 L")
 CONTACT = {contacts.APPROACH: (0.08190, "mm"), contacts.PRESSURE: (770.6, "MPa")}
 """Published example output of the program CONTACT for 100 kN, G = 82 GPa, nu = 0.28 on both bodies."""
 DIGITS = Margin(

@@ -132,7 +132,7 @@ def once_more(result: Outcomes, numbers: Sequence[Number]) -> list[Number]:
     }
     mean = [n for n in numbers_with(numbers, MEAN, OVER) if n.where[FORCE] not in light]
     farthest = max(mean, key=lambda n: abs(n.value) + n.uncertainty, default=None)
-    name = f"{MEAN} where the models may differ most, within 3 dB"
+    name = MEAN + " where the models may differ most, within 3 dB"
     return [replace(farthest, quantity=name, tolerance=3.0, reason=FACTOR, role=Role.CRITERION)] if farthest else []
 
 

@@ -19,10 +19,8 @@ from validation.cases.rolling.force_spectrum import (
     LINEAR_3D,
     LOW,
     MEAN_1D,
-    MEAN_FORCE,
     MEAN_LEVEL,
     OVER,
-    RMS_FORCE,
     RMS_LEVEL,
     SHOWN,
     SLOPE,
@@ -36,6 +34,7 @@ from validation.cases.rolling.force_spectrum import (
     series,
 )
 from validation.simulation import model_needed
+from validation.simulation.quantities import MEAN_FORCE, RMS_FORCE
 from validation.simulation.roughness_from_force import ASSUMED
 from validation.simulation.track_spectrum import INPUT_NAMES
 

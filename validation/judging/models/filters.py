@@ -8,6 +8,7 @@ from itertools import groupby
 
 import numpy as np
 
+from validation.analysis.quantity import Quantity
 from validation.analysis.statistics import FloatArray
 from validation.judging.models.judge import Finding, asked, attempted, beside, rule
 from validation.judging.models.references import Reference, about, known
@@ -19,7 +20,7 @@ from validation.railway.theory.contact_filters import half_space_filter
 
 Transfer = Callable[[FloatArray, FloatArray], FloatArray]
 """abs(H)(k_x, k_y)."""
-FILTER, LONG = "contact filter", "contact filter of a long wave"
+FILTER, LONG = Quantity("contact_filter"), "contact filter of a long wave"
 LOAD, DIAMETER, OFFSET, ALPHA, WAVE = "load [kN]", "diameter [mm]", "over ISO 3095 [dB]", "alpha", "wavelength [mm]"
 STEEL = 210e9 / (2 * (1 - 0.3**2))
 """E* of steel on steel [Pa]."""

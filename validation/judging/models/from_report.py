@@ -18,6 +18,7 @@ from scipy.special import erfinv
 import bem3d
 from validation.analysis.contents import csv_name, from_csv
 from validation.analysis.statistics import DECIBEL
+from validation.cases.wheel import features
 from validation.engine.engine import Engine, Outcome
 from validation.engine.files import place_in
 from validation.judging.judgement import DEVIATION
@@ -48,7 +49,7 @@ SPRINGS_OVER = f"{SPRINGS} over {BEM}"
 CONTACT = "contact in Persson's theory [%]"
 TENTH = 1.2816
 """Of a Gaussian, its deviations to the highest tenth."""
-FEATURES = ("peak ω_eigen", "jump", "slope of region 3", "period of the oscillation")
+FEATURES = tuple(features.QUANTITIES.values())
 
 
 @dataclass(frozen=True)
@@ -135,14 +136,14 @@ def _rolled_off(report: Report, _: Engine) -> Iterator[Reference]:
     waves, hurst = settings["pressed"]
     edges = tuple(2 * math.pi * q for q in (1, waves, settings["band"] * waves))
     gradient = PiecewisePowerLaw(edges=edges, exponents=(0.0, 2 * hurst + 2)).gradient
-    for one in report.references("interface", "k h over F", CONTACT, model=f"{BEM}, punch"):
+    for one in report.references("interface", "k_h_over_F", CONTACT, model=f"{BEM}, punch"):
         force = gradient * float(erfinv(one[CONTACT] / 100)) / math.sqrt(2)
         yield replace(one, where={H: hurst, ROLL_OFF: float(waves), FORCE: force}, value=force * one.value)
 
 
 def _by_band(report: Report, _: Engine) -> Iterator[Reference]:
     """But for the band of Fig. 14.1."""
-    rows = report.references("bandwidth", "relative deviation", H, FORCE, BAND)
+    rows = report.references("bandwidth", "relative_deviation", H, FORCE, BAND)
     return (one for one in rows if one[BAND] != stiffness.WAVES)
 
 
@@ -150,12 +151,12 @@ def _levels(report: Report, _: Engine) -> Iterator[Reference]:
     """Of octaves."""
     bands = bands_of(settings := report.settings("rolling"))
     exact = level_3d(spectrum_of(settings), bands)
-    return _over_linear(report, "level of an octave", lambda row: float(rolling.octave(exact, bands, row[Q])), Q)
+    return _over_linear(report, "level_of_an_octave", lambda row: float(rolling.octave(exact, bands, row[Q])), Q)
 
 
 def _rms(report: Report, _: Engine) -> Iterator[Reference]:
     variance = rolling.variance_of(spectrum_of(report.settings("rolling")))
-    return _over_linear(report, "rms force", lambda row: variance)
+    return _over_linear(report, "rms_force", lambda row: variance)
 
 
 def _over_linear(report: Report, quantity: str, power: Callable[[Row], float], *names: str) -> Iterator[Reference]:
@@ -167,7 +168,7 @@ def _over_linear(report: Report, quantity: str, power: Callable[[Row], float], *
 
 def _mean(report: Report, engine: Engine) -> Iterator[Reference]:
     """The springs of the case over what they are over boundary elements."""
-    settings, rows = report.settings("rolling"), report.rows("rolling", "mean force", model=SPRINGS_OVER)
+    settings, rows = report.settings("rolling"), report.rows("rolling", "mean_force", model=SPRINGS_OVER)
     of = {"spectrum": spectrum_of(settings), **{name: settings[name] for name in ("length", "width", "seed")}}
     how = {"realisations": settings["tracks"], "springs": settings["springs"], "bands": bands_of(settings)}
     tracks = [Tracks(scene=RoughStrip(height=row[HEIGHT], **of), input_spectrum="geike", **how) for row in rows]
@@ -220,7 +221,7 @@ def _features(report: Report, _: Engine) -> Iterator[Reference]:
 def _regions(report: Report, _: Engine) -> Iterator[Reference]:
     """Of springs without a window; the sample by the lowest and the highest tenth of the wheels, as if Gaussian."""
     models = ("no window, (14.17)", "lowest tenth of wheels", "highest tenth of wheels")
-    rows = [report.rows("wheel", "A in twelfths of an octave", model=model) for model in models]
+    rows = [report.rows("wheel", "A_in_twelfths_of_an_octave", model=model) for model in models]
     level, lowest, highest = 10 * np.log10([[row["value"] for row in some] for some in rows])
     omega = np.array([row["ω [rad/s]"] for row in rows[0]])
     half = 1.96 * (highest - lowest) / (2 * TENTH) / math.sqrt(report.settings("wheel")["realisations"])
@@ -256,12 +257,12 @@ HELD_OUT: Mapping[str, ReferenceFile] = {
 }
 """Between and beside the tables."""
 SOURCES: Mapping[str, ReferenceFile] = {
-    stiffness.MEAN: _of("k / (E* L)", "fractal_punch", _punch("k / (E* L)", "mean stiffness")),
-    stiffness.DEVIATION: _of(DEVIATION, "fractal_punch", _punch("relative deviation of k", "relative deviation")),
+    stiffness.MEAN: _of("k / (E* L)", "fractal_punch", _punch("k_E_L", "mean_stiffness")),
+    stiffness.DEVIATION: _of(DEVIATION, "fractal_punch", _punch("relative_deviation_of_k", "relative_deviation")),
     stiffness.ROLLED_OFF: _of("k / (E* L)", "interface", _rolled_off),
     stiffness.BY_BAND: _of(DEVIATION, "bandwidth", _by_band),
     "stiffness of an interface": _of(
-        "K h / p", "interface", lambda report, _: report.references("interface", "K h over p", ROLL_OFF, H, CONTACT)
+        "K h / p", "interface", lambda report, _: report.references("interface", "K_h_over_p", ROLL_OFF, H, CONTACT)
     ),
     rolling.LEVEL: _of(f"{_over}, of an octave", "rolling", _levels),
     rolling.RMS: _of(_over, "rolling", _rms),

@@ -37,7 +37,7 @@ SEED, TOLERANCE = 4801, 1e-4
 
 def held_out(quantity: str) -> str:
     """Name of the held-out points of a quantity."""
-    return f"{quantity}{SUFFIX}"
+    return quantity + SUFFIX
 
 
 @dataclass(frozen=True, kw_only=True)

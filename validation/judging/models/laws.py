@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from validation.analysis.independent_records import half_width, independent_records
+from validation.analysis.quantity import Quantity
 from validation.analysis.spectra import band_means, record_spectra
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed
 from validation.judging.judgement import LEVEL
@@ -18,7 +19,7 @@ from validation.simulation.motion import Motion, simulate
 from validation.simulation.wheel_features import features_of
 from validation.simulation.wheel_on_springs import band_edges
 
-FEATURE, REGION = "feature of the wheel", "level of the acceleration"
+FEATURE, REGION = Quantity("feature_of_the_wheel"), Quantity("level_of_the_acceleration")
 WHEELS, FARTHEST, BENDS, DOUBLINGS, HALVINGS = 20, 190.0, ((3 - math.sqrt(5)) / 2, math.sqrt(2) - 1.2), 12, 60
 """Wheels that roll; where the last one starts [m]; shares of the square and the cube in the starts, with which no
 two distances between wheels are equal, and no period is in many of them; steps of the search for the load."""

@@ -14,6 +14,7 @@ from typing import Any
 
 from validation.analysis.contents import from_csv
 from validation.analysis.evidence import Table
+from validation.analysis.quantity import key_of, quantity_with
 from validation.judging.judgement import DEVIATION, LEVEL, RATIO, Conditions
 
 FOLDER = Path(__file__).with_suffix("")
@@ -72,7 +73,7 @@ def about(quantity: str) -> Mapping[str, Any]:
 
 def quantities() -> list[str]:
     """That have a file."""
-    return [str(about(path.stem)["quantity"]) for path in sorted(FOLDER.glob("*.csv"))]
+    return [quantity_with(str(about(path.stem)["quantity"])) for path in sorted(FOLDER.glob("*.csv"))]
 
 
 def _lines(quantity: str) -> list[str]:
@@ -83,7 +84,7 @@ def _lines(quantity: str) -> list[str]:
 
 
 def file_name(quantity: str) -> str:
-    return f"{quantity.replace(',', '').replace(' ', '_')}.csv"
+    return f"{key_of(quantity)}.csv"
 
 
 def as_file(head: Mapping[str, Any], rows: Sequence[Reference]) -> bytes:

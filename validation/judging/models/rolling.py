@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 import mdr
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Estimates
 from validation.analysis.spectra import Bands, levels, waves
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, mean_estimate
@@ -20,11 +21,12 @@ from validation.judging.judgement import RATIO, Conditions
 from validation.judging.models.judge import Finding, ModelAnswer, asked, attempted, beside
 from validation.judging.models.references import Reference, about, known
 from validation.judging.registry import Caller, Failed
+from validation.simulation.quantities import MEAN_FORCE, RMS_FORCE
 from validation.simulation.rolling_strip import HERTZ, SMOOTH, RoughStrip, crop_to_reach, level_3d, over_bands
 from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
 from validation.theory.rolling import force_variance, linear_force
 
-LEVEL, RMS, MEAN = "force level", "rms force", "mean force"
+LEVEL, RMS, MEAN = Quantity("force_level"), RMS_FORCE, MEAN_FORCE
 HEIGHT, SLOPE, Q = "h/d", "h' a/d", "q a"
 RADIUS, CONTACT, MODULUS = 0.5, 2e-3, 1.15e11
 APPROACH = CONTACT**2 / RADIUS

@@ -11,12 +11,14 @@ from numpy.typing import ArrayLike, NDArray
 
 import mdr
 from validation.analysis.multilevel import moments
+from validation.analysis.quantity import Quantity
 from validation.engine.random_numbers import random_generator
 from validation.judging import judgement
 from validation.judging.judgement import Conditions
 from validation.judging.models.judge import Finding, LostError, ModelAnswer, attempted, beside, rule
 from validation.judging.models.references import Reference, known
 from validation.judging.registry import Caller, Failed, FloatArray
+from validation.simulation.quantities import MEAN_STIFFNESS
 from validation.simulation.rough_punch import PlateauSpectrum
 
 SIDE, MODULUS, HEIGHT = 1e-2, 1e9, 1e-3
@@ -36,8 +38,9 @@ EQUAL = 1e-6
 """Relative difference of draws that are equal, but for rounding in single precision."""
 EQUAL_DRAWS, DIFFERENT_DRAWS = "rng is asked for and not used", "are different"
 H, FORCE, ROLL_OFF, BAND, FIRST = "H", "Fbar", "q_r L / 2π", "q_max / q_min", "q_min L / 2π"
-MEAN, DEVIATION = "mean stiffness", "deviation of the stiffness"
-ROLLED_OFF, BY_BAND = "mean stiffness with a roll-off", "deviation of the stiffness, by bandwidth"
+MEAN, DEVIATION = MEAN_STIFFNESS, Quantity("deviation_of_the_stiffness")
+ROLLED_OFF = Quantity("mean_stiffness_with_a_roll-off")
+BY_BAND = Quantity("deviation_of_the_stiffness_by_bandwidth", "deviation of the stiffness, by bandwidth")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,6 +10,7 @@ import scipy
 from numpy.typing import NDArray
 
 from validation.analysis.margins import FIELD, THREE_DECIBELS
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Estimates, Series, Where, masked, only
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray, Interval, jackknifed
 from validation.engine.engine import SERIAL, Engine
@@ -38,11 +39,16 @@ SHOWN = MODELS[:-1]
 ON_ROUGHER = (LINEAR, LINEAR_ON_LINE, filters.BED_WIDER)
 """Judged over rougher rails too; a linear filter is the same there, and boundary elements are nearly so."""
 TABLE = "published table"
-WEIGHTED = "rms force over that of boundary elements [dB(A)]"
-ONE_LINE = "A3 of one line over that of boundary elements"
-REACH = "shortest wave within 1 dB of boundary elements [mm]"
-BORDER, OFF, WITHIN = "largest alpha for one line", "one line over boundary elements [dB]", "within [dB]"
-NEAREST, LEFT = "nearest to boundary elements", "worst band of the nearest [dB]"
+WEIGHTED = Quantity("rms_force_over_that_of_boundary_elements_dB_A", "rms force over that of boundary elements [dB(A)]")
+ONE_LINE = Quantity("A3_of_one_line_over_that_of_boundary_elements")
+REACH = Quantity(
+    "shortest_wave_within_1_dB_of_boundary_elements_mm", "shortest wave within 1 dB of boundary elements [mm]"
+)
+BORDER = Quantity("largest_alpha_for_one_line")
+OFF = Quantity("one_line_over_boundary_elements_dB", "one line over boundary elements [dB]")
+WITHIN = "within [dB]"
+NEAREST = Quantity("nearest_to_boundary_elements")
+LEFT = Quantity("worst_band_of_the_nearest_dB", "worst band of the nearest [dB]")
 ALPHA_OF, FACTOR_OF, ALIKE = "alpha of Remington", "factor of the bed", "alpha that is alike"
 WHEEL, GROUND, SPEED = "wheel", "across", "speed [km/h]"
 SPEEDS, TOLERANCES = (80.0, 200.0), (1.0, 2.0, 3.0)

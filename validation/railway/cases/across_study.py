@@ -11,6 +11,7 @@ from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Table, Whose, table_of
 from validation.analysis.printed import decibels
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Series
 from validation.analysis.statistics import Interval
 from validation.analysis.study import Study
@@ -22,8 +23,13 @@ from validation.railway.problems.rail_strip import SHORTEST
 from validation.simulation.model_names import BED, BEM, LINEAR, LINEAR_ON_LINE
 
 Found = dict[tuple[str, str], list[float]]
-LACKING, STANDS = "what to add to A3 of one line [dB]", "what stands for what lies across"
-BORDERS, LOUDER = "up to which alpha one line is enough", "rms force over that of boundary elements [dB(A)], two speeds"
+LACKING = Quantity("what_to_add_to_A3_of_one_line_dB", "what to add to A3 of one line [dB]")
+STANDS = Quantity("what_stands_for_what_lies_across")
+BORDERS = Quantity("up_to_which_alpha_one_line_is_enough")
+LOUDER = Quantity(
+    "rms_force_over_that_of_boundary_elements_dB_A_two_speeds",
+    "rms force over that of boundary elements [dB(A)], two speeds",
+)
 
 
 def tables(result: AcrossResult) -> tuple[Table, ...]:

@@ -15,6 +15,7 @@ from validation.analysis.evidence import Whose
 from validation.analysis.margins import REPEATABLE
 from validation.analysis.nominal_bands import NominalBands
 from validation.analysis.printed import decibels_rms
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Estimates, Series, masked
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray, mean_estimate
 from validation.analysis.study import Outcomes, Study
@@ -33,8 +34,10 @@ Key = tuple[float, float, str, str]
 Track = tuple[str, str]
 """Model, and what lifts its wheel."""
 FREQUENCY, DAMPING = "f [Hz]", "damping"
-MOVING, INFERRED = "filter in motion", "filter inferred from the force"
-BESIDE, AIRBORNE, RMS = "filter in motion, of two models", "time without contact", "rms of "
+MOVING, INFERRED = Quantity("filter_in_motion"), Quantity("filter_inferred_from_the_force")
+BESIDE = Quantity("filter_in_motion_of_two_models", "filter in motion, of two models")
+AIRBORNE = Quantity("time_without_contact")
+RMS = "rms of "
 CURVE = 0.0
 """The offset at which grids are compared: above it motions on two grids part in flight."""
 SPRINGS_OVER_BEM = f"{SPRINGS_THAT_READ} over {BEM}"

@@ -6,6 +6,7 @@ import numpy as np
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Series
 from validation.analysis.sound import Sound, Sounds
 from validation.analysis.study import Study
@@ -14,7 +15,9 @@ from validation.railway.cases.rail_sound import SOUNDING, RailSound, RailSoundRe
 from validation.railway.problems.rail_sound import GEIKE, ISOTROPIC
 from validation.simulation.model_names import BEM, LINEAR, SPRINGS_THAT_READ
 
-IN_BANDS, FORCE, PLACES = "level in one-third octaves", "contact force less its mean", "places in frequency"
+IN_BANDS = Quantity("level_in_one-third_octaves")
+FORCE = Quantity("contact_force_less_its_mean")
+PLACES = Quantity("places_in_frequency")
 FREQUENCY, TIME = "f [Hz]", "t [ms]"
 ENDS, OF_CONTACT = "an end of the band", "the wave as long as the contact"
 TONE = 20.0

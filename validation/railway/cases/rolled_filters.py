@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Estimates, Series, Where
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray
@@ -27,7 +28,7 @@ Key = tuple[RailWheel, float, str]
 
 FILTERS = (named.LINEAR, named.LINEAR_ON_LINE, named.LINEAR_ON_MEAN, named.BED, REMINGTON)
 RIVALS = (named.SPRINGS_THAT_READ, named.SPRINGS_ON_LINE, named.SPRINGS_ON_MEAN, named.ONE_SIDED_BED)
-A3, OVER_BEM, WAVE = "A3", "A3 over that of boundary elements", "wavelength [mm]"
+A3, OVER_BEM, WAVE = Quantity("A3"), Quantity("A3_over_that_of_boundary_elements"), "wavelength [mm]"
 
 
 @dataclass(frozen=True, kw_only=True)

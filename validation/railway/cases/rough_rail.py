@@ -13,6 +13,7 @@ from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Role, Table
 from validation.analysis.margins import FIELD
 from validation.analysis.printed import decibels
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Estimates, Series, masked, only
 from validation.analysis.study import Study
 from validation.railway.cases import filters
@@ -33,8 +34,9 @@ from validation.simulation.model_names import BEM, LINEAR, LINEAR_ON_LINE, twin_
 SHOWN = (LINEAR, named.SPRINGS_THAT_READ, named.ONE_SIDED_BED)
 MODELS = (*SHOWN, named.SPRINGS_ON_LINE)
 WAVES, GROUND, RIDGES = "waves of h'", "isotropic ground", "ridges"
-OF_BEM = "interval of A3 of boundary elements"
-HEIGHTS, ELLIPSE = "mean of heights over energy mean of lines", "A3 of the ellipse over that of a line"
+OF_BEM = Quantity("interval_of_A3_of_boundary_elements")
+HEIGHTS = Quantity("mean_of_heights_over_energy_mean_of_lines")
+ELLIPSE = Quantity("A3_of_the_ellipse_over_that_of_a_line")
 SPACING, ACROSS = "spacing [mm]", "across"
 GROUNDS = {name: filters.GROUNDS[name] for name in (RIDGES, "alpha = 0.5", "alpha = 1", GROUND)}
 

@@ -16,6 +16,7 @@ from validation.report.answers.question import BEM, INTEGRAL, Alternative, Quest
 from validation.report.answers.seconds import a_surface, a_track, a_wheel, an_integral
 from validation.report.answers.strip import Source
 from validation.report.contents import CASES
+from validation.simulation.quantities import RMS_FORCE
 
 LINEAR_3D = wheel.LINEAR_3D
 PRESSED = Alternative(BEM, timed=a_surface())
@@ -39,7 +40,7 @@ OF_THE_CORE = (
         per_cent,
         (
             Alternative("the fit 1/kbar = 1/1.1523 + 0.48/Fbar", FIT, "a formula"),
-            Alternative(BEM, timed=a_surface("mean stiffness")),
+            Alternative(BEM, timed=a_surface(punch.MEAN)),
         ),
     ),
     Question(
@@ -47,7 +48,7 @@ OF_THE_CORE = (
         "Scatter of that stiffness over the ensemble",
         of_mdr(quantity=punch.DEVIATION),
         per_cent,
-        (Alternative(BEM, timed=a_surface("relative deviation")),),
+        (Alternative(BEM, timed=a_surface(punch.DEVIATION)),),
     ),
     Question(
         "area-and-gap",
@@ -66,9 +67,9 @@ OF_THE_CORE = (
     Question(
         "rolling-rms",
         "Rms force of a rolling wheel, ensemble mean",
-        of_rolling(quantity=rolling.RMS_FORCE, model=GEIKE),
+        of_rolling(quantity=RMS_FORCE, model=GEIKE),
         per_cent,
-        (IN_3D(of_rolling(quantity=rolling.RMS_FORCE, model=LINEAR)), JUDGE),
+        (IN_3D(of_rolling(quantity=RMS_FORCE, model=LINEAR)), JUDGE),
     ),
     Question(
         "rolling-spectrum",
