@@ -18,7 +18,7 @@ def copied(folder, without=()):
 
     def run(*words, status=0):
         command = [sys.executable, *words]
-        done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
+        done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, encoding="utf-8", check=False)
         assert done.returncode == status, done.stdout + done.stderr
         return done.stdout
 

@@ -38,7 +38,7 @@ def test_another_seed_draws_other_surfaces_and_the_same_one_the_same():
 
 @pytest.mark.parametrize(("seconds", "solved"), [(59.0, True), (61.0, False)])
 def test_out_of_its_range_a_model_is_solved_that_takes_a_minute_at_the_most(seconds, solved):
-    target = SimpleNamespace(scene=ROUGH)
+    target = SimpleNamespace(scene=ROUGH, quantity="stiffness")
     model = SimpleNamespace(target=target, cost=lambda: Cost(work=1, seconds=seconds))
     assert compare._beyond(model) is solved
 

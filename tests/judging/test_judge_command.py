@@ -102,7 +102,7 @@ def broken(model, *_):
     ],
 )
 def test_an_error_of_ours_is_a_row_and_takes_no_other_model_with_it(place, file, tmp_path, capsys, monkeypatch):
-    solver = "@contact_solver('solver')\ndef solver(gap, force): return gap\n" if "benchmarks" in place else ""
+    solver = "@contact_solver('solver')\ndef solver(gap, force): return gap\n" if "solvers" in place else ""
     law = "@contact_law('no force')\ndef law(approach): return 0 * approach\n"
     file.write_text(f"{SERIES}\nfrom validation import contact_law, contact_solver\n{law}{solver}", encoding="utf-8")
     monkeypatch.setattr(place, broken)

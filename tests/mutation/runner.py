@@ -45,13 +45,13 @@ VERDICTS = (
     "validation/advice/hierarchy.py",
 )
 CLAIMS = (
-    *("validation/report/answers/*.py", "validation/simulation/calibrat*.py", "validation/railway/contact_force.py"),
+    *("validation/report/answers/*.py", "validation/advice/calibrat*.py", "validation/advice/contact_force.py"),
     *(
         "validation/advice/exported.py",
-        "validation/railway/theory/graduation.py",
+        "validation/railway/scenes/graduation.py",
         "validation/railway/scenes/isotropic_line.py",
     ),
-    *("validation/analysis/multilevel.py", "validation/simulation/rail_*.py", "validation/analysis/sound.py"),
+    *("validation/analysis/multilevel.py", "validation/railway/problems/rail_*.py", "validation/analysis/sound.py"),
 )
 """What claims rest on: grids of Fig. 14.1, calibrated errors, rails, and what is printed of all of them."""
 FIELDS = {"methods": METHODS, "verdicts": VERDICTS, "claims": CLAIMS}

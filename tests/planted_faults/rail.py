@@ -26,8 +26,7 @@ from validation.railway.cases import across, filters, rolled_filters
 from validation.railway.problems import equivalent_displacement, rail_across, rail_models, rail_quantity, rail_strip
 from validation.railway.problems.rail_models import ContactFilter
 from validation.railway.problems.rail_quantity import RailQuantity
-from validation.railway.scenes import isotropic_line
-from validation.railway.theory import graduation
+from validation.railway.scenes import graduation, isotropic_line
 from validation.simulation.model_names import ONE_SIDED_BED
 
 graduated, model_error, over_twin = graduation.graduated, ContactFilter.model_error, ContactFilter.over_twin

@@ -24,7 +24,7 @@ from validation.advice.tolerance import Tolerance, decibels, tolerance_of
 from validation.analysis.nominal_bands import MANTISSAS
 from validation.engine.engine import FloatArray
 from validation.scenes.printable import shortened
-from validation.scenes.quantity import Quantity
+from validation.scenes.quantity import SceneQuantity
 from validation.scenes.scene import Scene
 from validation.simulation.model import Target
 
@@ -94,7 +94,7 @@ class Comparison:
     swept: Swept | None = None
 
     @property
-    def asked(self) -> Quantity:
+    def asked(self) -> SceneQuantity:
         """The quantity with its unit, and how it is judged."""
         return quantity_of(self.scene, self.quantity)
 
@@ -239,44 +239,40 @@ def compare(
 ) -> Comparison:
     """Select the cheapest model of a scene whose error is within the tolerance.
 
+    Models are tried from the cheapest on, each where the error that its calibration claims is within the tolerance;
+    the first is accepted whose solve leaves no larger one.
+
     Parameters
     ----------
     scene : IndentationScene, RollingScene or RailScene
         What `load_scene` returns.
     quantity : str, optional
-        One that the scene has, see `Comparison`; by default the first.
+        One that the scene has, by default the first.
     tolerance : float or str, optional
-        Largest half-width of the 95 % interval: relative, or a text as "5%" or "0.4 dB"; of a spectrum, of the root
-        mean square over all bands. Errors are printed in dB where it is given in dB.
+        Largest half-width of the 95 % interval: relative, or a text as "5%" or "0.4 dB", in whose unit errors are
+        printed; of a spectrum, of the root mean square over all bands.
     seed : int, optional
         Seed of the roughness that is drawn, zero or positive.
     solve_all : bool, optional
-        Whether all models are solved and timed, to see them side by side. The selected one stays. Out of its range a
-        model is solved where that takes a minute at the most; the error of what it finds is unknown.
+        Whether all models are solved and timed, one out of its range where that takes a minute at the most.
     models : str, function or sequence of these, optional
-        Solve these models and no others: "mdr", "bem", or names of models of this scene, in one text with commas too;
-        functions of your own with a decorator, as `stiffness_model`. One that a file defines is measured first, beside
-        stored answers of boundary elements, and has an error then; of any other, that is unknown.
+        Solve these alone: "mdr", "bem", or names of models of this scene, in one text with commas too; functions with a
+        decorator, as `stiffness_model`: the error of one that a file defines is measured first, else it is unknown.
     realisations : int, optional
-        How many surfaces, or strips under a wheel, boundary elements solve where roughness is drawn, from 2 to 100000;
-        by default as many as the tolerance takes, up to 1000 surfaces or 32 strips.
+        Surfaces, or strips under a wheel, that boundary elements solve where roughness is drawn, from 2 to 100000; by
+        default as many as the tolerance takes, up to 1000 surfaces or 32 strips.
     callback : callable, optional
         Called with each model before its solve, as for a note that it takes a while.
 
     Returns
     -------
     Comparison
-        The quantity with its error, and what became of each model. ``met``: whether one reaches the tolerance.
+        The quantity with its error, and what became of each model.
 
     Raises
     ------
     TypeError, ValueError
         If ``scene`` is not a scene or has no such quantity or model, or if another argument is out of range.
-
-    Notes
-    -----
-    Models are tried from the cheapest on. Each has an estimate of its error, from its calibration beside boundary
-    elements. A model is skipped where that exceeds the tolerance, and accepted where the errors of its solve do not.
 
     Examples
     --------
@@ -286,11 +282,10 @@ def compare(
     """
     if not hasattr(scene, "quantities"):
         raise TypeError(f"scene must be what load_scene returns, got {type(scene).__name__}")
-    count("seed", seed, least=0)
     asked = quantity or quantities_of(scene)[0]
     names, own = names_and_own(models, scene, asked)
-    problem = SceneProblem(scene, (asked,), tolerance, seed, solve_all, names, own, realisations)
-    return problem.compared(callback)[asked]
+    settings = (tolerance, count("seed", seed, least=0), solve_all, names, own, realisations)
+    return SceneProblem(scene, (asked,), *settings).compared(callback)[asked]
 
 
 @dataclass(frozen=True)

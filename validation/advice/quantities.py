@@ -3,7 +3,7 @@
 from validation.advice.hierarchy import needed
 from validation.advice.scene_model import SceneModel, Shared
 from validation.engine.street import brought
-from validation.scenes.quantity import MOVING, PRESSED, ROLLING, Quantity
+from validation.scenes.quantity import MOVING, PRESSED, ROLLING, SceneQuantity
 from validation.scenes.scene import Scene
 from validation.simulation.model import Target, models_serving
 from validation.simulation.model_names import SPRINGS_THAT_READ
@@ -22,7 +22,7 @@ def quantities_of(scene: Scene) -> tuple[str, ...]:
     return tuple(map(str, scene.quantities))
 
 
-def quantity_of(scene: Scene, key: str) -> Quantity:
+def quantity_of(scene: Scene, key: str) -> SceneQuantity:
     """By its key. Raises ValueError for a quantity that the scene has not."""
     for one in scene.quantities:
         if key == str(one):
@@ -60,7 +60,7 @@ def models_of(
     return sorted(found, key=lambda one: one.cost().seconds)
 
 
-def model_for(scene: Scene, quantity: Quantity, tolerance: float) -> str:
+def model_for(scene: Scene, quantity: SceneQuantity, tolerance: float) -> str:
     """The first model whose estimated error is within the tolerance, all grids one; empty where there is none."""
     found = needed(models_of(scene, str(quantity), tolerance, 0), tolerance)
     return "" if found is None else found.kind

@@ -14,10 +14,6 @@ class Quantity(str):
     The key names the CSV file of the table, and is what `chapter.toml`, judges and templates look for. It has letters,
     digits, underscores and some signs; the label is by default the key with blanks. `+` extends both.
     Raises ValueError for a key that no file name has, or that another label has.
-
-    >>> stiffness = Quantity("mean_stiffness")
-    >>> str(stiffness), stiffness.key, (stiffness + ", judged").key
-    ('mean stiffness', 'mean_stiffness', 'mean_stiffness_judged')
     """
 
     key: str

@@ -7,3 +7,5 @@ BRINGS = {
     "calibrations": "validation.judging.options:OfCalibrate",
     "solvers_of_files": "validation.judging.own_solvers:solvers_in",
 }
+SOLVER, MAPPING = "--mdr-solver", "--mdr-mapping"
+"""Options of pytest for the tests of this house."""

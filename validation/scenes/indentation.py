@@ -10,7 +10,7 @@ from validation.scenes.height_edits import SQUARE
 from validation.scenes.material import Material, check_scene
 from validation.scenes.measured import MeasuredHeights, check_covers
 from validation.scenes.printable import shortened
-from validation.scenes.quantity import PRESSED, Quantity
+from validation.scenes.quantity import PRESSED, SceneQuantity
 from validation.scenes.roughness import Roughness, RoughSurface, check_band
 from validation.scenes.scene import ContactEllipse, Pairs, SceneDefaults
 from validation.scenes.units import in_unit
@@ -59,7 +59,7 @@ class IndentationScene(OnHalfSpace, SceneDefaults):
     speed: ClassVar[None] = None
     mass: ClassVar[None] = None
     damping: ClassVar[float] = 0.0
-    quantities: ClassVar[tuple[Quantity, ...]] = PRESSED
+    quantities: ClassVar[tuple[SceneQuantity, ...]] = PRESSED
     roughness_key: ClassVar[str] = "roughness"
 
     name: str

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class Quantity:
+class SceneQuantity:
     """A quantity that scenes have.
 
     key: in scripts, on the command line and in files; unit: of its amplitude; reference: of its decibels, in SI units;
@@ -26,11 +26,11 @@ class Quantity:
         return self.key
 
 
-STIFFNESS = Quantity("stiffness", "N/m")
-FORCE_RMS = Quantity("force-rms", "N")
-FORCE_SPECTRUM = Quantity("force-spectrum", "N", in_bands=True)
-ACCELERATION = Quantity("acceleration", "m/s²", in_bands=True, of_motion=True)
-ACCELERATION_RMS = Quantity("acceleration-rms", "m/s²", of_motion=True)
+STIFFNESS = SceneQuantity("stiffness", "N/m")
+FORCE_RMS = SceneQuantity("force-rms", "N")
+FORCE_SPECTRUM = SceneQuantity("force-spectrum", "N", in_bands=True)
+ACCELERATION = SceneQuantity("acceleration", "m/s²", in_bands=True, of_motion=True)
+ACCELERATION_RMS = SceneQuantity("acceleration-rms", "m/s²", of_motion=True)
 PRESSED = (STIFFNESS,)
 ROLLING = (FORCE_RMS, FORCE_SPECTRUM)
 MOVING = (ACCELERATION, ACCELERATION_RMS)

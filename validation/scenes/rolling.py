@@ -10,7 +10,7 @@ from validation.scenes.description import body_pairs, motion_pair, roughness_pai
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.material import Material, check_scene
 from validation.scenes.measured import MeasuredHeights, check_covers
-from validation.scenes.quantity import MOVING, ROLLING, Quantity
+from validation.scenes.quantity import MOVING, ROLLING, SceneQuantity
 from validation.scenes.roughness import Roughness, RoughSurface, check_band
 from validation.scenes.scene import ContactEllipse, Pairs, SceneDefaults
 from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
@@ -100,7 +100,7 @@ class RollingScene(OnHalfSpace, SceneDefaults):
         return DampedWheel(mass=self.mass or 1.0, **same)
 
     @property
-    def quantities(self) -> tuple[Quantity, ...]:
+    def quantities(self) -> tuple[SceneQuantity, ...]:
         """Of the motion where it moves, and of the force on a wheel that keeps its approach."""
         return ROLLING if self.mass is None else (*MOVING, *ROLLING)
 

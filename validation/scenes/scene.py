@@ -7,7 +7,7 @@ import numpy as np
 
 from validation.analysis.statistics import FloatArray
 from validation.scenes.material import Material
-from validation.scenes.quantity import Quantity
+from validation.scenes.quantity import SceneQuantity
 from validation.scenes.roughness import RoughSurface
 
 Pairs = tuple[tuple[str, str], ...]
@@ -62,7 +62,7 @@ class Scene(Protocol):
     def ground(self) -> RoughSurface | None: ...
 
     @property
-    def quantities(self) -> tuple[Quantity, ...]:
+    def quantities(self) -> tuple[SceneQuantity, ...]:
         """That it has; the first is the default."""
 
     def bands(self, quantity: str) -> FloatArray:

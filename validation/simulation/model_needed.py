@@ -8,7 +8,7 @@ from typing import Any
 
 from validation.engine.street import brought
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.quantity import MOVING, PRESSED, ROLLING, Quantity
+from validation.scenes.quantity import MOVING, PRESSED, ROLLING, SceneQuantity
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.scenes.scene import Scene
@@ -18,18 +18,18 @@ from validation.simulation.rough_punch import PunchRoughness
 TOLERANCE = 0.1
 
 
-def model_for(scene: Scene, quantity: Quantity) -> str:
+def model_for(scene: Scene, quantity: SceneQuantity) -> str:
     """The cheapest whose estimated error is small enough; where nothing selects models that is not known."""
     selections = brought("model_for")
     return next((select(scene, quantity, TOLERANCE) or "none" for select in selections), "not known")
 
 
-def of_each(quantities: Sequence[Quantity], shown: Callable[[Quantity], str]) -> str:
+def of_each(quantities: Sequence[SceneQuantity], shown: Callable[[SceneQuantity], str]) -> str:
     """ "stiffness: springs", and so for each quantity: what is enough for one is not for another."""
     return ". ".join(f"{quantity}: {shown(quantity)}" for quantity in quantities)
 
 
-def along(name: str, scenes: Sequence[tuple[float, Scene]], quantity: Quantity) -> str:
+def along(name: str, scenes: Sequence[tuple[float, Scene]], quantity: SceneQuantity) -> str:
     """Models along a parameter, in pieces: "springs for Fbar from 0.02 to 0.5; ..."."""
     found = [(value, model_for(scene, quantity)) for value, scene in scenes]
     pieces = []

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from validation.analysis.statistics import FloatArray
+from validation.railway.scenes.graduation import graduated, scatter_of
 from validation.railway.scenes.roughness_levels import MICROMETRE, RoughnessLevels, line_of_powers
-from validation.railway.theory.graduation import graduated, scatter_of
 from validation.railway.theory.line_spectrum import LineSpectrum
 from validation.railway.theory.transverse_structure import has_isotropic_surface
 

@@ -19,7 +19,7 @@ from validation.scenes.damping import check_damping
 from validation.scenes.description import damping_of
 from validation.scenes.material import Material, check_scene
 from validation.scenes.measured import MeasuredHeights, check_covers
-from validation.scenes.quantity import Quantity
+from validation.scenes.quantity import SceneQuantity
 from validation.scenes.reader import errors_of
 from validation.scenes.scene import ENSEMBLE_MEAN, ContactEllipse, Pairs, SceneDefaults
 from validation.scenes.units import in_unit
@@ -30,8 +30,8 @@ Across = Literal["ridges", "isotropic"] | float | None
 
 COUNTED = -15.0
 """A3 [dB] above which the tolerance counts: below it nothing is left to hear, and models differ by decibels."""
-CONTACT_FILTER = Quantity("contact-filter", "1", in_bands=True, by_worst_band=True, counted_above=COUNTED)
-EQUIVALENT_ROUGHNESS = Quantity(
+CONTACT_FILTER = SceneQuantity("contact-filter", "1", in_bands=True, by_worst_band=True, counted_above=COUNTED)
+EQUIVALENT_ROUGHNESS = SceneQuantity(
     "equivalent-roughness", "µm", MICROMETRE, in_bands=True, by_worst_band=True, counted_above=COUNTED
 )
 QUANTITIES = CONTACT_FILTER, EQUIVALENT_ROUGHNESS
@@ -95,7 +95,7 @@ class RailScene(SceneDefaults):
 
     kind: ClassVar[str] = "rail"
     ground = None
-    quantities: ClassVar[tuple[Quantity, ...]] = QUANTITIES
+    quantities: ClassVar[tuple[SceneQuantity, ...]] = QUANTITIES
     shares_solves: ClassVar[bool] = True
     size_key: ClassVar[str] = "wheel.radius"
     roughness_key: ClassVar[str] = ""
