@@ -2,6 +2,7 @@ import ast
 import functools
 import os
 import random
+import sys
 from itertools import groupby
 from pathlib import Path
 
@@ -111,4 +112,23 @@ def texts_of_sources_are_read_once():
             (sources._words.__wrapped__, Path),
         ):
             patch.setattr(sources, of.__name__, by_text(of, path_of, {}))
+        yield
+
+
+@pytest.fixture(scope="session", autouse=True)
+def each_model_of_a_scene_estimates_its_error_once():
+    """Its cost asks for its estimate, and both are asked for in every sort."""
+    # imported already where a test of it was collected
+    module = sys.modules.get("validation.selection.scene_model")
+    with pytest.MonkeyPatch.context() as patch:
+        if module is not None:
+            estimate = module.SceneModel.estimate
+
+            @functools.wraps(estimate)
+            def remembered(one):
+                if "estimated" not in vars(one):
+                    vars(one)["estimated"] = estimate(one)
+                return vars(one)["estimated"]
+
+            patch.setattr(module.SceneModel, "estimate", remembered)
         yield
