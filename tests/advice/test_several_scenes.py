@@ -95,10 +95,10 @@ def test_a_stored_comparison_is_the_one_that_was_solved(tmp_path):
     ]
     problems.append(problem(scene=validation.load_scene("rail"), quantities=("contact-filter",)))
     engine = Engine(store=tmp_path)
-    for found in (compare_scenes(problems, engine), compare_scenes(problems, engine)):
-        for one, comparison in zip(problems, found, strict=True):
-            comparison = replace(comparison, timed=False)
-            alone = validation.compare(one.scene, *one.quantities, one.tolerance, models=one.models or None)
+    solved, stored = (compare_scenes(problems, engine) for _ in range(2))
+    for one, *found in zip(problems, solved, stored, strict=True):
+        alone = validation.compare(one.scene, *one.quantities, one.tolerance, models=one.models or None)
+        for comparison in (replace(each, timed=False) for each in found):
             assert (summary(comparison), validation.to_json(comparison)) == (summary(alone), validation.to_json(alone))
 
 

@@ -7,6 +7,7 @@ import functools
 
 import numpy as np
 from scipy import ndimage
+from scipy.optimize import brentq
 
 
 def corners(x, y):
@@ -102,10 +103,7 @@ def pressed_to(gap, spacing, modulus, approach, tolerance, apply=None):
         high += 1
     while reached(low) > 0:
         low -= 1
-    for _ in range(60):
-        middle = (low + high) / 2
-        low, high = (middle, high) if reached(middle) < 0 else (low, middle)
-    return solve(force=np.exp(low))
+    return solve(force=np.exp(brentq(reached, low, high, xtol=1e-14)))
 
 
 # --- mistakes ---

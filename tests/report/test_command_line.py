@@ -5,7 +5,6 @@ import os
 import re
 import warnings
 from dataclasses import replace
-from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -29,7 +28,7 @@ from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import spectrum as wheel
 from validation.cases.wheel.features import QUANTITIES
-from validation.engine import sources, stored
+from validation.engine import stored
 from validation.railway.cases.across import Across
 from validation.railway.cases.rail_dynamic import RailDynamic
 from validation.railway.cases.rail_sound import RailSound, shipped_rail
@@ -103,17 +102,13 @@ SMALL = {
 }
 
 
-NAMED = cache(sources._named)
-
-
 @pytest.fixture
 def small(monkeypatch):
     """The same cases, small enough for a test."""
     for name, case in SMALL.items():
         use(monkeypatch, name, case)
-    # both take a second a case: test_kept has the first, and no source changes while tests run
+    # takes a second a case: test_kept has it
     monkeypatch.setattr(build, "versions_of", lambda names, profile: dict.fromkeys(names, ""))
-    monkeypatch.setattr(sources, "_named", NAMED)
     return list(CASES)
 
 

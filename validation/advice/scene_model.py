@@ -142,7 +142,7 @@ class SceneModel:
     def solves(self) -> int:
         """So many are expected to leave the most of the tolerance."""
         plan = self.sampling
-        if self._beyond_reach(self.estimate()):
+        if plan.fewest == plan.most or self._beyond_reach(self.estimate()):
             return plan.fewest
         return realisations(plan.scatter, SAMPLE_SHARE * self.target.tolerance, least=plan.fewest, most=plan.most)
 

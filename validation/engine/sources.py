@@ -1,7 +1,6 @@
 """The source code that a result depends on, and the libraries under it."""
 
 import ast
-import copy
 import hashlib
 import importlib.metadata
 import importlib.util
@@ -148,7 +147,9 @@ def _meaning(path: Path) -> bytes:
     """Of code: without its comments and docstrings, which are constants by themselves. Of data: the file."""
     if path.suffix != ".py":
         return _source(path)
-    tree = copy.deepcopy(_tree(path))
+    # another tree, which is changed; a copy of the first takes ten times as long
+    with PARSING:
+        tree = ast.parse(_source(path))
     return ast.dump(_WithoutDocstrings().visit(tree)).encode()
 
 
@@ -178,9 +179,13 @@ def _imported(module: str) -> set[str]:
     return {".".join(part[:length]) for part in parts for length in range(1, len(part) + 1)}
 
 
-def _named(module: str) -> set[str]:
+def _named(module: str) -> frozenset[str]:
     """What its import statements name, and the modules of packages that it lists."""
-    path = _path(module)
+    return _named_in(module, _path(module))
+
+
+@cache
+def _named_in(module: str, path: Path | None) -> frozenset[str]:
     found = set[str]()
     for node in ast.walk(_tree(path)) if path else ():
         if isinstance(node, ast.Import):
@@ -193,7 +198,7 @@ def _named(module: str) -> set[str]:
     if path and LISTS in _words(path):
         listed = found - {module.rpartition(".")[0]}
         found |= {name for name in modules() if name.rpartition(".")[0] in listed}
-    return found
+    return frozenset(found)
 
 
 @cache
