@@ -11,7 +11,6 @@ P_wb / median_w P_wb > `NATURAL` * quantile(chi^2_nu, 1 - p) / median(chi^2_nu),
 Corrugation raises fewer neighbouring bands than that, or longer waves, and stays.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -42,6 +41,8 @@ LEAST = 1e-10
 """Power in a band over that of the differences of all points: with less the windows leak."""
 LONGEST = 3
 """Bands from which a burst is carried on to those of longer waves than windows have."""
+LITTLE = 0.25
+"""Share of a burst in the power of a band of such waves, at the most, of which it is known."""
 MOST_OF_LINE = 1 / 3
 """Of the windows: beyond, the others are too few to tell what a burst changes."""
 
@@ -98,6 +99,22 @@ class Windows:
                 found[:, first + i : first + i + count] |= over[:, i : i + count].all(axis=1, keepdims=True)
         return found
 
+    @property
+    def excess(self) -> FloatArray:
+        """Mean square of each window that is part of a burst, over the median in the bands of the burst [m^2].
+
+        Windows beside them are part of it as far as their powers there are more than half of `NATURAL` of the median, in
+        the geometric mean.
+        """
+        raised, usual = self.raised, np.maximum(np.median(self.powers, axis=0), self.floor)
+        bands, inside = raised.any(axis=0), raised.any(axis=1)
+        if not inside.any():
+            return np.zeros(inside.size)
+        ratio = np.log(np.maximum(self.powers, 1e-300) / np.maximum(usual, 1e-300))[:, bands]
+        number, _ = scipy.ndimage.label(inside | (ratio.mean(axis=1) > np.log(NATURAL / 2)))
+        burst = np.isin(number, number[inside])
+        return np.where(burst, np.maximum(self.powers - usual, 0.0)[:, bands].sum(axis=1), 0.0)
+
     def _over(self, p: float) -> NDArray[np.bool_]:
         """Bands of windows with more power than a part as rough as `NATURAL` has but for a probability."""
         chi2 = scipy.stats.chi2
@@ -120,22 +137,34 @@ def _bands(window: float, spacing: float) -> NominalBands | None:
     return bands if len(bands) >= NEIGHBOURS else None
 
 
-def bursts_of(line: FloatArray, spacing: float, sensor: float) -> tuple[Outlier, ...]:
-    """Of a line without other outliers [m], in the order of their places; their size is the rms of what is raised."""
+def bursts_of(line: FloatArray, measured: FloatArray, spacing: float, sensor: float) -> tuple[Outlier, ...]:
+    """Of a line without other outliers [m], in the order of their places; their size is the rms of what is raised.
+
+    measured: the same line with its spikes and pits [m], many of which may be those of a burst: it goes as far as they
+    raise the windows beside it.
+    """
+    square = _squares(line, spacing, sensor)
+    if not square.any():
+        return ()
+    both = np.maximum(square, _squares(measured, spacing, sensor))
+    number, count = scipy.ndimage.label(both > 0)
+    found = []
+    for i, (part,) in enumerate(scipy.ndimage.find_objects(number, count)):
+        if square[number == i + 1].any():
+            found.append(Outlier("burst", part.start, part.stop - 1, float(np.sqrt(both[part].max()))))
+    return tuple(found)
+
+
+def _squares(line: FloatArray, spacing: float, sensor: float) -> FloatArray:
+    """`Windows.excess` of the windows of a point, the largest [m^2]."""
     square = np.zeros(line.size)
     for parts in PARTS:
         if (windows := Windows.of(line, spacing, sensor, parts)) is not None:
-            excess = np.where(windows.raised, windows.powers - np.median(windows.powers, axis=0), 0.0).sum(axis=1)
+            excess = windows.excess
             for i in np.flatnonzero(excess):
                 inside = slice(windows.starts[i], windows.starts[i] + windows.points + 1)
                 square[inside] = np.maximum(square[inside], excess[i])
-    return tuple(_parts(square))
-
-
-def _parts(square: FloatArray) -> Iterator[Outlier]:
-    ends = np.flatnonzero(np.diff(np.concatenate([[0], (square > 0).astype(np.int8), [0]]))).reshape(-1, 2)
-    for first, behind in ends.tolist():
-        yield Outlier("burst", first, behind - 1, float(np.sqrt(square[first:behind].max())))
+    return square
 
 
 def left_by_bursts(
@@ -146,8 +175,8 @@ def left_by_bursts(
     R_b - 1, where R_b is the mean of P_wb with the weight of each window in the spectrum of the whole line, sin^4, over
     that of windows without bursts. Its standard deviation is that of P_wb among these, or sqrt(2 / nu) of P_wb where it
     is larger, times the root of the sum of the squares of the differences of both weights. In bands of longer waves
-    than windows have, the burst is taken for white noise with the density of the `LONGEST` that they have, with
-    no more than the largest R_b of these, and this is its own half-width. To this come the products of waves of both, 2 sqrt(4 (R_b - 1) / nu)
+    than windows have, the burst is taken for noise of the mean power in the `LONGEST` that they have, which is
+    its own half-width; where this is more than `LITTLE` of a band, R_b is the largest of these. To this come the products of waves of both, 2 sqrt(4 (R_b - 1) / nu)
     of a band of the whole line.
 
     Raises ValueError for a line in which no burst can be, or that has nothing else.
@@ -161,13 +190,14 @@ def left_by_bursts(
     without = np.maximum(rest @ windows.powers, 1e-300)
     scatter = np.maximum(windows.powers[~inside].std(axis=0) / without, np.sqrt(2 / windows.freedom))
     ratio = np.maximum(all_of_it @ windows.powers / without - 1, 0.0)
-    density = float(np.mean((ratio * without / np.diff(windows.bands.edges))[:LONGEST]))
-    own, width = bands.powers_of_records(line, spacing=spacing), np.diff(bands.edges)
-    added = density * width / np.maximum(own - density * width, own / (1 + ratio[:LONGEST].max()))
-    half_width = added.copy()
+    own, most = bands.powers_of_records(line, spacing=spacing), float(ratio[:LONGEST].max())
+    share = float(np.mean((ratio * without)[:LONGEST])) / own
+    little = share < LITTLE
+    added = np.where(little, share / (1 - np.minimum(share, LITTLE)), most)
+    half_width = np.where(little, added, 0.0)
     shorter = np.searchsorted(-np.array(bands.numbers), -windows.bands.longest)
     known = slice(max(0, windows.bands.longest - bands.longest), None)
     added[shorter:] = ratio[known][: len(bands) - shorter]
     half_width[shorter:] = 2 * (scatter * np.sqrt(np.sum((all_of_it - rest) ** 2)))[known][: len(bands) - shorter]
-    freedom = np.maximum(2 / OF_HANN * width / (2 * np.pi) * line.size * spacing, 1.0)
+    freedom = np.maximum(2 / OF_HANN * np.diff(bands.edges) / (2 * np.pi) * line.size * spacing, 1.0)
     return added, half_width + 4 * np.sqrt(added / freedom)

@@ -69,7 +69,7 @@ class EditedLine:
         solid = interpolated(height, points_of(runs, height.size))
         smooth, high = without_outliers(solid, spacing, sensor)
         clean, steps = without_steps(smooth, spacing, sensor)
-        if bursts := bursts_of(clean, spacing, sensor):
+        if bursts := bursts_of(clean, clean + solid - smooth, spacing, sensor):
             noisy = points_of(bursts, height.size)
             high = tuple(one for one in high if not noisy[one.first : one.last + 1].any())
             clean, steps = without_steps(np.where(points_of(high, height.size), smooth, solid), spacing, sensor)
