@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from validation.analysis.nominal_bands import NominalBands
 from validation.analysis.statistics import FloatArray
 from validation.scenes.line_bursts import MOST_OF_LINE, bursts_of, left_by_bursts
-from validation.scenes.line_outliers import Outlier, interpolated, sensor_step, without_outliers
+from validation.scenes.line_outliers import WIDE, Outlier, interpolated, sensor_step, without_outliers
 from validation.scenes.line_steps import DRIFTS, MOST_STEPS, drift_of, points_of, runs_of, without_steps
 from validation.scenes.units import in_unit
 
@@ -84,7 +84,10 @@ class EditedLine:
     @property
     def replaced(self) -> NDArray[np.bool_]:
         """Points with a straight line in their place."""
-        return points_of(tuple(one for one in self.outliers if one.kind not in MOVED), self.height.size)
+        points = points_of(tuple(one for one in self.outliers if one.kind not in MOVED), self.height.size)
+        for step in self.of_kind("step"):
+            points[step.first + 1 : step.last] = True
+        return points
 
     def of_kind(self, kind: str) -> list[Outlier]:
         return [one for one in self.outliers if one.kind == kind]
@@ -155,12 +158,14 @@ class EditedLine:
 
     @property
     def _missed(self) -> FloatArray:
-        """As much as may not have been found: outliers that barely were, and a share of others, as low as these."""
+        """As much as may not have been found: as many wide outliers and those that barely were, and a share of the others,
+        as low as is just found."""
         missed = np.zeros_like(self.clean)
         for one in self.outliers:
             if one.kind in ("spike", "pit", "dropout"):
                 inside = slice(one.first, one.last + 1)
-                share = 1.0 if one.margin < BARELY else math.sqrt(MISSED)
+                wide = (one.last - one.first) * self.spacing > 2 * WIDE
+                share = 1.0 if wide or one.margin < BARELY else math.sqrt(MISSED)
                 missed[inside] = (self.height - self.clean)[inside] * share / max(1.0, one.margin)
         return missed
 
