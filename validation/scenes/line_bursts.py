@@ -25,8 +25,9 @@ PARTS = 20, 80
 """Of a line that are as long as a window; what is left by a burst is known from the longer ones."""
 FEWEST_POINTS, FEWEST_WINDOWS = 100, 12
 """Of a window, and of a line: with fewer no burst is looked for."""
-WAVES = 2
-"""Of a window in a band, at the least."""
+WAVES, FEWEST_WAVES = 4, 2
+"""Of a window in a band, at the least: where a burst is looked for, since those of a corrugation leak into the bands
+beside it, and where what a burst adds is found."""
 OF_HANN = 35 / 18
 """Waves over independent ones: the mean of the fourth power of Hann's window over the square of that of the second."""
 NATURAL = 4.0
@@ -62,8 +63,8 @@ class Windows:
     floor: FloatArray
 
     @classmethod
-    def of(cls, line: FloatArray, spacing: float, sensor: float, parts: int) -> "Windows | None":
-        """None where a line is too short. sensor: the step to which it was rounded [m].
+    def of(cls, line: FloatArray, spacing: float, sensor: float, parts: int, waves: int = WAVES) -> "Windows | None":
+        """None where a line is too short. sensor: the step to which it was rounded [m]; waves: in a band.
 
         Spectra are those of the differences of neighbours, which hardly leak, over |2 sin(q spacing / 2)|^2.
         """
@@ -75,13 +76,13 @@ class Windows:
         steps = steps - steps.mean()
         window = np.sin(np.pi * (np.arange(points) + 0.5) / points) ** 2 * np.sqrt(8 / 3)
         cut = np.lib.stride_tricks.sliding_window_view(steps, points)[starts]
-        waves = 2 * np.abs(np.fft.rfft(window * cut, axis=1)[:, 1:] / points) ** 2
-        response = (2 * np.sin(np.pi * np.arange(1, waves.shape[1] + 1) / points)) ** 2
-        bands = _bands(points * spacing, spacing)
+        squares = 2 * np.abs(np.fft.rfft(window * cut, axis=1)[:, 1:] / points) ** 2
+        response = (2 * np.sin(np.pi * np.arange(1, squares.shape[1] + 1) / points)) ** 2
+        bands = _bands(points * spacing, spacing, waves)
         if bands is None:
             return None
-        ends = np.searchsorted(2 * np.pi * np.arange(1, waves.shape[1] + 1) / (points * spacing), bands.edges)
-        summed = np.cumsum(np.concatenate([np.zeros((starts.size, 1)), waves / response], axis=1), axis=1)
+        ends = np.searchsorted(2 * np.pi * np.arange(1, squares.shape[1] + 1) / (points * spacing), bands.edges)
+        summed = np.cumsum(np.concatenate([np.zeros((starts.size, 1)), squares / response], axis=1), axis=1)
         count = np.diff(ends)
         leaks = np.diff(np.cumsum(np.append(0.0, 1 / response))[ends]) * LEAST * float(steps.var())
         rounding = sensor**2 / 12 * count * 2 / points
@@ -127,14 +128,14 @@ class Windows:
         return np.any([(self.starts <= one.last) & (ends > one.first) for one in bursts], axis=0)
 
 
-def _bands(window: float, spacing: float) -> NominalBands | None:
-    """One-third octaves of `WAVES` waves in a window and of 2.5 points a wave, at the least; None for too few."""
+def _bands(window: float, spacing: float, waves: int) -> NominalBands | None:
+    """One-third octaves of so many waves in a window and of 2.5 points a wave, at the least; None for too few."""
     share = 10**0.05 - 10**-0.05
     try:
-        bands = NominalBands().within(min(2.0, window * share / WAVES), max(10 ** (SHORTEST / 10), 2.5 * spacing))
+        bands = NominalBands().within(min(2.0, window * share / waves), max(10 ** (SHORTEST / 10), 2.5 * spacing))
     except ValueError:
         return None
-    return bands if len(bands) >= NEIGHBOURS else None
+    return bands if len(bands) >= OF_SHORT else None
 
 
 def bursts_of(line: FloatArray, measured: FloatArray, spacing: float, sensor: float) -> tuple[Outlier, ...]:
@@ -181,7 +182,7 @@ def left_by_bursts(
 
     Raises ValueError for a line in which no burst can be, or that has nothing else.
     """
-    windows = Windows.of(line, spacing, 0.0, PARTS[0])
+    windows = Windows.of(line, spacing, 0.0, PARTS[0], FEWEST_WAVES)
     if windows is None or (inside := windows.touched(bursts)).all():
         raise ValueError(f"bursts must be those of a part of the line, got {len(bursts)} in {line.size} points")
     at = (windows.starts + windows.points / 2) / line.size
