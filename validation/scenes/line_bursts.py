@@ -42,8 +42,12 @@ LEAST = 1e-10
 """Power in a band over that of the differences of all points: with less the windows leak."""
 LONGEST = 3
 """Bands from which a burst is carried on to those of longer waves than windows have."""
+OF_WHITE = 10**-0.3
+"""Power of white noise in so many bands over that in as many of shorter waves."""
 LITTLE = 0.25
 """Share of a burst in the power of a band of such waves, at the most, of which it is known."""
+MOSTLY = 0.5
+"""Of the points of a burst that are spikes and pits, from which on it is one without those that are left."""
 MOST_OF_LINE = 1 / 3
 """Of the windows: beyond, the others are too few to tell what a burst changes."""
 
@@ -142,16 +146,16 @@ def bursts_of(line: FloatArray, measured: FloatArray, spacing: float, sensor: fl
     """Of a line without other outliers [m], in the order of their places; their size is the rms of what is raised.
 
     measured: the same line with its spikes and pits [m], many of which may be those of a burst: it goes as far as they
-    raise the windows beside it.
+    raise the windows beside it, and where most of its points are replaced it is a burst without these.
     """
-    square = _squares(line, spacing, sensor)
-    if not square.any():
+    square, replaced = _squares(line, spacing, sensor), line != measured
+    if not square.any() and replaced.mean() < 0.5 / PARTS[1]:
         return ()
     both = np.maximum(square, _squares(measured, spacing, sensor))
     number, count = scipy.ndimage.label(both > 0)
     found = []
     for i, (part,) in enumerate(scipy.ndimage.find_objects(number, count)):
-        if square[number == i + 1].any():
+        if square[part].any() or replaced[part].mean() > MOSTLY:
             found.append(Outlier("burst", part.start, part.stop - 1, float(np.sqrt(both[part].max()))))
     return tuple(found)
 
@@ -176,8 +180,8 @@ def left_by_bursts(
     R_b - 1, where R_b is the mean of P_wb with the weight of each window in the spectrum of the whole line, sin^4, over
     that of windows without bursts. Its standard deviation is that of P_wb among these, or sqrt(2 / nu) of P_wb where it
     is larger, times the root of the sum of the squares of the differences of both weights. In bands of longer waves
-    than windows have, the burst is taken for noise of the mean power in the `LONGEST` that they have, which is
-    its own half-width; where this is more than `LITTLE` of a band, R_b is the largest of these. To this come the products of waves of both, 2 sqrt(4 (R_b - 1) / nu)
+    than windows have, the burst is taken for noise whose power falls from band to band as in the longest that they
+    have, no faster than that of white noise; it is its own half-width; where this is more than `LITTLE` of a band, R_b is the largest of these. To this come the products of waves of both, 2 sqrt(4 (R_b - 1) / nu)
     of a band of the whole line.
 
     Raises ValueError for a line in which no burst can be, or that has nothing else.
@@ -192,7 +196,10 @@ def left_by_bursts(
     scatter = np.maximum(windows.powers[~inside].std(axis=0) / without, np.sqrt(2 / windows.freedom))
     ratio = np.maximum(all_of_it @ windows.powers / without - 1, 0.0)
     own, most = bands.powers_of_records(line, spacing=spacing), float(ratio[:LONGEST].max())
-    share = float(np.mean((ratio * without)[:LONGEST])) / own
+    power = [max(float(np.mean((ratio * without)[i : i + LONGEST])), 1e-300) for i in (0, LONGEST)]
+    fall = min(max(power[0] / power[1], OF_WHITE), 1.0) if len(ratio) > LONGEST else 1.0
+    beyond = np.maximum(np.array(bands.numbers) - windows.bands.longest + LONGEST // 2, 0)
+    share = power[0] * fall ** (beyond / LONGEST) / own
     little = share < LITTLE
     added = np.where(little, share / (1 - np.minimum(share, LITTLE)), most)
     half_width = np.where(little, added, 0.0)
