@@ -114,7 +114,7 @@ FAULTS = [
     Fault("bands compared as if they had no scatter").at(
         line_bursts.Windows, "_over", lambda windows, p: windows.powers > np.median(windows.powers, axis=0)
     ),
-    test_line_bursts.test_a_burst_over_a_fortieth_of_a_line_is_named,
+    test_line_bursts.test_a_burst_over_an_eightieth_of_a_line_is_named,
     Fault("long windows alone").at(line_bursts, "PARTS", (20,)),
     test_line_bursts.test_what_a_burst_adds_is_that_of_its_part_of_a_white_line,
     Fault("what a burst adds over all windows, and not over those without it").at(
@@ -126,6 +126,6 @@ FAULTS = [
     Fault("a burst all of whose points are spikes").at(line_edits, "bursts_of", where_it_is_raised),
     partial(test_line_bursts.test_a_step_with_a_flank_in_a_corrugated_line_is_named, 14),
     Fault("steps that corrugation hides").at(line_steps, "_hidden_step", lambda *_: None),
-    partial(test_line_bursts.test_wide_shallow_pits_are_named, 120),
-    Fault("pits wider than 64 mm that are not seen").at(line_outliers, "DISTANCES", line_outliers.DISTANCES[:10]),
+    partial(test_line_bursts.test_wide_shallow_pits_are_named, 180),
+    Fault("pits wider than 0.1 m that are not seen").at(line_outliers, "DISTANCES", line_outliers.DISTANCES[:10]),
 ]

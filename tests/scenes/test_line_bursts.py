@@ -38,6 +38,12 @@ def kinds(line, spacing=1e-3):
     return [one.kind for one in EditedLine.of(UM * line, spacing).outliers]
 
 
+def the_burst(height):
+    bursts = EditedLine.of(height, 1e-3).of_kind("burst")
+    assert len(bursts) == 1
+    return bursts[0]
+
+
 BURSTS = [(colour, rms) for colour in ("white", "blue", "ground") for rms in (1.0, 5.0, 60.0)]
 
 
@@ -46,7 +52,7 @@ def test_a_burst_is_named_where_it_is_and_is_in_the_error(colour, rms):
     for seed in (21, 22):
         height = UM * noisy(colour, rms, seed)
         found = lines(height)
-        (burst,) = EditedLine.of(height, 1e-3).of_kind("burst")
+        burst = the_burst(height)
         # windows are a twentieth of the line
         assert abs(burst.first - FIRST) < 620 and abs(burst.last - LAST) < 620
         assert burst.size == pytest.approx(UM * rms, rel=0.5)
@@ -64,11 +70,11 @@ def test_a_burst_on_other_lines_is_named(base):
     assert "burst" in kinds(noisy("white", 5.0, 4, line))
 
 
-def test_a_burst_over_a_fortieth_of_a_line_is_named():
-    line = rail(5)
-    line[7000:7300] += 3.0 * np.random.default_rng(5).standard_normal(300)
-    (burst,) = EditedLine.of(UM * line, 1e-3).of_kind("burst")
-    assert burst.first <= 7050 and burst.last >= 7250
+def test_a_burst_over_an_eightieth_of_a_line_is_named():
+    line = rail(6)
+    line[7000:7150] += 1.5 * np.random.default_rng(6).standard_normal(150)
+    burst = the_burst(UM * line)
+    assert burst.first <= 7025 and burst.last >= 7125
 
 
 def test_spikes_of_a_burst_are_part_of_it_and_others_are_not():
@@ -86,7 +92,7 @@ def parts(seed, factor):
 
 @pytest.mark.parametrize("factor", [0.5, 2.0])
 def test_a_part_that_is_twice_as_rough_is_no_burst(factor):
-    for seed in range(6):
+    for seed in range(3):
         assert kinds(parts(seed, factor)) == []
 
 
@@ -141,7 +147,7 @@ def test_a_note_on_a_burst_has_its_size_length_and_place_and_says_what_to_do():
     found = edited(UM * noisy("white", 5.0, 21)[:, np.newaxis], 1e-3)
     (note,) = found.notes([0.0])
     assert note.startswith("the line has 1 burst of noise of ") and "rms in short waves, up to " in note
-    assert " long, at 2" in note and "measure that part again, or cut it out" in note
+    assert " long, at 2" in note and "measure it again, or cut it out" in note
 
 
 def test_a_burst_that_is_kept_is_in_the_error_as_one_that_is_not():
@@ -159,6 +165,7 @@ def test_a_step_with_a_flank_in_a_corrugated_line_is_named(flank):
         line = clean + 150.0 * np.interp(np.arange(POINTS), [6000, 6000 + flank], [0.0, 1.0])
         found = lines(UM * line)
         steps = EditedLine.of(UM * line, 1e-3).of_kind("step")
+        assert steps
         assert min(one.first for one in steps) <= 6000 + flank // 2 <= max(one.last for one in steps)
         assert all(5970 < one.first < one.last < 6050 for one in steps)
         assert sum(one.size for one in steps) == pytest.approx(150e-6, rel=0.2)
@@ -166,7 +173,7 @@ def test_a_step_with_a_flank_in_a_corrugated_line_is_named(flank):
         assert np.max(off - np.array(found.levels.errors)) < 0.5
 
 
-@pytest.mark.parametrize("wide", [50, 80, 120])
+@pytest.mark.parametrize("wide", [50, 100, 180])
 def test_wide_shallow_pits_are_named(wide):
     for seed in (1, 2, 3):
         clean = rail(seed)

@@ -108,8 +108,8 @@ class Windows:
     def excess(self) -> FloatArray:
         """Mean square of each window that is part of a burst, over the median in the bands of the burst [m^2].
 
-        Windows beside them are part of it as far as their powers there are more than half of `NATURAL` of the median, in
-        the geometric mean.
+        Windows beside them are part of it as far as their powers there are more than half of `NATURAL` of the median,
+        in the geometric mean.
         """
         raised, usual = self.raised, np.maximum(np.median(self.powers, axis=0), self.floor)
         bands, inside = raised.any(axis=0), raised.any(axis=1)
@@ -129,7 +129,7 @@ class Windows:
     def touched(self, bursts: tuple[Outlier, ...]) -> NDArray[np.bool_]:
         """Windows that have points of bursts."""
         ends = self.starts + self.points
-        return np.any([(self.starts <= one.last) & (ends > one.first) for one in bursts], axis=0)
+        return np.asarray(np.any([(self.starts <= one.last) & (ends > one.first) for one in bursts], axis=0))
 
 
 def _bands(window: float, spacing: float, waves: int) -> NominalBands | None:
@@ -149,12 +149,12 @@ def bursts_of(line: FloatArray, measured: FloatArray, spacing: float, sensor: fl
     raise the windows beside it, and where most of its points are replaced it is a burst without these.
     """
     square, replaced = _squares(line, spacing, sensor), line != measured
-    if not square.any() and replaced.mean() < 0.5 / PARTS[1]:
+    if not square.any() and replaced.mean() < MOSTLY / max(PARTS):
         return ()
     both = np.maximum(square, _squares(measured, spacing, sensor))
     number, count = scipy.ndimage.label(both > 0)
     found = []
-    for i, (part,) in enumerate(scipy.ndimage.find_objects(number, count)):
+    for (part,) in scipy.ndimage.find_objects(number, count):
         if square[part].any() or replaced[part].mean() > MOSTLY:
             found.append(Outlier("burst", part.start, part.stop - 1, float(np.sqrt(both[part].max()))))
     return tuple(found)
@@ -179,9 +179,11 @@ def left_by_bursts(
 
     R_b - 1, where R_b is the mean of P_wb with the weight of each window in the spectrum of the whole line, sin^4, over
     that of windows without bursts. Its standard deviation is that of P_wb among these, or sqrt(2 / nu) of P_wb where it
-    is larger, times the root of the sum of the squares of the differences of both weights. In bands of longer waves
-    than windows have, the burst is taken for noise whose power falls from band to band as in the longest that they
-    have, no faster than that of white noise; it is its own half-width; where this is more than `LITTLE` of a band, R_b is the largest of these. To this come the products of waves of both, 2 sqrt(4 (R_b - 1) / nu)
+    is larger, times the root of the sum of the squares of the differences of both weights.
+
+    In bands of longer waves than windows have, the burst is taken for noise whose power falls from band to band as in
+    the longest that they have, no faster than that of white noise; it is its own half-width. Where this is more than
+    `LITTLE` of a band, R_b is the largest of these. To all come the products of waves of both, 2 sqrt(4 (R_b - 1) / nu)
     of a band of the whole line.
 
     Raises ValueError for a line in which no burst can be, or that has nothing else.

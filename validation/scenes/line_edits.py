@@ -158,8 +158,10 @@ class EditedLine:
 
     @property
     def _missed(self) -> FloatArray:
-        """As much as may not have been found: as many wide outliers and those that barely were, and a share of the others,
-        as low as is just found."""
+        """As much as may not have been found, as low as is just found.
+
+        As many as there are of wide outliers and of those that barely were found, and a share of the others.
+        """
         missed = np.zeros_like(self.clean)
         for one in self.outliers:
             if one.kind in ("spike", "pit", "dropout"):
@@ -240,7 +242,7 @@ class LineEdits:
         if self.outliers == "keep":
             return "kept, as asked by outliers, and the error of each band has what they change"
         if kind == "burst":
-            return "left as measured, and the error of each band has what this adds: measure that part again, or cut it out"
+            return "left as measured, and the error of each band has what this adds: measure it again, or cut it out"
         done = {"step": "the part behind is moved", "drift": "subtracted"}.get(kind, "replaced by straight lines")
         return f'{done}, and the error of each band has what this leaves; outliers = "keep" leaves them in'
 

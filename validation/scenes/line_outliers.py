@@ -110,8 +110,8 @@ def without_outliers(line: FloatArray, spacing: float, sensor: float) -> tuple[F
 class _Prominent:
     """Of each point of a line: its height over both sides where it stands out, zero elsewhere [m].
 
-    by_distance: the same for each distance; distances: in points; scales: of the line at each of these [m]; least: prominence
-    over them of what stands out.
+    by_distance: the same for each distance; distances: in points; scales: of the line at each of these [m]; least:
+    prominence over them of what stands out.
     """
 
     line: FloatArray

@@ -93,7 +93,10 @@ def without_steps(line: FloatArray, spacing: float, sensor: float) -> tuple[Floa
     sensor: the step to which the line was rounded as it was measured [m].
     """
     found, clean = list[Outlier](), line
-    while len(found) < MOST_STEPS and (one := _largest_step(clean, spacing, sensor) or _hidden_step(clean, spacing, sensor)) is not None:
+    while len(found) < MOST_STEPS:
+        one = _largest_step(clean, spacing, sensor) or _hidden_step(clean, spacing, sensor)
+        if one is None:
+            break
         moved = clean.copy()
         moved[one.last :] -= one.size
         between = np.zeros(line.size, dtype=bool)
@@ -126,7 +129,7 @@ def _largest_step(line: FloatArray, spacing: float, sensor: float) -> Outlier | 
 
 
 def _hidden_step(line: FloatArray, spacing: float, sensor: float) -> Outlier | None:
-    """One that corrugation hides: it stands out of the differences of the means over `MEAN` to both sides of a flank."""
+    """One that corrugation hides: it stands out of differences of the means over `MEAN` to both sides of a flank."""
     apart, mean = APART[-1], round(MEAN / spacing)
     if mean <= LASTS or line.size < 4 * (apart + 2 * mean):
         return None
@@ -147,7 +150,9 @@ def _hidden_step(line: FloatArray, spacing: float, sensor: float) -> Outlier | N
         if rise.max() >= AS_HIGH * abs(size):
             break
     first = max(i + int(rise.argmax()) - apart // 4, 0)
-    return Outlier("step", first, min(first + apart + 2 * (apart // 4), line.size - 1), size, spread=2 * float(scale[i]))
+    return Outlier(
+        "step", first, min(first + apart + 2 * (apart // 4), line.size - 1), size, spread=2 * float(scale[i])
+    )
 
 
 def drift_of(line: FloatArray) -> tuple[FloatArray, float]:
