@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -10,7 +11,8 @@ from numpy.typing import NDArray
 
 from validation.analysis.nominal_bands import NominalBands
 from validation.analysis.statistics import FloatArray
-from validation.railway.scenes.line_outliers import Outlier, interpolated, sensor_step, without_outliers
+from validation.railway.scenes.line_bursts import MOST_OF_LINE, bursts_of, left_by_bursts
+from validation.railway.scenes.line_outliers import WIDE, Outlier, interpolated, sensor_step, without_outliers
 from validation.railway.scenes.line_steps import DRIFTS, MOST_STEPS, drift_of, points_of, runs_of, without_steps
 from validation.scenes.units import in_unit
 
@@ -25,8 +27,8 @@ OF_SHIFTS, WIDER = 1.5, 4
 """
 BARELY, MISSED = 1.5, 0.1
 """Margin of outliers below which as many again may have been missed; share of the others that is."""
-MOVED = ("step", "drift")
-"""Kinds that leave all points where they are, but for a height."""
+MOVED = ("step", "drift", "burst")
+"""Kinds that leave all points where they are, but for a height; a burst is left as it was measured."""
 DROPOUT, LEAST_DROPOUT = 3.0, 0.3e-3
 """Height of a dropout over the span of all else, and in metres, at the least: nothing on a rail is so high."""
 SHOWN = 30
@@ -39,6 +41,7 @@ KINDS = {
     "clipping": ("clipped part", "clipped parts"),
     "step": ("step", "steps"),
     "drift": ("drift", "drifts"),
+    "burst": ("burst of noise", "bursts of noise"),
 }
 """One and several of a kind."""
 
@@ -56,26 +59,35 @@ class EditedLine:
     def of(cls, height: FloatArray, spacing: float) -> "EditedLine":
         """Runs and clipped parts are taken out first, then spikes and pits, then steps, which neither of them is.
 
-        Where too much of a line is gone, the rest is left as it is.
+        Bursts of noise come last; spikes and pits in them are part of them. Where too much of a line is gone, the rest
+        is left as it is.
         """
         runs = runs_of(height)
         if (first := cls(height, height, runs, spacing)).unknown:
             return first
         sensor = sensor_step(height)
-        clean, high = without_outliers(interpolated(height, points_of(runs, height.size)), spacing, sensor)
-        clean, steps = without_steps(clean, spacing, sensor)
+        solid = interpolated(height, points_of(runs, height.size))
+        smooth, high = without_outliers(solid, spacing, sensor)
+        clean, steps = without_steps(smooth, spacing, sensor)
+        if bursts := bursts_of(clean, clean + solid - smooth, spacing, sensor):
+            noisy = points_of(bursts, height.size)
+            high = tuple(one for one in high if not noisy[one.first : one.last + 1].any())
+            clean, steps = without_steps(np.where(points_of(high, height.size), smooth, solid), spacing, sensor)
         far, middle = max(DROPOUT * float(np.ptp(clean)), LEAST_DROPOUT), float(np.median(clean))
         named = [_named(one, abs(one.size) > far) for one in high]
         named += [_named(one, one.kind == "run" and abs(one.size - middle) > far) for one in runs]
         bend, over_rest = drift_of(clean)
         drift = [Outlier("drift", 0, clean.size - 1, float(np.ptp(bend)))] if over_rest > DRIFTS else []
-        found = (*drift, *steps, *sorted(named, key=lambda one: one.first))
+        found = (*drift, *bursts, *steps, *sorted(named, key=lambda one: one.first))
         return cls(height, clean - bend if drift else clean, found, spacing)
 
     @property
     def replaced(self) -> NDArray[np.bool_]:
         """Points with a straight line in their place."""
-        return points_of(tuple(one for one in self.outliers if one.kind not in MOVED), self.height.size)
+        points = points_of(tuple(one for one in self.outliers if one.kind not in MOVED), self.height.size)
+        for step in self.of_kind("step"):
+            points[step.first + 1 : step.last] = True
+        return points
 
     def of_kind(self, kind: str) -> list[Outlier]:
         return [one for one in self.outliers if one.kind == kind]
@@ -89,6 +101,8 @@ class EditedLine:
             return f"clipped at {ends} in {100 * clipped:.3g} % of its points"
         if (share := self.replaced.mean()) > MOST_REPLACED:
             return f"none of a rail in {100 * share:.3g} % of its points"
+        if (share := points_of(tuple(self.of_kind("burst")), self.height.size).mean()) > MOST_OF_LINE:
+            return f"noisy in {100 * share:.3g} % of its points"
         steps = len(self.of_kind("step"))
         return f"broken by {steps} steps or more" if steps >= MOST_STEPS else ""
 
@@ -96,12 +110,10 @@ class EditedLine:
         """Half-width of 95 % of the mean squares in bands that the removal leaves [m^2].
 
         Each added linearly: `OF_SHIFTS` times the most that straight lines as many and as wide change elsewhere along
-        the line; what changes where each outlier is taken for wider; what was missed; the spread of each step.
+        the line; what changes where each outlier is taken for wider; what was missed; the spread of each step;
+        the half-width of what bursts add.
         """
-
-        def powers(line: FloatArray) -> FloatArray:
-            return np.asarray(bands.powers_of_records(line[np.newaxis], spacing=self.spacing)[0])
-
+        powers = partial(self._powers, bands)
         own, replaced = powers(self.clean), self.replaced
         found = np.zeros(len(bands))
         if replaced.any():
@@ -114,12 +126,25 @@ class EditedLine:
             found += residue + 2 * np.sqrt(residue * own)
         if self.of_kind("drift"):
             found += np.abs(powers(self.clean + drift_of(self.height)[0]) - own)
+        if bursts := tuple(self.of_kind("burst")):
+            added, half_width = left_by_bursts(self.clean, self.spacing, bursts, bands)
+            found += own / (1 + added) * half_width
         return found
+
+    def of_bursts(self, bands: NominalBands) -> FloatArray:
+        """What bursts of noise, which are left in, add to the mean squares in bands [m^2]."""
+        bursts = tuple(self.of_kind("burst"))
+        if not bursts:
+            return np.zeros(len(bands))
+        added, _ = left_by_bursts(self.clean, self.spacing, bursts, bands)
+        return self._powers(bands, self.clean) * added / (1 + added)
 
     def kept(self, bands: NominalBands) -> FloatArray:
         """What outliers that are kept change in the mean squares in bands [m^2]."""
-        both = bands.powers_of_records(np.array([self.height, self.clean]), spacing=self.spacing)
-        return np.asarray(both[0] - both[1])
+        return self._powers(bands, self.height) - self._powers(bands, self.clean)
+
+    def _powers(self, bands: NominalBands, line: FloatArray) -> FloatArray:
+        return np.asarray(bands.powers_of_records(line, spacing=self.spacing))
 
     @property
     def _wider(self) -> NDArray[np.bool_]:
@@ -133,12 +158,16 @@ class EditedLine:
 
     @property
     def _missed(self) -> FloatArray:
-        """As much as may not have been found: outliers that barely were, and a share of others, as low as these."""
+        """As much as may not have been found, as low as is just found.
+
+        As many as there are of wide outliers and of those that barely were found, and a share of the others.
+        """
         missed = np.zeros_like(self.clean)
         for one in self.outliers:
             if one.kind in ("spike", "pit", "dropout"):
                 inside = slice(one.first, one.last + 1)
-                share = 1.0 if one.margin < BARELY else math.sqrt(MISSED)
+                wide = (one.last - one.first) * self.spacing > 2 * WIDE
+                share = 1.0 if wide or one.margin < BARELY else math.sqrt(MISSED)
                 missed[inside] = (self.height - self.clean)[inside] * share / max(1.0, one.margin)
         return missed
 
@@ -172,9 +201,9 @@ class LineEdits:
             return ()
         total = powers.sum(axis=0)
         change = np.sum([line.change(bands) for _, line in self.lines], axis=0)
-        if self.outliers == "remove":
-            return tuple((10 * np.log10(1 + change / total)).tolist())
-        kept = np.sum([line.kept(bands) for _, line in self.lines], axis=0)
+        kept = np.sum([line.of_bursts(bands) for _, line in self.lines], axis=0)
+        if self.outliers == "keep":
+            kept = kept + np.sum([line.kept(bands) for _, line in self.lines], axis=0)
         clean = np.maximum(total - kept, 1e-300)
         return tuple((np.abs(10 * np.log10(total / clean)) + 10 * np.log10(1 + change / clean)).tolist())
 
@@ -212,6 +241,8 @@ class LineEdits:
             return "left as measured"
         if self.outliers == "keep":
             return "kept, as asked by outliers, and the error of each band has what they change"
+        if kind == "burst":
+            return "left as measured, and the error of each band has what this adds: measure it again, or cut it out"
         done = {"step": "the part behind is moved", "drift": "subtracted"}.get(kind, "replaced by straight lines")
         return f'{done}, and the error of each band has what this leaves; outliers = "keep" leaves them in'
 
@@ -226,6 +257,8 @@ def _sizes(kind: str, those: list[Outlier], spacing: float) -> str:
     if kind in ("run", "clipping"):
         return f" at {' to '.join(ends)}, up to {wide} long,"
     of = " to ".join(ends)
+    if kind == "burst":
+        return f" of {of} rms in short waves, up to {wide} long,"
     return f" of {of}" if kind == "step" else f" of {of}, up to {wide} wide,"
 
 

@@ -16,7 +16,10 @@ from validation.analysis.statistics import FloatArray
 STANDS_OUT = 6.5
 """Prominence of an outlier over the scale of the line. The largest of 420 clean lines of 15000 points is 5.1: smooth,
 rough, corrugated, of Hurst exponents 0.3 to 1, as they are and rounded to 0.1 and 1 um."""
-DISTANCES = 1e-3 * np.array([1, 2, 3, 4, 6, 8, 12, 16, 24, 32])
+WIDE, OF_WIDE = 12e-3, 0.85
+"""Distance [m] beyond which so much of that stands out: a line of 50 m has some 1e4 such places, and normal heights are
+as far out with a probability of 4e-8 each."""
+DISTANCES = 1e-3 * np.array([1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96])
 """To both sides [m]: wider than the last is a wave, and no outlier."""
 STRETCH, PERIODS = 0.3, 30
 """Of a line that has one scale: metres, and distances, at the least."""
@@ -107,7 +110,8 @@ def without_outliers(line: FloatArray, spacing: float, sensor: float) -> tuple[F
 class _Prominent:
     """Of each point of a line: its height over both sides where it stands out, zero elsewhere [m].
 
-    by_distance: the same for each distance; distances: in points; scales: of the line at each of these [m].
+    by_distance: the same for each distance; distances: in points; scales: of the line at each of these [m]; least:
+    prominence over them of what stands out.
     """
 
     line: FloatArray
@@ -115,12 +119,13 @@ class _Prominent:
     by_distance: FloatArray
     distances: tuple[int, ...]
     scales: FloatArray
+    least: tuple[float, ...]
 
     @classmethod
     def of(cls, line: FloatArray, spacing: float, step: float) -> "_Prominent":
         points = dict.fromkeys(max(1, round(distance / spacing)) for distance in DISTANCES)
         distances = tuple(one for one in points if 4 * one < line.size)
-        floor, scales, heights = np.full(line.size, STEP_OF_SENSOR * step), [], []
+        floor, scales, heights, least = np.full(line.size, STEP_OF_SENSOR * step), [], [], list[float]()
         for distance in distances:
             left, right = (line - side for side in _sides(line, distance))
             height = np.where(left * right > 0, np.sign(left) * np.minimum(np.abs(left), np.abs(right)), 0.0)
@@ -130,10 +135,11 @@ class _Prominent:
             # a wave as long as the distance is not seen at it, and a longer distance has no smaller scale
             floor = np.maximum(np.maximum(around, floor), 1e-12 * float(np.abs(line).max()))
             scales.append(floor)
-            heights.append(np.where(np.abs(height) > STANDS_OUT * floor, height, 0.0))
+            least.append(STANDS_OUT * (OF_WIDE if distance * spacing > WIDE else 1.0))
+            heights.append(np.where(np.abs(height) > least[-1] * floor, height, 0.0))
         by_distance = np.array(heights)
         at = np.abs(by_distance).argmax(axis=0)
-        return cls(line, by_distance[at, np.arange(line.size)], by_distance, distances, np.array(scales))
+        return cls(line, by_distance[at, np.arange(line.size)], by_distance, distances, np.array(scales), tuple(least))
 
     @property
     def distance(self) -> NDArray[np.intp]:
@@ -169,7 +175,8 @@ class _Prominent:
         size = float(off[np.abs(off).argmax()])
         wide = np.array(self.distances) > (last - first) / 2
         scale = float(self.scales[int(wide.argmax()) if wide.any() else -1, (first + last) // 2])
-        margin = abs(size) / max(STANDS_OUT * scale, 1e-300)
+        least = self.least[int(wide.argmax()) if wide.any() else -1]
+        margin = abs(size) / max(least * scale, 1e-300)
         return Outlier("spike" if size > 0 else "pit", first, last, size, margin)
 
 

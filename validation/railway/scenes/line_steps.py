@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from validation.analysis.statistics import FloatArray
 from validation.railway.scenes.line_outliers import (
+    AS_HIGH,
     OF_NORMAL,
     PERIODS,
     SHARE,
@@ -21,8 +22,10 @@ from validation.railway.scenes.line_outliers import (
 
 STEP = 8.0
 """Of a step over the scale of differences at its distance."""
-APART = 1, 2, 4, 8
+APART = 1, 2, 4, 8, 16
 """Points over which a step may go."""
+MEAN = 0.1
+"""Of a line to both sides of a step that corrugation hides [m]: longer than waves of corrugation."""
 LASTS, OF_STEP = 20, 0.6
 """Points to both sides whose medians are a step apart, and share of it, at the least."""
 MOST_STEPS = 20
@@ -90,7 +93,10 @@ def without_steps(line: FloatArray, spacing: float, sensor: float) -> tuple[Floa
     sensor: the step to which the line was rounded as it was measured [m].
     """
     found, clean = list[Outlier](), line
-    while len(found) < MOST_STEPS and (one := _largest_step(clean, spacing, sensor)) is not None:
+    while len(found) < MOST_STEPS:
+        one = _largest_step(clean, spacing, sensor) or _hidden_step(clean, spacing, sensor)
+        if one is None:
+            break
         moved = clean.copy()
         moved[one.last :] -= one.size
         between = np.zeros(line.size, dtype=bool)
@@ -120,6 +126,33 @@ def _largest_step(line: FloatArray, spacing: float, sensor: float) -> Outlier | 
                 best, height = Outlier("step", i, i + apart, size, spread=float(2 * scale[i])), abs(size)
                 break
     return best
+
+
+def _hidden_step(line: FloatArray, spacing: float, sensor: float) -> Outlier | None:
+    """One that corrugation hides: it stands out of differences of the means over `MEAN` to both sides of a flank."""
+    apart, mean = APART[-1], round(MEAN / spacing)
+    if mean <= LASTS or line.size < 4 * (apart + 2 * mean):
+        return None
+    total = np.cumsum(np.append(0.0, line))
+    means = (total[mean:] - total[:-mean]) / mean
+    slope = float(np.median(np.diff(line)))
+    jump = means[mean + apart - 1 :] - means[: -(mean + apart - 1)] - (mean + apart - 1) * slope
+    scale, _ = scale_of(jump, max(round(STRETCH / spacing), PERIODS * mean))
+    scale = np.maximum(scale, STEP_OF_SENSOR * sensor)
+    i = int(np.argmax(np.abs(jump) / np.maximum(scale, 1e-300)))
+    size = float(jump[i])
+    if abs(size) <= STEP * scale[i]:
+        return None
+    # the flank is where most of it rises within the fewest points
+    part = line[i : i + 2 * mean + apart] * np.sign(size)
+    for apart in APART:
+        rise = part[apart:] - part[:-apart]
+        if rise.max() >= AS_HIGH * abs(size):
+            break
+    first = max(i + int(rise.argmax()) - apart // 4, 0)
+    return Outlier(
+        "step", first, min(first + apart + 2 * (apart // 4), line.size - 1), size, spread=2 * float(scale[i])
+    )
 
 
 def drift_of(line: FloatArray) -> tuple[FloatArray, float]:
