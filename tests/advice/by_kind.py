@@ -1,4 +1,4 @@
-"""Models of a scene by their kind, so that a model added to `simulation/models` changes no test."""
+"""Models of a scene by their kind, so that a model added to `advice/models` changes no test."""
 
 from validation.advice.models import boundary_elements_pressed
 from validation.advice.quantities import models_of
