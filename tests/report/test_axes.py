@@ -7,6 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 from matplotlib.colors import same_color
+from matplotlib.figure import Figure
 
 from tests.advice.test_model_selection import outcome
 from tests.report.remade import REFERENCE, sections
@@ -18,6 +19,7 @@ from validation.cases.limits.sweeps import LIMITS
 from validation.report.contents import CASES, TIMED
 from validation.report.drawing import draw
 from validation.report.figures import drawing
+from validation.report.style import EachNumber, drawn, plain_figure
 
 CHARTS = {
     chart.name: (name, chart) for name, case in (CASES | TIMED).items() for chart in case.study.charts if chart.panels
@@ -231,7 +233,48 @@ def test_the_calibration_chart_has_estimated_errors_along_and_true_ones_up():
     ]
 
 
+@pytest.mark.parametrize(
+    ("values", "texts"),
+    [
+        ([0.9998, 1.0, 1.0002], ["0.9998", "1", "1.0002"]),
+        ([-2e5, 0.0, 4e5], ["−2e5", "0", "4e5"]),
+        ([5e7, 5.5e7], ["5e7", "5.5e7"]),
+        ([0.1, 0.2, 0.30000000000000004], ["0.1", "0.2", "0.3"]),
+        ([1e-5, 2e-5], ["1e−5", "2e−5"]),
+        ([100.0, 150.0, 200.0], ["100", "150", "200"]),
+        ([7.0], ["7"]),
+        ([], []),
+    ],
+)
+def test_each_number_of_an_axis_stands_as_it_is(values, texts):
+    assert EachNumber().format_ticks(values) == texts
+
+
+@pytest.mark.parametrize("values", [[5.5e7, 5.6e7], [0.99998, 1.00002], [1e-9, 3e-9]])
+def test_no_axis_of_a_figure_of_users_has_a_factor_or_an_offset_in_its_corner(values):
+    figure = Figure()
+    axis = figure.subplots()
+    axis.plot(values, values)
+    figure.canvas.draw()
+    assert corner_of(axis.xaxis)  # by itself it would have one
+    plain_figure(figure)
+    figure.canvas.draw()
+    assert corner_of(axis.xaxis) == corner_of(axis.yaxis) == ""
+    assert len({label.get_text() for label in axis.get_xticklabels()}) == len(axis.get_xticks())
+
+
 # --- figures that no chart declares ---
+
+
+OWN_FIGURES = sorted(chart.name for case in (CASES | TIMED).values() for chart in case.study.charts if not chart.panels)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", OWN_FIGURES)
+def test_no_axis_of_a_figure_of_its_own_has_a_factor_or_an_offset_in_its_corner(name):
+    figure = drawn(drawing(name), evidence_of(name.partition("-")[0]), "full")
+    corners = [corner_of(one) for axis in figure.axes for one in (axis.xaxis, axis.yaxis)]
+    assert corners and set(corners) == {""}
 
 
 @pytest.mark.slow
