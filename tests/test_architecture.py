@@ -59,7 +59,7 @@ MAY_IMPORT = table()
 BESIDE = {"__main__", "conformance", "pytest_plugin"}
 ROOMS = set(MAY_IMPORT) - {"mdr", "bem3d", *BESIDE}
 LINES_OF_A_FILE, LINES_OF_A_FUNCTION, SCENES_BY_CLASS = 600, 60, 15
-FOLDERS = {"scenes", "problems", "theory", "models", "solvers", "cases", "commands"}
+FOLDERS = {"scenes", "problems", "theory", "models", "kinds", "solvers", "cases", "commands"}
 """That a house may have."""
 
 

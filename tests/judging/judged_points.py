@@ -5,8 +5,8 @@ from pkgutil import resolve_name
 from types import SimpleNamespace
 from unittest import mock
 
-from validation.judging.models import stiffness, surfaces
-from validation.judging.models.judge import JUDGES
+from validation.judging.kinds import stiffness, surfaces
+from validation.judging.kinds.judge import JUDGES
 from validation.judging.registry import offer
 from validation.judging.worker import Called
 
@@ -16,7 +16,7 @@ SWEEPS, SCALING = "sweeps:swept", "scaling:judged"
 def judged(kind, function, tolerance=0.1, by=None):
     """By the judge of the kind, by rules of scaling, or past its scenes; by a clock on which nothing takes long."""
     model = Called(offer(kind, "mine", {}, getattr(function, "function", function)))
-    judge = resolve_name(f"validation.judging.models.{by or JUDGES[kind]}")
+    judge = resolve_name(f"validation.judging.kinds.{by or JUDGES[kind]}")
     clock = SimpleNamespace(perf_counter=itertools.count(0.0, 1e-9).__next__)
     with mock.patch.object(stiffness, "time", clock), mock.patch.object(surfaces, "time", clock):
         return [one.judged(tolerance) for one in judge(model)]

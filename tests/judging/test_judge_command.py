@@ -15,8 +15,8 @@ from validation.__main__ import main
 from validation.judging import judge as judged
 from validation.judging.figure import figure_of
 from validation.judging.judgement import LEVEL, compared, not_compared
-from validation.judging.models.own import ErrorOfCall
-from validation.judging.models.sweeps import HEAVY, LIGHT
+from validation.judging.kinds.own import ErrorOfCall
+from validation.judging.kinds.sweeps import HEAVY, LIGHT
 from validation.judging.solvers.judged import SolverTime
 from validation.judging.words import paragraph
 
@@ -95,8 +95,8 @@ def broken(model, *_):
 @pytest.mark.parametrize(
     "place",
     [
-        "validation.judging.models.stiffness._rise",
-        "validation.judging.models.sweeps.swept",
+        "validation.judging.kinds.stiffness._rise",
+        "validation.judging.kinds.sweeps.swept",
         "validation.judging.judge.costs_of",
         "validation.judging.solvers.judged.judged",
     ],

@@ -10,10 +10,10 @@ import pytest
 
 from tests.judging.judged_points import SCALING, SWEEPS, judged, of, verdicts
 from validation.judging import replies
-from validation.judging.models import own, sweeps
-from validation.judging.models.judge import Finding, ModelAnswer, points_of
-from validation.judging.models.own import ellipse, half_space, in_3d
-from validation.judging.models.references import Reference
+from validation.judging.kinds import own, sweeps
+from validation.judging.kinds.judge import Finding, ModelAnswer, points_of
+from validation.judging.kinds.own import ellipse, half_space, in_3d
+from validation.judging.kinds.references import Reference
 from validation.judging.registry import offer
 from validation.judging.worker import Called
 

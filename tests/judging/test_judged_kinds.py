@@ -10,9 +10,9 @@ import pytest
 
 import mdr
 from tests.judging.judged_points import judged, of, verdicts
-from validation.judging.models import filters, laws, profiles, rolling
-from validation.judging.models.from_report import Report
-from validation.judging.models.own import bed, ellipse, geike, half_space, in_1d, in_3d, line, trace
+from validation.judging.kinds import filters, laws, profiles, rolling
+from validation.judging.kinds.from_report import Report
+from validation.judging.kinds.own import bed, ellipse, geike, half_space, in_1d, in_3d, line, trace
 from validation.judging.registry import offer
 from validation.judging.worker import Called
 from validation.railway.theory import contact_filters

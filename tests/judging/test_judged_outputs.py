@@ -14,7 +14,7 @@ from validation.__main__ import main
 from validation.judging import judge as judged
 from validation.judging.figure import figure_of, left_out
 from validation.judging.judgement import compared, not_compared
-from validation.judging.models.own import ErrorOfCall
+from validation.judging.kinds.own import ErrorOfCall
 from validation.judging.solvers.judged import SolverTime
 from validation.judging.worker import Called
 

@@ -9,9 +9,9 @@ import pytest
 from tests.judging import judged_points
 from tests.judging.judged_points import of, verdicts
 from validation.judging.judgement import enough
-from validation.judging.models import stiffness, surfaces
-from validation.judging.models.references import Reference, known
-from validation.judging.models.stiffness import AskedPunch
+from validation.judging.kinds import stiffness, surfaces
+from validation.judging.kinds.references import Reference, known
+from validation.judging.kinds.stiffness import AskedPunch
 from validation.judging.registry import offer
 from validation.judging.worker import Called
 from validation.theory.closed_forms import SQUARE_PUNCH

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from validation.engine.engine import SERIAL
-from validation.judging.models import held_out_solves, references, rolling, surfaces
-from validation.judging.models.from_report import HELD_OUT, SOURCES, Report
-from validation.judging.models.held_out_solves import held_out
-from validation.judging.models.own import ERRORS
-from validation.judging.models.references import about, as_file, file_name, known
-from validation.judging.models.rolling import EACH, GRIDS, HEIGHTS, LIFT, MEAN
-from validation.judging.models.surfaces import OF_SURFACE
+from validation.judging.kinds import held_out_solves, references, rolling, surfaces
+from validation.judging.kinds.from_report import HELD_OUT, SOURCES, Report
+from validation.judging.kinds.held_out_solves import held_out
+from validation.judging.kinds.own import ERRORS
+from validation.judging.kinds.references import about, as_file, file_name, known
+from validation.judging.kinds.rolling import EACH, GRIDS, HEIGHTS, LIFT, MEAN
+from validation.judging.kinds.surfaces import OF_SURFACE
 from validation.simulation.rolling_strip import roll_strip
 
 REPORT = Path(__file__).parents[2] / "reports" / "reference"

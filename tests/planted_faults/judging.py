@@ -19,8 +19,8 @@ from tests.planted_faults.wrong import Fault, with_math
 from validation.analysis import independent_records
 from validation.judging import judgement
 from validation.judging import worker as others
-from validation.judging.models import factors, held_out_solves, laws, own, repeats, scaling, stiffness, sweeps
-from validation.judging.models.judge import ModelAnswer
+from validation.judging.kinds import factors, held_out_solves, laws, own, repeats, scaling, stiffness, sweeps
+from validation.judging.kinds.judge import ModelAnswer
 from validation.simulation.rough_punch import PlateauSpectrum
 
 given, verdict_of = stiffness.AskedPunch.arguments.fget, judgement.verdict_of

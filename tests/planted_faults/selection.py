@@ -149,7 +149,7 @@ FAULTS = [
     ),
     test_own_scene.test_seconds_are_those_of_all_solves_that_a_model_needs,
     Fault("seconds without those of the grids that tell the error").at(
-        scene_model.SceneModel, "_seconds", of_its_own_grid
+        scene_model.SceneModel, "seconds_of", of_its_own_grid
     ),
     test_own_scene.test_a_distance_in_decibels_has_the_errors_of_its_band_and_the_reference_that_of_its_worst,
     Fault("a distance from the reference where nothing is left to hear").at(

@@ -17,6 +17,7 @@ from validation.advice.cases import model_selection as ladder
 from validation.analysis.case import Case
 from validation.analysis.contents import as_csv, as_json, csv_name, from_csv
 from validation.analysis.evidence import Role
+from validation.analysis.quantity import key_of
 from validation.cases.exact import geike, hertz
 from validation.cases.limits import limits
 from validation.cases.punch import bandwidth, interface
@@ -273,7 +274,7 @@ def players_of_all_sounds(folder):
 
 def in_the_book(name, evidence):
     """Assert that each number and claim of the case that answers the chapter exists; a feature may not stand out."""
-    features = {*QUANTITIES.values()}
+    features = {*map(key_of, QUANTITIES.values())}
     for entry in ENTRIES:
         for test in entry.tests:
             exists = test.judged(entry.statement, evidence) is not None or test.quantity in features

@@ -15,8 +15,8 @@ from validation.analysis.spectra import Bands
 from validation.benchmarks.work_precision import rolling as rolling_chart
 from validation.cases.rolling.ridges import RollingOverRidges
 from validation.engine.convergence import NotConvergedError, as_not_converged
-from validation.judging.models import from_report
-from validation.judging.models.held_out_solves import THIRD, OblongStrip, roll_oblong
+from validation.judging.kinds import from_report
+from validation.judging.kinds.held_out_solves import THIRD, OblongStrip, roll_oblong
 from validation.railway.models.rail import BOUNDARY_ELEMENTS
 from validation.railway.problems import rail_models, wheel_on_rail
 from validation.railway.problems.equivalent_displacement import RolledRail, roll_rail
@@ -89,8 +89,8 @@ PATHS = {
         PublishedContact(cells=6, tolerance=1e-6)
     ),
     "validation.simulation.limits_of_half_space:strip_widths": lambda: strip_widths((13, 18), finer=6),
-    "validation.judging.models.from_report:roll_under_load": lambda: from_report.roll_under_load(STRIP),
-    "validation.judging.models.held_out_solves:roll_oblong": lambda: roll_oblong(OBLONG),
+    "validation.judging.kinds.from_report:roll_under_load": lambda: from_report.roll_under_load(STRIP),
+    "validation.judging.kinds.held_out_solves:roll_oblong": lambda: roll_oblong(OBLONG),
 }
 
 

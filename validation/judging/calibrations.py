@@ -9,8 +9,8 @@ from validation.engine.engine import Engine
 from validation.engine.files import write_whole
 from validation.engine.progress import progress_of
 from validation.judging.entry_points import is_installed
-from validation.judging.models.from_report import references_of
-from validation.judging.models.references import FOLDER as INSTALLED
+from validation.judging.kinds.from_report import references_of
+from validation.judging.kinds.references import FOLDER as INSTALLED
 from validation.judging.own_models import calibrated, models_in
 from validation.report.commands.arguments import Exit, not_beside
 from validation.report.folder import REALISATIONS, REFERENCES, Folder

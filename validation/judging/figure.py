@@ -11,7 +11,7 @@ from validation.advice.tolerance import decibels
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.evidence import Evidence, Table, table_of
 from validation.judging.judgement import LEVEL, Conditions, JudgedCurve, curves_of, placed
-from validation.judging.models.own import MAIN
+from validation.judging.kinds.own import MAIN
 from validation.report.drawing import draw
 from validation.report.style import FORMATS, SETTINGS, in_two_lines, picture, plain_figure
 

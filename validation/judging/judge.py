@@ -22,9 +22,9 @@ from validation.judging.judgement import (
     not_compared,
     trusted,
 )
-from validation.judging.models.diagnosis import Remark, remarks
-from validation.judging.models.judge import JUDGES, points_of
-from validation.judging.models.own import ErrorOfCall, costs_of
+from validation.judging.kinds.diagnosis import Remark, remarks
+from validation.judging.kinds.judge import JUDGES, points_of
+from validation.judging.kinds.own import ErrorOfCall, costs_of
 from validation.judging.replies import raised
 from validation.judging.solver_words import solver_lines
 from validation.judging.words import summary_lines

@@ -16,9 +16,9 @@ import mdr
 from validation.advice.calibrated_range import SCATTER
 from validation.advice.models import boundary_elements_pressed, boundary_elements_rolling
 from validation.engine.random_numbers import random_generator
-from validation.judging.models.judge import asked
-from validation.judging.models.profiles import rms_of_profile
-from validation.judging.models.rolling import middle_line
+from validation.judging.kinds.judge import asked
+from validation.judging.kinds.profiles import rms_of_profile
+from validation.judging.kinds.rolling import middle_line
 from validation.judging.registry import Caller, FloatArray, Given
 from validation.railway.problems.rail_models import ContactFilter, rail_quantity
 from validation.railway.problems.rail_quantity import RAIL_QUANTITIES

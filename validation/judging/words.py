@@ -25,15 +25,15 @@ from validation.judging.judgement import (
     shared,
     worst,
 )
-from validation.judging.models.held_out_solves import held_out
-from validation.judging.models.laws import in_words, table_14_1
-from validation.judging.models.own import MAIN
-from validation.judging.models.rolling import APART, RMS, about_roughness, about_strip
-from validation.judging.models.rolling import LEVEL as FORCE_LEVEL
-from validation.judging.models.rolling import MAIN as WHEEL
-from validation.judging.models.rolling import MEAN as MEAN_FORCE
-from validation.judging.models.stiffness import BAND, DEVIATION, MEAN, ROLLED_OFF, WAVES
-from validation.judging.models.sweeps import SWEPT
+from validation.judging.kinds.held_out_solves import held_out
+from validation.judging.kinds.laws import in_words, table_14_1
+from validation.judging.kinds.own import MAIN
+from validation.judging.kinds.rolling import APART, RMS, about_roughness, about_strip
+from validation.judging.kinds.rolling import LEVEL as FORCE_LEVEL
+from validation.judging.kinds.rolling import MAIN as WHEEL
+from validation.judging.kinds.rolling import MEAN as MEAN_FORCE
+from validation.judging.kinds.stiffness import BAND, DEVIATION, MEAN, ROLLED_OFF, WAVES
+from validation.judging.kinds.sweeps import SWEPT
 
 if TYPE_CHECKING:
     from validation.judging.judge import Judgement

@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 from validation.analysis.case import Case, Profile
+from validation.analysis.contents import plain_name
 from validation.analysis.evidence import (
     ClaimStatus,
     Evidence,
@@ -21,6 +22,8 @@ from validation.analysis.evidence import (
 PREDICTED = "predicted before a solve, for a single surface and not for ensemble means"
 STATED = "stated by the case"
 """What the model is that a case needs, by the a-priori error estimates or by itself: no answer of the page."""
+FIRST_WORDS = 10
+"""Of a claim without a key, by which it is found."""
 
 
 @dataclass(frozen=True)
@@ -72,7 +75,8 @@ class Section:
 
     def address_of(self, claim: JudgedClaim) -> str:
         """On its page: by its first words, so that it lasts when others come or go."""
-        return f"claim-{self.name}-{claim.key}"
+        words = " ".join(claim.claim.split()[:FIRST_WORDS])
+        return f"claim-{self.name}-{claim.key or plain_name(words)}"
 
     @property
     def missed(self) -> tuple[Number, ...]:

@@ -9,7 +9,7 @@ from typing import Any
 
 from validation.advice.cells import format_seconds
 from validation.advice.compare import Comparison, SceneProblem
-from validation.advice.exported import Export, table_of_several, to_json_of
+from validation.advice.export import Export
 from validation.advice.in_short import in_short
 from validation.advice.quantities import all_quantities, quantities_of
 from validation.advice.scene_model import SceneModel
@@ -17,7 +17,6 @@ from validation.advice.several_scenes import compare_scenes
 from validation.advice.summary import findings, heading, in_full, summary
 from validation.advice.swept import Swept, swept_values
 from validation.advice.tolerance import tolerance_of
-from validation.analysis.contents import as_csv
 from validation.engine.engine import Engine
 from validation.engine.files import write_given
 from validation.engine.progress import progress_of
@@ -213,7 +212,8 @@ def _announce(model: SceneModel) -> None:
 
 def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
     """The files that are asked for, each of them whole; of several scenes a list, and a column for the scene."""
-    _write_data(found, arguments)
+    if arguments.json or arguments.csv or _exports(arguments):
+        _write_data(found, arguments)
     if arguments.figure is not None:
         from validation.advice.figure import to_figure  # which takes half a second to import
         from validation.advice.figure_over_seconds import figure_over_seconds
@@ -224,6 +224,10 @@ def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
 
 
 def _write_data(found: list[Comparison], arguments: argparse.Namespace) -> None:
+    # imported where a file is asked for
+    from validation.advice.exported import table_of_several, to_json_of
+    from validation.analysis.contents import as_csv
+
     if arguments.json:
         write_given(arguments.json, to_json_of(found).encode())
     if arguments.csv:

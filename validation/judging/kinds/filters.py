@@ -10,8 +10,8 @@ import numpy as np
 
 from validation.analysis.quantity import Quantity
 from validation.analysis.statistics import FloatArray
-from validation.judging.models.judge import Finding, asked, attempted, beside, rule
-from validation.judging.models.references import Reference, about, known
+from validation.judging.kinds.judge import Finding, asked, attempted, beside, rule
+from validation.judging.kinds.references import Reference, about, known
 from validation.judging.registry import Caller
 from validation.railway.problems.rail_strip import line_of, strip_bands, structure_of
 from validation.railway.scenes.level_files import curve as levels_of

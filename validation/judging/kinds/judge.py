@@ -8,8 +8,8 @@ from typing import Any, NamedTuple, TypeVar
 
 from validation.analysis.statistics import Estimate, FloatArray
 from validation.judging.judgement import AGAIN, FAILED, LEVEL, REFUSED, Conditions, JudgedPoint, compared, not_compared
-from validation.judging.models.references import Reference
-from validation.judging.models.repeats import SAME, Recorded, repeated
+from validation.judging.kinds.references import Reference
+from validation.judging.kinds.repeats import SAME, Recorded, repeated
 from validation.judging.registry import Caller, Failed
 
 T = TypeVar("T")

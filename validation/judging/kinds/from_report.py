@@ -22,13 +22,13 @@ from validation.cases.wheel import features
 from validation.engine.engine import Engine, Outcome
 from validation.engine.files import place_in
 from validation.judging.judgement import DEVIATION
-from validation.judging.models import held_out_solves, own, rolling, stiffness, surfaces
-from validation.judging.models.filters import ALPHA, DIAMETER, FILTER, LOAD, OFFSET, WAVE
-from validation.judging.models.held_out_solves import OF_FACES, OF_POSITIONS, OF_PUNCHES, held_out
-from validation.judging.models.laws import FEATURE, REGION, by_region
-from validation.judging.models.references import Reference, as_file, file_name, rows_of
-from validation.judging.models.rolling import GRIDS, HEIGHT, HEIGHTS, SLOPE, Q, bands_of, spectrum_of
-from validation.judging.models.stiffness import BAND, FORCE, ROLL_OFF, H
+from validation.judging.kinds import held_out_solves, own, rolling, stiffness, surfaces
+from validation.judging.kinds.filters import ALPHA, DIAMETER, FILTER, LOAD, OFFSET, WAVE
+from validation.judging.kinds.held_out_solves import OF_FACES, OF_POSITIONS, OF_PUNCHES, held_out
+from validation.judging.kinds.laws import FEATURE, REGION, by_region
+from validation.judging.kinds.references import Reference, as_file, file_name, rows_of
+from validation.judging.kinds.rolling import GRIDS, HEIGHT, HEIGHTS, SLOPE, Q, bands_of, spectrum_of
+from validation.judging.kinds.stiffness import BAND, FORCE, ROLL_OFF, H
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.simulation.model_names import BEM, FILTER_3D, SPRINGS
 from validation.simulation.rolling_strip import (

@@ -11,8 +11,8 @@ import numpy as np
 from validation.analysis.statistics import FloatArray
 from validation.judging.judgement import LEVEL as DECIBELS
 from validation.judging.judgement import RATIO, Conditions
-from validation.judging.models import filters, profiles, rolling, stiffness, surfaces
-from validation.judging.models.held_out_solves import (
+from validation.judging.kinds import filters, profiles, rolling, stiffness, surfaces
+from validation.judging.kinds.held_out_solves import (
     FACE_CELLS,
     FACE_HEIGHT,
     FACES,
@@ -22,10 +22,10 @@ from validation.judging.models.held_out_solves import (
     HeldOutScene,
     held_out,
 )
-from validation.judging.models.judge import Finding, asked, attempted, beside
-from validation.judging.models.references import Reference, known
-from validation.judging.models.rolling import GRIDS, HEIGHT, Density
-from validation.judging.models.stiffness import MEAN, MODULUS, SIDE, AskedPunch, answers_of, load_of
+from validation.judging.kinds.judge import Finding, asked, attempted, beside
+from validation.judging.kinds.references import Reference, known
+from validation.judging.kinds.rolling import GRIDS, HEIGHT, Density
+from validation.judging.kinds.stiffness import MEAN, MODULUS, SIDE, AskedPunch, answers_of, load_of
 from validation.judging.registry import Caller, Failed
 from validation.railway.problems.rail_strip import strip_bands
 from validation.railway.scenes.rail import RailScene

@@ -13,10 +13,10 @@ import numpy as np
 import mdr
 from validation.analysis.statistics import FloatArray
 from validation.engine.random_numbers import random_generator
-from validation.judging.models.judge import Finding, LostError, asked, attempted, rule
-from validation.judging.models.references import Reference, known
-from validation.judging.models.rolling import WheelAtApproach, of_density
-from validation.judging.models.stiffness import DEVIATION, MEAN, UNIT, AskedPunch, H, beside_punches, sampled
+from validation.judging.kinds.judge import Finding, LostError, asked, attempted, rule
+from validation.judging.kinds.references import Reference, known
+from validation.judging.kinds.rolling import WheelAtApproach, of_density
+from validation.judging.kinds.stiffness import DEVIATION, MEAN, UNIT, AskedPunch, H, beside_punches, sampled
 from validation.judging.registry import Caller, Failed
 from validation.theory.gauss_legendre import on_panels
 from validation.theory.rolling import force_spectrum_1d

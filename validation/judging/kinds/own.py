@@ -10,11 +10,11 @@ import mdr
 from validation.analysis.statistics import FloatArray
 from validation.judging import registry as offered
 from validation.judging.judgement import JudgedPoint
-from validation.judging.models.filters import FILTER
-from validation.judging.models.judge import points_of
-from validation.judging.models.references import Reference, known
-from validation.judging.models.rolling import LEVEL
-from validation.judging.models.stiffness import MEAN
+from validation.judging.kinds.filters import FILTER
+from validation.judging.kinds.judge import points_of
+from validation.judging.kinds.references import Reference, known
+from validation.judging.kinds.rolling import LEVEL
+from validation.judging.kinds.stiffness import MEAN
 from validation.judging.registry import Failed, Offered
 from validation.judging.worker import Called
 from validation.railway.theory.contact_filters import half_space_filter, spring_bed_filter

@@ -10,9 +10,9 @@ import numpy as np
 
 from validation.analysis.statistics import FloatArray, ratio_of_means
 from validation.judging.judgement import Conditions
-from validation.judging.models import rolling, surfaces
-from validation.judging.models.judge import Finding, LostError, asked, attempted, rule
-from validation.judging.models.stiffness import FEWEST, FORCE, MODULUS, SIDE, AskedPunch, H, draws, load_of
+from validation.judging.kinds import rolling, surfaces
+from validation.judging.kinds.judge import Finding, LostError, asked, attempted, rule
+from validation.judging.kinds.stiffness import FEWEST, FORCE, MODULUS, SIDE, AskedPunch, H, draws, load_of
 from validation.judging.registry import Caller, Failed
 
 EXACT, OF_SAMPLE = 1e-6, 2.0

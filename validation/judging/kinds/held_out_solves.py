@@ -20,9 +20,9 @@ from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Engine, Outcome
 from validation.engine.random_numbers import random_generator
 from validation.judging.judgement import Conditions
-from validation.judging.models.references import Reference
-from validation.judging.models.rolling import GRIDS, HEIGHT, SLOPE, Q, WheelAtApproach, at_centres, octave, variance_of
-from validation.judging.models.stiffness import BAND, FIRST, FORCE, H
+from validation.judging.kinds.references import Reference
+from validation.judging.kinds.rolling import GRIDS, HEIGHT, SLOPE, Q, WheelAtApproach, at_centres, octave, variance_of
+from validation.judging.kinds.stiffness import BAND, FIRST, FORCE, H
 from validation.simulation.light_punch import press_lightly
 from validation.simulation.rolling_strip import HERTZ, SMOOTH, RoughStrip, crop_to_reach, level_3d, roll_strip
 from validation.simulation.rough_punch import PunchRoughness, Surface

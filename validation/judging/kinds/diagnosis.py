@@ -19,13 +19,13 @@ from validation.judging.judgement import (
     JudgedPoint,
     placed,
 )
-from validation.judging.models.factors import LEAST, MOST_OF, OF_POWERS, OF_VALUES, SPARE, common_factor, named
-from validation.judging.models.filters import ALPHA, FILTER, WAVE
-from validation.judging.models.held_out_solves import SUFFIX
-from validation.judging.models.profiles import MOMENTS
-from validation.judging.models.rolling import APART, HEIGHT, MEAN, SLOPE, Q
-from validation.judging.models.stiffness import BY_BAND, DIFFERENT_DRAWS, EQUAL_DRAWS, FORCE
-from validation.judging.models.stiffness import DEVIATION as OF_STIFFNESS
+from validation.judging.kinds.factors import LEAST, MOST_OF, OF_POWERS, OF_VALUES, SPARE, common_factor, named
+from validation.judging.kinds.filters import ALPHA, FILTER, WAVE
+from validation.judging.kinds.held_out_solves import SUFFIX
+from validation.judging.kinds.profiles import MOMENTS
+from validation.judging.kinds.rolling import APART, HEIGHT, MEAN, SLOPE, Q
+from validation.judging.kinds.stiffness import BY_BAND, DIFFERENT_DRAWS, EQUAL_DRAWS, FORCE
+from validation.judging.kinds.stiffness import DEVIATION as OF_STIFFNESS
 
 UNSIGNED = {APART.format(name) + end for name in ("force", "approach") for end in ("", SUFFIX)}
 """Quantities that have no sign."""

@@ -11,9 +11,9 @@ from validation.analysis.statistics import FloatArray, jackknifed, ratio_of_mean
 from validation.engine.engine import Engine
 from validation.judging import judgement
 from validation.judging.judgement import RATIO, Conditions
-from validation.judging.models.judge import Finding, ModelAnswer
-from validation.judging.models.references import Reference, known
-from validation.judging.models.stiffness import DEVIATION, FORCE, HEIGHT, MEAN, MODULUS, SIDE, WAVES, H, load_of
+from validation.judging.kinds.judge import Finding, ModelAnswer
+from validation.judging.kinds.references import Reference, known
+from validation.judging.kinds.stiffness import DEVIATION, FORCE, HEIGHT, MEAN, MODULUS, SIDE, WAVES, H, load_of
 from validation.judging.registry import Caller, Failed
 from validation.simulation.light_punch import press_lightly
 from validation.simulation.rough_punch import PunchRoughness, Surface, force_levels

@@ -15,8 +15,8 @@ from validation.analysis.quantity import Quantity
 from validation.engine.random_numbers import random_generator
 from validation.judging import judgement
 from validation.judging.judgement import Conditions
-from validation.judging.models.judge import Finding, LostError, ModelAnswer, attempted, beside, rule
-from validation.judging.models.references import Reference, known
+from validation.judging.kinds.judge import Finding, LostError, ModelAnswer, attempted, beside, rule
+from validation.judging.kinds.references import Reference, known
 from validation.judging.registry import Caller, Failed, FloatArray
 from validation.simulation.quantities import MEAN_STIFFNESS
 from validation.simulation.rough_punch import PlateauSpectrum

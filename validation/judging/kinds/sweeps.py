@@ -11,10 +11,10 @@ import numpy as np
 
 import mdr
 from validation.analysis.statistics import FloatArray
-from validation.judging.models import rolling
-from validation.judging.models.judge import Finding, Found, LostError, ModelAnswer, asked, attempted, rule
-from validation.judging.models.references import known
-from validation.judging.models.stiffness import FEWEST, FORCE, MEAN, MODULUS, SIDE, AskedPunch, H, answers_of
+from validation.judging.kinds import rolling
+from validation.judging.kinds.judge import Finding, Found, LostError, ModelAnswer, asked, attempted, rule
+from validation.judging.kinds.references import known
+from validation.judging.kinds.stiffness import FEWEST, FORCE, MEAN, MODULUS, SIDE, AskedPunch, H, answers_of
 from validation.judging.registry import Caller, Failed
 from validation.theory.closed_forms import SQUARE_PUNCH
 

@@ -18,8 +18,8 @@ from validation.analysis.spectra import Bands, levels, waves
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, mean_estimate
 from validation.judging.judgement import LEVEL as DECIBELS
 from validation.judging.judgement import RATIO, Conditions
-from validation.judging.models.judge import Finding, ModelAnswer, asked, attempted, beside
-from validation.judging.models.references import Reference, about, known
+from validation.judging.kinds.judge import Finding, ModelAnswer, asked, attempted, beside
+from validation.judging.kinds.references import Reference, about, known
 from validation.judging.registry import Caller, Failed
 from validation.simulation.quantities import MEAN_FORCE, RMS_FORCE
 from validation.simulation.rolling_strip import HERTZ, SMOOTH, RoughStrip, crop_to_reach, level_3d, over_bands

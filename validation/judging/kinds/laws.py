@@ -11,8 +11,8 @@ from validation.analysis.quantity import Quantity
 from validation.analysis.spectra import band_means, record_spectra
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed
 from validation.judging.judgement import LEVEL
-from validation.judging.models.judge import Finding, LostError, ModelAnswer, asked, attempted, beside
-from validation.judging.models.references import Reference, about, known
+from validation.judging.kinds.judge import Finding, LostError, ModelAnswer, asked, attempted, beside
+from validation.judging.kinds.references import Reference, about, known
 from validation.judging.registry import Caller, Failed
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.simulation.motion import Motion, simulate
