@@ -70,7 +70,7 @@ thorough: $(READY)  ## the property tests on many more examples
 # who looks at the methods; reports and cases execute them without looking
 METHODS := tests/mdr tests/bem3d tests/theory tests/test_bad_input.py tests/test_interpreter.py tests/test_read_only_results.py
 # who looks at what makes verdicts and claims
-GUARDS := tests/analysis tests/theory tests/scenes tests/simulation tests/selection tests/benchmarks tests/cases tests/engine tests/report
+GUARDS := tests/analysis tests/theory tests/scenes tests/simulation tests/benchmarks tests/cases tests/engine tests/report tests/advice tests/railway tests/judging
 
 coverage: $(STRENGTH)  ## every branch of mdr and bem3d, by the tests of these alone; fails where one is missed
 	$(RUN) pytest -n auto --cov --cov-context=test --junitxml=$(RECORD) \

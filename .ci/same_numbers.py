@@ -1,7 +1,10 @@
 """Numbers, claims and columns of cases at quick size, as JSON, and what differs between two such files.
 
 python .ci/same_numbers.py write FOLDER [CASE ...]      without stored solves; timed cases where they are named
-python .ci/same_numbers.py compare OLD NEW [CASE ...]   exit status 1 where numbers differ by more than 1e-12, or claims
+python .ci/same_numbers.py compare OLD NEW [CASE ...]   exit status 1 where numbers differ by more than 1e-12, claims,
+                                                        or a case, a number or a claim is gone
+Numbers are found by the key of their quantity, their model and conditions, and claims by their keys: labels may change.
+`OLD/labels.json` maps texts of models and claims that were worded anew to today's.
 """
 
 import json
@@ -14,6 +17,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+
+from validation.analysis.contents import plain_name
 
 FIELDS = ("value", "reference", "tolerance", "grid", "sample")
 WORDS = ("unit", "source", "reason", "role", "verdict")
@@ -31,11 +36,24 @@ def write(folder: Path, names: list[str]) -> None:
         begin = time.perf_counter()
         evidence = case.evidence(case.run(case.quick, Engine(workers=2)))
         numbers = [
-            {"label": n.label, **asdict(n), "unit": n.unit, "role": str(n.role), "verdict": str(n.verdict)}
+            {
+                "label": n.label,
+                "key": getattr(n.quantity, "key", ""),
+                **asdict(n),
+                "unit": n.unit,
+                "role": str(n.role),
+                "verdict": str(n.verdict),
+            }
             for n in evidence.numbers
         ]
         claims = [
-            {"claim": c.claim, "status": str(c.status), "answer": c.answer, "limits": c.limits}
+            {
+                "key": getattr(c, "key", ""),
+                "claim": c.claim,
+                "status": str(c.status),
+                "answer": c.answer,
+                "limits": c.limits,
+            }
             | {"members": sorted(n.label for n in c.numbers), "inside": sorted(n.label for n in c.inside)}
             for c in evidence.claims
         ]
@@ -55,18 +73,37 @@ def plain(cell: Any) -> Any:
 
 
 def compare(old: Path, new: Path, names: list[str]) -> bool:
-    """Whether all that both have is equal, and nothing is missing."""
-    equal = True
-    for path in sorted(new.glob("*.json")):
-        if (names and path.stem not in names) or not (old / path.name).exists():
-            continue
-        was, now = (json.loads((folder / path.name).read_text(encoding="utf-8")) for folder in (old, new))
-        equal &= _case(path.stem, was, now)
+    """Whether all that the old one has is there and equal."""
+    labels = old / "labels.json"
+    anew = json.loads(labels.read_text(encoding="utf-8")) if labels.exists() else {}
+    cases = [path.stem for path in sorted(old.glob("*.json")) if path != labels and path.stem in (names or [path.stem])]
+    gone = [
+        name for name in (names or cases) if not (old / f"{name}.json").exists() or not (new / f"{name}.json").exists()
+    ]
+    for name in gone:
+        print(f"{name}: no such case in one of the folders")
+    equal = not gone and bool(cases)
+    for name in cases:
+        if name not in gone:
+            was, now = (json.loads((folder / f"{name}.json").read_text(encoding="utf-8")) for folder in (old, new))
+            equal &= _case(name, was, now, anew)
     return equal
 
 
-def _case(name: str, was: dict[str, Any], now: dict[str, Any]) -> bool:
-    mine, theirs = ({n["label"]: n for n in one["numbers"]} for one in (now, was))
+def _key(number: dict[str, Any], anew: dict[str, str]) -> str:
+    """Of its quantity, its model and conditions."""
+    quantity = number.get("key") or plain_name(number["quantity"])
+    return f"{quantity} | {anew.get(number['model'], number['model'])} | {json.dumps(number['where'], sort_keys=True)}"
+
+
+def _claims(case: dict[str, Any], other: dict[str, Any], anew: dict[str, str]) -> dict[str, dict[str, Any]]:
+    """By their keys where both have them, else by their words."""
+    by_key = all(claim.get("key") for one in (case, other) for claim in one["claims"])
+    return {claim["key"] if by_key else anew.get(claim["claim"], claim["claim"]): claim for claim in case["claims"]}
+
+
+def _case(name: str, was: dict[str, Any], now: dict[str, Any], anew: dict[str, str]) -> bool:
+    mine, theirs = ({_key(n, anew): n for n in one["numbers"]} for one in (now, was))
     worst, said = 0.0, []
     for label in theirs.keys() & mine.keys():
         for field in FIELDS:
@@ -82,13 +119,18 @@ def _case(name: str, was: dict[str, Any], now: dict[str, Any]) -> bool:
         ]
     said += [f"  gone: {label}" for label in theirs if label not in mine]
     said += [f"  new: {label}" for label in mine if label not in theirs]
-    old_claims, new_claims = ({c["claim"]: c for c in one["claims"]} for one in (was, now))
+    labels = {number["label"]: _key(number, anew) for one in (was, now) for number in one["numbers"]}
+    old_claims, new_claims = _claims(was, now, anew), _claims(now, was, anew)
     for claim, one in old_claims.items():
         if claim not in new_claims:
             said.append(f"  claim gone: {claim}")
             continue
         for field in ("status", "members", "limits", "inside"):
-            if one[field] != new_claims[claim][field]:
+            of_both = [
+                sorted(labels[of] for of in found) if isinstance(found, list) else found
+                for found in (one[field], new_claims[claim][field])
+            ]
+            if of_both[0] != of_both[1]:
                 said.append(f"  claim {claim!r}: {field} {one[field]} -> {new_claims[claim][field]}")
     said += [f"  claim new: {claim}" for claim in new_claims if claim not in old_claims]
     pool = np.sort([x for cells in now["columns"].values() for x in cells if isinstance(x, int | float)] or [math.inf])

@@ -69,8 +69,7 @@ def solve(
     Warns
     -----
     ResolutionWarning, EdgeWarning, UnitsWarning
-        If few cells touch, the contact reaches the edge of a free grid, the mean pressure is above 0.1 E*, or half of
-        the cells have a slope above 10, as of heights in nm on a grid in m.
+        If few cells touch, the edge of a free grid is reached, or pressures or slopes tell of units that do not fit.
 
     Examples
     --------

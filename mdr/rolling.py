@@ -49,8 +49,7 @@ def roll(
     spacing, radius, modulus : float
         Distance dx of the springs [m], radius R of the wheel, or two (along, across) [m], contact modulus E* [Pa].
     approach : float or array_like, shape (points,), optional
-        Approach of the smooth wheel to the plane of height zero [m]: one positive number, or one of any sign at each
-        point. Give either ``approach`` or ``force``.
+        Approach to the plane of height zero [m], positive, or at each point one of any sign; either this or ``force``.
     force : float, optional
         Normal force, positive [N].
     contact : {"one-sided", "full", "linear"}, optional

@@ -3,6 +3,7 @@ import functools
 import os
 import random
 from itertools import groupby
+from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, Phase, settings
@@ -26,7 +27,7 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "default"))
 BESIDE_A_TEST = {
     *("concurrent", "multiprocessing", "signal", "socket", "threading", "time"),
     *("bem3d.threads", "tests.engine.jobs", "tests.engine.toys", "validation.benchmarks.isolation"),
-    *("validation.engine.others.Visitor", "validation.engine.workers"),
+    *("validation.judging.worker.Visitor", "validation.engine.workers"),
 }
 """Modules and names by which a file of tests has threads, clocks, signals, or processes that run beside a test."""
 
@@ -82,3 +83,32 @@ def without_figures(monkeypatch):
     from validation.report import pictures
 
     monkeypatch.setattr(pictures, "draw_figure", lambda name, *rest: f"<svg>{name}</svg>".encode())
+
+
+@pytest.fixture(scope="session", autouse=True)
+def texts_of_sources_are_read_once():
+    """What a text of code imports and says, by its bytes: a digest of the project takes seconds, and planted faults
+    forget what the project remembers of it."""
+    # as below: not before coverage is measured
+    from validation.engine import sources
+
+    def by_text(of, path_of, known):
+        @functools.wraps(of)
+        def remembered(argument):
+            path = path_of(argument)
+            key = argument if of is named else argument.suffix, path and sources._source(path)
+            if key not in known:
+                known[key] = of(argument)
+            return known[key]
+
+        return remembered
+
+    named = sources._named
+    with pytest.MonkeyPatch.context() as patch:
+        for of, path_of in (
+            (named, sources._path),
+            (sources._meaning.__wrapped__, Path),
+            (sources._words.__wrapped__, Path),
+        ):
+            patch.setattr(sources, of.__name__, by_text(of, path_of, {}))
+        yield

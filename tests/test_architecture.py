@@ -4,10 +4,12 @@ import ast
 import dataclasses
 import functools
 import re
+from importlib import import_module
 from pathlib import Path
 
 import pytest
 
+from validation.engine.street import HOUSES
 from validation.report import contents
 from validation.report.figures import drawing
 
@@ -54,8 +56,11 @@ def table():
 
 PAGE = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
 MAY_IMPORT = table()
-BESIDE = {"__main__", "conformance"}
+BESIDE = {"__main__", "conformance", "pytest_plugin"}
 ROOMS = set(MAY_IMPORT) - {"mdr", "bem3d", *BESIDE}
+LINES_OF_A_FILE, LINES_OF_A_FUNCTION, SCENES_BY_CLASS = 600, 60, 15
+FOLDERS = {"scenes", "problems", "theory", "models", "kinds", "solvers", "cases", "commands"}
+"""That a house may have."""
 
 
 def room_of(name):
@@ -94,10 +99,27 @@ def test_imports_run_downward():
     assert all(order.index(other) < order.index(room) for room, others in MAY_IMPORT.items() for other in others)
 
 
+def test_a_house_has_folders_of_known_kinds_and_says_what_it_brings():
+    assert set(HOUSES) < ROOMS and list(HOUSES) == [room for room in MAY_IMPORT if room in HOUSES]
+    for house in HOUSES:
+        folder = ROOT / "validation" / house
+        folders = {path.parent.name for path in folder.glob("*/*.py")}
+        assert folders <= FOLDERS, house
+        assert {path.stem for path in (folder / "commands").glob("*.py")} - {"__init__"} == set(
+            import_module(f"validation.{house}").COMMANDS
+        )
+
+
 def test_validation_is_made_of_rooms():
     folders = {path.name for path in (ROOT / "validation").iterdir() if path.is_dir() and path.name != "__pycache__"}
     assert folders == {*ROOMS, "examples"}
     assert {path.stem for path in (ROOT / "validation").glob("*.py")} == {"__init__", *BESIDE}
+
+
+def test_matplotlib_is_imported_only_where_figures_are_drawn():
+    places = {str(s.relative_to(ROOT / "validation")) for p in PACKAGES for s in sources(p) if "matplotlib" in rooms(s)}
+    drawing = {place for place in places if not place.startswith("report/")}
+    assert all(re.fullmatch(r"(advice|judging)/figure\w*\.py", place) for place in drawing), drawing
 
 
 def test_no_chapter_of_cases_imports_another():
@@ -110,6 +132,31 @@ def test_no_chapter_of_cases_imports_another():
 def test_architecture_has_a_line_for_every_room():
     for room in ("mdr", "bem3d", *ROOMS):
         assert re.search(rf"^- \*\*`{room}/`\*\* \S", PAGE, re.MULTILINE), room
+
+
+def test_a_file_is_one_subject_and_a_function_is_read_at_a_glance():
+    longest = {str(source): source.read_text(encoding="utf-8").count("\n") for p in PACKAGES for source in sources(p)}
+    assert {name: lines for name, lines in longest.items() if lines > LINES_OF_A_FILE} == {}
+    functions = {
+        f"{source}:{node.name}": node.end_lineno - node.lineno + 1
+        for p in PACKAGES
+        for source in sources(p)
+        for node in nodes(source)
+        if isinstance(node, ast.FunctionDef)
+    }
+    assert {name: lines for name, lines in functions.items() if lines > LINES_OF_A_FUNCTION} == {}
+
+
+def test_a_scene_is_asked_what_it_has_not_what_it_is():
+    """Its class is looked at where a command or an example takes one kind alone."""
+    asked = [
+        str(source)
+        for source in sources("validation")
+        for node in nodes(source)
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "isinstance"
+        if re.search(r"Scene\b", ast.unparse(node.args[1]))
+    ]
+    assert len(asked) <= SCENES_BY_CLASS, asked
 
 
 def class_names():
@@ -133,11 +180,6 @@ def test_no_number_is_found_by_its_label():
     assert [str(s) for p in PACKAGES for s in sources(p) if parsed.search(s.read_text(encoding="utf-8"))] == []
 
 
-def test_matplotlib_is_imported_only_where_figures_are_drawn():
-    places = {s.relative_to(ROOT).parts[:2] for p in PACKAGES for s in sources(p) if "matplotlib" in rooms(s)}
-    assert places == {("validation", "report")}
-
-
 def test_every_case_has_its_figure():
     for name in {**contents.CASES, **contents.TIMED}:
         assert callable(drawing(name)), name
@@ -147,7 +189,7 @@ def test_every_part_of_a_figure_has_a_caption():
     """A function `draw_PART` of the file of a case draws the figure "CASE-PART", which a caption names."""
     said = "".join(
         source.read_text(encoding="utf-8")
-        for room in ("cases", "benchmarks")
+        for room in ("cases", "benchmarks", "advice/cases", "railway/cases")
         for source in sources(f"validation/{room}")
     )
     for source in sources("validation/report/figures"):

@@ -11,7 +11,7 @@ import pytest
 import bem3d
 import mdr
 import validation
-from validation.scenes import rail_file
+from validation.railway.scenes import rail_file
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "reports" / "docs"
@@ -19,11 +19,12 @@ PAGES = {path.stem: path.read_text(encoding="utf-8") for path in DOCS.glob("*.md
 NAMED = {name for page in PAGES.values() for name in re.findall(r"\{py:\w+\}`(?:[^`<]*<)?~?([\w.]+)>?`", page)}
 (SCENE,) = re.findall(r"```toml\n(.*?)```", PAGES["own_rail"], flags=re.DOTALL)
 THEORY = Path(validation.__file__).parent / "theory"
+THEORIES = (THEORY, *THEORY.parent.glob("*/theory"))
 HELPERS = {
     "validation.theory.closed_forms.positive",
     "validation.theory.gauss_legendre.gauss_legendre",
     "validation.theory.gauss_legendre.on_panels",
-    "validation.theory.transverse_structure.gauss",
+    "validation.railway.theory.transverse_structure.gauss",
 }
 METHODS = {
     *("mdr.geike", "mdr.line_trace", "mdr.load_curve", "mdr.rough_profile", "mdr.roll", "mdr.roll_surface"),
@@ -48,7 +49,8 @@ def public(path):
     """Functions and classes of a module of closed forms."""
     kinds = (ast.FunctionDef, ast.ClassDef)
     names = (node.name for node in ast.parse(path.read_text(encoding="utf-8")).body if isinstance(node, kinds))
-    return {f"validation.theory.{path.stem}.{name}" for name in names if name[0] != "_"}
+    module = ".".join(path.relative_to(ROOT).with_suffix("").parts)
+    return {f"{module}.{name}" for name in names if name[0] != "_"}
 
 
 @pytest.mark.parametrize("name", sorted(NAMED))
@@ -57,7 +59,7 @@ def test_a_name_is_there(name):
 
 
 def test_theory_has_every_formula():
-    formulas = set().union(*(public(path) for path in THEORY.glob("*.py"))) - HELPERS
+    formulas = set().union(*(public(path) for theory in THEORIES for path in theory.glob("*.py"))) - HELPERS
     said = set(re.findall(r"\{py:obj\}`~?([\w.]+)`", PAGES["theory"]))
     assert len(formulas) > 40
     assert formulas | METHODS <= said
@@ -65,8 +67,8 @@ def test_theory_has_every_formula():
 
 def test_every_module_of_theory_has_its_reference():
     reference = (DOCS / "reference" / "theory.rst").read_text(encoding="utf-8")
-    modules = set(re.findall(r"automodule:: validation\.theory\.(\w+)", reference))
-    assert modules == {path.stem for path in THEORY.glob("*.py")} - {"__init__"}
+    modules = set(re.findall(r"automodule:: validation\.(?:\w+\.)?theory\.(\w+)", reference))
+    assert modules == {path.stem for theory in THEORIES for path in theory.glob("*.py")} - {"__init__"}
 
 
 @pytest.mark.parametrize("package", [mdr, bem3d, validation])

@@ -11,11 +11,12 @@ import pytest
 
 import validation
 from validation.__main__ import main
-from validation.selection.compare import Comparison
-from validation.selection.hierarchy import Candidate, Selection
-from validation.selection.scene_model import Answer
+from validation.advice.compare import Comparison
+from validation.advice.hierarchy import Candidate, Selection
+from validation.advice.scene_model import Answer
+from validation.engine.street import HOUSES
+from validation.scenes.rolling_quantity import RollingQuantity
 from validation.simulation.model import Cost, ErrorEstimate
-from validation.simulation.rolling_quantity import RollingQuantity
 
 SPHERE = validation.load_scene("sphere")
 SPECTRUM = {"quantity": "force-spectrum", "tolerance": 0.3}
@@ -30,7 +31,7 @@ def spectrum():
 def test_every_name_is_there(name):
     assert getattr(validation, name) is not None
     assert name in dir(validation)
-    assert validation.MODULES[name].split(".")[0] in {"report", "benchmarks", "selection", "scenes", "engine"}
+    assert validation.MODULES[name].split(".")[0] in {"report", "benchmarks", "scenes", *HOUSES}
 
 
 def test_the_stub_says_the_same():
@@ -81,7 +82,8 @@ def comparison(status, *, failed="", quantity="stiffness"):
 
     cost, estimate = Cost(work=1, seconds=1.0), ErrorEstimate(model=0.1, reason="why")
     answer = Answer(value=np.array([2.0]), cost=cost, model=0.3, failed=failed)
-    return Comparison(SPHERE, quantity, Selection(0.2, (Candidate(Model(), status, "why", estimate, answer),)))
+    scene = SPHERE if quantity == "stiffness" else validation.load_scene("rolling_wheel")
+    return Comparison(scene, quantity, Selection(0.2, (Candidate(Model(), status, "why", estimate, answer),)))
 
 
 def test_a_missed_tolerance_leaves_the_best_value():

@@ -4,39 +4,42 @@ Examples assume ``import validation`` and ``import numpy as np``. Lengths are in
 """
 
 from importlib import import_module
+from importlib.util import find_spec
 
 # a module is imported when its name is first used: rooms import rooms, and none of them needs all others
 MODULES = {
     "CASES": "report.contents",
-    "Comparison": "selection.compare",
+    "Comparison": "advice.compare",
     "IndentationScene": "scenes.indentation",
     "Material": "scenes.material",
-    "Judgement": "report.judged",
+    "Judgement": "judging.judge",
     "MeasuredHeights": "scenes.measured",
-    "RailScene": "scenes.rail",
+    "RailScene": "railway.scenes.rail",
     "RollingScene": "scenes.rolling",
     "Roughness": "scenes.roughness",
     "WheelScene": "scenes.dynamic_wheel",
-    "compare": "selection.compare",
-    "contact_filter": "engine.offered",
-    "contact_law": "engine.offered",
-    "contact_solver": "engine.offered",
-    "force_spectrum": "engine.offered",
-    "judge": "report.judged",
+    "compare": "advice.compare",
+    "contact_filter": "judging.registry",
+    "contact_law": "judging.registry",
+    "contact_solver": "judging.registry",
+    "force_spectrum": "judging.registry",
+    "judge": "judging.judge",
     "load_scene": "scenes.load",
     "load_wheel_scene": "scenes.dynamic_wheel",
     "measured": "scenes.measured_surface",
-    "problems": "benchmarks.judging.discrete",
-    "profile_spectrum": "engine.offered",
-    "rolling_model": "engine.offered",
-    "stiffness_model": "engine.offered",
-    "stiffness_of_surface": "engine.offered",
-    "summary": "selection.summary",
-    "to_csv": "selection.exported",
-    "to_figure": "report.compared",
-    "to_json": "selection.exported",
+    "problems": "benchmarks.discrete",
+    "profile_spectrum": "judging.registry",
+    "rolling_model": "judging.registry",
+    "stiffness_model": "judging.registry",
+    "stiffness_of_surface": "judging.registry",
+    "summary": "advice.summary",
+    "to_csv": "advice.exported",
+    "to_figure": "advice.figure",
+    "to_json": "advice.exported",
 }
 """Where each name of the face is defined; `__init__.pyi` says the same to type checkers and editors."""
+MODULES = {name: module for name, module in MODULES.items() if find_spec(f"{__name__}.{module.partition('.')[0]}")}
+# of the packages that are there
 
 __all__ = list(MODULES)
 

@@ -11,6 +11,7 @@ from importlib import import_module, metadata
 from typing import Any, NoReturn
 
 from validation.engine.files import ERRORS_OF_A_PATH
+from validation.engine.street import commands
 from validation.engine.termination import RESUME_NOTE, TerminatedError, WorkerLostError, terminable
 from validation.engine.warning_lines import one_line_warnings
 from validation.engine.workers import ONE_THREAD
@@ -21,17 +22,14 @@ from validation.scenes.printable import never_fatal, printable
 
 COMMANDS = {
     "report": "run the cases and write a report folder",
-    "compare": "select the cheapest model of a scene that meets a tolerance",
-    "judge": "judge a model or a solver of your own, by the decorated functions of a file",
-    "sound": "write what a wheel on a rail sounds like by each model, as WAV files with one gain",
+    **{name: what for name, (what, _) in commands().items()},
     "scene": "print a scene that comes with this package, with a comment on every key",
-    "calibrate": "measure the errors that cheap models claim, beside boundary elements",
     "precision": f"error against cost of every method; the full size takes {said('full', ['precision'])}",
     "race": f"our solver and the other packages that are installed; the full size takes {said('full', ['race'])}",
     "cases": "list the cases and what each shows",
 }
 OF_REPORT = ("precision", "race", "cases")
-"""In the module of `report`; each other one has its own in `validation.report.commands`, imported when it is given."""
+"""In the module of `report`; each other one has its own in a folder `commands`, imported when it is given."""
 
 STDOUT = 1
 """Its file descriptor."""
@@ -123,8 +121,9 @@ class _CommandParser(_Parser):
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
         command = self.prog.split()[-1]
-        module = "report" if command in OF_REPORT else command
-        import_module(f"validation.report.commands.{module}").describe(self)
+        of_core = f"validation.report.commands.{'report' if command in OF_REPORT else command}"
+        _, module = commands().get(command, ("", of_core))
+        import_module(module).describe(self)
         found, unknown = super().parse_known_args(args, namespace)
         if unknown:
             self.error(f"unrecognized arguments: {' '.join(unknown)}")
@@ -141,9 +140,9 @@ def _parser() -> argparse.ArgumentParser:
         "same command goes on from there); 70 a fault of the program; 130 interrupted; 143 terminated.",
     )
     parser.add_argument("--version", action="version", version=metadata.version("mdr-validation"))
-    commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=_CommandParser)
+    subparsers = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=_CommandParser)
     for name, what in COMMANDS.items():
-        commands.add_parser(name, help=what)
+        subparsers.add_parser(name, help=what)
     return parser
 
 

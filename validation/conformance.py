@@ -6,7 +6,7 @@ The file is run as a program. Without an option `bem3d` and Geike's rule are tes
 example that hypothesis finds, as arrays that can be pasted.
 """
 
-from validation.report.judged_by_pytest import (
+from validation.judging.pytest_properties import (
     asked,
     rule,
     test_a_contact_solver_has_the_property,

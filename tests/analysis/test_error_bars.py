@@ -11,6 +11,7 @@ from scipy import stats
 
 from tests.analysis.intervals import covered, ends, holds
 from tests.cases.test_limits import STEEP
+from validation.advice.cases.model_selection_study import clopper_pearson
 from validation.analysis.statistics import (
     Estimate,
     jackknifed,
@@ -19,7 +20,6 @@ from validation.analysis.statistics import (
 )
 from validation.cases.limits.limits import threshold
 from validation.cases.limits.sweeps import Sweep
-from validation.cases.selection.model_selection_study import clopper_pearson
 from validation.simulation.free_vibration import fit_drift
 from validation.simulation.probing import swept
 

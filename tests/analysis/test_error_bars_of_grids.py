@@ -18,7 +18,7 @@ from validation.analysis.statistics import (
 )
 from validation.analysis.study import Outcomes
 from validation.benchmarks.work_precision.errors import MethodValues, error
-from validation.benchmarks.work_precision.problem import Quantity, mean_of
+from validation.benchmarks.work_precision.problem import ChartQuantity, mean_of
 from validation.cases.punch import fractal_punch_study as study
 from validation.cases.punch.ensembles import MEAN as MEAN_STIFFNESS
 from validation.cases.punch.fractal_punch import FractalPunch, PunchStatistics
@@ -157,7 +157,7 @@ def test_two_realisations_have_an_error_bar_and_one_has_none():
 
 
 def test_two_realisations_tell_nothing_of_how_a_deviation_scatters():
-    deviation = Quantity(
+    deviation = ChartQuantity(
         name="s", log=lambda a: np.log(np.atleast_1d(a["k"].std(ddof=1) if a["k"].size > 1 else 0.0)), needs=("k",)
     )
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import bem3d
-from validation.theory.contact_filters import half_space_filter
+from validation.railway.theory.contact_filters import half_space_filter
 from validation.theory.elliptic_contact import elliptic_contact
 
 RADII = [(1.0, 0.2), (0.2, 1.0), (0.46, 0.3)]

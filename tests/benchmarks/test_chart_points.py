@@ -11,7 +11,7 @@ from tests.benchmarks.made_up import MEAN, k
 from validation.benchmarks.timing import FINISHED, OUT_OF_RANGE, Configuration
 from validation.benchmarks.work_precision.errors import MethodValues, error, points, reference_of
 from validation.benchmarks.work_precision.pressed import log_deviation
-from validation.benchmarks.work_precision.problem import EXTRAPOLATED, Quantity, mean_of
+from validation.benchmarks.work_precision.problem import EXTRAPOLATED, ChartQuantity, mean_of
 from validation.engine.convergence import NotConvergedError
 
 LEVEL = mean_of("level", "k", decibel=True, order=2.0)
@@ -38,7 +38,7 @@ def test_fewer_realisations_are_paired_with_the_first_of_the_reference(fewer):
 
 def test_no_scatter_is_all_wrong_and_a_single_value_has_none():
     assert log_deviation({"stiffness": np.ones(1)}) == -np.inf
-    quantity = Quantity(name="deviation", log=log_deviation, needs=("stiffness",))
+    quantity = ChartQuantity(name="deviation", log=log_deviation, needs=("stiffness",))
     drawn = {"stiffness": np.random.default_rng(4).lognormal(0, 0.3, 12)}
     found = error(quantity, MethodValues({"stiffness": np.ones(1)}, paired=False), MethodValues(drawn))
     assert found.value == 1.0
@@ -54,7 +54,7 @@ def test_two_grids_of_a_power_law_are_extrapolated_to_the_truth(order):
 
 def test_levels_differ_by_the_root_mean_square_of_decibels():
     """Other values by the farthest of them; several numbers have no ratio."""
-    several = Quantity(name="several", log=lambda a: np.log(a["k"].mean(axis=0)), needs=("k",))
+    several = ChartQuantity(name="several", log=lambda a: np.log(a["k"].mean(axis=0)), needs=("k",))
     mine, reference = MethodValues(k([[2.0, 1.0]])), MethodValues(k([[1.0, 1.0]]))
     found = error(dataclasses.replace(several, decibel=True), mine, reference)
     assert found.value == pytest.approx(10 * math.log10(2) / math.sqrt(2))
@@ -89,7 +89,7 @@ LOST = attempt("MDR", 99.0)
 class MadeProblem:
     """Made up."""
 
-    quantities: tuple[Quantity, ...] = (MEAN,)
+    quantities: tuple[ChartQuantity, ...] = (MEAN,)
     exact: bool = False
     name = "made up"
     scene, served = None, ()

@@ -15,7 +15,7 @@ from validation.analysis.series import numbers_of
 from validation.benchmarks import isolation as alone
 from validation.benchmarks import peers, timing
 from validation.benchmarks import solvers as comparison
-from validation.benchmarks.judging.discrete import ContactProblem, pressed
+from validation.benchmarks.discrete import ContactProblem, pressed
 from validation.benchmarks.peers import OURS, SOLVERS, PeerSolver, is_ours
 from validation.benchmarks.solvers import AREA, CASE, FORCE, PRESSURE
 from validation.benchmarks.surface_problem import SurfaceProblem
@@ -197,7 +197,7 @@ def test_a_solver_that_is_placed_first_does_not_become_ours():
 OWN = """
 from own_solver import solve
 from validation import contact_solver
-from validation.benchmarks.judging.discrete import ContactProblem, pressed
+from validation.benchmarks.discrete import ContactProblem, pressed
 
 @contact_solver("waves", free=False, periodic=True)
 def waves(gap, spacing, modulus, periodic, tolerance, force=None, approach=None):

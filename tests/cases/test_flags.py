@@ -11,6 +11,7 @@ import pytest
 
 import bem3d
 from tests.cases.planted import TABLE
+from validation.advice.cases import model_selection
 from validation.analysis.study import Outcomes, Study
 from validation.benchmarks.timing import FAILED, FINISHED, OUT_OF_RANGE
 from validation.benchmarks.work_precision.case import lost
@@ -18,7 +19,6 @@ from validation.benchmarks.work_precision.problem import BEM, LOOSE, MDR
 from validation.cases.limits import limits
 from validation.cases.punch import bandwidth, bandwidth_study, fractal_punch, interface
 from validation.cases.rolling import force_spectrum, ridges
-from validation.cases.selection import model_selection
 from validation.cases.wheel import distance, half_space, spectrum
 from validation.engine.convergence import NotConvergedError
 from validation.simulation import rolling_strip, rough_punch, wheel_on_springs

@@ -7,12 +7,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from tests.advice.test_model_selection import outcome as selected
 from tests.cases.test_fractal_punch import synthetic
 from tests.cases.test_interface import CASE as INTERFACE
 from tests.cases.test_interface import outcome as pressed
 from tests.cases.test_interface import theory
 from tests.cases.test_limits import STEEP
-from tests.cases.test_model_selection import outcome as selected
+from validation.advice.cases import model_selection as ladder
+from validation.advice.cases import model_selection_study as calibration
 from validation.analysis.evidence import Verdict, numbers_with
 from validation.analysis.series import Estimates, tables_of
 from validation.analysis.statistics import Interval
@@ -24,12 +26,10 @@ from validation.cases.punch.ensembles import DEVIATION, OVER
 from validation.cases.punch.fractal_punch import SCATTER
 from validation.cases.punch.fractal_punch_study import PRINTED
 from validation.cases.punch.interface import GAP, GAP_OVER_H, PUNCH
-from validation.cases.rail import across, across_study
 from validation.cases.rolling import force_spectrum as rolling
-from validation.cases.selection import model_selection as ladder
-from validation.cases.selection import model_selection_study as calibration
 from validation.cases.stability import wheel_stability
 from validation.cases.wheel.half_space import LOOSE, TIGHT, WheelLevels
+from validation.railway.cases import across, across_study
 
 # --- the punch of Fig. 14.1 ---
 

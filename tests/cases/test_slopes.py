@@ -14,23 +14,24 @@ import pytest
 from scipy import integrate, special
 
 import validation
+from validation.advice.compare import models_of
+from validation.advice.models.rolling import RollingClaim, linear_filter_3d
+from validation.advice.summary import heading
+from validation.advice.tolerance import tolerance_of
 from validation.analysis.study import Outcomes
 from validation.cases.limits.sweeps import LIMITS, Sweep
 from validation.cases.punch.interface import Interface
-from validation.cases.rail import rough_rail
 from validation.cases.rolling import reduced_models as reduced_case
 from validation.cases.wheel import half_space_study
+from validation.railway.cases import rough_rail
+from validation.railway.problems import rail_strip
+from validation.railway.problems.rail_models import linear_error
+from validation.railway.problems.rail_quantity import RailQuantity
+from validation.railway.scenes.roughness_levels import RoughnessLevels
 from validation.report.answers.questions import QUESTIONS
 from validation.scenes.description import describe
-from validation.scenes.roughness_levels import RoughnessLevels
-from validation.selection.compare import models_of
-from validation.selection.summary import heading
-from validation.selection.tolerance import tolerance_of
-from validation.simulation import indentation, limits_of_springs, rail_strip
+from validation.simulation import indentation, limits_of_springs
 from validation.simulation.model import ErrorEstimate
-from validation.simulation.models.rolling import RollingClaim, linear_filter_3d
-from validation.simulation.rail_models import linear_error
-from validation.simulation.rail_quantity import RailQuantity
 from validation.simulation.reduced_models import MODELS, bands_of
 from validation.simulation.rough_punch import PunchRoughness
 from validation.simulation.track_spectrum import self_affine
@@ -76,7 +77,7 @@ def test_table_14_1_has_one_slope_everywhere():
     assert of_wheel()["h' a/d"] == pytest.approx(expected, rel=1e-9)
     said = f"h' a/d = {expected:.3g}"
     assert said in dict(describe(WHEEL))["rms slope h'"]
-    assert f"{said}\n" in heading(validation.load_scene("table_14_1"), "acceleration-rms", tolerance_of("10%"))
+    assert f"{said}\n" in heading(validation.load_scene("table_14_1"), ["acceleration-rms"], tolerance_of("10%"))
     of_book = models_evidence(reduced_case.CASE.quick).table(reduced_case.TABLE_14_1).where(model="h' a/d")
     assert of_book["value"] == pytest.approx([expected], rel=1e-9)
     (question,) = (one for one in QUESTIONS if one.name == "dynamic-wheel")

@@ -165,13 +165,13 @@ def test_every_end_has_its_status_and_its_sentence(error, status, said, tmp_path
 @pytest.mark.parametrize(
     ("words", "called", "kept"),
     [
-        ("judge mine.py --out out", "judge.visited", False),
-        ("sound rail --out out", "sound.run", False),
-        ("compare sphere", "compare.findings", False),
-        ("compare sphere rough_punch", "compare.compare_scenes", True),
-        ("calibrate --check 1", "calibrate.check_calibration", False),
-        ("calibrate", "calibrate.measured_table", True),
-        ("race --out out", "run_cases.build", True),
+        ("judge mine.py --out out", "judging.commands.judge.visited", False),
+        ("sound rail --out out", "railway.commands.sound.run", False),
+        ("compare sphere", "advice.commands.compare.findings", False),
+        ("compare sphere rough_punch", "advice.commands.compare.compare_scenes", True),
+        ("calibrate --check 1", "advice.commands.calibrate.check_calibration", False),
+        ("calibrate", "advice.commands.calibrate.measured_table", True),
+        ("race --out out", "report.commands.run_cases.build", True),
     ],
 )
 def test_what_is_kept_is_said_by_commands_that_keep_it(words, called, kept, tmp_path, monkeypatch, capsys):
@@ -180,7 +180,7 @@ def test_what_is_kept_is_said_by_commands_that_keep_it(words, called, kept, tmp_
 
     monkeypatch.chdir(tmp_path)
     (tmp_path / "mine.py").touch()
-    monkeypatch.setattr(f"validation.report.commands.{called}", interrupted)
+    monkeypatch.setattr(f"validation.{called}", interrupted)
     assert command.main(words.split()) == command.Exit.INTERRUPTED
     note = "; finished solves are kept, the same command goes on from there" if kept else ""
     assert capsys.readouterr().err.splitlines()[-1] == f"interrupted{note}"

@@ -30,7 +30,7 @@ time.sleep(600)
 JUDGE = """
 import sys
 from pathlib import Path
-from validation.engine.others import Visitor
+from validation.judging.worker import Visitor
 Visitor(Path(sys.argv[1]), seconds=600.0).callers()[0].call(load=1.0)
 """
 MODEL = """

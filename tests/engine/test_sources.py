@@ -36,7 +36,7 @@ def edited(monkeypatch):
 def test_a_punch_rests_on_both_methods_and_on_no_page():
     behind = modules_behind(PUNCH)
     assert {PUNCH, "bem3d.solver", "bem3d", "mdr.foundation", "validation.simulation.surface"} <= behind
-    assert not [name for name in behind if name.startswith(("validation.selection", "validation.cases"))]
+    assert not [name for name in behind if name.startswith(("validation.advice", "validation.cases"))]
     assert not [name for name in sources.modules() if ".report" in name]
     # problems go through the engine, and what draws their random numbers stands beside it
     assert not {"validation.engine.engine", "validation.engine.progress", "validation.engine.stored"} & behind
@@ -51,7 +51,7 @@ def test_a_solve_that_uses_the_face_or_imports_by_name_rests_on_everything(numbe
     monkeypatch.syspath_prepend(str(tmp_path))
     (tmp_path / f"any_import_{number}.py").write_text(text, encoding="utf-8")
     behind = modules_behind(import_module(f"any_import_{number}").__name__)
-    assert "validation.selection.compare" in behind
+    assert "validation.advice.compare" in behind
     assert number < 2 or behind >= set(sources.modules()) - {sources.ENGINE}
 
 
@@ -77,7 +77,7 @@ def test_every_import_of_the_running_code_is_found():
         ("validation.simulation.rough_punch", b"def ", b"def other_", True),
         ("validation.simulation.rough_punch", b'"""A rigid', b'"""Another word: a rigid', False),
         ("validation.simulation.rough_punch", b"\n\n", b"\n# a comment\n\n", False),
-        ("validation.selection.summary", b"def ", b"def other_", False),
+        ("validation.advice.summary", b"def ", b"def other_", False),
     ],
 )
 def test_results_are_as_good_as_the_code_behind_them(edited, module, old, new, changes):
@@ -96,10 +96,10 @@ def test_the_classes_of_a_problem_count(problems):
 
 @pytest.mark.slow
 def test_data_beside_a_module_that_asks_for_its_place_counts(edited):
-    table = sources.modules()["validation.simulation.calibration"].with_name("calibration.csv")
-    before = version_behind("validation.simulation.calibration", None)
+    table = sources.modules()["validation.advice.calibration"].with_name("calibration.csv")
+    before = version_behind("validation.advice.calibration", None)
     edited(table, b"measured", b"guessed")
-    assert version_behind("validation.simulation.calibration", None) != before
+    assert version_behind("validation.advice.calibration", None) != before
 
 
 def test_the_code_of_a_user_counts(tmp_path, monkeypatch):

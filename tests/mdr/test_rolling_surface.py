@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import mdr
-from validation.theory.contact_filters import half_space_filter
+from validation.railway.theory.contact_filters import half_space_filter
 from validation.theory.elliptic_contact import elliptic_contact
 
 D, MODULUS = 1e-4, 2e11

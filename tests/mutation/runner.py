@@ -42,12 +42,16 @@ VERDICTS = (
     *("validation/analysis/evidence.py", "validation/analysis/spectra.py", "validation/analysis/spectral_features.py"),
     *("validation/simulation/limit_sweeps.py", "validation/simulation/probing.py", "validation/engine/engine.py"),
     *("validation/benchmarks/work_precision/errors.py", "validation/benchmarks/work_precision/pareto.py"),
-    "validation/selection/hierarchy.py",
+    "validation/advice/hierarchy.py",
 )
 CLAIMS = (
-    *("validation/report/answers/*.py", "validation/simulation/calibrat*.py", "validation/selection/contact_force.py"),
-    *("validation/selection/exported.py", "validation/analysis/graduation.py", "validation/scenes/isotropic_line.py"),
-    *("validation/analysis/multilevel.py", "validation/simulation/rail_*.py", "validation/analysis/sound.py"),
+    *("validation/report/answers/*.py", "validation/advice/calibrat*.py", "validation/advice/contact_force.py"),
+    *(
+        "validation/advice/exported.py",
+        "validation/railway/scenes/graduation.py",
+        "validation/railway/scenes/isotropic_line.py",
+    ),
+    *("validation/analysis/multilevel.py", "validation/railway/problems/rail_*.py", "validation/analysis/sound.py"),
 )
 """What claims rest on: grids of Fig. 14.1, calibrated errors, rails, and what is printed of all of them."""
 FIELDS = {"methods": METHODS, "verdicts": VERDICTS, "claims": CLAIMS}

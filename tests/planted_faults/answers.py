@@ -8,11 +8,11 @@ from tests.cases import test_exact_cases, test_no_floor_in_data
 from tests.planted_faults.wrong import Fault
 from tests.report import test_answers, test_axes, test_columns, test_front
 from validation.analysis import conditions
-from validation.analysis.judgement import AGREE
 from validation.analysis.series import Series
 from validation.cases.exact import hertz
 from validation.cases.limits import limits
 from validation.cases.punch import fractal_punch
+from validation.judging.judgement import AGREE
 from validation.report import columns
 from validation.report.answers import first_screen, front_tables, strip
 

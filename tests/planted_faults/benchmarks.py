@@ -8,18 +8,18 @@ import numpy as np
 
 from tests.benchmarks import test_chart_points as test_points
 from tests.benchmarks import test_fronts, test_peers
-from tests.benchmarks import test_judged_solvers as test_solvers
-from tests.benchmarks import test_judging_bounds as test_bounds
+from tests.judging import test_judged_solvers as test_solvers
+from tests.judging import test_judging_bounds as test_bounds
 from tests.planted_faults.wrong import Fault, Times
+from validation.benchmarks import discrete, timing
 from validation.benchmarks import solvers as comparison
-from validation.benchmarks import timing
-from validation.benchmarks.judging import discrete, factors, properties
-from validation.benchmarks.judging import judged as judging
 from validation.benchmarks.work_precision import case as precision_case
 from validation.benchmarks.work_precision import errors as precision_error
 from validation.benchmarks.work_precision import faster as precision_faster
 from validation.benchmarks.work_precision import problem as precision
 from validation.benchmarks.work_precision.pareto import Point
+from validation.judging.solvers import factors, properties
+from validation.judging.solvers import judged as judging
 
 
 def at_first_order(answer, quantity, rows):
@@ -81,7 +81,7 @@ FAULTS = [
     functools.partial(test_points.test_two_grids_of_a_power_law_are_extrapolated_to_the_truth, 2.0),
     Fault("first order for second in an extrapolation").at(precision_error.MethodValues, "log", at_first_order),
     test_points.test_levels_differ_by_the_root_mean_square_of_decibels,
-    Fault("decibels of an amplitude for those of a power").at(precision.Quantity, "distance", Times(2.0)),
+    Fault("decibels of an amplitude for those of a power").at(precision.ChartQuantity, "distance", Times(2.0)),
     test_solvers.test_a_condition_that_is_left_has_its_size,
     Fault("the approach of a contact for the one that is prescribed").at(
         discrete.ContactProblem,

@@ -10,16 +10,14 @@ import numpy as np
 import bem3d
 import mdr
 from bem3d import kernel
+from tests.advice import test_edge_scenes
 from tests.cases import (
     test_bandwidth,
-    test_edge_scenes,
     test_exact_cases,
     test_flags,
     test_fractal_punch,
     test_interface,
     test_limits,
-    test_rail_cases,
-    test_rail_sound,
     test_rolling_cases,
     test_wheel_cases,
     test_wheel_ensembles,
@@ -27,6 +25,9 @@ from tests.cases import (
 )
 from tests.cases import test_from_force_to_roughness_and_stiffness as test_force
 from tests.planted_faults.wrong import Fault, Times
+from tests.railway import test_rail_cases
+from tests.railway import test_rail_sound_case as test_rail_sound
+from validation.advice.cases import model_selection as calibration
 from validation.analysis import multilevel
 from validation.analysis import series as analysis_series
 from validation.analysis.evidence import ClaimStatus, Verdict
@@ -35,15 +36,15 @@ from validation.analysis.statistics import nearest
 from validation.cases.exact import geike, hertz
 from validation.cases.limits import sweeps as limits
 from validation.cases.punch import bandwidth, ensembles, fractal_punch, interface
-from validation.cases.rail import filters as rail_filters
-from validation.cases.rail import rail_sound, rough_rail
 from validation.cases.rolling import force_spectrum
-from validation.cases.selection import model_selection as calibration
 from validation.cases.wheel import half_space_study
 from validation.engine.random_numbers import random_generator
+from validation.railway.cases import filters as rail_filters
+from validation.railway.cases import rail_sound, rough_rail
+from validation.railway.problems import equivalent_displacement
+from validation.railway.problems.rail_strip import RailStrip
 from validation.scenes import dynamic_wheel as wheel_scene
 from validation.simulation import (
-    equivalent_displacement,
     free_vibration,
     indentation,
     integrators,
@@ -57,7 +58,6 @@ from validation.simulation import (
 from validation.simulation import spring_tracks as rough_springs
 from validation.simulation import wheel_on_springs as wheel_ensemble
 from validation.simulation.exact_contacts import PublishedContact
-from validation.simulation.rail_strip import RailStrip
 from validation.simulation.rolling_strip import level_1d
 from validation.simulation.rough_punch import PunchRoughness
 

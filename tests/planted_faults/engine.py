@@ -3,9 +3,12 @@
 from functools import partial
 
 from tests.engine import test_engine as test_ensemble
-from tests.engine import test_files, test_hostile, test_refusals
+from tests.engine import test_files
+from tests.judging import test_hostile, test_refusals
 from tests.planted_faults.wrong import Fault
-from validation.engine import files, lent, refusals, replies, sources
+from validation.engine import files, sources
+from validation.judging import arguments as lent
+from validation.judging import refusals, replies
 
 RMS = "object.__setattr__(roughness, 'rms', 3.0)"
 DEEP = "roughness.parts[1]['a'][0] = 1.0"

@@ -5,19 +5,22 @@ from functools import partial
 
 import numpy as np
 
-from tests.analysis import test_factors, test_independent_records, test_judgement
-from tests.planted_faults.wrong import Fault, with_math
-from tests.selection import (
+from tests.analysis import test_independent_records
+from tests.judging import (
+    test_factors,
     test_judged_diagnosis,
     test_judged_ends,
     test_judged_kinds,
     test_judged_stiffness,
+    test_judgement,
     test_references,
 )
-from validation.analysis import factors, independent_records, judgement
-from validation.engine import others
-from validation.selection.judging import held_out_solves, laws, own, repeats, scaling, stiffness, sweeps
-from validation.selection.judging.judge import ModelAnswer
+from tests.planted_faults.wrong import Fault, with_math
+from validation.analysis import independent_records
+from validation.judging import judgement
+from validation.judging import worker as others
+from validation.judging.kinds import factors, held_out_solves, laws, own, repeats, scaling, stiffness, sweeps
+from validation.judging.kinds.judge import ModelAnswer
 from validation.simulation.rough_punch import PlateauSpectrum
 
 given, verdict_of = stiffness.AskedPunch.arguments.fget, judgement.verdict_of

@@ -6,23 +6,18 @@ from functools import partial
 import numpy as np
 
 from tests.planted_faults.wrong import Fault
-from tests.scenes import test_line_columns, test_line_outliers
-from validation.scenes import (
-    line_columns,
-    line_edits,
-    line_outliers,
-    line_steps,
-    number_table,
-    table_files,
-)
-from validation.scenes.line_edits import EditedLine, LineEdits
-from validation.scenes.roughness_levels import RoughnessLevels
-from validation.simulation import rail_quantity
+from tests.railway import test_line_bursts, test_line_columns, test_line_outliers
+from validation.railway.problems import rail_quantity
+from validation.railway.scenes import line_bursts, line_columns, line_edits, line_outliers, line_steps
+from validation.railway.scenes.line_edits import EditedLine, LineEdits
+from validation.railway.scenes.roughness_levels import RoughnessLevels
+from validation.scenes import number_table, table_files
 
 of_clean_lines = (
     test_line_outliers.test_levels_without_outliers_are_those_of_the_clean_line_within_the_error_that_is_left
 )
 change, kept, of_columns = EditedLine.change, EditedLine.kept, table_files.heights_of_columns
+bursts_of = line_bursts.bursts_of
 errors, without_steps, positions_of = LineEdits.errors, line_steps.without_steps, line_columns._positions_of
 
 
@@ -39,6 +34,10 @@ def steps_downwards(line, spacing, sensor):
 def positions_without_the_last(numbers, given, rest, dead):
     where, words = positions_of(numbers, given, rest, dead)
     return (given[: len(rest)] if given else where), words
+
+
+def where_it_is_raised(line, measured, spacing, sensor):
+    return bursts_of(line, line, spacing, sensor)
 
 
 FAULTS = [
@@ -96,4 +95,30 @@ FAULTS = [
     Fault("clipping that is forgiven").at(line_edits, "MOST_CLIPPED", 1.0),
     test_line_columns.test_seconds_since_1970_are_no_places,
     Fault("times taken for places").at(line_columns, "EPOCH", (0.0, 0.0)),
+    partial(test_line_bursts.test_a_burst_is_named_where_it_is_and_is_in_the_error, "white", 5.0),
+    Fault("bursts of noise that nobody finds").at(line_edits, "bursts_of", lambda *_: ()),
+    partial(test_line_bursts.test_a_burst_is_named_where_it_is_and_is_in_the_error, "ground", 5.0),
+    Fault("no error of a burst that is named").at(EditedLine, "of_bursts", lambda line, bands: np.zeros(len(bands))),
+    partial(test_line_bursts.test_a_part_that_is_twice_as_rough_is_no_burst, 2.0),
+    Fault("no part of a line may be rougher than the others").at(line_bursts, "NATURAL", 1.0),
+    test_line_bursts.test_a_corrugation_of_a_part_is_no_burst,
+    Fault("a corrugation taken for a burst").at(line_bursts, "NEIGHBOURS", 1),
+    partial(test_line_bursts.test_right_lines_of_any_length_have_no_burst, 2e-3),
+    Fault("bands compared as if they had no scatter").at(
+        line_bursts.Windows, "_over", lambda windows, p: windows.powers > np.median(windows.powers, axis=0)
+    ),
+    test_line_bursts.test_a_burst_over_an_eightieth_of_a_line_is_named,
+    Fault("long windows alone").at(line_bursts, "PARTS", (20,)),
+    test_line_bursts.test_what_a_burst_adds_is_that_of_its_part_of_a_white_line,
+    Fault("what a burst adds over all windows, and not over those without it").at(
+        line_bursts.Windows, "touched", lambda windows, bursts: np.arange(windows.starts.size) < 1
+    ),
+    test_line_bursts.test_a_line_with_a_burst_over_more_than_a_third_has_no_error,
+    Fault("a line of which half is a burst").at(line_edits, "MOST_OF_LINE", 1.0),
+    partial(test_line_bursts.test_a_burst_is_named_where_it_is_and_is_in_the_error, "white", 60.0),
+    Fault("a burst all of whose points are spikes").at(line_edits, "bursts_of", where_it_is_raised),
+    partial(test_line_bursts.test_a_step_with_a_flank_in_a_corrugated_line_is_named, 14),
+    Fault("steps that corrugation hides").at(line_steps, "_hidden_step", lambda *_: None),
+    partial(test_line_bursts.test_wide_shallow_pits_are_named, 180),
+    Fault("pits wider than 0.1 m that are not seen").at(line_outliers, "DISTANCES", line_outliers.DISTANCES[:10]),
 ]

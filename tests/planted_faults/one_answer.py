@@ -3,12 +3,14 @@
 import functools
 import math
 
+from tests.advice import test_costs_by_counts, test_limits_of_compare, test_one_answer, test_read_only_comparison
+from tests.judging import test_models_from
 from tests.planted_faults.wrong import Fault
-from tests.selection import test_limits_of_compare, test_models_from, test_one_answer, test_read_only_comparison
-from tests.simulation import test_costs_by_counts
+from validation.advice import advice, compare, hierarchy, on_mdr, scene_model
+from validation.judging import own_models
+from validation.railway.problems import rail_models, rail_quantity
 from validation.scenes.measured import MeasuredHeights
-from validation.selection import advice, compare, elasticity, hierarchy, on_mdr, own_models, scene_model
-from validation.simulation import rail_models, rail_quantity
+from validation.scenes.scene import ContactEllipse
 
 FAULTS = [
     test_costs_by_counts.test_cells_that_are_drawn_are_most_of_the_cost_of_springs_on_a_line,
@@ -26,7 +28,7 @@ FAULTS = [
     Fault("a half-space that bears any pressure").at(compare, "beyond_elasticity", lambda scene: ""),
     functools.partial(test_one_answer.test_no_model_is_enough_beyond_linear_elasticity, *test_one_answer.BODIES[1]),
     Fault("the peak for the mean pressure").at(
-        elasticity, "mean_pressure", lambda scene: 1.5 * scene.load / (math.pi * scene.contact_radius**2)
+        ContactEllipse, "mean_pressure", property(lambda contact: 1.5 * contact.load / (math.pi * contact.along**2))
     ),
     test_one_answer.test_where_the_sample_is_the_error_a_number_of_realisations_is_advised_that_does,
     Fault("no number of realisations would do").at(advice, "wanted_realisations", lambda one, tolerance: 0),

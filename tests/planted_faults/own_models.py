@@ -3,13 +3,14 @@
 from dataclasses import replace
 from functools import partial
 
+from tests.judging import test_own_models
 from tests.planted_faults.wrong import Fault, with_math
-from tests.selection import test_own_models
-from validation.engine import others, read_files
-from validation.selection import own_kinds, own_models
-from validation.selection.calibration_answers import Answers
+from validation.advice.calibration_answers import Answers
+from validation.judging import files_read as read_files
+from validation.judging import own_kinds, own_models
+from validation.judging import worker as others
+from validation.railway.problems.rail_models import ContactFilter
 from validation.simulation.model import ErrorEstimate
-from validation.simulation.rail_models import ContactFilter
 
 scenes_of = Answers.scenes
 

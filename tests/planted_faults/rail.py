@@ -5,23 +5,29 @@ from functools import partial
 
 import numpy as np
 
-from tests.analysis import test_graduation
-from tests.cases import test_across
+from tests.advice import test_calibration, test_own_scene
 from tests.planted_faults.wrong import Fault
-from tests.scenes import test_isotropic_line
-from tests.selection import test_contact_force, test_filter_table, test_own_scene
-from tests.selection import test_no_band_counts as silent
-from tests.simulation import test_calibration, test_rail_error_bars, test_rail_filters, test_scattered_levels
-from validation.analysis import graduation
+from tests.railway import (
+    test_across,
+    test_contact_force,
+    test_filter_table,
+    test_graduation,
+    test_isotropic_line,
+    test_rail_error_bars,
+    test_rail_filters,
+)
+from tests.railway import test_no_band_counts as silent
+from tests.simulation import test_scattered_levels
+from validation.advice import calibration_scenes, contact_force, side_by_side
+from validation.advice.scene_model import Answer
 from validation.analysis.nominal_bands import NominalBands
-from validation.cases.rail import across, filters, rolled_filters
-from validation.scenes import isotropic_line
-from validation.selection import calibration_scenes, contact_force, exported, rail_model, side_by_side
-from validation.selection.scene_model import Answer
-from validation.simulation import equivalent_displacement, rail_across, rail_models, rail_quantity, rail_strip
+from validation.railway import exported as of_rail
+from validation.railway.cases import across, filters, rolled_filters
+from validation.railway.problems import equivalent_displacement, rail_across, rail_models, rail_quantity, rail_strip
+from validation.railway.problems.rail_models import ContactFilter
+from validation.railway.problems.rail_quantity import RailQuantity
+from validation.railway.scenes import graduation, isotropic_line
 from validation.simulation.model_names import ONE_SIDED_BED
-from validation.simulation.rail_models import ContactFilter
-from validation.simulation.rail_quantity import RailQuantity
 
 graduated, model_error, over_twin = graduation.graduated, ContactFilter.model_error, ContactFilter.over_twin
 
@@ -184,13 +190,11 @@ FAULTS = [
         test_scattered_levels, "lost_contact_number", by_smooth_levels
     ),
     silent.test_a_solve_leaves_its_bands_and_no_error,
-    Fault("enough where no band counts").at(rail_model, "worst", lambda quantity, a3, error: 0.0),
+    Fault("enough where no band counts").at(rail_models, "worst", lambda quantity, a3, error: 0.0),
     partial(UNHEARD, across="isotropic", scene=silent.QUIET, span="12.5 to 10 mm"),
     Fault("the bands of a wrong filter that count").at(RailQuantity, "no_answer", ""),
     test_filter_table.test_springs_on_geikes_spectrum_are_off_for_long_waves_too,
-    Fault("long waves that pass under every filter").at(
-        exported, "of_longer_waves", lambda model, target: np.zeros(35)
-    ),
+    Fault("long waves that pass under every filter").at(of_rail, "of_longer_waves", lambda model, target: np.zeros(35)),
     partial(UNHEARD, across="ridges", scene=silent.SHORT, span="6.3 to 3.15 mm"),
     Fault("levels counted that no one hears").at(rail_quantity, "COUNTED", -60.0),
 ]

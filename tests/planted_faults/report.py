@@ -26,7 +26,7 @@ from validation.analysis.claims import Claim
 from validation.analysis.evidence import Verdict
 from validation.analysis.series import Series
 from validation.report import build, chapter, code_behind, columns, formats, provenance, sounds, style, symbols
-from validation.report.answers import questions, strip
+from validation.report.answers import question, strip
 from validation.report.page import PageFigure
 
 AGREE, DIFFER = Verdict.AGREE, Verdict.DIFFER
@@ -124,7 +124,7 @@ FAULTS = [
     test_answers.test_ranges_that_overlap_are_one_cell,
     Fault("cells that overlap").at(strip, "_apart", lambda found: dict(sorted(found.items()))),
     test_answers.test_decibels_are_printed_as_their_quantity,
-    Fault("the power of a ratio printed for its amplitude").at(questions, "DECIBEL", statistics.POWER_DECIBEL),
+    Fault("the power of a ratio printed for its amplitude").at(question, "DECIBEL", statistics.POWER_DECIBEL),
     test_sounds.test_files_differ_by_the_level_of_the_forces,
     Fault("a sound normalised by itself").at(sounds, "quantised", by_its_own_peak),
     partial(test_claims.test_a_status_has_its_word_and_sign, [AGREE, DIFFER], {}, "✗ contradicted"),

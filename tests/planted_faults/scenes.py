@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 
 from tests.planted_faults.wrong import Fault, Times, with_math
+from tests.railway import test_profiled_rail, test_rail
 from tests.scenes import (
     test_damping_key,
     test_exported_tables,
@@ -14,27 +15,22 @@ from tests.scenes import (
     test_limits_of_scenes,
     test_materials,
     test_measured_heights,
-    test_profiled_rail,
-    test_rail,
     test_steadiness,
     test_units,
 )
+from validation.railway.scenes import level_files, rail, roughness_levels, transverse_profile
+from validation.railway.scenes.roughness_levels import RoughnessLevels
+from validation.railway.scenes.transverse_profile import TransverseProfile
 from validation.scenes import (
     height_edits,
-    level_files,
     material,
     measured,
     measured_surface,
-    rail,
     roughness,
-    roughness_levels,
     steadiness,
     text_dialect,
-    transverse_profile,
     units,
 )
-from validation.scenes.roughness_levels import RoughnessLevels
-from validation.scenes.transverse_profile import TransverseProfile
 
 real_spectrum, check_alone = measured._spectrum, transverse_profile._check_alone
 both_together = transverse_profile.both_together

@@ -10,27 +10,24 @@ import numpy as np
 import bem3d
 import mdr
 from tests import test_face
-from tests.benchmarks import test_chart_points as test_points
-from tests.cases import test_edge_scenes
-from tests.planted_faults.wrong import Fault, Times, with_math
-from tests.selection import (
+from tests.advice import (
     test_calibrate_command,
+    test_calibration,
     test_claims,
-    test_contact_force,
+    test_edge_scenes,
     test_in_short,
     test_named_models,
     test_own_scene,
     test_what_compare_says,
 )
-from tests.selection import test_model_hierarchy as test_ladder
-from tests.simulation import test_calibration
-from validation.benchmarks.work_precision import errors as precision_error
-from validation.cases.selection import model_selection_study
-from validation.engine.random_numbers import random_generator
-from validation.report import compared
-from validation.scenes import measured, rail
-from validation.selection import (
+from tests.advice import test_model_hierarchy as test_ladder
+from tests.benchmarks import test_chart_points as test_points
+from tests.planted_faults.wrong import Fault, Times, with_math
+from tests.railway import test_contact_force
+from validation.advice import (
     calibrate,
+    calibrated_range,
+    calibration,
     columns,
     compare,
     contact_force,
@@ -41,17 +38,19 @@ from validation.selection import (
     swept,
     tolerance,
 )
-from validation.simulation import calibrated_range, calibration, sampling, surface
+from validation.advice import figure as compared
+from validation.advice.calibrated_range import LOAD
+from validation.advice.cases import model_selection_study
+from validation.advice.models import boundary_elements_pressed, boundary_elements_rolling, pressed, rolling
+from validation.benchmarks.work_precision import errors as precision_error
+from validation.engine.random_numbers import random_generator
+from validation.railway import exported as of_rail
+from validation.railway.scenes import rail
+from validation.scenes import measured
+from validation.scenes import rolling_quantity as rolling_question
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
-from validation.simulation import rolling_quantity as rolling_question
-from validation.simulation.calibrated_range import LOAD
-from validation.simulation.models import (
-    boundary_elements_pressed,
-    boundary_elements_rolling,
-    pressed,
-    rolling,
-)
+from validation.simulation import sampling, surface
 from validation.theory import closed_forms
 from validation.theory import rolling as rolling_theory
 
@@ -108,7 +107,7 @@ def another_strip_on_the_coarse_grid(target, resolution):
     return (lambda strip: solve(strip + 1)) if resolution == coarse else solve
 
 
-real_weighting, real_models_of = contact_force.a_weighting, compare.models_of
+real_weighting, real_models_of = of_rail.a_weighting, compare.models_of
 
 
 def of_its_own_grid(model, count, compared=0):
@@ -132,7 +131,7 @@ def independent_bands(force):
 FAULTS = [
     test_contact_force.test_each_band_is_weighted_as_the_table_of_the_standard_has_its_frequency,
     Fault("A-weighting at the frequency of half a wave").at(
-        contact_force, "a_weighting", lambda frequency: real_weighting(2 * frequency)
+        of_rail, "a_weighting", lambda frequency: real_weighting(2 * frequency)
     ),
     test_contact_force.test_the_force_is_the_stiffness_of_hertz_times_the_equivalent_displacement,
     Fault("the force over the approach for the stiffness of Hertz").at(
@@ -150,7 +149,7 @@ FAULTS = [
     ),
     test_own_scene.test_seconds_are_those_of_all_solves_that_a_model_needs,
     Fault("seconds without those of the grids that tell the error").at(
-        scene_model.SceneModel, "_seconds", of_its_own_grid
+        scene_model.SceneModel, "seconds_of", of_its_own_grid
     ),
     test_own_scene.test_a_distance_in_decibels_has_the_errors_of_its_band_and_the_reference_that_of_its_worst,
     Fault("a distance from the reference where nothing is left to hear").at(

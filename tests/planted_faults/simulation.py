@@ -11,37 +11,31 @@ import mdr
 from bem3d import few_cells, rolling_contact
 from tests.cases import test_wheel_ensembles, test_wheel_on_half_space
 from tests.planted_faults.wrong import E_FOR_E_STAR, Fault, Times
+from tests.railway import test_profiled_strip, test_rail_filters, test_rail_sound, test_wheel_on_rail
 from tests.simulation import (
     test_damping,
     test_flags_of_rolling,
     test_light_punch,
     test_periodic_motion,
-    test_profiled_strip,
-    test_rail_filters,
-    test_rail_sound,
     test_reduced_models,
     test_rough_punches,
     test_time_stepping,
     test_wheel_motion,
-    test_wheel_on_rail,
 )
+from validation.railway.problems import equivalent_displacement, rail_models, rail_quantity, wheel_on_rail
 from validation.scenes import dynamic_wheel
 from validation.scenes.wheel_body import Wheel
 from validation.simulation import (
     contact_laws,
-    equivalent_displacement,
     integrators,
     light_punch,
     mean_contact,
     pressed_layer,
-    rail_models,
-    rail_quantity,
     ridges,
     rolling_strip,
     rough_punch,
     surface,
     wheel_on_half_space,
-    wheel_on_rail,
 )
 from validation.simulation import motion as wheel_in_motion
 from validation.simulation.model_names import LINE

@@ -11,14 +11,15 @@ from tests.theory import test_rolling_theory
 from validation.analysis.nominal_bands import NominalBands
 from validation.cases.limits import sweeps
 from validation.cases.punch.interface import Interface
-from validation.cases.rail import rough_rail
 from validation.cases.rolling import reduced_models as reduced_case
 from validation.cases.wheel import half_space_study
+from validation.railway.cases import rough_rail
+from validation.railway.problems import rail_quantity
+from validation.railway.scenes.roughness_levels import RoughnessLevels
 from validation.scenes import description, roughness
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.measured import MeasuredHeights
-from validation.scenes.roughness_levels import RoughnessLevels
-from validation.simulation import indentation, rail_quantity, rough_punch, track_spectrum
+from validation.simulation import indentation, rough_punch, track_spectrum
 from validation.simulation.track_spectrum import PiecewisePowerLaw
 from validation.theory import rolling
 

@@ -11,16 +11,17 @@ from scipy import special
 
 import mdr
 from tests.planted_faults.wrong import Fault, Times, one_sided_spectrum
+from tests.railway import test_spring_input as of_input
+from tests.railway import test_transverse_structure as across
 from tests.theory import test_closed_forms as forms
 from tests.theory import test_interface as of_interface
 from tests.theory import test_rolling_theory as of_rolling
 from tests.theory import test_second_order, test_wheel
-from tests.theory import test_spring_input as of_input
-from tests.theory import test_transverse_structure as across
 from validation.analysis import spectra
-from validation.theory import closed_forms, interface, spring_input, transverse_structure, wheel
+from validation.railway.theory import spring_input, transverse_structure
+from validation.railway.theory.line_spectrum import LineSpectrum
+from validation.theory import closed_forms, interface, wheel
 from validation.theory import rolling as rolling_theory
-from validation.theory.line_spectrum import LineSpectrum
 from validation.theory.second_order import RollingWheel
 
 

@@ -15,13 +15,13 @@ from validation.benchmarks.work_precision.figure_cost import COST_OF_STEPS
 from validation.benchmarks.work_precision.problem import BEM
 from validation.cases.punch import fractal_punch_study, interface
 from validation.cases.punch.ensembles import DEVIATION, MEAN, OVER
-from validation.cases.rail import across, rolled_filters
-from validation.cases.rail.filters import OFFSET
-from validation.cases.rail.rail_dynamic import BESIDE, RMS, SPRINGS_OVER_BEM
 from validation.cases.rolling.force_spectrum import LINEAR_3D, RMS_FORCE, RMS_LEVEL, SPRINGS
 from validation.cases.rolling.force_spectrum import OVER as OVER_ROLLED
 from validation.cases.wheel.features import LEVEL as LEVEL_OF_WHEEL
 from validation.cases.wheel.half_space import GEIKE, OVER_BEM
+from validation.railway.cases import across, rolled_filters
+from validation.railway.cases.filters import OFFSET
+from validation.railway.cases.rail_dynamic import BESIDE, RMS, SPRINGS_OVER_BEM
 from validation.report.answers import seconds
 from validation.report.answers.first_screen import answered_questions, from_to, plain
 from validation.report.answers.questions import QUESTIONS, in_decibels, per_cent, times

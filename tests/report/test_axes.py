@@ -7,17 +7,19 @@ from functools import cache
 import numpy as np
 import pytest
 from matplotlib.colors import same_color
+from matplotlib.figure import Figure
 
-from tests.cases.test_model_selection import outcome
+from tests.advice.test_model_selection import outcome
 from tests.report.remade import REFERENCE, sections
+from validation.advice.cases import model_selection as ladder
+from validation.advice.cases import model_selection_study as calibration
 from validation.analysis.contents import csv_name
 from validation.analysis.study import Outcomes
 from validation.cases.limits.sweeps import LIMITS
-from validation.cases.selection import model_selection as ladder
-from validation.cases.selection import model_selection_study as calibration
 from validation.report.contents import CASES, TIMED
 from validation.report.drawing import draw
 from validation.report.figures import drawing
+from validation.report.style import EachNumber, drawn, plain_figure
 
 CHARTS = {
     chart.name: (name, chart) for name, case in (CASES | TIMED).items() for chart in case.study.charts if chart.panels
@@ -156,6 +158,12 @@ def label_of(axis, axes, name):
     )
 
 
+def corner_of(axis):
+    """The factor or the offset of its numbers."""
+    axis.get_majorticklabels()  # which gives the numbers to their formatter
+    return axis.get_major_formatter().get_offset()
+
+
 def judged_lines(axis):
     return [line for line in axis.lines if same_color(line.get_color(), "#000000") and line.get_linewidth() == 2]
 
@@ -174,6 +182,7 @@ def test_a_panel_has_the_axes_that_it_declares_and_draws_the_columns_that_they_n
         scales = ["log" if letter in panel.log else "linear" for letter in "xy"]
         assert [axis.get_xscale(), axis.get_yscale()] == scales
         assert axis.xaxis_inverted() == panel.downward and not axis.yaxis_inverted()
+        assert [text for one in (axis.xaxis, axis.yaxis) if (text := corner_of(one))] == []
         points, judged = allowed(case, panel, facet), judged_lines(axis)
         lines = [line for line in axis.lines if line.get_transform() == axis.transData and line not in judged]
         drawn = np.concatenate([np.zeros((0, 2)), *(np.transpose(line.get_data()).astype(float) for line in lines)])
@@ -224,7 +233,48 @@ def test_the_calibration_chart_has_estimated_errors_along_and_true_ones_up():
     ]
 
 
+@pytest.mark.parametrize(
+    ("values", "texts"),
+    [
+        ([0.9998, 1.0, 1.0002], ["0.9998", "1", "1.0002"]),
+        ([-2e5, 0.0, 4e5], ["−2e5", "0", "4e5"]),
+        ([5e7, 5.5e7], ["5e7", "5.5e7"]),
+        ([0.1, 0.2, 0.30000000000000004], ["0.1", "0.2", "0.3"]),
+        ([1e-5, 2e-5], ["1e−5", "2e−5"]),
+        ([100.0, 150.0, 200.0], ["100", "150", "200"]),
+        ([7.0], ["7"]),
+        ([], []),
+    ],
+)
+def test_each_number_of_an_axis_stands_as_it_is(values, texts):
+    assert EachNumber().format_ticks(values) == texts
+
+
+@pytest.mark.parametrize("values", [[5.5e7, 5.6e7], [0.99998, 1.00002], [1e-9, 3e-9]])
+def test_no_axis_of_a_figure_of_users_has_a_factor_or_an_offset_in_its_corner(values):
+    figure = Figure()
+    axis = figure.subplots()
+    axis.plot(values, values)
+    figure.canvas.draw()
+    assert corner_of(axis.xaxis)  # by itself it would have one
+    plain_figure(figure)
+    figure.canvas.draw()
+    assert corner_of(axis.xaxis) == corner_of(axis.yaxis) == ""
+    assert len({label.get_text() for label in axis.get_xticklabels()}) == len(axis.get_xticks())
+
+
 # --- figures that no chart declares ---
+
+
+OWN_FIGURES = sorted(chart.name for case in (CASES | TIMED).values() for chart in case.study.charts if not chart.panels)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", OWN_FIGURES)
+def test_no_axis_of_a_figure_of_its_own_has_a_factor_or_an_offset_in_its_corner(name):
+    figure = drawn(drawing(name), evidence_of(name.partition("-")[0]), "full")
+    corners = [corner_of(one) for axis in figure.axes for one in (axis.xaxis, axis.yaxis)]
+    assert corners and set(corners) == {""}
 
 
 @pytest.mark.slow

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.report.remade import sections
 from tests.report.test_printed import evidence_with, html_of, number
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Role, Verdict, Whose
 from validation.report import formats
@@ -140,8 +141,24 @@ def test_every_equation_figure_and_table_of_the_chapter_has_an_entry():
 def test_every_case_and_every_claim_of_a_timed_case_that_is_named_exists():
     """No test runs timed cases whole, as `test_a_case_gives_equal_bytes` runs all others and finds what is named."""
     for test in (test for entry in ENTRIES for test in entry.tests):
-        said = [claim.says for claim in (CASES | TIMED)[test.case].study.claims]
-        assert test.case in CASES or (not test.quantity and any(test.claim in one for one in said))
+        keys = [claim.key for claim in (CASES | TIMED)[test.case].study.claims]
+        assert not test.claim or test.claim in keys
+        assert test.case in CASES or not test.quantity
+
+
+def test_every_claim_has_a_key_of_its_own_in_its_case():
+    for name, case in (CASES | TIMED).items():
+        keys = [claim.key for claim in case.study.claims]
+        assert all(keys) and len(set(keys)) == len(keys), name
+
+
+def test_claims_of_a_report_from_before_there_were_keys_have_those_of_their_words():
+    for section in sections():
+        declared = [claim.key for claim in section.entry.study.claims]
+        assert [claim.key for claim in section.claims] == [
+            key for key in declared if key in {c.key for c in section.claims}
+        ]
+        assert all(claim.key for claim in section.claims)
 
 
 def test_an_entry_is_tested_or_says_why_not_and_a_test_names_numbers_or_a_claim():

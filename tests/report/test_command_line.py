@@ -5,7 +5,6 @@ import os
 import re
 import warnings
 from dataclasses import replace
-from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -14,26 +13,27 @@ import pytest
 import bem3d
 import mdr
 from validation import __main__ as command
+from validation.advice.cases import model_selection as ladder
 from validation.analysis.case import Case
 from validation.analysis.contents import as_csv, as_json, csv_name, from_csv
 from validation.analysis.evidence import Role
+from validation.analysis.quantity import key_of
 from validation.cases.exact import geike, hertz
 from validation.cases.limits import limits
 from validation.cases.punch import bandwidth, interface
 from validation.cases.punch.fractal_punch import FractalPunch
-from validation.cases.rail.across import Across
-from validation.cases.rail.rail_dynamic import RailDynamic
-from validation.cases.rail.rail_sound import RailSound, shipped_rail
-from validation.cases.rail.rough_rail import RoughRail
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import reduced_models, ridges, track_stiffness
-from validation.cases.selection import model_selection as ladder
 from validation.cases.stability import wheel_stability
 from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import spectrum as wheel
 from validation.cases.wheel.features import QUANTITIES
-from validation.engine import sources, stored
+from validation.engine import stored
+from validation.railway.cases.across import Across
+from validation.railway.cases.rail_dynamic import RailDynamic
+from validation.railway.cases.rail_sound import RailSound, shipped_rail
+from validation.railway.cases.rough_rail import RoughRail
 from validation.report import build
 from validation.report.chapter import ENTRIES
 from validation.report.contents import CASES
@@ -103,17 +103,13 @@ SMALL = {
 }
 
 
-NAMED = cache(sources._named)
-
-
 @pytest.fixture
 def small(monkeypatch):
     """The same cases, small enough for a test."""
     for name, case in SMALL.items():
         use(monkeypatch, name, case)
-    # both take a second a case: test_kept has the first, and no source changes while tests run
+    # takes a second a case: test_kept has it
     monkeypatch.setattr(build, "versions_of", lambda names, profile: dict.fromkeys(names, ""))
-    monkeypatch.setattr(sources, "_named", NAMED)
     return list(CASES)
 
 
@@ -278,7 +274,7 @@ def players_of_all_sounds(folder):
 
 def in_the_book(name, evidence):
     """Assert that each number and claim of the case that answers the chapter exists; a feature may not stand out."""
-    features = {*QUANTITIES.values()}
+    features = {*map(key_of, QUANTITIES.values())}
     for entry in ENTRIES:
         for test in entry.tests:
             exists = test.judged(entry.statement, evidence) is not None or test.quantity in features

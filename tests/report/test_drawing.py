@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from validation.analysis.chart import Chart, Curve, Panel, by_model
+from validation.analysis.chart import STYLES, Chart, Curve, Panel, by_model
 from validation.analysis.evidence import Evidence, Table
 from validation.analysis.study import Settings
-from validation.report.drawing import draw
+from validation.report.drawing import FORMS, draw
 from validation.report.style import styles_of
 
 H, Q, MODELS = (0.1, 1.0), (1.0, 2.0, 4.0), ("bem", "mdr")
@@ -170,7 +170,12 @@ def test_several_columns_have_an_axis_for_each_of_their_values():
     assert [line.get_xdata()[0] for line in axes[3].lines[1:]] == [1.5, 2.0]
 
 
-@pytest.mark.parametrize("curve", [Curve("level", style="nowhere"), Curve("level", by=("nowhere",))])
-def test_a_style_or_a_column_that_is_nowhere_is_named_with_its_chart(curve):
-    with pytest.raises(ValueError, match="chart 'c' names 'nowhere'"):
-        drawn(curve)
+def test_a_curve_has_a_style_that_is_drawn():
+    assert set(STYLES) == set(FORMS)
+    with pytest.raises(ValueError, match=r"style of 'level' must be one of '', 'lines', .*, got 'nowhere'"):
+        Curve("level", style="nowhere")
+
+
+def test_a_column_that_is_nowhere_is_named_with_its_chart():
+    with pytest.raises(ValueError, match="chart 'c' names 'nowhere', which is no column of its tables"):
+        drawn(Curve("level", by=("nowhere",)))

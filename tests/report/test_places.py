@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.report.test_judge_command import SERIES
+from tests.judging.test_judge_command import SERIES
 from validation.__main__ import main
 
 JUDGE = "judge mine.py"

@@ -10,15 +10,16 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 import validation.scenes.bundled
-from tests.selection.planted_answers import Finding, punch
+from tests.advice.planted_answers import Finding, punch
 from validation.__main__ import main
+from validation.advice import figure as compared
+from validation.advice.compare import Comparison
+from validation.advice.figure import FORMATS, to_figure
+from validation.advice.figure_of_sweep import names_of_users
+from validation.advice.hierarchy import select_model
 from validation.analysis.evidence import Evidence, Table
-from validation.report import compared, style
-from validation.report.compared import FORMATS, to_figure
-from validation.report.compared_sweep import names_of_users
+from validation.report import style
 from validation.report.formats import templates
-from validation.selection.compare import Comparison
-from validation.selection.hierarchy import select_model
 
 NAMES = (r"costs $\frac{$", "$x^2$", "a$b", r"\$ and $", r"$\alpha_{$ and \\", "_hidden", "10 % of #1 & <b>")
 

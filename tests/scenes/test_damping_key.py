@@ -7,16 +7,16 @@ import numpy as np
 import pytest
 
 from tests.scenes.test_scene_files import TABLE, written
-from validation.scenes.bundled import SCENES
+from validation.advice.exported import assumed
+from validation.scenes.bundled import path_of
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.scenes.load import load_scene
 from validation.scenes.reader import VALUES
 from validation.scenes.rolling import RollingScene
-from validation.selection.exported import assumed
-from validation.simulation.rolling_quantity import RollingQuantity
+from validation.scenes.rolling_quantity import RollingQuantity
 
-RAIL, STILL = ((SCENES / f"{name}.toml").read_text(encoding="utf-8") for name in ("rail", "rolling_wheel"))
+RAIL, STILL = (path_of(name).read_text(encoding="utf-8") for name in ("rail", "rolling_wheel"))
 MASS = '# mass = "500 kg"   # of a wheel that moves'
 
 

@@ -8,14 +8,15 @@ import tomllib
 
 import pytest
 
-from validation.scenes import bundled, dynamic_wheel, rail_file, reader
+from validation.advice.compare import SceneProblem
+from validation.advice.quantities import quantities_of
+from validation.railway.scenes import rail_file
+from validation.railway.scenes.rail import RailScene
+from validation.scenes import bundled, dynamic_wheel, reader
 from validation.scenes.description import description_lines
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import load_scene
-from validation.scenes.rail import RailScene
-from validation.selection.compare import SceneProblem
-from validation.selection.quantities import quantities_of
 
 LEFT_OUT = None
 VARIANTS = {

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from tests.scenes.test_scene_files import written
-from validation.scenes.bundled import SCENES
+from validation.scenes.bundled import path_of
 from validation.scenes.damping import DampedWheel, damping_rate
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import load_scene
@@ -13,7 +13,7 @@ from validation.scenes.material import Elastic, Material
 
 PUNCH = IndentationScene(name="it", shape="punch", size=1.0, load=1.0, modulus=2e9)
 SPHERE = IndentationScene(name="it", shape="sphere", size=1.0, load=1.0, modulus=2e9)
-RAIL = (SCENES / "rail.toml").read_text(encoding="utf-8")
+RAIL = path_of("rail").read_text(encoding="utf-8")
 # a / R = (3 F / (4 E* R^2))^(1/3)
 TENTH = 4 / 3 * 2e9 * 0.1**3
 ROLLING, STEEL = load_scene("rolling_wheel"), {"youngs_modulus": 210e9, "counterface": "rigid"}

@@ -7,12 +7,10 @@ import pytest
 
 from tests.scenes.test_scene_files import TABLE, written
 from validation.__main__ import main
-from validation.scenes.bundled import SCENES, places_of
+from validation.scenes.bundled import path_of, places_of
 from validation.scenes.load import load_scene
 
-RAIL, PUNCH, ROLLING = (
-    (SCENES / f"{name}.toml").read_text(encoding="utf-8") for name in ("rail", "rough_punch", "rolling_wheel")
-)
+RAIL, PUNCH, ROLLING = (path_of(name).read_text(encoding="utf-8") for name in ("rail", "rough_punch", "rolling_wheel"))
 LOAD = 'load = "50 kN"'
 COMMANDS = (["compare"], ["report", "--out", "out", "--scene"], ["sound", "--out", "out"])
 

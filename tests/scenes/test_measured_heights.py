@@ -10,10 +10,10 @@ from scipy import stats
 
 import bem3d
 import mdr
+from validation.advice.quantities import models_of
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_surface import measured
-from validation.selection.quantities import models_of
 
 N, DX = 256, 1e-6
 BAND = mdr.SelfAffine(hurst=0.7, q_min=2 * np.pi * 4 / (N * DX), q_max=2 * np.pi * 32 / (N * DX), rms=1e-7)

@@ -11,13 +11,13 @@ from tests.scenes.test_height_forms import PUNCH
 from tests.scenes.test_measured_heights import drawn, heights
 from tests.scenes.test_scene_files import IN_FILE, TABLE, written
 from validation.__main__ import main
+from validation.advice.compare import SceneProblem
 from validation.scenes.bundled import SCENES
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import load_scene, load_varied
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
-from validation.selection.compare import SceneProblem
 
 SMOOTH, LOAD = PUNCH.partition("[roughness]")[0], 'load = "23.076923 N"'
 ROLLING = (SCENES / "rolling_wheel.toml").read_text(encoding="utf-8")

@@ -8,8 +8,8 @@ from types import ModuleType, SimpleNamespace
 import numpy as np
 import pytest
 
+from tests.railway.test_rail_files import CURVE, loaded
 from tests.scenes.test_height_forms import scene_of
-from tests.scenes.test_rail_files import CURVE, loaded
 from validation.scenes.load import load_scene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_surface import measured

@@ -7,17 +7,18 @@ import numpy as np
 import pytest
 
 from tests.cases.planted import LOW
-from tests.simulation.power_law_ground import isotropic_strip
+from tests.railway.power_law_ground import isotropic_strip
 from tests.simulation.test_wheel_motion import strips
 from tests.simulation.wheels import SCHEMES, ULP, WHEEL, springs_law, track
+from validation.railway.problems import wheel_on_rail
+from validation.railway.problems.wheel_on_rail import WheelOnRail
 from validation.scenes.damping import DampedWheel
-from validation.simulation import wheel_on_rail, wheel_on_springs
+from validation.simulation import wheel_on_springs
 from validation.simulation.contact_laws import BoundaryElementsLaw, HertzLaw, LinearLaw
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS_THAT_READ as SPRINGS
 from validation.simulation.motion import simulate
 from validation.simulation.wheel_on_half_space import WheelStrip, simulate_strip
-from validation.simulation.wheel_on_rail import WheelOnRail
 from validation.simulation.wheel_on_springs import WheelEnsemble
 
 ZETA = 0.05

@@ -8,38 +8,39 @@ import numpy as np
 import pytest
 
 import bem3d
-from tests.selection.planted_answers import wheel
-from tests.simulation.power_law_ground import isotropic_strip
+from tests.advice.planted_answers import wheel
+from tests.railway.power_law_ground import isotropic_strip
+from validation.advice.models.boundary_elements_rolling import MODEL as ROLLING
 from validation.analysis.spectra import Bands
 from validation.benchmarks.work_precision import rolling as rolling_chart
 from validation.cases.rolling.ridges import RollingOverRidges
 from validation.engine.convergence import NotConvergedError, as_not_converged
+from validation.judging.kinds import from_report
+from validation.judging.kinds.held_out_solves import THIRD, OblongStrip, roll_oblong
+from validation.railway.models.rail import BOUNDARY_ELEMENTS
+from validation.railway.problems import rail_models, wheel_on_rail
+from validation.railway.problems.equivalent_displacement import RolledRail, roll_rail
+from validation.railway.problems.rail_across import WideRail, roll_both_ways
+from validation.railway.problems.rail_sound import HeldWheel, roll_held_wheel
+from validation.railway.problems.wheel_on_rail import WheelOnRail, roll_and_move
+from validation.railway.scenes.transverse_profile import TransverseProfile
 from validation.scenes.load import load_scene
-from validation.scenes.transverse_profile import TransverseProfile
 from validation.scenes.wheel_body import Wheel
-from validation.selection.judging import from_report
-from validation.selection.judging.held_out_solves import THIRD, OblongStrip, roll_oblong
-from validation.simulation import rail_models, ridges, rolling_strip, wheel_on_rail
+from validation.simulation import ridges, rolling_strip
 from validation.simulation.contact_laws import BoundaryElementsLaw
-from validation.simulation.equivalent_displacement import RolledRail, roll_rail
 from validation.simulation.exact_contacts import PublishedContact, press_ellipse
 from validation.simulation.limits_of_half_space import strip_widths
 from validation.simulation.model import Resolution, Target
 from validation.simulation.model_names import BEM
-from validation.simulation.models.boundary_elements_rolling import MODEL as ROLLING
-from validation.simulation.models.rail import BOUNDARY_ELEMENTS
-from validation.simulation.rail_across import WideRail, roll_both_ways
-from validation.simulation.rail_sound import HeldWheel, roll_held_wheel
 from validation.simulation.reduced_models import roll_by_all
 from validation.simulation.rolling_strip import RoughStrip, roll_strip
 from validation.simulation.track_spectrum import self_affine
-from validation.simulation.wheel_on_rail import WheelOnRail, roll_and_move
 
 ROOT = Path(bem3d.__file__).parents[1]
 
 (STRIP,) = RoughStrip(spectrum=self_affine(0.7, 1.0, 4.0), height=0.2, length=8.0, width=6.0, seed=1).strips(6, 1e-6, 1)
 RAIL = isotropic_strip(3e-6, 0.06, 1.5e-3)
-ON_A_RAIL = "validation.simulation.equivalent_displacement:roll_boundary_elements"
+ON_A_RAIL = "validation.railway.problems.equivalent_displacement:roll_boundary_elements"
 RIDGES = ridges.RidgesTrack(ridges=RollingOverRidges(length=8, shortest=4.0).ridges, method="bem3d", cells=4)
 MOVING = WheelOnRail(strip=RAIL, mass=500.0, speed=22.0, model=BEM, tolerance=1e-6)
 BOTH_WAYS = WideRail(strip=RAIL, width=RAIL.width, bands=Bands((120.0, 400.0, 1200.0)))
@@ -74,11 +75,11 @@ PATHS = {
     "validation.simulation.rolling_levels:by_boundary_elements": lambda: by_a_model(Target(wheel(), "force-rms")),
     "validation.simulation.contact_laws:BoundaryElementsLaw": in_time,
     ON_A_RAIL: lambda: roll_rail(RolledRail(strip=RAIL, models=(BEM,))),
-    "validation.simulation.rail_across:_roll": lambda: roll_both_ways(BOTH_WAYS),
+    "validation.railway.problems.rail_across:_roll": lambda: roll_both_ways(BOTH_WAYS),
     f"{ON_A_RAIL}, on a profile": lambda: roll_rail(RolledRail(strip=RAIL, models=(BEM,), profile=PROFILE)),
     f"{ON_A_RAIL}, at a constant height": lambda: roll_held_wheel(HELD),
     f"{ON_A_RAIL}, before it moves": lambda: roll_and_move(MOVING),
-    "validation.simulation.wheel_on_rail:EllipseLaw": lambda: without_a_flag(
+    "validation.railway.problems.wheel_on_rail:EllipseLaw": lambda: without_a_flag(
         **dict(zip(("approach", "force"), wheel_on_rail.in_motion(MOVING), strict=True))
     ),
     "validation.benchmarks.work_precision.rolling:_roll": lambda: without_a_flag(
@@ -88,8 +89,8 @@ PATHS = {
         PublishedContact(cells=6, tolerance=1e-6)
     ),
     "validation.simulation.limits_of_half_space:strip_widths": lambda: strip_widths((13, 18), finer=6),
-    "validation.selection.judging.from_report:roll_under_load": lambda: from_report.roll_under_load(STRIP),
-    "validation.selection.judging.held_out_solves:roll_oblong": lambda: roll_oblong(OBLONG),
+    "validation.judging.kinds.from_report:roll_under_load": lambda: from_report.roll_under_load(STRIP),
+    "validation.judging.kinds.held_out_solves:roll_oblong": lambda: roll_oblong(OBLONG),
 }
 
 

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from validation.cases.selection.random_scenes import random_scene
+from validation.advice.cases.random_scenes import random_scene
+from validation.advice.models.rolling import filled, linear_filter_3d
 from validation.simulation.model import Target
-from validation.simulation.models.rolling import filled, linear_filter_3d
 
 SCENE = random_scene("rolling", 1, 4242)
 """h/d = 0.14, and a shortest band with 1.2 % of the level of all: linear theory was found 19 % off."""

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 import bem3d
+from validation.railway.theory.contact_filters import half_space_filter
 from validation.simulation import mean_contact as mean
 from validation.simulation import reduced_models as reduced
 from validation.simulation.pressed_layer import roll_on_layer
 from validation.simulation.rolling_strip import RoughStrip
 from validation.simulation.track_spectrum import self_affine
-from validation.theory.contact_filters import half_space_filter
 
 DX = 1 / 8
 MODELS = (

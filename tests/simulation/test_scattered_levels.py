@@ -9,14 +9,14 @@ import pytest
 
 from validation import load_scene
 from validation.analysis.nominal_bands import LONGEST, NominalBands
-from validation.scenes.isotropic_line import IsotropicLine
-from validation.scenes.level_files import curve
-from validation.scenes.roughness_levels import RoughnessLevels
+from validation.railway.problems.rail_quantity import RailQuantity
+from validation.railway.problems.rail_strip import lost_contact_number, strip_bands, strip_of
+from validation.railway.scenes.isotropic_line import IsotropicLine
+from validation.railway.scenes.level_files import curve
+from validation.railway.scenes.roughness_levels import RoughnessLevels
+from validation.railway.theory.line_spectrum import LineSpectrum
 from validation.simulation.model import models_serving
 from validation.simulation.model_names import LINEAR, LINEAR_ON_LINE
-from validation.simulation.rail_quantity import RailQuantity
-from validation.simulation.rail_strip import lost_contact_number, strip_bands, strip_of
-from validation.theory.line_spectrum import LineSpectrum
 
 RAIL = load_scene("rail")
 ISO = curve("iso3095-2013")

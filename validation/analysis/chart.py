@@ -7,13 +7,18 @@ from dataclasses import KW_ONLY, dataclass, field, replace
 from validation.analysis.series import JUDGED
 
 Bounds = tuple[float | None, float | None]
+STYLES = (
+    *("", "lines", "marks", "dotted", "dashed", "open", "open marks", "around", "thick", "dots", "crosses", "black"),
+    *("guide", "dashed guide", "interval"),
+)
+"""Forms of a curve; how each is drawn is said where figures are drawn."""
 
 
 @dataclass(frozen=True)
 class Curve:
     """Rows of a table as a curve.
 
-    quantity: the table; model: one or several, all where empty; style: a form of `FORMS`, over the style of the model;
+    quantity: the table; model: one or several, all where empty; style: one of `STYLES`, over that of the model;
     label: by default the values, or the model, "_" for none; by: columns, a curve for each value of them, dark to light
     in their order but for models; of: values that other columns have, "first" for the first; bars, band: whether
     intervals are drawn; down: from curve to curve; apart: from marker to marker, of the diagonal of the panel, all
@@ -35,6 +40,11 @@ class Curve:
     apart: float = 0.0
     beside: float = 1.03
     upright: bool = False
+
+    def __post_init__(self) -> None:
+        if self.style not in STYLES:
+            known = ", ".join(map(repr, STYLES))
+            raise ValueError(f"style of {self.quantity!r} must be one of {known}, got {self.style!r}")
 
 
 def by_model(quantity: str, styles: Mapping[str, str], *, bars: bool = False) -> tuple[Curve, ...]:

@@ -75,8 +75,8 @@ def _shortened(name: str, end: str) -> str:
 
 
 def csv_name(case: str, table: str) -> str:
-    """Of the file of a table."""
-    return f"{case}-{plain_name(table)}.csv"
+    """Of the file of a table: of a quantity by its key."""
+    return f"{case}-{getattr(table, 'key', '') or plain_name(table)}.csv"
 
 
 def header_of(table: Table) -> list[str]:

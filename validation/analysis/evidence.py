@@ -229,8 +229,8 @@ class Whose(StrEnum):
 class JudgedClaim:
     """A claim, the numbers that test it, and the answer: one sentence with three numbers at most.
 
-    confirmed_by: agree; or differ, where the claim says that two things are not the same. limits: the conditions under
-    which alone it is said to hold, as text; inside: the numbers under these conditions.
+    key: by which it is found in its case; confirmed_by: agree; or differ, where the claim says that two things are not
+    the same; limits: the conditions under which alone it is said to hold, as text; inside: the numbers under these.
     Raises ValueError without numbers, for an identity among them, and for limits without numbers inside.
     """
 
@@ -241,6 +241,7 @@ class JudgedClaim:
     limits: str = ""
     inside: tuple[Number, ...] = ()
     whose: Whose = Whose.FINDING
+    key: str = ""
 
     def __post_init__(self) -> None:
         if not self.numbers:

@@ -58,6 +58,11 @@ class Study:
     notes: Callable[[Any], Sequence[str]] = nothing
     sounds: Callable[[Any], Sounds | None] = lambda result: None
 
+    def __post_init__(self) -> None:
+        keys = [claim.key for claim in self.claims if claim.key]
+        if twice := {key for key in keys if keys.count(key) > 1}:
+            raise ValueError(f"claims must have keys of their own, got twice: {', '.join(sorted(twice))}")
+
     def evidence(self, result: Any) -> Evidence:
         series = self.series(result)
         numbers, tables, case = numbers_of(series), (*tables_of(series), *self.tables(result)), result.case

@@ -2,12 +2,10 @@
 
 import importlib.metadata
 import math
-import runpy
-import sys
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import cache, partial
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import bem3d
-from validation.benchmarks.judging.discrete import ContactProblem
-from validation.engine.offered import Offered
-from validation.engine.others import OthersError, offered_in
+from validation.benchmarks.discrete import ContactProblem
+from validation.engine.street import brought
 from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.model import all_models
 
@@ -240,48 +237,14 @@ def is_ours(name: str) -> bool:
 
 
 def solvers_with(file: str) -> tuple[PeerSolver, ...]:
-    """All of them, and the contact solvers of a file. Raises OthersError where it offers none, or cannot be read."""
+    """All of them, and the contact solvers of a file. Raises ValueError where it offers none, or cannot be read."""
     if not file:
         return SOLVERS
-    found = _solvers_in(file)
-    taken = {solver.name for solver in SOLVERS}
-    return (*SOLVERS, *(_own(one, file, f"{one.name}, own" if one.name in taken else one.name) for one in found))
-
-
-@cache
-def _solvers_in(file: str) -> list[Offered]:
-    found = [one for one in offered_in(Path(file)) if one.kind == "contact_solver"]
-    if not found:
-        raise OthersError(f"{Path(file).name}: no function has the decorator @contact_solver")
-    return found
-
-
-def _own(offered: Offered, file: str, name: str) -> PeerSolver:
-    served, by_force = tuple(kind for kind in ("free", "periodic") if offered.options[kind]), "force" in offered.asks
-    mode, prepare = "by force" if by_force else "by approach", partial(of_file, file, offered.name)
-    cells = float(offered.options["cells"])
-    return PeerSolver(name, "", mode, prepare, TIGHTER, served, by_force, file, cells=cells)
-
-
-def of_file(file: str, name: str, problem: ContactProblem, tolerance: float) -> ColdSolve:
-    """A solver of somebody's own, in the process that times it."""
-    (solver,) = (one for one in _loaded(file) if one.name == name)
-    gap = problem.gap.copy()
-    gap.flags.writeable = False
-    other = "approach" if "force" in solver.asks else "force"
-    given = {**vars(problem), "gap": gap, "tolerance": tolerance, other: None}
-    asked = {argument: given[argument] for argument in solver.asks}
-
-    def solve() -> tuple[Field, float]:
-        return np.array(solver(**asked), dtype=float), math.nan
-
-    return solve
-
-
-@cache
-def _loaded(file: str) -> tuple[Offered, ...]:
-    sys.path.insert(0, str(Path(file).resolve().parent))
-    return tuple(one for one in runpy.run_path(file).values() if isinstance(one, Offered))
+    readers = brought("solvers_of_files")
+    if not readers:
+        raise ValueError(f"{file}: solvers of files need the package validation.judging, which is not here")
+    (solvers_in,) = readers
+    return (*SOLVERS, *solvers_in(file, {solver.name for solver in SOLVERS}))
 
 
 def of_others() -> tuple[PeerSolver, ...]:

@@ -14,6 +14,7 @@ from validation.analysis.chart import Chart
 from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Table, table_of
 from validation.analysis.printed import times_source
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Margin, Series, single
 from validation.analysis.statistics import Interval
 from validation.analysis.study import Outcomes, Study
@@ -158,7 +159,8 @@ def rows_of(outcome: Outcome) -> list[Row]:
     return [dict(zip(outcome, row, strict=True)) for row in zip(*columns, strict=True)]
 
 
-SPEED, MEDIAN, APPLICATIONS = "time over that of the fastest other solver", "median [s]", "operator applications"
+SPEED = Quantity("time_over_that_of_the_fastest_other_solver")
+MEDIAN, APPLICATIONS = "median [s]", "operator applications"
 DIFFERENCE = "{}, difference to bem3d.solve"
 FASTER = Margin(1.0, "above one another solver is faster")
 PRESSURES = "1e4 times the residual: the conditioning of the contact on fine grids"
@@ -207,7 +209,9 @@ def _speed(finished: Sequence[Mapping[str, Row]]) -> Iterator[Series]:
             yield Series(SPEED, OUR_SOLVER, (Interval(ratio, half),), where=at, margin=margin)
 
 
-SECONDS = "seconds: median (from the fastest to the slowest run)"
+SECONDS = Quantity(
+    "seconds_median_from_the_fastest_to_the_slowest_run", "seconds: median (from the fastest to the slowest run)"
+)
 PEERS = "solvers"
 
 
@@ -256,6 +260,7 @@ STUDY = Study(
         Claim(quantity=SPEED, along="-cells", printed=times_source).saying(
             "Our solver is the fastest at the same residual.",
             short="Our solver is the fastest at the same residual",
+            key="fastest",
         ),
     ),
     charts=(

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 import mdr
-from validation.benchmarks.judging.discrete import ContactProblem, pressed
+from validation.benchmarks.discrete import ContactProblem, pressed
 from validation.benchmarks.peers import PeerSolver, by_pressure, solvers_with, with_threads
 from validation.benchmarks.timing import Configuration, NamedMethod, along
 from validation.engine.engine import FloatArray

@@ -1,7 +1,6 @@
 """The source code that a result depends on, and the libraries under it."""
 
 import ast
-import copy
 import hashlib
 import importlib.metadata
 import importlib.util
@@ -11,6 +10,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from functools import cache
 from pathlib import Path
+
+from validation.engine.street import ROOT, houses, places
 
 PACKAGES = ("mdr", "bem3d", "validation")
 LIBRARIES = ("numpy", "scipy", "pyfftw")
@@ -22,6 +23,8 @@ FACE = "validation"
 """Imports by name for its users: who imports it may use anything."""
 BY_NAME, LISTS = {"import_module", "__import__"}, "iter_modules"
 """Functions that import what no statement names; what lists the packages that its statements name."""
+BROUGHT, FOLDERS = "brought", "modules_in"
+"""Functions of the street that import what houses bring."""
 PARSING = threading.Lock()
 
 
@@ -144,7 +147,9 @@ def _meaning(path: Path) -> bytes:
     """Of code: without its comments and docstrings, which are constants by themselves. Of data: the file."""
     if path.suffix != ".py":
         return _source(path)
-    tree = copy.deepcopy(_tree(path))
+    # another tree, which is changed; a copy of the first takes ten times as long
+    with PARSING:
+        tree = ast.parse(_source(path))
     return ast.dump(_WithoutDocstrings().visit(tree)).encode()
 
 
@@ -174,9 +179,13 @@ def _imported(module: str) -> set[str]:
     return {".".join(part[:length]) for part in parts for length in range(1, len(part) + 1)}
 
 
-def _named(module: str) -> set[str]:
+def _named(module: str) -> frozenset[str]:
     """What its import statements name, and the modules of packages that it lists."""
-    path = _path(module)
+    return _named_in(module, _path(module))
+
+
+@cache
+def _named_in(module: str, path: Path | None) -> frozenset[str]:
     found = set[str]()
     for node in ast.walk(_tree(path)) if path else ():
         if isinstance(node, ast.Import):
@@ -185,10 +194,24 @@ def _named(module: str) -> set[str]:
             above = module.rsplit(".", node.level)[0] + "." if node.level else ""
             start = (above + (node.module or "")).rstrip(".")
             found |= {start, *(f"{start}.{alias.name}" for alias in node.names)}
+    found |= _of_houses(path)
     if path and LISTS in _words(path):
         listed = found - {module.rpartition(".")[0]}
         found |= {name for name in modules() if name.rpartition(".")[0] in listed}
-    return found
+    return frozenset(found)
+
+
+@cache
+def _of_houses(path: Path | None) -> frozenset[str]:
+    """Modules of the houses that `brought` and `modules_in` find for it, by the texts that it gives them."""
+    asked: dict[str, set[str]] = {BROUGHT: set(), FOLDERS: set()}
+    for node in ast.walk(_tree(path)) if path else ():
+        match node:
+            case ast.Call(func=ast.Name(id=name), args=[ast.Constant(value=str(text))]) if name in asked:
+                asked[name].add(text)
+    found = {place.partition(":")[0] for use in asked[BROUGHT] for place in places(use)}
+    folders = {f"{ROOT}.{house}.{folder}" for folder in asked[FOLDERS] for house in houses()}
+    return frozenset(found | {name for name in modules() if name.rpartition(".")[0] in folders})
 
 
 # read when the code is loaded: an edit during a run does not make old results new

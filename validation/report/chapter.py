@@ -12,6 +12,7 @@ from typing import Any
 
 from validation.analysis.claims import NO, Claim
 from validation.analysis.evidence import Evidence, JudgedClaim
+from validation.analysis.quantity import quantity_with
 from validation.analysis.statistics import POWER_DECIBEL
 from validation.analysis.study import Settings
 from validation.cases.exact.hertz import CAPACITANCE
@@ -25,9 +26,9 @@ Answer = dict[str, str | None]
 
 @dataclass(frozen=True, kw_only=True)
 class ChapterTest:
-    """What tests a statement: numbers of a case by quantity and model, or a claim of the case.
+    """What tests a statement: numbers of a case by the key of the quantity and the model, or a claim of the case.
 
-    claim: words that the claim has and no other, by default its first; where: conditions of the numbers; no: the words
+    claim: its key, by default that of the first; where: conditions of the numbers; no: the words
     of a contradiction.
     """
 
@@ -41,10 +42,11 @@ class ChapterTest:
     def judged(self, statement: str, evidence: Evidence) -> JudgedClaim | None:
         """The claim of this evidence, or the statement with its numbers; None where it has none, or no such claim."""
         if self.quantity:
-            claim = Claim(quantity=self.quantity, model=self.model, where=self.where, no=self.no).saying(statement)
+            claim = Claim(quantity=quantity_with(self.quantity), model=self.model, where=self.where, no=self.no).saying(
+                statement
+            )
             return claim.judged(evidence.numbers) if claim.numbers(evidence.numbers) else None
-        claims = [claim for claim in evidence.claims if self.claim in claim.claim]
-        return claims[0] if len(claims) == 1 or (claims and not self.claim) else None
+        return next((claim for claim in evidence.claims if self.claim in ("", claim.key)), None)
 
 
 @dataclass(frozen=True, kw_only=True)

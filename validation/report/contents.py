@@ -1,4 +1,4 @@
-"""The cases of a report: every module of `cases` and `benchmarks` that has a `CASE`, chapter by chapter."""
+"""The cases of a report: modules of `cases` and `benchmarks`, and of houses, with a `CASE`, chapter by chapter."""
 
 import statistics
 from collections.abc import Sequence
@@ -8,6 +8,7 @@ from pkgutil import walk_packages
 from validation import benchmarks, cases
 from validation.analysis.case import Case, Chapter, Profile
 from validation.benchmarks.peers import peers_installed
+from validation.engine.street import modules_in
 from validation.report.durations import seconds_of
 
 
@@ -17,7 +18,7 @@ def _found() -> list[Case]:
         import_module(module.name)
         for room in (cases, benchmarks)
         for module in walk_packages(room.__path__, f"{room.__name__}.")
-    ]
+    ] + list(modules_in("cases"))
     chapters = list(Chapter)
     entries = [module.CASE for module in modules if hasattr(module, "CASE")]
     for what, known in (

@@ -13,7 +13,19 @@ from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.evidence import Evidence, Table, placed
 from validation.analysis.series import ENDS, JUDGED
 from validation.report.curve_names import name_curves
-from validation.report.style import BARS, GUIDE, INK, Style, graded, legend_name, panels, styles_of, tick, visible
+from validation.report.style import (
+    BARS,
+    GUIDE,
+    INK,
+    EachNumber,
+    Style,
+    graded,
+    legend_name,
+    panels,
+    styles_of,
+    tick,
+    visible,
+)
 
 FORMS: dict[str, Style] = {
     "": {},
@@ -54,9 +66,7 @@ def draw(chart: Chart, evidence: Evidence, users: Collection[str] = ()) -> Figur
         try:
             _panel(axis, panel, facet, evidence, styles)
         except KeyError as error:
-            raise ValueError(
-                f"chart {chart.name!r} names {error}, which is no style, and no column of its tables"
-            ) from error
+            raise ValueError(f"chart {chart.name!r} names {error}, which is no column of its tables") from error
     for axis, (panel, _) in zip(axes, facets, strict=True):
         _limits(axis, panel)
     _name_axes_once(axes, columns)
@@ -127,7 +137,7 @@ def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidenc
     for name in names:
         if name not in panel.log:
             axis.locator_params(axis=name, nbins=5)
-            axis.ticklabel_format(axis=name, scilimits=(-3, 5))
+            (axis.xaxis if name == "x" else axis.yaxis).set_major_formatter(EachNumber())
 
 
 def _verdicts(axis: Axes, judged: Table) -> None:

@@ -22,10 +22,10 @@ PANEL = re.compile(r"^\([a-z]\)(, \([a-z]\))* ")
 SENTENCE_END = re.compile(r"(?<=[.;]) (?=[A-Z(])")
 
 
-def templates() -> jinja2.Environment:
-    """Those beside this file, with the filters below."""
+def templates(*folders: Path) -> jinja2.Environment:
+    """Those beside this file and in other folders, with the filters below."""
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(__file__).parent / "templates"),
+        loader=jinja2.FileSystemLoader([Path(__file__).parent / "templates", *folders]),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,

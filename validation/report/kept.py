@@ -9,6 +9,7 @@ from typing import Any
 from validation.analysis.case import Profile
 from validation.analysis.contents import csv_name, from_csv
 from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Table, Verdict, VerdictCell, Whose
+from validation.analysis.quantity import quantity_with
 from validation.analysis.sound import Sound, Sounds
 from validation.engine.files import name_in, place_in
 from validation.report.contents import CASES, TIMED
@@ -63,7 +64,8 @@ def _section(folder: Path, name: str, case: Mapping[str, Any]) -> Section:
 def _evidence(folder: Path, name: str, case: Mapping[str, Any]) -> Evidence:
     numbers = {number["label"]: _number(number) for number in case["numbers"]}
     sounds = case["sounds"]
-    paths = {table: place_in(folder / DATA, csv_name(name, table)) for table in case["tables"]}
+    tables = [quantity_with(table) for table in case["tables"]]
+    paths = {table: place_in(folder / DATA, csv_name(name, table)) for table in tables}
     return Evidence(
         **{word: case[word] for word in WORDS},
         numbers=tuple(numbers.values()),
@@ -74,22 +76,30 @@ def _evidence(folder: Path, name: str, case: Mapping[str, Any]) -> Evidence:
             Table(table["name"], {name: list(map(_cell, cells)) for name, cells in table["columns"].items()})
             for table in case["page tables"]
         ),
-        claims=tuple(_claim(claim, numbers) for claim in case["claims"]),
+        claims=tuple(_claim(name, claim, numbers) for claim in case["claims"]),
         sounds=Sounds(**{**sounds, "tracks": tuple(Sound(**track) for track in sounds["tracks"])}) if sounds else None,
     )
 
 
 def _number(told: Mapping[str, Any]) -> Number:
     known = {field.name: told[field.name] for field in fields(Number)}
+    known["quantity"] = quantity_with(told["quantity"])
     where = {name: tuple(place) if isinstance(place, list) else place for name, place in told["where"].items()}
     return Number(**{**known, "where": where, "role": Role(told["role"])})
 
 
-def _claim(told: Mapping[str, Any], numbers: Mapping[str, Number]) -> JudgedClaim:
+def _claim(case: str, told: Mapping[str, Any], numbers: Mapping[str, Number]) -> JudgedClaim:
     tested, inside = (tuple(numbers[label] for label in told[of]) for of in ("numbers", "inside"))
     words = {name: told[name] for name in ("claim", "answer", "limits")}
     whose, confirmed_by = Whose(told.get("whose", Whose.FINDING)), Verdict(told["confirmed by"])
-    return JudgedClaim(**words, numbers=tested, inside=inside, confirmed_by=confirmed_by, whose=whose)
+    key = told.get("key") or _key_of(case, told["claim"])
+    return JudgedClaim(**words, numbers=tested, inside=inside, confirmed_by=confirmed_by, whose=whose, key=key)
+
+
+def _key_of(case: str, words: str) -> str:
+    """Of a claim in a report from before claims had keys: that of the declared one with its words, up to a setting."""
+    declared = (CASES | TIMED)[case].study.claims
+    return next((claim.key for claim in declared if words.startswith(claim.says.partition("{")[0])), "")
 
 
 def _cell(cell: Any) -> object:

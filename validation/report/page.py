@@ -7,9 +7,10 @@ from typing import Any
 from validation.analysis.case import Chapter, Profile
 from validation.analysis.contents import csv_name
 from validation.analysis.evidence import plus_minus
+from validation.engine.street import brought
 from validation.report.answers.failures import failures
 from validation.report.answers.first_screen import answered_questions
-from validation.report.answers.front_tables import rail_filters, right_filters, times_faster, times_faster_said
+from validation.report.answers.front_tables import times_faster, times_faster_said
 from validation.report.chapter import ERRATA, REMARKS, book_figures, chapter_of
 from validation.report.figures import tables_of
 from validation.report.formats import first_sentence, templates
@@ -91,9 +92,10 @@ def pages(
     chapters = [(chapter, some) for chapter in Chapter if (some := [s for s in sections if s.entry.chapter == chapter])]
     in_order = [section for _, some in chapters for section in some]
     figures, faster = figures_of(in_order), times_faster(sections)
-    filters, book = (None, []) if scene else (rail_filters(sections), chapter_of(sections))
+    book = [] if scene else chapter_of(sections)
     places = {section.name: section.place for section in sections}
-    environment = templates()
+    houses = [] if scene else brought("front_page")
+    environment = templates(*(house.TEMPLATES for house in houses))
     environment.filters |= {
         "place_of": places.__getitem__,
         "sound_place": sound_place,
@@ -119,13 +121,16 @@ def pages(
         "plus_minus": plus_minus,
         "front_figures": [] if scene else [name for name in FRONT_FIGURES if name in figures],
         "book_figures": [] if scene else book_figures(sections),
-        "rail_filters": filters,
-        "right_filters": right_filters(filters) if filters else "",
         "few_findings": FEW_FINDINGS,
         "about": about,
         "kept": kept_from(about),
         "scene": scene_summary(scene) if scene else None,
     }
+    parts = {house: house.globals_of(sections) for house in houses}
+    for shown in parts.values():
+        environment.globals |= shown
+    environment.globals["front_parts"] = [house.TEMPLATE for house in houses]
+    environment.globals["front_links"] = tuple((*house.LINK, any(shown.values())) for house, shown in parts.items())
     made = {
         some[0].page: environment.get_template("chapter.html").render(chapter=chapter, some=some)
         for chapter, some in chapters

@@ -23,7 +23,7 @@ PREDICTED = "predicted before a solve, for a single surface and not for ensemble
 STATED = "stated by the case"
 """What the model is that a case needs, by the a-priori error estimates or by itself: no answer of the page."""
 FIRST_WORDS = 10
-"""Of a claim, by which it is found."""
+"""Of a claim without a key, by which it is found."""
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,7 @@ class Section:
     def address_of(self, claim: JudgedClaim) -> str:
         """On its page: by its first words, so that it lasts when others come or go."""
         words = " ".join(claim.claim.split()[:FIRST_WORDS])
-        return f"claim-{self.name}-{plain_name(words)}"
+        return f"claim-{self.name}-{claim.key or plain_name(words)}"
 
     @property
     def missed(self) -> tuple[Number, ...]:
@@ -121,7 +121,7 @@ def case_results(section: Section) -> dict[str, object]:
         "claim": section.entry.claim,
         "claims": [
             {
-                **{name: getattr(claim, name) for name in ("claim", "whose", "status", "answer", "limits")},
+                **{name: getattr(claim, name) for name in ("key", "claim", "whose", "status", "answer", "limits")},
                 "verdicts": {verdict: claim.count(verdict) for verdict in Verdict},
                 "numbers": [number.label for number in claim.numbers],
                 "confirmed by": claim.confirmed_by,

@@ -1,6 +1,7 @@
 """The style of figures: one colour a model in all of them, readable in grey, and the same bytes every time."""
 
 import io
+import re
 import textwrap
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -14,7 +15,7 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.text import Text
-from matplotlib.ticker import LogFormatter
+from matplotlib.ticker import Formatter, LogFormatter, ScalarFormatter
 
 from validation.analysis.escapes import printable
 from validation.analysis.evidence import Evidence, Table
@@ -173,8 +174,44 @@ def plain(text: str) -> str:
     return printable(text, lines=True).replace("$", r"\$")
 
 
+class EachNumber(Formatter):
+    """Each number of an axis as it is, with digits that tell it from its neighbours.
+
+    A factor or an offset in the corner of an axis is overlooked.
+    """
+
+    def format_ticks(self, values: Sequence[float]) -> list[str]:
+        """Of all of them, with as few digits as leave a thousandth of their least distance."""
+        apart = np.diff(np.unique(values))
+        least = 1e-3 * float(apart.min() if apart.size else np.abs(values).max(initial=1.0))
+        texts = [f"{value:.15g}" for value in values]
+        for digits in range(1, 15):
+            texts = [f"{0.0 if abs(value) < least else value:.{digits}g}" for value in values]
+            if all(abs(float(text) - value) <= least for text, value in zip(texts, values, strict=True)):
+                break
+        texts = [f"{float(text):.15g}" if abs(float(text)) < LARGE else text for text in texts]
+        return [POWER.sub(r"e\1\2", text).replace("-", "\N{MINUS SIGN}") for text in texts]
+
+    def __call__(self, x: float, pos: int | None = None) -> str:
+        """One of them."""
+        return self.format_ticks([x])[0]
+
+
+POWER = re.compile(r"e\+?(-?)0*(\d+)")
+LARGE = 1e5
+"""From here on a number is written with a power of ten."""
+
+
+def plain_numbers(figure: Figure) -> None:
+    """`EachNumber` on every axis whose numbers nobody has formatted."""
+    for axis in figure.findobj(Axis):
+        if type(axis.get_major_formatter()) is ScalarFormatter:
+            axis.set_major_formatter(EachNumber())
+
+
 def plain_figure(figure: Figure) -> None:
-    """Make all of its texts `plain`, once; but for the numbers that a logarithmic axis makes."""
+    """Make all of its texts `plain`, once, but for the numbers that a logarithmic axis makes, and its numbers, too."""
+    plain_numbers(figure)
     for text in figure.findobj(Text):
         text.set_text(plain(text.get_text()))
     for axis in figure.findobj(Axis):
@@ -192,6 +229,7 @@ def drawn(draw: Callable[[Evidence], Figure], evidence: Evidence, profile: str) 
     tables = tuple(Table(t.name, {name: as_text(cells) for name, cells in t.columns.items()}) for t in evidence.tables)
     with matplotlib.rc_context(SETTINGS):
         figure = draw(replace(evidence, tables=tables))
+        plain_numbers(figure)
         engine = figure.get_layout_engine()
         if profile != "full":
             if isinstance(engine, ConstrainedLayoutEngine):

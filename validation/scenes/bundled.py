@@ -4,6 +4,7 @@ import re
 from collections.abc import Collection, Iterator
 from pathlib import Path
 
+from validation.engine.street import brought
 from validation.scenes.printable import printable
 
 SCENES = Path(__file__).parent
@@ -18,7 +19,13 @@ HEADER = re.compile(r"^\[([\w.]+)\]")
 
 def bundled() -> tuple[str, ...]:
     """Names of the scenes that come with this package."""
-    return tuple(sorted(path.stem for path in SCENES.glob("*.toml")))
+    return tuple(sorted(_files()))
+
+
+def _files() -> dict[str, Path]:
+    """By their names; those of the houses, too."""
+    folders = [SCENES, *(Path(next(iter(house.__path__))) for house in brought("scenes"))]
+    return {path.stem: path for folder in folders for path in folder.glob("*.toml")}
 
 
 def path_of(scene: str | Path) -> Path:
@@ -32,7 +39,7 @@ def path_of(scene: str | Path) -> Path:
     if name not in bundled():
         name = printable(name)
         raise ValueError(f'scene must be a file, as "./{name}.toml", or one of {", ".join(bundled())}, got "{name}"')
-    return SCENES / f"{name}.toml"
+    return _files()[name]
 
 
 def line_for(key: str) -> str:

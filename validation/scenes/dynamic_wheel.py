@@ -10,13 +10,15 @@ from typing import Any
 from scipy.fft import next_fast_len
 
 from mdr.checks import count
+from validation.engine.street import brought
 from validation.scenes.bundled import bundled, path_of
 from validation.scenes.damping import DampedWheel, check_damping
+from validation.scenes.description import body_pairs, motion_pair, roughness_pairs
 from validation.scenes.material import Material, check_scene, material_of
 from validation.scenes.printable import shortened
-from validation.scenes.rail_file import is_rail
 from validation.scenes.reader import Reader, errors_of_file, table, tables_of, values
 from validation.scenes.roughness import Roughness, check_band, roughness_of
+from validation.scenes.scene import Pairs
 from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
 from validation.scenes.wheel_body import OnHalfSpace
 
@@ -171,6 +173,11 @@ class WheelScene(OnHalfSpace):
         """2 pi R / dx, rounded."""
         return round(2 * math.pi * self.radius / self.spacing)
 
+    def describe(self) -> Pairs:
+        """Body, contact, motion and roughness."""
+        rough = {"waves of the rail": self.rail, "waves of the wheel": self.wheel}
+        return *body_pairs("wheel", self.radius, self), motion_pair(self), *roughness_pairs(self, rough)
+
     def diagnose(self) -> tuple[str, ...]:
         """What may be wrong about this scene though it is valid, in sentences with numbers."""
         short = diagnose_short_waves(self.body, list(self._rough.values())) if self._rough else ()
@@ -227,8 +234,9 @@ def load_wheel_scene(scene: str | Path) -> WheelScene:
     path = path_of(scene)
     tables = tables_of(path)
     with errors_of_file(path):
-        if is_rail(tables):
-            raise ValueError("wheel and rail must be those of a dynamic wheel, got a wheel on a rail with two radii")
+        for reader in brought("scene"):
+            if reader.reads(tables):
+                raise ValueError(f"wheel and rail must be those of a dynamic wheel, got {reader.what}")
         return wheel_of(tables)
 
 

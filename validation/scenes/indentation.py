@@ -2,14 +2,17 @@
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import ClassVar, Literal
 
 from mdr.checks import positive
+from validation.scenes.description import COUNTED, body_pairs, roughness_pairs, waves_of
 from validation.scenes.height_edits import SQUARE
 from validation.scenes.material import Material, check_scene
 from validation.scenes.measured import MeasuredHeights, check_covers
 from validation.scenes.printable import shortened
+from validation.scenes.quantity import PRESSED, SceneQuantity
 from validation.scenes.roughness import Roughness, RoughSurface, check_band
+from validation.scenes.scene import ContactEllipse, Pairs, SceneDefaults
 from validation.scenes.units import in_unit
 from validation.scenes.wheel_body import OnHalfSpace, Wheel
 from validation.theory.closed_forms import square_punch_stiffness
@@ -21,7 +24,7 @@ MOST_PRESSURE, SOFTEST = 0.1, 1e3
 
 
 @dataclass(frozen=True, kw_only=True)
-class IndentationScene(OnHalfSpace):
+class IndentationScene(OnHalfSpace, SceneDefaults):
     """Rigid sphere or square punch, smooth or rough, pressed onto an elastic half-space.
 
     Parameters
@@ -53,6 +56,12 @@ class IndentationScene(OnHalfSpace):
     'closed form'
     """
 
+    speed: ClassVar[None] = None
+    mass: ClassVar[None] = None
+    damping: ClassVar[float] = 0.0
+    quantities: ClassVar[tuple[SceneQuantity, ...]] = PRESSED
+    roughness_key: ClassVar[str] = "roughness"
+
     name: str
     shape: Shape
     size: float
@@ -64,7 +73,7 @@ class IndentationScene(OnHalfSpace):
     def __post_init__(self) -> None:
         if self.shape not in ("sphere", "punch"):
             raise ValueError(f'shape must be "sphere" or "punch", got {self.shape!r}')
-        positive("sphere.radius" if self.shape == "sphere" else "punch.side", self.size)
+        positive(self.size_key, self.size)
         check_scene(self, (f"{self.shape}.load",))
         if isinstance(self.ground, Roughness):
             self._check_waves(self.ground)
@@ -72,9 +81,29 @@ class IndentationScene(OnHalfSpace):
             self._check_measured(self.ground)
 
     @property
+    def kind(self) -> Shape:
+        """The shape."""
+        return self.shape
+
+    @property
     def pressure(self) -> float:
         """Mean pressure F / L^2 under a punch [Pa]."""
         return self.load / self.size**2
+
+    @property
+    def smooth_contact(self) -> ContactEllipse | None:
+        """Of a sphere; that of a flat punch has no approach of Hertz."""
+        return self.contact_of_hertz if self.shape == "sphere" else None
+
+    @property
+    def mean_pressure(self) -> float:
+        """F / L^2 under a punch, F / (pi a^2) under a sphere [Pa]."""
+        return self.contact_of_hertz.mean_pressure if self.shape == "sphere" else self.pressure
+
+    @property
+    def size_key(self) -> str:
+        """Of a scene file."""
+        return "sphere.radius" if self.shape == "sphere" else "punch.side"
 
     @property
     def body(self) -> Wheel:
@@ -96,6 +125,29 @@ class IndentationScene(OnHalfSpace):
     def roughness_ratio(self) -> float:
         """h / d of a rough sphere; zero where smooth [-]."""
         return self.ground.rms / self.approach if self.ground else 0.0
+
+    @property
+    def error_source(self) -> str:
+        """What errors of models rest on; empty where that is the table of the calibration."""
+        exact = "errors of models: closed forms are exact for smooth bodies, no measured error is used"
+        return "" if self.ground else exact
+
+    def describe(self) -> Pairs:
+        """Body, contact and roughness."""
+        if self.shape == "sphere":
+            return *body_pairs("sphere", self.size, self), *roughness_pairs(self, {"waves": self.ground})
+        body = ("punch", f"side L = {in_unit(self.size, 'length')}, load {in_unit(self.load, 'force')}")
+        if self.ground is None:
+            return body, ("roughness", "none")
+        # a measured face is as long as its first wave
+        longest = f"longest waves on a side: {self.size * self.ground.q_min / (2 * math.pi):.3g}"
+        rms = in_unit(self.ground.rms, "length")
+        return (
+            body,
+            ("rms height h", f"{rms}, F / (E* h L) = {self.reduced_load:.3g}"),
+            ("rms slope h'", f"{self.ground.slope_along:.3g}, {COUNTED}"),
+            ("waves", f"{waves_of(self.ground, None)}; {longest}"),
+        )
 
     def diagnose(self) -> tuple[str, ...]:
         """What may be wrong about this scene though it is valid, in sentences with numbers."""

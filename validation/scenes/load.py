@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from validation.engine.street import brought
 from validation.scenes.bundled import bundled, path_of
 from validation.scenes.dynamic_wheel import wheel_of
 from validation.scenes.indentation import IndentationScene
@@ -15,13 +16,10 @@ from validation.scenes.material import material_of
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_surface import heights_of, measured
 from validation.scenes.printable import printable
-from validation.scenes.rail import RailScene
-from validation.scenes.rail_file import is_rail, rail_of
 from validation.scenes.reader import Reader, errors_of_file, one_of, table, tables_of, values
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import roughness_of
-
-Scene = IndentationScene | RollingScene | RailScene
+from validation.scenes.scene import Scene
 
 BODIES, GROUNDS = ("sphere", "punch", "wheel"), ("roughness", "heights")
 """Of which a scene has one, and one at the most."""
@@ -135,8 +133,10 @@ def _scene_of(tables: dict[str, Any], folder: Path) -> Scene:
     body = next(one for one in BODIES if one in tables)
     if body != "wheel":
         return _pressed(body, tables, folder)
-    if is_rail(tables):
-        return rail_of(tables, folder)
+    for reader in brought("scene"):
+        if reader.reads(tables):
+            scene: Scene = reader.scene_of(tables, folder)
+            return scene
     wheel, rail = tables["wheel"], tables.get("rail")
     moving = isinstance(wheel, dict) and "mass" in wheel
     # which checks the simulation against the scene; `compare` has no need of one

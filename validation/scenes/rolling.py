@@ -2,22 +2,30 @@
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
 
+from validation.analysis.statistics import FloatArray
 from validation.scenes.damping import DampedWheel, check_damping
+from validation.scenes.description import body_pairs, motion_pair, roughness_pairs
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.material import Material, check_scene
 from validation.scenes.measured import MeasuredHeights, check_covers
+from validation.scenes.quantity import MOVING, ROLLING, SceneQuantity
 from validation.scenes.roughness import Roughness, RoughSurface, check_band
+from validation.scenes.scene import ContactEllipse, Pairs, SceneDefaults
 from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
 from validation.scenes.units import in_unit
 from validation.scenes.wheel_body import OnHalfSpace
+
+if TYPE_CHECKING:
+    from validation.scenes.rolling_quantity import RollingQuantity
 
 MOST_WAVES = 1000
 """To a contact radius: shorter ones no grid of a wheel holds, and linear theory takes hours over them."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class RollingScene(OnHalfSpace):
+class RollingScene(OnHalfSpace, SceneDefaults):
     """Smooth wheel that rolls over rough ground, with a mass or at a constant approach.
 
     Parameters
@@ -50,6 +58,10 @@ class RollingScene(OnHalfSpace):
     >>> print(f"h / d = {scene.roughness_ratio:.2g}")
     h / d = 0.064
     """
+
+    kind: ClassVar[str] = "wheel"
+    size_key: ClassVar[str] = "wheel.radius"
+    roughness_key: ClassVar[str] = "rail.roughness"
 
     name: str
     radius: float
@@ -86,6 +98,43 @@ class RollingScene(OnHalfSpace):
         """The wheel; of unit mass where it has none."""
         same = {name: getattr(self, name) for name in ("radius", "modulus", "load", "damping")}
         return DampedWheel(mass=self.mass or 1.0, **same)
+
+    @property
+    def quantities(self) -> tuple[SceneQuantity, ...]:
+        """Of the motion where it moves, and of the force on a wheel that keeps its approach."""
+        return ROLLING if self.mass is None else (*MOVING, *ROLLING)
+
+    def bands(self, quantity: str) -> FloatArray:
+        """Centres of the one-third octaves [rad/m]. ValueError where there is none."""
+        return self._asked(quantity).bands.centres
+
+    @property
+    def smooth_contact(self) -> ContactEllipse:
+        """Of Hertz."""
+        return self.contact_of_hertz
+
+    @property
+    def mean_pressure(self) -> float:
+        """F / (pi a^2) [Pa]."""
+        return self.contact_of_hertz.mean_pressure
+
+    def no_answer(self, quantity: str) -> str:
+        """Why there is no level, whatever the model: no steady motion, or no band; empty where there is one."""
+        return self._asked(quantity).no_answer
+
+    def _asked(self, quantity: str) -> "RollingQuantity":
+        # imported here, since a quantity is of a scene
+        from validation.scenes.rolling_quantity import RollingQuantity
+
+        return RollingQuantity(self, quantity)
+
+    def describe(self) -> Pairs:
+        """Body, contact, motion and roughness."""
+        return (
+            *body_pairs("wheel", self.radius, self),
+            motion_pair(self),
+            *roughness_pairs(self, {"waves": self.ground}),
+        )
 
     @property
     def roughness_ratio(self) -> float:

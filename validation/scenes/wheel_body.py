@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from validation.scenes.scene import ContactEllipse
 from validation.theory.closed_forms import circular_punch_stiffness, hertz_approach, hertz_contact_radius
 from validation.theory.wheel import eigenfrequency
 
@@ -71,6 +72,11 @@ class OnHalfSpace:
     def contact_radius(self) -> float:
         """a = sqrt(R d_N) [m]."""
         return self.body.contact_radius
+
+    @property
+    def contact_of_hertz(self) -> ContactEllipse:
+        """Of the smooth body."""
+        return ContactEllipse(self.contact_radius, self.contact_radius, self.approach, self.body.load)
 
     def diagnose_contact_radius(self, name: str = "wheel") -> Iterator[str]:
         """A contact as large as a part of the body is not on a half-space. name: of the body's table in a scene."""

@@ -10,6 +10,7 @@ from validation.engine.engine import FloatArray
 from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
+from validation.scenes.quantity import STIFFNESS
 from validation.scenes.roughness import RoughSurface
 from validation.simulation.surface import draw_surface
 from validation.theory.gauss_legendre import on_panels
@@ -35,9 +36,9 @@ LATTICE = 512
 """Waves on a side up to which their mean square is summed one by one; shorter ones are an integral."""
 
 
-def is_pressed(scene: object, quantity: str) -> bool:
+def is_pressed(scene: Any, quantity: str) -> bool:
     """Whether a model of stiffness may have the quantity."""
-    return isinstance(scene, IndentationScene) and quantity == "stiffness"
+    return scene.kind in ("sphere", "punch") and quantity == str(STIFFNESS)
 
 
 def is_rough(scene: Any, quantity: str) -> bool:

@@ -1,24 +1,23 @@
 """A contact model: a function with a declaration of what it serves, of its error and of its cost.
 
-Found in `simulation/models`, it is a candidate of `compare` and a point on the charts.
+Found in a folder `models`, it is a candidate of `compare` and a point on the charts.
 """
 
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from importlib import import_module
-from pkgutil import iter_modules, resolve_name
+from pkgutil import resolve_name
 from typing import Any
 
 import numpy as np
 
 from mdr.checks import positive
 from validation.engine.engine import FloatArray
-from validation.simulation import models
+from validation.engine.street import modules_in
+from validation.scenes.rolling_quantity import RollingQuantity
 from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.model_names import BEM, MODELS
-from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.sampling import FEWEST
 
 
@@ -36,7 +35,7 @@ class Target:
 
     @cached_property
     def rolling(self) -> RollingQuantity:
-        return RollingQuantity(self.scene, self.quantity)  # type: ignore[arg-type]  # of its names
+        return RollingQuantity(self.scene, self.quantity)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -98,6 +97,8 @@ class Model:
     shape: what its error is expected to go with; the calibration measures how many times that it is;
     left_out: error of the model that shows in its result alone;
     element: what a contact consists of, where a result counts those "in contact";
+    answer: what a scene's error and value are, where its solves say that themselves, of a `SceneModel`;
+    helps: what of the scene would leave less open of `ErrorEstimate.of_scene`, in words;
     charted: whether charts take it as it is, or vary its resolution;
     is_mdr: whether its springs are the method of dimensionality reduction.
     """
@@ -112,6 +113,8 @@ class Model:
     shape: Callable[[Target], float] = lambda target: 1.0
     left_out: Callable[[Target, FloatArray], float] = lambda target, value: 0.0
     element: str = ""
+    answer: Callable[[Any], Any] | None = None
+    helps: Callable[[Target], str] = lambda target: ""
     charted: bool = True
     is_mdr: bool = False
 
@@ -179,7 +182,7 @@ def model(*, cost: Callable[[Target, Resolution], Cost], **declared: Any) -> Cal
 
 
 def models_serving(scene: Any, quantity: str) -> tuple[Model, ...]:
-    """All models in `simulation/models` that have this quantity of the scene."""
+    """All models that have this quantity of the scene."""
     return tuple(model for model in all_models() if model.serves(scene, quantity))
 
 
@@ -191,7 +194,6 @@ def all_models() -> tuple[Model, ...]:
 
 
 def _declared() -> Iterator[tuple[str, str, Model]]:
-    """The variables of all modules in `simulation/models` that are models."""
-    for module in iter_modules(models.__path__):
-        name = f"{models.__name__}.{module.name}"
-        yield from ((name, key, one) for key, one in vars(import_module(name)).items() if isinstance(one, Model))
+    """The variables of all modules in folders `models` that are models."""
+    for module in modules_in("models"):
+        yield from ((module.__name__, key, one) for key, one in vars(module).items() if isinstance(one, Model))

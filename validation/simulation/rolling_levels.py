@@ -14,9 +14,9 @@ from validation.analysis.spectra import levels, waves
 from validation.engine.engine import FloatArray
 from validation.engine.random_numbers import random_generator
 from validation.scenes.measured import MeasuredHeights
+from validation.scenes.rolling_quantity import RollingQuantity
 from validation.simulation.contact_laws import BoundaryElementsLaw, ContactLaw, LinearLaw, SpringsLaw
 from validation.simulation.motion import simulate_from_linear_motion
-from validation.simulation.rolling_quantity import RollingQuantity
 from validation.simulation.sampling import too_few
 from validation.simulation.surface import draw_track, surface_on_grid
 from validation.simulation.track_spectrum import InputSpectrum

@@ -9,6 +9,7 @@ from validation.analysis.chart import Chart
 from validation.analysis.claims import Claim
 from validation.analysis.evidence import Number, Role, Table, Whose, grouped, table_of
 from validation.analysis.printed import times_source
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Margin, Series, single
 from validation.analysis.statistics import Interval
 from validation.analysis.study import Outcomes, Settings, Study
@@ -111,9 +112,9 @@ def lost(found: Sequence[Point]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(f"{p.scene}: {p.method}, {p.setting}: {p.status}" for p in failed))
 
 
-COST = "time of Fig. 14.4 on one core"
+COST = Quantity("time_of_Fig._14.4_on_one_core")
 AGREEMENT = "10 %, or 1 dB: tolerance of agreement"
-TIME, UP_TO, FROM = "time over that of the cheapest other method as close", "springs", "boundary elements"
+TIME, UP_TO, FROM = Quantity("time_over_that_of_the_cheapest_other_method_as_close"), "springs", "boundary elements"
 CHEAPEST = Margin(1.0, "above one another method is cheaper")
 A_DAY = "a day on one core is not too costly"
 
@@ -175,7 +176,11 @@ def _ratio(mine: Point, other: Point | None) -> Interval:
 
 
 POINTS = "points"
-WITHIN, WITHOUT = "the cheapest method within a tolerance, time of one realisation", "failed or out of range"
+WITHIN = Quantity(
+    "the_cheapest_method_within_a_tolerance_time_of_one_realisation",
+    "the cheapest method within a tolerance, time of one realisation",
+)
+WITHOUT = Quantity("failed_or_out_of_range")
 COLUMNS = {
     **{name: name for name in ("scene", "quantity", "unit", "method", "setting", "value", "status", "error")},
     **{"± sample": "half_width", "band": "band", "over the reference": "over", "runs": "runs"},
@@ -249,9 +254,11 @@ STUDY = Study(
         Claim(quantity=TIME, printed=times_source).saying(
             "At each error springs are the cheapest method, or boundary elements where springs do not reach it.",
             short="Springs, or boundary elements below their error, are the cheapest method",
+            key="cheapest",
         ),
         Claim(quantity=COST, differ=True, whose=Whose.BOOK, printed=hours).saying(
-            "The rolling contact of a rough wheel in three dimensions is too costly for boundary elements."
+            "The rolling contact of a rough wheel in three dimensions is too costly for boundary elements.",
+            key="too-costly",
         ),
     ),
     charts=(

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from validation.analysis.statistics import jackknife_error, student
 from validation.benchmarks.timing import FINISHED, OUT_OF_RANGE, Configuration, configurations_of
 from validation.benchmarks.work_precision.pareto import Point
-from validation.benchmarks.work_precision.problem import EXTRAPOLATED, ChartProblem, Quantity, values_of
+from validation.benchmarks.work_precision.problem import EXTRAPOLATED, ChartProblem, ChartQuantity, values_of
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import FloatArray, Outcome
 from validation.simulation.method import Values
@@ -36,7 +36,7 @@ class MethodValues:
     def size(self) -> int:
         return len(next(iter(self.fine.values())))
 
-    def log(self, quantity: Quantity, rows: IntArray) -> FloatArray:
+    def log(self, quantity: ChartQuantity, rows: IntArray) -> FloatArray:
         """ln q of these realisations; extrapolated, ln q_f + (ln q_f - ln q_c) / (ratio^order - 1)."""
         fine = quantity.log(_rows(self.fine, rows))
         if self.coarse is None:
@@ -59,7 +59,7 @@ class Error:
     over: float
 
 
-def error(quantity: Quantity, mine: MethodValues, reference: MethodValues) -> Error:
+def error(quantity: ChartQuantity, mine: MethodValues, reference: MethodValues) -> Error:
     """How far an answer is from the reference; its interval by leaving out one realisation after the other.
 
     Paired, of both at once: what the realisation has of its own drops out. Otherwise of either by itself.
@@ -99,7 +99,7 @@ def _half_width(without: list[float]) -> float:
 
 def reference_of(
     problem: ChartProblem, found: Mapping[Configuration, Values]
-) -> tuple[MethodValues, Callable[[Quantity], float]]:
+) -> tuple[MethodValues, Callable[[ChartQuantity], float]]:
     """The reference, and its uncertainty for each quantity.
 
     Exact ones have what the quantity says. Others are extrapolated from the two finest grids, and the whole step from
@@ -114,7 +114,7 @@ def reference_of(
         raise NotConvergedError(f"{problem.name}: the grids of the reference have not finished")
     answer = MethodValues(found[fine], found[coarse], fine.value / coarse.value)
 
-    def band(quantity: Quantity) -> float:
+    def band(quantity: ChartQuantity) -> float:
         rows = np.arange(answer.size)
         return quantity.distance(replace(answer, coarse=None).log(quantity, rows) - answer.log(quantity, rows))
 
@@ -136,7 +136,7 @@ def points(problem: ChartProblem, outcome: Outcome) -> list[Point]:
         unit = "dB" if quantity.decibel else "%"
         chart: dict[str, Any] = {"scene": problem.name, "quantity": quantity.name, "unit": unit, "band": band(quantity)}
 
-        def beside(point: Point, mine: MethodValues, quantity: Quantity = quantity) -> Point:
+        def beside(point: Point, mine: MethodValues, quantity: ChartQuantity = quantity) -> Point:
             off = error(quantity, mine, reference)
             return replace(point, error=off.value, half_width=off.half_width, over=off.over)
 

@@ -4,12 +4,13 @@ import math
 from collections.abc import Iterator, Sequence
 
 from validation.analysis.evidence import Table
+from validation.analysis.quantity import Quantity
 from validation.analysis.statistics import Interval
 from validation.benchmarks.timing import ALONE
 from validation.benchmarks.work_precision.pareto import Point, front, seconds
 from validation.benchmarks.work_precision.problem import ELEMENTS, FILTER_3D, SPRINGS
 
-FASTER = "times faster than boundary elements at equal error"
+FASTER = Quantity("times_faster_than_boundary_elements_at_equal_error")
 REDUCED = (*SPRINGS, FILTER_3D)
 NOTCH = 1.57
 """Half of the 95 % interval of a median, over the interquartile range over sqrt(runs).

@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 
 from validation.analysis.evidence import Table, table_of
+from validation.analysis.quantity import Quantity
 from validation.benchmarks.isolation import alone, timed
 from validation.benchmarks.timing import interval_of_median
 from validation.engine.engine import Engine, FloatArray, Outcome
@@ -19,7 +20,9 @@ from validation.simulation.wheel_on_springs import WheelEnsemble
 RUNS = 5
 TABLE = load_wheel_scene("table_14_1")
 HOUR = 3600.0
-COST_OF_STEPS = "the dynamic wheel of Fig. 14.4, seconds on one core"
+COST_OF_STEPS = Quantity(
+    "the_dynamic_wheel_of_Fig._14.4_seconds_on_one_core", "the dynamic wheel of Fig. 14.4, seconds on one core"
+)
 
 
 @dataclass(frozen=True, kw_only=True)

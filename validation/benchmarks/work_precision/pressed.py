@@ -14,11 +14,12 @@ import numpy as np
 import bem3d
 import mdr
 from validation.benchmarks.timing import Configuration, NamedMethod, along
-from validation.benchmarks.work_precision.problem import CLOSED, MDR, ChartProblem, Grids, Quantity, mean_of
+from validation.benchmarks.work_precision.problem import CLOSED, MDR, ChartProblem, ChartQuantity, Grids, mean_of
 from validation.engine.engine import FloatArray
 from validation.scenes.indentation import IndentationScene
 from validation.simulation.method import Prepared, Resolution, Result, Solve, Values
 from validation.simulation.pressed import FIXED_AREA_RESIDUAL, press_on_grid, press_on_springs
+from validation.simulation.quantities import MEAN_STIFFNESS, RELATIVE_DEVIATION
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory import closed_forms
 
@@ -186,8 +187,8 @@ class RoughPunchProblem(PressedProblem):
 
     name: ClassVar = "fractal punch"
     quantities: ClassVar = (
-        mean_of("mean stiffness", "stiffness"),
-        Quantity(name="relative deviation", log=log_deviation, needs=("stiffness",)),
+        mean_of(MEAN_STIFFNESS, "stiffness"),
+        ChartQuantity(name=RELATIVE_DEVIATION, log=log_deviation, needs=("stiffness",)),
     )
     hurst: float = 0.7
     waves: int = 15

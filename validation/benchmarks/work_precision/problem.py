@@ -23,7 +23,7 @@ ROUNDING = 1e-12
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Quantity:
+class ChartQuantity:
     """A quantity of a problem.
 
     log: its natural logarithm from values, one number or one a band; needs: names of the values; order: of its error in
@@ -45,14 +45,14 @@ class Quantity:
         return float(np.abs(np.expm1(log_ratio)).max())
 
 
-def mean_of(name: str, value: str = "", **settings: Any) -> Quantity:
+def mean_of(name: str, value: str = "", **settings: Any) -> ChartQuantity:
     """The mean of a value, by default that of its name."""
     value = value or name
 
     def log(values: Values) -> FloatArray:
         return np.asarray(np.log(np.mean(values[value], axis=0, keepdims=True)))
 
-    return Quantity(name=name, log=log, needs=(value,), **settings)
+    return ChartQuantity(name=name, log=log, needs=(value,), **settings)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,7 +78,7 @@ class ChartProblem(ABC):
     """
 
     name: ClassVar[str]
-    quantities: ClassVar[tuple[Quantity, ...]]
+    quantities: ClassVar[tuple[ChartQuantity, ...]]
     realisations: int = 0
     grids: Grids
 

@@ -15,7 +15,7 @@ import bem3d
 import mdr
 from validation.analysis.spectra import Bands, levels, waves
 from validation.benchmarks.timing import Configuration, NamedMethod, along
-from validation.benchmarks.work_precision.problem import FILTER_3D, MDR, MDR_ROLLING, ChartProblem, Grids, Quantity
+from validation.benchmarks.work_precision.problem import FILTER_3D, MDR, MDR_ROLLING, ChartProblem, ChartQuantity, Grids
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import FloatArray
 from validation.scenes.rolling import RollingScene
@@ -51,8 +51,8 @@ class RollingProblem(ChartProblem):
     name: ClassVar = "rolling force"
     # of the force at a place of an endless track
     quantities: ClassVar = (
-        Quantity(name="rms", log=lambda values: log_power(values, "variance") / 2, needs=("variance",)),
-        Quantity(name="spectrum", log=partial(log_power, name="level"), needs=("level",), decibel=True),
+        ChartQuantity(name="rms", log=lambda values: log_power(values, "variance") / 2, needs=("variance",)),
+        ChartQuantity(name="spectrum", log=partial(log_power, name="level"), needs=("level",), decibel=True),
     )
     hurst: float = 0.7
     height: float = 0.1

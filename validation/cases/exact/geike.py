@@ -10,6 +10,7 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim
 from validation.analysis.evidence import Role
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Series, single
 from validation.analysis.study import Outcomes, Study
 from validation.engine.engine import SERIAL, Engine
@@ -50,11 +51,11 @@ def run(case: Geike, engine: Engine = SERIAL) -> Outcomes:
     return Outcomes(case, {PROFILE: profile, LINES: surface})
 
 
-NAMED = ("mean square height", "mean square gradient", "mean square curvature")
+NAMED = (Quantity("mean_square_height"), Quantity("mean_square_gradient"), Quantity("mean_square_curvature"))
 PROFILE, LINES, GEIKE, LINE = "drawn profile", "lines of a drawn surface", "Geike's 1D spectrum", "line trace"
 OVER_SURFACE, OVER_INTEGRAL = "drawn profile over drawn surface", "drawn profile over integral of the spectrum"
-SPECTRUM, WAVENUMBER = "C_1D [m³]", "wavenumber q [rad/m]"
-SHARE, POWER, DIRECTIONS = "moment over that of the surface", "moment n of |q|ⁿ", "mean of |cos φ|ⁿ"
+SPECTRUM, WAVENUMBER = Quantity("C_1D_m³", "C_1D [m³]"), "wavenumber q [rad/m]"
+SHARE, POWER, DIRECTIONS = Quantity("moment_over_that_of_the_surface"), "moment n of |q|ⁿ", "mean of |cos φ|ⁿ"
 CLOSE = "2 %: the first wave of a band counts whole, which adds H / longest to a sum in one dimension"
 MOMENTS = (0, 1, 2, 3, 4)
 
@@ -112,6 +113,7 @@ STUDY = Study(
         Claim(quantity=NAMED, model=OVER_SURFACE).saying(
             "A profile drawn by Geike's rule has the mean square height, gradient and curvature of the surface.",
             short="A profile by Geike's rule agrees with the surface",
+            key="moments",
         ),
     ),
     charts=(

@@ -13,12 +13,13 @@ from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim
 from validation.analysis.evidence import Number, Role
 from validation.analysis.printed import off_by
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Margin, Series, single
 from validation.analysis.study import Outcomes, Study
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.selection import model_needed
 from validation.simulation import exact_contacts as contacts
+from validation.simulation import model_needed
 from validation.simulation.exact_contacts import CosineWave, FlatPunches, PublishedContact, SmoothSphere
 from validation.theory import closed_forms
 
@@ -122,20 +123,16 @@ EDGE = "an error in both edge cells as large as the pressure one cell inside the
 HALF_A_CELL = "half a cell at the edge; a is the radius of a circle with the area of the cells; 2 dx / L"
 SINGULAR = "first order, since the pressure is singular at the edge; the next term, of order 1.5, changes it"
 HALF_LOAD = "p ~ dx^(1/2) at the edge, which at half load lies between cells on every grid"
-FORCE, PRESSURE, ERROR = "force F [N]", "pressure p [MPa]", "relative error"
+FORCE, PRESSURE, ERROR = "force F [N]", Quantity("pressure_p_MPa", "pressure p [MPa]"), "relative error"
 APPROACH, DISTANCE, CELLS = "approach d [µm]", "distance from the centre [mm]", "cells"
-SQUARE, LIMIT, CIRCLE = (
-    "k / (E* L) of the square",
-    "k / (E* L) of the square, extrapolated",
-    "k / (2 E* a) of the circle",
-)
-LOAD, PLACE, WAVE_PRESSURE = "mean p / p*", "x / wavelength", "pressure p / p*"
-ORDER, PRESSURE_ERROR, WIDTH = (
-    "order of the error in the cell size",
-    "L2 error of the pressure",
-    "half-width of the wave",
-)
-FULL, LENGTHS = "stiffness of springs in full contact", ("L_1D = L", "L_1D = 1.1523 L")
+SQUARE = Quantity("k_E_L_of_the_square", "k / (E* L) of the square")
+LIMIT = Quantity("k_E_L_of_the_square_extrapolated", "k / (E* L) of the square, extrapolated")
+CIRCLE = Quantity("k_2_E_a_of_the_circle", "k / (2 E* a) of the circle")
+LOAD, PLACE, WAVE_PRESSURE = "mean p / p*", "x / wavelength", Quantity("pressure_p_p", "pressure p / p*")
+ORDER = Quantity("order_of_the_error_in_the_cell_size")
+PRESSURE_ERROR = Quantity("L2_error_of_the_pressure")
+WIDTH = Quantity("half-width_of_the_wave")
+FULL, LENGTHS = Quantity("stiffness_of_springs_in_full_contact"), ("L_1D = L", "L_1D = 1.1523 L")
 CONTACT = {contacts.APPROACH: (0.08190, "mm"), contacts.PRESSURE: (770.6, "MPa")}
 """Published example output of the program CONTACT for 100 kN, G = 82 GPa, nu = 0.28 on both bodies."""
 DIGITS = Margin(
@@ -286,14 +283,17 @@ STUDY = Study(
         Claim(quantity=EXACT, printed=off_by).saying(
             "Boundary elements give the contacts of Hertz, of flat punches and of Westergaard, springs that of Hertz.",
             short="Boundary elements and springs agree with closed forms",
+            key="closed-forms",
         ),
         Claim(quantity=tuple(CONTACT)).saying(
             "The closed form of an ellipse and boundary elements give the contact that the program CONTACT publishes.",
             short="Closed form and boundary elements agree with CONTACT",
+            key="contact-program",
         ),
         Claim(quantity=FULL, differ=True, printed=in_per_cent).saying(
             "Springs on the length L_1D = L lack the stiffness of a square punch of side L in full contact.",
             short="Springs on L_1D = L lack the stiffness of the square punch in full contact",
+            key="square-punch",
         ),
     ),
     charts=(

@@ -12,6 +12,7 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim
 from validation.analysis.evidence import Number, Role, Table, table_of
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Series, Where, single
 from validation.analysis.study import Outcomes, Study
 from validation.cases.limits.sweeps import HALF_SPACE, LIMITS, SPRINGS, Limit, Sweep
@@ -51,10 +52,15 @@ def run(case: Limits, engine: Engine = SERIAL) -> Outcomes:
     return Outcomes(case, found, tuple(lost))
 
 
-THRESHOLD = "observed threshold over the predicted one"
-WARNED = "part of a sweep without the right message: none past the threshold, or one before it"
-IMBALANCE = "imbalance of impulse and momentum over F_N T, largest"
-SUMMARY = "where each method fails, and its messages"
+THRESHOLD = Quantity("observed_threshold_over_the_predicted_one")
+WARNED = Quantity(
+    "part_of_a_sweep_without_the_right_message_none_past_the_threshold_or_one_before_it",
+    "part of a sweep without the right message: none past the threshold, or one before it",
+)
+IMBALANCE = Quantity(
+    "imbalance_of_impulse_and_momentum_over_F_N_T_largest", "imbalance of impulse and momentum over F_N T, largest"
+)
+SUMMARY = Quantity("where_each_method_fails_and_its_messages", "where each method fails, and its messages")
 
 
 def series(result: Outcomes) -> list[Series]:
@@ -198,10 +204,12 @@ STUDY = Study(
         Claim(quantity=THRESHOLD, printed=said).saying(
             "Each method fails where its condition says.",
             short="Failures of the methods agree with their predicted thresholds",
+            key="failure",
         ),
         Claim(quantity=WARNED, printed=said).saying(
             "The software warns past each limit and only there.",
             short="Warnings of the software agree with the limits",
+            key="warning",
         ),
     ),
     charts=(

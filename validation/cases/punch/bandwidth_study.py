@@ -10,6 +10,7 @@ from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Place
 from validation.analysis.multilevel import combined
 from validation.analysis.printed import per_cent
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Margin, Series
 from validation.analysis.statistics import DECIBEL
 from validation.analysis.study import Outcomes, Study
@@ -17,11 +18,13 @@ from validation.cases.punch.bandwidth import AREA, ROLL_OFF, Band, Bandwidth, De
 from validation.cases.punch.ensembles import DEVIATION, FORCE, OVER
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS as MDR
+from validation.simulation.quantities import RELATIVE_DEVIATION
 from validation.simulation.rough_punch import require_converged
 
 BANDWIDTH, H = "q_max / q_min", "H"
-RATIO = "relative deviation, MDR over boundary elements"
-DRIFT, ROLLED = "change of that ratio per decade of q_max / q_min", "change of that ratio by a roll-off"
+RATIO = Quantity("relative_deviation_MDR_over_boundary_elements", "relative deviation, MDR over boundary elements")
+DRIFT = Quantity("change_of_that_ratio_per_decade_of_q_max_q_min", "change of that ratio per decade of q_max / q_min")
+ROLLED = Quantity("change_of_that_ratio_by_a_roll-off")
 OF_EACH = f"{DRIFT}, under each force"
 ALIKE = Margin(DECIBEL * math.log(1.1), "10 %, the margin at which MDR is said to predict it", source="no change")
 
@@ -124,6 +127,7 @@ STUDY = Study(
             "From one decade of bandwidth to the next, MDR's relative deviation of the stiffness over that of boundary "
             "elements stays the same.",
             short="The ratio of deviations agrees with that at a tenth of the bandwidth",
+            key="drift",
         ),
     ),
     charts=(
@@ -137,7 +141,7 @@ STUDY = Study(
         ),
         Chart("bandwidth-deviation", claims=(0,)).of(
             "The relative deviations. Symbols: boundary elements; lines: MDR. Bars: 95 % of sample and grid.",
-            Panel(FORCE, "relative deviation", facet=H, ylim=(0.1, 0.4)).of(
+            Panel(FORCE, RELATIVE_DEVIATION, facet=H, ylim=(0.1, 0.4)).of(
                 at_bandwidth(DEVIATION, BEM, "marks", bars=True), at_bandwidth(DEVIATION, MDR, "lines", "_")
             ),
         ),

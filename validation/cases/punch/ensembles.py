@@ -10,6 +10,7 @@ import numpy as np
 from validation.analysis.series import Estimates, Ranges, Series, spans
 from validation.analysis.statistics import DECIBEL, FloatArray, Statistic, jackknifed
 from validation.engine.engine import Engine, Outcome
+from validation.simulation.quantities import MEAN_STIFFNESS, RELATIVE_DEVIATION
 from validation.simulation.rough_punch import (
     Profiles,
     PunchRoughness,
@@ -21,7 +22,7 @@ from validation.simulation.rough_punch import (
     stacked,
 )
 
-MEAN, DEVIATION = "mean stiffness", "relative deviation"
+MEAN, DEVIATION = MEAN_STIFFNESS, RELATIVE_DEVIATION
 FORCE, OVER, FEW = "Fbar", "springs over boundary elements", "boundary elements, few cells"
 K = TypeVar("K", bound=Hashable)
 J = TypeVar("J", bound=Hashable)

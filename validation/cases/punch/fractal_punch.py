@@ -19,6 +19,7 @@ from validation.analysis.multilevel import (
     on_finest,
     on_no_size,
 )
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Series, masked, single
 from validation.analysis.statistics import FloatArray, nearest
 from validation.analysis.study import Outcomes
@@ -208,7 +209,7 @@ class PunchStatistics:
     def steps(self, hurst: float, method: str, statistic: str, level: int) -> dict[int, Linearised]:
         """ln of the mean stiffness, or of the relative deviation, under one force, on each grid."""
         found = self._moments[hurst, method, level]
-        logarithm = {MEAN: attrgetter("log_mean"), DEVIATION: attrgetter("log_relative_deviation")}[statistic]
+        logarithm = attrgetter("log_mean" if statistic == MEAN else "log_relative_deviation")
         return {n: logarithm(mine) for n, mine in found.items()}
 
     def at(self, hurst: float, method: str, statistic: str, level: int) -> Resolved:
@@ -259,11 +260,14 @@ def at_least(deviation: Resolved) -> Resolved:
     return Resolved(Linearised(LEAST, np.zeros(1)), max(value.value + half - LEAST, 0.0))
 
 
-H, STIFFNESS, SCATTER, SLOPE = "H", "k / (E* L)", "relative deviation of k", "d ln k / d ln F"
-TREND = "d ln deviation / d H"
-LAW, FRACTION = "1 / (1 + H)", "contact fraction"
-CONVEX = "largest excess of the slope of the load curve over the stiffnesses at its two ends"
-FLAT = "largest stiffness of any surface over that of the flat punch"
+STIFFNESS = Quantity("k_E_L", "k / (E* L)")
+SCATTER = Quantity("relative_deviation_of_k")
+SLOPE = Quantity("d_ln_k_d_ln_F", "d ln k / d ln F")
+H = "H"
+TREND = Quantity("d_ln_deviation_d_H", "d ln deviation / d H")
+LAW, FRACTION = "1 / (1 + H)", Quantity("contact_fraction")
+CONVEX = Quantity("largest_excess_of_the_slope_of_the_load_curve_over_the_stiffnesses_at_its_two_ends")
+FLAT = Quantity("largest_stiffness_of_any_surface_over_that_of_the_flat_punch")
 
 
 def criteria(found: PunchStatistics) -> Iterator[Series]:

@@ -18,7 +18,7 @@ from validation.analysis.statistics import DECIBEL
 from validation.analysis.study import Outcomes, Study
 from validation.cases.punch import fractal_punch as shown
 from validation.cases.punch.ensembles import DEVIATION, FEW, FORCE, MEAN, OVER
-from validation.selection import model_needed
+from validation.simulation import model_needed
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS as MDR
 from validation.simulation.rough_punch import FEW_CELLS
@@ -132,7 +132,7 @@ def once_more(result: Outcomes, numbers: Sequence[Number]) -> list[Number]:
     }
     mean = [n for n in numbers_with(numbers, MEAN, OVER) if n.where[FORCE] not in light]
     farthest = max(mean, key=lambda n: abs(n.value) + n.uncertainty, default=None)
-    name = f"{MEAN} where the models may differ most, within 3 dB"
+    name = MEAN + " where the models may differ most, within 3 dB"
     return [replace(farthest, quantity=name, tolerance=3.0, reason=FACTOR, role=Role.CRITERION)] if farthest else []
 
 
@@ -196,10 +196,12 @@ STUDY = Study(
         at_each_hurst(quantity=DEVIATION + PRINTED, whose=Whose.BOOK, no=THREE_D_DIFFER).saying(
             "The standard deviation of the stiffness is very similar in one and in three dimensions (Fig. 14.1).",
             short="MDR's standard deviation agrees with that of boundary elements",
+            key="scatter-of-the-book",
         ),
         at_each_hurst(quantity=DEVIATION, where={shown.H: float, FORCE: lambda decade: decade[1] < 2 * LIGHT}).saying(
             f"Up to Fbar = {LIGHT} MDR predicts the standard deviation of the stiffness of rough punches.",
             short=f"Up to Fbar = {LIGHT} MDR's standard deviation agrees with that of boundary elements",
+            key="scatter",
         ),
         at_each_hurst(
             quantity=MEAN,
@@ -210,15 +212,18 @@ STUDY = Study(
             f"MDR gives the mean stiffness of rough punches from Fbar = {CARRIED} on, where more than the last "
             "asperities carry.",
             short="MDR's mean stiffness agrees with that of boundary elements",
+            key="mean-stiffness",
         ),
         Claim(quantity=EXPONENT, model=OF_BEM, along=f"-{shown.H}", whose=Whose.FIELD).saying(
             "The exponent of the stiffness over the force falls from 0.77 at H = 0 to 0.51 at H = 1 (Pohrt and Popov "
             "2012; the straight line between both is ours).",
             short="The exponent of the stiffness agrees with that of Pohrt and Popov (2012)",
+            key="exponent",
         ),
         Claim(quantity=MEAN, model=FIT, printed=per_cent).saying(
             "The fit 1/kbar = 1/1.1523 + 0.48/Fbar gives the mean stiffness for Fbar from 0.46 to 10.",
             short="The fit agrees with the mean stiffness of boundary elements",
+            key="fit",
         ),
     ),
     charts=(

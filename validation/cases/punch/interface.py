@@ -11,6 +11,7 @@ import numpy as np
 from scipy.special import erfinv
 
 from validation.analysis.evidence import Place
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Estimates, Margin, Series, Where, masked, single
 from validation.analysis.statistics import DECIBEL, Estimate, FloatArray, Statistic, jackknifed, log_mean
 from validation.analysis.study import Outcomes
@@ -131,13 +132,14 @@ EDGELESS, ON_PUNCH, SERIES = (
     "interface and flat punch in series",
 )
 ROLL_OFF, CONTACT = "q_r L / 2π", "contact in Persson's theory [%]"
-STIFFNESS, AREA, GAP = "stiffness", "contact fraction", "mean gap"
-SCALED, SCALED_PUNCH = "K h over p", "k h over F"
-FRACTION, GAP_OVER_H = "contact fraction A over L²", "mean gap over h"
-EXPONENT, BESIDE_BEM = "exponent of K over p", "K over that of boundary elements"
+STIFFNESS, AREA, GAP = "stiffness", Quantity("contact_fraction"), Quantity("mean_gap")
+SCALED, SCALED_PUNCH = Quantity("K_h_over_p"), Quantity("k_h_over_F")
+FRACTION, GAP_OVER_H = Quantity("contact_fraction_A_over_L²"), Quantity("mean_gap_over_h")
+EXPONENT, BESIDE_BEM = Quantity("exponent_of_K_over_p"), Quantity("K_over_that_of_boundary_elements")
 OVER_LOAD = f"K over p beside that at {100 * LIGHT:g} % contact"
-OF_SERIES, OF_HALF = "k over that of interface and flat punch in series", "K h over p beside that of half as many waves"
-BOUNDED = "share of loads above Barber's least K"
+OF_SERIES = Quantity("k_over_that_of_interface_and_flat_punch_in_series")
+OF_HALF = Quantity("K_h_over_p_beside_that_of_half_as_many_waves")
+BOUNDED = Quantity("share_of_loads_above_Barber's_least_K")
 ENOUGH_WAVES = 8
 """A period: fewer leave more of the lightest loads to the highest summit alone."""
 ZERO_GAP = 1e-12

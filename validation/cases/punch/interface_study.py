@@ -36,7 +36,7 @@ from validation.cases.punch.interface import (
     series,
 )
 from validation.cases.punch.work import worked
-from validation.selection import model_needed
+from validation.simulation import model_needed
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS as MDR
 from validation.theory.closed_forms import INTERFACE
@@ -85,14 +85,17 @@ STUDY = Study(
             "Up to 10 % contact the normal stiffness of a rough interface is proportional to the load: its exponent is "
             "1.",
             short="The exponent of the stiffness of an interface over the load agrees with 1",
+            key="proportional",
         ),
         of_interface(quantity=BESIDE_BEM, model=FITTED, printed=per_cent).saying(
             "Persson's theory, with γ = 0.45, gives the normal stiffness of a rough interface up to 20 % contact.",
             short="The stiffness of Persson's theory agrees with that of boundary elements",
+            key="persson",
         ),
         Claim(quantity=(AREA, GAP), differ=True, printed=times).saying(
             "MDR's contact area and mean gap differ from those of a rough punch.",
             short="MDR's contact area and mean gap differ from those of boundary elements",
+            key="area-and-gap",
         ),
     ),
     charts=(

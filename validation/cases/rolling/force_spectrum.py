@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from validation.analysis.evidence import Place, Role
 from validation.analysis.margins import REPEATABLE
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Counted, Estimates, Margin, Series
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import DECIBEL, POWER_DECIBEL, FloatArray, jackknifed
@@ -21,6 +22,7 @@ from validation.engine.convergence import require_realisations
 from validation.engine.engine import SERIAL, Engine
 from validation.simulation import rolling_strip
 from validation.simulation.model_names import FILTER_3D
+from validation.simulation.quantities import MEAN_FORCE, RMS_FORCE
 from validation.simulation.rolling_strip import HERTZ, RoughStrip, Tracks, level_1d, level_3d, over_bands, strip_levels
 from validation.simulation.roughness_from_force import by_filter_3d, by_mean_filter
 from validation.simulation.track_spectrum import (
@@ -122,13 +124,14 @@ def run(case: ForceSpectrum, engine: Engine = SERIAL) -> Outcomes:
 BEM, REFINED = "boundary elements", "boundary elements, half of the cell"
 SPRINGS, LINEAR_1D, LINEAR_3D, MEAN_1D = "springs", "(14.12)", FILTER_3D, "(14.14)"
 OVER, UNBOUNDED = " over boundary elements", "(14.14) over linear theory in 3D, unbounded power law"
-CURVE, MEAN_LEVEL = "level of a one-third octave over the curve", "mean level for q a > 4"
-LEVEL = "level of an octave"
-RMS_LEVEL = f"rms of {LEVEL}"
-SHOWN, SPECTRUM = "level of the force in a one-third octave", "spectrum of the force"
-RMS_FORCE, MEAN_FORCE = "rms force", "mean force"
-INPUT_LEVEL, INPUT = "level of a one-third octave by input spectrum", "level of an octave by input spectrum"
-FOUND = "roughness found in a one-third octave"
+CURVE = Quantity("level_of_a_one-third_octave_over_the_curve")
+MEAN_LEVEL = Quantity("mean_level_for_q_a_4", "mean level for q a > 4")
+LEVEL = Quantity("level_of_an_octave")
+RMS_LEVEL = "rms of " + LEVEL
+SHOWN, SPECTRUM = Quantity("level_of_the_force_in_a_one-third_octave"), Quantity("spectrum_of_the_force")
+INPUT_LEVEL = Quantity("level_of_a_one-third_octave_by_input_spectrum")
+INPUT = Quantity("level_of_an_octave_by_input_spectrum")
+FOUND = Quantity("roughness_found_in_a_one-third_octave")
 HEIGHT, SLOPE, Q, SURFACE = "h/d", "h' a/d", "q a", "surface"
 SLOPE_COUNTS = "h' is the rms slope along the track, in one direction, of all waves"
 SHORT_WAVES = 4.0

@@ -19,10 +19,8 @@ from validation.cases.rolling.force_spectrum import (
     LINEAR_3D,
     LOW,
     MEAN_1D,
-    MEAN_FORCE,
     MEAN_LEVEL,
     OVER,
-    RMS_FORCE,
     RMS_LEVEL,
     SHOWN,
     SLOPE,
@@ -35,7 +33,8 @@ from validation.cases.rolling.force_spectrum import (
     run,
     series,
 )
-from validation.selection import model_needed
+from validation.simulation import model_needed
+from validation.simulation.quantities import MEAN_FORCE, RMS_FORCE
 from validation.simulation.roughness_from_force import ASSUMED
 from validation.simulation.track_spectrum import INPUT_NAMES
 
@@ -73,6 +72,7 @@ STUDY = Study(
             "Where h is much smaller than d, the force of springs has the spectrum (14.12), (14.13), and in the mean "
             "(14.14).",
             short="Springs agree with (14.12) and (14.14)",
+            key="springs",
         ),
         of_book(
             no=THREE_D_DIFFER,
@@ -85,19 +85,23 @@ STUDY = Study(
             "Where h is much smaller than d, a wheel on isotropic roughness has the spectrum (14.12) and its mean "
             "(14.14) in three dimensions (Fig. 14.3).",
             short="(14.12) and (14.14) agree with boundary elements",
+            key="half-space",
         ),
         of_input(model=INPUT_NAMES["rolling"]).saying(
             "On the rolling-equivalent spectrum (14.12) has the octave levels of linear theory in three dimensions.",
             short="On the rolling-equivalent spectrum (14.12) agrees with linear theory in 3D",
+            key="rolling-spectrum",
         ),
         Claim(quantity=(RMS_FORCE, MEAN_FORCE), model=SPRINGS + OVER, along=SLOPE, printed=per_cent).saying(
             "At a given approach springs have the mean and the rms force of boundary elements.",
             short="The mean and the rms force of springs agree with those of boundary elements",
+            key="mean-and-rms",
         ),
         Claim(quantity=RMS + FOUND, model=LINEAR_3D, along=SLOPE, printed=decibels_rms).saying(
             "Linear theory in three dimensions, read backwards, gives the roughness from the force between the zeros "
             "of sin(q a).",
             short="Roughness found from the force by linear theory in 3D agrees with the true one",
+            key="inverse",
         ),
     ),
     charts=(

@@ -14,6 +14,7 @@ from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Place
 from validation.analysis.margins import REPEATABLE
 from validation.analysis.printed import decibels_rms
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Margin, Series
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed, mean_estimate
 from validation.analysis.study import Outcomes, Study
@@ -96,11 +97,11 @@ def run(case: ReducedModels, engine: Engine = SERIAL) -> Outcomes:
     return Outcomes(case, found, unconverged)
 
 
-OFF = "rms over octaves of the level over boundary elements"
-LARGEST = "largest rms over octaves of all strips as smooth"
-KEPT, OWN_KEPT = "share of contact kept", "share of contact kept by each spectrum"
-WORK, AT_WORK = "work over springs on a line", "rms over octaves beside work"
-TABLE_14_1 = "wheel of Table 14.1"
+OFF = Quantity("rms_over_octaves_of_the_level_over_boundary_elements")
+LARGEST = Quantity("largest_rms_over_octaves_of_all_strips_as_smooth")
+KEPT, OWN_KEPT = Quantity("share_of_contact_kept"), Quantity("share_of_contact_kept_by_each_spectrum")
+WORK, AT_WORK = Quantity("work_over_springs_on_a_line"), Quantity("rms_over_octaves_beside_work")
+TABLE_14_1 = Quantity("wheel_of_Table_14.1")
 GRID = 1 / 3
 """Error of a grid over its change to half of the cells, of second order."""
 BESIDE = REPEATABLE.beside("boundary elements on the same strips, all cells")
@@ -193,14 +194,17 @@ STUDY = Study(
         in_octaves(model=LINEAR).saying(
             "Linear theory in three dimensions has the levels of boundary elements in octaves.",
             short="Linear theory in 3D agrees with boundary elements",
+            key="linear-theory",
         ),
         in_octaves(model=COARSEST).saying(
             "Boundary elements on {c.coarsest} cells to a contact radius have the levels of those on {c.cells}.",
             short=f"Boundary elements on {CELLS // 3} cells per contact radius agree with those on {CELLS}",
+            key="coarse-grid",
         ),
         Claim(quantity=KEPT, along=SLOPE).saying(
             "At one h' a/d the same part of the contact is lost, whatever h/d, the band and the Hurst exponent.",
             short="The share of contact kept at one h' a/d agrees with that of other spectra",
+            key="lost-contact",
         ),
     ),
     charts=(

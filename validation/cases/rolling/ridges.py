@@ -11,6 +11,7 @@ from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim
 from validation.analysis.evidence import Role, Whose
 from validation.analysis.printed import share
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Margin, Series
 from validation.analysis.study import Outcomes, Study
 from validation.engine.engine import SERIAL, Engine, FloatArray
@@ -76,13 +77,17 @@ def run(case: RollingOverRidges, engine: Engine = SERIAL) -> Outcomes:
     return Outcomes(case, dict(zip(keys, responses, strict=True)), unconverged)
 
 
-RESPONSE, IMAGINARY = "response of the force times q a", "imaginary part of the response times q a"
-ERROR, BOUND, LARGEST = "error over the envelope", "bound of the error", "largest error over the envelope"
-NEAREST, ORDER, STIFFNESS = (
+RESPONSE = Quantity("response_of_the_force_times_q_a")
+IMAGINARY = Quantity("imaginary_part_of_the_response_times_q_a")
+ERROR = Quantity("error_over_the_envelope")
+BOUND = Quantity("bound_of_the_error")
+LARGEST = Quantity("largest_error_over_the_envelope")
+NEAREST = Quantity(
+    "error_of_the_force_over_the_envelope_nearest_to_its_bound",
     "error of the force over the envelope, nearest to its bound",
-    "order of the error",
-    "k dd + dF at a prescribed force",
 )
+ORDER = Quantity("order_of_the_error")
+STIFFNESS = Quantity("k_dd_+_dF_at_a_prescribed_force")
 CELLS, Q, EXACT = "radius [points]", "q a", "sin(q a), (14.11)"
 FIRST_ORDER = Margin(
     0.7,
@@ -169,6 +174,7 @@ STUDY = Study(
             "Over ridges across the track the one-dimensional model is exact in three dimensions, (14.11), but for "
             "what the grids leave.",
             short="Over ridges, springs and boundary elements agree with (14.11)",
+            key="exact",
         ),
     ),
     charts=(

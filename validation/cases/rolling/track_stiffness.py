@@ -1,7 +1,7 @@
 """Stiffness along a track at constant load, springs beside boundary elements."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,13 +9,15 @@ import numpy as np
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim, Matrix
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Margin, Series
 from validation.analysis.spectra import Bands
-from validation.analysis.statistics import Estimate, extrapolated, log_ratio_of_means
+from validation.analysis.statistics import Estimate, FloatArray, extrapolated, log_ratio_of_means
 from validation.analysis.study import Outcomes, Study
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.simulation import rolling_strip
+from validation.simulation.quantities import MEAN_STIFFNESS
 from validation.simulation.rolling_strip import HERTZ, RoughStrip, Strip, Tracks
 from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
 
@@ -103,10 +105,13 @@ def run(case: TrackStiffness, engine: Engine = SERIAL) -> Outcomes:
 
 
 WHEEL, REFINED, SPRINGS = "boundary elements", "boundary elements, half of the cell", "springs"
-FORCE, MEAN, DEVIATION = "Fbar", "mean stiffness", "relative deviation of stiffness"
+FORCE, MEAN, DEVIATION = "Fbar", MEAN_STIFFNESS, Quantity("relative_deviation_of_stiffness")
 OVER = "springs over boundary elements"
-SHOWN = {MEAN: "mean stiffness of each model", DEVIATION: "relative deviation of each model"}
-WEIGHTS = {MEAN: np.array([0.0, 1.0]), DEVIATION: np.array([0.5, -1.0])}
+SHOWN: Mapping[str, Quantity] = {
+    MEAN: Quantity("mean_stiffness_of_each_model"),
+    DEVIATION: Quantity("relative_deviation_of_each_model"),
+}
+WEIGHTS: Mapping[str, FloatArray] = {MEAN: np.array([0.0, 1.0]), DEVIATION: np.array([0.5, -1.0])}
 """Of ln of the mean variance and of ln of the mean."""
 TEN_PER_CENT = Margin(10.0, "10 %, as of the stiffness of punches", source="boundary elements along it, extrapolated")
 
@@ -205,6 +210,7 @@ STUDY = Study(
         Claim(quantity=DEVIATION).saying(
             "Under a constant load the stiffness of springs fluctuates along a track as that of boundary elements.",
             short="The fluctuation of stiffness of springs along a track agrees with that of boundary elements",
+            key="fluctuation",
         ),
     ),
     charts=(

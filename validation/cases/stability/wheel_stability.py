@@ -13,6 +13,7 @@ from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim
 from validation.analysis.evidence import Number, Role, Table
 from validation.analysis.margins import FIELD
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Series, Where, single
 from validation.analysis.statistics import POWER_DECIBEL, Estimate
 from validation.analysis.study import Outcomes, Study
@@ -72,11 +73,25 @@ def coarser(case: WheelStability, height: float) -> list[RoughTrack]:
 
 
 OMEGA_DT, RELEASE, HEIGHT, WIDTH = "omega dt", "released at [d_N]", "height [d_N]", "q_max dx"
-PERIOD, CHANGE, STEP, LONG = "error of the period", "change in a turn", "growth of a step", "change of energy"
-GROWTH = "error of ln(growth in one step), on both sides of the limit"
-REFUSED = "calls that are taken: a step past the limit, or a track with too few points for its waves"
-SUM = "level of the last one-third octave over the sum over springs, at the least likely spacing"
-OCTAVE, DRIFT, THEORY = "error of the last one-third octave", "drift of the conserved energy", "linear theory"
+PERIOD = Quantity("error_of_the_period")
+CHANGE = Quantity("change_in_a_turn")
+STEP = Quantity("growth_of_a_step")
+LONG = Quantity("change_of_energy")
+GROWTH = Quantity(
+    "error_of_ln_growth_in_one_step_on_both_sides_of_the_limit",
+    "error of ln(growth in one step), on both sides of the limit",
+)
+REFUSED = Quantity(
+    "calls_that_are_taken_a_step_past_the_limit_or_a_track_with_too_few_points_for_its_waves",
+    "calls that are taken: a step past the limit, or a track with too few points for its waves",
+)
+SUM = Quantity(
+    "level_of_the_last_one-third_octave_over_the_sum_over_springs_at_the_least_likely_spacing",
+    "level of the last one-third octave over the sum over springs, at the least likely spacing",
+)
+OCTAVE = Quantity("error_of_the_last_one-third_octave")
+DRIFT = Quantity("drift_of_the_conserved_energy")
+THEORY = "linear theory"
 
 
 def series(result: Outcomes) -> list[Series]:
@@ -213,10 +228,12 @@ STUDY = Study(
         Claim(quantity=GROWTH, printed=printed).saying(
             "Time stepping becomes unstable where theory says.",
             short="The growth of a step agrees with theory on both sides of its limit",
+            key="instability",
         ),
         Claim(quantity=OCTAVE).saying(
             "On low roughness springs a quarter of the shortest wave apart have the last one-third octave within 1 dB.",
             short="The last one-third octave of springs a quarter wave apart agrees with that of the finest",
+            key="last-octave",
         ),
     ),
     charts=(

@@ -10,6 +10,7 @@ import numpy as np
 
 from validation.analysis.evidence import Place, Role
 from validation.analysis.margins import MARGINS
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Estimates, Margin, Series
 from validation.analysis.spectra import band_levels, band_means, one_third_octaves
 from validation.analysis.statistics import Estimate, FloatArray, jackknifed, ratio_of_means
@@ -143,10 +144,18 @@ def _check_regions(scene: WheelScene) -> None:
         )
 
 
-SPECTRA, BREAK_AT, DURATION, DISTANCE = "A by distance", "ω_break [rad/s]", "T [s]", "distance [m]"
-BREAK_LAW, SHARE, OF_REGION = "d ln ω_break / d ln T", "share of the mean square", "level of a region"
-BY_KIND, UP_TO_JUMP, SHORT_WAVES = "A by contact and record", "A of regions 1 and 2", "A over short waves"
-OVER, SECOND_ORDER, CONTRAST = "level over the second order", "second order, closed form", "contrast of region 2"
+SPECTRA = Quantity("A_by_distance")
+BREAK_AT = Quantity("ω_break_rad_s", "ω_break [rad/s]")
+DURATION, DISTANCE = "T [s]", "distance [m]"
+BREAK_LAW = Quantity("d_ln_ω_break_d_ln_T", "d ln ω_break / d ln T")
+SHARE = Quantity("share_of_the_mean_square")
+OF_REGION = Quantity("level_of_a_region")
+BY_KIND = Quantity("A_by_contact_and_record")
+UP_TO_JUMP = Quantity("A_of_regions_1_and_2")
+SHORT_WAVES = Quantity("A_over_short_waves")
+OVER = Quantity("level_over_the_second_order")
+CONTRAST = Quantity("contrast_of_region_2")
+SECOND_ORDER = "second order, closed form"
 H_OVER_D, RECORD, DAMPING, MAXIMUM = "h/d", "record", "damping", "maximum of cos²(q a)"
 PERIODIC, HANN, CUT = "periodic motion", "steady, Hann's window", "steady, no window"
 BOOK = "from rest, no window, undamped"

@@ -12,7 +12,7 @@ from validation.analysis.study import Outcomes, Study
 from validation.cases.wheel import distance
 from validation.cases.wheel.distance import BOOK, CUT, HANN, LINEAR, PERIODIC, SECOND_ORDER, SPRINGS
 from validation.cases.wheel.features import DENSITY, FIRST, FOURTH, OMEGA, PLATEAU, TABLE, regions_of
-from validation.selection import model_needed
+from validation.simulation import model_needed
 from validation.simulation.wheel_on_springs import WAVES_APART
 
 BY_DISTANCE = Panel(OMEGA, DENSITY, log="xy").of(
@@ -86,6 +86,7 @@ STUDY = Study(
             "Regions 1 and 2 arise from the non-linearity of the contact: in a steady state a linear contact has "
             "neither.",
             short="A linear contact in a steady state has none of the power of springs in regions 1 and 2",
+            key="regions-1-and-2",
         ),
         Claim(
             whose=Whose.BOOK,
@@ -93,11 +94,13 @@ STUDY = Study(
         ).saying(
             "Region 4 is an artefact: leakage through the ends of the finite record.",
             short="Region 4 agrees with leakage of the finite record",
+            key="region-4",
         ),
         Claim(quantity=(distance.CONTRAST, distance.OVER), along=distance.H_OVER_D).saying(
             "A closed theory of second order in the roughness, without a free parameter, gives regions 1 and 2 of "
             "springs.",
             short="Regions 1 and 2 of springs agree with a closed theory of second order",
+            key="second-order",
         ),
     ),
     charts=(

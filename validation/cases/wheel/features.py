@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 
 from validation.analysis import spectral_features as regions
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Series
 from validation.analysis.spectra import band_means
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed
@@ -25,10 +26,10 @@ PEAK, JUMP, SLOPE, PERIOD = wheel_features.NAMES
 FLOOR, BREAK = "floor", "break"
 FEATURES = (*wheel_features.NAMES, FLOOR, BREAK)
 QUANTITIES = {
-    PEAK: "peak ω_eigen",
+    PEAK: Quantity("peak_ω_eigen", "peak ω_eigen"),
     JUMP: "jump",
-    SLOPE: "slope of region 3",
-    PERIOD: "period of the oscillation",
+    SLOPE: Quantity("slope_of_region_3"),
+    PERIOD: Quantity("period_of_the_oscillation"),
 }
 """Of the features that are judged."""
 LEVEL, OMEGA, UNIT = "level", "ω [rad/s]", "(m/s²)² s"

@@ -12,6 +12,7 @@ from validation.analysis.chart import Chart, Curve, Panel, by_model
 from validation.analysis.claims import THREE_D_DIFFER, Claim
 from validation.analysis.evidence import Table, Whose
 from validation.analysis.margins import MARGINS
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Estimates, Series
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray, jackknifed
 from validation.analysis.study import Outcomes, Study
@@ -20,11 +21,12 @@ from validation.cases.wheel import half_space as wheel
 from validation.cases.wheel.features import LEVEL, OMEGA, QUANTITIES, SLOPE, decibels
 from validation.scenes.description import slope_ratio
 from validation.scenes.dynamic_wheel import WheelScene
-from validation.selection import model_needed
+from validation.simulation import model_needed
 
-LEVELS, OVER = "one-third octave level [dB over (m/s²)²]", "level over boundary elements"
-MARKS = "marks [rad/s]"
-CONTRAST, ZERO = "contrast of the oscillation", "zero of sin²(q a)"
+LEVELS = Quantity("one-third_octave_level_dB_over_m_s²_²", "one-third octave level [dB over (m/s²)²]")
+OVER = Quantity("level_over_boundary_elements")
+MARKS = Quantity("marks_rad_s", "marks [rad/s]")
+CONTRAST, ZERO = Quantity("contrast_of_the_oscillation"), "zero of sin²(q a)"
 WHEEL, APPLICATIONS = "wheel", "applications a time step"
 OF_FIGURE = 5
 """Numbers of the claim of Fig. 14.4, whose intervals hold at once: levels of three ranges, slope, contrast."""
@@ -206,10 +208,12 @@ STUDY = Study(
             "The one-dimensional model describes the dynamics of the wheel: boundary elements in the time loop have "
             "the regions of Fig. 14.4.",
             short="Springs of Fig. 14.4 agree with boundary elements in the time loop",
+            key="regions",
         ),
         Claim(quantity=LEVEL, model=wheel.OVER_BEM[wheel.LINEAR_3D], along="range").saying(
             "Linear theory in three dimensions gives the acceleration of the wheel.",
             short="Linear theory in 3D agrees with boundary elements in the time loop",
+            key="linear-theory",
         ),
     ),
     charts=(

@@ -9,6 +9,7 @@ import numpy as np
 
 from validation.analysis.evidence import Role
 from validation.analysis.margins import MARGINS
+from validation.analysis.quantity import Quantity
 from validation.analysis.series import Estimates, Margin, Series, Where
 from validation.analysis.spectra import band_levels, band_means, one_third_octaves
 from validation.analysis.study import Outcomes
@@ -84,8 +85,10 @@ def _varied(scene: WheelScene) -> dict[str, WheelScene]:
     return varied | {name: replace(scene, rail=one) for name, one in rails.items()}
 
 
-SPECTRUM, VARIED = "A in twelfths of an octave", "A with one parameter changed"
-OSCILLATION, MARKS, PARAMETER = "A over its mean law ω^(-2H-3)", "marks [rad/s]", "parameter"
+SPECTRUM, VARIED = Quantity("A_in_twelfths_of_an_octave"), Quantity("A_with_one_parameter_changed")
+OSCILLATION = Quantity("A_over_its_mean_law_ω_-2H-3", "A over its mean law ω^(-2H-3)")
+MARKS = Quantity("marks_rad_s", "marks [rad/s]")
+PARAMETER = "parameter"
 NO_WINDOW, HANN, LINEAR = "no window, (14.17)", "Hann's window", "linear theory"
 LOWEST, HIGHEST, PREDICTED_FLOOR = "lowest tenth of wheels", "highest tenth of wheels", "floor predicted"
 SOURCES = {

@@ -14,8 +14,7 @@ from validation.cases.wheel import features, spectrum
 from validation.cases.wheel.features import DENSITY, OMEGA, QUANTITIES, TABLE
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import WheelScene
-from validation.selection import model_needed
-from validation.simulation import wheel_features
+from validation.simulation import model_needed, wheel_features
 from validation.simulation.wheel_on_springs import WAVES_APART
 
 PARAMETERS = Matrix(
@@ -105,6 +104,7 @@ STUDY = Study(
         ).saying(
             "The peak of Fig. 14.4 lies at ω_eigen and its jump at q_min v₀, whatever q_min, q_max, v₀ and H.",
             short="Peak and jump of Fig. 14.4 agree with ω_eigen and q_min v₀",
+            key="peak-and-jump",
         ),
         Claim(
             whose=Whose.BOOK,
@@ -114,6 +114,7 @@ STUDY = Study(
         ).saying(
             "Region 3 of Fig. 14.4 follows ω^(-2H-3) sin²(ω a / v₀).",
             short="Region 3 agrees with ω^(-2H-3) sin²(ω a / v₀)",
+            key="region-3",
         ),
     ),
     charts=(

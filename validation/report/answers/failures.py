@@ -4,7 +4,7 @@ import re
 from collections.abc import Sequence
 
 from validation.cases.limits.limits import SUMMARY
-from validation.report.answers.questions import BEM
+from validation.report.answers.question import BEM
 from validation.report.section import Section
 
 COLUMNS = {

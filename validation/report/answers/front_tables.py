@@ -1,27 +1,20 @@
-"""Tables of cases that stand on the front page, too: seconds at equal error, and filters of a rail."""
+"""The table of seconds at equal error on the front page."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from validation.analysis.claims import listed
-from validation.analysis.evidence import Evidence, Table, Verdict, VerdictCell, placed
+from validation.analysis.evidence import Evidence, Verdict, placed
 from validation.benchmarks.work_precision.case import POINTS
 from validation.benchmarks.work_precision.faster import FASTER
 from validation.benchmarks.work_precision.pressed import RoughPunchProblem
 from validation.benchmarks.work_precision.problem import SPRINGS
 from validation.benchmarks.work_precision.rolling import RollingProblem
 from validation.cases.punch.ensembles import FORCE
-from validation.cases.rail.across_study import LOUDER
 from validation.cases.rolling.force_spectrum import SLOPE
 from validation.report.answers.seconds import ENOUGH, TIMES
 from validation.report.answers.strip import TERMS
 from validation.report.section import Section
 from validation.scenes.description import slope_ratio
-
-GROUNDS = ("ridges", "alpha = 1", "isotropic ground")
-"""Of what lies across a rail, that the front page shows."""
-OF_A3 = "A3 over that of boundary elements"
-WORST, FILTERED = "worst band over", "contact filters beside boundary elements"
 
 
 def times_faster(sections: Sequence[Section]) -> list[dict[str, Any]]:
@@ -72,40 +65,3 @@ def times_faster_said(rows: Sequence[Mapping[str, Any]]) -> str:
     least, most = (f"{float(f'{times:.2g}'):g}" for times in (min(found), max(found)))
     within = " or ".join(f"{error:g} {unit}" for unit, error in ENOUGH.items())
     return f"Where springs are within {within}, they are {least} to {most} times faster than boundary elements"
-
-
-def rail_filters(sections: Sequence[Section]) -> Table | None:
-    """A row a filter: its worst band [dB] over some grounds, and what it makes of the rms force [dB(A)]."""
-    evidence = _evidence("across", sections)
-    tables = {table.name: table for table in evidence.page_tables} if evidence else {}
-    worst = next((table for name, table in tables.items() if name.startswith(OF_A3)), None)
-    if worst is None or LOUDER not in tables:
-        return None
-    loud = tables[LOUDER]
-    rows = [list(loud.columns["model"]).index(model) for model in worst.columns["model"]]
-    grounds = [name for name in GROUNDS if name in worst.columns]
-    wheel = worst.name.removeprefix(f"{OF_A3}, ")
-    return Table(
-        f"{FILTERED}: {wheel}",
-        {
-            "filter": worst.columns["model"],
-            **{f"{WORST} {name}": worst.columns[name] for name in grounds},
-            **{f"rms force over {name} [dB(A)]": [loud.columns[name][row] for row in rows] for name in grounds},
-        },
-    )
-
-
-def right_filters(table: Table) -> str:
-    """Filters that agree in the worst band of all these grounds, by name."""
-    judged = [name for name in table.columns if name.startswith(WORST)]
-    rows = zip(table.columns["filter"], *(table.columns[name] for name in judged), strict=True)
-    names = [str(name) for name, *cells in rows if all(_agrees(cell) for cell in cells)] if judged else []
-    return listed(names) if names else ""
-
-
-def _agrees(cell: object) -> bool:
-    return isinstance(cell, VerdictCell) and cell.verdict is Verdict.AGREE
-
-
-def _evidence(name: str, sections: Sequence[Section]) -> Evidence | None:
-    return next((section.evidence for section in sections if section.name == name), None)

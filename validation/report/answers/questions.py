@@ -1,76 +1,24 @@
-"""The questions of the first screen, in the order of their cases: which numbers answer them, and what else to take."""
+"""The questions of the first screen, in the order of their cases."""
 
-import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import replace
 from functools import partial
 
-from validation.analysis.statistics import DECIBEL
 from validation.cases.punch import ensembles as punch
 from validation.cases.punch import fractal_punch_study as fig_14_1
 from validation.cases.punch import interface
-from validation.cases.rail import across, filters, rail_dynamic
-from validation.cases.rail.rolled_filters import OVER_BEM
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import reduced_models as reduced
 from validation.cases.wheel import half_space as wheel
 from validation.cases.wheel.features import LEVEL
 from validation.cases.wheel.half_space_study import WHEEL
-from validation.report.answers.seconds import Timed, a_surface, a_track, a_wheel, an_integral
+from validation.engine.street import brought
+from validation.report.answers.question import BEM, INTEGRAL, Alternative, Question, in_decibels, per_cent, times
+from validation.report.answers.seconds import a_surface, a_track, a_wheel, an_integral
 from validation.report.answers.strip import Source
+from validation.report.contents import CASES
+from validation.simulation.quantities import RMS_FORCE
 
-CONTACT, SPRINGS, BEM = "roughness and contact", "springs, Geike's rule", "boundary elements"
-Printed = Callable[[float], str]
-"""From the difference of a number in decibels to a text with its unit."""
-
-
-def per_cent(decibels: float) -> str:
-    """Of an amplitude: -12 %."""
-    return f"{round(100 * math.expm1(decibels / DECIBEL)) + 0:+d} %"
-
-
-def times(decibels: float) -> str:
-    """Of an amplitude: 0.53 times, 350 times."""
-    return f"{float(f'{math.exp(decibels / DECIBEL):.2g}'):g} times"
-
-
-def in_decibels(decibels: float) -> str:
-    return f"{round(decibels, 1) + 0.0:+.3g} dB"
-
-
-@dataclass(frozen=True)
-class Alternative:
-    """What could be taken in the place of MDR; without a source it is what the others are judged by.
-
-    cost: in words; timed: its seconds, of the evidence of `precision`; by: what its margin is of, where that is not the
-    quantity of the question.
-    """
-
-    name: str
-    source: Source | None = None
-    cost: str = ""
-    timed: Timed | None = None
-    by: str = ""
-
-
-@dataclass(frozen=True)
-class Question:
-    """A row of the first screen.
-
-    asks: without "is MDR enough?"; source: its numbers; printed: their differences; instead: the cheapest first; model:
-    what stands for MDR; of_scene: a table and the column of it that says what else the numbers were measured for.
-    """
-
-    name: str
-    asks: str
-    source: Source
-    printed: Printed
-    instead: tuple[Alternative, ...]
-    model: str = SPRINGS
-    of_scene: tuple[str, str] | None = None
-
-
-INTEGRAL, LINEAR_3D = "an integral over the spectrum", wheel.LINEAR_3D
+LINEAR_3D = wheel.LINEAR_3D
 PRESSED = Alternative(BEM, timed=a_surface())
 of_punch = partial(Source, case="fractal_punch", axis=punch.FORCE, series=("H",))
 of_mdr = partial(of_punch, model=punch.OVER, where={"H": float})
@@ -80,26 +28,11 @@ of_rolled_off = partial(
 FIT = of_punch(quantity=punch.MEAN, model=fig_14_1.FIT)
 of_rolling = partial(Source, case="rolling", axis=rolling.SLOPE)
 of_strips = partial(Source, case="reduced_models", quantity=reduced.OFF, axis=rolling.SLOPE, series=("H", rolling.Q))
-of_rail = partial(
-    Source,
-    case="across",
-    quantity=OVER_BEM,
-    where={filters.OFFSET: 0.0},
-    axis=across.GROUND,
-    printed="what lies across",
-    series=(across.WHEEL,),
-)
 of_wheel = partial(Source, case="wheel_3d", quantity=LEVEL, axis="range", printed="the spectrum")
-MOVING = Source(
-    case="rail_dynamic",
-    quantity=rail_dynamic.RMS + rail_dynamic.BESIDE,
-    model=rail_dynamic.SPRINGS_OVER_BEM,
-    axis=filters.OFFSET,
-)
 GEIKE, LINEAR = (model + rolling.OVER for model in (rolling.SPRINGS, rolling.LINEAR_3D))
 JUDGE = Alternative(BEM, timed=a_track(12))
 IN_3D = partial(Alternative, LINEAR_3D, cost=INTEGRAL, timed=an_integral)
-QUESTIONS = (
+OF_THE_CORE = (
     Question(
         "mean-stiffness",
         "Stiffness of a rough punch, ensemble mean",
@@ -107,7 +40,7 @@ QUESTIONS = (
         per_cent,
         (
             Alternative("the fit 1/kbar = 1/1.1523 + 0.48/Fbar", FIT, "a formula"),
-            Alternative(BEM, timed=a_surface("mean stiffness")),
+            Alternative(BEM, timed=a_surface(punch.MEAN)),
         ),
     ),
     Question(
@@ -115,7 +48,7 @@ QUESTIONS = (
         "Scatter of that stiffness over the ensemble",
         of_mdr(quantity=punch.DEVIATION),
         per_cent,
-        (Alternative(BEM, timed=a_surface("relative deviation")),),
+        (Alternative(BEM, timed=a_surface(punch.DEVIATION)),),
     ),
     Question(
         "area-and-gap",
@@ -134,9 +67,9 @@ QUESTIONS = (
     Question(
         "rolling-rms",
         "Rms force of a rolling wheel, ensemble mean",
-        of_rolling(quantity=rolling.RMS_FORCE, model=GEIKE),
+        of_rolling(quantity=RMS_FORCE, model=GEIKE),
         per_cent,
-        (IN_3D(of_rolling(quantity=rolling.RMS_FORCE, model=LINEAR)), JUDGE),
+        (IN_3D(of_rolling(quantity=RMS_FORCE, model=LINEAR)), JUDGE),
     ),
     Question(
         "rolling-spectrum",
@@ -150,27 +83,28 @@ QUESTIONS = (
         ),
     ),
     Question(
-        "contact-filter",
-        "Contact filter of a wheel on a rail, ensemble mean",
-        of_rail(model=across.LINES[0]),
-        in_decibels,
-        (
-            Alternative(across.MODELS[0], of_rail(model=across.MODELS[0]), INTEGRAL),
-            Alternative(filters.BED_WIDER, of_rail(model=filters.BED_WIDER), INTEGRAL),
-            Alternative(BEM),
-        ),
-        "springs on one measured line",
-    ),
-    Question(
         "dynamic-wheel",
         "Acceleration of a dynamic wheel, ensemble mean, band by band",
         of_wheel(model=wheel.OVER_BEM[wheel.GEIKE]),
         in_decibels,
         (
             Alternative(LINEAR_3D, of_wheel(model=wheel.OVER_BEM[wheel.LINEAR_3D]), INTEGRAL),
-            Alternative(f"on a rail, {reduced.READ} in the time loop", MOVING, by="rms over bands"),
             Alternative(f"{BEM} in the time loop", timed=a_wheel),
         ),
         of_scene=(WHEEL, rolling.SLOPE),
     ),
 )
+
+
+def _all() -> tuple[Question, ...]:
+    """Those of the core and of the houses that are there, in the order of their cases; a house may add alternatives."""
+    more = {name: one for alternatives in brought("alternatives") for name, one in alternatives.items()}
+    core = [
+        replace(one, instead=(*one.instead[:-1], more[one.name], one.instead[-1])) if one.name in more else one
+        for one in OF_THE_CORE
+    ]
+    every = [*core, *(one for questions in brought("questions") for one in questions)]
+    return tuple(sorted(every, key=lambda one: list(CASES).index(one.source.case)))
+
+
+QUESTIONS = _all()

@@ -3,6 +3,7 @@
 import argparse
 from pathlib import Path
 
+from validation.engine.street import places
 from validation.report.commands.arguments import Exit, add_options, add_profile, add_workers, at_least, some_of
 
 WHEELS = ("rough_wheel", "table_14_1")
@@ -25,7 +26,7 @@ def describe(making: argparse.ArgumentParser) -> None:
         seed = "seed of the rough surfaces"
         seed += "; the tracks of Fig. 14.4, whose times are compared, keep theirs" if name == "precision" else ""
         add_options(making, out, ("--seed", "S", at_least(0), seed))
-        if name == "race":
+        if name == "race" and places("solvers_of_files"):
             own = "a Python file with functions below @contact_solver, which race too; it is run as a program"
             add_options(making, ("--solver", "FILE", Path, own))
         return

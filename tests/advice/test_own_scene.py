@@ -1,0 +1,161 @@
+"""What somebody reports of a scene: several quantities, sweeps over a value, seconds beside errors, five curves."""
+
+import csv
+import json
+from dataclasses import replace
+from itertools import count
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+import validation
+from tests.advice.planted_answers import Fake, Finding, compared, planted
+from validation.__main__ import main
+from validation.advice import figure as figures
+from validation.advice import scene_model
+from validation.advice.compare import SceneProblem
+from validation.advice.figure_of_sweep import draw_sweep
+from validation.advice.figure_over_seconds import figure_over_seconds
+from validation.advice.side_by_side import shown_models, speed_and_accuracy
+from validation.advice.summary import findings, in_full, summary
+from validation.advice.swept import swept_values
+from validation.railway.problems.rail_models import ContactFilter
+
+RAIL = validation.load_scene("rail")
+CLOSED = ["linear, ellipse", "linear, on the line", "Remington"]
+
+
+def solved(scene, **settings):
+    return validation.compare(scene, "contact-filter", "1 dB", models=CLOSED, **settings)
+
+
+@pytest.mark.slow
+def test_both_quantities_of_a_rail_are_solved_once():
+    asked, found, quantities = [], ContactFilter.find, ("contact-filter", "equivalent-roughness")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(ContactFilter, "find", lambda model, *given: asked.append(model.name) or found(model, *given))
+        both = SceneProblem(RAIL, quantities, "1 dB", models=CLOSED).compared()
+    assert sorted(asked) == sorted(CLOSED)
+    alone = validation.compare(RAIL, "equivalent-roughness", "1 dB", models=CLOSED)
+    assert validation.to_json(both["equivalent-roughness"]) == validation.to_json(alone)
+    a3, level = (one.value for one in both.values())
+    assert level == pytest.approx(a3 + np.array(RAIL.levels.levels))
+    text = findings(list(both.values()), in_full)
+    assert text.count("what became of it") == 1 and text.count("L_eq = L_r + A3") == 1
+    assert all(f"\n{quantity} by linear, ellipse" in text for quantity in both)
+
+
+def test_a_sweep_has_the_values_in_the_unit_of_the_first():
+    def values(*texts):
+        return [(one.value, one.unit) for one in swept_values("wheel.load", texts, "scene")]
+
+    assert values("5 kN", "500 N", "1e4N") == [(5.0, "kN"), (0.5, "kN"), (10.0, "kN")]
+    assert values("0.5", "1") == [(0.5, ""), (1.0, "")]
+    assert values("10 um", "0.02 mm") == [(10.0, "um"), (20.0, "um")]
+    assert values("ridges", "0.5") == [("ridges", ""), ("0.5", "")]
+    assert swept_values("wheel.load", ["5 kN"], "scene")[0].label == "wheel.load [kN]"
+
+
+def test_a_sweep_of_two_scenes_is_a_line_a_scene_over_the_swept_value():
+    loads = swept_values("punch.load", ["5 kN", "1 kN", "5 kN"], "one")
+    found = [
+        replace(compared(Finding(value=(1.0 + i + 10 * j,))), swept=replace(of, scene=scene))
+        for j, scene in enumerate(("one", "other"))
+        for i, of in enumerate(loads)
+    ]
+    figure = Figure()
+    draw_sweep(figure.subfigures(), found, 5)
+    lines = {line.get_label(): line for line in figure.subfigs[0].axes[0].lines}
+    assert lines["one"].get_xdata().tolist() == [1.0, 5.0, 5.0] == lines["other"].get_xdata().tolist()
+    assert (lines["one"].get_ydata().tolist(), lines["other"].get_ydata().tolist()) == ([2, 1, 3], [12, 11, 13])
+
+
+@pytest.mark.slow
+def test_seconds_are_those_of_all_solves_that_a_model_needs():
+    """A clock on which each realisation takes a second; what another grid has solved counts, too."""
+    ticks = count()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(scene_model, "time", SimpleNamespace(perf_counter=lambda: float(next(ticks))))
+        found = validation.compare(validation.load_scene("rough_punch"), tolerance=0.9, solve_all=True)
+    for one in found.selection.solved:
+        surfaces = int(one.reason.split("surfaces: ")[1]) if "surfaces" in one.reason else 1
+        assert found.seconds_of(one) == surfaces + one.model.sampling.compared * len(one.model.references)
+    rows = csv.DictReader(validation.to_csv(found).splitlines())
+    assert {row["model"]: float(row["seconds"]) for row in rows} == {
+        one.name: found.seconds_of(one) for one in found.selection.solved
+    }
+
+
+def test_without_all_no_second_enters_a_file():
+    found = solved(RAIL)
+    assert not found.timed and all(np.isnan(found.seconds_of(one)) for one in found.models)
+    assert validation.to_json(found) == validation.to_json(solved(RAIL))
+    assert "seconds" not in validation.to_csv(found) and "took" not in summary(found)
+    assert {one["seconds"] for one in json.loads(validation.to_json(found))["models"]} == {None}
+
+
+def test_a_distance_of_numbers_is_in_the_unit_of_the_tolerance():
+    """10 % above the reference, errors of 10 and 1 %, as decibels add."""
+    cheap, dear = (Finding(name=f"{value}", parts=(e, 0, 0), value=(value,)) for value, e in ((2.2, 0.1), (2.0, 0.01)))
+    table = speed_and_accuracy(compared(cheap, dear, solve_all=True))
+    assert table["unit"].tolist() == ["%"] * 2 and table["error"] == pytest.approx([10.0, np.nan], nan_ok=True)
+    assert table["low"] == pytest.approx([0.0, np.nan], nan_ok=True) and table["high"] == pytest.approx([21.0, 1.0])
+
+
+def test_a_distance_in_decibels_has_the_errors_of_its_band_and_the_reference_that_of_its_worst():
+    """Of the bands that count, that in which models are farthest; without grid and sample both errors add there."""
+    found = solved(RAIL)
+    table, (reference, *others) = speed_and_accuracy(found), found.selection.solved
+    counted = found.value_of(reference) > -15
+    own = table.where(model=reference.name)
+    assert (own["unit"][0], own["is_reference"][0]) == ("dB", True)
+    assert own["high"][0] == pytest.approx(found.errors_of(reference)[counted].max())
+    for one in others:
+        off = np.where(counted, np.abs(found.value_of(one) - found.value_of(reference)), 0)
+        at = int(np.argmax(off))
+        half = found.errors_of(one)[at] + found.errors_of(reference)[at]
+        (row,) = (
+            list(of) for of in zip(*(table.where(model=one.name)[x] for x in ("error", "low", "high")), strict=True)
+        )
+        assert row == pytest.approx([off[at], max(off[at] - half, 0), off[at] + half])
+
+
+def test_speed_and_accuracy_are_drawn_for_one_scene_whose_models_were_timed(tmp_path, capsys):
+    out = tmp_path / "out.svg"
+    words = ["compare", "rail", "--models", "linear, ellipse,Remington", "--over", "seconds"]
+    assert main([*words, "--tolerance", "1 dB", "--figure", str(out)]) == 0
+    assert out.read_bytes().startswith(b"<?xml") and "took" in capsys.readouterr().out
+    for refused, said in (
+        (words, "--over seconds must have --figure"),
+        (["compare", "rail", "--over", "seconds", "--figure", str(out)], "--all or --models"),
+        ([*words, "--figure", str(out), "--sweep", "wheel.load=20 kN,50 kN"], "one quantity of one scene, got 2"),
+    ):
+        assert main(refused) == 2
+        assert said in capsys.readouterr().err
+    with pytest.raises(ValueError, match="needs models that were solved"):
+        figure_over_seconds(compared(Fake(failed="lost"), solve_all=True), "svg")
+
+
+def test_five_curves_at_the_most_are_told_apart_in_colour_and_in_grey():
+    found = planted("rail", "contact-filter")
+    axes = Figure().subplots()
+    figures._spectra(axes, figures._shown([found])[1])
+    lines = [line for line in axes.lines if line.get_label()[0] != "_"]
+    assert len(found.selection.solved) > len(lines) == figures.MOST == len({line.get_color() for line in lines})
+    assert len({(line.get_linestyle(), line.get_marker()) for line in lines}) == figures.MOST
+    assert lines[0].get_label() == f"{found.model}, selected"
+
+
+def test_the_curves_are_selected_reference_mdr_and_the_nearest():
+    """Of numbers: 2.1 is nearer to the selected 2.2 than 1.5."""
+    models = [
+        Finding(name="far", parts=(0.15, 0, 0), value=(1.5,)),
+        Finding(name="near", parts=(0.15, 0, 0), value=(2.1,), claimed=0.5),
+        Finding(name="poor", parts=(0.4, 0, 0), value=(9.0,), is_mdr=True),
+        Finding(name="best", parts=(0.01, 0, 0), value=(2.3,)),
+        Finding(name="springs", parts=(0.3, 0, 0), value=(7.0,), is_mdr=True),
+    ]
+    found = compared(replace(models[0], name="chosen", value=(2.2,)), *models, solve_all=True)
+    assert shown_models(found) == ["chosen", "best", "springs", "near", "far", "poor"]

@@ -1,0 +1,57 @@
+"""A comparison stays what it is, whatever the caller does with its arrays or those of a model."""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+
+from tests.advice.planted_answers import Finding, compared, planted, wheel
+from validation.advice.scene_model import Answer
+from validation.simulation.model import Cost
+
+COPIES = [lambda found: found, copy.copy, copy.deepcopy, lambda found: pickle.loads(pickle.dumps(found))]
+AXES = ("value", "wavenumbers", "wavelength_mm", "frequency_hz", "nominal_hz", "roughness")
+
+
+def arrays_of(found):
+    yield from (getattr(found, name) for name in AXES)
+    for one in found.selection.solved:
+        yield from (found.value_of(one), found.errors_of(one), found.a3_of(one), *found.error_parts_of(one).values())
+        yield from (one.answer.value, *one.answer.band_errors.values())
+
+
+@pytest.mark.parametrize("through", COPIES, ids=["itself", "copied", "deeply copied", "unpickled"])
+@pytest.mark.parametrize(
+    ("scene", "quantity"),
+    [("rail", "contact-filter"), ("rail", "equivalent-roughness"), ("rolling_wheel", "force-spectrum")],
+)
+def test_no_array_of_a_comparison_can_be_written(scene, quantity, through):
+    found = through(planted(scene, quantity))
+    before = found.value.copy()
+    for array in arrays_of(found):
+        if array.size:
+            with pytest.raises(ValueError, match="read-only"):
+                array[...] = 7.0
+    assert np.array_equal(found.value, before)
+
+
+def test_one_number_cannot_be_written_either():
+    found = compared(Finding(value=(3.0,)))
+    for array in (found.value, compared().value):
+        assert not array.flags.writeable
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 7.0
+
+
+def test_an_answer_has_a_copy_of_what_a_model_returned():
+    returned, bands = np.array([1.0, 2.0]), {"model": np.array([0.1, 0.2])}
+    answer = Answer(value=returned, cost=Cost(work=1, seconds=1.0), band_errors=bands)
+    returned[:], bands["model"][:] = 7.0, 7.0
+    assert answer.value.tolist() == [1.0, 2.0] and answer.band_errors["model"].tolist() == [0.1, 0.2]
+
+
+def test_levels_of_a_wheel_cannot_be_written():
+    found = compared(Finding(value=(0.1,) * 5), scene=wheel(), quantity="force-spectrum")
+    with pytest.raises(ValueError, match="read-only"):
+        found.value[0] = 7.0

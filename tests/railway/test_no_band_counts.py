@@ -1,0 +1,97 @@
+"""Where no model of a rail can be enough: no band counts, or what lies across is left out. No solve is made in vain."""
+
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from validation import compare, load_scene, summary, to_json
+from validation.advice.advice import what_would_help
+from validation.advice.cases.model_selection import EdgeTrial, true_error
+from validation.advice.scene_model import SceneModel
+from validation.railway.problems.rail_quantity import COUNTED
+from validation.railway.scenes.rail import RailScene
+from validation.simulation.method import Resolution
+from validation.simulation.model import Target, models_serving
+
+RAIL = load_scene("rail")
+assert isinstance(RAIL, RailScene)
+
+
+def of_bands(inside):
+    levels = RAIL.levels
+    return replace(
+        RAIL, roughness=replace(levels, wavelengths=levels.wavelengths[inside], levels=levels.levels[inside])
+    )
+
+
+SHORT, QUIET = of_bands(slice(25, 29)), of_bands(slice(22, 24))
+"""6.3 to 3.15 mm and 12.5 to 10 mm, in a contact 11 mm long."""
+
+
+def asked(model):
+    raise AssertionError(f"{model.name} is solved")
+
+
+@pytest.mark.parametrize(("scene", "span"), [(SHORT, "6.3 to 3.15 mm"), (QUIET, "12.5 to 10 mm")])
+@pytest.mark.parametrize("across", ["ridges", "isotropic", 0.5, None])
+def test_no_model_is_enough_where_no_band_counts(scene, span, across):
+    """Also where a wrong filter has one: the linear bed of springs at 12.5 mm."""
+    found = compare(replace(scene, across=across), "contact-filter", "1 dB", callback=asked)
+    assert not found.met and found.model == "" and math.isinf(found.error)
+    assert all(one.status == "out of range" and math.isinf(one.claimed) for one in found.models)
+    text = " ".join(summary(found).split())
+    assert "no band has A3 above -15 dB" in text and "levels of longer waves would count" in text
+    assert span in text and ": enough" not in text
+    assert float(text.partition("the contact is ")[2].partition(" mm long")[0]) == pytest.approx(11, abs=0.5)
+    assert json.loads(to_json(found))["met"] is False
+
+
+def test_a_solve_leaves_its_bands_and_no_error():
+    """As with --all: what was found is told, and no error of it is known."""
+    for model in models_serving(SHORT, "contact-filter"):
+        if model.name.startswith("linear"):
+            answer = SceneModel(model, Target(SHORT, "contact-filter", 0.1), Resolution()).solve()
+            assert math.isinf(answer.error) and not answer.failed
+            assert (20 * np.log10(answer.value) < COUNTED).all() and "no band" in answer.counted
+
+
+def test_the_longest_band_that_counts_is_enough_for_an_answer():
+    found = compare(of_bands(slice(21, 29)), "contact-filter", "3 dB")
+    assert found.met and (found.value > COUNTED).sum() == 1
+    assert not compare(SHORT, "equivalent-roughness", "1 dB").met
+
+
+def test_a_trial_without_a_band_that_counts_has_no_true_error():
+    trial = EdgeTrial(kind="rail", number=0, tolerances=(0.1,), seed=3)
+    quiet = np.full(4, 10 ** (-20 / 20))
+    assert math.isnan(true_error(trial, quiet, quiet))
+    assert true_error(trial, quiet * 2, np.ones(4)) > 0.5
+
+
+OPEN = replace(RAIL, across=None)
+
+
+def test_no_model_is_solved_that_what_lies_across_makes_too_wide():
+    names = []
+    found = compare(OPEN, quantity="contact-filter", tolerance="1 dB", callback=lambda one: names.append(one.name))
+    assert names == ["linear, ellipse"] and not found.met
+    (missed, helps) = what_would_help(found)
+    assert missed.startswith("not reached: the tolerance of 1 dB")
+    assert 'across = "isotropic" or "ridges" in [rail]' in helps
+
+
+@pytest.mark.parametrize(("scene", "tolerance"), [(RAIL, "0.2 dB"), (OPEN, "1.6 dB")])
+def test_a_solve_that_may_help_is_made(scene, tolerance):
+    """The ground is known, or both ends are within the tolerance."""
+
+    class AskedError(Exception):
+        pass
+
+    def stop(model):
+        raise AskedError(model.name)
+
+    with pytest.raises(AskedError, match="boundary elements"):
+        compare(scene, quantity="contact-filter", tolerance=tolerance, callback=stop)

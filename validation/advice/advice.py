@@ -1,0 +1,110 @@
+"""What would help where no model meets the tolerance: keys and options that the scene has, with what they cost."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+from validation.advice.cells import format_seconds
+from validation.advice.compare import MOST_REALISATIONS, Comparison
+from validation.advice.hierarchy import Candidate
+from validation.advice.scene_model import SAMPLE_SHARE
+from validation.analysis.statistics import student
+from validation.scenes.scene import Scene
+from validation.simulation.sampling import realisations
+
+ROUND = 2
+"""Digits of a number of realisations that is advised."""
+
+
+def what_would_help(comparison: Comparison) -> Iterator[str]:
+    """Where no model meets the tolerance: the error that is left, and `would_help`."""
+    best, tolerance = comparison.selection.best, comparison.tolerance
+    if best is not None and best.answer is not None and not (comparison.met or comparison.beyond_elasticity):
+        yield f"not reached: the tolerance of {tolerance}; the error is {tolerance.shown_beside(best.error)}"
+    yield from would_help(comparison)
+
+
+def would_help(comparison: Comparison) -> Iterator[str]:
+    """The tolerance that would be met, and what most of the error is due to; nothing where one is met."""
+    best, tolerance = comparison.selection.best, comparison.tolerance
+    if comparison.met:
+        return
+    if comparison.beyond_elasticity:
+        yield f"no answer: {comparison.beyond_elasticity}"
+        return
+    others = [one for one in comparison.models if one.status == "not asked" and one.claimed <= tolerance.relative]
+    other = (
+        others
+        and f"{others[0].name}, which was not asked, with a predicted error of {tolerance.shown(others[0].claimed)}"
+    )
+    if best is None or best.answer is None:
+        if comparison.models:
+            another = f"a scene for which this does not hold: {comparison.models[-1].reason}"
+            yield f"what would help: {other or another}"
+        return
+    if (left := best.estimate.of_scene) > min(tolerance.relative, best.answer.error / 2):
+        stated = best.model.model.helps(best.model.target)
+        yield (
+            f"what would help: {stated}: the ground leaves ± {tolerance.shown(left)}, "
+            f"whatever the model; or a tolerance of {tolerance.shown(1.05 * best.answer.error)}"
+        )
+        return
+    more = more_realisations(comparison)
+    met = "; or ".join(
+        part for part in (other, more, f"a tolerance of {tolerance.shown(1.05 * best.answer.error)}") if part
+    )
+    yield f"what would help: {met}; most of the error is {_cause(comparison.scene, best)}"
+
+
+def more_realisations(comparison: Comparison) -> str:
+    """How many would do, and how long they take; empty where no number does."""
+    for one in sorted(comparison.selection.known, key=lambda one: one.found.error):
+        count = wanted_realisations(one, comparison.tolerance.relative)
+        if count:
+            seconds = replace(one.model, realisations=count).cost().seconds
+            cost = f"about {format_seconds(seconds)} ({one.found.realisations} were solved)"
+            return f"{count} realisations by {one.name}, {cost}: --realisations {count}"
+    return ""
+
+
+def wanted_realisations(one: Candidate, tolerance: float) -> int:
+    """So many leave the most of the tolerance; zero where that is not for want of them.
+
+    N = (2 s / (0.9 (t - m)))^2, s of one realisation, t the tolerance, m what the model leaves. What is left by a grid
+    is compared on more surfaces, too, where it is less than what the sample leaves.
+    """
+    answer, left = one.found, tolerance - one.found.model
+    if not one.model.is_sampled or left <= 0 or answer.sample <= answer.grid or answer.realisations < 2:
+        return 0
+    scatter = answer.sample * math.sqrt(answer.realisations) / student(answer.realisations - 1)
+    count = realisations(scatter, SAMPLE_SHARE * left, least=answer.realisations + 1, most=MOST_REALISATIONS + 1)
+    step = 10 ** max(0, math.floor(math.log10(count)) + 1 - ROUND)
+    rounded = step * math.ceil(count / step)
+    return rounded if rounded <= MOST_REALISATIONS else 0
+
+
+def _cause(scene: Scene, best: Candidate) -> str:
+    """What most of the error of a model is due to, and what has less of it."""
+    answer = best.found
+    causes = {
+        f"the model's{_lower(scene)}": answer.model,
+        f"left by the grid: {_coarser(scene)}": answer.grid,
+        "the sample's: the scatter of the surfaces that are drawn": answer.sample,
+    }
+    return max(causes, key=causes.__getitem__)
+
+
+def _lower(scene: Scene) -> str:
+    """Of a model; measured roughness is as it is."""
+    if scene.ground is None or scene.ground.is_single:
+        return ""
+    return ": lower roughness has less"
+
+
+def _coarser(scene: Scene) -> str:
+    """Of a grid."""
+    if not scene.roughness_key:
+        return "cells of a strip"
+    if scene.ground is not None and scene.ground.is_single:
+        return "heights on more points have less"
+    return f"longer waves (`shortest` in [{scene.roughness_key}]) have less"

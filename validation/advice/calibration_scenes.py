@@ -1,0 +1,138 @@
+"""Scenes on which cheap models are measured, drawn evenly from ranges, and the answers of fine boundary elements."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from validation.advice.hierarchy import try_to_solve
+from validation.advice.scene_model import SceneModel
+from validation.engine.engine import Outcome
+from validation.engine.random_numbers import random_generator
+from validation.scenes.indentation import IndentationScene
+from validation.scenes.quantity import MOVING, PRESSED, ROLLING
+from validation.scenes.rolling import RollingScene
+from validation.scenes.roughness import Roughness
+from validation.scenes.scene import Scene
+from validation.simulation.model import GridModel, Model, Target, models_serving
+from validation.theory.closed_forms import hertz_force
+
+REFERENCE_TOLERANCE = {"stiffness": 0.06, "force-rms": 0.1, "acceleration-rms": 0.1}
+SPECTRUM_TOLERANCE = 0.15
+"""Of the references, by their quantity, and of spectra: half of it is left to their samples."""
+MODEL_TOLERANCE = 0.05
+"""Of the models that are measured: their samples leave a fifth of it or less."""
+OTHER_SEED = 1_000_003
+"""Added to the seed of a scene: the reference has surfaces of its own."""
+RADIUS, APPROACH = 1.0, 1e-4
+"""Of spheres and wheels: no error depends on units."""
+HEIGHT = 1e-3
+"""Of the roughness of punches, over their side."""
+QUANTITIES = {
+    kind: tuple(map(str, known))
+    for kind, known in {"punch": PRESSED, "sphere": PRESSED, "rolling": ROLLING, "wheel": MOVING[::-1]}.items()
+}
+DESIGNS: Mapping[str, tuple[tuple[float, float], ...]] = {
+    "punch": ((-2.2, 2.0), (0.0, math.log10(5.4)), (math.log10(3), math.log10(48)), (0.2, 1.2)),
+    "sphere": ((-2.5, 0.0), (math.log10(0.3), math.log10(2)), (math.log10(2), math.log10(12)), (0.2, 1.2)),
+    "rolling": ((-2.5, 0.0), (math.log10(0.5), math.log10(2)), (math.log10(2), math.log10(12)), (0.2, 1.2)),
+    "wheel": ((-2.5, -0.5), (math.log10(0.5), math.log10(2)), (math.log10(2), math.log10(12)), (0.2, 1.2)),
+}
+"""Ranges of lg Fbar or lg h/d; of lg of the longest waves on a side, or of q a of the longest wave; of lg of the
+longest over the shortest wave; and of the Hurst exponent."""
+SHORTEST = {"punch": 48, "sphere": 16, "rolling": 12, "wheel": 12}
+"""Of the shortest wave: as many on a side at the most, and q a."""
+RESONANCES, IN_BAND = (math.log10(1.2), math.log10(6)), 3.5
+"""lg of the frequency of the longest wave over the resonance of a dynamic wheel; of the shortest, at the least."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CalibrationScene:
+    """A point of the design: the first of a kind are the same, however many there are."""
+
+    kind: str
+    number: int
+    quantity: str
+    seed: int
+
+    @property
+    def scene(self) -> Scene:
+        """Drawn evenly from the ranges."""
+        low, high = np.array(DESIGNS[self.kind]).T
+        rng = random_generator(self.seed, list(DESIGNS).index(self.kind), self.number)
+        power, first, ratio, hurst = rng.uniform(low, high).tolist()
+        common: dict[str, Any] = {"name": f"{self.kind} {self.number}", "modulus": 1.0}
+        if self.kind == "punch":
+            waves = round(10**first)
+            last = max(min(round(waves * 10**ratio), SHORTEST[self.kind]), 3 * waves)
+            ground = Roughness(rms=HEIGHT, hurst=hurst, longest=1 / waves, shortest=1 / last)
+            return IndentationScene(shape="punch", size=1.0, load=10**power * HEIGHT, ground=ground, **common)
+        d = APPROACH * RADIUS
+        a, common["load"] = math.sqrt(RADIUS * d), hertz_force(radius=RADIUS, modulus=1.0, approach=d)
+        longest, shortest = 10**first, min(10 ** (first + ratio), SHORTEST[self.kind])
+        ground = Roughness(
+            rms=10**power * d, hurst=hurst, longest=2 * math.pi * a / longest, shortest=2 * math.pi * a / shortest
+        )
+        if self.kind == "sphere":
+            return IndentationScene(shape="sphere", size=RADIUS, ground=ground, **common)
+        if self.kind == "wheel":
+            over = max(10 ** rng.uniform(*RESONANCES), IN_BAND * ground.q_min / ground.q_max)
+            common |= {"mass": 1.0, "speed": over * math.sqrt(2 * a) / ground.q_min}
+        return RollingScene(radius=RADIUS, ground=ground, **common)
+
+    def target(self, tolerance: float = MODEL_TOLERANCE, seed: int = 0) -> Target:
+        """seed: added to that of the design."""
+        return Target(self.scene, self.quantity, tolerance, self.seed + self.number + seed)
+
+    @property
+    def cheap(self) -> tuple[Model, ...]:
+        """The models that are measured."""
+        return cheap_models(self.target())
+
+
+@dataclass(frozen=True, kw_only=True)
+class CalibrationRun:
+    """How many scenes of each kind; each of a wheel is solved for both of its quantities."""
+
+    punches: int = 200
+    spheres: int = 120
+    rolling: int = 60
+    wheels: int = 70
+    seed: int = 19
+
+    @property
+    def points(self) -> list[CalibrationScene]:
+        """All of them; what takes longest first."""
+        counts = {"wheel": self.wheels, "rolling": self.rolling, "punch": self.punches, "sphere": self.spheres}
+        return [
+            CalibrationScene(kind=kind, number=number, quantity=quantity, seed=self.seed)
+            for kind, count in counts.items()
+            for quantity in QUANTITIES[kind]
+            for number in range(count)
+        ]
+
+
+def cheap_models(target: Target) -> tuple[Model, ...]:
+    """Those that claim errors, and are selected among."""
+    return tuple(one for one in models_serving(target.scene, target.quantity) if not isinstance(one, GridModel))
+
+
+def reference_answer(point: CalibrationScene) -> Outcome:
+    """Of fine boundary elements on surfaces of their own: what cheap models are measured beside.
+
+    value; reference: the relative error that it leaves; each: the values of the realisations that it is the mean of;
+    failed: one where there is no answer.
+    """
+    target = point.target(REFERENCE_TOLERANCE.get(point.quantity, SPECTRUM_TOLERANCE), OTHER_SEED)
+    (judge,) = (model for model in models_serving(point.scene, point.quantity) if isinstance(model, GridModel))
+    model = SceneModel(judge, target, judge.resolutions(target)[-1])
+    answer = try_to_solve(model)
+    solved = [] if answer.failed else model.shared[judge, model.resolution].solved
+    return {
+        "value": answer.value,
+        "reference": np.array(answer.error),
+        "each": np.array([one.values[point.quantity].ravel() for one in solved]),
+        "failed": np.array(float(bool(answer.failed))),
+    }

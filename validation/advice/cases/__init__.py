@@ -1,0 +1,1 @@
+"""Whether the errors that models claim hold."""

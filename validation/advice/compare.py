@@ -1,0 +1,370 @@
+"""One scene: the quantity, the cheapest model that is accurate enough, and why."""
+
+import hashlib
+import json
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from bem3d.read_only import kept
+from mdr.checks import count
+from validation.advice.contact_force import ContactForce
+from validation.advice.elasticity import beyond_elasticity
+from validation.advice.hierarchy import Candidate, Selection, rejected, select_model
+from validation.advice.named_models import ComparedModels, models_named
+from validation.advice.own_candidates import Decorated, Own, names_and_own, own_candidates
+from validation.advice.quantities import BY_NAME, models_of, quantities_of, quantity_of
+from validation.advice.scene_model import SceneModel, Shared
+from validation.advice.swept import Swept
+from validation.advice.tolerance import Tolerance, decibels, tolerance_of
+from validation.analysis.nominal_bands import MANTISSAS
+from validation.engine.engine import FloatArray
+from validation.scenes.printable import shortened
+from validation.scenes.quantity import SceneQuantity
+from validation.scenes.scene import Scene
+from validation.simulation.model import Target
+
+MOST_REALISATIONS = 100_000
+LONGEST_BEYOND_RANGE = 60.0
+"""Seconds that a model may take whose error is unknown."""
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Result of `compare`: a quantity of a scene, its error, and what became of each model.
+
+    Attributes
+    ----------
+    scene : IndentationScene, RollingScene or RailScene
+        The scene.
+    quantity : str
+        "stiffness", "force-rms", "force-spectrum", "acceleration", "acceleration-rms", "contact-filter" or
+        "equivalent-roughness".
+    selection : Selection
+        Models, estimates and answers in full.
+    in_decibels : bool
+        Whether the tolerance was asked in dB, so that errors are printed in dB.
+    timed : bool
+        Whether all models were asked, so that the seconds of their solves are printed and written, too.
+    swept : Swept or None
+        The value of a sweep, of which this is one scene.
+    tolerance : Tolerance
+        What was asked, with its unit.
+    value : ndarray
+        One number in SI units; for "force-spectrum" and "acceleration" a level in each one-third octave, in dB re 1 N
+        and 1 m/s^2. NaN where no model has an answer. Read-only, as all arrays of a comparison.
+    error : float
+        Half-width of the 95 % interval: relative, in dB for levels. For levels it is that of all bands together.
+    unit : str
+        Unit of ``value``.
+    wavenumbers : ndarray
+        Centres of the one-third octaves [rad/m]; empty where ``value`` is one number.
+    wavelength_mm, frequency_hz, nominal_hz : ndarray
+        The same as wavelengths [mm], and where the scene has a speed as frequencies [Hz] and as the nominal frequencies
+        of the one-third octaves in which these lie.
+    model : str
+        Name of the model that gives ``value``; empty where none has an answer.
+    met : bool
+        Whether the tolerance is met.
+    statistic : str
+        What ``value`` and its error are of: "ensemble mean", over all surfaces of the roughness that is drawn, or
+        "single surface", that was measured; empty of smooth bodies.
+    beyond_elasticity : str
+        Why no model is within tolerance whatever its error: the mean pressure is above 0.1 E*. Empty where it is not.
+    models : ComparedModels
+        All models, the cheapest first: ``models[0]``, or by name, ``models["springs"]``. Each has ``name``,
+        ``status``, ``error`` (relative), ``cost`` (seconds on one core) and ``reason``.
+
+    Examples
+    --------
+    >>> result = validation.compare(validation.load_scene("rolling_wheel"), quantity="force-spectrum", tolerance=0.3)
+    >>> result.met, result.model, result.unit, result.value.shape == result.wavenumbers.shape
+    (True, 'linear filter, 3D', 'dB re 1 N', True)
+    """
+
+    scene: Scene
+    quantity: str
+    selection: Selection
+    in_decibels: bool = False
+    timed: bool = False
+    swept: Swept | None = None
+
+    @property
+    def asked(self) -> SceneQuantity:
+        """The quantity with its unit, and how it is judged."""
+        return quantity_of(self.scene, self.quantity)
+
+    @property
+    def tolerance(self) -> Tolerance:
+        return Tolerance(self.selection.tolerance, self.in_decibels)
+
+    @property
+    def value(self) -> FloatArray:
+        best = self.selection.best
+        return kept(np.full(max(1, self.wavenumbers.size), math.nan)) if best is None else self.value_of(best)
+
+    def value_of(self, candidate: Candidate) -> FloatArray:
+        """Of a model that was solved, as value."""
+        assert candidate.answer is not None  # as said
+        value = candidate.answer.value
+        return kept(20 * np.log10(value / self.asked.reference) if self.is_level else value)
+
+    def errors_of(self, candidate: Candidate) -> FloatArray:
+        """Half-widths of 95 % of a model that was solved, one a number, in dB for levels and else in ``unit``."""
+        answer = candidate.answer
+        known = answer is not None and answer.band_errors
+        return kept(answer.error_in_bands if answer and known else self._half_widths(candidate, candidate.error))
+
+    def error_parts_of(self, candidate: Candidate) -> dict[str, FloatArray]:
+        """What model, grid and sample leave of `errors_of`, by their names; none of a model that was not solved."""
+        if (answer := candidate.answer) is None:
+            return {}
+        parts = {"model": answer.model, "grid": answer.grid, "sample": answer.sample}
+        found = answer.band_errors or {name: self._half_widths(candidate, part) for name, part in parts.items()}
+        return {name: kept(half) for name, half in found.items()}
+
+    @property
+    def roughness(self) -> FloatArray:
+        """L_r of a rail in each band [dB re 1 µm]; empty of any other scene."""
+        return kept(self.scene.roughness_levels)
+
+    def a3_of(self, candidate: Candidate) -> FloatArray:
+        """Contact filter of a model of a rail that was solved, whichever quantity was asked [dB]."""
+        value = self.value_of(candidate)
+        return kept(value - self.roughness) if self.quantity == "equivalent-roughness" else value
+
+    def seconds_of(self, candidate: Candidate) -> float:
+        """That a model took; NaN where it was not solved, or not all models were asked."""
+        return candidate.answer.seconds if self.timed and candidate.answer is not None else math.nan
+
+    def _half_widths(self, candidate: Candidate, error: float) -> FloatArray:
+        """Of a relative error of all numbers together."""
+        value = self.value_of(candidate)
+        return np.full(value.shape, decibels(error)) if self.is_level else error * np.abs(value)
+
+    @property
+    def error(self) -> float:
+        error = math.inf if self.selection.best is None else self.selection.best.error
+        return decibels(error) if self.is_level else error
+
+    @property
+    def unit(self) -> str:
+        unit = self.asked.unit
+        if not self.is_level:
+            return unit
+        return "dB" if unit == "1" else f"dB re 1 {unit}"
+
+    @property
+    def is_level(self) -> bool:
+        """Whether the value is a level in each one-third octave."""
+        return self.asked.in_bands
+
+    @property
+    def wavenumbers(self) -> FloatArray:
+        if not self.is_level or not self.selection.solved:
+            return kept(np.empty(0))
+        return kept(self.scene.bands(self.quantity))
+
+    @property
+    def wavelength_mm(self) -> FloatArray:
+        # twelve digits: nominal wavelengths have theirs again, 2000 and not 1999.9999999999998
+        return kept(np.array([float(f"{wave:.12g}") for wave in 2e3 * math.pi / self.wavenumbers]))
+
+    @property
+    def frequency_hz(self) -> FloatArray:
+        speed = getattr(self.scene, "speed", None)
+        return kept(np.empty(0) if speed is None else speed * self.wavenumbers / (2 * math.pi))
+
+    @property
+    def nominal_hz(self) -> FloatArray:
+        numbers = np.rint(10 * np.log10(self.frequency_hz)).astype(int)
+        return kept(np.array([float(f"{MANTISSAS[n % 10] * 10.0 ** (n // 10):.3g}") for n in numbers]))
+
+    @property
+    def model(self) -> str:
+        return self.selection.best.name if self.selection.best is not None else ""
+
+    @property
+    def met(self) -> bool:
+        return self.selection.met and not self.beyond_elasticity
+
+    @property
+    def beyond_elasticity(self) -> str:
+        return beyond_elasticity(self.scene)
+
+    @property
+    def statistic(self) -> str:
+        return self.scene.statistic
+
+    @cached_property
+    def force(self) -> ContactForce | None:
+        """A-weighted force of a wheel on a rail at a constant height, by each model; None of any other scene."""
+        force: ContactForce | None = self.scene.contact_force(self)
+        return force
+
+    @property
+    def models(self) -> ComparedModels:
+        return ComparedModels(self.selection.candidates)
+
+
+OneOrSeveral = Comparison | Sequence[Comparison]
+"""What functions of the face take."""
+
+
+def listed(comparison: OneOrSeveral) -> list[Comparison]:
+    """All of them. Raises TypeError for anything else, ValueError for none."""
+    if isinstance(comparison, Comparison):
+        return [comparison]
+    if not isinstance(comparison, Sequence) or not all(isinstance(one, Comparison) for one in comparison):
+        raise TypeError(f"comparison must be what compare returns, or a list of that, got {shortened(comparison)}")
+    if not comparison:
+        raise ValueError("comparison must be one or several, got an empty list")
+    return list(comparison)
+
+
+def compare(
+    scene: Scene,
+    quantity: str | None = None,
+    tolerance: float | str = 0.1,
+    seed: int = 0,
+    *,
+    solve_all: bool = False,
+    models: str | Decorated | Sequence[str | Decorated] | None = None,
+    realisations: int | None = None,
+    callback: Callable[[SceneModel], None] = lambda _: None,
+) -> Comparison:
+    """Select the cheapest model of a scene whose error is within the tolerance.
+
+    Models are tried from the cheapest on, each where the error that its calibration claims is within the tolerance;
+    the first is accepted whose solve leaves no larger one.
+
+    Parameters
+    ----------
+    scene : IndentationScene, RollingScene or RailScene
+        What `load_scene` returns.
+    quantity : str, optional
+        One that the scene has, by default the first.
+    tolerance : float or str, optional
+        Largest half-width of the 95 % interval: relative, or a text as "5%" or "0.4 dB", in whose unit errors are
+        printed; of a spectrum, of the root mean square over all bands.
+    seed : int, optional
+        Seed of the roughness that is drawn, zero or positive.
+    solve_all : bool, optional
+        Whether all models are solved and timed, one out of its range where that takes a minute at the most.
+    models : str, function or sequence of these, optional
+        Solve these alone: "mdr", "bem", or names of models of this scene, in one text with commas too; functions with a
+        decorator, as `stiffness_model`: the error of one that a file defines is measured first, else it is unknown.
+    realisations : int, optional
+        Surfaces, or strips under a wheel, that boundary elements solve where roughness is drawn, from 2 to 100000; by
+        default as many as the tolerance takes, up to 1000 surfaces or 32 strips.
+    callback : callable, optional
+        Called with each model before its solve, as for a note that it takes a while.
+
+    Returns
+    -------
+    Comparison
+        The quantity with its error, and what became of each model.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If ``scene`` is not a scene or has no such quantity or model, or if another argument is out of range.
+
+    Examples
+    --------
+    >>> result = validation.compare(validation.load_scene("sphere"), tolerance=0.01)
+    >>> result.quantity, result.model, result.met
+    ('stiffness', 'closed form', True)
+    """
+    if not hasattr(scene, "quantities"):
+        raise TypeError(f"scene must be what load_scene returns, got {type(scene).__name__}")
+    asked = quantity or quantities_of(scene)[0]
+    names, own = names_and_own(models, scene, asked)
+    settings = (tolerance, count("seed", seed, least=0), solve_all, names, own, realisations)
+    return SceneProblem(scene, (asked,), *settings).compared(callback)[asked]
+
+
+@dataclass(frozen=True)
+class SceneProblem:
+    """What `compare` is asked of one scene, of each quantity.
+
+    own: models of somebody's own; realisations: as of `compare`; content: digest of all that the scene is made of,
+    since its repr leaves out most of an array.
+    """
+
+    scene: Scene = field(repr=False)
+    quantities: tuple[str, ...]
+    tolerance: float | str
+    seed: int = 0
+    solve_all: bool = False
+    models: Sequence[str] = ()
+    own: tuple[Own, ...] = ()
+    realisations: int | None = None
+    content: str = field(init=False)
+
+    def __post_init__(self) -> None:
+        if self.realisations is not None:
+            object.__setattr__(self, "realisations", count("realisations", self.realisations, least=2))
+            if self.realisations > MOST_REALISATIONS:
+                raise ValueError(f"realisations must be from 2 to {MOST_REALISATIONS}, got {self.realisations}")
+        object.__setattr__(self, "content", content_of(self.scene))
+
+    @property
+    def wanted(self) -> Tolerance:
+        return tolerance_of(self.tolerance)
+
+    def offered(self, quantity: str, shared: Shared | None = None) -> tuple[list[SceneModel], list[SceneModel]]:
+        """The models that are listed, the cheapest first, and those of them that may be solved. Raises ValueError."""
+        tolerance = self.wanted.relative
+        every = models_of(
+            *(self.scene, quantity, tolerance, self.seed, shared),
+            every=bool(self.models),
+            realisations=self.realisations,
+        )
+        own = own_candidates(self.own, Target(self.scene, quantity, tolerance, self.seed), every)
+        every = sorted([*every, *own], key=lambda one: one.cost().seconds)
+        only = models_named(every, self.models, tolerance) if self.models else every
+        return [one for one in every if one.kind not in BY_NAME or any(one is named for named in only)], only
+
+    def compared(self, callback: Callable[[SceneModel], None] = lambda _: None) -> dict[str, Comparison]:
+        """Each quantity by its name; a filter and what it leaves share their solves."""
+        found, shared, tolerance = dict[str, Comparison](), Shared(), self.wanted.relative
+        for asked in self.quantities:
+            every, only = self.offered(asked, shared)
+            announced = found and self.scene.shares_solves
+            selection = select_model(
+                every,
+                tolerance,
+                callback=(lambda _: None) if announced else callback,
+                solve_all=self.solve_all or bool(self.models),
+                only=only,
+                also=lambda one: not self.models and any(one.kind == own.name for own in self.own),
+                beyond=_beyond,
+            )
+            if reason := beyond_elasticity(self.scene):
+                selection = rejected(selection, reason)
+            found[asked] = Comparison(self.scene, asked, selection, self.wanted.in_decibels, timed=self.solve_all)
+        return found
+
+
+def content_of(scene: Scene) -> str:
+    """Digest of a scene: equal for equal values, whatever has been computed from them."""
+
+    def of_array(value: Any) -> object:
+        return value.dtype.str, value.shape, hashlib.sha256(value.tobytes()).hexdigest()
+
+    made_of = json.dumps(
+        [type(scene).__name__, asdict(scene)],  # type: ignore[call-overload]  # scenes are dataclasses
+        default=of_array,
+    )
+    return hashlib.sha256(made_of.encode()).hexdigest()[:16]
+
+
+def _beyond(model: SceneModel) -> bool:
+    """Whether the scene has an answer at all, and the model is expected to find one soon."""
+    scene, quantity = model.target.scene, model.target.quantity
+    return model.cost().seconds <= LONGEST_BEYOND_RANGE and not scene.no_answer(quantity)

@@ -1,0 +1,1 @@
+"""Contact models: a function with a declaration each."""

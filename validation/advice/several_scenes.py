@@ -1,0 +1,54 @@
+"""Comparisons of several scenes by the workers of an engine, which stores each scene as soon as it is finished."""
+
+import json
+from collections.abc import Sequence
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from validation.advice.compare import Comparison, SceneProblem
+from validation.advice.hierarchy import Candidate, Selection, Status
+from validation.advice.scene_model import Answer, SceneModel
+from validation.engine.engine import Engine, Outcome
+from validation.simulation.model import Cost, ErrorEstimate
+
+
+def compare_scenes(problems: Sequence[SceneProblem], engine: Engine) -> list[Comparison]:
+    """`compare` of each scene and quantity, in their order; finished scenes are taken from the store of the engine."""
+    outcomes = engine.map(compare_scene, problems)
+    return [
+        _comparison(problem, quantity, outcome)
+        for problem, outcome in zip(problems, outcomes, strict=True)
+        for quantity in problem.quantities
+    ]
+
+
+def compare_scene(problem: SceneProblem) -> Outcome:
+    """What became of each model, as JSON in one array a quantity."""
+    texts = {
+        name: json.dumps([_row(one) for one in found.models], default=np.ndarray.tolist).encode()
+        for name, found in problem.compared().items()
+    }
+    return {name: np.frombuffer(text, dtype=np.uint8).astype(np.float64) for name, text in texts.items()}
+
+
+def _comparison(problem: SceneProblem, quantity: str, outcome: Outcome) -> Comparison:
+    rows = json.loads(outcome[quantity].astype(np.uint8).tobytes())
+    models, _ = problem.offered(quantity)
+    candidates = tuple(_candidate(model, *row) for model, row in zip(models, rows, strict=True))
+    selection = Selection(problem.wanted.relative, candidates)
+    return Comparison(problem.scene, quantity, selection, problem.wanted.in_decibels, timed=problem.solve_all)
+
+
+def _row(one: Candidate) -> tuple[object, ...]:
+    return one.status, one.reason, asdict(one.estimate), one.answer and asdict(one.answer)
+
+
+def _candidate(model: SceneModel, status: Status, reason: str, estimate: Any, answer: Any) -> Candidate:
+    """Of what `_row` has made."""
+    if answer:
+        bands = {name: np.array(half, dtype=np.float64) for name, half in answer["band_errors"].items()}
+        value, cost = np.array(answer["value"], dtype=np.float64), Cost(**answer["cost"])
+        answer = Answer(**{**answer, "value": value, "cost": cost, "band_errors": bands})
+    return Candidate(model, status, reason, ErrorEstimate(**estimate), answer)

@@ -1,0 +1,99 @@
+"""All models that were solved, beside the one with the smallest error: how far off, with both errors, and how fast."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.advice.agreement import ALIKE, bias
+from validation.advice.compare import Comparison
+from validation.advice.hierarchy import Candidate
+from validation.advice.tolerance import decibels
+from validation.analysis.evidence import Table, table_of
+
+TOGETHER = "both errors together: of the models the sum, of grid and sample the root of the sum of squares"
+"""How the half-width of a difference follows from the errors of both models."""
+
+
+def reference_of(comparison: Comparison) -> Candidate:
+    """The least biased of the solved models whose errors are alike the smallest, the dearest of several."""
+    solved, least = comparison.selection.solved[::-1], comparison.selection.least_error
+    alike = [one for one in solved if one.error <= ALIKE * least]
+    return min(alike, key=lambda one: bias(one.found))
+
+
+def differences(candidate: Candidate, reference: Candidate) -> np.ndarray:
+    """Of the levels of two models, 20 lg of the ratio of their amplitudes [dB]."""
+    assert candidate.answer is not None and reference.answer is not None  # as solved
+    return np.asarray(20 * np.log10(candidate.answer.value / reference.answer.value))
+
+
+def error_of_difference(comparison: Comparison, candidate: Candidate) -> np.ndarray:
+    """Half-widths of 95 % of `differences` from the reference [dB]: `TOGETHER`; infinite where one is unknown."""
+    parts = [
+        {name: part / (1.0 if comparison.is_level else np.abs(comparison.value_of(one))) for name, part in of.items()}
+        for one in (candidate, reference_of(comparison))
+        for of in [comparison.error_parts_of(one)]
+    ]
+    random = [of[name] for of in parts for name in ("grid", "sample")]
+    both = sum(of["model"] for of in parts) + np.sqrt(np.sum(np.square(random), axis=0))
+    return np.asarray(both if comparison.is_level else 20 * np.log10(1 + both))
+
+
+def per_cent(level: float) -> float:
+    """Of an amplitude, from its level [dB]."""
+    return float(100 * (10 ** (level / 20) - 1))
+
+
+def counts(comparison: Comparison, one: Candidate) -> NDArray[np.bool_]:
+    """Where the tolerance counts: of a rail not in bands of which next to nothing is left."""
+    level = comparison.a3_of(one) if comparison.roughness.size else np.zeros(comparison.value_of(one).size)
+    return np.asarray(level > comparison.asked.counted_above)
+
+
+def shown_models(comparison: Comparison) -> list[str]:
+    """Names of the solved models, in the order that a figure shows: selected, reference, MDR, the nearest others."""
+    solved, reference = comparison.selection.solved, reference_of(comparison)
+    chosen = comparison.selection.best or reference
+    springs = min((one for one in solved if one.is_mdr), key=lambda one: one.error, default=chosen)
+
+    def apart(one: Candidate) -> float:
+        off = differences(one, chosen)[counts(comparison, chosen)]
+        return float(np.sqrt(np.nanmean(off**2))) if np.isfinite(off).any() else math.inf
+
+    first = [chosen.name, reference.name, springs.name]
+    return list(dict.fromkeys([*first, *(one.name for one in sorted(solved, key=apart))]))
+
+
+def speed_and_accuracy(comparison: Comparison) -> Table:
+    """A row a model that was solved: seconds by the clock, and its distance from the reference.
+
+    Columns model, is_mdr, selected, is_reference, seconds, error, low, high, unit; low and high end the interval of
+    both errors together, NaN where one is unknown. As the tolerance counts it: the largest of the bands that count, of
+    spectra the root mean square over bands. The reference has no distance: its high is the error that it has.
+    """
+    reference, rows = reference_of(comparison), list[dict[str, object]]()
+    unit = "dB" if comparison.is_level else comparison.tolerance.unit
+    of_reference = decibels(reference.error) if unit == "dB" else 100 * reference.error
+    for one in comparison.selection.solved:
+        error, half = (of if unit == "dB" else per_cent(of) for of in _apart(comparison, one))
+        low, high = (max(error - half, 0.0), error + half) if math.isfinite(half) else (math.nan, math.nan)
+        if here := one is reference:
+            error, low, high = math.nan, math.nan, of_reference if math.isfinite(of_reference) else math.nan
+        named = {"model": one.name, "is_mdr": one.is_mdr, "selected": one.name == comparison.model}
+        timed = {"is_reference": here, "seconds": comparison.seconds_of(one)}
+        rows.append({**named, **timed, "error": error, "low": low, "high": high, "unit": unit})
+    return table_of(comparison.quantity, rows)
+
+
+def _apart(comparison: Comparison, one: Candidate) -> tuple[float, float]:
+    """Distance from the reference, and its half-width of 95 % [dB]."""
+    reference = reference_of(comparison)
+    off, half = np.abs(differences(one, reference)), error_of_difference(comparison, one)
+    within = counts(comparison, reference) & np.isfinite(off)
+    if not within.any():
+        return math.nan, math.nan
+    if comparison.asked.by_worst_band:
+        at = int(np.argmax(np.where(within, off, -1.0)))
+        return float(off[at]), float(half[at])
+    return float(np.sqrt(np.mean(off[within] ** 2))), float(np.sqrt(np.mean(half[within] ** 2)))

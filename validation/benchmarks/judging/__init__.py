@@ -1,1 +1,0 @@
-"""Whether a contact solver of anyone is right."""

@@ -1,1 +1,0 @@
-"""The wheel on a real rail."""

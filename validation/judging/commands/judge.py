@@ -1,0 +1,111 @@
+"""Judge models of somebody's own: where each is enough, or whether a solver is right."""
+
+import argparse
+import os
+from collections.abc import Sequence
+from contextlib import ExitStack
+from itertools import zip_longest
+from pathlib import Path
+
+from validation.advice.tolerance import tolerance_of
+from validation.analysis.contents import as_json, folder_names
+from validation.engine.files import write_given
+from validation.judging.entry_points import GROUP, installed
+from validation.judging.judge import Judgement, judged, points_as_csv
+from validation.judging.worker import Called, visited
+from validation.report.commands.arguments import Exit, add_options
+from validation.report.commands.places import check_places
+from validation.report.folder import JUDGEMENT, Folder
+from validation.scenes.printable import printable
+
+
+def describe(judging: argparse.ArgumentParser) -> None:
+    judging.add_argument(
+        "file",
+        metavar="FILE",
+        nargs="?",
+        help="a Python file with decorated functions, as @stiffness_model, or the name of what an installed package "
+        "offers; it is run as a program, with your rights",
+    )
+    judging.add_argument(
+        "--list", action="store_true", help=f"print what installed packages offer, by the entry points {GROUP}"
+    )
+    add_options(
+        judging,
+        ("--tolerance", "T", str, '"5%%", "0.05" or "0.4 dB" (default: 10%%)'),
+        ("--only", "NAME", str, "judge this model of the file alone"),
+        ("--out", "DIR", Path, "write summary, JSON, CSV and figure into this folder, of several models a folder each"),
+        ("--json", "FILE", Path, "write all verdicts for other programs; of several models a list"),
+        ("--csv", "FILE", Path, "write a row a verdict"),
+        ("--figure", "FILE", Path, "draw how far off each model is, in a .svg, .png or .pdf"),
+    )
+    judging.epilog = (
+        "Exit status: of a reduced model 0, whatever the verdicts; of a solver 0 right, 1 wrong; 2 no decorated "
+        "function, or bad usage; 3 it answered nowhere."
+    )
+    judging.set_defaults(command=judge, tolerance="10%")
+
+
+def judge(arguments: argparse.Namespace) -> Exit:
+    """Judge what a file, or an installed package, offers."""
+    if arguments.list and arguments.file is None:
+        lines = [f"{one.name}: {one.value}" for one in installed().values()]
+        print(printable("\n".join(lines) or f"no installed package has the entry points {GROUP}", lines=True))
+        return Exit.MET
+    if arguments.list:
+        raise ValueError(f"--list judges nothing, got it beside {arguments.file}: leave one of them out")
+    if arguments.file is None:
+        raise ValueError("judge needs a FILE with decorated functions, or a name of judge --list")
+    if not Path(arguments.file).is_file() and arguments.file not in installed():
+        raise ValueError(f"FILE must be a Python file, or a name of judge --list, got {arguments.file!r}")
+    tolerance = tolerance_of(arguments.tolerance)
+    check_places(arguments, {Path(arguments.file): "is the model"})
+    _check_apart(arguments)
+    found: list[Judgement] = []
+    with visited(arguments.file) as callers, ExitStack() as folders:
+        chosen = [caller for caller in callers if arguments.only in (None, caller.name)]
+        if not chosen:
+            names = ", ".join(caller.name for caller in callers)
+            raise ValueError(f"--only must be one of {names}, got {arguments.only}")
+        places = [folders.enter_context(folder) for folder in _folders(chosen, arguments.out)]
+        for caller, place in zip_longest(chosen, places):
+            found.append(judged(caller, tolerance))
+            if place:
+                place.replace(found[-1].files())
+            print(printable(found[-1].summary(), lines=True), end="\n\n", flush=True)
+    _write(found, arguments)
+    if not any(one.answered for one in found):
+        return Exit.NOT_CONVERGED
+    return Exit.CRITERION_FAILED if any(one.wrong for one in found) else Exit.MET
+
+
+def _folders(chosen: Sequence[Called], out: Path | None) -> list[Folder]:
+    """One of each model, of several below the one that is named; all of them before anything is judged."""
+    if out is None:
+        return []
+    names = folder_names([caller.name for caller in chosen]) if len(chosen) > 1 else [""]
+    return [Folder(out / name, kind=JUDGEMENT) for name in names]
+
+
+def _check_apart(arguments: argparse.Namespace) -> None:
+    """Raises ValueError where a file that is named would be one of the folder's own, or of a model's in it."""
+    if arguments.out is None:
+        return
+    for option in ("json", "csv", "figure"):
+        path = getattr(arguments, option)
+        if path is not None and Path(os.path.realpath(path)).is_relative_to(os.path.realpath(arguments.out)):
+            raise ValueError(f"--{option} must be a file outside of --out, got {path} in {arguments.out}")
+
+
+def _write(found: list[Judgement], arguments: argparse.Namespace) -> None:
+    if arguments.json:
+        objects = [one.as_dict() for one in found]
+        write_given(arguments.json, as_json(objects if len(objects) > 1 else objects[0]))
+    if arguments.csv:
+        write_given(arguments.csv, points_as_csv(found))
+    if arguments.figure:
+        from validation.judging.figure import figure_of, left_out  # which takes half a second to import
+
+        if names := left_out(found):
+            print(printable(f"--figure does not show {', '.join(names)}: draw each with --only"))
+        write_given(arguments.figure, figure_of(found, arguments.figure.suffix[1:]))

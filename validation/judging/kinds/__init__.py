@@ -1,0 +1,1 @@
+"""What each kind of model is judged by, and its references."""

@@ -1,0 +1,213 @@
+"""What is wrong with a model as a whole, by its points: a common factor, a table, equal draws, answers that change."""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from validation.analysis.statistics import FloatArray
+from validation.judging.judgement import (
+    AGAIN,
+    AGREE,
+    DEVIATION,
+    DIFFER,
+    FAILED,
+    LEVEL,
+    REFUSED,
+    Conditions,
+    JudgedPoint,
+    placed,
+)
+from validation.judging.kinds.factors import LEAST, MOST_OF, OF_POWERS, OF_VALUES, SPARE, common_factor, named
+from validation.judging.kinds.filters import ALPHA, FILTER, WAVE
+from validation.judging.kinds.held_out_solves import SUFFIX
+from validation.judging.kinds.profiles import MOMENTS
+from validation.judging.kinds.rolling import APART, HEIGHT, MEAN, SLOPE, Q
+from validation.judging.kinds.stiffness import BY_BAND, DIFFERENT_DRAWS, EQUAL_DRAWS, FORCE
+from validation.judging.kinds.stiffness import DEVIATION as OF_STIFFNESS
+
+UNSIGNED = {APART.format(name) + end for name in ("force", "approach") for end in ("", SUFFIX)}
+"""Quantities that have no sign."""
+ALONG = FORCE, HEIGHT, SLOPE, Q, WAVE
+"""Conditions along which a table has its points; a held-out point is compared with the nearest ones."""
+NEAREST, MOST, FEW, SHOWN = 0.8, 0.5, 0.2, 3
+"""Part of the nearest points of a table that must agree; part of the held-out points of a scene, and of all, that fail;
+scenes that are listed."""
+SQUARED, LOWEST = 0.15, -8.0
+"""Of levels that are twice, or half of, their references: what each may be off [dB, and of the reference], and the
+lowest reference [dB]."""
+SMOOTH, FLAT = 0.1, 3.0
+"""h' a/d up to which linear theory holds, and Fbar from which on a punch is flat, nearly."""
+
+
+class Remark(NamedTuple):
+    """cause: a noun; sentence: with numbers; decides: whether no verdict can be trusted."""
+
+    cause: str
+    sentence: str
+    decides: bool = False
+
+
+def remarks(points: Sequence[JudgedPoint]) -> list[Remark]:
+    """Those that decide come first."""
+    return [*_changing(points), *_draws(points), *_table(points), *_factor(points)]
+
+
+def _changing(points: Sequence[JudgedPoint]) -> Iterator[Remark]:
+    for point in points:
+        if point.quantity == AGAIN and point.verdict != AGREE:
+            size = f" by {100 * point.difference:.2g} %" if math.isfinite(point.difference) else ""
+            cause, _, detail = point.reason.partition(": ")
+            yield Remark(
+                cause,
+                f"No verdict can be trusted: asked again, the model has another answer to the same problem{size} "
+                f"({cause}{f': {detail}' if detail else ''}).",
+                decides=True,
+            )
+
+
+def _draws(points: Sequence[JudgedPoint]) -> Iterator[Remark]:
+    reasons = [point.reason for point in points if point.quantity != AGAIN]
+    if equal := next((reason for reason in reasons if EQUAL_DRAWS in reason), ""):
+        count = equal.split()[0]
+        yield Remark(
+            "equal draws",
+            f"Its {count} draws are equal: {EQUAL_DRAWS}, its mean and deviation are inconclusive.",
+        )
+    elif few := next((reason for reason in reasons if DIFFERENT_DRAWS in reason), ""):
+        yield Remark("few draws", f"Its draws are taken from few: {few}; the error is that of as many.")
+
+
+# --- right on the table alone ---
+
+
+def _table(points: Sequence[JudgedPoint]) -> Iterator[Remark]:
+    """Scenes of held-out points where the model fails and the nearest points of the table agree."""
+    failed: list[str] = []
+    lost = expected = wrong = sure = 0
+    for scene, some in _scenes(points).items():
+        there = [point for point in some if _is_right_nearby(point, points)]
+        out = [point for point in there if point.verdict in (DIFFER, REFUSED, FAILED)]
+        expected, wrong = expected + len(there), wrong + len(out)
+        lost += sum(point.verdict != DIFFER for point in out)
+        if there and len(out) >= MOST * len(there):
+            failed.append(f"{scene or 'all'} ({len(out)} of {len(there)})")
+            sure += len(there) > 1 or there[0].quantity in UNSIGNED or there[0].reference == 1
+    # one point of a scene may be off by chance, one of each of several is not
+    if (sure or len(failed) >= SHOWN) and wrong >= FEW * expected:
+        what = "has no value" if lost == wrong else "is outside of the tolerance"
+        yield Remark(
+            "right on the table alone" if wrong > MOST * expected else "wrong beside the table",
+            f"Right at the points of the table alone? Where the nearest points of the table are within the tolerance "
+            f"it {what} at {wrong} of {expected} held-out points: {'; '.join(failed[:SHOWN])}"
+            f"{f' and {len(failed) - SHOWN} more' if len(failed) > SHOWN else ''}.",
+        )
+
+
+def _scenes(points: Sequence[JudgedPoint]) -> dict[str, list[JudgedPoint]]:
+    """Held-out points by their conditions but those along which a table goes."""
+    found: dict[str, list[JudgedPoint]] = {}
+    for point in points:
+        # a mean over a strip shows little of a model
+        if point.quantity.endswith(SUFFIX) and point.quantity.removesuffix(SUFFIX) not in (MEAN, "mean approach"):
+            where = {name: value for name, value in point.where.items() if name not in ALONG}
+            found.setdefault(placed(where), []).append(point)
+    return found
+
+
+def _is_right_nearby(point: JudgedPoint, points: Sequence[JudgedPoint]) -> bool:
+    quantity = point.quantity.removesuffix(SUFFIX)
+    table = [other for other in points if other.quantity == quantity]
+    names = [name for name in ALONG if name in point.where and all(name in other.where for other in table)]
+    if not table or not names:
+        return bool(table) and all(other.verdict == AGREE for other in table)
+    distance = np.array([_distance(point.where, other.where, names) for other in table])
+    near = [other for other, far in zip(table, distance, strict=True) if far <= distance.min() + 1e-9]
+    return sum(other.verdict == AGREE for other in near) >= NEAREST * len(near)
+
+
+def _distance(one: Conditions, other: Conditions, names: Sequence[str]) -> float:
+    return sum(abs(math.log(float(one[name]) / float(other[name]))) for name in names)
+
+
+# --- a factor, or a shift ---
+
+
+def _factor(points: Sequence[JudgedPoint]) -> Iterator[Remark]:
+    """Of values, and of levels; else where linear theory holds, or where the punch is flat; of a rule its moments."""
+    signed = [
+        point
+        for point in points
+        if point.reference != 1 and math.isfinite(point.difference) and math.isfinite(point.error)
+        if point.quantity.removesuffix(SUFFIX) not in (*UNSIGNED, OF_STIFFNESS, BY_BAND) and point.unit != DEVIATION
+    ]
+    for of, is_level in ((_of_values, False), (_of_levels, True)):
+        some = [point for point in signed if (point.unit == LEVEL) == is_level]
+        table = [point for point in some if not point.quantity.endswith(SUFFIX)]
+        of_each = [[p for p in table if p.quantity == name] for name in dict.fromkeys(p.quantity for p in table)]
+        if everywhere := next(filter(None, (list(of(part, "")) for part in (some, table, *of_each))), []):
+            yield from everywhere
+            continue
+        smooth = [point for point in some if float(point.where.get(SLOPE, math.inf)) <= SMOOTH]
+        flat = [point for point in some if float(point.where.get(FORCE, 0.0)) >= FLAT]
+        yield from (one for one in of(smooth, f" up to {SLOPE} = {SMOOTH:g}") if one.sentence.endswith("?"))
+        yield from (one for one in of(flat, f" from {FORCE} = {FLAT:g} on") if one.sentence.endswith("?"))
+    yield from _of_moments(points)
+
+
+def _of_moments(points: Sequence[JudgedPoint]) -> Iterator[Remark]:
+    """Of a rule for the spectrum of a profile, beside those of the surface."""
+    there = [p for p in points if p.quantity.removesuffix(SUFFIX) in MOMENTS.values() and math.isfinite(p.difference)]
+    power = [2.0 if point.quantity.startswith("rms") else 1.0 for point in there]
+    ratios = np.array([max(1 + point.difference, 0.0) ** n for point, n in zip(there, power, strict=True)])
+    found = common_factor(ratios, np.full(len(there), SPARE)) if there and ratios.min() > 0 else None
+    if found and found.kept == len(there):
+        cause = named(found.factor, found.half, OF_POWERS)
+        sentence = f"All moments of the profile are {found.factor:.3g} times those of the surface"
+        yield Remark("a factor everywhere", f"{sentence}: {cause}?" if cause else f"{sentence}.")
+
+
+def _columns(points: Sequence[JudgedPoint]) -> tuple[FloatArray, FloatArray]:
+    return np.array([p.difference for p in points]), np.array([p.error for p in points])
+
+
+def _of_values(points: Sequence[JudgedPoint], where: str) -> Iterator[Remark]:
+    some = [point for point in points if point.difference > -1]
+    difference, error = _columns(some)
+    if len(some) == len(points) and (found := common_factor(1 + difference, error / (1 + difference))):
+        cause = named(found.factor, found.half, OF_VALUES)
+        sentence = f"{_of(found.kept, len(points), points, where)} {found.factor:.3g} times the reference"
+        yield Remark("a factor everywhere", f"{sentence}: {cause}?" if cause else f"{sentence}.")
+
+
+def _of_levels(points: Sequence[JudgedPoint], where: str) -> Iterator[Remark]:
+    """A shift is a factor of powers; of filters, levels that are twice the references are those of a square."""
+    difference, error = _columns(points)
+    in_power = math.log(10) / 10
+    if found := common_factor(np.exp(in_power * difference), in_power * error):
+        cause, shift = named(found.factor, found.half, OF_POWERS), 10 * math.log10(found.factor)
+        side = "above" if shift > 0 else "below"
+        sentence = f"{_of(found.kept, len(points), points, where)} {abs(shift):.2f} dB {side} the reference"
+        yield Remark("a shift everywhere", f"{sentence}: {cause}?" if cause else f"{sentence}.")
+        return
+    yield from _of_squares(points)
+
+
+def _of_squares(points: Sequence[JudgedPoint]) -> Iterator[Remark]:
+    """Of a filter over ridges, where a band has one wave along and none across, and not its zeros."""
+    some = [p for p in points if p.quantity == FILTER and p.where.get(ALPHA) == 0.0 and p.reference > LOWEST]
+    if len(some) < LEAST:
+        return
+    (difference, error), reference = _columns(some), np.array([point.reference for point in some])
+    for times, cause in ((2.0, "the square of the amplitude, 20 lg for 10 lg"), (0.5, "the root of the amplitude")):
+        # the mean of a power over a band is a little more than the power of the mean
+        kept = np.abs(difference - (times - 1) * reference) <= error + SQUARED * (1 + np.abs(reference))
+        if kept.mean() > MOST_OF:
+            sentence = f"{_of(int(kept.sum()), len(some), some, ' over ridges')} {times:g} times the reference in dB"
+            yield Remark("levels of a power of the amplitude", f"{sentence}: {cause}?")
+
+
+def _of(kept: int, count: int, points: Sequence[JudgedPoint], where: str) -> str:
+    quantities = " and ".join(dict.fromkeys(point.quantity.removesuffix(SUFFIX) for point in points))
+    return f"{'All' if kept == count else f'{kept} of'} {count} points of its {quantities}{where} are"

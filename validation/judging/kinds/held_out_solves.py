@@ -1,0 +1,320 @@
+"""Scenes between and beside those of the tables, and what boundary elements have there: held-out references.
+
+They take some minutes of one core. A second wheel rolls over a second roughness, and a third one over a third on cells
+of two lengths; punches have another H, bandwidth and longest wave; surfaces are isotropic and elongated.
+"""
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import asdict, dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+import bem3d
+import mdr
+from validation.analysis.series import Estimates
+from validation.analysis.spectra import Bands, levels, waves
+from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, extrapolated, student
+from validation.engine.convergence import NotConvergedError
+from validation.engine.engine import Engine, Outcome
+from validation.engine.random_numbers import random_generator
+from validation.judging.judgement import Conditions
+from validation.judging.kinds.references import Reference
+from validation.judging.kinds.rolling import GRIDS, HEIGHT, SLOPE, Q, WheelAtApproach, at_centres, octave, variance_of
+from validation.judging.kinds.stiffness import BAND, FIRST, FORCE, H
+from validation.simulation.light_punch import press_lightly
+from validation.simulation.rolling_strip import HERTZ, SMOOTH, RoughStrip, crop_to_reach, level_3d, roll_strip
+from validation.simulation.rough_punch import PunchRoughness, Surface
+from validation.simulation.surface import draw_surface
+from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
+
+SUFFIX = ", held out"
+"""Behind the name of a quantity, that of its held-out points."""
+ROUGHNESS, WHEEL, SURFACE = "roughness", "wheel", "surface"
+SEED, TOLERANCE = 4801, 1e-4
+
+
+def held_out(quantity: str) -> str:
+    """Name of the held-out points of a quantity."""
+    return quantity + SUFFIX
+
+
+@dataclass(frozen=True, kw_only=True)
+class HeldOutScene:
+    """A wheel over isotropic roughness. hurst: H; first, last: q a of the band; lateral: cells across to one along."""
+
+    wheel: WheelAtApproach
+    hurst: float
+    first: float
+    last: float
+    lateral: int
+
+    @property
+    def spectrum(self) -> PiecewisePowerLaw:
+        """Of unit height and contact radius."""
+        return self_affine(self.hurst, self.first, self.last)
+
+    @property
+    def where(self) -> dict[str, str]:
+        """Its roughness and its wheel, as conditions."""
+        return {ROUGHNESS: f"H = {self.hurst:g}, q a = {self.first:g} to {self.last:g}", WHEEL: str(self.wheel)}
+
+    @property
+    def settings(self) -> dict[str, float]:
+        """As those of the case rolling, on shorter strips."""
+        return {"hurst": self.hurst, "first": self.first, "last": self.last, "lowest": LOWEST, "length": LENGTH}
+
+    def ground(self, height: float) -> mdr.SelfAffine:
+        """In metres, of rms height h/d."""
+        first, last = self.first / self.wheel.contact, self.last / self.wheel.contact
+        return mdr.SelfAffine(hurst=self.hurst, q_min=first, q_max=last, rms=height * self.wheel.approach)
+
+    def strip(self, height: float, length: float) -> RoughStrip:
+        """Of rms height h/d."""
+        return RoughStrip(spectrum=self.spectrum, height=height, length=length, width=WIDTH, seed=SEED)
+
+    def surface(self, height: float, cells: int) -> FloatArray:
+        """Heights over d of the strip for each position, so many cells to a contact radius along it."""
+        shape = round(SHORT * cells), round(WIDTH * self.lateral * cells)
+        spacing, rng = (1 / cells, 1 / (self.lateral * cells)), random_generator(SEED, round(1000 * self.hurst))
+        return np.asarray(height * draw_surface(self.spectrum.c2d, shape=shape, spacing=spacing, rng=rng, rms=1.0))
+
+
+SECOND = HeldOutScene(
+    wheel=WheelAtApproach(radius=0.35, contact=3e-3, modulus=9e10), hurst=0.4, first=0.5, last=8.0, lateral=1
+)
+THIRD = HeldOutScene(
+    wheel=WheelAtApproach(radius=0.2, contact=1.2e-3, modulus=2.1e11), hurst=0.55, first=0.8, last=13.0, lateral=2
+)
+SCENES = SECOND, THIRD
+HEIGHTS, OCTAVES, STRIPS, CELLS = (0.03, 0.3), tuple(math.pi / 2 ** (k / 3) for k in (4, 1, -2)), 8, (8, 16)
+"""h/d; q a of the middle of octaves; strips for levels, and cells to a contact radius on two grids."""
+LENGTH, SHORT, WIDTH, LOWEST = 64.0, 32.0, 16.0, 0.55
+"""Sides of the strips for levels, and for each position, over a; the lowest q a of their bands."""
+
+
+# --- rolling ---
+
+
+def levels_of_scenes(engine: Engine) -> Iterator[tuple[HeldOutScene, float, list[tuple[Estimate, float]]]]:
+    """Octaves and variance of each scene and height: ln of it, and what the grids leave of that."""
+    groups = {
+        (scene, height, cells): scene.strip(height, LENGTH).strips(cells, 1e-3 * height, STRIPS)
+        for scene in SCENES
+        for height in HEIGHTS
+        for cells in CELLS
+    }
+    found = engine.map_groups(roll_strip, groups)
+    for scene in SCENES:
+        bands = Bands.around(math.pi, LOWEST, scene.last).on(LENGTH)
+        linear = level_3d(scene.spectrum, bands)
+        exact = [*(float(octave(linear, bands, q)) for q in OCTAVES), variance_of(scene.spectrum)]
+        for height in HEIGHTS:
+            coarse, fine = (_powers(found[scene, height, n], bands, 1 / n) for n in CELLS)
+            over = Estimates.ratios(coarse[:, 0], coarse[:, 1]) + Estimates.exact(np.log(exact))
+            finer = Estimates.ratios(fine[:, 0], coarse[:, 0])
+            yield scene, height, [extrapolated(*pair) for pair in zip(over, finer, strict=True)]
+
+
+def _powers(strips: list[Outcome], bands: Bands, spacing: float) -> FloatArray:
+    """Octaves and variance of boundary elements, and of linear theory on the same strips."""
+    both = np.array([[one["force"], one["linear"]] for one in strips])
+    thirds = levels(waves(both, spacing=spacing), bands)
+    octaves = [octave(thirds, bands, q) for q in OCTAVES]
+    return np.stack([*octaves, both.var(axis=-1)], axis=-1)
+
+
+def of_octaves(engine: Engine) -> Iterator[Reference]:
+    """Levels of octaves [dB over F_Hertz^2 (h/d)^2]."""
+    for scene, height, found in levels_of_scenes(engine):
+        for q, pair in zip(OCTAVES, found, strict=False):
+            yield _level(scene, height, pair, {Q: q})
+
+
+def of_variance(engine: Engine) -> Iterator[Reference]:
+    """Level of the variance [dB over F_Hertz^2 (h/d)^2]."""
+    for scene, height, found in levels_of_scenes(engine):
+        yield _level(scene, height, found[-1], {})
+
+
+def _level(scene: HeldOutScene, height: float, pair: tuple[Estimate, float], at: Conditions) -> Reference:
+    value, left = (pair[0], POWER_DECIBEL * pair[1])
+    where = {**scene.where, HEIGHT: height, SLOPE: round(height * scene.spectrum.slope_along, 4), **at}
+    return Reference(where, POWER_DECIBEL * value.value, POWER_DECIBEL * value.half_width, left)
+
+
+@dataclass(frozen=True)
+class OblongStrip:
+    """The strip of a scene for each position. cells: to a contact radius along it; by_load: or by approach."""
+
+    scene: HeldOutScene
+    height: float
+    cells: int
+    by_load: bool
+
+
+def roll_oblong(strip: OblongStrip) -> Outcome:
+    """Force over that of Hertz, or the approach over d, at each position; failed: positions that did not converge."""
+    across = 1 / (strip.scene.lateral * strip.cells)
+    seen = np.ascontiguousarray(crop_to_reach(strip.scene.surface(strip.height, strip.cells), across))
+    wheel: dict[str, Any] = {"radius": 1.0, "modulus": 1.0, "force": HERTZ} if strip.by_load else SMOOTH
+    found = bem3d.roll(
+        seen, spacing=(1 / strip.cells, across), tolerance=1e-4 * strip.height, raise_on_failure=False, **wheel
+    )
+    value = found.approach if strip.by_load else found.force / HERTZ
+    return {"value": value, "failed": np.array(float(np.count_nonzero(~found.converged)))}
+
+
+def at_positions(by_load: bool) -> Callable[[Engine], Iterator[Reference]]:
+    """At each position of the coarse grid, to first order on cells of no size, and as much is left."""
+
+    def solved(engine: Engine) -> Iterator[Reference]:
+        keys = [(scene, height, cells) for scene in SCENES for height in HEIGHTS for cells in GRIDS]
+        outcomes = engine.map(roll_oblong, [OblongStrip(*key, by_load) for key in keys])
+        if lost := sum(float(one["failed"]) for one in outcomes):
+            raise NotConvergedError(f"{lost:.0f} positions did not converge", ())
+        on = {key: one["value"] for key, one in zip(keys, outcomes, strict=True)}
+        coarse, fine = GRIDS
+        for scene in SCENES:
+            for height in HEIGHTS:
+                there = at_centres(on[scene, height, fine])
+                left = (there - on[scene, height, coarse]) / (fine // coarse - 1)
+                for i, (value, change) in enumerate(zip((there + left).tolist(), left.tolist(), strict=True)):
+                    where: Conditions = {**scene.where, HEIGHT: height, "x / a": (i + 0.5) / coarse}
+                    yield Reference(where, value, grid=abs(change / value))
+
+    return solved
+
+
+OF_STRIPS: dict[str, Any] = {
+    "scenes": [asdict(scene) for scene in SCENES],
+    "heights": HEIGHTS,
+    "strips": STRIPS,
+    "cells": CELLS,
+    "length": LENGTH,
+    "width": WIDTH,
+    "lowest": LOWEST,
+    "seed": SEED,
+}
+OF_POSITIONS = {**OF_STRIPS, "strips": 1, "cells": GRIDS, "length": SHORT}
+
+
+# --- punches ---
+
+
+class Punch(NamedTuple):
+    """hurst: H; first: longest waves on a side; ratio: q_max / q_min; cells: to the shortest wave; surfaces: on these
+    cells; refined: of those, as many on half as long cells."""
+
+    hurst: float
+    first: int
+    ratio: int
+    cells: int
+    surfaces: int
+    refined: int
+
+
+PUNCHES = Punch(0.6, 1, 32, 4, 240, 40), Punch(0.45, 1, 8, 8, 300, 60), Punch(0.8, 8, 8, 4, 40, 10)
+LOADS = tuple(10.0 ** (-i / 6) for i in (13, 9, 5, 1))
+"""Fbar, midway between loads of the table."""
+
+
+def pressed(engine: Engine) -> Iterator[Reference]:
+    """Mean of k / (E* L) over the surfaces, to first order on cells of no size, by the surfaces of both grids."""
+    groups = {
+        (punch, times): [
+            Surface(
+                roughness=PunchRoughness(hurst=punch.hurst, waves=(punch.first, last), seed=SEED),
+                realisation=i,
+                cells=times * punch.cells * last,
+                forces=LOADS,
+                tolerance=TOLERANCE,
+            )
+            for i in range(punch.surfaces if times == 1 else punch.refined)
+        ]
+        for punch in PUNCHES
+        for last in [punch.first * punch.ratio]
+        for times in (1, 2)
+    }
+    found = engine.map_groups(press_lightly, groups)
+    for punch in PUNCHES:
+        coarse, fine = (np.array([one["stiffness"] for one in found[punch, n]]) for n in (1, 2))
+        mean, finer = Estimates.ratios(coarse, np.ones_like(coarse)), Estimates.ratios(fine, coarse[: punch.refined])
+        for force, pair in zip(LOADS, zip(mean, finer, strict=True), strict=True):
+            value, left = extrapolated(*pair)
+            where = {H: punch.hurst, FIRST: float(punch.first), BAND: float(punch.ratio), FORCE: force}
+            yield Reference(where, math.exp(value.value), value.half_width, left)
+
+
+OF_PUNCHES: dict[str, Any] = {
+    "punches": [punch._asdict() for punch in PUNCHES],
+    "forces": LOADS,
+    "seed": SEED,
+    "tolerance": TOLERANCE,
+}
+
+
+@dataclass(frozen=True)
+class HeldOutSurface:
+    """A square face. hurst; elongated: sides of its waves, along axis 0 over axis 1; realisation."""
+
+    hurst: float
+    elongated: int
+    realisation: int
+
+    def __str__(self) -> str:
+        shape = f"waves {self.elongated}:1" if self.elongated > 1 else "isotropic"
+        return f"H = {self.hurst:g}, {shape}, {self.realisation}"
+
+    def height(self, cells: int) -> FloatArray:
+        """Over h, of so many cells on a side: waves 1 to 24 on the side, of which more lie along a shortened axis."""
+        q = 2 * math.pi
+        spectrum = PiecewisePowerLaw(edges=(q, FACE_WAVES * q), exponents=(2 * self.hurst + 2,))
+        spacing = 1 / cells, self.elongated / cells
+        rng = random_generator(SEED, round(1000 * self.hurst), self.elongated, self.realisation)
+        return draw_surface(spectrum.c2d, shape=(cells, cells), spacing=spacing, rng=rng, rms=1.0)
+
+
+FACE_WAVES, FACE_CELLS, FACE_HEIGHT, FACE_LOADS = 24, 192, 1e-3, (0.01, 0.1, 1.0)
+FACES = tuple(HeldOutSurface(0.6, elongated, i) for elongated in (1, 2) for i in range(2))
+"""Waves on a side; cells on a side of what a model is given; h / L; Fbar; the faces."""
+
+
+@dataclass(frozen=True)
+class PressedFace:
+    """One face on one grid."""
+
+    face: HeldOutSurface
+    cells: int
+
+
+def press_face(problem: PressedFace) -> Outcome:
+    """k / (E* L) under each load."""
+    n = problem.cells
+    body = bem3d.HalfSpace(shape=(n, n), spacing=1 / n, modulus=1.0)
+    forces = FACE_HEIGHT * np.array(FACE_LOADS)
+    gap = -FACE_HEIGHT * problem.face.height(n)
+    path = bem3d.indent(body, gap, forces=forces, stiffness=True, tolerance=TOLERANCE, indenter_ends_at_edge=True)
+    return {"stiffness": np.array([contact.stiffness() for contact in path])}
+
+
+def faces(engine: Engine) -> Iterator[Reference]:
+    """On the finer of two grids; as much is left as both differ, by the root mean square over the faces of a load."""
+    grids = FACE_CELLS, 2 * FACE_CELLS
+    found = engine.map_groups(press_face, {n: [PressedFace(face, n) for face in FACES] for n in grids})
+    coarse, fine = (np.log([one["stiffness"] for one in found[n]]) for n in grids)
+    left = student(len(FACES)) * np.sqrt(np.mean((fine - coarse) ** 2, axis=0))
+    for (i, j), value in np.ndenumerate(fine):
+        yield Reference({SURFACE: str(FACES[i]), FORCE: FACE_LOADS[j]}, math.exp(value), grid=float(left[j]))
+
+
+OF_FACES: dict[str, Any] = {
+    "faces": [str(face) for face in FACES],
+    "waves": FACE_WAVES,
+    "cells": FACE_CELLS,
+    "forces": FACE_LOADS,
+    "seed": SEED,
+    "tolerance": TOLERANCE,
+}
+Solve = Callable[[Engine], Iterable[Reference]]

@@ -1,0 +1,105 @@
+"""The suite's own models, offered as anyone offers theirs: their errors are kept, and they are timed beside another."""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+import mdr
+from validation.analysis.statistics import FloatArray
+from validation.judging import registry as offered
+from validation.judging.judgement import JudgedPoint
+from validation.judging.kinds.filters import FILTER
+from validation.judging.kinds.judge import points_of
+from validation.judging.kinds.references import Reference, known
+from validation.judging.kinds.rolling import LEVEL
+from validation.judging.kinds.stiffness import MEAN
+from validation.judging.registry import Failed, Offered
+from validation.judging.worker import Called
+from validation.railway.theory.contact_filters import half_space_filter, spring_bed_filter
+from validation.simulation.model_names import BED, FILTER_1D, FILTER_3D, LINEAR, LINEAR_ON_LINE, SPRINGS
+from validation.theory import rolling
+
+ERRORS = "median error of the suite's own models"
+MAIN = {"stiffness_model": MEAN, "contact_filter": FILTER} | dict.fromkeys(
+    ("force_spectrum", "rolling_model", "profile_spectrum"), LEVEL
+)
+"""The quantity by whose median error models of a kind are ranked."""
+
+
+@offered.stiffness_model(SPRINGS)
+def springs(load: float, side: float, modulus: float, roughness: mdr.SelfAffine, rng: np.random.Generator) -> float:
+    profile = mdr.rough_profile(roughness.c1d, length=side, points=2048, rng=rng, rms=roughness.rms)
+    return float(mdr.load_curve(profile, length=side, modulus=modulus).at_force(load).stiffness)
+
+
+@offered.force_spectrum(FILTER_1D)
+def in_1d(q: FloatArray, contact_radius: float, modulus: float, roughness: mdr.SelfAffine) -> FloatArray:
+    return rolling.force_spectrum_1d(q, roughness.c1d, contact_radius=contact_radius, modulus=modulus)
+
+
+@offered.force_spectrum(FILTER_3D)
+def in_3d(q: FloatArray, contact_radius: float, modulus: float, roughness: mdr.SelfAffine) -> FloatArray:
+    edges = roughness.q_min, roughness.q_max
+    return rolling.force_spectrum_3d(q, roughness.c2d, edges=edges, contact_radius=contact_radius, modulus=modulus)
+
+
+@offered.rolling_model(FILTER_3D)
+def half_space(
+    height: FloatArray, spacing: tuple[float, float], radius: float, modulus: float, approach: float
+) -> FloatArray:
+    # as rolling.linear_force, on cells of two lengths
+    (nx, ny), a = height.shape, math.sqrt(radius * approach)
+    q_x, q_y = (2 * np.pi * np.fft.fftfreq(n, side) for n, side in zip((nx, ny), spacing, strict=True))
+    transfer = rolling.response(np.hypot(q_x[:, np.newaxis], q_y), contact_radius=a, modulus=modulus)
+    above_the_middle = np.exp(1j * q_y * spacing[1] * (ny - 1) / 2) / ny
+    change = np.fft.ifft(transfer * np.fft.fft2(height) @ above_the_middle).real
+    return np.asarray(4 / 3 * modulus * a * approach + change)
+
+
+ellipse = offered.contact_filter(LINEAR)(lambda k_x, k_y, a_x, a_y: half_space_filter(k_x, k_y, semi_axes=(a_x, a_y)))
+line = offered.contact_filter(LINEAR_ON_LINE)(lambda k_x, a_x: np.sinc(k_x * a_x / math.pi))
+bed = offered.contact_filter(BED)(lambda k_x, k_y, a_x, a_y: spring_bed_filter(k_x, k_y, semi_axes=(a_x, a_y)))
+geike = offered.profile_spectrum("Geike's rule")(lambda q, roughness: math.pi * q * roughness.c2d(q))
+trace = offered.profile_spectrum("line trace")(lambda q, roughness: roughness.line(q))
+OWN: Sequence[Offered] = (springs, ellipse, line, bed, in_1d, in_3d, half_space, geike, trace)
+
+
+class ErrorOfCall(NamedTuple):
+    """A point of the chart of error against seconds. error: the median, over the reference, of levels in dB."""
+
+    model: str
+    error: float
+    unit: str
+    seconds: float
+
+
+def error_of(kind: str, points: Sequence[JudgedPoint]) -> float:
+    """NaN where there is none."""
+    known = [abs(p.difference) for p in points if p.quantity == MAIN.get(kind) and math.isfinite(p.difference)]
+    return float(np.median(known)) if known else math.nan
+
+
+def errors() -> Iterator[Reference]:
+    """Of all of them, by their judges; half a minute."""
+    for one in OWN:
+        yield Reference({"kind": one.kind, "model": one.name}, error_of(one.kind, list(points_of(Called(one), 0.1))))
+
+
+def costs_of(model: Called, points: Sequence[JudgedPoint]) -> list[ErrorOfCall]:
+    """The model, and those of its kind, timed by the same arguments: those that it took longest for."""
+    mine = error_of(model.kind, points)
+    if not math.isfinite(mine):
+        return []
+    unit = next(point.unit for point in points if point.quantity == MAIN[model.kind])
+    given = {"rng": np.random.default_rng(0), **model.longest}
+    kept = {row.where["model"]: row.value for row in known(ERRORS, where={"kind": model.kind})}
+    others = [(kept[one.name], Called(one)) for one in OWN if one.kind == model.kind]
+    return [ErrorOfCall(one.name, error, unit, _seconds(one, given)) for error, one in [(mine, model), *others]]
+
+
+def _seconds(model: Called, given: dict[str, object]) -> float:
+    """The least of three calls; NaN of one that is not asked any more."""
+    model.calls("", [None] * 3, given)
+    return min((reply.seconds for reply in model.replies if not isinstance(reply.value, Failed)), default=math.nan)

@@ -1,0 +1,231 @@
+"""Stiffness of a rough square punch by a formula, or one of its realisations a call, beside boundary elements."""
+
+import math
+import time
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+import mdr
+from validation.analysis.multilevel import moments
+from validation.analysis.quantity import Quantity
+from validation.engine.random_numbers import random_generator
+from validation.judging import judgement
+from validation.judging.judgement import Conditions
+from validation.judging.kinds.judge import Finding, LostError, ModelAnswer, attempted, beside, rule
+from validation.judging.kinds.references import Reference, known
+from validation.judging.registry import Caller, Failed, FloatArray
+from validation.simulation.quantities import MEAN_STIFFNESS
+from validation.simulation.rough_punch import PlateauSpectrum
+
+SIDE, MODULUS, HEIGHT = 1e-2, 1e9, 1e-3
+"""L [m], E* [Pa] and h / L at which a model is asked: k / (E* L) is that of any others."""
+UNIT = MODULUS * SIDE
+"""E* L [N/m]."""
+WAVES = 64
+"""q_max / q_min of Fig. 14.1, and where nothing else is said."""
+FEWEST, FAST = 8, 5e-3
+REALISATIONS = {FAST: 100, 0.1: 20, math.inf: FEWEST}
+"""Under one load, of a model whose calls take no longer than so many seconds, but for those of a busy machine: the
+number is one of three, so that it hardly ever goes by the clock."""
+TRIED, BETWEEN = 3, 10
+"""Calls of which the fastest is counted; loads between two that are known, at which a formula must rise."""
+SEED, DRAWS = 14, 3
+EQUAL = 1e-6
+"""Relative difference of draws that are equal, but for rounding in single precision."""
+EQUAL_DRAWS, DIFFERENT_DRAWS = "rng is asked for and not used", "are different"
+H, FORCE, ROLL_OFF, BAND, FIRST = "H", "Fbar", "q_r L / 2π", "q_max / q_min", "q_min L / 2π"
+MEAN, DEVIATION = MEAN_STIFFNESS, Quantity("deviation_of_the_stiffness")
+ROLLED_OFF = Quantity("mean_stiffness_with_a_roll-off")
+BY_BAND = Quantity("deviation_of_the_stiffness_by_bandwidth", "deviation of the stiffness, by bandwidth")
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlateauRoughness(PlateauSpectrum):
+    """What a stranger gets: with its own rms height, constant below the roll-off."""
+
+    def c2d(self, q: ArrayLike) -> FloatArray:
+        """C_2D [m^4], whose integral is the mean square height; that of the draw has the level without a plateau."""
+        n, first, last, bend = -2 * self.hurst, self.q_min, self.q_max, self.q_roll_off
+        tail, plateau = (last**n - bend**n) / n, bend ** (n - 2) * (bend**2 - first**2) / 2
+        return np.asarray((last**n - first**n) / n / (plateau + tail) * super().c2d(q))
+
+
+@dataclass(frozen=True)
+class AskedPunch:
+    """One punch: H, Fbar, q_max / q_min, where it rolls off, and as many of the longest waves as are on a side."""
+
+    hurst: float
+    force: float
+    waves: int = WAVES
+    roll_off: int = 0
+    first: int = 1
+
+    @classmethod
+    def at(cls, where: Conditions) -> "AskedPunch":
+        whole = (int(where.get(name, usual)) for name, usual in ((BAND, WAVES), (ROLL_OFF, 0), (FIRST, 1)))
+        return cls(float(where[H]), float(where[FORCE]), *whole)
+
+    @property
+    def plain(self) -> bool:
+        """Whether it is one of Fig. 14.1."""
+        return self.waves == WAVES and not self.roll_off and self.first == 1
+
+    @property
+    def arguments(self) -> dict[str, Any]:
+        """Of a model, in SI units."""
+        q, rms = 2 * math.pi * self.first / SIDE, HEIGHT * SIDE
+        band = {"hurst": self.hurst, "q_min": q, "q_max": q * self.waves, "rms": rms}
+        rough = (
+            PlateauRoughness(**band, q_roll_off=2 * math.pi / SIDE * self.roll_off)
+            if self.roll_off
+            else mdr.SelfAffine(**band)
+        )
+        return {"load": load_of(self.force), "side": SIDE, "modulus": MODULUS, "roughness": rough}
+
+
+def load_of(force: float) -> float:
+    """F = Fbar E* h L [N]."""
+    return force * MODULUS * HEIGHT * SIDE**2
+
+
+class Stiffness(NamedTuple):
+    """Mean of k / (E* L), and its relative deviation where a model has one."""
+
+    mean: ModelAnswer
+    deviation: ModelAnswer | None = None
+
+
+Answers = Mapping[AskedPunch, Stiffness | Failed]
+
+
+def judged(model: Caller) -> Iterator[Finding]:
+    """Mean and deviation over Fbar and H, with a roll-off, over the bandwidth; and what every stiffness must do."""
+    rows = [known(quantity) for quantity in (MEAN, ROLLED_OFF, DEVIATION, BY_BAND)]
+    if drawn := "rng" in model.asks:
+        rows = [_fewer(some) for some in rows]
+    found = answers_of(model, dict.fromkeys(AskedPunch.at(row.where) for some in rows for row in some))
+    for some in rows:
+        yield from beside_punches(some, found)
+    if not drawn:
+        yield from _rise(model, rows[0])
+
+
+def _fewer(rows: Sequence[Reference]) -> list[Reference]:
+    """Of the lowest, the middle and the highest H; of several bandwidths every second load: each takes many calls."""
+    hursts, forces = (sorted({row[name] for row in rows}) for name in (H, FORCE))
+    kept = {hursts[0], hursts[len(hursts) // 2], hursts[-1]}
+    loads = forces[::2] if BAND in rows[0].where else forces
+    return [row for row in rows if row[H] in kept and row[FORCE] in loads]
+
+
+def beside_punches(rows: Sequence[Reference], found: Answers) -> Iterator[Finding]:
+    """Means, or deviations of models that have them."""
+    return beside(rows, [_answer(found[AskedPunch.at(row.where)], row.unit == judgement.DEVIATION) for row in rows])
+
+
+def _answer(one: Stiffness | Failed, deviates: bool) -> ModelAnswer | Failed | None:
+    if isinstance(one, Failed):
+        return None if deviates else one
+    return one.deviation if deviates else one.mean
+
+
+def answers_of(model: Caller, punches: Iterable[AskedPunch], count: int = 0) -> Answers:
+    """By a formula, or by so many realisations; by as many as its calls are fast for, where that is not said."""
+    if "rng" not in model.asks:
+        return {one: _by_formula(model, one) for one in punches}
+    punches = list(punches)
+    count = count or next(n for seconds, n in REALISATIONS.items() if seconds_of(model, punches[0]) <= seconds)
+    slow = "" if count == REALISATIONS[FAST] else ", since a call takes long"
+    found = {one: attempted(draws, model, one.arguments, count) for one in punches}
+    apart = apart_draws([some for some in found.values() if not isinstance(some, Failed)])
+    return {one: some if isinstance(some, Failed) else sampled(some / UNIT, slow, apart) for one, some in found.items()}
+
+
+def apart_draws(found: Sequence[FloatArray]) -> NDArray[np.intp]:
+    """Number of the first draw that each one is equal to, under every load: of springs pressed flat all are equal.
+
+    found: the same draws in each, one value a draw.
+    """
+    if not found:
+        return np.arange(0)
+    rows = np.array(found).T
+    rows = rows / np.maximum(np.abs(rows).max(axis=0), np.finfo(float).tiny)
+    return np.array([np.argmax(np.abs(rows - row).max(axis=1) <= EQUAL) for row in rows])
+
+
+def seconds_of(model: Caller, punch: AskedPunch) -> float:
+    """Of the fastest of a few calls."""
+
+    def once() -> float:
+        begin = time.perf_counter()
+        attempted(draws, model, punch.arguments, 1)
+        return time.perf_counter() - begin
+
+    return min(once() for _ in range(TRIED))
+
+
+def draws(model: Caller, given: Mapping[str, Any], count: int) -> FloatArray:
+    """Realisations [N/m], the same ones whatever is given. Raises LostError for one that fails."""
+    found = model.calls("rng", [random_generator(SEED, DRAWS, i) for i in range(count)], given)
+    if lost := next((one for one in found if isinstance(one, Failed)), None):
+        raise LostError(lost)
+    return np.array(found, dtype=float)
+
+
+def _by_formula(model: Caller, punch: AskedPunch) -> Stiffness | Failed:
+    value = model.call(**punch.arguments)
+    if isinstance(value, Failed):
+        return value
+    mean, *deviation = np.atleast_1d(value).tolist()
+    if not mean > 0:
+        return Failed(f"a stiffness of {mean:.3g} N/m")
+    if min(deviation, default=0.0) < 0:
+        return Failed(f"a deviation of {deviation[0]:.3g} N/m")
+    return Stiffness(ModelAnswer(mean / UNIT), *(ModelAnswer(one / mean) for one in deviation))
+
+
+def sampled(values: FloatArray, so_few: str = "", apart: NDArray[np.intp] | None = None) -> Stiffness | Failed:
+    """Mean and deviation of a sample with their errors, by the moments of the realisations.
+
+    apart: number of the first draw that each is equal to, where any are. Equal draws are one: m of them, n_1 ... n_m
+    times, have the error of n^2 / sum n_i^2 independent ones; that of one is not known.
+    """
+    if values.mean() <= 0:
+        return Failed(f"a mean stiffness of {values.mean():.3g} E* L")
+    first, times = np.unique(np.arange(values.size) if apart is None else apart, return_counts=True)
+    if first.size == 1:
+        equal = f"{values.size} equal realisations{so_few}: {EQUAL_DRAWS}"
+        mean = ModelAnswer(float(values.mean()), math.inf, equal)
+        return Stiffness(mean, ModelAnswer(math.nan, reason=f"{equal}; no deviation is known"))
+    of, records = moments(values[first], np.isfinite(values[first])), values.size**2 / float((times**2).sum())
+    deviation, count = of.log_relative_deviation, f"{values.size} realisations{so_few}"
+    if first.size < values.size:
+        count = f"{count}, of which {first.size} {DIFFERENT_DRAWS}"
+    mean = ModelAnswer(float(values.mean()), of.log_mean.half_width * math.sqrt(first.size / records), count)
+    if math.isfinite(deviation.value):
+        value = math.exp(deviation.value)
+        if first.size < FEWEST:
+            # two draws are as far from their mean: the scatter of squares is zero, and that of a few says nothing
+            return Stiffness(mean, ModelAnswer(value, math.inf, count))
+        return Stiffness(mean, ModelAnswer(value, deviation.half_width))
+    # one draw in a hundred that is apart may leave the others equal, too
+    equal = f"{values.size} equal realisations{so_few}"
+    return Stiffness(mean._replace(reason=equal), ModelAnswer(math.nan, reason=f"{equal}: no deviation is known"))
+
+
+def _rise(model: Caller, rows: Sequence[Reference]) -> Iterator[Finding]:
+    """A stiffness does not fall under a load that grows, at those that are known and, of what is fast, between them."""
+    between = BETWEEN if seconds_of(model, AskedPunch.at(rows[0].where)) <= FAST else 0
+    for hurst in dict.fromkeys(row[H] for row in rows):
+        forces = np.log([row[FORCE] for row in rows if row[H] == hurst])
+        steps = np.linspace(0, forces.size - 1, (forces.size - 1) * (between + 1) + 1)
+        given = AskedPunch(hurst, 1.0).arguments
+        loads = given["load"] * np.exp(np.interp(steps, np.arange(forces.size), forces))
+        found = [np.ravel(one)[0] for one in model.calls("load", loads.tolist(), given) if not isinstance(one, Failed)]
+        if means := [float(one) for one in found if one > 0]:
+            least = float((means / np.maximum.accumulate(means)).min())
+            yield rule("rise with the load, at the least", {H: hurst}, least, within=1e-9)

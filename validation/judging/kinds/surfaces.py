@@ -1,0 +1,101 @@
+"""Stiffness of a rough punch whose surface is given, surface by surface, beside boundary elements on the same ones."""
+
+import math
+import time
+from collections.abc import Iterator, Sequence
+from itertools import groupby, product
+
+import numpy as np
+
+from validation.analysis.statistics import FloatArray, jackknifed, ratio_of_means, student
+from validation.engine.engine import Engine
+from validation.judging import judgement
+from validation.judging.judgement import RATIO, Conditions
+from validation.judging.kinds.judge import Finding, ModelAnswer
+from validation.judging.kinds.references import Reference, known
+from validation.judging.kinds.stiffness import DEVIATION, FORCE, HEIGHT, MEAN, MODULUS, SIDE, WAVES, H, load_of
+from validation.judging.registry import Caller, Failed
+from validation.simulation.light_punch import press_lightly
+from validation.simulation.rough_punch import PunchRoughness, Surface, force_levels
+
+CELLS, SEED, TOLERANCE = 256, 14, 1e-4
+"""On a side, four to the shortest wave; of the surfaces of Fig. 14.1; residual of the solver."""
+HURSTS, SURFACES = (0.4, 0.7, 1.0), 8
+"""Surfaces of each H."""
+FORCES = force_levels((-3, 1), 3)[::2]
+SECONDS, FEWEST = 20.0, 3
+"""After so long nothing more is asked; fewer surfaces have no error bar."""
+OF_SURFACE, REALISATION = "stiffness of a surface", "surface"
+
+
+def judged(model: Caller) -> Iterator[Finding]:
+    """Each surface under each load; and mean and deviation over them, both on the same surfaces."""
+    found: dict[tuple[float, float], list[tuple[float, Reference]]] = {}
+    end = time.perf_counter() + SECONDS
+    # the first surface of each H, the second of each, and so on
+    for (realisation, hurst), rows in groupby(sorted(known(OF_SURFACE), key=_surface_of), _surface_of):
+        height = SIDE * roughness(hurst).surface(CELLS, int(realisation.split()[-1]))
+        for row in rows:
+            if time.perf_counter() > end:
+                yield Finding(row, ModelAnswer(math.nan, reason=f"not asked: {SECONDS:g} s are over"))
+                continue
+            value = model.call(height=height, spacing=SIDE / CELLS, modulus=MODULUS, load=load_of(row[FORCE]))
+            if not isinstance(value, Failed) and value > 0:
+                mine = float(value) / (MODULUS * SIDE)
+                found.setdefault((hurst, row[FORCE]), []).append((mine, row))
+                yield Finding(row, mine)
+            else:
+                yield Finding(row, value if isinstance(value, Failed) else Failed(f"a stiffness of {value:.3g} N/m"))
+    for (hurst, force), pairs in sorted(found.items()):
+        if len(pairs) >= FEWEST:
+            yield from _over_surfaces({H: hurst, FORCE: force}, pairs)
+
+
+def _surface_of(row: Reference) -> tuple[str, float]:
+    return str(row.where[REALISATION]), row[H]
+
+
+def _over_surfaces(where: Conditions, pairs: Sequence[tuple[float, Reference]]) -> Iterator[Finding]:
+    """Ratios of means and of deviations, whose scatter is that of the model beside the same surfaces."""
+    both = np.array([(value, row.value) for value, row in pairs])
+    grid = float(np.mean([row.grid for _, row in pairs]))
+
+    def log_ratio(rows: FloatArray) -> FloatArray:
+        mine, other = rows.std(axis=0, ddof=1) / rows.mean(axis=0)
+        return np.atleast_1d(np.log(max(mine, 1e-9)) - np.log(other))
+
+    ratio, (apart,) = ratio_of_means(*both.T), jackknifed(log_ratio, both)
+    for quantity, unit, (mine, exact), half in (
+        (MEAN, RATIO, both.mean(axis=0), ratio.half_width / ratio.value),
+        (DEVIATION, judgement.DEVIATION, both.std(axis=0, ddof=1) / both.mean(axis=0), min(apart.half_width, 10.0)),
+    ):
+        row = Reference(where, float(exact), grid=grid, unit=unit, quantity=quantity)
+        yield Finding(row, ModelAnswer(float(mine), half))
+
+
+def roughness(hurst: float) -> PunchRoughness:
+    """Of Fig. 14.1, in units of L = 1."""
+    return PunchRoughness(hurst=hurst, waves=(1, WAVES), height=HEIGHT, seed=SEED, common=True)
+
+
+def solved(engine: Engine) -> Iterator[Reference]:
+    """The references: k / (E* L) of each surface on the finer of two grids, in three minutes of one core.
+
+    On single surfaces the error of the cells has either sign and is of no order, where few cells touch least of all:
+    an answer on cells of no size cannot be told. As much is left as the finer grid and that which a model is given
+    differ, by the root mean square over the surfaces of one H and load, with Student's quantile.
+    """
+    groups = {
+        (hurst, cells): [
+            Surface(roughness=roughness(hurst), realisation=i, cells=cells, forces=FORCES, tolerance=TOLERANCE)
+            for i in range(SURFACES)
+        ]
+        for hurst, cells in product(HURSTS, (CELLS, 2 * CELLS))
+    }
+    found = engine.map_groups(press_lightly, groups)
+    for hurst in HURSTS:
+        coarse, fine = (np.log([one["stiffness"] for one in found[hurst, n]]) for n in (CELLS, 2 * CELLS))
+        left = student(SURFACES) * np.sqrt(np.mean((fine - coarse) ** 2, axis=0))
+        for (i, j), value in np.ndenumerate(fine):
+            where: Conditions = {H: hurst, REALISATION: f"surface {i}", FORCE: FORCES[j]}
+            yield Reference(where, math.exp(value), grid=float(left[j]))

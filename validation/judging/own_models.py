@@ -1,0 +1,274 @@
+"""Models of somebody's own as candidates of `compare`: functions with decorators, calibrated on the stored scenes.
+
+A function of a file is measured beside the answers of boundary elements that the package has. Its errors are kept in a
+store, keyed by the bytes of the file and of the modules and data that this has had from its folder. The error of a
+contact filter is known on each rail, as of those of the package.
+"""
+
+import atexit
+import math
+import time
+from collections.abc import Iterable, Mapping
+from contextlib import ExitStack, suppress
+from dataclasses import dataclass, field, replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from validation.advice.calibrated_range import CONDITIONS, HURST, beyond_spectrum
+from validation.advice.calibration import MeasuredErrors, conditions_by_kind, kind_of
+from validation.advice.calibration_answers import Group, answers_in
+from validation.advice.calibration_scenes import OTHER_SEED, CalibrationScene
+from validation.engine.engine import SERIAL, Engine, FloatArray, Outcome
+from validation.judging.entry_points import file_of
+from validation.judging.files_read import digest_of, sources_of
+from validation.judging.own_kinds import CALIBRATED, SERVED, SURFACES, filter_of, result_of
+from validation.judging.registry import Offered
+from validation.judging.worker import Called, OthersError, Visitor
+from validation.scenes.load import load_scene
+from validation.scenes.printable import quoted
+from validation.scenes.scene import Scene
+from validation.simulation.method import Resolution, Result
+from validation.simulation.model import Cost, ErrorEstimate, Model, Target, model
+from validation.simulation.sampling import distance
+
+CALL = 1e-4
+"""Seconds of a realisation where none was timed."""
+FEWEST_SCENES = 20
+"""On which a model must have an answer, for its error to be known."""
+NOT_IN_KEY = (
+    "by the bytes of the file and of what it has from its folder; environment variables, random seeds, time, network, "
+    "other programs, files elsewhere and those that C code reads are no part of that: with others take another --store"
+)
+"""What kept errors are known by."""
+VISITORS: dict[tuple[Path, str], Visitor] = {}
+"""Processes of files, by what these had been when they were run."""
+RUNNING = ExitStack()
+atexit.register(RUNNING.close)
+
+
+class ChangedError(OSError):
+    """A file was changed while its models were compared: no failure of a model, so that nothing of it is stored."""
+
+
+@dataclass(frozen=True)
+class OwnErrors:
+    """Of one model beside the answers of one kind of scene and quantity.
+
+    digest: of the answers; measured: None where a model answers too few scenes; seconds: of the
+    fastest realisation, rounded up to a power of ten, so that the order of models does not go with what else runs.
+    """
+
+    digest: str
+    measured: MeasuredErrors | None = field(repr=False)
+    seconds: float = field(repr=False)
+
+
+@dataclass(frozen=True)
+class OwnModel:
+    """A function of somebody's own, as workers get it.
+
+    digest: of its file and of the modules and data that this has had; empty for a function without a file, which is
+    neither calibrated nor stored. path, sources: of the file; function: of this process, in the place of its file;
+    errors: by kind of scene and quantity.
+    """
+
+    kind: str
+    name: str
+    asks: tuple[str, ...]
+    digest: str
+    path: Path | None = field(default=None, repr=False)
+    sources: tuple[Path, ...] = field(default=(), repr=False)
+    function: Offered | None = field(default=None, repr=False)
+    errors: Mapping[Group, OwnErrors] = field(default_factory=dict, compare=False)
+
+    @property
+    def serves(self) -> str:
+        """In words."""
+        return f"{quoted(self.name)} (@{self.kind}) serves {SERVED[self.kind].what}"
+
+    def called(self) -> Called:
+        """Raises ChangedError where a file was changed since."""
+        if self.function is not None:
+            return Called(self.function)
+        assert self.path is not None  # in the place of a function
+        self.check_unchanged()
+        key = self.path, self.digest
+        visitor = VISITORS[key] = VISITORS.get(key) or RUNNING.enter_context(Visitor(self.path))
+        return next(one for one in visitor.callers() if one.name == self.name)
+
+    def check_unchanged(self) -> None:
+        """Raises ChangedError where its file, or a module or data of that, has other bytes than at first."""
+        if self.path is not None and digest_of(self.sources) != self.digest:
+            raise ChangedError(f"{self.path.name}, or what it reads, was changed while its models were compared")
+
+    def model(self) -> Model:
+        """Of the house."""
+        of = SERVED[self.kind]
+        about = {"name": self.name, "setting": f"@{self.kind}", "serves": of.serves, "charted": False}
+        return model(cost=self._cost, claim=self._claim, **about)(self._solve)
+
+    def _solve(self, target: Target, resolution: Resolution) -> Result:
+        found = result_of(self.called(), target, self._sample(target)[0])
+        # a process that had to be started again has run the file once more
+        self.check_unchanged()
+        return found
+
+    def _sample(self, target: Target) -> tuple[int, float]:
+        return SERVED[self.kind].sample(self.asks, target)
+
+    def _cost(self, target: Target, resolution: Resolution) -> Cost:
+        (count, _), known = self._sample(target), self.errors.get(_group(target))
+        return Cost(work=count, seconds=count * (known.seconds if known else CALL))
+
+    def _claim(self, of: Model, target: Target, resolution: Resolution) -> ErrorEstimate:
+        """As measured, what the sample leaves, and what one measured surface has beside all that have its spectrum."""
+        if self.kind == "contact_filter":
+            try:
+                a3 = SERVED[self.kind].rows(self.called(), target, 1)
+            except (ValueError, ArithmeticError) as problem:
+                return ErrorEstimate.out_of_range(str(problem))
+            return filter_of(self.name, a3).claim(of, target, resolution)
+        known, own = self.errors.get(_group(target)), SERVED[self.kind].own
+        if known is None or known.measured is None:
+            return ErrorEstimate.out_of_range(self.unknown(known))
+        ground = target.scene.ground
+        of_spectrum = beyond_spectrum(ground) if own is not None else ""
+        if reason := of_spectrum or (_group(target)[0] in ("rolling", "wheel") and target.rolling.no_answer):
+            return ErrorEstimate.out_of_range(reason)
+        found = known.measured.estimate(conditions_by_kind(target)[1])
+        scatters = own or 0.0 if ground.is_single else 0.0
+        # a distance of logarithms: 0.7 of what is right is off by 43 % of itself
+        return replace(found, model=math.expm1(found.model) + scatters, sample=self._sample(target)[1])
+
+    def unknown(self, known: OwnErrors | None) -> str:
+        """Why an error is unknown."""
+        if self.kind == "contact_filter":
+            return "its error is known on each rail, beside linear theory"
+        if not self.digest:
+            return "a function without a file is not calibrated: its error is unknown"
+        if known is None:
+            return "no answers of boundary elements are stored for such scenes: its error is unknown"
+        return f"it answers fewer than {FEWEST_SCENES} scenes of the calibration: its error is unknown"
+
+
+def group_of(scene: Scene, quantity: str) -> Group:
+    """Which answers a model of it is measured beside; of rails there are none."""
+    return kind_of(Target(scene, quantity)), quantity
+
+
+def _group(target: Target) -> Group:
+    return group_of(target.scene, target.quantity)
+
+
+def models_in(file: str | Path) -> list[OwnModel]:
+    """What a file offers to scenes, or an installed package under that name, none of it calibrated yet.
+
+    The file is run as a program. Raises OthersError for a broken one and one without such a model, OSError where it
+    cannot be read.
+    """
+    path = RUNNING.enter_context(file_of(file))
+    visitor = RUNNING.enter_context(Visitor(path))
+    callers = [one for one in visitor.callers() if one.kind in SERVED]
+    for one in callers:
+        _probe(one)
+    VISITORS[visitor.path, visitor.digest] = visitor
+    if not callers:
+        raise OthersError(f"{path.name}: no function serves a scene, as @{', @'.join(SERVED)} do")
+    files = {"digest": visitor.digest, "path": visitor.path, "sources": visitor.sources}
+    return [OwnModel(one.kind, one.name, one.asks, **files) for one in callers]  # type: ignore[arg-type]
+
+
+def _probe(called: Called) -> None:
+    """On a scene of each kind: a function may load modules and data of its folder when it is called."""
+    drawn = [_first_of(group).target() for group in (("punch", "stiffness"), ("rolling", "force-rms"))]
+    for target in (*drawn, Target(load_scene("rail"), "contact-filter")):
+        if SERVED[called.kind].serves(target.scene, target.quantity):
+            with suppress(ValueError, ArithmeticError):
+                result_of(called, target, 1)
+
+
+def of_functions(functions: Iterable[Offered], scene: Scene, quantity: str) -> tuple[OwnModel, ...]:
+    """Functions of this process, those of files calibrated. Raises TypeError for a kind that has no scenes."""
+    found = []
+    for one in functions:
+        if one.kind not in SERVED:
+            raise TypeError(f"models must be of @{', @'.join(SERVED)}, got {quoted(one.name)} of @{one.kind}")
+        own = OwnModel(one.kind, one.name, one.asks, _digest_of_file(one), function=one)
+        found.append(calibrated(own, [group_of(scene, quantity)]))
+    return tuple(found)
+
+
+def _digest_of_file(offered: Offered) -> str:
+    """Of that which defines a function, and of what is loaded from its folder; empty where there is none."""
+    path = Path(getattr(getattr(offered.function, "__code__", None), "co_filename", ""))
+    return digest_of(sources_of(path)) if path.is_file() else ""
+
+
+@dataclass(frozen=True)
+class OwnPart:
+    """What is measured: a model beside the answers of a group; digest: of these."""
+
+    own: OwnModel
+    group: Group
+    digest: str
+
+
+def calibrated(own: OwnModel, groups: Iterable[Group] | None = None, engine: Engine = SERIAL) -> OwnModel:
+    """With its errors of these groups, or of all, for which answers are stored; those that are known are taken."""
+    stored = answers_in()
+    parts = [
+        OwnPart(own, group, stored[group].digest)
+        for group in (stored if groups is None else groups)
+        if own.digest and group in stored and SERVED[own.kind].serves(_first_of(group).scene, group[1])
+    ]
+    return replace(own, errors={part.group: _errors(part, engine) for part in parts})
+
+
+def _first_of(group: Group) -> CalibrationScene:
+    return CalibrationScene(kind=group[0], number=0, quantity=group[1], seed=0)
+
+
+@cache
+def _errors(part: OwnPart, engine: Engine) -> OwnErrors:
+    (outcome,) = engine.map(measure_own, [part])
+    known, measured = np.isfinite(outcome["error"]), None
+    if known.sum() >= FEWEST_SCENES:
+        every = [conditions_by_kind(point.target())[1] for point, *_ in answers_in()[part.group].scenes(part.group)]
+        names = tuple(name for name in CONDITIONS if name in every[0])
+        at = np.array([[one[name] if name == HURST else math.log10(one[name]) for name in names] for one in every])
+        measured = MeasuredErrors(names, at[known], outcome["error"][known], np.ones(known.sum()))
+    return OwnErrors(part.digest, measured, float(outcome["seconds"]))
+
+
+def measure_own(part: OwnPart) -> Outcome:
+    """Distance from boundary elements on each scene, NaN where the model has no answer; seconds of a realisation."""
+    called, errors, seconds, answers = part.own.called(), [], [], answers_in()[part.group]
+    for (point, value, each), reference in zip(answers.scenes(part.group), answers.reference, strict=True):
+        begin = time.perf_counter()
+        error, count = _error(called, point, value, each)
+        seconds.append((time.perf_counter() - begin) / count)
+        # no model is known to be nearer than what it is measured beside, not even one that was fitted to that
+        errors.append(np.maximum(error, reference))
+    part.own.check_unchanged()
+    return {"error": np.array(errors), "seconds": np.array(10.0 ** math.ceil(math.log10(min(seconds))))}
+
+
+def _error(called: Called, point: CalibrationScene, value: FloatArray, each: FloatArray) -> tuple[float, int]:
+    """And of how many realisations: on the surfaces of the reference where a model is given them."""
+    of = SERVED[called.kind]
+    target = point.target(seed=OTHER_SEED if of.given else 0)
+    most = min(SURFACES, len(each)) if of.given else CALIBRATED
+    count = min(most, of.sample(called.asks, target)[0])
+    try:
+        found = result_of(called, target, count).values[point.quantity]
+    except (ValueError, ArithmeticError):
+        return math.nan, 1
+    truth = _mean(each[:count], point.quantity) if of.given else value
+    return distance(_mean(found, point.quantity), truth), count
+
+
+def _mean(rows: FloatArray, quantity: str) -> FloatArray:
+    """As of a sample: of a stiffness itself, of levels of their logarithms."""
+    return np.asarray(rows.mean(axis=0) if quantity == "stiffness" else np.exp(np.log(rows).mean(axis=0)))

@@ -1,0 +1,324 @@
+"""What a wrong pressure may be the answer of: each cause with the part of the error that it explains on one problem."""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage, optimize
+
+from validation.benchmarks.discrete import ContactProblem, KnownContact, pressed
+from validation.judging.registry import FloatArray
+from validation.judging.solvers.properties import OF_ANSWER, Way, apart
+from validation.judging.solvers.wrong_operators import Operator, dense, operators
+
+SAME, SMALL = 1e-6, 0.25
+"""In L2: pressures that are one; of the largest pressure: what may have been clipped."""
+TOUCHING, ENOUGH_CELLS, DENSE, ALIKE = 1e-3, 12, 900, 10.0
+"""Part of the largest pressure; cells to which three numbers may be fitted; cells of a matrix; residuals of two answers
+that are one."""
+
+
+@dataclass(frozen=True, eq=False)
+class JudgedContact:
+    """A problem with the pressure of a solver, and what the error of that may come from.
+
+    residual: that the solver names; earlier: problems that it was asked before, with their pressures.
+    """
+
+    problem: ContactProblem
+    pressure: FloatArray
+    by_force: bool
+    residual: float
+    earlier: Sequence[tuple[ContactProblem, FloatArray]] = field(default=(), repr=False)
+
+    def under(
+        self,
+        problem: ContactProblem | None = None,
+        pressure: FloatArray | None = None,
+        displacement: FloatArray | None = None,
+    ) -> float:
+        """What is left of the conditions of another problem, of another pressure, or by another operator."""
+        p = self.pressure if pressure is None else pressure
+        with np.errstate(all="ignore"):
+            worst = (problem or self.problem).worst(p, self.by_force, displacement)
+        return math.inf if math.isnan(worst) else worst
+
+    @cached_property
+    def left(self) -> float:
+        return self.under()
+
+    @property
+    def is_right(self) -> bool:
+        return self.left <= self.residual
+
+    def explained(self, left: float) -> float:
+        """The part of the error that a cause explains under which so much is left: all, where it is the residual.
+
+        Of a right answer: one where it is right under the cause, too.
+        """
+        if self.is_right:
+            return float(left <= ALIKE * self.residual)
+        over = max(left - self.residual, 0.0)
+        return max(1 - over / (self.left - self.residual), 0.0) if over < self.left - self.residual else 0.0
+
+    def explained_by(self, pressure: FloatArray) -> float:
+        """The part of the distance to the answer that another pressure leaves out; of a right answer as `explained`."""
+        if self.is_right:
+            return float(apart(self.pressure, pressure) <= ALIKE * OF_ANSWER * self.residual)
+        with np.errstate(all="ignore"):
+            found = 1 - apart(self.pressure, pressure) / apart(self.pressure, self.answer)
+        return max(float(found), 0.0) if math.isfinite(found) else 0.0
+
+    @cached_property
+    def answer(self) -> FloatArray:
+        """By our solver, where the pressure is not right itself; NaN where it has none."""
+        if self.is_right:
+            return self.pressure
+        if isinstance(self.problem, KnownContact):
+            return self.problem.pressure
+        load = {"force": self.problem.force} if self.by_force else {"approach": self.problem.approach}
+        try:
+            return pressed(self.problem, 1e-9, **load).pressure
+        except (ValueError, RuntimeError):
+            return np.full_like(self.pressure, math.nan)
+
+    @property
+    def off(self) -> float:
+        """Of the pressure, in L2 over the answer."""
+        return apart(self.pressure, self.answer)
+
+    @cached_property
+    def touching(self) -> NDArray[np.bool_]:
+        return np.asarray(self.pressure > TOUCHING * self.pressure.max())
+
+
+Explaining = Callable[[], float]
+Causes = Iterator[tuple[str, Explaining]]
+"""Names of causes, each with what finds the part of the error that it explains."""
+
+
+def causes(contact: JudgedContact) -> Causes:
+    """All that have no number of their own, the more specific first; nothing is computed before it is asked for."""
+    yield "negative pressures: p >= 0 is not held", partial(_by_tension, contact)
+    yield "all of the force in one cell", partial(_by_single_cell, contact)
+    for name, operator in operators(contact.problem):
+        yield name, partial(_by_operator, contact, operator)
+    for other, pressure in contact.earlier:
+        if pressure.shape == contact.pressure.shape and not is_same(other, contact.problem):
+            yield "the answer of another problem", partial(_by_earlier, contact, pressure)
+    yield "an operator that is kept from an earlier call on as many cells", partial(_by_kept_operator, contact)
+    for name, problem in _other_problems(contact.problem):
+        yield name, partial(_by_problem, contact, problem)
+    for name, put_back in _other_pressures(contact.pressure.shape):
+        yield name, partial(_by_pressure, contact, put_back)
+    for name, spoil in _spoiled_answers(contact):
+        yield name, partial(_by_spoiled, contact, spoil)
+    yield "the same pressure in all cells", partial(_by_evenness, contact)
+    yield "each cell by itself: springs without a half-space", partial(_by_fit, contact, iterations=0)
+    yield "one iteration from an even pressure", partial(_by_fit, contact, iterations=1)
+
+
+def is_same(problem: ContactProblem, other: ContactProblem) -> bool:
+    """Whether two are one, told twice; an approach may be NaN in both."""
+    mine, others = ((*one.spacing, one.modulus, one.force, one.approach, one.periodic) for one in (problem, other))
+    return bool(np.array_equal(problem.gap, other.gap) and np.array_equal(mine, others, equal_nan=True))
+
+
+def _by_single_cell(contact: JudgedContact) -> float:
+    """Where the contact has more cells, or the cell is another one; its force is held."""
+    p = contact.pressure
+    if contact.is_right:
+        return float(np.count_nonzero(contact.answer) == 1)
+    held = abs(contact.problem.force_of(p) / contact.problem.force - 1) <= contact.residual or not contact.by_force
+    return float(held and np.count_nonzero(p) == 1)
+
+
+def _by_tension(contact: JudgedContact) -> float:
+    """Where nothing but the sign is wrong, all other conditions hold, or all without the negative pressures."""
+    left, p = contact.problem.left(contact.pressure, contact.by_force)[0], contact.pressure
+    if contact.is_right or p.min() >= -contact.residual * np.abs(p).max():
+        return float(contact.is_right)
+    rest = max(value for name, value in left.items() if name != "tension")
+    part = contact.explained(rest) if math.isfinite(rest) else 0.0
+    return max(part, contact.explained(contact.under(pressure=p.clip(0))))
+
+
+def _by_operator(contact: JudgedContact, operator: Operator) -> float:
+    with np.errstate(all="ignore"):
+        return contact.explained(contact.under(displacement=operator(contact.problem, contact.pressure)))
+
+
+def _by_earlier(contact: JudgedContact, pressure: FloatArray) -> float:
+    """The very pressure that was returned before, or that times a number."""
+    if contact.is_right:
+        return 1.0
+    scaled = float((pressure * contact.pressure).sum()) / float((pressure**2).sum()) * pressure
+    return float(apart(contact.pressure, scaled) < SAME < apart(contact.answer, scaled))
+
+
+def _by_kept_operator(contact: JudgedContact) -> float:
+    problem = contact.problem
+    kept = {
+        (other.spacing, other.modulus, other.periodic)
+        for other, pressure in contact.earlier
+        if pressure.shape == contact.pressure.shape
+    } - {(problem.spacing, problem.modulus, problem.periodic)}
+    others = [
+        replace(problem, spacing=spacing, modulus=modulus, periodic=periodic) for spacing, modulus, periodic in kept
+    ]
+    # with its cells, by its kernel alone, and by that for the right modulus
+    parts = [_by_problem(contact, other) for other in others]
+    for other in (*others, *(replace(other, modulus=problem.modulus) for other in others)):
+        parts.append(contact.explained(contact.under(displacement=other.half_space.displacement(contact.pressure))))
+    return max(parts, default=float(contact.is_right))
+
+
+def _by_problem(contact: JudgedContact, problem: ContactProblem) -> float:
+    return contact.explained(contact.under(problem))
+
+
+def _by_pressure(contact: JudgedContact, put_back: Way) -> float:
+    pressure = put_back(contact.pressure)
+    return contact.explained(contact.under(pressure=pressure)) if pressure.shape == contact.pressure.shape else 0.0
+
+
+def _by_spoiled(contact: JudgedContact, spoil: Way) -> float:
+    answer = contact.answer
+    return contact.explained_by(spoil(answer)) if np.isfinite(answer).all() else 0.0
+
+
+def _other_problems(problem: ContactProblem) -> Iterator[tuple[str, ContactProblem]]:
+    gap, (n, m) = problem.gap, problem.gap.shape
+    yield "the sign of the gap: heights for gaps", replace(problem, gap=-gap)
+    far = gap.max() + 1e3 * (np.ptp(gap) + abs(problem.approach if math.isfinite(problem.approach) else 0.0))
+    if min(n, m) > 2:
+        for name, inner in {
+            "cells of the boundary excluded": (slice(1, -1), slice(1, -1)),
+            "cells of the boundary of axis 0 excluded": (slice(1, -1), slice(None)),
+            "cells of the boundary of axis 1 excluded": (slice(None), slice(1, -1)),
+            "two cells of the boundary excluded": (slice(2, -2), slice(2, -2)),
+            "the last row and column excluded": (slice(None, -1), slice(None, -1)),
+            "the last row excluded": (slice(None, -1), slice(None)),
+            "the last column excluded": (slice(None), slice(None, -1)),
+            "the first row and column excluded": (slice(1, None), slice(1, None)),
+        }.items():
+            left = np.full_like(gap, far)
+            left[inner] = gap[inner]
+            yield name, replace(problem, gap=left)
+    if m > 1 and n > 1:
+        yield "the first row for the whole gap", replace(problem, gap=np.broadcast_to(gap[:1], gap.shape))
+        yield "the first column for the whole gap", replace(problem, gap=np.broadcast_to(gap[:, :1], gap.shape))
+        yield "the middle row for the whole gap", replace(problem, gap=np.broadcast_to(gap[n // 2], gap.shape))
+    dx, dy = problem.spacing
+    if dx != dy:
+        # by the kernel and by the area of a cell
+        yield "square cells, dx for dy", replace(problem, spacing=(dx, dx))
+        yield "square cells, dy for dx", replace(problem, spacing=(dy, dy))
+    yield "the gap smoothed", replace(problem, gap=smoothed(gap, problem.periodic))
+
+
+def smoothed(values: FloatArray, periodic: bool) -> FloatArray:
+    """By 1 2 1 along each axis."""
+    for axis in (0, 1):
+        values = ndimage.convolve1d(values, [0.25, 0.5, 0.25], axis, mode="wrap" if periodic else "nearest")
+    return np.asarray(values)
+
+
+def _other_pressures(shape: tuple[int, ...]) -> Iterator[tuple[str, Way]]:
+    """What would be right were the returned pressure so put back."""
+    n, m = shape
+    yield "transposed", lambda p: p.T
+    yield "rows and columns exchanged in memory", lambda p: p.ravel().reshape((n, m), order="F")
+    yield "rows and columns exchanged in memory", lambda p: p.ravel(order="F").reshape((n, m))
+    yield "flipped along axis 0", lambda p: p[::-1]
+    yield "flipped along axis 1", lambda p: p[:, ::-1]
+    yield "flipped along both axes", lambda p: p[::-1, ::-1]
+    yield "a pressure is added in all cells", lambda p: p - p.min() if np.ptp(p) else p
+    yield "turned by a quarter", np.rot90
+    yield "turned by a quarter", lambda p: np.rot90(p, -1)
+    for cells in (1, -1, 2, -2):
+        for where, axes in {"along axis 0": (0,), "along axis 1": (1,), "along both axes": (0, 1)}.items():
+            name = f"shifted by {cells} cell{'s' if abs(cells) > 1 else ''} {where}"
+            yield name, partial(np.roll, shift=[-cells] * len(axes), axis=axes)
+    yield "shifted by half of the grid: fftshift", np.fft.ifftshift
+    yield "shifted by half of the grid: fftshift", np.fft.fftshift
+
+
+def _spoiled_answers(contact: JudgedContact) -> Iterator[tuple[str, Way]]:
+    """What may have been done to the answer."""
+    p, mode = contact.pressure, "wrap" if contact.problem.periodic else "constant"
+
+    def to_force(pressure: FloatArray) -> FloatArray:
+        return np.asarray(pressure * (p.sum() / pressure.sum()))
+
+    def cut(answer: FloatArray) -> FloatArray:
+        lost = answer[(p <= 0) & (answer > 0)]
+        return np.where(p > 0, answer, 0) if lost.size and lost.max() < SMALL * answer.max() else math.nan * answer
+
+    def clipped(_: FloatArray) -> FloatArray:
+        small = p.size <= DENSE and not contact.problem.periodic
+        return bilateral(contact.problem, contact.by_force).clip(0) if small else np.full_like(p, math.nan)
+
+    def blurred(answer: FloatArray, weights: Sequence[float]) -> FloatArray:
+        for axis in (0, 1):
+            answer = ndimage.convolve1d(answer, weights, axis, mode=mode)
+        return np.asarray(answer)
+
+    restored = " and the force is not restored" if contact.by_force else ""
+    yield f"small pressures are clipped to zero{restored}", cut
+    yield "small pressures are clipped to zero and all others are scaled", lambda answer: to_force(cut(answer))
+    yield "pressure outside of the contact", lambda answer: np.where(answer > 0, answer, p)
+    yield "pressures are cut at a largest value", lambda answer: np.minimum(answer, p.max())
+    yield f"negative pressures are clipped once{restored}", clipped
+    yield "negative pressures are clipped once and all others are scaled", lambda answer: to_force(clipped(answer))
+    for axis in (0, 1):
+        for cells in (1, -1):
+            half = f"shifted by {cells / 2:g} cells along axis {axis}, or smoothed along it"
+            yield half, lambda answer, cells=cells, axis=axis: (answer + np.roll(answer, cells, axis)) / 2  # type: ignore[misc]
+    for weights in ([0.25, 0.5, 0.25], [0.1, 0.8, 0.1], [1 / 3] * 3, [0.2] * 5):
+        yield "smoothed pressures", partial(blurred, weights=weights)
+        yield "smoothed pressures", lambda answer, weights=weights: to_force(blurred(answer, weights))  # type: ignore[misc]
+    for edge in (mode, "reflect", "wrap"):
+        yield "smoothed pressures", partial(most_alike, pressure=p, mode=edge)
+
+
+def most_alike(answer: FloatArray, pressure: FloatArray, mode: str) -> FloatArray:
+    """The answer smoothed by that Gaussian of 0.3 to 4 cells which brings it nearest to a pressure."""
+
+    def smoothed_by(sigma: float) -> FloatArray:
+        return np.asarray(ndimage.gaussian_filter(answer, sigma, mode=mode))
+
+    best = optimize.minimize_scalar(
+        lambda sigma: apart(smoothed_by(sigma), pressure), bounds=(0.3, 4.0), method="bounded", options={"xatol": 1e-3}
+    )
+    return smoothed_by(float(best.x))
+
+
+def bilateral(problem: ContactProblem, by_force: bool) -> FloatArray:
+    """The pressure without p >= 0, of a free half-space [Pa]."""
+    inverse = np.linalg.solve(dense(problem), np.stack([np.ones(problem.gap.size), problem.gap.ravel()], axis=1))
+    held = (problem.force / math.prod(problem.spacing) + inverse[:, 1].sum()) / inverse[:, 0].sum()
+    approach = held if by_force else problem.approach
+    return np.asarray((approach * inverse[:, 0] - inverse[:, 1]).reshape(problem.gap.shape))
+
+
+def _by_evenness(contact: JudgedContact) -> float:
+    return float(np.ptp(contact.pressure) <= SAME * contact.pressure.max())
+
+
+def _by_fit(contact: JudgedContact, iterations: int) -> float:
+    """By a pressure that is linear in the gap, and after an iteration in the displacement of an even one."""
+    p, c, gap = contact.pressure, contact.touching, contact.problem.gap
+    if contact.is_right or np.count_nonzero(c) < ENOUGH_CELLS or np.ptp(gap) == 0:
+        return float(contact.is_right)
+    even = contact.problem.half_space.displacement(np.full_like(p, p.mean()))
+    # of a periodic half-space it is zero
+    fields = [field for field in (gap, even)[: 1 + iterations] if np.ptp(field) > SAME * np.ptp(gap)]
+    columns = np.stack([np.ones(np.count_nonzero(c)), *(field[c] / np.ptp(field) for field in fields)])
+    numbers, *_ = np.linalg.lstsq(columns.T, p[c], rcond=None)
+    fitted = np.where(c, 0.0, p)
+    fitted[c] = numbers @ columns
+    return contact.explained_by(fitted)

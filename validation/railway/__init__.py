@@ -1,0 +1,13 @@
+"""A wheel on a real rail."""
+
+COMMANDS = {"sound": "write what a wheel on a rail sounds like by each model, as WAV files with one gain"}
+BRINGS = {
+    "scene": "validation.railway.scenes.rail_file:RailReader",
+    "scenes": "validation.railway.scenes",
+    "quantities": "validation.railway.scenes.rail:QUANTITIES",
+    "exports": "validation.railway.options:CNOSSOS",
+    "edge_scenes": "validation.railway.cases.edge_scenes:EDGES",
+    "questions": "validation.railway.questions:QUESTIONS",
+    "alternatives": "validation.railway.questions:ALTERNATIVES",
+    "front_page": "validation.railway.front_page",
+}

@@ -1,0 +1,1 @@
+"""Cases of a wheel on a real rail."""

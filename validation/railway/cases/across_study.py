@@ -1,0 +1,232 @@
+"""What lies across a rail decides its contact filter: what the case says, and tables that can be used without us."""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from validation.analysis.case import Case, Chapter
+from validation.analysis.chart import Chart, Curve, Panel
+from validation.analysis.claims import Claim, Matrix
+from validation.analysis.evidence import Table, Whose, table_of
+from validation.analysis.printed import decibels
+from validation.analysis.quantity import Quantity
+from validation.analysis.series import Series
+from validation.analysis.statistics import Interval
+from validation.analysis.study import Study
+from validation.railway.cases import across, filters
+from validation.railway.cases.across import GROUND, WHEEL, AcrossResult
+from validation.railway.cases.filters import COUNTED, GROUNDS, OFFSET, counted, linear_filter
+from validation.railway.cases.rolled_filters import A3, OVER_BEM, WAVE
+from validation.railway.problems.rail_strip import SHORTEST
+from validation.simulation.model_names import BED, BEM, LINEAR, LINEAR_ON_LINE
+
+Found = dict[tuple[str, str], list[float]]
+LACKING = Quantity("what_to_add_to_A3_of_one_line_dB", "what to add to A3 of one line [dB]")
+STANDS = Quantity("what_stands_for_what_lies_across")
+BORDERS = Quantity("up_to_which_alpha_one_line_is_enough")
+LOUDER = Quantity(
+    "rms_force_over_that_of_boundary_elements_dB_A_two_speeds",
+    "rms force over that of boundary elements [dB(A)], two speeds",
+)
+
+
+def tables(result: AcrossResult) -> tuple[Table, ...]:
+    """For the first wheel the sums in dB(A) and what one line lacks; for all wheels borders, and what mends springs."""
+    wheel = result.case.smooth[0][0].label
+    rows: dict[str, dict[str, object]] = {}
+    for one in _smooth(result, across.WEIGHTED):
+        if one.where[WHEEL] == wheel:
+            rows.setdefault(one.model, {"model": one.model})[str(one.where[GROUND])] = " / ".join(
+                f"{round(_value(found), 1) + 0.0:+.1f}" for found in one.found
+            )
+    return table_of(LOUDER, list(rows.values())), *_borders(result), _stands(result), _lacking(result)
+
+
+def _smooth(result: AcrossResult, quantity: str) -> Iterator[Series]:
+    return (one for one in result.series if one.quantity == quantity and one.where.get(OFFSET, 0.0) == 0.0)
+
+
+def _value(found: object) -> float:
+    return found.value if isinstance(found, Interval) else float(found)  # type: ignore[arg-type]
+
+
+def _borders(result: AcrossResult) -> Iterator[Table]:
+    rows: dict[object, dict[str, object]] = {}
+    for one in _smooth(result, across.BORDER):
+        row = rows.setdefault(one.where[WHEEL], {WHEEL: one.where[WHEEL]})
+        of_ways = zip(one.at, one.found, strict=True)
+        row.update({f"{tolerance:g} dB {one.model}": _border(alpha) for tolerance, alpha in of_ways})
+    if rows:
+        yield table_of(BORDERS, list(rows.values()))
+
+
+def _border(alpha: object) -> str:
+    assert isinstance(alpha, Interval)
+    first, last = across.FINE_ALPHAS[[0, -1]]
+    if not first < alpha.value < last:
+        return f"{last:g} and more" if alpha.value >= last else f"{first:g} and less"
+    # rounded up
+    return f"{alpha.value:.2f} ± {math.ceil(100 * alpha.half_width) / 100:.2f}"
+
+
+def _stands(result: AcrossResult) -> Table:
+    """Over all wheels: the wave down to which a bed is within 1 dB, its nearest factor, Remington's nearest alpha."""
+    reach, nearest, left = (_of_wheels(result, name) for name in (across.REACH, across.NEAREST, across.LEFT))
+    return table_of(
+        STANDS,
+        [
+            {
+                GROUND: ground,
+                "DPRS, 1 dB down to [mm]": float(np.max(reach[BED, ground])),
+                "wider by 2/√3, 1 dB down to [mm]": float(np.max(reach[filters.BED_WIDER, ground])),
+                "nearest factor": _ends(nearest[across.FACTOR_OF, ground], ".2f"),
+                "nearest alpha of Remington": _ends(nearest[across.ALPHA_OF, ground], ".1f"),
+                "which leaves [dB]": _ends(left[across.ALPHA_OF, ground], ".1f"),
+            }
+            for ground in result.case.across
+        ],
+    )
+
+
+def _of_wheels(result: AcrossResult, quantity: str) -> Found:
+    found: Found = {}
+    for one in _smooth(result, quantity):
+        found.setdefault((one.model, str(one.where[GROUND])), []).append(_value(one.found[0]))
+    return found
+
+
+def _ends(values: Sequence[float], digits: str) -> str:
+    return f"{min(values):{digits}} to {max(values):{digits}}"
+
+
+def _lacking(result: AcrossResult) -> Table:
+    """A3 of the ellipse over that of one line, in the bands that count over each ground."""
+    scene = result.case.scene(result.case.smooth[0])
+    line, waves = linear_filter(scene, LINEAR_ON_LINE, "ridges"), filters.millimetres(scene.levels.bands)
+    shown = np.flatnonzero(counted(line) & (line < -0.05))
+    columns = {WAVE: waves[shown], "one line": line[shown].round(1)}
+    for name in result.case.across:
+        a3 = linear_filter(scene, LINEAR, GROUNDS[name])
+        columns[name] = np.where(counted(a3), a3 - line, np.nan)[shown].round(1) + 0.0
+    return Table(LACKING, {name: column.tolist() for name, column in columns.items()})
+
+
+def notes(result: AcrossResult) -> list[str]:
+    """Borders over all wheels, and what isotropic ground is alike."""
+    said = []
+    for way in across.WAYS:
+        if mine := [one for one in _smooth(result, across.BORDER) if one.model == way]:
+            near, far = (_by_wheel([one.found[i] for one in mine]) for i in (0, 1))
+            said.append(f"One line is within 1 dB {way} up to alpha = {near}; within 2 dB up to {far}.")
+    if alike := [one.found[0] for one in _smooth(result, across.NEAREST) if one.model == across.ALIKE]:
+        said.append(f"The alpha whose contact filter is nearest to that of isotropic ground is {_by_wheel(alike)}.")
+    return said
+
+
+def _by_wheel(found: Sequence[object]) -> str:
+    least, most = (of(found, key=_value) for of in (min, max))
+    return _border(least) if least is most else f"{_border(least)} to {_border(most)}, by wheel"
+
+
+OF_FIRST = {WHEEL: "first", OFFSET: 0.0}
+from_ridges = Claim(quantity=OVER_BEM, model=LINEAR_ON_LINE, along=GROUND, printed=decibels)
+STUDY = Study(
+    title="What lies across a rail decides its contact filter",
+    method=(
+        "Lines have the levels of ISO 3095:2013; their waves cross the rail as ridges, with |k_y| < alpha k_x "
+        "uniformly, or as on isotropic ground. Wheels ({c.labels}) roll under constant load on a crown of {c.crown:g} "
+        "m, {c.rougher[1]} of them also on rails {c.rougher[0]:g} dB rougher, {c.rougher[2]} strips. Boundary elements "
+        "have {c.cells} cells to the smaller semi-axis, on {c.strips} strips a ground, each upside down too. "
+        "Strips are drawn as wide as oblique long waves need, and rolled over along their middle; roughness ends at "
+        f"{SHORTEST:g} a_x. Linear filters are integrals; A3 of boundary elements is that of linear theory of the "
+        "ellipse and what they are over it on the same strips. One line: springs with R_1 = a_x²/d, "
+        "E_1 = 3F / (4 a_x d). DPRS: a bed of springs, 2 J_1(S) / S. Remington: the same on the circle of equal area. "
+        f"Bands count down to the first in which A3 of linear theory is below {COUNTED:g} dB: near the zeros beyond it "
+        "one-third octaves move by decibels. In dB(A): the rms force of a constant spring that follows the equivalent "
+        "roughness, 2000 to 0.8 mm, A-weighted at f = v / lambda; no mobility of wheel or track, so of use for "
+        "differences between filters alone. The table of CNOSSOS-EU, in the edition of "
+        "(EU) 2021/1226, is an overlay: it tells no ground, and as far as "
+        "we recall it came from runs of DPRS. Its -1.3 dB at 40 mm, between -1.1 and -3.5 dB, may be a misprint."
+    ),
+    series=lambda result: result.series,
+    claims=(
+        Claim(quantity=OVER_BEM, model=LINEAR, printed=decibels).saying(
+            "Linear theory of the ellipse gives the contact filter of boundary elements, whatever lies across.",
+            short="Linear theory of the ellipse agrees with boundary elements",
+            key="linear-theory",
+        ),
+        replace(from_ridges, quantity=across.ONE_LINE, whose=Whose.FIELD).saying(
+            "Springs on one line agree with a three-dimensional elastic analysis within 3 dB in one-third octaves "
+            "(Ford and Thompson 2006).",
+            short="Springs on one line agree with boundary elements",
+            key="one-line",
+        ),
+        replace(from_ridges, model=filters.BED_WIDER).saying(
+            "A bed of springs (DPRS) on a patch wider by 2/√3 gives the contact filter of boundary elements.",
+            short="DPRS on a wider patch agrees with boundary elements",
+            key="wide-bed",
+        ),
+    ),
+    charts=(
+        Chart("across", claims=(1, 2)).of(
+            "First wheel, at the level of ISO 3095:2013. A3: lines are linear theory of the ellipse from ridges, dark, "
+            "to isotropic ground, light; points are boundary elements, 95 %; crosses are the table of CNOSSOS-EU, an "
+            "overlay. One line by alpha: over boundary elements, 95 %. Others: A3 of a filter over that of boundary "
+            "elements in the bands that count, by what lies across. Shaded: within 1 dB.",
+            Panel(
+                *(WAVE, "A3 [dB]", (), "boundary elements"),
+                xlim=(8, 130),
+                ylim=(-22, 1),
+                downward=True,
+            ).of(
+                Curve(A3, LINEAR, "lines", "_", by=(GROUND,), of=OF_FIRST),
+                Curve(A3, BEM, "marks", "_", by=(GROUND,), of=OF_FIRST, bars=True, beside=1.0),
+                Curve(A3, across.TABLE, "crosses", "CNOSSOS-EU", of={WHEEL: "first"}),
+            ),
+            Panel("alpha", across.OFF, title="one line", shade=(-1, 1), ylim=(-1.2, 9)).of(
+                Curve(across.OFF, across.WAYS, "lines", by=("model",), of={WHEEL: "first"}, band=True),
+            ),
+            Panel(
+                WAVE,
+                "over boundary elements [dB]",
+                facet="model",
+                shade=(-1, 1),
+                ylim=(-4, 10),
+                downward=True,
+            ).of(
+                Curve(OVER_BEM, across.SHOWN, by=(GROUND,), of=OF_FIRST),
+            ),
+        ),
+    ),
+    matrices=(
+        Matrix(
+            name="A3 over that of boundary elements, 50 kN, 920 mm",
+            quantity=OVER_BEM,
+            where={WHEEL: "50 kN, 920 mm", OFFSET: 0.0},
+            rows=("model",),
+            columns=GROUND,
+            printed=decibels,
+        ),
+    ),
+    printed=(LOUDER, BORDERS, STANDS, LACKING),
+    tables=tables,
+    notes=notes,
+)
+CASE = Case(
+    name="across",
+    chapter=Chapter.RAIL,
+    place=2,
+    answers="What lies across a rail: up to where one line is enough, and by how many dB each contact filter is wrong",
+    quick=across.Across(across=("ridges", "alpha = 0.5", "alpha = 2", "isotropic ground")),
+    full=across.Across(
+        wheels=((50.0, 920.0), (50.0, 360.0), (25.0, 920.0), (50.0, 680.0), (100.0, 920.0)),
+        rougher=(10.0, 2, 8),
+        strips=6,
+        cells=(6, 9),
+    ),
+    run=across.run,
+    study=STUDY,
+    needs="linear theory of the ellipse at the levels of ISO 3095:2013",
+)

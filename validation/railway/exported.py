@@ -1,0 +1,85 @@
+"""What a comparison of a rail has beside its quantity: the A-weighted contact force, and a table of its filter."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from validation.advice.compare import Comparison
+from validation.advice.contact_force import ContactForce
+from validation.advice.hierarchy import Candidate
+from validation.analysis.evidence import Table
+from validation.analysis.nominal_bands import LONGEST, NominalBands
+from validation.analysis.sound import a_weighting
+from validation.engine.engine import FloatArray
+from validation.railway.problems.rail_models import RailModel, rail_quantity
+from validation.railway.scenes.rail import CONTACT_FILTER, RailScene
+from validation.railway.scenes.roughness_levels import MICROMETRE
+from validation.simulation.model import Target
+
+
+def contact_force(scene: RailScene, comparison: Comparison) -> ContactForce | None:
+    """Of all filters that were solved or are closed forms; None without a speed or an answer."""
+    chosen = comparison.selection.best
+    if scene.speed is None or chosen is None:
+        return None
+    bands, stiffness = scene.levels.bands, scene.contact.stiffness
+    of_force = comparison.roughness + 20 * math.log10(stiffness * MICROMETRE)
+    of_force = of_force + a_weighting(scene.speed / bands.wavelengths)
+    filters = {one.name: _a3(comparison, one) for one in (chosen, *comparison.models)}
+    if not np.isfinite(comparison.a3_of(chosen)).any():
+        return None
+    return ContactForce(
+        levels={name: of_force + a3 for name, a3 in filters.items() if a3 is not None},
+        half_width=comparison.errors_of(chosen),
+        stiffness=stiffness,
+        speed=scene.speed,
+        span=bands.span,
+    )
+
+
+def _a3(comparison: Comparison, one: Candidate) -> FloatArray | None:
+    """Of a model that was solved, or has a closed form on this ground."""
+    if one in comparison.selection.solved:
+        return comparison.a3_of(one)
+    if not isinstance(one.model.model, RailModel):
+        return None
+    closed_form = one.model.model.filter
+    if closed_form.on_strips or not one.estimate.in_range:
+        return None
+    return np.asarray(closed_form.closed(rail_quantity(one.model.target)).mean(axis=0))
+
+
+def filter_table(comparison: Comparison) -> Table:
+    """A contact filter in the columns of CNOSSOS-EU: wheel load and diameter, A3 to a tenth of a decibel.
+
+    A row a nominal wavelength from 2000 to 0.8 mm. Waves longer than those of the scene have the closed filter of the
+    model, of a one-sided one that of its linear twin; shorter ones are NaN. Raises ValueError for any other quantity,
+    and where no model has an answer.
+    """
+    scene, best = comparison.scene, comparison.selection.best
+    if not isinstance(scene, RailScene) or comparison.asked is not CONTACT_FILTER:
+        raise ValueError(f"--cnossos is for the quantity contact-filter of a rail, got {comparison.quantity}")
+    if best is None:
+        raise ValueError("--cnossos needs a contact filter, got none: no model has a result")
+    bands, own = NominalBands(), scene.levels.bands
+    a3 = np.full(len(bands), np.nan)
+    first = bands.longest - own.longest
+    if first and isinstance(best.model.model, RailModel):
+        a3[:first] = of_longer_waves(best.model.model, best.model.target)[:first]
+    a3[first : first + len(own)] = comparison.value
+    return Table(
+        "contact-filter",
+        {
+            "wheel_load_kN": [scene.load / 1e3] * len(bands),
+            "wheel_diameter_mm": [2e3 * scene.radius] * len(bands),
+            "wavelength_mm": (1e3 * bands.nominal).tolist(),
+            "a3_dB": (a3.round(1) + 0.0).tolist(),  # no minus in front of a zero
+        },
+    )
+
+
+def of_longer_waves(model: RailModel, target: Target) -> FloatArray:
+    """A3 of the linear filter in all bands from 2000 mm to the last of the roughness [dB]."""
+    asked = replace(rail_quantity(target), longest=LONGEST)
+    return np.asarray(model.filter.closed(asked).mean(axis=0))

@@ -1,0 +1,1 @@
+"""Contact filters as models of `compare`."""

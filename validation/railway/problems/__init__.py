@@ -1,0 +1,1 @@
+"""One problem of a wheel on a rail in, plain arrays out."""

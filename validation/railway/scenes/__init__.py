@@ -1,0 +1,1 @@
+"""Wheel and rail, their roughness as people have it: levels, lines, profiles."""

@@ -1,0 +1,139 @@
+"""Tables of roughness levels: wavelength, or wavenumber in cycles per length, and dB re 1 um of one-third octaves."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from validation.analysis.nominal_bands import nominal_wavelength
+from validation.railway.scenes.roughness_levels import RoughnessLevels
+from validation.scenes.column_names import RADIANS, WAVENUMBERS
+from validation.scenes.number_table import NumberTable
+from validation.scenes.printable import printable, quoted
+from validation.scenes.reader import DECIBELS, Reader, errors_of, one_of, table, values
+from validation.scenes.table_files import FORM, read_table, sentence_about, table_beside
+from validation.scenes.units import UNITS, metres_of
+
+CURVES = Path(__file__).parent / "levels"
+COLUMNS = "wavelength [mm],level [dB re 1 um]"
+"""The header of a file; other units of length do as well, and 1/m for a wavenumber."""
+REFERENCES = ("", "1um", "um", "1micron", "1e-6m", "10^-6m", "1micrometre", "1micrometer")
+NEAR = 0.05
+"""By how much the wavelength of a wavenumber may differ from that of its band: 1/16 m beside 63 mm."""
+
+
+def curve(name: str) -> RoughnessLevels:
+    """The levels of a bundled curve: "iso3095-2013" or "cnossos-average". Raises ValueError for another name."""
+    paths = {path.stem: path for path in sorted(CURVES.glob("*.csv"))}
+    if name not in paths:
+        raise ValueError(f"curve must be one of {', '.join(paths)}, got {quoted(name)}")
+    return _levels_of("curve", paths[name], read_table("curve", paths[name]), source=name)[0]
+
+
+def levels_in(name: str, given: object, *, folder: Path, told: list[str]) -> RoughnessLevels:
+    """Of a bundled curve or of a file, so many decibels more, between two wavelengths. told: takes what was assumed."""
+    readers: dict[str, Reader] = {
+        **values("curve", "file"),
+        "offset": DECIBELS,
+        **values("longest", "shortest"),
+        "unit": unit_of_wavelengths,
+        **FORM,
+    }
+    found = table(readers, tuple(readers), name, given)
+    one_of(found, name, ("curve", "file"))
+    if "file" in found:
+        path, numbers = table_beside(name, found, folder)
+        levels, notes = _levels_of(f"{name}.file", path, numbers, unit=found.get("unit"))
+        told += sentence_about(path, notes)
+    elif others := [key for key in found if key not in ("curve", "offset", "longest", "shortest")]:
+        raise ValueError(f"{name}.{others[0]} must be left out beside a curve, got it with {quoted(found['curve'])}")
+    with errors_of(f"{name}."):
+        levels = curve(found["curve"]) if "curve" in found else levels
+        levels = levels.within(found.get("longest"), found.get("shortest"))
+        return levels.raised(found["offset"]) if "offset" in found else levels
+
+
+def _levels_of(
+    name: str, path: Path, table: NumberTable, *, unit: str | None = None, source: str = ""
+) -> tuple[RoughnessLevels, tuple[str, ...]]:
+    """Levels of a file, in any order of long to short waves, and what was assumed of it, in sentences.
+
+    unit: of the wavelengths, where their column does not name it. Raises ValueError for a file that holds no levels.
+    """
+    with errors_of(f"{name} {printable(path)}: "):
+        of_wave, of_level = _both(table, unit)
+        known = np.isfinite(table.values[:, [of_wave, of_level]]).all(axis=1)
+        waves, levels = (table.values[known, i] for i in (of_wave, of_level))
+        wavelengths, notes = _wavelengths(waves, table.columns[of_wave].unit or str(unit))
+        order = slice(None, None, -1 if wavelengths[:1] < wavelengths[-1:] else 1)
+        left_out = int((~known).sum())
+        notes += (f"{left_out} of its rows have no level and are left out",) if left_out else ()
+        found = RoughnessLevels(
+            wavelengths=tuple(wavelengths[order]), levels=tuple(levels[order].tolist()), source=source or path.name
+        )
+    others = [i for i in range(len(table.columns)) if i not in (of_wave, of_level)]
+    notes += (f"without {table.names(others)}",) if others else ()
+    return found, (*table.notes, *notes)
+
+
+def _both(table: NumberTable, unit: str | None) -> tuple[int, int]:
+    """The columns of wavelength and level. Raises ValueError."""
+    units = [column.unit for column in table.columns]
+    lengths = [i for i, one in enumerate(units) if one in UNITS["length"]]
+    waves = lengths or [i for i, one in enumerate(units) if one in WAVENUMBERS]
+    levels = [i for i, one in enumerate(units) if one == "dB"]
+    if len(units) == 2 and (waves or unit or levels):
+        # the other of two is the other, unless it is another quantity
+        waves = waves or [i for i in ([1 - levels[0]] if levels else [0]) if not units[i]]
+        levels = levels or [i for i in range(2) if i not in waves and not units[i]]
+    if len(levels) > 1 or (levels and len(waves) > 1):
+        raise ValueError(
+            f"one column of wavelengths and one of levels must be read, got {table.names([*waves, *levels])}: say which"
+            f", as: columns = [{(waves or [0])[0] + 1}, {levels[0] + 1}]"
+        )
+    if not waves or not levels:
+        of_units = "" if any(units) else ': without such names, as: columns = [1, 2], unit = "mm"'
+        of_many = ": the key columns has the two that are read, as numbers from 1 or as names" if len(units) > 2 else ""
+        raise ValueError(
+            f"the columns must be named as {COLUMNS!r}, with their units, got {table.names(range(len(units)))}"
+            + (of_units or of_many)
+        )
+    of_wave, of_level = waves[0], levels[0]
+    if unit is None and not units[of_wave]:
+        raise ValueError(
+            f'wavelengths must have a unit, as in {COLUMNS!r}, got {table.names([of_wave])}: as: unit = "mm"'
+        )
+    if unit is not None and units[of_wave] and metres_of("unit", unit) != metres_of("unit", units[of_wave]):
+        raise ValueError(
+            f"unit must be that of the column {table.names([of_wave])}, or be left out, got {quoted(unit)}"
+        )
+    reference = table.columns[of_level].reference.replace(" ", "").lower()
+    if reference not in REFERENCES:
+        raise ValueError(f"levels must be in dB re 1 um, got dB re {printable(table.columns[of_level].reference)}")
+    return of_wave, of_level
+
+
+def _wavelengths(values: NDArray[np.float64], unit: str) -> tuple[list[float], tuple[str, ...]]:
+    """In metres, those of wavenumbers by the nominal band."""
+    numbers = values.tolist()
+    if unit not in WAVENUMBERS:
+        return [value * metres_of("unit", unit) for value in numbers], ()
+    if any(value <= 0 for value in numbers):
+        raise ValueError(f"wavenumbers must be positive, got {min(numbers):g} {unit}")
+    found = []
+    for value in numbers:
+        length = 1 / (value * WAVENUMBERS[unit])
+        band = nominal_wavelength(round(10 * math.log10(length)))
+        if abs(length / band - 1) > NEAR:
+            raise ValueError(f"wavenumbers must be those of one-third octaves, got {value:g} {unit}")
+        found.append(band)
+    words = "k = 2 pi / wavelength" if unit == RADIANS else "cycles: wavelength = 1 / k"
+    return found, (f"its wavenumbers in {unit} are {words}, each of the nearest one-third octave",)
+
+
+def unit_of_wavelengths(name: str, given: object) -> str:
+    """A length, or cycles over one. Raises ValueError."""
+    if given not in WAVENUMBERS:
+        metres_of(name, given)
+    return str(given)

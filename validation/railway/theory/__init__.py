@@ -1,0 +1,1 @@
+"""Contact filters, and what lies across a line."""

@@ -1,0 +1,155 @@
+"""What a scene says of itself, whichever body it has."""
+
+import math
+from typing import Any, ClassVar, NamedTuple, Protocol
+
+import numpy as np
+
+from validation.analysis.statistics import FloatArray
+from validation.scenes.material import Material
+from validation.scenes.quantity import SceneQuantity
+from validation.scenes.roughness import RoughSurface
+
+Pairs = tuple[tuple[str, str], ...]
+"""Names and values with their units, in the order in which they are printed."""
+ENSEMBLE_MEAN, SINGLE_SURFACE = "ensemble mean", "single surface"
+
+
+class ContactEllipse(NamedTuple):
+    """Of the bodies without roughness: semi-axes a_x along the track and a_y, and the approach [m], and F [N]."""
+
+    along: float
+    across: float
+    approach: float
+    load: float
+
+    @property
+    def mean_pressure(self) -> float:
+        """F / (pi a_x a_y) [Pa]."""
+        return self.load / (math.pi * self.along * self.across)
+
+    @property
+    def largest_pressure(self) -> float:
+        """3 F / (2 pi a_x a_y) of Hertz [Pa]."""
+        return 1.5 * self.mean_pressure
+
+
+class Scene(Protocol):
+    """A loaded body on an elastic half-space, rough or smooth.
+
+    kind: "sphere", "punch", "wheel", "rail"; load: F [N]; modulus: E* [Pa]; speed, mass: of a wheel [m/s], [kg], None
+    where it has none; damping: ratio, of critical; ground: what is rough, as a surface; None where smooth, and where
+    lines alone are known.
+    """
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def kind(self) -> str: ...
+    @property
+    def load(self) -> float: ...
+    @property
+    def modulus(self) -> float: ...
+    @property
+    def material(self) -> Material | None: ...
+    @property
+    def speed(self) -> float | None: ...
+    @property
+    def mass(self) -> float | None: ...
+    @property
+    def damping(self) -> float: ...
+    @property
+    def ground(self) -> RoughSurface | None: ...
+
+    @property
+    def quantities(self) -> tuple[SceneQuantity, ...]:
+        """That it has; the first is the default."""
+
+    def bands(self, quantity: str) -> FloatArray:
+        """Centres of the one-third octaves of a quantity [rad/m], none of one number."""
+
+    @property
+    def smooth_contact(self) -> ContactEllipse | None:
+        """None under a flat punch."""
+
+    @property
+    def mean_pressure(self) -> float:
+        """Of the smooth contact [Pa]."""
+
+    @property
+    def size_key(self) -> str:
+        """Of the size of the body in a scene file, as "wheel.radius"."""
+
+    @property
+    def roughness_key(self) -> str:
+        """Of the table of drawn roughness in a scene file; empty where there may be none."""
+
+    @property
+    def roughness_levels(self) -> FloatArray:
+        """L_r in each band [dB re 1 µm]; empty where roughness is no line."""
+
+    @property
+    def statistic(self) -> str:
+        """What a value is of: all surfaces that are drawn, or the one that was measured; empty of smooth bodies."""
+
+    @property
+    def sample_note(self) -> str:
+        """Why nobody may ask for a number of realisations, where no model of the scene draws as many as are asked."""
+
+    @property
+    def error_source(self) -> str:
+        """What errors of models rest on, in words; empty where that is the table of the calibration."""
+
+    @property
+    def shares_solves(self) -> bool:
+        """Whether one solve has all of its quantities."""
+
+    def no_answer(self, quantity: str) -> str:
+        """Why there is no such value, whatever the model; empty where there is one."""
+
+    def no_steady_answer(self) -> str:
+        """Why the level of the motion depends on the distance; empty where it does not, and without a motion."""
+
+    def diagnose(self) -> tuple[str, ...]:
+        """What may be wrong about it though it is valid, in sentences with numbers."""
+
+    def describe(self) -> Pairs:
+        """Body, contact, motion and roughness."""
+
+    def contact_force(self, comparison: Any) -> Any:
+        """A-weighted force by each model of a comparison of this scene; None where it has none."""
+
+
+class SceneDefaults:
+    """What most scenes answer."""
+
+    ground: RoughSurface | None
+    shares_solves: ClassVar[bool] = False
+
+    @property
+    def error_source(self) -> str:
+        return ""
+
+    @property
+    def roughness_levels(self) -> FloatArray:
+        return np.empty(0)
+
+    def bands(self, quantity: str) -> FloatArray:
+        return np.empty(0)
+
+    @property
+    def statistic(self) -> str:
+        return "" if self.ground is None else SINGLE_SURFACE if self.ground.is_single else ENSEMBLE_MEAN
+
+    @property
+    def sample_note(self) -> str:
+        return "its body is smooth" if self.ground is None else "its heights are measured, one surface"
+
+    def no_answer(self, quantity: str) -> str:
+        return ""
+
+    def no_steady_answer(self) -> str:
+        return ""
+
+    def contact_force(self, comparison: Any) -> Any:
+        return None

@@ -1,1 +1,0 @@
-"""The cheapest model that meets a tolerance."""

@@ -1,1 +1,0 @@
-"""Models from elsewhere beside the references: what each kind is judged by."""
