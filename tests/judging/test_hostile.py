@@ -284,15 +284,20 @@ CHANGES = {
 }
 
 
+def members(kind):
+    """Of a class, but for what `copy` remembers of it from the first time on."""
+    return vars(kind).keys() - {"__slotnames__"}
+
+
 @pytest.mark.parametrize("change", CHANGES)
 def test_an_argument_that_is_changed_is_seen_and_the_next_call_has_a_fresh_one(change):
     def function(load, roughness):
-        before = roughness.rms, list(vars(type(roughness))), len(roughness.parts)
+        before = roughness.rms, members(type(roughness)), len(roughness.parts)
         exec(change, {"roughness": roughness, "np": np})
         return before[0] + len(before[1]) + before[2]
 
     ground, caller = Ground(2.0), Called(offer("stiffness_model", "mine", {}, function))
-    expected = 2.0 + len(vars(Ground)) + 2
+    expected = 2.0 + len(members(Ground)) + 2
     for _ in range(2):
         reply = caller.call(load=1.0, roughness=ground)
         words = "changed roughness, which is not its own"

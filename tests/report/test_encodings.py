@@ -57,7 +57,7 @@ def test_a_command_ends_well_in_ascii(about, words):
 
 def test_an_error_names_what_a_terminal_cannot_show():
     """A file that is missing is named with escapes, by which a person finds it."""
-    command = [sys.executable, "-m", "validation", "compare", "µ.toml"]
+    command = [sys.executable, "-m", "validation", "compare", "µ.toml".encode()]  # in whatever encoding the tests run
     about = {**os.environ, "PYTHONIOENCODING": "ascii:strict", "PYTHONUTF8": "1"}
     found = subprocess.run(command, env=about, capture_output=True, check=False)
     assert (found.returncode, found.stderr[:26]) == (2, rb"error: scene \xb5.toml can")
