@@ -26,7 +26,7 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "default"))
 
 BESIDE_A_TEST = {
     *("concurrent", "multiprocessing", "signal", "socket", "threading", "time"),
-    *("bem3d.threads", "tests.engine.jobs", "tests.engine.toys", "validation.benchmarks.isolation"),
+    *("bem3d.threads", "tests.engine.jobs", "tests.engine.toys", "validation.benchmarks.timing"),
     *("validation.judging.worker.Visitor", "validation.engine.workers"),
 }
 """Modules and names by which a file of tests has threads, clocks, signals, or processes that run beside a test."""

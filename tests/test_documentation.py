@@ -22,8 +22,8 @@ THEORY = Path(validation.__file__).parent / "theory"
 THEORIES = (THEORY, *THEORY.parent.glob("*/theory"))
 HELPERS = {
     "validation.theory.closed_forms.positive",
-    "validation.theory.gauss_legendre.gauss_legendre",
-    "validation.theory.gauss_legendre.on_panels",
+    "validation.theory.half_space.gauss_legendre",
+    "validation.theory.half_space.on_panels",
     "validation.railway.theory.transverse_structure.gauss",
 }
 METHODS = {

@@ -12,12 +12,17 @@ from typing import Any, NoReturn
 
 from validation.engine.files import ERRORS_OF_A_PATH
 from validation.engine.street import commands
-from validation.engine.termination import RESUME_NOTE, TerminatedError, WorkerLostError, terminable
-from validation.engine.warning_lines import one_line_warnings
-from validation.engine.workers import ONE_THREAD
+from validation.engine.workers import (
+    ONE_THREAD,
+    RESUME_NOTE,
+    TerminatedError,
+    WorkerLostError,
+    one_line_warnings,
+    terminable,
+)
 from validation.report.commands.arguments import Exit
 from validation.report.durations import said
-from validation.scenes.input_files import SceneError
+from validation.scenes.bundled import SceneError
 from validation.scenes.printable import never_fatal, printable
 
 COMMANDS = {

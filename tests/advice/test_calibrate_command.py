@@ -8,8 +8,7 @@ import pytest
 from validation.__main__ import main
 from validation.advice import calibrate, calibration
 from validation.advice.calibrate import CalibrationRun, as_table, check_installable, install
-from validation.advice.calibration_answers import Answers, answers_in, as_file, merged
-from validation.advice.calibration_scenes import CalibrationScene
+from validation.advice.calibration_scenes import Answers, CalibrationScene, answers_in, as_file, merged
 from validation.advice.commands import calibrate as command
 
 ONE_PUNCH = ("calibrate", "--spheres", "0", "--rolling", "0", "--wheels", "0", "--workers", "1", "--punches", "1")

@@ -15,10 +15,10 @@ import validation
 from tests.advice.json_schema import faults
 from tests.advice.planted_answers import Fake, Finding, compared, planted
 from validation.__main__ import main
+from validation.advice.compare import Swept
 from validation.advice.exported import to_json_of
 from validation.advice.hierarchy import Status
 from validation.advice.quantities import all_quantities, quantities_of
-from validation.advice.swept import Swept
 from validation.scenes.bundled import path_of
 from validation.scenes.load import bundled_for_compare
 

@@ -7,9 +7,8 @@ import pytest
 import validation
 from tests.advice.planted_answers import REASON, Fake, Finding, compared, planted, wheel
 from validation.__main__ import main
-from validation.advice.in_short import in_short
 from validation.advice.quantities import quantities_of
-from validation.advice.summary import WIDTH, findings
+from validation.advice.summary import WIDTH, findings, in_short
 from validation.scenes.load import bundled_for_compare
 
 

@@ -13,15 +13,13 @@ import pytest
 import validation
 from tests.advice.planted_answers import Fake, Finding, compared, planted, punch, wheel
 from validation.advice import advice, on_mdr
-from validation.advice.agreement import ALIKE, contradict
 from validation.advice.columns import overview_of
 from validation.advice.compare import Comparison, SceneProblem
 from validation.advice.exported import to_csv
-from validation.advice.hierarchy import Candidate
-from validation.advice.in_short import in_short
+from validation.advice.hierarchy import ALIKE, Candidate, contradict
 from validation.advice.quantities import models_of, quantities_of
 from validation.advice.scene_model import Answer
-from validation.advice.summary import findings, summary
+from validation.advice.summary import findings, in_short, summary
 from validation.simulation.model import Cost, ErrorEstimate
 
 

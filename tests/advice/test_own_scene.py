@@ -15,12 +15,11 @@ from tests.advice.planted_answers import Fake, Finding, compared, planted
 from validation.__main__ import main
 from validation.advice import figure as figures
 from validation.advice import scene_model
-from validation.advice.compare import SceneProblem
+from validation.advice.compare import SceneProblem, swept_values
 from validation.advice.figure_of_sweep import draw_sweep
 from validation.advice.figure_over_seconds import figure_over_seconds
 from validation.advice.side_by_side import shown_models, speed_and_accuracy
 from validation.advice.summary import findings, in_full, summary
-from validation.advice.swept import swept_values
 from validation.railway.problems.rail_models import ContactFilter
 
 RAIL = validation.load_scene("rail")

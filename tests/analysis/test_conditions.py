@@ -3,8 +3,7 @@
 import pytest
 
 from tests.analysis.test_declared_claims import number
-from validation.analysis.claims import Claim
-from validation.analysis.conditions import alone
+from validation.analysis.claims import Claim, alone
 from validation.analysis.evidence import Verdict
 
 AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED

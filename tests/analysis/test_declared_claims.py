@@ -8,9 +8,19 @@ import pytest
 from hypothesis import given
 
 from tests.analysis.test_judged_claims import point, points_with, verdicts
-from validation.analysis.claims import NOT_THIS_CURVE, Claim, Matrix
+from validation.analysis.claims import (
+    NOT_THIS_CURVE,
+    Claim,
+    Matrix,
+    beside,
+    decibels,
+    decibels_rms,
+    off_by,
+    per_cent,
+    times,
+    times_source,
+)
 from validation.analysis.evidence import ClaimStatus, Role, Verdict
-from validation.analysis.printed import beside, decibels, decibels_rms, off_by, per_cent, times, times_source
 from validation.analysis.series import Margin, Series
 from validation.analysis.study import Outcomes, Study
 

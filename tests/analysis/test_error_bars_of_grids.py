@@ -7,13 +7,17 @@ import pytest
 from scipy import stats
 
 from tests.analysis.intervals import covered, holds, t
-from validation.analysis.multilevel import Linearised, Resolved, combined, on_finest, on_no_size
 from validation.analysis.series import Series
 from validation.analysis.statistics import (
     DECIBEL,
     Estimate,
+    Linearised,
+    Resolved,
+    combined,
     extrapolated,
     jackknifed,
+    on_finest,
+    on_no_size,
     student,
 )
 from validation.analysis.study import Outcomes

@@ -5,8 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from validation.analysis.independent_records import half_width, independent_records
-from validation.analysis.statistics import Estimate, student
+from validation.analysis.statistics import Estimate, half_width, independent_records, student
 
 POINTS = 4096
 

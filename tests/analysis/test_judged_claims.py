@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from validation.analysis.evidence import ClaimStatus, Evidence, JudgedClaim, Number, Role, Verdict
-from validation.analysis.over_range import root_mean_square, worst
+from validation.analysis.series import root_mean_square, worst
 from validation.analysis.statistics import Estimate, student
 
 AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from validation.analysis.multilevel import Linearised, log, moments, multilevel_moments, weighted_sum
+from validation.analysis.statistics import Linearised, log, moments, multilevel_moments, weighted_sum
 
 SPREAD = 0.25
 MEAN = math.exp(SPREAD**2 / 2)

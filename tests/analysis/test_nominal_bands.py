@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import integrate
 
-from validation.analysis.nominal_bands import NominalBands, band_number
+from validation.analysis.spectra import NominalBands, band_number
 
 TABLE = (2000, 1600, 1250, 1000, 800, 630, 500, 400, 315, 250, 200, 160, 125, 100, 80, 63, 50, 40, 31.5, 25, 20, 16)
 TABLE += (12.5, 10, 8, 6.3, 5, 4, 3.15, 2.5, 2, 1.6, 1.25, 1, 0.8)

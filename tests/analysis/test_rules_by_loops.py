@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from validation.analysis import spectra, statistics
-from validation.analysis import spectral_features as regions
+from validation.analysis import spectra as regions
 from validation.analysis.spectra import Bands
 
 

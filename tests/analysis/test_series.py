@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from validation.analysis.evidence import Role, Verdict
-from validation.analysis.margins import MARGINS
-from validation.analysis.series import Estimates, Margin, Series, masked, numbers_of, single, spans, tables_of
+from validation.analysis.series import MARGINS, Estimates, Margin, Series, masked, numbers_of, single, spans, tables_of
 from validation.analysis.statistics import Estimate, Interval, extrapolated, student
 
 NEAR = Margin(tolerance=1.0, reason="r", source="s", rms=(0.5, "q"))

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from validation.analysis import spectra
-from validation.analysis import spectral_features as regions
+from validation.analysis import spectra as regions
 
 WINDOWS = ("none", "hann")
 ROUNDING = 1e-12

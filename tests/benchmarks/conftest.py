@@ -6,7 +6,8 @@ from types import SimpleNamespace
 import pytest
 
 from tests.benchmarks.made_up import use_a_clock_of_its_own
-from validation.benchmarks import isolation, solvers
+from validation.benchmarks import solvers
+from validation.benchmarks import timing as isolation
 
 
 @pytest.fixture

@@ -8,9 +8,9 @@ import pytest
 from tests.benchmarks.made_up import point
 from validation.analysis.series import numbers_of
 from validation.benchmarks.work_precision.case import STUDY, times
-from validation.benchmarks.work_precision.faster import faster
 from validation.benchmarks.work_precision.pareto import (
     cheapest,
+    faster,
     front,
     in_unit_of_error,
     monotone_envelope,

@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 from validation.analysis.series import numbers_of
-from validation.benchmarks import isolation as alone
 from validation.benchmarks import peers, timing
 from validation.benchmarks import solvers as comparison
+from validation.benchmarks import timing as alone
 from validation.benchmarks.discrete import ContactProblem, pressed
 from validation.benchmarks.peers import OURS, SOLVERS, PeerSolver, is_ours
 from validation.benchmarks.solvers import AREA, CASE, FORCE, PRESSURE

@@ -15,7 +15,7 @@ from validation.cases.punch.bandwidth_study import CASE, DRIFT, ROLLED, STUDY
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS as MDR
 from validation.simulation.rough_punch import PunchRoughness
-from validation.simulation.springs_over_area import RoughAreas, press_areas
+from validation.simulation.spring_tracks import RoughAreas, press_areas
 
 MANY = 4000
 WIDE = Bandwidth(

@@ -13,10 +13,9 @@ from tests.oracles import approach_by_least_squares, dense_operator, spring_sum
 from validation.analysis.evidence import Verdict, number_with, numbers_with
 from validation.analysis.study import Outcomes
 from validation.cases.punch import fractal_punch
-from validation.cases.punch.ensembles import DEVIATION, MEAN, OVER
+from validation.cases.punch.ensembles import APPLICATIONS, DEVIATION, MEAN, OVER, worked
 from validation.cases.punch.fractal_punch import CONVEX, LONG, SLOPE, TREND, FractalPunch
 from validation.cases.punch.fractal_punch_study import EXPONENT, LESS, STUDY
-from validation.cases.punch.work import APPLICATIONS, worked
 from validation.cases.rolling.force_spectrum import ForceSpectrum
 from validation.engine.random_numbers import random_generator
 from validation.simulation import rolling_strip, rough_punch

@@ -27,7 +27,7 @@ from validation.railway.cases import rough_rail
 from validation.railway.problems import rail_strip
 from validation.railway.problems.rail_models import linear_error
 from validation.railway.problems.rail_quantity import RailQuantity
-from validation.railway.scenes.roughness_levels import RoughnessLevels
+from validation.railway.scenes.level_files import RoughnessLevels
 from validation.report.answers.questions import QUESTIONS
 from validation.scenes.description import describe
 from validation.simulation import indentation, limits_of_springs

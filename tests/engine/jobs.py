@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from validation.benchmarks.isolation import isolated_process
+from validation.benchmarks.timing import isolated_process
 
 
 @dataclass(frozen=True)

@@ -17,8 +17,8 @@ from tests.engine.jobs import Job, alive_in, case_of, die_at_once, lose_alone, s
 from tests.engine.toys import ENVIRONMENT, HANG, ROOT, wait_until
 from tests.report.test_command_line import SMALL
 from validation import __main__ as command
-from validation.benchmarks.isolation import isolated_process
-from validation.engine import termination
+from validation.benchmarks.timing import isolated_process
+from validation.engine import workers as termination
 from validation.engine.engine import Engine, WorkerLostError
 from validation.report import pictures
 from validation.report.contents import CASES
@@ -91,7 +91,7 @@ import sys
 from pathlib import Path
 from tests.engine import jobs
 from validation import __main__ as command
-from validation.engine.termination import end_with_parent
+from validation.engine.workers import end_with_parent
 from validation.report.contents import CASES
 solve, folder, workers = sys.argv[1:]
 # whoever started the tests may have had them ignored

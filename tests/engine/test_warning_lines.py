@@ -6,7 +6,7 @@ import warnings
 
 import pytest
 
-from validation.engine.warning_lines import as_one_line, one_line_warnings
+from validation.engine.workers import as_one_line, one_line_warnings
 
 COMMAND = """
 import sys, warnings

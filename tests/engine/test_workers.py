@@ -89,7 +89,7 @@ def meanwhile(action, condition):
 
 PART_OF_A_CLUSTER = """
 import runpy, sys
-from validation.engine.termination import end_with_parent
+from validation.engine.workers import end_with_parent
 end_with_parent(int(sys.argv.pop(1)))
 runpy.run_module(sys.argv.pop(1), run_name="__main__", alter_sys=True)
 """

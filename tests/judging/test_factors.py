@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from validation.judging.kinds.factors import OF_POWERS, OF_VALUES, common_factor, named
+from validation.judging.kinds.diagnosis import OF_POWERS, OF_VALUES, common_factor, named
 
 RNG = np.random.default_rng(5)
 

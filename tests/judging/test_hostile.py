@@ -15,7 +15,7 @@ import pytest
 import mdr
 from tests.engine.toys import ENVIRONMENT, wait_until
 from validation import stiffness_model
-from validation.judging import arguments as lent
+from validation.judging import replies as lent
 from validation.judging import worker as others
 from validation.judging import worker_main as serving
 from validation.judging.channel import Channel, ForeignBytesError

@@ -9,12 +9,12 @@ import mdr
 from tests.judging.test_judged_stiffness import as_known, series
 from validation import judge, stiffness_model
 from validation.judging.judgement import AGAIN, UNTRUSTED, trusted
-from validation.judging.kinds import filters, profiles, repeats, stiffness
+from validation.judging.kinds import filters, profiles, stiffness
+from validation.judging.kinds import judge as repeats
 from validation.judging.kinds.diagnosis import remarks
-from validation.judging.kinds.judge import points_of
+from validation.judging.kinds.judge import Recorded, points_of, repeated
 from validation.judging.kinds.own import OWN, bed, ellipse, geike, half_space, in_1d, in_3d, line, springs, trace
 from validation.judging.kinds.references import known
-from validation.judging.kinds.repeats import Recorded, repeated
 from validation.judging.registry import offer
 from validation.judging.worker import Called
 from validation.theory.rolling import linear_force

@@ -15,8 +15,7 @@ import validation
 from validation.__main__ import main
 from validation.advice import calibration
 from validation.advice.calibrate import LEFT, SAME
-from validation.advice.calibration_answers import Answers, answers_in
-from validation.advice.calibration_scenes import OTHER_SEED, CalibrationScene
+from validation.advice.calibration_scenes import OTHER_SEED, Answers, CalibrationScene, answers_in
 from validation.advice.models import boundary_elements_pressed
 from validation.engine.engine import Engine
 from validation.judging import own_models

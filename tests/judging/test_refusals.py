@@ -7,8 +7,8 @@ import pytest
 
 from tests.engine.toys import ENVIRONMENT, ROOT
 from validation import stiffness_model
-from validation.judging import refusals
-from validation.judging.refusals import is_own
+from validation.judging import replies as refusals
+from validation.judging.replies import is_own
 from validation.judging.worker import Called, Visitor
 
 HEAD = """

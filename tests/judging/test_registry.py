@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import validation
-from validation.judging import entry_points as installed
+from validation.judging import files_read as installed
 from validation.judging.by_name import named_in
 from validation.judging.registry import KINDS, OfferedError
 from validation.judging.worker import Called

@@ -24,11 +24,14 @@ from tests.analysis import (
 from tests.analysis import test_spectra as test_wheel_spectra
 from tests.cases import test_interface
 from tests.planted_faults.wrong import Fault, with_math
-from validation.analysis import claims, contents, multilevel, nominal_bands, over_range, spectra, statistics
+from validation.analysis import claims, contents, spectra, statistics
 from validation.analysis import series as declared
-from validation.analysis import spectral_features as regions
+from validation.analysis import series as over_range
+from validation.analysis import spectra as nominal_bands
+from validation.analysis import spectra as regions
+from validation.analysis import statistics as multilevel
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Number, Verdict
-from validation.analysis.over_range import worst
+from validation.analysis.series import worst
 from validation.cases.punch import fractal_punch
 from validation.cases.rolling import force_spectrum
 

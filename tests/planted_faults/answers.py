@@ -7,7 +7,7 @@ from tests.analysis import test_conditions
 from tests.cases import test_exact_cases, test_no_floor_in_data
 from tests.planted_faults.wrong import Fault
 from tests.report import test_answers, test_axes, test_columns, test_front
-from validation.analysis import conditions
+from validation.analysis import claims as conditions
 from validation.analysis.series import Series
 from validation.cases.exact import hertz
 from validation.cases.limits import limits

@@ -15,7 +15,7 @@ from validation.benchmarks import discrete, timing
 from validation.benchmarks import solvers as comparison
 from validation.benchmarks.work_precision import case as precision_case
 from validation.benchmarks.work_precision import errors as precision_error
-from validation.benchmarks.work_precision import faster as precision_faster
+from validation.benchmarks.work_precision import pareto as precision_faster
 from validation.benchmarks.work_precision import problem as precision
 from validation.benchmarks.work_precision.pareto import Point
 from validation.judging.solvers import factors, properties

@@ -28,11 +28,10 @@ from tests.planted_faults.wrong import Fault, Times
 from tests.railway import test_rail_cases
 from tests.railway import test_rail_sound_case as test_rail_sound
 from validation.advice.cases import model_selection as calibration
-from validation.analysis import multilevel
 from validation.analysis import series as analysis_series
+from validation.analysis import statistics as multilevel
 from validation.analysis.evidence import ClaimStatus, Verdict
-from validation.analysis.multilevel import Resolved
-from validation.analysis.statistics import nearest
+from validation.analysis.statistics import Resolved, nearest
 from validation.cases.exact import geike, hertz
 from validation.cases.limits import sweeps as limits
 from validation.cases.punch import bandwidth, ensembles, fractal_punch, interface
@@ -53,9 +52,9 @@ from validation.simulation import (
     rolling_strip,
     rough_punch,
     roughness_from_force,
-    springs_over_area,
 )
 from validation.simulation import spring_tracks as rough_springs
+from validation.simulation import spring_tracks as springs_over_area
 from validation.simulation import wheel_on_springs as wheel_ensemble
 from validation.simulation.exact_contacts import PublishedContact
 from validation.simulation.rolling_strip import level_1d

@@ -7,8 +7,9 @@ from tests.engine import test_files
 from tests.judging import test_hostile, test_refusals
 from tests.planted_faults.wrong import Fault
 from validation.engine import files, sources
-from validation.judging import arguments as lent
-from validation.judging import refusals, replies
+from validation.judging import replies
+from validation.judging import replies as lent
+from validation.judging import replies as refusals
 
 RMS = "object.__setattr__(roughness, 'rms', 3.0)"
 DEEP = "roughness.parts[1]['a'][0] = 1.0"

@@ -16,10 +16,12 @@ from tests.judging import (
     test_references,
 )
 from tests.planted_faults.wrong import Fault, with_math
-from validation.analysis import independent_records
+from validation.analysis import statistics as independent_records
 from validation.judging import judgement
 from validation.judging import worker as others
-from validation.judging.kinds import factors, held_out_solves, laws, own, repeats, scaling, stiffness, sweeps
+from validation.judging.kinds import diagnosis as factors
+from validation.judging.kinds import held_out_solves, laws, own, scaling, stiffness, sweeps
+from validation.judging.kinds import judge as repeats
 from validation.judging.kinds.judge import ModelAnswer
 from validation.simulation.rough_punch import PlateauSpectrum
 

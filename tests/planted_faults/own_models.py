@@ -5,7 +5,7 @@ from functools import partial
 
 from tests.judging import test_own_models
 from tests.planted_faults.wrong import Fault, with_math
-from validation.advice.calibration_answers import Answers
+from validation.advice.calibration_scenes import Answers
 from validation.judging import files_read as read_files
 from validation.judging import own_kinds, own_models
 from validation.judging import worker as others

@@ -20,13 +20,14 @@ from tests.railway import test_no_band_counts as silent
 from tests.simulation import test_scattered_levels
 from validation.advice import calibration_scenes, contact_force, side_by_side
 from validation.advice.scene_model import Answer
-from validation.analysis.nominal_bands import NominalBands
+from validation.analysis.spectra import NominalBands
 from validation.railway import exported as of_rail
 from validation.railway.cases import across, filters, rolled_filters
 from validation.railway.problems import equivalent_displacement, rail_across, rail_models, rail_quantity, rail_strip
 from validation.railway.problems.rail_models import ContactFilter
 from validation.railway.problems.rail_quantity import RailQuantity
-from validation.railway.scenes import graduation, isotropic_line
+from validation.railway.scenes import isotropic_line
+from validation.railway.scenes import isotropic_line as graduation
 from validation.simulation.model_names import ONE_SIDED_BED
 
 graduated, model_error, over_twin = graduation.graduated, ContactFilter.model_error, ContactFilter.over_twin

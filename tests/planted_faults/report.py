@@ -25,7 +25,8 @@ from validation.analysis import statistics
 from validation.analysis.claims import Claim
 from validation.analysis.evidence import Verdict
 from validation.analysis.series import Series
-from validation.report import build, chapter, code_behind, columns, formats, provenance, sounds, style, symbols
+from validation.report import build, chapter, code_behind, columns, formats, provenance, sounds, style
+from validation.report import columns as symbols
 from validation.report.answers import question, strip
 from validation.report.page import PageFigure
 

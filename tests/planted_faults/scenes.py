@@ -18,19 +18,13 @@ from tests.scenes import (
     test_steadiness,
     test_units,
 )
-from validation.railway.scenes import level_files, rail, roughness_levels, transverse_profile
-from validation.railway.scenes.roughness_levels import RoughnessLevels
+from validation.railway.scenes import level_files, rail, transverse_profile
+from validation.railway.scenes import level_files as roughness_levels
+from validation.railway.scenes.level_files import RoughnessLevels
 from validation.railway.scenes.transverse_profile import TransverseProfile
-from validation.scenes import (
-    height_edits,
-    material,
-    measured,
-    measured_surface,
-    roughness,
-    steadiness,
-    text_dialect,
-    units,
-)
+from validation.scenes import material, measured, measured_surface, roughness, text_dialect, units
+from validation.scenes import measured as height_edits
+from validation.scenes import wheel_body as steadiness
 
 real_spectrum, check_alone = measured._spectrum, transverse_profile._check_alone
 both_together = transverse_profile.both_together

@@ -35,9 +35,9 @@ from validation.advice import (
     quantities,
     scene_model,
     side_by_side,
-    swept,
     tolerance,
 )
+from validation.advice import compare as swept
 from validation.advice import figure as compared
 from validation.advice.calibrated_range import LOAD
 from validation.advice.cases import model_selection_study

@@ -28,7 +28,6 @@ from validation.scenes.wheel_body import Wheel
 from validation.simulation import (
     contact_laws,
     integrators,
-    light_punch,
     mean_contact,
     pressed_layer,
     ridges,
@@ -38,6 +37,7 @@ from validation.simulation import (
     wheel_on_half_space,
 )
 from validation.simulation import motion as wheel_in_motion
+from validation.simulation import rough_punch as light_punch
 from validation.simulation.model_names import LINE
 from validation.simulation.rough_punch import PunchRoughness
 from validation.theory import wheel as wheel_theory

@@ -8,14 +8,14 @@ from tests.cases import test_slopes as own
 from tests.planted_faults.wrong import Fault, Times
 from tests.scenes import test_materials
 from tests.theory import test_rolling_theory
-from validation.analysis.nominal_bands import NominalBands
+from validation.analysis.spectra import NominalBands
 from validation.cases.limits import sweeps
 from validation.cases.punch.interface import Interface
 from validation.cases.rolling import reduced_models as reduced_case
 from validation.cases.wheel import half_space_study
 from validation.railway.cases import rough_rail
 from validation.railway.problems import rail_quantity
-from validation.railway.scenes.roughness_levels import RoughnessLevels
+from validation.railway.scenes.level_files import RoughnessLevels
 from validation.scenes import description, roughness
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.measured import MeasuredHeights

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from validation.railway.scenes.graduation import FEWEST, graduated, scatter_of
+from validation.railway.scenes.isotropic_line import FEWEST, graduated, scatter_of
 
 LINE = 12.0 - 1.7 * np.arange(35)
 EVEN = np.ones(35)

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from validation.railway.scenes.isotropic_line import isotropic_line
-from validation.railway.scenes.level_files import curve
-from validation.railway.scenes.roughness_levels import RoughnessLevels
+from validation.railway.scenes.level_files import RoughnessLevels, curve
 from validation.railway.theory.transverse_structure import has_isotropic_surface
 
 ISO = curve("iso3095-2013")

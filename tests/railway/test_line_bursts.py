@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from tests.railway.test_line_outliers import POINTS, UM, X, fractal, levels, lines, rail
-from validation.analysis.nominal_bands import NominalBands
-from validation.railway.scenes.line_bursts import bursts_of, left_by_bursts
-from validation.railway.scenes.line_edits import EditedLine, edited
+from validation.analysis.spectra import NominalBands
+from validation.railway.scenes.line_edits import EditedLine, bursts_of, edited, left_by_bursts
 from validation.railway.scenes.line_outliers import Outlier
 
 FIRST, LAST = 3000, 4500

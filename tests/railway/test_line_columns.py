@@ -10,7 +10,7 @@ from tests.scenes.test_exported_tables import columns, in_memory, line_of, rail_
 from validation.advice.compare import compare
 from validation.advice.exported import to_json
 from validation.advice.summary import summary
-from validation.analysis.nominal_bands import NominalBands
+from validation.analysis.spectra import NominalBands
 from validation.railway.problems.rail_models import rail_quantity, reason_of, what_would_state_the_ground
 from validation.railway.scenes.line_columns import along_the_track
 from validation.railway.scenes.line_edits import edited

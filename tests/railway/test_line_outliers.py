@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from validation.analysis.nominal_bands import NominalBands
+from validation.analysis.spectra import NominalBands
 from validation.railway.problems.rail_quantity import RailQuantity
 from validation.railway.scenes import line_outliers, line_steps
+from validation.railway.scenes.level_files import RoughnessLevels
 from validation.railway.scenes.line_edits import EditedLine, LineEdits, edited
 from validation.railway.scenes.measured_lines import MeasuredLines
-from validation.railway.scenes.roughness_levels import RoughnessLevels
 from validation.scenes.load import load_scene
 
 POINTS, UM = 12000, 1e-6

@@ -6,9 +6,8 @@ import re
 import numpy as np
 import pytest
 
-from validation.railway.scenes.level_files import curve
+from validation.railway.scenes.level_files import RoughnessLevels, curve
 from validation.railway.scenes.rail import RailScene
-from validation.railway.scenes.roughness_levels import RoughnessLevels
 
 STEEL = 210e9 / (2 * (1 - 0.3**2))
 WHEEL = {"name": "wheel", "radius": 0.46, "crown_radius": 0.3, "load": 5e4, "modulus": STEEL}

@@ -14,9 +14,8 @@ from validation.railway.problems.equivalent_displacement import ONE_SIDED, Rolle
 from validation.railway.problems.rail_models import COARSE, FINE, RailModel
 from validation.railway.problems.rail_quantity import RAIL_QUANTITIES, RailQuantity
 from validation.railway.problems.rail_strip import strip_of
-from validation.railway.scenes.level_files import curve
+from validation.railway.scenes.level_files import RoughnessLevels, curve
 from validation.railway.scenes.measured_lines import MeasuredLines
-from validation.railway.scenes.roughness_levels import RoughnessLevels
 from validation.railway.theory.transverse_structure import IsotropicGround
 from validation.simulation.model import Target, models_serving
 from validation.simulation.model_names import (

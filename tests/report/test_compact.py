@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 
-from validation.report.compact import compact
-from validation.report.style import SETTINGS, panels
+from validation.report.style import SETTINGS, compact, panels
 
 RULE = re.compile(r"\.(\w+)\{([^}]*)\}")
 NUMBER = re.compile(r"-?\d+\.?\d*")

@@ -11,14 +11,13 @@ from tests.report.test_claims import claim, section_of
 from tests.report.test_printed import html_of
 from validation.analysis.evidence import Table, Verdict, VerdictCell, Whose
 from validation.benchmarks.work_precision.case import POINTS
-from validation.benchmarks.work_precision.faster import FASTER
+from validation.benchmarks.work_precision.pareto import FASTER
 from validation.benchmarks.work_precision.pressed import RoughPunchProblem
 from validation.benchmarks.work_precision.rolling import RollingProblem
 from validation.cases.limits.limits import SUMMARY
 from validation.railway.cases.across_study import LOUDER
 from validation.railway.front_page import OF_A3, WORST, rail_filters, right_filters
-from validation.report.answers.failures import failures
-from validation.report.answers.front_tables import times_faster, times_faster_said
+from validation.report.answers.front_tables import failures, times_faster, times_faster_said
 from validation.report.chapter import BOOK_FIGURES, book_figures
 from validation.report.contents import CASES, TIMED
 from validation.report.figures import drawing

@@ -7,7 +7,7 @@ from markupsafe import Markup
 
 from tests.report.accessibility import faults
 from tests.report.remade import remade
-from validation.report.symbols import SYMBOLS
+from validation.report.columns import SYMBOLS
 
 MOST_WORDS, MOST_BYTES = 40_000, 1_500_000
 """Of all pages, with all that is folded."""

@@ -3,7 +3,7 @@
 import pytest
 
 from tests.report.test_page import pages_of, section_of
-from validation.report.symbols import SYMBOLS, symbols_in
+from validation.report.columns import SYMBOLS, symbols_in
 
 
 def names_in(text):

@@ -13,7 +13,7 @@ from validation.railway.scenes.line_columns import along_the_track
 from validation.railway.scenes.measured_lines import MeasuredLines
 from validation.scenes.column_names import Column, column_of, columns_of, unit_of_all
 from validation.scenes.description import description_lines
-from validation.scenes.height_edits import edited_lines
+from validation.scenes.measured import edited_lines
 from validation.scenes.number_table import TableForm, table_of_text
 from validation.scenes.positions import places_of
 from validation.scenes.text_dialect import WRITTEN

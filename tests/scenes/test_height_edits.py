@@ -7,10 +7,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from validation.scenes.height_edits import central_square, filled_in
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import load_scene
-from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured import MeasuredHeights, central_square, filled_in
 from validation.scenes.measured_surface import measured
 
 ROUGH = np.random.default_rng(5).standard_normal((40, 32))

@@ -9,7 +9,7 @@ import pytest
 from tests.scenes.test_height_forms import PUNCH, scene_of
 from validation.__main__ import main
 from validation.scenes import table_files, text_dialect
-from validation.scenes.input_files import check_regular, contents_of
+from validation.scenes.bundled import check_regular, contents_of
 from validation.scenes.load import load_scene
 from validation.scenes.printable import is_printable, printable, quoted, shortened
 from validation.scenes.reader import LONGEST_LINE, MOST_BYTES

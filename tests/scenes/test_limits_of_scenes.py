@@ -6,10 +6,10 @@ import pytest
 
 from tests.scenes.test_scene_files import written
 from validation.scenes.bundled import path_of
-from validation.scenes.damping import DampedWheel, damping_rate
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import load_scene
 from validation.scenes.material import Elastic, Material
+from validation.scenes.wheel_body import DampedWheel, damping_rate
 
 PUNCH = IndentationScene(name="it", shape="punch", size=1.0, load=1.0, modulus=2e9)
 SPHERE = IndentationScene(name="it", shape="sphere", size=1.0, load=1.0, modulus=2e9)

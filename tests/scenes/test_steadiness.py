@@ -14,7 +14,7 @@ from validation.scenes.bundled import SCENES
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.scenes.load import load_scene
 from validation.scenes.rolling import RollingScene
-from validation.scenes.steadiness import force_on_the_way
+from validation.scenes.wheel_body import force_on_the_way
 from validation.simulation.wheel_on_springs import WheelEnsemble, _motion
 
 TABLE = load_wheel_scene("table_14_1")

@@ -12,7 +12,7 @@ from tests.simulation.test_wheel_motion import strips
 from tests.simulation.wheels import SCHEMES, ULP, WHEEL, springs_law, track
 from validation.railway.problems import wheel_on_rail
 from validation.railway.problems.wheel_on_rail import WheelOnRail
-from validation.scenes.damping import DampedWheel
+from validation.scenes.wheel_body import DampedWheel
 from validation.simulation import wheel_on_springs
 from validation.simulation.contact_laws import BoundaryElementsLaw, HertzLaw, LinearLaw
 from validation.simulation.model_names import BEM

@@ -8,9 +8,8 @@ import pytest
 
 import bem3d
 from tests.oracles import approach_by_least_squares, contact_by_least_squares, dense_operator
-from validation.simulation import light_punch
-from validation.simulation.light_punch import press_lightly
-from validation.simulation.rough_punch import PunchRoughness, Surface, press_surface
+from validation.simulation import rough_punch as light_punch
+from validation.simulation.rough_punch import PunchRoughness, Surface, press_lightly, press_surface
 from validation.simulation.surface import refined
 
 ROUGHNESS = PunchRoughness(hurst=0.7, waves=(1, 16), seed=5)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from validation.theory.gauss_legendre import gauss_legendre, on_panels
+from validation.theory.half_space import gauss_legendre, on_panels
 
 
 @pytest.mark.parametrize("nodes", [2, 5, 20])

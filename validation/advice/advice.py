@@ -4,10 +4,10 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
-from validation.advice.cells import format_seconds
 from validation.advice.compare import MOST_REALISATIONS, Comparison
 from validation.advice.hierarchy import Candidate
 from validation.advice.scene_model import SAMPLE_SHARE
+from validation.advice.tolerance import format_seconds
 from validation.analysis.statistics import student
 from validation.scenes.scene import Scene
 from validation.simulation.sampling import realisations

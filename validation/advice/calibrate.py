@@ -19,8 +19,16 @@ from numpy.typing import NDArray
 from validation.advice import calibration
 from validation.advice.calibrated_range import CONDITIONS
 from validation.advice.calibration import TABLE, Key
-from validation.advice.calibration_answers import Answers, Group, answers_in, answers_of
-from validation.advice.calibration_scenes import CalibrationRun, CalibrationScene, cheap_models, reference_answer
+from validation.advice.calibration_scenes import (
+    Answers,
+    CalibrationRun,
+    CalibrationScene,
+    Group,
+    answers_in,
+    answers_of,
+    cheap_models,
+    reference_answer,
+)
 from validation.advice.hierarchy import try_to_solve
 from validation.advice.scene_model import SceneModel
 from validation.engine.engine import SERIAL, Engine, Outcome

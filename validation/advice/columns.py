@@ -6,7 +6,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from validation.advice.cells import (
+from validation.advice.compare import Comparison
+from validation.advice.contact_force import ContactForce
+from validation.advice.hierarchy import Candidate, Status
+from validation.advice.on_mdr import is_solved, springs_of
+from validation.advice.side_by_side import TOGETHER, differences, error_of_difference, per_cent, reference_of
+from validation.advice.tolerance import (
     NAMES,
     NONE,
     Columns,
@@ -18,11 +23,6 @@ from validation.advice.cells import (
     tenth,
     two_digits,
 )
-from validation.advice.compare import Comparison
-from validation.advice.contact_force import ContactForce
-from validation.advice.hierarchy import Candidate, Status
-from validation.advice.on_mdr import is_solved, springs_of
-from validation.advice.side_by_side import TOGETHER, differences, error_of_difference, per_cent, reference_of
 from validation.engine.engine import FloatArray
 
 ABREAST = 10

@@ -3,6 +3,7 @@
 import hashlib
 import json
 import math
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
@@ -10,23 +11,70 @@ from typing import Any
 
 import numpy as np
 
+from bem3d.diagnostics import HIGHEST_PRESSURE
 from bem3d.read_only import kept
 from mdr.checks import count
 from validation.advice.contact_force import ContactForce
-from validation.advice.elasticity import beyond_elasticity
 from validation.advice.hierarchy import Candidate, Selection, rejected, select_model
-from validation.advice.named_models import ComparedModels, models_named
-from validation.advice.own_candidates import Decorated, Own, names_and_own, own_candidates
+from validation.advice.named_models import ComparedModels, Decorated, Own, models_named, names_and_own, own_candidates
 from validation.advice.quantities import BY_NAME, models_of, quantities_of, quantity_of
 from validation.advice.scene_model import SceneModel, Shared
-from validation.advice.swept import Swept
 from validation.advice.tolerance import Tolerance, decibels, tolerance_of
-from validation.analysis.nominal_bands import MANTISSAS
+from validation.analysis.spectra import MANTISSAS
 from validation.engine.engine import FloatArray
 from validation.scenes.printable import shortened
-from validation.scenes.quantity import SceneQuantity
-from validation.scenes.scene import Scene
+from validation.scenes.scene import Scene, SceneQuantity
+from validation.scenes.units import UNITS, quantity
 from validation.simulation.model import Target
+
+NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S*)\s*")
+
+
+@dataclass(frozen=True)
+class Swept:
+    """One value of a key of a scene file. value: in ``unit``, or a text; scene: name of the scene that is varied."""
+
+    key: str
+    value: float | str
+    unit: str
+    scene: str
+
+    @property
+    def label(self) -> str:
+        """As "wheel.load [kN]"."""
+        return f"{self.key} [{self.unit}]" if self.unit else self.key
+
+
+def swept_values(key: str, texts: Sequence[str], scene: str) -> list[Swept]:
+    """Of texts as in a scene file, all in the unit of the first; as texts where one of them is no number."""
+    found = [NUMBER.fullmatch(text) for text in texts]
+    numbers = [(float(match[1]), match[2]) for match in found if match]
+    units = {unit for _, unit in numbers}
+    if len(numbers) == len(texts) and len(units) == 1:
+        return [Swept(key, number, unit, scene) for number, unit in numbers]
+    for dimension, known in UNITS.items():
+        if len(numbers) == len(texts) and units <= set(known):
+            unit = numbers[0][1]
+            one = quantity(key, f"1 {unit}", dimension)
+            return [Swept(key, float(f"{quantity(key, t, dimension) / one:.12g}"), unit, scene) for t in texts]
+    return [Swept(key, text, "", scene) for text in texts]
+
+
+def beyond_elasticity(scene: Scene) -> str:
+    """Why no answer of a half-space is one of the scene; empty where it may be.
+
+    Strains are of the order of p / E*: from a tenth on, `HIGHEST_PRESSURE`, what linear elasticity leaves out is as
+    large as the default tolerance, and no solid stays elastic. A modulus of exactly 1 is the unit of pressure.
+    """
+    over = scene.mean_pressure / scene.modulus
+    if scene.modulus == 1 or over <= HIGHEST_PRESSURE:
+        return ""
+    body = scene.size_key.partition(".")[0]
+    return (
+        f"the mean pressure is {over:.2g} E*, above {HIGHEST_PRESSURE:g} E*: linear elasticity does not hold; are the "
+        f"units of {body}.load, {scene.size_key} and E* right?"
+    )
+
 
 MOST_REALISATIONS = 100_000
 LONGEST_BEYOND_RANGE = 60.0

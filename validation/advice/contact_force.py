@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from validation.advice.cells import NAMES, NONE, Columns, half_width, signed
+from validation.advice.tolerance import NAMES, NONE, Columns, half_width, signed
 from validation.analysis.sound import energy_sum
 from validation.engine.engine import FloatArray
 

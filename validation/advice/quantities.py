@@ -3,8 +3,7 @@
 from validation.advice.hierarchy import needed
 from validation.advice.scene_model import SceneModel, Shared
 from validation.engine.street import brought
-from validation.scenes.quantity import MOVING, PRESSED, ROLLING, SceneQuantity
-from validation.scenes.scene import Scene
+from validation.scenes.scene import MOVING, PRESSED, ROLLING, Scene, SceneQuantity
 from validation.simulation.model import Target, models_serving
 from validation.simulation.model_names import SPRINGS_THAT_READ
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from bem3d.read_only import kept
 from validation.engine.engine import FloatArray
-from validation.scenes.quantity import STIFFNESS
+from validation.scenes.scene import STIFFNESS
 from validation.simulation.method import Prepared, Resolution, Result
 from validation.simulation.model import Cost, ErrorEstimate, GridModel, Model, Sampling, Target
 from validation.simulation.sampling import STUDENT, mean_error, realisations, too_few

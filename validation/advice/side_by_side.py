@@ -5,9 +5,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.advice.agreement import ALIKE, bias
 from validation.advice.compare import Comparison
-from validation.advice.hierarchy import Candidate
+from validation.advice.hierarchy import ALIKE, Candidate, bias
 from validation.advice.tolerance import decibels
 from validation.analysis.evidence import Table, table_of
 

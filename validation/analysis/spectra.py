@@ -1,10 +1,14 @@
 """Power spectra of periodic tracks and of finite records, and their levels in bands, one-third octaves mostly."""
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cache
+from itertools import pairwise
 from typing import Literal
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from validation.analysis.statistics import FloatArray
@@ -134,3 +138,279 @@ def band_means(omega: FloatArray, density: FloatArray, edges: ArrayLike) -> Floa
     width = count * omega[0] / (2 * np.pi)
     levels = band_levels(omega, density, edges)
     return np.asarray(levels / width.reshape(-1, *[1] * (levels.ndim - 1)))
+
+
+OUTSTANDING = 40.0
+"""Over the median, what is no noise: of thousands of lines of noise the largest is about ten times the median."""
+LOBE, PROMINENT = 3, 5.0
+"""Lines from a tone beyond which Hann's window shows nothing of it; a peak is so many times what lies there."""
+OCTAVE_PARTS = 12
+"""Bands to an octave in which a jump is looked for."""
+
+
+def peak(omega: FloatArray, hann: FloatArray, below: float) -> float:
+    """Frequency of the largest line below some frequency, between the lines of a spectrum with Hann's window [rad/s].
+
+    The lines of a vibration with Hann's window have amplitudes in the ratio r = (1 + e) / (2 - e) where it lies e of a
+    line's distance from the largest to its larger neighbour: e = (2 r - 1) / (r + 1). Source: Grandke, IEEE Trans.
+    Instrum. Meas. 32 (1983). NaN where it does not stand out of what lies beside it.
+    """
+    inside = int(np.searchsorted(omega, below))
+    if inside < 1:
+        return math.nan
+    top = int(np.argmax(hann[:inside]))
+    beside = np.concatenate([hann[max(top - 2 * LOBE, 0) : max(top - LOBE, 0)], hann[top + LOBE : top + 2 * LOBE]])
+    if hann[top] < PROMINENT * np.median(beside):
+        return math.nan
+    side = 1 if top == 0 or hann[top + 1] > hann[top - 1] else -1
+    ratio = math.sqrt(hann[top + side] / hann[top])
+    return float(omega[top] + side * omega[0] * (2 * ratio - 1) / (ratio + 1))
+
+
+def jump(omega: FloatArray, density: FloatArray, above: float, upto: float) -> float:
+    """Frequency at which the spectrum rises most steeply between two frequencies [rad/s].
+
+    Where the means of both adjacent twelfths of an octave differ most; then, between the lines there, where it first
+    exceeds half of the level behind: a window puts that at the edge of a band.
+    """
+    edges = above * 2 ** (np.arange(0, math.log2(upto / above), 1 / OCTAVE_PARTS))
+    borders = np.searchsorted(omega, edges)
+    borders = borders[np.concatenate([[True], np.diff(borders) > 0])]
+    means = np.add.reduceat(density, borders)[:-1] / np.diff(borders)
+    # over two bands, since the jump may lie within one
+    i = int(np.argmax(np.log(means[2:] / means[:-2])))
+    level, first = means[i + 2] / 2, borders[i]
+    rise = first + int(np.argmax(density[first : borders[i + 3]] > level))
+    part = math.log(level / density[rise - 1]) / math.log(density[rise] / density[rise - 1])
+    return float(omega[rise - 1] + part * omega[0])
+
+
+def compensated_band_means(
+    omega: FloatArray, density: FloatArray, first: float, last: float, period: float, exponent: float
+) -> tuple[FloatArray, FloatArray]:
+    """Centres of bands of one period of the oscillation, from first to last, and means of A omega^-exponent."""
+    borders = np.searchsorted(omega, np.arange(first, last * (1 + 1e-12), period))
+    sums = np.add.reduceat(np.append(density * omega**-exponent, 0.0), borders)[:-1]
+    return (omega[borders[:-1]] + omega[borders[1:] - 1]) / 2, sums / np.diff(borders)
+
+
+def slope(omega: FloatArray, density: FloatArray, first: float, last: float, period: float) -> float:
+    """d ln A / d ln omega by least squares over bands of one period of the oscillation [-].
+
+    Of what is left when the slope itself is taken out, since a mean over a steep band lies near its beginning.
+    """
+    exponent = 0.0
+    for _ in range(20):
+        centres, means = compensated_band_means(omega, density, first, last, period, exponent)
+        exponent += (rest := float(np.polyfit(np.log(centres), np.log(means), 1)[0]))
+        if abs(rest) < 1e-9:
+            break
+    return exponent
+
+
+def oscillation_period(omega: FloatArray, density: FloatArray, first: float, last: float, least: int) -> float:
+    """Period over omega of the oscillation that the spectrum has about a power law [rad/s].
+
+    The Fourier transform of ln A over omega, less its straight line over ln omega, with Hann's window, has a line at
+    the time that the wheel takes to pass over its own contact, 2 a / v_0 = 2 pi / period; its place between lines as in
+    `peak`. ln sin^2 x = -2 ln 2 - 2 sum_k cos(2 k x) / k: its first harmonic is the largest.
+    least: periods to the range, fewer are taken for what is left of the slope. NaN where no line stands out of noise.
+    """
+    inside = (omega >= first) & (omega <= last)
+    log, x = np.log(density[inside]), np.log(omega[inside])
+    if x.size // 4 <= least:
+        return math.nan
+    rest = log - np.polyval(np.polyfit(x, log, 1), x)
+    w = np.sin(np.pi * np.arange(x.size) / x.size) ** 2
+    line = np.abs(np.fft.rfft(rest * w)) ** 2
+    top = least + int(np.argmax(line[least : x.size // 4]))
+    if line[top] < OUTSTANDING * np.median(line[least : x.size // 4]):
+        return math.nan
+    side = 1 if line[top + 1] > line[top - 1] else -1
+    ratio = math.sqrt(line[top + side] / line[top])
+    turns = top + side * (2 * ratio - 1) / (ratio + 1)
+    return float(x.size * omega[0] / turns)
+
+
+def floor_level(omega: FloatArray, density: FloatArray, first: float, last: float, time_step: float) -> float:
+    """B of the floor B (dt / 2)^2 / sin^2(omega dt / 2), B / omega^2 for small steps, over a range [x^2 / s]."""
+    inside = (omega >= first) & (omega <= last)
+    shape = (2 * np.sin(omega[inside] * time_step / 2) / time_step) ** 2
+    return float(np.mean(density[inside] * shape))
+
+
+def power_level(
+    omega: FloatArray, density: FloatArray, first: float, last: float, period: float, exponent: float
+) -> float:
+    """P of P omega^exponent, the geometric mean over bands of one period of the oscillation."""
+    _, means = compensated_band_means(omega, density, first, last, period, exponent)
+    return float(np.exp(np.mean(np.log(means))))
+
+
+def crossing(power: float, exponent: float, floor: float) -> float:
+    """Where P omega^exponent meets B omega^-2: the break [rad/s]."""
+    return math.pow(power / floor, 1 / (-exponent - 2))
+
+
+Detrend = Literal["none", "mean", "plane"]
+"""What is subtracted from measured heights: nothing, their mean, or the plane of least squares, of a line its tilt."""
+MANTISSAS = (1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0)
+"""Of nominal wavelengths, over a decade."""
+LONGEST, SHORTEST = 3, -31
+"""Numbers of the bands of 2000 and 0.8 mm, the ends of the tables of the field."""
+OFF = 0.01
+"""What a nominal wavelength differs from its centre, at the most: 1.6 beside 1.585."""
+NODES = 32
+"""Of Gauss and Legendre on half of a band: six turns of a filter."""
+
+
+@dataclass(frozen=True)
+class NominalBands:
+    """Neighbouring bands, from the number of the longest waves down to that of the shortest."""
+
+    longest: int = LONGEST
+    shortest: int = SHORTEST
+
+    def __post_init__(self) -> None:
+        if not LONGEST >= self.longest >= self.shortest >= SHORTEST:
+            raise ValueError(
+                f"bands must be numbered from {LONGEST} down to {SHORTEST}, got {self.longest} to {self.shortest}"
+            )
+
+    @classmethod
+    def named(cls, wavelengths: Sequence[float]) -> "NominalBands":
+        """Those of nominal wavelengths [m], the longest first. ValueError where one is none, doubled or missing."""
+        numbers = [band_number(wavelength) for wavelength in wavelengths]
+        if not numbers:
+            raise ValueError("wavelengths must name one band at least, got none")
+        for before, here in pairwise(numbers):
+            name, last = _in_mm(nominal_wavelength(here)), _in_mm(nominal_wavelength(before))
+            if here == before:
+                raise ValueError(f"wavelengths must name each band once, got {name} twice")
+            if here > before:
+                raise ValueError(f"wavelengths must be sorted, got {name} behind {last}")
+            if here < before - 1:
+                missing = _in_mm(nominal_wavelength(before - 1))
+                raise ValueError(f"wavelengths must name all bands between their ends, got no {missing} behind {last}")
+        return cls(numbers[0], numbers[-1])
+
+    @property
+    def numbers(self) -> range:
+        """n of each band."""
+        return range(self.longest, self.shortest - 1, -1)
+
+    def __len__(self) -> int:
+        return len(self.numbers)
+
+    @property
+    def nominal(self) -> FloatArray:
+        """Nominal wavelengths, the names of the bands [m]."""
+        return np.array([nominal_wavelength(n) for n in self.numbers])
+
+    @property
+    def span(self) -> str:
+        """The names of the first and the last band, as "2000 to 0.8 mm"."""
+        return f"{1000 * self.nominal[0]:g} to {1000 * self.nominal[-1]:g} mm"
+
+    def names(self, of: ArrayLike) -> str:
+        """Of the bands where a mask is true, neighbours together: "2000 to 800, 31.5 mm", or "none"."""
+        inside = np.flatnonzero(np.asarray(of, dtype=bool))
+        if not inside.size:
+            return "none"
+        runs = np.split(inside, np.flatnonzero(np.diff(inside) > 1) + 1)
+        ends = [[f"{1000 * self.nominal[i]:g}" for i in dict.fromkeys((run[0], run[-1]))] for run in runs]
+        return f"{', '.join(' to '.join(each) for each in ends)} mm"
+
+    @property
+    def wavelengths(self) -> FloatArray:
+        """Exact centres 10^(n/10) [m]."""
+        return np.asarray(10 ** (np.array(self.numbers) / 10))
+
+    @property
+    def centres(self) -> FloatArray:
+        """2 pi over the exact centres [rad/m], ascending."""
+        return np.asarray(2 * np.pi / self.wavelengths)
+
+    @property
+    def edges(self) -> FloatArray:
+        """Of all bands [rad/m], ascending, one more than there are bands."""
+        return np.asarray(2 * np.pi * 10 ** ((np.arange(len(self) + 1) - self.longest - 0.5) / 10))
+
+    def within(self, longest: float, shortest: float) -> "NominalBands":
+        """Those whose nominal wavelengths lie between two wavelengths [m]. ValueError where there are none."""
+        inside = (self.nominal <= longest * (1 + 1e-9)) & (self.nominal >= shortest * (1 - 1e-9))
+        numbers = np.array(self.numbers)[inside]
+        if not numbers.size:
+            raise ValueError(f"no band lies between the wavelengths {_in_mm(longest)} and {_in_mm(shortest)}")
+        return NominalBands(int(numbers[0]), int(numbers[-1]))
+
+    def powers_of_track(self, track: ArrayLike, *, spacing: float) -> FloatArray:
+        """Mean square in each band of a periodic track [m^2], or of several along the last axis; bands come last.
+
+        Raises ValueError where the track is too short for a wave in each band.
+        """
+        heights = np.asarray(track, dtype=np.float64)
+        bands = Bands(tuple(self.edges.tolist())).on(heights.shape[-1] * spacing)
+        return 2 * levels(waves(heights, spacing=spacing), bands)
+
+    def powers_of_spectrum(self, c_line: Callable[[FloatArray], FloatArray]) -> FloatArray:
+        """Mean square in each band, 2 int C_line dq [m^2], of a two-sided spectrum [m^3] smooth on halves of bands."""
+        q, weight = self.quadrature()
+        return np.asarray(2 * (weight * c_line(q)).sum(axis=-1))
+
+    def slope_of_spectrum(self, c_line: Callable[[FloatArray], FloatArray]) -> float:
+        """h', the rms slope along a line of the waves in all bands, h'^2 = 2 int q^2 C_line dq [-]; C_line as above."""
+        return math.sqrt(float(self.powers_of_spectrum(lambda q: q**2 * c_line(q)).sum()))
+
+    def powers_of_records(self, records: ArrayLike, *, spacing: float, detrend: Detrend = "plane") -> FloatArray:
+        """Mean square in each band [m^2] of lines that do not repeat, along the last axis; bands come last.
+
+        Each is seen through Hann's window, less its straight line of least squares, its mean, or nothing. Its density
+        is even on each wave's share of the wavenumbers, of which a band may have a part.
+        """
+        heights = np.asarray(records, dtype=np.float64)
+        if detrend != "none":
+            heights = scipy.signal.detrend(heights, type="linear" if detrend == "plane" else "constant")
+        points = heights.shape[-1]
+        window = np.sin(np.pi * (np.arange(points) + 0.5) / points) ** 2 * math.sqrt(8 / 3)
+        found = waves(window * heights, spacing=spacing)
+        ends = found.q[0] * (np.arange(found.q.size + 1) + 0.5)
+        powers = 2 * np.abs(found.amplitude) ** 2
+        total = np.cumsum(np.concatenate([np.zeros((*powers.shape[:-1], 1)), powers], axis=-1), axis=-1)
+        return np.diff(scipy.interpolate.interp1d(ends, total)(self.edges))
+
+    def quadrature(self) -> tuple[FloatArray, FloatArray]:
+        """Wavenumbers [rad/m] and weights of int dq over each band, both of shape (bands, nodes)."""
+        node, weight = _gauss_legendre()
+        half_band = math.log(10) / 20
+        log_q = half_band / 2 * np.concatenate([node - 1, node + 1])
+        q = self.centres[:, np.newaxis] * np.exp(log_q)
+        return q, q * half_band / 2 * np.concatenate([weight, weight])
+
+
+@cache
+def _gauss_legendre() -> tuple[FloatArray, FloatArray]:
+    """Nodes and weights on [-1, 1]."""
+    return np.polynomial.legendre.leggauss(NODES)
+
+
+def nominal_wavelength(number: int) -> float:
+    """The name of band n as a wavelength [m]: 0.0315 for n = -15."""
+    # of whole powers of ten in millimetres, so that 31.5 mm has the digits of 31.5
+    return MANTISSAS[number % 10] * 10.0 ** (number // 10 + 3) / 1000
+
+
+def band_number(wavelength: float) -> int:
+    """n of the band that a nominal wavelength [m] names. ValueError where it names none."""
+    if math.isfinite(wavelength) and wavelength > 0:
+        number = round(10 * math.log10(wavelength))
+        if LONGEST >= number >= SHORTEST and abs(wavelength / 10 ** (number / 10) - 1) < OFF:
+            return number
+    hint = ": is it in metres?" if 0 < wavelength < nominal_wavelength(SHORTEST) else ""
+    raise ValueError(
+        f"a wavelength must be nominal, of one-third octaves from {NominalBands().span}, got {_in_mm(wavelength)}{hint}"
+    )
+
+
+def _in_mm(wavelength: float) -> str:
+    return f"{wavelength * 1000:g} mm"

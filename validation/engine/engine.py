@@ -12,12 +12,11 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from validation.engine import stored
+from validation.engine import files as stored
 from validation.engine.convergence import as_not_converged
 from validation.engine.progress import Part
 from validation.engine.sources import version_behind, version_of_numerics
-from validation.engine.termination import RESUME_NOTE, WorkerLostError
-from validation.engine.workers import Workers
+from validation.engine.workers import RESUME_NOTE, WorkerLostError, Workers
 
 FloatArray = stored.FloatArray
 Outcome = stored.Outcome

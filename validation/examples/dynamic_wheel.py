@@ -6,8 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from validation import load_wheel_scene
-from validation.analysis.spectra import record_spectra
-from validation.analysis.spectral_features import peak
+from validation.analysis.spectra import peak, record_spectra
 from validation.simulation.contact_laws import SpringsLaw
 from validation.simulation.motion import simulate
 from validation.simulation.wheel_on_springs import WheelEnsemble

@@ -8,7 +8,7 @@ from validation.advice.commands.compare import STORE
 from validation.engine.engine import Engine
 from validation.engine.files import write_whole
 from validation.engine.progress import progress_of
-from validation.judging.entry_points import is_installed
+from validation.judging.files_read import is_installed
 from validation.judging.kinds.from_report import references_of
 from validation.judging.kinds.references import FOLDER as INSTALLED
 from validation.judging.own_models import calibrated, models_in

@@ -24,7 +24,7 @@ class ModelsFrom:
     @staticmethod
     def check(given: str) -> None:
         """Raises ValueError for neither."""
-        from validation.judging.entry_points import is_installed
+        from validation.judging.files_read import is_installed
 
         if not Path(given).is_file() and not is_installed(given):
             known = "a Python file, or a name of `judge --list`"

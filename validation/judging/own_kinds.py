@@ -31,7 +31,7 @@ from validation.simulation.model import Target
 from validation.simulation.rolling_levels import by_linear_theory, levels_of, strip_of
 from validation.simulation.sampling import FEWEST, STUDENT, realisations
 from validation.simulation.wheel_on_half_space import crop_to_reach
-from validation.theory.gauss_legendre import on_panels
+from validation.theory.half_space import on_panels
 from validation.theory.rolling import force_spectrum_1d
 
 DRAWS = 3

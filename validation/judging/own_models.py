@@ -18,11 +18,9 @@ import numpy as np
 
 from validation.advice.calibrated_range import CONDITIONS, HURST, beyond_spectrum
 from validation.advice.calibration import MeasuredErrors, conditions_by_kind, kind_of
-from validation.advice.calibration_answers import Group, answers_in
-from validation.advice.calibration_scenes import OTHER_SEED, CalibrationScene
+from validation.advice.calibration_scenes import OTHER_SEED, CalibrationScene, Group, answers_in
 from validation.engine.engine import SERIAL, Engine, FloatArray, Outcome
-from validation.judging.entry_points import file_of
-from validation.judging.files_read import digest_of, sources_of
+from validation.judging.files_read import digest_of, file_of, sources_of
 from validation.judging.own_kinds import CALIBRATED, SERVED, SURFACES, filter_of, result_of
 from validation.judging.registry import Offered
 from validation.judging.worker import Called, OthersError, Visitor

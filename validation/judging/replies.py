@@ -1,21 +1,236 @@
 """What a function of others answers: finite numbers of the right shape, or what is wrong with them."""
 
+import copy
+import dis
+import functools
+import inspect
 import math
 import mmap
 import os
+import sys
+import sysconfig
 import time
 import traceback
+import types
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
+from types import CodeType, TracebackType
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from validation.judging.arguments import as_argument, changed, classes_of, copy_of, restored
-from validation.judging.entry_points import ENTRY
-from validation.judging.refusals import homes_of, is_own, is_refusal
+from validation.judging.files_read import ENTRY
 from validation.judging.registry import KINDS, Failed, FloatArray, Offered, OfferedError, Shape
+
+PLAIN = (bool, int, float, complex, str, bytes, type(None), types.FunctionType, types.BuiltinFunctionType, type)
+"""Values that cannot be changed, or that a copy would share."""
+
+
+def copy_of(value: Any) -> Any:
+    """For one call. An array cannot be written; a generator of random numbers is itself: its state is to change."""
+    if isinstance(value, (np.random.Generator, *PLAIN)):
+        return value
+    if isinstance(value, np.ndarray):
+        array = value.copy()
+        array.setflags(write=False)
+        return array
+    try:
+        return copy.deepcopy(value)
+    # an object of a program may have what cannot be copied, as an open file
+    except Exception:
+        return value
+
+
+def as_argument(lent: Any) -> Any:
+    """What the function is given: of an array a view, since a view of what cannot be written stays so."""
+    return lent[...] if isinstance(lent, np.ndarray) else lent
+
+
+def changed(arguments: Mapping[str, Any], lent: Mapping[str, Any]) -> str:
+    """The first argument whose copy is no longer equal to it; nothing where all are."""
+    return next((name for name, value in arguments.items() if not _same(value, lent[name], set())), "")
+
+
+def classes_of(arguments: Mapping[str, Any]) -> dict[str, dict[type, dict[str, Any]]]:
+    """What the classes of the arguments hold, by the name of the argument: methods may be changed there."""
+    return {
+        name: {of: _public(of) for of in type(value).__mro__ if of.__module__ != "builtins"}
+        for name, value in arguments.items()
+        if not isinstance(value, (*PLAIN, np.ndarray, np.generic, np.random.Generator))
+    }
+
+
+def restored(classes: Mapping[str, Mapping[type, Mapping[str, Any]]]) -> str:
+    """The first argument whose class was changed since, which is put back; nothing where none was."""
+    first = ""
+    for name, kinds in classes.items():
+        for of, before in kinds.items():
+            now = _public(of)
+            if now.keys() == before.keys() and all(now[key] is before[key] for key in now):
+                continue
+            first = first or name
+            for key in now.keys() - before.keys():
+                delattr(of, key)
+            for key, value in before.items():
+                setattr(of, key, value)
+    return first
+
+
+def _public(of: type) -> dict[str, Any]:
+    return {name: value for name, value in vars(of).items() if not name.startswith("__") and name != "_abc_impl"}
+
+
+def _same(value: Any, other: Any, seen: set[tuple[int, int]]) -> bool:
+    """Equal in all that it holds; attributes that are new, as of a cache, are nobody's."""
+    pair = id(value), id(other)
+    if value is other or pair in seen:
+        return True
+    seen.add(pair)
+    if type(value) is not type(other):
+        return False
+    if isinstance(value, np.ndarray):
+        return bool(value.dtype == other.dtype and np.array_equal(value, other, equal_nan=value.dtype.kind in "fc"))
+    if isinstance(value, float):
+        return bool(value == other or (value != value and other != other))
+    if isinstance(value, dict):
+        return value.keys() == other.keys() and all(_same(value[key], other[key], seen) for key in value)
+    if isinstance(value, list | tuple):
+        return len(value) == len(other) and all(_same(*parts, seen) for parts in zip(value, other, strict=True))
+    parts = _parts(value), _parts(other)
+    if parts[0]:
+        return all(name in parts[1] and _same(part, parts[1][name], seen) for name, part in parts[0].items())
+    try:
+        return bool(value == other) or isinstance(value, np.random.Generator) or not _compares(value)
+    except Exception:
+        return True
+
+
+def _parts(value: Any) -> dict[str, Any]:
+    """What an object holds, by name: of a method its object, of a partial its arguments."""
+    if isinstance(value, functools.partial):
+        return {"func": value.func, "args": value.args, "keywords": value.keywords}
+    if isinstance(value, types.MethodType):
+        return {"function": value.__func__, "self": value.__self__}
+    slots = (name for of in type(value).__mro__ for name in _slots(of))
+    return {**getattr(value, "__dict__", {}), **{name: getattr(value, name) for name in slots if hasattr(value, name)}}
+
+
+def _slots(of: type) -> tuple[str, ...]:
+    names = vars(of).get("__slots__", ())
+    return (names,) if isinstance(names, str) else tuple(name for name in names if not name.startswith("__"))
+
+
+def _compares(value: Any) -> bool:
+    """Whether its class says when two are equal: else a copy never is."""
+    return vars(object)["__eq__"] is not type(value).__eq__
+
+
+BUGS = (
+    *(AssertionError, AttributeError, BufferError, EOFError, ImportError, LookupError, MemoryError, NameError, OSError),
+    *(ReferenceError, RecursionError, StopIteration, SyntaxError, SystemError, SystemExit, TypeError, UnicodeError),
+    ZeroDivisionError,
+)
+"""Kinds of exceptions that say that something went wrong, whoever raises them."""
+RAISE = dis.opmap["RAISE_VARARGS"]
+ROOT = Path(__file__).resolve().parents[2]
+INSTALLED = {"site-packages", "dist-packages"}
+LIBRARIES = (
+    *(Path(sysconfig.get_path(name)).resolve() for name in ("stdlib", "platstdlib")),
+    *(ROOT / name for name in ("mdr", "bem3d", "validation")),
+)
+"""Folders whose files nobody's model is in, unless its own file is there as well."""
+
+
+def is_refusal(error: BaseException, function: Callable[..., Any], file: Path | None = None) -> bool:
+    """Whether a `raise` in the file of the function, or below its folder, raised an exception that is no bug.
+
+    The instruction that raised it decides, not the text of its line: `int("x")` and a wrong shape in numpy raise
+    ValueError as well, and are failures. A class that is defined there is on purpose, whatever it is derived from; so
+    is a warning of the file's own, where warnings are errors. Code without a file, as that of `exec`, is part of what
+    called it. file: that offers the function, where it is known.
+    """
+    steps = list(_steps(error.__traceback__))
+    homes = homes_of(function, file)
+    if not steps or not is_own(_place(steps, homes), homes):
+        return False
+    code, instruction = steps[-1]
+    has_own_class = _is_defined_in(type(error), homes)
+    if isinstance(error, Warning) and (type(error) is UserWarning or has_own_class):
+        return True
+    is_raised = code.co_code[instruction] == RAISE or _is_thrown_into(code, instruction)
+    return is_raised and (has_own_class or not isinstance(error, BUGS))
+
+
+def homes_of(function: Callable[..., Any], file: Path | None = None) -> tuple[str, ...]:
+    """Names of the files that a function is defined in, and offered by."""
+    code = getattr(_unwrapped(function), "__code__", None)
+    names = (code.co_filename if isinstance(code, CodeType) else "", str(file) if file else "")
+    return tuple(dict.fromkeys(filter(None, names)))
+
+
+def is_own(name: str, homes: tuple[str, ...]) -> bool:
+    """Whether a file is one of these, or below the folder of one and no part of a library."""
+    return name in homes or any(
+        _is_below(Path(name).resolve(), Path(home).resolve()) for home in homes if _is_file(home)
+    )
+
+
+def _is_below(file: Path, home: Path) -> bool:
+    folder = home.parent
+    if at := next((i for i, part in enumerate(home.parts) if part in INSTALLED), 0):
+        # of an installed package all of it, and no other one
+        return file.parts[: at + 2] == home.parts[: at + 2]
+    if not _is_file(str(file)) or not file.is_relative_to(folder):
+        return False
+    of_library = any(file.is_relative_to(other) and not folder.is_relative_to(other) for other in LIBRARIES)
+    return not of_library and INSTALLED.isdisjoint(file.relative_to(folder).parts)
+
+
+def _is_file(name: str) -> bool:
+    try:
+        return Path(name).is_file()
+    except (OSError, ValueError):
+        return False
+
+
+def _steps(trace: TracebackType | None) -> Iterator[tuple[CodeType, int]]:
+    """Code and the instruction that it had come to, from the outermost on."""
+    while trace is not None:
+        yield trace.tb_frame.f_code, trace.tb_lasti
+        trace = trace.tb_next
+
+
+def _place(steps: list[tuple[CodeType, int]], homes: tuple[str, ...]) -> str:
+    """The file of the last step that has one."""
+    names = [code.co_filename for code, _ in steps]
+    return next((name for name in reversed(names) if name in homes or _is_file(name) or name.startswith("<frozen")), "")
+
+
+def _is_thrown_into(code: CodeType, instruction: int) -> bool:
+    """Whether an exception was thrown into a generator that had not begun, as lambdas raise."""
+    return bool(code.co_flags & inspect.CO_GENERATOR) and dis.opname[code.co_code[instruction]] in (
+        *("RETURN_GENERATOR", "POP_TOP", "RESUME", "YIELD_VALUE"),
+    )
+
+
+def _is_defined_in(of: type, homes: tuple[str, ...]) -> bool:
+    if of.__module__ == "builtins":
+        return False
+    module = sys.modules.get(of.__module__)
+    name = getattr(module, "__file__", None)
+    return is_own(name, homes) if isinstance(name, str) else of.__module__ in ("__main__", "_judged")
+
+
+def _unwrapped(function: Any) -> Any:
+    """The function inside of decorators, partial ones and those of numpy."""
+    while True:
+        inner = function.func if isinstance(function, functools.partial) else getattr(function, "pyfunc", None)
+        inner = inner if inner is not None else getattr(function, "__wrapped__", None)
+        if inner is None:
+            return function if hasattr(function, "__code__") else vars(type(function)).get("__call__", function)
+        function = inner
+
 
 SHOWN = 160
 """Characters of what was printed or raised."""

@@ -13,7 +13,7 @@ from importlib.machinery import SourceFileLoader
 from pathlib import Path
 from typing import IO
 
-from validation.engine.termination import end_after
+from validation.engine.workers import end_after
 from validation.judging.channel import Channel
 from validation.judging.files_read import OPENED, sources_of, watch_opened
 from validation.judging.registry import DECORATED, KINDS, Offered

@@ -1,15 +1,52 @@
 """What the columns of the CSV files of a report mean: a file of its own beside them."""
 
+import re
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from fnmatch import fnmatchcase
+from functools import cached_property
 from pathlib import Path
 
 from validation.analysis.contents import as_csv, csv_name, header_of, plain_name
 from validation.analysis.evidence import Table
 from validation.analysis.series import JUDGED, UNIT
 from validation.report.section import Section, numbers_table, written_tables
-from validation.report.symbols import SYMBOLS
+
+
+@dataclass(frozen=True, kw_only=True)
+class Symbol:
+    """name: as it is printed; says: its meaning in a line; more: what the whole list has beside it; forms: what stands
+    for it in a text, by default its name.
+    """
+
+    name: str
+    says: str
+    more: str = ""
+    forms: tuple[str, ...] = ()
+
+    @property
+    def address(self) -> str:
+        """On the page of all symbols."""
+        return f"symbol-{plain_name(self.name)}"
+
+    @cached_property
+    def _pattern(self) -> re.Pattern[str]:
+        return re.compile(rf"(?<!\w)(?:{'|'.join(map(re.escape, self.forms or (self.name,)))})(?![\w'*])")
+
+    def stands_in(self, text: str) -> bool:
+        """As a word of its own: h' is no h."""
+        return self._pattern.search(text) is not None
+
+
+_LIST = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))["symbol"]
+SYMBOLS = tuple(Symbol(**{**row, "forms": tuple(row.get("forms", ()))}) for row in _LIST)
+
+
+def symbols_in(text: str) -> list[Symbol]:
+    """Those that a text uses, in the order of the list."""
+    return [symbol for symbol in SYMBOLS if symbol.stands_in(text)]
+
 
 COLUMNS = "columns.csv"
 EVERY, NO_UNIT, WORST = "*", "-", ", the worst point of the range"

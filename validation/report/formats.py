@@ -12,7 +12,7 @@ from validation.analysis.contents import csv_name
 from validation.analysis.escapes import printable
 from validation.analysis.evidence import ClaimStatus, Table, Verdict, VerdictCell, Whose
 from validation.analysis.study import Settings
-from validation.report.symbols import SYMBOLS, symbols_in
+from validation.report.columns import SYMBOLS, symbols_in
 
 SYMBOL = {"agree": "✓", "differ": "≠", "undecided": "?"}
 LETTER = {Verdict.AGREE: "A", Verdict.DIFFER: "D", Verdict.UNDECIDED: "?"}

@@ -8,9 +8,8 @@ from validation.analysis.case import Chapter, Profile
 from validation.analysis.contents import csv_name
 from validation.analysis.evidence import plus_minus
 from validation.engine.street import brought
-from validation.report.answers.failures import failures
 from validation.report.answers.first_screen import answered_questions
-from validation.report.answers.front_tables import times_faster, times_faster_said
+from validation.report.answers.front_tables import failures, times_faster, times_faster_said
 from validation.report.chapter import ERRATA, REMARKS, book_figures, chapter_of
 from validation.report.figures import tables_of
 from validation.report.formats import first_sentence, templates

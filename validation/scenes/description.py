@@ -5,12 +5,11 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Protocol
 
-from validation.scenes.damping import in_per_cent
 from validation.scenes.material import Material
 from validation.scenes.roughness import RoughSurface
 from validation.scenes.scene import Pairs
 from validation.scenes.units import in_unit
-from validation.scenes.wheel_body import Wheel
+from validation.scenes.wheel_body import Wheel, in_per_cent
 
 COUNTED = "in one direction, of all waves"
 """What the slope of a scene counts."""

@@ -12,15 +12,13 @@ from scipy.fft import next_fast_len
 from mdr.checks import count
 from validation.engine.street import brought
 from validation.scenes.bundled import bundled, path_of
-from validation.scenes.damping import DampedWheel, check_damping
 from validation.scenes.description import body_pairs, motion_pair, roughness_pairs
 from validation.scenes.material import Material, check_scene, material_of
 from validation.scenes.printable import shortened
 from validation.scenes.reader import Reader, errors_of_file, table, tables_of, values
 from validation.scenes.roughness import Roughness, check_band, roughness_of
 from validation.scenes.scene import Pairs
-from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
-from validation.scenes.wheel_body import OnHalfSpace
+from validation.scenes.wheel_body import DampedWheel, OnHalfSpace, check_damping, diagnose_short_waves, no_steady_answer
 
 KEYS = ("wheel.radius", "wheel.mass", "wheel.load", "wheel.speed", "simulation.distance")
 """Of what must be positive."""

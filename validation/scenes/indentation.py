@@ -6,13 +6,11 @@ from typing import ClassVar, Literal
 
 from mdr.checks import positive
 from validation.scenes.description import COUNTED, body_pairs, roughness_pairs, waves_of
-from validation.scenes.height_edits import SQUARE
 from validation.scenes.material import Material, check_scene
-from validation.scenes.measured import MeasuredHeights, check_covers
+from validation.scenes.measured import SQUARE, MeasuredHeights, check_covers
 from validation.scenes.printable import shortened
-from validation.scenes.quantity import PRESSED, SceneQuantity
 from validation.scenes.roughness import Roughness, RoughSurface, check_band
-from validation.scenes.scene import ContactEllipse, Pairs, SceneDefaults
+from validation.scenes.scene import PRESSED, ContactEllipse, Pairs, SceneDefaults, SceneQuantity
 from validation.scenes.units import in_unit
 from validation.scenes.wheel_body import OnHalfSpace, Wheel
 from validation.theory.closed_forms import square_punch_stiffness

@@ -7,10 +7,18 @@ from typing import Any
 import numpy as np
 
 from mdr.checks import positive
-from validation.analysis.nominal_bands import Detrend
+from validation.analysis.spectra import Detrend
 from validation.analysis.statistics import FloatArray
-from validation.scenes.height_edits import HeightEdits, central_square, filled_in, points_to_fill, real_numbers
-from validation.scenes.measured import FEWEST, MeasuredHeights, check_grid
+from validation.scenes.measured import (
+    FEWEST,
+    HeightEdits,
+    MeasuredHeights,
+    central_square,
+    check_grid,
+    filled_in,
+    points_to_fill,
+    real_numbers,
+)
 from validation.scenes.number_table import NumberTable
 from validation.scenes.positions import grid_of, metres_of_step, own_spacing, places_of
 from validation.scenes.printable import shortened

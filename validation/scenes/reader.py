@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import Any, get_args
 
 from mdr.checks import count, finite, positive
-from validation.analysis.nominal_bands import Detrend
-from validation.scenes.bundled import line_for, places_of
-from validation.scenes.input_files import SceneError, contents_of
+from validation.analysis.spectra import Detrend
+from validation.scenes.bundled import SceneError, contents_of, line_for, places_of
 from validation.scenes.printable import is_printable, printable, quoted, shortened
 from validation.scenes.units import Dimension, quantity
 

@@ -5,17 +5,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from validation.analysis.statistics import FloatArray
-from validation.scenes.damping import DampedWheel, check_damping
 from validation.scenes.description import body_pairs, motion_pair, roughness_pairs
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.material import Material, check_scene
 from validation.scenes.measured import MeasuredHeights, check_covers
-from validation.scenes.quantity import MOVING, ROLLING, SceneQuantity
 from validation.scenes.roughness import Roughness, RoughSurface, check_band
-from validation.scenes.scene import ContactEllipse, Pairs, SceneDefaults
-from validation.scenes.steadiness import diagnose_short_waves, no_steady_answer
+from validation.scenes.scene import MOVING, ROLLING, ContactEllipse, Pairs, SceneDefaults, SceneQuantity
 from validation.scenes.units import in_unit
-from validation.scenes.wheel_body import OnHalfSpace
+from validation.scenes.wheel_body import DampedWheel, OnHalfSpace, check_damping, diagnose_short_waves, no_steady_answer
 
 if TYPE_CHECKING:
     from validation.scenes.rolling_quantity import RollingQuantity

@@ -9,10 +9,10 @@ import numpy as np
 
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import FloatArray
-from validation.scenes.quantity import MOVING, ROLLING
 from validation.scenes.rolling import RollingScene
-from validation.scenes.steadiness import force_on_the_way
-from validation.theory.gauss_legendre import on_panels
+from validation.scenes.scene import MOVING, ROLLING
+from validation.scenes.wheel_body import force_on_the_way
+from validation.theory.half_space import on_panels
 from validation.theory.rolling import force_spectrum_1d, force_spectrum_3d, force_variance
 from validation.theory.wheel import dynamic_stiffness
 

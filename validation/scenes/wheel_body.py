@@ -1,13 +1,20 @@
 """A wheel by itself: its contact, its stiffness, its resonance; what scenes of a wheel share."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
+from mdr.checks import finite
+from validation.analysis.statistics import FloatArray
+from validation.scenes.roughness import RoughSurface
 from validation.scenes.scene import ContactEllipse
 from validation.theory.closed_forms import circular_punch_stiffness, hertz_approach, hertz_contact_radius
-from validation.theory.wheel import eigenfrequency
+from validation.theory.half_space import on_panels
+from validation.theory.rolling import force_spectrum_1d
+from validation.theory.wheel import contact_force_over_force, eigenfrequency
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,3 +92,150 @@ class OnHalfSpace:
                 f"the contact radius is {self.contact_radius / self.body.radius:.3g} of {name}.radius, more than a "
                 f"tenth: no half-space; are the units of {name}.load and material.youngs_modulus right?"
             )
+
+
+@dataclass(frozen=True, kw_only=True)
+class DampedWheel(Wheel):
+    """A wheel with a dashpot: M z'' = F - F_N - c z', c = 2 zeta M omega_eigen, whatever its contact is.
+
+    damping: zeta, of critical, at least zero and below one; ValueError for another.
+    """
+
+    damping: float = 0.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        check_damping(self.damping, self.mass)
+
+
+def damping_rate(wheel: Wheel) -> float:
+    """c / M = 2 zeta omega_eigen [1/s]; zero without a dashpot."""
+    return 2 * wheel.damping * wheel.eigenfrequency if isinstance(wheel, DampedWheel) else 0.0
+
+
+def check_damping(damping: float, mass: float | None) -> None:
+    """Raises ValueError for a ratio out of range, or of a wheel without a mass."""
+    if not 0 <= finite("wheel.damping", damping) < 1:
+        raise ValueError(
+            f'wheel.damping must be at least 0 and below 1, which is critical, got {damping:g}, as: damping = "2 %"'
+        )
+    if damping and mass is None:
+        raise ValueError(
+            f"wheel.damping needs a mass: a wheel without one keeps its approach and does not vibrate, got "
+            f'{in_per_cent(damping)} alone, as: mass = "500 kg"'
+        )
+
+
+def in_per_cent(damping: float) -> str:
+    return f"{100 * damping:.4g} %"
+
+
+MAX_FORCE = 0.25
+"""Root mean square of the force by linear theory, over the load: above it wheels leave the track."""
+MAX_HEIGHT = 1 / 3
+"""h / d: above it wheels leave the track, or their level grows along it."""
+SHORT_WAVES, FEEDING_HEIGHT = 2.0, 0.1
+"""q a of the longest wave, and h / d, from where on short waves drive the free vibration."""
+NODES, RATIO = 16, 1.4
+"""Of Gauss and Legendre on a panel; of the ends of a panel, from the resonance, at the most."""
+
+
+def no_steady_answer(wheel: Wheel, speed: float, grounds: Sequence[RoughSurface]) -> str:
+    """Why the level of the motion depends on the distance, in a sentence; empty where it does not.
+
+    The first of these conditions that holds:
+    q_min v_0 <= omega_eigen <= q_max v_0 without damping; h / d > 1/3; sigma > F_N / 4 of `force_on_the_way`. With
+    damping the level is steady beyond these last two also, but no model was measured there.
+
+    speed: v_0 [m/s]; grounds: what is rough, rail and wheel.
+
+    Measured on 12 wheels on springs, Table 14.1 except for these values, over 2 m: growth is that of the
+    rms acceleration from the first quarter of the way to the last, flight the share of time in the air in the last.
+    - q_min v_0 / omega_eigen = 0.5, 0.8, 0.95, h/d = 0.003, 4 m: growth 2.8, 2.4, 2.6, and flight at h/d = 0.03;
+      q_min v_0 / omega_eigen = 1.05, 1.2, 1.5, 3, h/d = 0.003 and 0.03: growth below 1.06, no flight.
+    - 10 to 0.5 mm, h/d = 0.3, 0.45, 0.6, 1, sigma / F_N = 0.22, 0.33, 0.44, 0.73: growth 1.1, 1.3, 1.5, 1.6, flight 0,
+      0.1, 2, 19 %.
+    - 10 to 1 mm, 5 m/s, h/d = 0.2, 0.3, 0.4, sigma / F_N = 0.17, 0.25, 0.34: flight 0, 1, 23 %.
+    - 30 to 3 mm, h/d = 0.1, 0.2, 0.3, sigma / F_N = 0.14, 0.27, 0.41: flight 0, 0, 0.6 %.
+    - 4 to 1 mm, shorter than the contact, so that the force hardly changes, h/d = 0.2, 0.3, 0.4, 0.5, 1: growth 1.2,
+      1.6, 2.3, 2.6, 2, flight 0, 0, 0, 0.01, 7 %.
+    Below the limits such short waves still drive the free vibration, which `diagnose_short_waves` reports. In three
+    dimensions waves oblique to the track excite the resonance from below q_min v_0, too.
+    """
+    slow, fast = min(g.q_min for g in grounds) * speed, max(g.q_max for g in grounds) * speed
+    omega = wheel.eigenfrequency
+    damped = damping_rate(wheel) > 0
+    then = "where no model was measured" if damped else "and the level depends on the distance"
+    leaves = f"the wheel leaves the track, {then}"
+    if slow <= omega <= fast and not damped:
+        return (
+            f"nothing damps the wheel, and its resonance, {omega:.4g} rad/s, lies among the waves that excite it, "
+            f"{slow:.4g} to {fast:.4g} rad/s: the level grows with the distance"
+        )
+    height = math.hypot(*(ground.rms for ground in grounds))
+    if height > MAX_HEIGHT * wheel.approach:
+        return (
+            f"the roughness is {height / wheel.approach:.3g} of the approach of {wheel.approach:.3g} m, more than a "
+            f"third: {leaves}"
+        )
+    force = force_on_the_way(wheel, speed, grounds)
+    if force > MAX_FORCE * wheel.load:
+        return (
+            f"by linear theory the force changes by {force / wheel.load:.3g} of the load, root mean square, more than "
+            f"{MAX_FORCE:g}: {leaves}"
+        )
+    return ""
+
+
+def diagnose_short_waves(wheel: Wheel, grounds: Sequence[RoughSurface]) -> tuple[str, ...]:
+    """A note where waves are shorter than the contact and too high for linear theory: they drive the free vibration.
+
+    Measured as in `no_steady_answer`: the acceleration grows, for waves of 2 to 0.5 mm, h/d = 0.1, 0.2, 0.3, by 1.2,
+    1.7, 2.3; of 1 to 0.25 mm by 1.6, 2.5, 2.8; of 10 to 0.5 mm by 1.04, 1.07, 1.09.
+    """
+    height, longest = math.hypot(*(g.rms for g in grounds)), min(g.q_min for g in grounds) * wheel.contact_radius
+    if longest < SHORT_WAVES or height < FEEDING_HEIGHT * wheel.approach or damping_rate(wheel) > 0:
+        return ()
+    ratio = height / wheel.approach
+    return (
+        f"the longest wave is short beside the contact, q a = {longest:.3g}, and the roughness {ratio:.3g} of the "
+        "approach: this excites the free vibration, whose level at the resonance grows with the distance.",
+    )
+
+
+def force_on_the_way(wheel: Wheel, speed: float, grounds: Sequence[RoughSurface]) -> float:
+    """Root mean square change of the force on a wheel that moves, by linear theory [N].
+
+    sigma^2 = 2 int C_F(q) `contact_force_over_force` dq, C_F of (14.12) with Geike's spectrum.
+    Infinite where the resonance is among the waves and nothing damps it.
+    """
+    return math.hypot(*(_of_one(wheel, wheel.eigenfrequency / speed, ground) for ground in grounds))
+
+
+def _of_one(wheel: Wheel, resonance: float, ground: RoughSurface) -> float:
+    damping = wheel.damping if isinstance(wheel, DampedWheel) else 0.0
+    if ground.q_min <= resonance <= ground.q_max and not damping:
+        return math.inf
+    q, weight = _nodes(resonance, ground, math.pi / wheel.contact_radius, damping * resonance)
+    force = force_spectrum_1d(
+        q, lambda s: np.pi * s * ground.c2d(s), contact_radius=wheel.contact_radius, modulus=wheel.modulus
+    )
+    moved = contact_force_over_force(q, eigenfrequency=resonance, damping=damping)
+    return math.sqrt(2 * float(np.sum(weight * force * moved)))
+
+
+def _nodes(resonance: float, ground: RoughSurface, period: float, width: float) -> tuple[FloatArray, FloatArray]:
+    """Of a quadrature on panels that shrink towards the resonance and its width, none longer than a period of sin^2."""
+    found = []
+    for side in (-1, 1):
+        low, high = (max(side * (q - resonance), 0.0) for q in (ground.q_min, ground.q_max)[::side])
+        if high == 0:
+            continue
+        least = max(low, min(width, high))
+        powers = np.geomspace(least, high, 2 + math.floor(math.log(high / least) / math.log(RATIO)))
+        waves = np.linspace(low, high, 2 + math.floor((high - low) / period))
+        inner = [side * (q - resonance) for q in ground.edges]
+        away, weight = on_panels(np.union1d(np.union1d(powers, waves), np.clip(inner, low, high)), NODES)
+        found.append((resonance + side * away, weight))
+    q, weights = zip(*found, strict=True)
+    return np.concatenate(q), np.concatenate(weights)

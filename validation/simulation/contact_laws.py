@@ -10,8 +10,7 @@ import numpy as np
 import bem3d
 import mdr
 from validation.engine.engine import FloatArray
-from validation.scenes.damping import damping_rate
-from validation.scenes.wheel_body import Wheel
+from validation.scenes.wheel_body import Wheel, damping_rate
 
 
 class ContactLaw(Protocol):

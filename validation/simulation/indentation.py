@@ -10,10 +10,10 @@ from validation.engine.engine import FloatArray
 from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
-from validation.scenes.quantity import STIFFNESS
 from validation.scenes.roughness import RoughSurface
+from validation.scenes.scene import STIFFNESS
 from validation.simulation.surface import draw_surface
-from validation.theory.gauss_legendre import on_panels
+from validation.theory.half_space import on_panels
 from validation.theory.rolling import rms_gradient
 
 SURFACES = 2

@@ -8,10 +8,9 @@ from typing import Any
 
 from validation.engine.street import brought
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.quantity import MOVING, PRESSED, ROLLING, SceneQuantity
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
-from validation.scenes.scene import Scene
+from validation.scenes.scene import MOVING, PRESSED, ROLLING, Scene, SceneQuantity
 from validation.simulation.model_names import BEM
 from validation.simulation.rough_punch import PunchRoughness
 

@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from mdr.checks import positive
 from validation.engine.engine import FloatArray
-from validation.scenes.damping import damping_rate
-from validation.scenes.wheel_body import Wheel
+from validation.scenes.wheel_body import Wheel, damping_rate
 from validation.simulation.contact_laws import ContactLaw, LinearLaw
 from validation.simulation.integrators import VELOCITY_VERLET, Integrator, velocity_verlet
 

@@ -17,6 +17,7 @@ from validation.simulation.contact_laws import HertzLaw, SpringsLaw
 from validation.simulation.free_vibration import SPEED, WHEEL
 from validation.simulation.integrators import INTEGRATORS
 from validation.simulation.motion import simulate
+from validation.simulation.rough_punch import PunchRoughness
 from validation.simulation.surface import draw_track
 
 HEIGHT = 0.5e-6
@@ -173,3 +174,30 @@ def refusal(call: Callable[[], object]) -> str:
     except ValueError as error:
         return str(error)
     return ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RoughAreas:
+    """So many realisations from the first on, on cells x cells; loads: overlaps, mean over the area, in rms heights."""
+
+    roughness: PunchRoughness
+    first: int
+    realisations: int
+    cells: int
+    loads: tuple[float, ...]
+
+
+def press_areas(areas: RoughAreas) -> Outcome:
+    """Stiffness of each realisation at each load, E* = 1 a length, so the contact fraction: one sort a surface."""
+    load = areas.roughness.height * np.array(areas.loads)
+    last = areas.first + areas.realisations
+    surfaces = (areas.roughness.surface(areas.cells, i) for i in range(areas.first, last))
+    return {"stiffness": np.array([_fraction(surface.ravel(), load) for surface in surfaces])}
+
+
+def _fraction(height: FloatArray, load: FloatArray) -> FloatArray:
+    """Linear between the loads at which one more spring touches."""
+    ordered = np.sort(height)[::-1]
+    touching = np.arange(1, ordered.size + 1)
+    overlap = (np.cumsum(ordered) - touching * ordered) / ordered.size
+    return np.interp(load, overlap, touching / ordered.size)

@@ -2,7 +2,7 @@
 
 import math
 
-from validation.analysis import spectral_features as regions
+from validation.analysis import spectra as regions
 from validation.analysis.statistics import FloatArray
 from validation.scenes.dynamic_wheel import WheelScene
 

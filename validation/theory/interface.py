@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import special
 
 from validation.theory.closed_forms import positive
-from validation.theory.gauss_legendre import on_panels
+from validation.theory.half_space import on_panels
 
 FloatArray = NDArray[np.float64]
 PANELS, NODES = 1000, 4

@@ -14,14 +14,12 @@ from validation.advice.calibrate import (
     measured_table,
     table_in,
 )
-from validation.advice.calibration_answers import ANSWERS, Answers, Group, merged
-from validation.advice.calibration_scenes import CalibrationRun
+from validation.advice.calibration_scenes import ANSWERS, Answers, CalibrationRun, Group, merged
 from validation.engine.engine import Engine
 from validation.engine.files import write_whole
 from validation.engine.progress import progress_of
 from validation.engine.street import brought
-from validation.report.commands.arguments import Exit, add_options, add_workers, at_least, not_beside
-from validation.report.commands.places import check_places
+from validation.report.commands.arguments import Exit, add_options, add_workers, at_least, check_places, not_beside
 from validation.report.folder import CALIBRATION, REALISATIONS, Folder
 from validation.scenes.printable import printable
 

@@ -7,22 +7,18 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from validation.advice.cells import format_seconds
-from validation.advice.compare import Comparison, SceneProblem
+from validation.advice.compare import Comparison, SceneProblem, Swept, swept_values
 from validation.advice.export import Export
-from validation.advice.in_short import in_short
 from validation.advice.quantities import all_quantities, quantities_of
 from validation.advice.scene_model import SceneModel
 from validation.advice.several_scenes import compare_scenes
-from validation.advice.summary import findings, heading, in_full, summary
-from validation.advice.swept import Swept, swept_values
-from validation.advice.tolerance import tolerance_of
+from validation.advice.summary import findings, heading, in_full, in_short, summary
+from validation.advice.tolerance import format_seconds, tolerance_of
 from validation.engine.engine import Engine
 from validation.engine.files import write_given
 from validation.engine.progress import progress_of
 from validation.engine.street import brought
-from validation.report.commands.arguments import Exit, add_options, add_workers, at_least, some_of
-from validation.report.commands.places import check_places
+from validation.report.commands.arguments import Exit, add_options, add_workers, at_least, check_places, some_of
 from validation.scenes.load import bundled_for_compare, files_of, load_scene, load_varied
 from validation.scenes.printable import printable
 from validation.scenes.scene import Scene

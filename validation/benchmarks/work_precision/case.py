@@ -6,9 +6,8 @@ from itertools import groupby
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart
-from validation.analysis.claims import Claim
+from validation.analysis.claims import Claim, times_source
 from validation.analysis.evidence import Number, Role, Table, Whose, grouped, table_of
-from validation.analysis.printed import times_source
 from validation.analysis.quantity import Quantity
 from validation.analysis.series import Margin, Series, single
 from validation.analysis.statistics import Interval
@@ -17,9 +16,17 @@ from validation.benchmarks.peers import all_methods
 from validation.benchmarks.timing import FAILED, FINISHED, TimedProblem
 from validation.benchmarks.work_precision import pareto
 from validation.benchmarks.work_precision.errors import points
-from validation.benchmarks.work_precision.faster import FASTER, cheapest_as_close, faster, time_over
 from validation.benchmarks.work_precision.figure_cost import COST_OF_STEPS, HOURS, FigureCost, figure_cost
-from validation.benchmarks.work_precision.pareto import Point, cheapest, front, seconds
+from validation.benchmarks.work_precision.pareto import (
+    FASTER,
+    Point,
+    cheapest,
+    cheapest_as_close,
+    faster,
+    front,
+    seconds,
+    time_over,
+)
 from validation.benchmarks.work_precision.pressed import (
     PUNCH_GRIDS,
     SPHERE_GRIDS,

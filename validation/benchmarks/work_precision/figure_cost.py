@@ -8,8 +8,7 @@ import numpy as np
 
 from validation.analysis.evidence import Table, table_of
 from validation.analysis.quantity import Quantity
-from validation.benchmarks.isolation import alone, timed
-from validation.benchmarks.timing import interval_of_median
+from validation.benchmarks.timing import alone, interval_of_median, timed
 from validation.engine.engine import Engine, FloatArray, Outcome
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.simulation.contact_laws import BoundaryElementsLaw, SpringsLaw

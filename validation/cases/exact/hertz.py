@@ -10,9 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 import mdr
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim
+from validation.analysis.claims import Claim, off_by
 from validation.analysis.evidence import Number, Role
-from validation.analysis.printed import off_by
 from validation.analysis.quantity import Quantity
 from validation.analysis.series import Margin, Series, single
 from validation.analysis.study import Outcomes, Study

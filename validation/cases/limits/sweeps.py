@@ -8,7 +8,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.analysis.margins import MARGINS
+from validation.analysis.series import MARGINS
 from validation.engine.engine import FloatArray, Outcome
 from validation.simulation import limits_of_half_space as elements
 from validation.simulation import limits_of_springs as springs

@@ -11,12 +11,18 @@ from functools import cached_property
 
 import numpy as np
 
-from validation.analysis.multilevel import Linearised, Resolved, moments, multilevel_moments, weighted_sum
-from validation.analysis.statistics import FloatArray, nearest
+from validation.analysis.statistics import (
+    FloatArray,
+    Linearised,
+    Resolved,
+    moments,
+    multilevel_moments,
+    nearest,
+    weighted_sum,
+)
 from validation.analysis.study import Outcomes
 from validation.cases.punch.ensembles import PunchEnsembles, press
 from validation.engine.engine import SERIAL, Engine
-from validation.simulation.light_punch import press_lightly
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS as MDR
 from validation.simulation.rough_punch import (
@@ -25,8 +31,9 @@ from validation.simulation.rough_punch import (
     RolledOffRoughness,
     Surface,
     force_levels,
+    press_lightly,
 )
-from validation.simulation.springs_over_area import RoughAreas, press_areas
+from validation.simulation.spring_tracks import RoughAreas, press_areas
 
 ROLL_OFF = "q_r L / 2π"
 FINER, DOUBLED, AREA = "finer cells", "twice the springs", "springs over an area"

@@ -6,13 +6,11 @@ from functools import partial
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, Matrix
+from validation.analysis.claims import Claim, Matrix, per_cent
 from validation.analysis.evidence import Place
-from validation.analysis.multilevel import combined
-from validation.analysis.printed import per_cent
 from validation.analysis.quantity import Quantity
 from validation.analysis.series import Margin, Series
-from validation.analysis.statistics import DECIBEL
+from validation.analysis.statistics import DECIBEL, combined
 from validation.analysis.study import Outcomes, Study
 from validation.cases.punch.bandwidth import AREA, ROLL_OFF, Band, Bandwidth, Deviations, run
 from validation.cases.punch.ensembles import DEVIATION, FORCE, OVER

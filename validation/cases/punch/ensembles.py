@@ -1,12 +1,13 @@
 """Ensembles of rough square punches: the settings that all cases about them share, and how they are pressed."""
 
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import TypeVar
 
 import numpy as np
 
+from validation.analysis.evidence import Table
 from validation.analysis.series import Estimates, Ranges, Series, spans
 from validation.analysis.statistics import DECIBEL, FloatArray, Statistic, jackknifed
 from validation.engine.engine import Engine, Outcome
@@ -21,6 +22,20 @@ from validation.simulation.rough_punch import (
     press_surface,
     stacked,
 )
+
+WORK, CELLS, SPRINGS = "work", "cells on a side", "springs of a profile"
+APPLICATIONS = "operator applications a load"
+
+
+def worked(cells: int, springs: int, outcomes: Iterable[Outcome]) -> Table:
+    """A contact with its stiffness on so many cells a side: the mean over loads, each the mean of what it took.
+
+    outcomes: a row a surface and a column a load, NaN where a surface was not pressed: light loads have more.
+    """
+    found = [outcome["applications"] + outcome["frozen applications"] for outcome in outcomes]
+    mean_of_loads = float(np.nanmean(np.concatenate([np.nanmean(values, axis=0) for values in found])))
+    return Table(WORK, {CELLS: [cells], SPRINGS: [springs], APPLICATIONS: [mean_of_loads]})
+
 
 MEAN, DEVIATION = MEAN_STIFFNESS, RELATIVE_DEVIATION
 FORCE, OVER, FEW = "Fbar", "springs over boundary elements", "boundary elements, few cells"

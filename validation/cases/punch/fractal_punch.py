@@ -10,26 +10,32 @@ from operator import attrgetter
 import numpy as np
 
 from validation.analysis.evidence import Table
-from validation.analysis.multilevel import (
+from validation.analysis.quantity import Quantity
+from validation.analysis.series import Series, masked, single
+from validation.analysis.statistics import (
+    FloatArray,
     Linearised,
     Moments,
     Resolved,
     combined,
     multilevel_moments,
+    nearest,
     on_finest,
     on_no_size,
 )
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import Series, masked, single
-from validation.analysis.statistics import FloatArray, nearest
 from validation.analysis.study import Outcomes
-from validation.cases.punch.ensembles import DEVIATION, FEW, FORCE, MEAN, PunchEnsembles, press
-from validation.cases.punch.work import worked
+from validation.cases.punch.ensembles import DEVIATION, FEW, FORCE, MEAN, PunchEnsembles, press, worked
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.simulation.light_punch import press_lightly
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS as MDR
-from validation.simulation.rough_punch import FEW_CELLS, Profiles, PunchRoughness, Surface, require_converged
+from validation.simulation.rough_punch import (
+    FEW_CELLS,
+    Profiles,
+    PunchRoughness,
+    Surface,
+    press_lightly,
+    require_converged,
+)
 from validation.theory import closed_forms
 
 LONG = "springs, L_1D = 1.1523 L"

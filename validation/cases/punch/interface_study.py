@@ -4,11 +4,11 @@ from functools import partial
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel, by_model
-from validation.analysis.claims import NOT_THIS_CURVE, Claim, Matrix, listed
+from validation.analysis.claims import NOT_THIS_CURVE, Claim, Matrix, listed, per_cent, times
 from validation.analysis.evidence import Table, Whose, numbers_with
-from validation.analysis.printed import per_cent, times
 from validation.analysis.series import numbers_of
 from validation.analysis.study import Outcomes, Study
+from validation.cases.punch.ensembles import worked
 from validation.cases.punch.interface import (
     AREA,
     BARBER,
@@ -35,7 +35,6 @@ from validation.cases.punch.interface import (
     run,
     series,
 )
-from validation.cases.punch.work import worked
 from validation.simulation import model_needed
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS as MDR

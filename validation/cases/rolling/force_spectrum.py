@@ -12,9 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.evidence import Place, Role
-from validation.analysis.margins import REPEATABLE
 from validation.analysis.quantity import Quantity
-from validation.analysis.series import Counted, Estimates, Margin, Series
+from validation.analysis.series import REPEATABLE, Counted, Estimates, Margin, Series
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import DECIBEL, POWER_DECIBEL, FloatArray, jackknifed
 from validation.analysis.study import Outcomes

@@ -4,9 +4,8 @@ from functools import partial
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import THREE_D_DIFFER, Claim, Matrix
+from validation.analysis.claims import THREE_D_DIFFER, Claim, Matrix, decibels, decibels_rms, per_cent
 from validation.analysis.evidence import Whose
-from validation.analysis.printed import decibels, decibels_rms, per_cent
 from validation.analysis.study import Study
 from validation.cases.rolling.force_spectrum import (
     BEM,

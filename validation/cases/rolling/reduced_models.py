@@ -10,12 +10,10 @@ import numpy as np
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, Matrix
+from validation.analysis.claims import Claim, Matrix, decibels_rms
 from validation.analysis.evidence import Place
-from validation.analysis.margins import REPEATABLE
-from validation.analysis.printed import decibels_rms
 from validation.analysis.quantity import Quantity
-from validation.analysis.series import Margin, Series
+from validation.analysis.series import REPEATABLE, Margin, Series
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed, mean_estimate
 from validation.analysis.study import Outcomes, Study
 from validation.cases.rolling.force_spectrum import HEIGHT, SLOPE, SLOPE_COUNTS, Q

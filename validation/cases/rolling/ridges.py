@@ -8,9 +8,8 @@ import numpy as np
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim
+from validation.analysis.claims import Claim, share
 from validation.analysis.evidence import Role, Whose
-from validation.analysis.printed import share
 from validation.analysis.quantity import Quantity
 from validation.analysis.series import Margin, Series
 from validation.analysis.study import Outcomes, Study

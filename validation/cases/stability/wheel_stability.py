@@ -12,9 +12,8 @@ from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.claims import Claim
 from validation.analysis.evidence import Number, Role, Table
-from validation.analysis.margins import FIELD
 from validation.analysis.quantity import Quantity
-from validation.analysis.series import Series, Where, single
+from validation.analysis.series import FIELD, Series, Where, single
 from validation.analysis.statistics import POWER_DECIBEL, Estimate
 from validation.analysis.study import Outcomes, Study
 from validation.engine.engine import SERIAL, Engine, FloatArray, Outcome

@@ -9,9 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from validation.analysis.evidence import Place, Role
-from validation.analysis.margins import MARGINS
 from validation.analysis.quantity import Quantity
-from validation.analysis.series import Estimates, Margin, Series
+from validation.analysis.series import MARGINS, Estimates, Margin, Series
 from validation.analysis.spectra import band_levels, band_means, one_third_octaves
 from validation.analysis.statistics import Estimate, FloatArray, jackknifed, ratio_of_means
 from validation.analysis.study import Outcomes

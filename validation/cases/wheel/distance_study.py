@@ -5,9 +5,8 @@ from dataclasses import replace
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel, by_model
-from validation.analysis.claims import Claim
+from validation.analysis.claims import Claim, share
 from validation.analysis.evidence import Whose
-from validation.analysis.printed import share
 from validation.analysis.study import Outcomes, Study
 from validation.cases.wheel import distance
 from validation.cases.wheel.distance import BOOK, CUT, HANN, LINEAR, PERIODIC, SECOND_ORDER, SPRINGS

@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from validation.analysis import spectral_features as regions
+from validation.analysis import spectra as regions
 from validation.analysis.quantity import Quantity
 from validation.analysis.series import Series
 from validation.analysis.spectra import band_means

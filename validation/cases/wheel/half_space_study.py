@@ -6,14 +6,13 @@ from functools import partial
 
 import numpy as np
 
-from validation.analysis import spectral_features
+from validation.analysis import spectra as spectral_features
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel, by_model
 from validation.analysis.claims import THREE_D_DIFFER, Claim
 from validation.analysis.evidence import Table, Whose
-from validation.analysis.margins import MARGINS
 from validation.analysis.quantity import Quantity
-from validation.analysis.series import Estimates, Series
+from validation.analysis.series import MARGINS, Estimates, Series
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray, jackknifed
 from validation.analysis.study import Outcomes, Study
 from validation.cases.wheel import features

@@ -8,9 +8,8 @@ from functools import partial
 import numpy as np
 
 from validation.analysis.evidence import Role
-from validation.analysis.margins import MARGINS
 from validation.analysis.quantity import Quantity
-from validation.analysis.series import Estimates, Margin, Series, Where
+from validation.analysis.series import MARGINS, Estimates, Margin, Series, Where
 from validation.analysis.spectra import band_levels, band_means, one_third_octaves
 from validation.analysis.study import Outcomes
 from validation.cases.wheel import features

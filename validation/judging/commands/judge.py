@@ -10,11 +10,10 @@ from pathlib import Path
 from validation.advice.tolerance import tolerance_of
 from validation.analysis.contents import as_json, folder_names
 from validation.engine.files import write_given
-from validation.judging.entry_points import GROUP, installed
+from validation.judging.files_read import GROUP, installed
 from validation.judging.judge import Judgement, judged, points_as_csv
 from validation.judging.worker import Called, visited
-from validation.report.commands.arguments import Exit, add_options
-from validation.report.commands.places import check_places
+from validation.report.commands.arguments import Exit, add_options, check_places
 from validation.report.folder import JUDGEMENT, Folder
 from validation.scenes.printable import printable
 

@@ -23,9 +23,8 @@ from validation.judging.judgement import Conditions
 from validation.judging.kinds.references import Reference
 from validation.judging.kinds.rolling import GRIDS, HEIGHT, SLOPE, Q, WheelAtApproach, at_centres, octave, variance_of
 from validation.judging.kinds.stiffness import BAND, FIRST, FORCE, H
-from validation.simulation.light_punch import press_lightly
 from validation.simulation.rolling_strip import HERTZ, SMOOTH, RoughStrip, crop_to_reach, level_3d, roll_strip
-from validation.simulation.rough_punch import PunchRoughness, Surface
+from validation.simulation.rough_punch import PunchRoughness, Surface, press_lightly
 from validation.simulation.surface import draw_surface
 from validation.simulation.track_spectrum import PiecewisePowerLaw, self_affine
 

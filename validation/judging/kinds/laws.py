@@ -6,10 +6,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from validation.analysis.independent_records import half_width, independent_records
 from validation.analysis.quantity import Quantity
 from validation.analysis.spectra import band_means, record_spectra
-from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed
+from validation.analysis.statistics import (
+    POWER_DECIBEL,
+    Estimate,
+    FloatArray,
+    half_width,
+    independent_records,
+    jackknifed,
+)
 from validation.judging.judgement import LEVEL
 from validation.judging.kinds.judge import Finding, LostError, ModelAnswer, asked, attempted, beside
 from validation.judging.kinds.references import Reference, about, known

@@ -18,7 +18,7 @@ from validation.judging.kinds.references import Reference, known
 from validation.judging.kinds.rolling import WheelAtApproach, of_density
 from validation.judging.kinds.stiffness import DEVIATION, MEAN, UNIT, AskedPunch, H, beside_punches, sampled
 from validation.judging.registry import Caller, Failed
-from validation.theory.gauss_legendre import on_panels
+from validation.theory.half_space import on_panels
 from validation.theory.rolling import force_spectrum_1d
 
 FIRST, LAST, HEIGHT = 1e3, 64e3, 1e-6

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import mdr
-from validation.analysis.multilevel import moments
 from validation.analysis.quantity import Quantity
+from validation.analysis.statistics import moments
 from validation.engine.random_numbers import random_generator
 from validation.judging import judgement
 from validation.judging.judgement import Conditions

@@ -15,8 +15,7 @@ from validation.judging.kinds.judge import Finding, ModelAnswer
 from validation.judging.kinds.references import Reference, known
 from validation.judging.kinds.stiffness import DEVIATION, FORCE, HEIGHT, MEAN, MODULUS, SIDE, WAVES, H, load_of
 from validation.judging.registry import Caller, Failed
-from validation.simulation.light_punch import press_lightly
-from validation.simulation.rough_punch import PunchRoughness, Surface, force_levels
+from validation.simulation.rough_punch import PunchRoughness, Surface, force_levels, press_lightly
 
 CELLS, SEED, TOLERANCE = 256, 14, 1e-4
 """On a side, four to the shortest wave; of the surfaces of Fig. 14.1; residual of the solver."""

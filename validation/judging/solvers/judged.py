@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from validation.benchmarks.discrete import STATED, ContactProblem, KnownContact, pressed, problems
-from validation.benchmarks.isolation import timed as clocked
+from validation.benchmarks.timing import timed as clocked
 from validation.judging.judgement import AGREE, DIFFER, FAILED, REFUSED, JudgedPoint, not_compared
 from validation.judging.registry import Caller, FloatArray
 from validation.judging.solvers.causes import JudgedContact

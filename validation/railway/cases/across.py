@@ -9,9 +9,8 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from validation.analysis.margins import FIELD, THREE_DECIBELS
 from validation.analysis.quantity import Quantity
-from validation.analysis.series import Estimates, Series, Where, masked, only
+from validation.analysis.series import FIELD, THREE_DECIBELS, Estimates, Series, Where, masked, only
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray, Interval, jackknifed
 from validation.engine.engine import SERIAL, Engine
 from validation.railway.cases import filters

@@ -8,9 +8,8 @@ import numpy as np
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, Matrix
+from validation.analysis.claims import Claim, Matrix, decibels
 from validation.analysis.evidence import Table, Whose, table_of
-from validation.analysis.printed import decibels
 from validation.analysis.quantity import Quantity
 from validation.analysis.series import Series
 from validation.analysis.statistics import Interval

@@ -3,9 +3,8 @@
 import numpy as np
 
 from validation.advice.cases.random_scenes import EdgeKind, Generator, log_uniform
-from validation.railway.scenes.level_files import curve
+from validation.railway.scenes.level_files import MOST, RoughnessLevels, curve
 from validation.railway.scenes.rail import CONTACT_FILTER, Across, RailScene
-from validation.railway.scenes.roughness_levels import MOST, RoughnessLevels
 
 RAIL = "rail"
 RADII, CROWNS = (0.15, 0.6), (0.15, 4.0)

@@ -10,13 +10,11 @@ from numpy.typing import NDArray
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, Matrix
+from validation.analysis.claims import Claim, Matrix, decibels_rms
 from validation.analysis.evidence import Whose
-from validation.analysis.margins import REPEATABLE
-from validation.analysis.nominal_bands import NominalBands
-from validation.analysis.printed import decibels_rms
 from validation.analysis.quantity import Quantity
-from validation.analysis.series import Estimates, Series, masked
+from validation.analysis.series import REPEATABLE, Estimates, Series, masked
+from validation.analysis.spectra import NominalBands
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray, mean_estimate
 from validation.analysis.study import Outcomes, Study
 from validation.engine.convergence import NotConvergedError
@@ -25,7 +23,7 @@ from validation.railway.cases.filters import COUNTED, OFFSET, RailWheel, counted
 from validation.railway.problems.rail_strip import RailGround, RailStrip, line_of
 from validation.railway.problems.wheel_on_rail import WheelOnRail, roll_and_move
 from validation.railway.scenes.rail import RailScene
-from validation.scenes.damping import in_per_cent
+from validation.scenes.wheel_body import in_per_cent
 from validation.simulation.model_names import BEM, LINEAR, SPRINGS_THAT_READ
 
 FINE, COARSE = "fine", "coarse"

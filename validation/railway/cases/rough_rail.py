@@ -9,12 +9,10 @@ import numpy as np
 
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, Matrix
+from validation.analysis.claims import Claim, Matrix, decibels
 from validation.analysis.evidence import Role, Table
-from validation.analysis.margins import FIELD
-from validation.analysis.printed import decibels
 from validation.analysis.quantity import Quantity
-from validation.analysis.series import Estimates, Series, masked, only
+from validation.analysis.series import FIELD, Estimates, Series, masked, only
 from validation.analysis.study import Study
 from validation.railway.cases import filters
 from validation.railway.cases import rolled_filters as rolled

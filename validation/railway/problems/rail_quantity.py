@@ -10,12 +10,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.analysis.nominal_bands import NominalBands
+from validation.analysis.spectra import NominalBands
 from validation.engine.engine import FloatArray
 from validation.railway.problems.equivalent_displacement import transfer_of
 from validation.railway.problems.rail_strip import StatedAcross, line_of, lost_contact_number, structure_of
+from validation.railway.scenes.level_files import MICROMETRE
 from validation.railway.scenes.rail import CONTACT_FILTER, COUNTED, RailScene
-from validation.railway.scenes.roughness_levels import MICROMETRE
 from validation.railway.theory.line_spectrum import LineSpectrum
 from validation.railway.theory.transverse_structure import Filter, IsotropicGround, TransverseStructure
 from validation.simulation.model_names import LINEAR

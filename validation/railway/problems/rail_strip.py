@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.analysis.nominal_bands import NominalBands
+from validation.analysis.spectra import NominalBands
 from validation.engine.engine import FloatArray
 from validation.engine.random_numbers import random_generator
 from validation.railway.scenes.rail import RailScene

@@ -17,8 +17,7 @@ from validation.railway.problems.equivalent_displacement import (
     roll_springs,
 )
 from validation.railway.problems.rail_strip import RailStrip
-from validation.scenes.damping import DampedWheel
-from validation.scenes.wheel_body import Wheel
+from validation.scenes.wheel_body import DampedWheel, Wheel
 from validation.simulation.contact_laws import BoundaryElementsLaw, ContactLaw, LinearLaw
 from validation.simulation.model_names import BEM, LINE, LINEAR
 from validation.simulation.motion import simulate_from_linear_motion

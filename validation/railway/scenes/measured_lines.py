@@ -9,14 +9,12 @@ from typing import get_args
 import numpy as np
 
 from mdr.checks import finite, positive
-from validation.analysis.nominal_bands import Detrend, NominalBands
+from validation.analysis.spectra import Detrend, NominalBands
 from validation.analysis.statistics import FloatArray
-from validation.railway.scenes.level_files import curve
+from validation.railway.scenes.level_files import LEAST, MICROMETRE, RoughnessLevels, curve
 from validation.railway.scenes.line_columns import along_the_track
 from validation.railway.scenes.line_edits import UNTOUCHED, LineEdits, Outliers, edited
-from validation.railway.scenes.roughness_levels import LEAST, MICROMETRE, RoughnessLevels
-from validation.scenes.height_edits import edited_lines, known_heights, without_unknown_ends
-from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured import MeasuredHeights, edited_lines, known_heights, without_unknown_ends
 from validation.scenes.number_table import NumberTable
 from validation.scenes.printable import printable, shortened
 from validation.scenes.reader import Reader, errors_of, one_word, table, values

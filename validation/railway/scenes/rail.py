@@ -9,20 +9,19 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from mdr.checks import positive
-from validation.analysis.nominal_bands import NominalBands
+from validation.analysis.spectra import NominalBands
 from validation.analysis.statistics import FloatArray
 from validation.railway.scenes.isotropic_line import IsotropicLine, isotropic_line
+from validation.railway.scenes.level_files import MICROMETRE, RoughnessLevels
 from validation.railway.scenes.measured_lines import MeasuredLines
-from validation.railway.scenes.roughness_levels import MICROMETRE, RoughnessLevels
 from validation.railway.scenes.transverse_profile import TransverseProfile, fitted_radius
-from validation.scenes.damping import check_damping
 from validation.scenes.description import damping_of
 from validation.scenes.material import Material, check_scene
 from validation.scenes.measured import MeasuredHeights, check_covers
-from validation.scenes.quantity import SceneQuantity
 from validation.scenes.reader import errors_of
-from validation.scenes.scene import ENSEMBLE_MEAN, ContactEllipse, Pairs, SceneDefaults
+from validation.scenes.scene import ENSEMBLE_MEAN, ContactEllipse, Pairs, SceneDefaults, SceneQuantity
 from validation.scenes.units import in_unit
+from validation.scenes.wheel_body import check_damping
 from validation.theory.elliptic_contact import EllipticContact, elliptic_contact
 
 Across = Literal["ridges", "isotropic"] | float | None

@@ -13,7 +13,7 @@ from scipy import special
 
 from validation.railway.theory.transverse_structure import FAR, WaveBand
 from validation.theory.closed_forms import positive
-from validation.theory.gauss_legendre import on_panels
+from validation.theory.half_space import on_panels
 
 FloatArray = NDArray[np.float64]
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import special
 
-from validation.theory.gauss_legendre import gauss_legendre
+from validation.theory.half_space import gauss_legendre
 
 FloatArray = NDArray[np.float64]
 

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from validation.railway.theory.line_spectrum import LineSpectrum
 from validation.theory.closed_forms import positive
-from validation.theory.gauss_legendre import gauss_legendre, on_panels
+from validation.theory.half_space import gauss_legendre, on_panels
 
 FloatArray = NDArray[np.float64]
 Filter = Callable[[FloatArray, FloatArray], FloatArray]

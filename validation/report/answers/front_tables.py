@@ -1,16 +1,19 @@
 """The table of seconds at equal error on the front page."""
 
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from validation.analysis.evidence import Evidence, Verdict, placed
 from validation.benchmarks.work_precision.case import POINTS
-from validation.benchmarks.work_precision.faster import FASTER
+from validation.benchmarks.work_precision.pareto import FASTER
 from validation.benchmarks.work_precision.pressed import RoughPunchProblem
 from validation.benchmarks.work_precision.problem import SPRINGS
 from validation.benchmarks.work_precision.rolling import RollingProblem
+from validation.cases.limits.limits import SUMMARY
 from validation.cases.punch.ensembles import FORCE
 from validation.cases.rolling.force_spectrum import SLOPE
+from validation.report.answers.question import BEM
 from validation.report.answers.seconds import ENOUGH, TIMES
 from validation.report.answers.strip import TERMS
 from validation.report.section import Section
@@ -65,3 +68,28 @@ def times_faster_said(rows: Sequence[Mapping[str, Any]]) -> str:
     least, most = (f"{float(f'{times:.2g}'):g}" for times in (min(found), max(found)))
     within = " or ".join(f"{error:g} {unit}" for unit, error in ENOUGH.items())
     return f"Where springs are within {within}, they are {least} to {most} times faster than boundary elements"
+
+
+COLUMNS = {
+    "limit": "limit",
+    "they fail where": "fails where",
+    "what is wrong there": "error",
+    "message": "message of the software",
+}
+"""Of the front page, and of the case."""
+REASON = re.compile("[:;] ")
+
+
+def failures(sections: Sequence[Section]) -> list[dict[str, str]]:
+    """A row a limit, without its reasons; none where the case was not run."""
+    evidence = next((section.evidence for section in sections if section.name == "limits"), None)
+    if not evidence or not evidence.has_table(SUMMARY):
+        return []
+    table = evidence.table(SUMMARY)
+    rows = zip(*(table[name].tolist() for name in COLUMNS.values()), strict=True)
+    shown = [
+        (limit.removeprefix(BEM).lstrip(":, "), *(REASON.split(cell)[0] for cell in cells))
+        for limit, *cells in rows
+        if limit.startswith(BEM)
+    ]
+    return [dict(zip(COLUMNS, row, strict=True)) for row in shown]

@@ -3,10 +3,9 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from validation.analysis.claims import Choice, listed
-from validation.analysis.conditions import alone
+from validation.analysis.claims import Choice, alone, listed
 from validation.analysis.evidence import Evidence, Number, Place, Verdict, placed
-from validation.analysis.over_range import worst
+from validation.analysis.series import worst
 
 WORDS = {Verdict.AGREE: "yes", Verdict.DIFFER: "no", Verdict.UNDECIDED: "open"}
 TERMS = {

@@ -1,9 +1,13 @@
 """What several commands have: arguments, and how they ended."""
 
 import argparse
+import errno
 import os
-from collections.abc import Callable, Collection
+import stat
+from collections.abc import Callable, Collection, Mapping
 from enum import IntEnum
+from pathlib import Path
+from tempfile import TemporaryFile
 
 
 class Exit(IntEnum):
@@ -74,3 +78,88 @@ def some_of(known: Collection[str]) -> Callable[[str], tuple[str, ...]]:
         return found
 
     return names
+
+
+FOLDERS, FILES = ("out", "report", "store"), ("json", "csv", "cnossos", "figure")
+"""Options that name a place."""
+FIGURES = (".svg", ".png", ".pdf")
+
+
+def check_places(arguments: argparse.Namespace, read: Mapping[Path, str]) -> None:
+    """Raises ValueError where a result would replace what is read, or another result, or where it cannot be written.
+
+    read: files, each with what it is to the command.
+    """
+    folders = {Path(path): f"is --{name}" for name in FOLDERS if (path := getattr(arguments, name, None)) is not None}
+    for folder, which in folders.items():
+        if reason := _refusal(folder):
+            raise ValueError(f"{which[3:]} must be a folder that can be written, got {folder}: {reason}")
+    taken = {os.path.realpath(file): which for file, which in read.items()}
+    for name in FILES:
+        path = getattr(arguments, name, None)
+        if path is None:
+            continue
+        if name == "figure" and path.suffix not in FIGURES:
+            raise ValueError(f"--figure must end in {', '.join(FIGURES)}, got {path}")
+        if path.parent == Path("/dev"):
+            continue
+        inside = "is in the folder of --report" if _is_in(path, getattr(arguments, "report", None)) else ""
+        is_folder = "is a folder" if stat.S_ISDIR(_mode(path)) else ""
+        if by := folders.get(path) or taken.get(os.path.realpath(path)) or is_folder or inside:
+            raise ValueError(f"--{name} must be a file of its own, got {path}, which {by}")
+        if reason := _refusal_of_file(path):
+            raise ValueError(f"--{name} must be a file in a folder that can be written, got {path}: {reason}")
+        taken[os.path.realpath(path)] = f"--{name} writes"
+
+
+def _refusal_of_file(path: Path) -> str:
+    """Why it cannot be written; nothing where it can, and of a pipe, into which is written as it stands."""
+    mode = _mode(path)
+    if mode and not stat.S_ISREG(mode):
+        return ""
+    if mode and not os.access(path, os.W_OK):
+        return os.strerror(errno.EACCES)
+    return _refusal(path.parent) or _too_long(path)
+
+
+def _mode(path: Path) -> int:
+    """Zero where nothing is there."""
+    try:
+        return path.stat().st_mode
+    except OSError:
+        return 0
+
+
+def _is_in(path: Path, folder: Path | None) -> bool:
+    """Whether a file would lie in a folder that is replaced whole."""
+    return folder is not None and Path(os.path.realpath(path)).is_relative_to(os.path.realpath(folder))
+
+
+def _refusal(folder: Path) -> str:
+    """Why it can be neither made nor written into; nothing where it can."""
+    near = _nearest(folder)
+    if not near.is_dir():
+        return os.strerror(errno.ENOTDIR)
+    if not os.access(near, os.W_OK | os.X_OK):
+        return os.strerror(errno.EACCES)
+    try:
+        # rights alone do not say so: a file system may be read-only, or none of files
+        TemporaryFile(dir=near).close()
+    except OSError as error:
+        return error.strerror or str(error)
+    return _too_long(folder)
+
+
+def _nearest(path: Path) -> Path:
+    """It, or the folder nearest to it that is there."""
+    return next(place for place in (path, *path.parents) if os.path.lexists(place))
+
+
+def _too_long(path: Path) -> str:
+    """Whether a part of it that is not there yet is longer than a name may be."""
+    near = _nearest(path)
+    if near == path:  # also a link that leads to nothing
+        return ""
+    most = os.pathconf(near, "PC_NAME_MAX")
+    is_long = any(len(os.fsencode(part)) > most for part in path.relative_to(near).parts)
+    return os.strerror(errno.ENAMETOOLONG) if is_long else ""

@@ -8,8 +8,7 @@ from validation.analysis.evidence import Table
 from validation.benchmarks.peers import solvers_with
 from validation.engine.engine import LOCAL
 from validation.report.build import build
-from validation.report.commands.arguments import Exit, not_beside
-from validation.report.commands.places import check_places
+from validation.report.commands.arguments import Exit, check_places, not_beside
 from validation.report.contents import CASES, TIMED, timed_here
 from validation.report.formats import in_four_digits
 from validation.report.section import Section, total_of

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator
 
 from validation.analysis.evidence import Table
-from validation.report.curve_names import name_curves
+from validation.report.drawing import name_curves
 from validation.report.style import BARS, Style, panels, styles_of
 
 CHART = ("scene", "quantity")
