@@ -18,7 +18,7 @@ from validation.report import kept
 from validation.report.build import _files
 from validation.report.contents import CASES, TIMED
 from validation.report.folder import RESULTS, Folder
-from validation.report.pictures import FIGURES, draw_figure
+from validation.report.page import FIGURES, draw_figure
 from validation.report.provenance import _commit, with_kept
 from validation.report.section import Section
 

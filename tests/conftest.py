@@ -80,7 +80,7 @@ def pytest_configure(config):
 def without_figures(monkeypatch):
     """Reports hold stand-ins for their figures, which take longest."""
     # imported here, since coverage is measured from the first import
-    from validation.report import pictures
+    from validation.report import page as pictures
 
     monkeypatch.setattr(pictures, "draw_figure", lambda name, *rest: f"<svg>{name}</svg>".encode())
 

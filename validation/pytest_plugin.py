@@ -47,7 +47,7 @@ def pytest_configure(config: Any) -> None:
     """Raises pytest.UsageError, which is one line, for what is no such function."""
     for option, (kind, _) in options().items():
         if place := config.getoption(option):
-            from validation.judging.by_name import named_in
+            from validation.judging.own_models import named_in
 
             try:
                 named_in(place, kind)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.advice.planted_answers import punch, waves, wheel
-from validation.advice.calibrated_range import (
+from validation.advice.calibration import (
     HEIGHT,
     HURST,
     LOAD,

@@ -12,8 +12,17 @@ import pytest
 from tests.advice.planted_answers import punch, waves, wheel
 from validation.advice import calibrate, calibration, calibration_scenes
 from validation.advice.calibrate import as_table, calibration_age, check_calibration, measured_table
-from validation.advice.calibrated_range import HEIGHT, HURST, LOAD, LONG, RATIO, WAVES
-from validation.advice.calibration import MeasuredErrors, calibrated, conditions_by_kind
+from validation.advice.calibration import (
+    HEIGHT,
+    HURST,
+    LOAD,
+    LONG,
+    RATIO,
+    WAVES,
+    MeasuredErrors,
+    calibrated,
+    conditions_by_kind,
+)
 from validation.advice.calibration_scenes import QUANTITIES, RESONANCES, CalibrationRun, CalibrationScene
 from validation.advice.scene_model import Answer, Realisations
 from validation.scenes.rolling_quantity import RollingQuantity

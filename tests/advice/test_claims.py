@@ -21,8 +21,8 @@ from validation.scenes.rolling_quantity import RollingQuantity
 from validation.scenes.roughness import Roughness
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
+from validation.simulation.method import grid_error, mean_error
 from validation.simulation.model import Target
-from validation.simulation.sampling import grid_error, mean_error
 from validation.theory.closed_forms import SQUARE_PUNCH
 from validation.theory.rolling import contact_lost
 

@@ -9,11 +9,11 @@ import pytest
 import validation
 from tests.advice.planted_answers import Fake, Finding, punch
 from validation.__main__ import main
+from validation.advice.advice import in_full
 from validation.advice.columns import label
 from validation.advice.compare import Comparison, SceneProblem
 from validation.advice.contact_force import LEVELS
 from validation.advice.hierarchy import select_model
-from validation.advice.on_mdr import in_full
 from validation.advice.page import PAGE, files_of_comparison
 
 ABOUT = dict.fromkeys(("version", "commit", "python", "system"), "0") | {"libraries": {}, "seeds": {"compare": 0}}

@@ -34,9 +34,9 @@ from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling_quantity import RollingQuantity
 from validation.simulation import rolling_levels
+from validation.simulation.method import distance
 from validation.simulation.model import Cost, GridModel
 from validation.simulation.rolling_levels import by_linear_theory, strip_of
-from validation.simulation.sampling import distance
 
 
 def quantities_at_edges(kind):

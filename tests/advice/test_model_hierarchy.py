@@ -29,7 +29,7 @@ from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling_quantity import RollingQuantity
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
-from validation.simulation.sampling import distance, mean_error
+from validation.simulation.method import distance, mean_error
 
 
 def rough(shape, spacing, *, first=1.0, last=8.0, hurst=0.7, rms=1e-3, seed=2):

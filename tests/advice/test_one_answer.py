@@ -12,7 +12,8 @@ import pytest
 
 import validation
 from tests.advice.planted_answers import Fake, Finding, compared, planted, punch, wheel
-from validation.advice import advice, on_mdr
+from validation.advice import advice
+from validation.advice import advice as on_mdr
 from validation.advice.columns import overview_of
 from validation.advice.compare import Comparison, SceneProblem
 from validation.advice.exported import to_csv

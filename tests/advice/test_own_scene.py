@@ -16,8 +16,7 @@ from validation.__main__ import main
 from validation.advice import figure as figures
 from validation.advice import scene_model
 from validation.advice.compare import SceneProblem, swept_values
-from validation.advice.figure_of_sweep import draw_sweep
-from validation.advice.figure_over_seconds import figure_over_seconds
+from validation.advice.figure import draw_sweep, figure_over_seconds
 from validation.advice.side_by_side import shown_models, speed_and_accuracy
 from validation.advice.summary import findings, in_full, summary
 from validation.railway.problems.rail_models import ContactFilter

@@ -9,8 +9,8 @@ import pytest
 
 import validation
 from tests.advice.planted_answers import Fake, Finding, compared, planted, wheel
+from validation.advice.advice import in_full
 from validation.advice.columns import BECAME, models_of_page, side_by_side
-from validation.advice.on_mdr import in_full
 from validation.advice.quantities import quantities_of
 from validation.advice.side_by_side import error_of_difference
 from validation.advice.summary import WIDTH, summary

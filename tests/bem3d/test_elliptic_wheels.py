@@ -7,7 +7,7 @@ import pytest
 
 import bem3d
 from validation.railway.theory.contact_filters import half_space_filter
-from validation.theory.elliptic_contact import elliptic_contact
+from validation.theory.half_space import elliptic_contact
 
 RADII = [(1.0, 0.2), (0.2, 1.0), (0.46, 0.3)]
 

@@ -13,7 +13,8 @@ from validation.analysis.study import Outcomes
 from validation.cases.rolling import reduced_models as models
 from validation.cases.rolling import track_stiffness as stiffness
 from validation.cases.rolling.force_spectrum import ForceSpectrum
-from validation.simulation import rolling_strip, roughness_from_force
+from validation.simulation import rolling_levels as roughness_from_force
+from validation.simulation import rolling_strip
 from validation.simulation.reduced_models import COARSEST, JUDGE, LINEAR, MODELS, READ, bands_of, roll_by_all
 from validation.simulation.rolling_strip import HERTZ, RoughStrip, level_3d, over_bands
 from validation.simulation.track_spectrum import TrackSpectrum, self_affine

@@ -20,7 +20,7 @@ from validation import __main__ as command
 from validation.benchmarks.timing import isolated_process
 from validation.engine import workers as termination
 from validation.engine.engine import Engine, WorkerLostError
-from validation.report import pictures
+from validation.report import page as pictures
 from validation.report.contents import CASES
 
 

@@ -12,8 +12,7 @@ import pytest
 import validation
 from tests.judging.test_own_models import FILE, PUNCH, ROUGH, answers, series, stored, written
 from validation.__main__ import main
-from validation.advice.calibrated_range import SCATTER
-from validation.advice.calibration import MeasuredErrors
+from validation.advice.calibration import SCATTER, MeasuredErrors
 from validation.advice.hierarchy import REFUSALS
 from validation.engine.engine import Engine
 from validation.judging import own_models

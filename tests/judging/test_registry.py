@@ -9,7 +9,7 @@ import pytest
 
 import validation
 from validation.judging import files_read as installed
-from validation.judging.by_name import named_in
+from validation.judging.own_models import named_in
 from validation.judging.registry import KINDS, OfferedError
 from validation.judging.worker import Called
 

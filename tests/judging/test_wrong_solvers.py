@@ -12,12 +12,12 @@ from validation.benchmarks import discrete
 from validation.benchmarks.discrete import STATED
 from validation.judging.judgement import AGREE, REFUSED
 from validation.judging.registry import KINDS, Offered
-from validation.judging.solver_words import solver_lines
 from validation.judging.solvers import diagnosis, judged
 from validation.judging.solvers.causes import JudgedContact, causes
-from validation.judging.solvers.factors import numbered
+from validation.judging.solvers.diagnosis import numbered
 from validation.judging.solvers.judged import findings
 from validation.judging.solvers.properties import Asked
+from validation.judging.words import solver_lines
 from validation.judging.worker import Called
 
 FEW = (

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import mdr
 from mdr.elliptic_wheel import spring_wheel
-from validation.theory.elliptic_contact import elliptic_contact
+from validation.theory.half_space import elliptic_contact
 
 
 @given(pair=st.tuples(st.floats(0.05, 5), st.floats(0.05, 5)), approach=st.floats(1e-7, 1e-4))

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import mdr
 from validation.railway.theory.contact_filters import half_space_filter
-from validation.theory.elliptic_contact import elliptic_contact
+from validation.theory.half_space import elliptic_contact
 
 D, MODULUS = 1e-4, 2e11
 

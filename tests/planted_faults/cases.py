@@ -51,8 +51,8 @@ from validation.simulation import (
     reduced_models,
     rolling_strip,
     rough_punch,
-    roughness_from_force,
 )
+from validation.simulation import rolling_levels as roughness_from_force
 from validation.simulation import spring_tracks as rough_springs
 from validation.simulation import spring_tracks as springs_over_area
 from validation.simulation import wheel_on_springs as wheel_ensemble

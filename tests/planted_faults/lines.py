@@ -8,8 +8,9 @@ import numpy as np
 from tests.planted_faults.wrong import Fault
 from tests.railway import test_line_bursts, test_line_columns, test_line_outliers
 from validation.railway.problems import rail_quantity
-from validation.railway.scenes import line_columns, line_edits, line_outliers, line_steps
+from validation.railway.scenes import line_columns, line_edits, line_steps
 from validation.railway.scenes import line_edits as line_bursts
+from validation.railway.scenes import line_steps as line_outliers
 from validation.railway.scenes.level_files import RoughnessLevels
 from validation.railway.scenes.line_edits import EditedLine, LineEdits
 from validation.scenes import number_table, table_files

@@ -6,7 +6,8 @@ import math
 from tests.advice import test_costs_by_counts, test_limits_of_compare, test_one_answer, test_read_only_comparison
 from tests.judging import test_models_from
 from tests.planted_faults.wrong import Fault
-from validation.advice import advice, compare, hierarchy, on_mdr, scene_model
+from validation.advice import advice, compare, hierarchy, scene_model
+from validation.advice import advice as on_mdr
 from validation.judging import own_models
 from validation.railway.problems import rail_models, rail_quantity
 from validation.scenes.measured import MeasuredHeights

@@ -25,9 +25,11 @@ from validation.analysis import statistics
 from validation.analysis.claims import Claim
 from validation.analysis.evidence import Verdict
 from validation.analysis.series import Series
-from validation.report import build, chapter, code_behind, columns, formats, provenance, sounds, style
+from validation.report import build, chapter, columns, formats, provenance, sounds, style
 from validation.report import columns as symbols
-from validation.report.answers import question, strip
+from validation.report import provenance as code_behind
+from validation.report.answers import questions as question
+from validation.report.answers import strip
 from validation.report.page import PageFigure
 
 AGREE, DIFFER = Verdict.AGREE, Verdict.DIFFER

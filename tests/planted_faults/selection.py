@@ -26,7 +26,6 @@ from tests.planted_faults.wrong import Fault, Times, with_math
 from tests.railway import test_contact_force
 from validation.advice import (
     calibrate,
-    calibrated_range,
     calibration,
     columns,
     compare,
@@ -37,9 +36,10 @@ from validation.advice import (
     side_by_side,
     tolerance,
 )
+from validation.advice import calibration as calibrated_range
 from validation.advice import compare as swept
 from validation.advice import figure as compared
-from validation.advice.calibrated_range import LOAD
+from validation.advice.calibration import LOAD
 from validation.advice.cases import model_selection_study
 from validation.advice.models import boundary_elements_pressed, boundary_elements_rolling, pressed, rolling
 from validation.benchmarks.work_precision import errors as precision_error
@@ -49,8 +49,9 @@ from validation.railway.scenes import rail
 from validation.scenes import measured
 from validation.scenes import rolling_quantity as rolling_question
 from validation.simulation import indentation as pressed_heights
+from validation.simulation import method as sampling
 from validation.simulation import rolling_levels as rolled
-from validation.simulation import sampling, surface
+from validation.simulation import surface
 from validation.theory import closed_forms
 from validation.theory import rolling as rolling_theory
 

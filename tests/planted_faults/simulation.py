@@ -29,7 +29,6 @@ from validation.simulation import (
     contact_laws,
     integrators,
     mean_contact,
-    pressed_layer,
     ridges,
     rolling_strip,
     rough_punch,
@@ -37,6 +36,7 @@ from validation.simulation import (
     wheel_on_half_space,
 )
 from validation.simulation import motion as wheel_in_motion
+from validation.simulation import pressed as pressed_layer
 from validation.simulation import rough_punch as light_punch
 from validation.simulation.model_names import LINE
 from validation.simulation.rough_punch import PunchRoughness

@@ -18,11 +18,12 @@ from tests.theory import test_interface as of_interface
 from tests.theory import test_rolling_theory as of_rolling
 from tests.theory import test_second_order, test_wheel
 from validation.analysis import spectra
-from validation.railway.theory import spring_input, transverse_structure
-from validation.railway.theory.line_spectrum import LineSpectrum
+from validation.railway.theory import contact_filters as spring_input
+from validation.railway.theory import transverse_structure
+from validation.railway.theory.transverse_structure import LineSpectrum
 from validation.theory import closed_forms, interface, wheel
 from validation.theory import rolling as rolling_theory
-from validation.theory.second_order import RollingWheel
+from validation.theory.rolling import RollingWheel
 
 
 def damped_wheel_alone(omega, **given):

@@ -3,7 +3,7 @@
 import math
 
 from validation.railway.problems.rail_strip import RailGround, RailStrip, StatedAcross
-from validation.railway.theory.line_spectrum import LineSpectrum
+from validation.railway.theory.transverse_structure import LineSpectrum
 
 
 def power_law_ground(rms: float, first: float, last: float, across: StatedAcross = "isotropic") -> RailGround:

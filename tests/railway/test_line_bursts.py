@@ -8,7 +8,7 @@ import pytest
 from tests.railway.test_line_outliers import POINTS, UM, X, fractal, levels, lines, rail
 from validation.analysis.spectra import NominalBands
 from validation.railway.scenes.line_edits import EditedLine, bursts_of, edited, left_by_bursts
-from validation.railway.scenes.line_outliers import Outlier
+from validation.railway.scenes.line_steps import Outlier
 
 FIRST, LAST = 3000, 4500
 """Points of a burst, an eighth of a line."""

@@ -8,7 +8,8 @@ import pytest
 
 from validation.analysis.spectra import NominalBands
 from validation.railway.problems.rail_quantity import RailQuantity
-from validation.railway.scenes import line_outliers, line_steps
+from validation.railway.scenes import line_steps
+from validation.railway.scenes import line_steps as line_outliers
 from validation.railway.scenes.level_files import RoughnessLevels
 from validation.railway.scenes.line_edits import EditedLine, LineEdits, edited
 from validation.railway.scenes.measured_lines import MeasuredLines

@@ -27,7 +27,7 @@ from validation.simulation.model_names import (
     SPRINGS_ROLLING,
     twin_of,
 )
-from validation.theory.elliptic_contact import elliptic_contact
+from validation.theory.half_space import elliptic_contact
 
 RAIL = load_scene("rail")
 LINES = (SPRINGS_ROLLING, LINEAR_ON_LINE, LINEAR)

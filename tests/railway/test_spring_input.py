@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 import mdr
-from validation.railway.theory import spring_input
-from validation.railway.theory.line_spectrum import LineSpectrum
-from validation.railway.theory.transverse_structure import IsotropicGround
+from validation.railway.theory import contact_filters as spring_input
+from validation.railway.theory.transverse_structure import IsotropicGround, LineSpectrum
 
 ROUGH = mdr.SelfAffine(hurst=0.7, q_min=100.0, q_max=2e4, rms=1e-6)
 

@@ -9,8 +9,13 @@ import pytest
 from scipy import integrate
 
 from validation.railway.theory.contact_filters import half_space_filter, row_of_means_filter
-from validation.railway.theory.line_spectrum import LineSpectrum
-from validation.railway.theory.transverse_structure import IsotropicGround, Ridges, WaveBand, has_isotropic_surface
+from validation.railway.theory.transverse_structure import (
+    IsotropicGround,
+    LineSpectrum,
+    Ridges,
+    WaveBand,
+    has_isotropic_surface,
+)
 
 AXES = (5.7e-3, 4.3e-3)
 RAIL = LineSpectrum((10.0, 100.0, 1e3, 4e3), (1e-12, 3e-14, 2e-16, 3e-17))

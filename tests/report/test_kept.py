@@ -9,7 +9,8 @@ import pytest
 
 from tests.report.test_command_line import SMALL
 from validation import __main__ as command
-from validation.report import code_behind, provenance
+from validation.report import provenance
+from validation.report import provenance as code_behind
 from validation.report.contents import CASES, TIMED
 
 TODAY = {"geike": "today", "hertz": "today"}

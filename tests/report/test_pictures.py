@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 from validation.analysis.evidence import Evidence, Table
 from validation.engine.progress import Part
 from validation.engine.workers import Workers
-from validation.report import contents, pictures
+from validation.report import contents
+from validation.report import page as pictures
 
 
 def test_figures_come_by_their_names_and_are_counted(monkeypatch):

@@ -20,8 +20,7 @@ from validation import __main__ as command
 from validation.engine import files
 from validation.engine.files import name_in
 from validation.report.contents import CASES
-from validation.report.folder import MANIFEST, Folder, as_manifest, digest_of, listed_in
-from validation.report.lock import KIND, LOCK, locked
+from validation.report.folder import LOCK, LOCK_KIND, MANIFEST, Folder, as_manifest, digest_of, listed_in, locked
 
 
 @pytest.fixture(autouse=True)
@@ -218,7 +217,7 @@ def test_a_run_that_was_killed_before_anything_goes_on(tmp_path):
 HOLD = """
 import sys
 from pathlib import Path
-from validation.report.lock import locked
+from validation.report.folder import locked
 with locked(Path(sys.argv[1])):
     print("here", flush=True)
     sys.stdin.read()
@@ -256,7 +255,7 @@ def test_the_second_of_two_runs_is_refused_and_a_killed_one_forgotten(tmp_path, 
 def test_the_lock_of_another_host_is_respected(tmp_path, capsys):
     """Its process cannot be seen from here; the sentence says what to remove."""
     host = "elsewhere\x1b[2J"
-    fill(tmp_path, {LOCK: f"{KIND}\n{host}\nprocess 1 on {host} since yesterday\n"})
+    fill(tmp_path, {LOCK: f"{LOCK_KIND}\n{host}\nprocess 1 on {host} since yesterday\n"})
     refused(tmp_path, capsys, r"process 1 on elsewhere\x1b[2J since yesterday", f"remove {tmp_path / LOCK}")
     (tmp_path / LOCK).unlink()
     assert report(tmp_path, "geike") == command.Exit.MET

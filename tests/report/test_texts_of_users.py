@@ -14,8 +14,7 @@ from tests.advice.planted_answers import Finding, punch
 from validation.__main__ import main
 from validation.advice import figure as compared
 from validation.advice.compare import Comparison
-from validation.advice.figure import FORMATS, to_figure
-from validation.advice.figure_of_sweep import names_of_users
+from validation.advice.figure import FORMATS, names_of_users, to_figure
 from validation.advice.hierarchy import select_model
 from validation.analysis.evidence import Evidence, Table
 from validation.report import style

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.special import digamma, polygamma
 
-from validation.simulation.sampling import FEWEST, mean_error
+from validation.simulation.method import FEWEST, mean_error
 
 SAMPLES, MOST, TOLERANCE, DEVIATION = 12000, 32, 0.07, 0.08
 

@@ -10,7 +10,7 @@ import bem3d
 from validation.railway.theory.contact_filters import half_space_filter
 from validation.simulation import mean_contact as mean
 from validation.simulation import reduced_models as reduced
-from validation.simulation.pressed_layer import roll_on_layer
+from validation.simulation.pressed import roll_on_layer
 from validation.simulation.rolling_strip import RoughStrip
 from validation.simulation.track_spectrum import self_affine
 

@@ -13,7 +13,7 @@ from validation.railway.problems.rail_quantity import RailQuantity
 from validation.railway.problems.rail_strip import lost_contact_number, strip_bands, strip_of
 from validation.railway.scenes.isotropic_line import IsotropicLine
 from validation.railway.scenes.level_files import RoughnessLevels, curve
-from validation.railway.theory.line_spectrum import LineSpectrum
+from validation.railway.theory.transverse_structure import LineSpectrum
 from validation.simulation.model import models_serving
 from validation.simulation.model_names import LINEAR, LINEAR_ON_LINE
 

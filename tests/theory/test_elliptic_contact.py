@@ -10,7 +10,7 @@ from scipy import integrate, special
 
 from validation.railway.theory.contact_filters import half_space_filter, remington_filter, spring_bed_filter
 from validation.theory.closed_forms import hertz_approach, hertz_contact_radius
-from validation.theory.elliptic_contact import elliptic_contact
+from validation.theory.half_space import elliptic_contact
 
 STEEL = 210e9 / (2 * (1 - 0.3**2))
 ratios = st.floats(0.01, 100)

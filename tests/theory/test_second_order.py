@@ -8,7 +8,7 @@ import pytest
 
 import mdr
 from validation.analysis.spectra import band_means, waves
-from validation.theory.second_order import RollingWheel
+from validation.theory.rolling import RollingWheel
 
 BAND = mdr.SelfAffine(hurst=0.7, q_min=12.0, q_max=40.0, rms=2e-3)
 FIXED = RollingWheel(radius=1.0, modulus=1.0, contact_radius=1.0, mass=math.inf, speed=1.0)

@@ -4,13 +4,77 @@ import math
 from collections.abc import Iterator
 from dataclasses import replace
 
+from validation.advice.calibration import SHARE
 from validation.advice.compare import MOST_REALISATIONS, Comparison
-from validation.advice.hierarchy import Candidate
+from validation.advice.hierarchy import Candidate, contradicting
 from validation.advice.scene_model import SAMPLE_SHARE
 from validation.advice.tolerance import format_seconds
 from validation.analysis.statistics import student
 from validation.scenes.scene import Scene
-from validation.simulation.sampling import realisations
+from validation.simulation.method import realisations
+
+SOLVES_IT = "not solved (--models mdr solves it)"
+
+
+def springs_of(comparison: Comparison) -> Candidate | None:
+    """Those that are selected, or were solved and are enough, or else have the smallest error; None without springs."""
+    best, tolerance = comparison.selection.best, comparison.tolerance.relative
+
+    def order(one: Candidate) -> tuple[bool, bool, float]:
+        enough = is_solved(comparison, one) and one.error <= tolerance
+        return one is not best, not enough, one.error
+
+    return min((one for one in comparison.models if one.is_mdr), key=order, default=None)
+
+
+def is_solved(comparison: Comparison, springs: Candidate) -> bool:
+    """Whether they have an answer."""
+    return any(springs is one for one in comparison.selection.solved)
+
+
+def verdict(comparison: Comparison, springs: Candidate) -> tuple[str, str]:
+    """Whether they are enough, in words that say where that is predicted alone, and why."""
+    shown, limit = comparison.tolerance.shown_beside(springs.error), comparison.tolerance.relative
+    of = f" ({comparison.statistic})" if comparison.statistic else ""
+    if comparison.beyond_elasticity:
+        return "not enough", comparison.beyond_elasticity
+    if not math.isfinite(springs.error):
+        return "not known to be enough", springs.reason
+    if not is_solved(comparison, springs):
+        enough = "predicted to be enough" if springs.error <= limit else "not sure to be enough"
+        bound = "" if comparison.scene.error_source else f", an upper bound in {100 * SHARE:.0f} % of scenes"
+        return enough, f"its predicted error{of} is {shown}{bound}; {SOLVES_IT}"
+    if against := contradicting(comparison.selection, springs):
+        return "not enough", f"{against.name}, with less bias, contradicts it"
+    if springs.error > limit:
+        return "not enough", f"its error{of} is {shown}"
+    return "enough", "the result is its own" if springs is comparison.selection.best else f"its error{of} is {shown}"
+
+
+def in_short(comparison: Comparison) -> str:
+    """One sentence."""
+    springs = springs_of(comparison)
+    if springs is None:
+        return "MDR has no springs for this scene"
+    enough, why = verdict(comparison, springs)
+    return f"MDR ({springs.name}) is {enough}: {why}"
+
+
+def in_full(comparison: Comparison) -> list[str]:
+    """A sentence a model of springs."""
+    springs = [one for one in comparison.models if one.is_mdr]
+    if not springs:
+        return ["MDR: no springs are among the models of this scene."]
+    return [f"MDR{f' ({one.name})' if len(springs) > 1 else ''}: {_of(comparison, one)}." for one in springs]
+
+
+def _of(comparison: Comparison, springs: Candidate) -> str:
+    enough, why = verdict(comparison, springs)
+    best = comparison.selection.best
+    cheaper = enough.endswith("enough") and best is not None and best.model is not springs.model and comparison.met
+    others = f"; {best.name} is cheaper" if cheaper and best is not None and best.cost < springs.cost else ""
+    return f"{enough}: {why} ({comparison.tolerance} wanted){others}"
+
 
 ROUND = 2
 """Digits of a number of realisations that is advised."""

@@ -17,8 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.advice import calibration
-from validation.advice.calibrated_range import CONDITIONS
-from validation.advice.calibration import TABLE, Key
+from validation.advice.calibration import CONDITIONS, TABLE, Key
 from validation.advice.calibration_scenes import (
     Answers,
     CalibrationRun,
@@ -34,8 +33,8 @@ from validation.advice.scene_model import SceneModel
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.engine.files import write_given
 from validation.scenes.printable import printable
+from validation.simulation.method import distance
 from validation.simulation.model import Model, Target, all_models
-from validation.simulation.sampling import distance
 
 COLUMNS = ("kind", "quantity", "number", "model", *CONDITIONS, "shape", "error", "reference", "code")
 """Of the table; code: digest of what a row was measured with, and of what gave the same numbers since."""

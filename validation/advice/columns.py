@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
+from validation.advice.advice import is_solved, springs_of
 from validation.advice.compare import Comparison
 from validation.advice.contact_force import ContactForce
 from validation.advice.hierarchy import Candidate, Status
-from validation.advice.on_mdr import is_solved, springs_of
 from validation.advice.side_by_side import TOGETHER, differences, error_of_difference, per_cent, reference_of
 from validation.advice.tolerance import (
     NAMES,

@@ -1,22 +1,25 @@
 """The figures of `compare`: spectra with their error, or one number of each model, side by side."""
 
-from collections.abc import Collection, Sequence
+import itertools
+import math
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 from numpy.typing import ArrayLike
 
 from validation.advice.compare import Comparison, OneOrSeveral, listed
 from validation.advice.exported import by_quantity, table_of_several
-from validation.advice.figure_of_sweep import draw_sweep, names_of_users
-from validation.advice.side_by_side import shown_models
+from validation.advice.side_by_side import counts, reference_of, shown_models, speed_and_accuracy
 from validation.analysis.evidence import Table
 from validation.report.style import (
     BLUE,
     FORMATS,
+    GUIDE,
     INK,
     MARKERS,
     SETTINGS,
@@ -166,3 +169,212 @@ def _numbers(axes: Axes, table: Table) -> None:
     axes.set_yticks(range(len(names)), names)
     axes.set_ylim(len(names) - 0.4, -0.6)
     axes.set_xlabel(f"{table.name} [{table['unit'][0]}]" if names else "no model has a result with a known error")
+
+
+Interval = tuple[float, float, float]
+"""Value, low and high; NaN where a model was not solved, or its error is unknown."""
+
+PANELS = 4
+"""Of a spectrum: the A-weighted force where there is one, and the bands that change most among those that count."""
+DECADE = 10.0
+"""Ratio of swept values from which on their axis is logarithmic."""
+SAME = 10**0.05
+"""Ratio of wavelengths within one band, at the most."""
+
+
+Points = list[tuple[Comparison, str]]
+"""Of a line: comparisons of a sweep, each with the name of its model."""
+SweepPanel = tuple[str, str, Callable[[Comparison, str], Interval]]
+"""Title, label, and what it shows of a comparison by a model."""
+
+
+def draw_sweep(figure: SubFigure, found: Sequence[Comparison], most: int) -> None:
+    """Of a spectrum a panel a band, and one of the force."""
+    scenes = list(dict.fromkeys(one.swept.scene for one in found if one.swept))
+    title = f"{scenes[0]}: {found[0].quantity}" if len(scenes) == 1 else found[0].quantity
+    figure.suptitle(in_two_lines(title), x=0.01, ha="left", fontsize=9)
+    lines, panels = _lines(found, scenes), list(_panels(found))
+    columns = 2 if len(panels) > 1 else 1
+    axes = figure.subplots(max(1, math.ceil(len(panels) / columns)), columns, sharex=True, squeeze=False).flat
+    for axis, panel in itertools.zip_longest(axes, panels):
+        if panel is None:
+            axis.set_axis_off()
+        else:
+            _draw_sweep(axis, panel, dict(list(lines.items())[:most]), names_of_users(found, list(lines)))
+    if not lines:
+        axes[0].set_title("no model has a result", loc="left")
+        return
+    more = len(lines) - most
+    others = f"and {more} more in the CSV" if more > 0 else None
+    named = axes[0].get_legend_handles_labels()
+    figure.legend(*named, loc="outside lower center", ncols=2, title=others, title_fontsize=8)
+
+
+def names_of_users(found: Sequence[Comparison], shown: Sequence[str]) -> set[str]:
+    """Of the names that a figure shows those that are not the package's own: of scenes, and of models of a user's."""
+    candidates = [candidate for one in found for candidate in one.selection.candidates]
+    own = {
+        str(of.name) for of in candidates if not getattr(getattr(of.model, "model", of), "setting", "").startswith("@")
+    }
+    return set(shown) - own
+
+
+def _draw_sweep(axes: Axes, panel: SweepPanel, lines: Mapping[str, Points], users: Collection[str]) -> None:
+    title, label, interval = panel
+    swept = {name: [one.swept for one, _ in points if one.swept] for name, points in lines.items()}
+    first = next(iter(swept.values()))
+    numbers = all(isinstance(of.value, float) for of in first)
+    texts = list(dict.fromkeys(str(of.value) for of in first))
+    styles = styles_of(lines, users)
+    for name, points in lines.items():
+        values = [of.value if numbers else texts.index(str(of.value)) for of in swept[name]]
+        order = np.argsort(values, kind="stable")
+        x = np.array(values, dtype=np.float64)[order]
+        value, low, high = np.array([interval(*point) for point in points])[order].T
+        style = styles[name]
+        axes.plot(x, value, label=in_two_lines(legend_name(name), 48), **style)
+        axes.fill_between(x, low, high, color=style["color"], alpha=0.12, linewidth=0)
+        edges = {"color": style["color"], "linestyle": style["linestyle"], "linewidth": 0.5}
+        axes.plot(x, np.column_stack([low, high]), **edges)
+    if not numbers:
+        axes.set_xticks(range(len(texts)), texts)
+        axes.margins(x=0.2)
+    elif x.min() > 0 and x.max() >= DECADE * x.min():
+        axes.set_xscale("log")
+        tick(axes, x)
+    axes.set_title(title, loc="left")
+    axes.set(xlabel=first[0].label, ylabel=label)
+
+
+def _lines(found: Sequence[Comparison], scenes: Sequence[str]) -> dict[str, Points]:
+    """Models of one scene, those first that are shown of its first value; of several scenes their selected models."""
+    if len(scenes) > 1:
+        return {s: [(one, one.model) for one in found if one.swept and one.swept.scene == s] for s in scenes}
+    return {
+        name: [(one, name) for one in found] for each in found if each.selection.solved for name in shown_models(each)
+    }
+
+
+def _panels(found: Sequence[Comparison]) -> Iterator[SweepPanel]:
+    """None where a spectrum has no answer."""
+    label = f"{found[0].quantity} [{found[0].unit}]"
+    if not found[0].is_level:
+        yield "", label, partial(_at, wave=None)
+        return
+    force = all(one.force for one in found)
+    if force:
+        yield "contact force at a constant height", "A-weighted [dB re 1 N]", _force
+    for wave in _changing(found, PANELS - force):
+        yield f"{wave:.4g} mm", label, partial(_at, wave=wave)
+
+
+def _at(comparison: Comparison, name: str, wave: float | None) -> Interval:
+    """At a wavelength [mm]; None of one number."""
+    for one in comparison.selection.solved:
+        at = 0 if wave is None else _band(comparison, wave)
+        if one.name == name and at is not None:
+            return _interval(comparison.value_of(one)[at], comparison.errors_of(one)[at])
+    return math.nan, math.nan, math.nan
+
+
+def _force(comparison: Comparison, name: str) -> Interval:
+    """The sum over all bands; the error of the selected model alone is known."""
+    force = comparison.force
+    if force is None or name not in force.levels:
+        return math.nan, math.nan, math.nan
+    return _interval(force.total(name), force.error if name == force.chosen else math.inf)
+
+
+def _interval(value: float, half: float) -> Interval:
+    known = half if math.isfinite(half) else math.nan
+    return float(value), float(value - known), float(value + known)
+
+
+def _band(comparison: Comparison, wave: float) -> int | None:
+    off = np.abs(np.log(comparison.wavelength_mm / wave))
+    return int(np.argmin(off)) if off.size and off.min() < np.log(SAME) else None
+
+
+def _changing(found: Sequence[Comparison], most: int) -> list[float]:
+    """Wavelengths of the bands that change most [mm], from long to short."""
+    solved = [one for one in found if one.selection.solved]
+    known = [(one, (one.selection.best or reference_of(one)).name) for one in solved]
+    waves = solved[0].wavelength_mm[counts(solved[0], reference_of(solved[0]))].tolist() if solved else []
+    levels = {wave: np.array([_at(one, name, wave)[0] for one, name in known]) for wave in waves}
+    spread = {wave: float(np.ptp(of[np.isfinite(of)])) for wave, of in levels.items() if np.isfinite(of).any()}
+    return sorted(sorted(spread, key=spread.__getitem__)[-most:], reverse=True)
+
+
+KINDS: dict[str, Style] = {
+    "reference, its own error": {"color": "#000000", "marker": "*", "markersize": 9},
+    "MDR": {"color": "#D55E00", "marker": "s", "markersize": 5, "markerfacecolor": "none"},
+    "other models": {"color": "#0072B2", "marker": "o", "markersize": 5},
+}
+BARS: Style = {"linestyle": "none", "capsize": 3, "elinewidth": 0.6}
+ROOM = 1.6
+"""Factor by which the axis of errors goes on below the smallest."""
+LINE = 10.0
+"""Height of a label [points]."""
+
+
+def figure_over_seconds(comparison: Comparison, form: str) -> bytes:
+    """Error over seconds, both logarithmic, a point a model. Raises ValueError where no model was timed."""
+    if not any(np.isfinite(comparison.seconds_of(one)) for one in comparison.selection.solved):
+        raise ValueError("--over seconds needs models that were solved, got none")
+    table = speed_and_accuracy(comparison)
+    tolerance = comparison.tolerance.relative
+    limit = 20 * np.log10(1 + tolerance) if table["unit"][0] == "dB" else 100 * tolerance
+    with matplotlib.rc_context(SETTINGS):
+        figure = Figure(figsize=(7.0, 5.0))
+        # labels are placed by the size of the panel, which no layout may change afterwards
+        axes = figure.subplots(gridspec_kw={"left": 0.1, "right": 0.98, "bottom": 0.18, "top": 0.93})
+        axes.set_title(in_two_lines(f"{comparison.scene.name}: {comparison.quantity}"), loc="left")
+        axes.axhline(limit, label=f"tolerance, {comparison.tolerance}", **GUIDE)
+        _draw_times(axes, table)
+        figure.legend(loc="lower center", ncols=4)
+    plain_figure(figure)
+    return picture(figure, form)
+
+
+def _draw_times(axes: Axes, table: Table) -> None:
+    shown = np.where(table["is_reference"] | ~(table["error"] > 0), table["high"], table["error"])
+    positive = np.concatenate([shown, table["low"]])
+    least = float(np.min(positive[positive > 0], initial=np.inf)) / ROOM
+    reference_kind, mdr, other = KINDS
+    kinds = np.where(table["is_reference"], reference_kind, np.where(table["is_mdr"], mdr, other))
+    for kind, style in KINDS.items():
+        mine = kinds == kind
+        y, low, high = shown[mine], np.maximum(table["low"][mine], least), table["high"][mine]
+        if mine.any():
+            bars = np.nan_to_num([y - low, high - y]).clip(0)
+            axes.errorbar(table["seconds"][mine], y, yerr=bars, label=kind, **style, **BARS)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.margins(x=0.15, y=0.1)
+    axes.set_ylim(bottom=least if np.isfinite(least) else None)
+    (reference,) = table.where(is_reference=True)["model"]
+    axes.set_xlabel("time of the solves [s]")
+    axes.set_ylabel(f"difference from {reference} [{table['unit'][0]}]")
+    seen = np.isfinite(shown) & (shown > 0)
+    _label(axes, table["seconds"][seen], shown[seen], table["model"][seen].tolist())
+
+
+def _label(axes: Axes, x: np.ndarray, y: np.ndarray, names: list[str]) -> None:
+    """Each name beside its point, towards the middle, a line above the one below it at the least."""
+    points = 72 / axes.figure.dpi * axes.transData.transform(np.column_stack([x, y]))
+    middle = 36 / axes.figure.dpi * (axes.bbox.x0 + axes.bbox.x1)
+    heights = {"left": -np.inf, "right": -np.inf}
+    for i in np.argsort(points[:, 1]):
+        side = "left" if points[i, 0] < middle else "right"
+        up = max(0.0, heights[side] + LINE - points[i, 1])
+        heights[side] = points[i, 1] + up
+        axes.annotate(
+            names[i],
+            (x[i], y[i]),
+            xytext=(8 if side == "left" else -8, up),
+            textcoords="offset points",
+            ha=side,
+            va="center",
+            fontsize=7.5,
+            arrowprops={"arrowstyle": "-", "linewidth": 0.4, "color": "#888888"} if up else None,
+        )

@@ -4,7 +4,8 @@ import base64
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from validation.advice import advice, columns, on_mdr, side_by_side, summary
+from validation.advice import advice, columns, side_by_side, summary
+from validation.advice import advice as on_mdr
 from validation.advice.compare import Comparison
 from validation.advice.contact_force import LEVELS
 from validation.advice.exported import SCHEMA_OF_JSON, by_quantity, table_of_several, to_json_of

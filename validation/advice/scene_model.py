@@ -13,9 +13,8 @@ import numpy as np
 from bem3d.read_only import kept
 from validation.engine.engine import FloatArray
 from validation.scenes.scene import STIFFNESS
-from validation.simulation.method import Prepared, Resolution, Result
+from validation.simulation.method import STUDENT, Prepared, Resolution, Result, mean_error, realisations, too_few
 from validation.simulation.model import Cost, ErrorEstimate, GridModel, Model, Sampling, Target
-from validation.simulation.sampling import STUDENT, mean_error, realisations, too_few
 
 SAMPLE_SHARE = 0.9
 """Of the tolerance, that a sample may leave where a grid of 0.44 of it is added at a right angle."""

@@ -4,7 +4,7 @@ import textwrap
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
-from validation.advice import on_mdr
+from validation.advice import advice as on_mdr
 from validation.advice.advice import what_would_help, would_help
 from validation.advice.columns import bands_of, columns_as_lines, models_of_page, overview_of, side_by_side
 from validation.advice.compare import Comparison, OneOrSeveral, listed

@@ -5,7 +5,7 @@ BRINGS = {
     "models_of_functions": "validation.judging.own_models:of_functions",
     "models_from": "validation.judging.options:ModelsFrom",
     "calibrations": "validation.judging.options:OfCalibrate",
-    "solvers_of_files": "validation.judging.own_solvers:solvers_in",
+    "solvers_of_files": "validation.judging.own_models:solvers_in",
 }
 SOLVER, MAPPING = "--mdr-solver", "--mdr-mapping"
 """Options of pytest for the tests of this house."""

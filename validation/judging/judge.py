@@ -26,8 +26,7 @@ from validation.judging.kinds.diagnosis import Remark, remarks
 from validation.judging.kinds.judge import JUDGES, points_of
 from validation.judging.kinds.own import ErrorOfCall, costs_of
 from validation.judging.replies import raised
-from validation.judging.solver_words import solver_lines
-from validation.judging.words import summary_lines
+from validation.judging.words import solver_lines, summary_lines
 from validation.judging.worker import Called, visited
 from validation.report.folder import JUDGEMENT, Folder
 from validation.scenes.printable import printable

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 import mdr
-from validation.advice.calibrated_range import SCATTER
+from validation.advice.calibration import SCATTER
 from validation.advice.models import boundary_elements_pressed, boundary_elements_rolling
 from validation.engine.random_numbers import random_generator
 from validation.judging.kinds.judge import asked
@@ -26,10 +26,9 @@ from validation.railway.problems.rail_strip import structure_of
 from validation.scenes.rolling_quantity import QUANTITIES, RollingQuantity
 from validation.scenes.roughness import Roughness, RoughSurface
 from validation.simulation.indentation import cells_wanted, ground_of, height_of, is_rough, side_of
-from validation.simulation.method import Resolution, Result
+from validation.simulation.method import FEWEST, STUDENT, Resolution, Result, realisations
 from validation.simulation.model import Target
 from validation.simulation.rolling_levels import by_linear_theory, levels_of, strip_of
-from validation.simulation.sampling import FEWEST, STUDENT, realisations
 from validation.simulation.wheel_on_half_space import crop_to_reach
 from validation.theory.half_space import on_panels
 from validation.theory.rolling import force_spectrum_1d

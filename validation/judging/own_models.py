@@ -7,29 +7,103 @@ contact filter is known on each rail, as of those of the package.
 
 import atexit
 import math
+import runpy
+import sys
 import time
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass, field, replace
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
 
-from validation.advice.calibrated_range import CONDITIONS, HURST, beyond_spectrum
-from validation.advice.calibration import MeasuredErrors, conditions_by_kind, kind_of
+from validation.advice.calibration import (
+    CONDITIONS,
+    HURST,
+    MeasuredErrors,
+    beyond_spectrum,
+    conditions_by_kind,
+    kind_of,
+)
 from validation.advice.calibration_scenes import OTHER_SEED, CalibrationScene, Group, answers_in
+from validation.benchmarks.discrete import ContactProblem
+from validation.benchmarks.peers import TIGHTER, ColdSolve, Field, PeerSolver
 from validation.engine.engine import SERIAL, Engine, FloatArray, Outcome
 from validation.judging.files_read import digest_of, file_of, sources_of
 from validation.judging.own_kinds import CALIBRATED, SERVED, SURFACES, filter_of, result_of
-from validation.judging.registry import Offered
-from validation.judging.worker import Called, OthersError, Visitor
+from validation.judging.registry import KINDS, Offered, offer
+from validation.judging.replies import raised
+from validation.judging.worker import Called, OthersError, Visitor, offered_in
 from validation.scenes.load import load_scene
 from validation.scenes.printable import quoted
 from validation.scenes.scene import Scene
-from validation.simulation.method import Resolution, Result
+from validation.simulation.method import Resolution, Result, distance
 from validation.simulation.model import Cost, ErrorEstimate, Model, Target, model
-from validation.simulation.sampling import distance
+
+
+@cache
+def named_in(place: str, kind: str) -> Offered:
+    """With or without its decorator; the file is run once, and its folder can be imported.
+
+    Raises ValueError where there is none, or where the file raises, in one sentence.
+    """
+    file, _, name = place.rpartition(":")
+    path = Path(file).resolve()
+    if not path.is_file():
+        raise ValueError(f"a function is named as FILE:NAME, and there is no file {file!r} in {place!r}")
+    sys.path.insert(0, str(path.parent))
+    try:
+        found = runpy.run_path(str(path)).get(name)
+    except (Exception, SystemExit) as error:
+        raise ValueError(f"{file}: {raised(error, path)}") from None
+    if isinstance(found, Offered) and found.kind == kind:
+        return found
+    if not callable(found) or isinstance(found, Offered):
+        raise ValueError(f"{file} has no function {name!r} for @{kind}")
+    return offer(kind, name, KINDS[kind].options, found)
+
+
+@cache
+def _solvers_in(file: str) -> list[Offered]:
+    found = [one for one in offered_in(Path(file)) if one.kind == "contact_solver"]
+    if not found:
+        raise OthersError(f"{Path(file).name}: no function has the decorator @contact_solver")
+    return found
+
+
+def solvers_in(file: str, taken: Collection[str]) -> list[PeerSolver]:
+    """Contact solvers of a file for the race, by names that are not taken. Raises OthersError where it has none."""
+    return [_own(one, file, f"{one.name}, own" if one.name in taken else one.name) for one in _solvers_in(file)]
+
+
+def _own(offered: Offered, file: str, name: str) -> PeerSolver:
+    served, by_force = tuple(kind for kind in ("free", "periodic") if offered.options[kind]), "force" in offered.asks
+    mode, prepare = "by force" if by_force else "by approach", partial(of_file, file, offered.name)
+    cells = float(offered.options["cells"])
+    return PeerSolver(name, "", mode, prepare, TIGHTER, served, by_force, file, cells=cells)
+
+
+def of_file(file: str, name: str, problem: ContactProblem, tolerance: float) -> ColdSolve:
+    """A solver of somebody's own, in the process that times it."""
+    (solver,) = (one for one in _loaded(file) if one.name == name)
+    gap = problem.gap.copy()
+    gap.flags.writeable = False
+    other = "approach" if "force" in solver.asks else "force"
+    given = {**vars(problem), "gap": gap, "tolerance": tolerance, other: None}
+    asked = {argument: given[argument] for argument in solver.asks}
+
+    def solve() -> tuple[Field, float]:
+        return np.array(solver(**asked), dtype=float), math.nan
+
+    return solve
+
+
+@cache
+def _loaded(file: str) -> tuple[Offered, ...]:
+    sys.path.insert(0, str(Path(file).resolve().parent))
+    return tuple(one for one in runpy.run_path(file).values() if isinstance(one, Offered))
+
 
 CALL = 1e-4
 """Seconds of a realisation where none was timed."""

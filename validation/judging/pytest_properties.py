@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 
 from validation.benchmarks.discrete import STATED, ContactProblem, pressed
 from validation.judging import MAPPING, SOLVER
-from validation.judging.by_name import named_in
 from validation.judging.judgement import AGREE, JudgedPoint
 from validation.judging.kinds.profiles import properties_of_rule
+from validation.judging.own_models import named_in
 from validation.judging.registry import KINDS, FloatArray, offer
 from validation.judging.solvers.properties import PROPERTIES, Asked, UnansweredError, loads_of, served
 from validation.judging.worker import Called

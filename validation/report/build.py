@@ -19,15 +19,13 @@ from validation.engine.progress import Part, Progress
 from validation.engine.workers import Workers
 from validation.report.answers.first_screen import answered_questions, plain
 from validation.report.chapter import chapter_results
-from validation.report.code_behind import require_todays_code, versions_of
 from validation.report.columns import COLUMNS, columns_file
 from validation.report.contents import CASES, TIMED, expected_seconds
 from validation.report.figures import drawing
 from validation.report.folder import REALISATIONS, RESULTS, Folder
 from validation.report.kept import DATA, PROVENANCE, kept_provenance, kept_sections
-from validation.report.page import pages, scene_summary
-from validation.report.pictures import FIGURES, begin_to_draw
-from validation.report.provenance import machine, provenance, with_kept
+from validation.report.page import FIGURES, begin_to_draw, pages, scene_summary
+from validation.report.provenance import machine, provenance, require_todays_code, versions_of, with_kept
 from validation.report.section import Section, numbers_table, results_of, written_tables
 from validation.report.sounds import sound_files
 from validation.scenes.dynamic_wheel import WheelScene

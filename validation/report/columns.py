@@ -39,7 +39,7 @@ class Symbol:
         return self._pattern.search(text) is not None
 
 
-_LIST = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))["symbol"]
+_LIST = tomllib.loads(Path(__file__).with_name("symbols.toml").read_text(encoding="utf-8"))["symbol"]
 SYMBOLS = tuple(Symbol(**{**row, "forms": tuple(row.get("forms", ()))}) for row in _LIST)
 
 

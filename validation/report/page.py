@@ -1,23 +1,50 @@
 """The pages of a report: the front page and one a chapter, made of sections by the templates beside it."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from concurrent.futures import Future
+from dataclasses import dataclass, replace
 from typing import Any
 
 from validation.analysis.case import Chapter, Profile
-from validation.analysis.contents import csv_name
-from validation.analysis.evidence import plus_minus
+from validation.analysis.contents import as_written, csv_name
+from validation.analysis.evidence import Evidence, plus_minus
+from validation.engine.progress import Part
 from validation.engine.street import brought
+from validation.engine.workers import Workers
 from validation.report.answers.first_screen import answered_questions
 from validation.report.answers.front_tables import failures, times_faster, times_faster_said
 from validation.report.chapter import ERRATA, REMARKS, book_figures, chapter_of
-from validation.report.figures import tables_of
+from validation.report.figures import drawing, tables_of
 from validation.report.formats import first_sentence, templates
 from validation.report.provenance import kept_from
 from validation.report.section import Section, claims_of_others, total_of
 from validation.report.sounds import sound_place
+from validation.report.style import drawn, picture
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import WheelScene
+
+FIGURES = "figures"
+"""The part of a run in which they are drawn, and their folder."""
+
+
+def begin_to_draw(
+    evidence: Evidence | None, workers: Workers, progress: Part, profile: Profile
+) -> dict[str, Future[bytes]]:
+    """SVG of each figure of a case, as soon as it is drawn. progress: the part of the run that counts them."""
+    if evidence is None:
+        return {}
+    progress.begin("drawn", total=len(evidence.captions))
+    begun = {name: workers.submit(draw_figure, name, evidence, profile) for name in evidence.captions}
+    for one in begun.values():
+        one.add_done_callback(lambda _: progress.step())
+    return begun
+
+
+def draw_figure(name: str, evidence: Evidence, profile: Profile) -> bytes:
+    """SVG of a figure, from its tables as their files have them, so that `redraw` gives the same bytes."""
+    written = replace(evidence, tables=tuple(as_written(table) for table in evidence.tables))
+    return picture(drawn(drawing(name), written, profile))
+
 
 FRONT, READING = "index.html", "reading.html"
 BOOK_PAGE = "book.html"

@@ -10,7 +10,7 @@ import bem3d
 import mdr
 from validation.engine.engine import FloatArray, Outcome
 from validation.theory import closed_forms
-from validation.theory.elliptic_contact import EllipticContact, elliptic_contact
+from validation.theory.half_space import EllipticContact, elliptic_contact
 
 
 def off(found: FloatArray, true: FloatArray) -> float:

@@ -16,9 +16,8 @@ from mdr.checks import positive
 from validation.engine.engine import FloatArray
 from validation.engine.street import modules_in
 from validation.scenes.rolling_quantity import RollingQuantity
-from validation.simulation.method import Prepared, Resolution, Result, Solve
+from validation.simulation.method import FEWEST, Prepared, Resolution, Result, Solve
 from validation.simulation.model_names import BEM, MODELS
-from validation.simulation.sampling import FEWEST
 
 
 @dataclass(frozen=True)

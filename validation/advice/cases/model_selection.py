@@ -24,8 +24,8 @@ from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.scene import Scene
+from validation.simulation.method import distance
 from validation.simulation.model import GridModel, all_models
-from validation.simulation.sampling import distance
 
 REFERENCE_TOLERANCE = 0.05
 FACES, TRACKS = (MEASURED + PUNCH, MEASURED + SPHERE), (MEASURED + ROLLING, MEASURED + WHEEL)

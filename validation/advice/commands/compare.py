@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from validation.advice.compare import Comparison, SceneProblem, Swept, swept_values
-from validation.advice.export import Export
+from validation.advice.exported import Export
 from validation.advice.quantities import all_quantities, quantities_of
 from validation.advice.scene_model import SceneModel
 from validation.advice.several_scenes import compare_scenes
@@ -211,8 +211,10 @@ def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
     if arguments.json or arguments.csv or _exports(arguments):
         _write_data(found, arguments)
     if arguments.figure is not None:
-        from validation.advice.figure import to_figure  # which takes half a second to import
-        from validation.advice.figure_over_seconds import figure_over_seconds
+        from validation.advice.figure import (
+            figure_over_seconds,
+            to_figure,  # which takes half a second to import
+        )
 
         form = arguments.figure.suffix[1:]
         picture = figure_over_seconds(found[0], form) if arguments.over else to_figure(found, form=form)

@@ -6,16 +6,15 @@ import warnings
 import numpy as np
 
 import bem3d
-from validation.advice.calibrated_range import SCATTER
+from validation.advice.calibration import SCATTER
 from validation.engine.engine import FloatArray
 from validation.scenes.indentation import IndentationScene
 from validation.simulation import indentation as face
 from validation.simulation.indentation import cells_wanted, ground_of, height_of, is_rough, side_of
-from validation.simulation.method import Prepared, Resolution, Result, Solve
+from validation.simulation.method import FEWEST, STUDENT, Prepared, Resolution, Result, Solve, grid_error
 from validation.simulation.model import Cost, ErrorEstimate, GridModel, Model, Target
 from validation.simulation.model_names import BEM
 from validation.simulation.pressed import cell_applications
-from validation.simulation.sampling import FEWEST, STUDENT, grid_error
 
 CELL, PRESS = 3.0e-8, 7e-3
 """Seconds that a cell takes in an application, its surface drawn, and what else a contact, about."""

@@ -7,11 +7,10 @@ import numpy as np
 from validation.advice.models.rolling import of_a_wheel
 from validation.engine.engine import FloatArray
 from validation.simulation import rolling_levels as grids
-from validation.simulation.method import Prepared, Resolution, Result, Solve
+from validation.simulation.method import Prepared, Resolution, Result, Solve, distance
 from validation.simulation.model import Cost, ErrorEstimate, GridModel, Model, Target
 from validation.simulation.model_names import BEM
 from validation.simulation.rolling_levels import RollingGrid, on_boundary_elements
-from validation.simulation.sampling import distance
 
 CELL, POSITION = 5.0e-8, 1.0e-3
 """Seconds that a cell takes in an application, its strip drawn, and what else a contact, about."""

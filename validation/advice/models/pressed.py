@@ -7,14 +7,12 @@ from functools import partial
 import numpy as np
 
 import mdr
-from validation.advice.calibrated_range import SCATTER, WAVES, conditions_of, sphere_shape
-from validation.advice.calibration import calibrated_by_spectrum
+from validation.advice.calibration import SCATTER, WAVES, calibrated_by_spectrum, conditions_of, sphere_shape
 from validation.engine.random_numbers import random_generator
 from validation.simulation.indentation import ground_of, is_pressed, is_rough, side_of
-from validation.simulation.method import Resolution, Result
+from validation.simulation.method import Resolution, Result, realisations
 from validation.simulation.model import Cost, ErrorEstimate, Model, Target, model
 from validation.simulation.model_names import CLOSED_FORM, FIT, SPRINGS
-from validation.simulation.sampling import realisations
 from validation.theory.closed_forms import rough_punch_stiffness
 
 PROFILES = 1

@@ -7,12 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from validation.advice.calibrated_range import beyond_envelope, beyond_spectrum, counted, lost_contact
-from validation.advice.calibration import calibrated
+from validation.advice.calibration import beyond_envelope, beyond_spectrum, calibrated, counted, lost_contact
 from validation.engine.engine import FloatArray
 from validation.scenes.measured import OBLONG
 from validation.scenes.rolling_quantity import QUANTITIES, RollingQuantity
-from validation.simulation.method import Resolution, Result
+from validation.simulation.method import Resolution, Result, distance
 from validation.simulation.model import Cost, ErrorEstimate, Function, Model, Target, model
 from validation.simulation.model_names import FILTER_1D, FILTER_3D, SPRINGS
 from validation.simulation.rolling_levels import (
@@ -24,7 +23,6 @@ from validation.simulation.rolling_levels import (
     springs_to_a_radius,
     strip_of,
 )
-from validation.simulation.sampling import distance
 
 Rule = tuple[float, float, float]
 

@@ -20,7 +20,7 @@ from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.simulation.wheel_on_springs import TrackKind, WheelEnsemble, simulate_ensemble
-from validation.theory.second_order import RollingWheel
+from validation.theory.rolling import RollingWheel
 from validation.theory.wheel import break_exponent
 
 SHORT = replace(TABLE, distance=0.16)

@@ -29,7 +29,7 @@ from validation.railway.problems.rail_across import WideRail, roll_both_ways, wi
 from validation.railway.problems.rail_strip import StatedAcross, line_of, strip_bands, structure_of
 from validation.railway.scenes.rail import RailScene
 from validation.simulation.model_names import BED, BEM, LINEAR, LINEAR_ON_LINE
-from validation.theory.elliptic_contact import EllipticContact
+from validation.theory.half_space import EllipticContact
 
 LINES = (LINEAR_ON_LINE, filters.LINES_APART, filters.LINES_NEAR)
 BEDS = (BED, filters.BED_WIDER, filters.REMINGTON, filters.REMINGTON_THERE)

@@ -30,7 +30,7 @@ from validation.railway.problems.rail_strip import (
 from validation.railway.scenes.level_files import curve
 from validation.railway.scenes.rail import RailScene
 from validation.simulation.model_names import BED, LINEAR_GEIKE, LINEAR_ON_LINE
-from validation.theory.elliptic_contact import EllipticContact
+from validation.theory.half_space import EllipticContact
 
 OFFSET = "over ISO 3095 [dB]"
 """Of the levels of a rail over the limit curve."""

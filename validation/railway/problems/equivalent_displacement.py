@@ -27,13 +27,17 @@ from validation.analysis.statistics import Estimate, jackknifed
 from validation.engine.engine import FloatArray, Outcome
 from validation.railway.problems.rail_strip import RailStrip, Transfer
 from validation.railway.scenes.transverse_profile import TransverseProfile
-from validation.railway.theory.contact_filters import half_space_filter, row_of_means_filter, spring_bed_filter
-from validation.railway.theory.line_spectrum import LineSpectrum
-from validation.railway.theory.spring_input import geike_over_line, rolling_input_filter
-from validation.railway.theory.transverse_structure import IsotropicGround, Ridges
+from validation.railway.theory.contact_filters import (
+    geike_over_line,
+    half_space_filter,
+    rolling_input_filter,
+    row_of_means_filter,
+    spring_bed_filter,
+)
+from validation.railway.theory.transverse_structure import IsotropicGround, LineSpectrum, Ridges
 from validation.simulation import model_names as named
 from validation.simulation.model_names import BEM, LINE, twin_of
-from validation.theory.elliptic_contact import EllipticContact
+from validation.theory.half_space import EllipticContact
 
 FINER = 3
 """Springs to a cell, an odd number. The ends of a contact lie between springs: near its zeros the filter of few springs

@@ -16,8 +16,7 @@ from validation.railway.problems.equivalent_displacement import transfer_of
 from validation.railway.problems.rail_strip import StatedAcross, line_of, lost_contact_number, structure_of
 from validation.railway.scenes.level_files import MICROMETRE
 from validation.railway.scenes.rail import CONTACT_FILTER, COUNTED, RailScene
-from validation.railway.theory.line_spectrum import LineSpectrum
-from validation.railway.theory.transverse_structure import Filter, IsotropicGround, TransverseStructure
+from validation.railway.theory.transverse_structure import Filter, IsotropicGround, LineSpectrum, TransverseStructure
 from validation.simulation.model_names import LINEAR
 
 RAIL_QUANTITIES = tuple(map(str, RailScene.quantities))

@@ -16,10 +16,15 @@ from validation.analysis.spectra import NominalBands
 from validation.engine.engine import FloatArray
 from validation.engine.random_numbers import random_generator
 from validation.railway.scenes.rail import RailScene
-from validation.railway.theory.line_spectrum import LineSpectrum
-from validation.railway.theory.transverse_structure import IsotropicGround, Ridges, TransverseStructure, WaveBand
+from validation.railway.theory.transverse_structure import (
+    IsotropicGround,
+    LineSpectrum,
+    Ridges,
+    TransverseStructure,
+    WaveBand,
+)
 from validation.simulation.surface import draw_surface
-from validation.theory.elliptic_contact import EllipticContact, elliptic_contact
+from validation.theory.half_space import EllipticContact, elliptic_contact
 
 ComplexArray = NDArray[np.complex128]
 Transfer = Callable[[FloatArray, FloatArray], FloatArray]

@@ -12,8 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from validation.analysis.statistics import FloatArray, student
 from validation.railway.scenes.level_files import MICROMETRE, RoughnessLevels, line_of_powers
-from validation.railway.theory.line_spectrum import LineSpectrum
-from validation.railway.theory.transverse_structure import has_isotropic_surface
+from validation.railway.theory.transverse_structure import LineSpectrum, has_isotropic_surface
 
 STIFFNESS = 10.0
 """Of the graduation: half of a wave of 11 values is left, a decade of one-third octaves."""

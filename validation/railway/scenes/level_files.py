@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from mdr.checks import finite
 from validation.analysis.spectra import NominalBands, nominal_wavelength
 from validation.analysis.statistics import FloatArray
-from validation.railway.theory.line_spectrum import LineSpectrum
+from validation.railway.theory.transverse_structure import LineSpectrum
 from validation.scenes.column_names import RADIANS, WAVENUMBERS
 from validation.scenes.number_table import NumberTable
 from validation.scenes.printable import printable, quoted

@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from validation.analysis.statistics import FloatArray
-from validation.railway.scenes.line_outliers import STANDS_OUT
-from validation.railway.scenes.line_steps import noise_among
+from validation.railway.scenes.line_steps import STANDS_OUT, noise_among
 from validation.scenes.column_names import PLACE, Column
 from validation.scenes.number_table import NumberTable
 from validation.scenes.positions import (

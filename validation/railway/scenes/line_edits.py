@@ -12,8 +12,19 @@ from numpy.typing import NDArray
 
 from validation.analysis.spectra import SHORTEST, NominalBands
 from validation.analysis.statistics import FloatArray
-from validation.railway.scenes.line_outliers import WIDE, Outlier, interpolated, sensor_step, without_outliers
-from validation.railway.scenes.line_steps import DRIFTS, MOST_STEPS, drift_of, points_of, runs_of, without_steps
+from validation.railway.scenes.line_steps import (
+    DRIFTS,
+    MOST_STEPS,
+    WIDE,
+    Outlier,
+    drift_of,
+    interpolated,
+    points_of,
+    runs_of,
+    sensor_step,
+    without_outliers,
+    without_steps,
+)
 from validation.scenes.units import in_unit
 
 PARTS = 20, 80

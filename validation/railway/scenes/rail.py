@@ -22,7 +22,7 @@ from validation.scenes.reader import errors_of
 from validation.scenes.scene import ENSEMBLE_MEAN, ContactEllipse, Pairs, SceneDefaults, SceneQuantity
 from validation.scenes.units import in_unit
 from validation.scenes.wheel_body import check_damping
-from validation.theory.elliptic_contact import EllipticContact, elliptic_contact
+from validation.theory.half_space import EllipticContact, elliptic_contact
 
 Across = Literal["ridges", "isotropic"] | float | None
 """What lies across a measured line: ridges; isotropic ground; waves with |k_y| < alpha k_x; None: nobody knows."""

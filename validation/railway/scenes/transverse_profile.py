@@ -17,7 +17,7 @@ from validation.scenes.printable import printable
 from validation.scenes.reader import Reader, errors_of, table, values, yes_or_no
 from validation.scenes.table_files import FORM, heights_of_columns, sentence_about, table_beside
 from validation.scenes.units import LENGTHS, in_unit, unit_of
-from validation.theory.elliptic_contact import elliptic_contact
+from validation.theory.half_space import elliptic_contact
 
 FEWEST, MOST = 7, 100_000
 """Points of a profile."""
