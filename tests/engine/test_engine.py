@@ -14,8 +14,7 @@ import pytest
 
 from tests.engine.toys import ENVIRONMENT, ROOT, computed, other_toy, same, toy
 from validation.engine import engine as ensemble
-from validation.engine import files as stored
-from validation.engine import sources
+from validation.engine import sources, stored
 from validation.engine.engine import Engine
 from validation.engine.random_numbers import random_generator
 

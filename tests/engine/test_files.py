@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from validation.__main__ import main
-from validation.engine import files as stored
+from validation.engine import stored
 from validation.engine.files import ERRORS_OF_A_PATH, read_plain, write_given, write_whole
 
 

@@ -29,7 +29,7 @@ from validation.cases.wheel import distance as wheel_distance
 from validation.cases.wheel import half_space as wheel_3d
 from validation.cases.wheel import spectrum as wheel
 from validation.cases.wheel.features import QUANTITIES
-from validation.engine import files as stored
+from validation.engine import stored
 from validation.railway.cases.across import Across
 from validation.railway.cases.rail_dynamic import RailDynamic
 from validation.railway.cases.rail_sound import RailSound, shipped_rail

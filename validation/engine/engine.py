@@ -12,7 +12,7 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from validation.engine import files as stored
+from validation.engine import stored
 from validation.engine.convergence import as_not_converged
 from validation.engine.progress import Part
 from validation.engine.sources import version_behind, version_of_numerics
