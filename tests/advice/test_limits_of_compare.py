@@ -16,7 +16,7 @@ from validation.advice import compare
 from validation.advice.quantities import models_of
 from validation.advice.scene_model import Answer, SceneModel
 from validation.judging import own_models
-from validation.railway.problems.rail_models import LINEAR_ELLIPSE
+from validation.railway.models.rail import LINEAR_ELLIPSE
 from validation.railway.problems.rail_quantity import COUNTED
 from validation.simulation.method import Resolution
 from validation.simulation.model import Cost, ErrorEstimate, Sampling, Target

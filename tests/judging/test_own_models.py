@@ -21,7 +21,7 @@ from validation.engine.engine import Engine
 from validation.judging import own_models
 from validation.judging.own_kinds import result_of
 from validation.judging.own_models import OwnPart, calibrated, measure_own, models_in
-from validation.railway.problems import rail_models as rail
+from validation.railway.models import rail
 from validation.simulation.indentation import height_of
 from validation.simulation.method import distance
 from validation.simulation.model import Target, models_serving

@@ -14,7 +14,7 @@ from validation.judging.judgement import AGREE, REFUSED
 from validation.judging.registry import KINDS, Offered
 from validation.judging.solvers import diagnosis, judged
 from validation.judging.solvers.causes import JudgedContact, causes
-from validation.judging.solvers.diagnosis import numbered
+from validation.judging.solvers.factors import numbered
 from validation.judging.solvers.judged import findings
 from validation.judging.solvers.properties import Asked
 from validation.judging.words import solver_lines

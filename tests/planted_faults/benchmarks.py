@@ -18,9 +18,8 @@ from validation.benchmarks.work_precision import errors as precision_error
 from validation.benchmarks.work_precision import pareto as precision_faster
 from validation.benchmarks.work_precision import problem as precision
 from validation.benchmarks.work_precision.pareto import Point
-from validation.judging.solvers import diagnosis as factors
+from validation.judging.solvers import factors, properties
 from validation.judging.solvers import judged as judging
-from validation.judging.solvers import properties
 
 
 def at_first_order(answer, quantity, rows):

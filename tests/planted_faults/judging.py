@@ -20,9 +20,8 @@ from validation.analysis import statistics as independent_records
 from validation.judging import judgement
 from validation.judging import worker as others
 from validation.judging.kinds import diagnosis as factors
-from validation.judging.kinds import held_out_solves, laws, own, stiffness, sweeps
+from validation.judging.kinds import held_out_solves, laws, own, scaling, stiffness, sweeps
 from validation.judging.kinds import judge as repeats
-from validation.judging.kinds import sweeps as scaling
 from validation.judging.kinds.judge import ModelAnswer
 from validation.simulation.rough_punch import PlateauSpectrum
 

@@ -28,8 +28,7 @@ from validation.analysis.series import Series
 from validation.report import build, chapter, columns, formats, provenance, sounds, style
 from validation.report import columns as symbols
 from validation.report import provenance as code_behind
-from validation.report.answers import questions as question
-from validation.report.answers import strip
+from validation.report.answers import question, strip
 from validation.report.page import PageFigure
 
 AGREE, DIFFER = Verdict.AGREE, Verdict.DIFFER

@@ -12,8 +12,8 @@ from scipy.optimize import brentq
 
 from validation import load_scene
 from validation.advice.scene_model import SceneModel
+from validation.railway.models.rail import BOUNDARY_ELEMENTS
 from validation.railway.problems import rail_models
-from validation.railway.problems.rail_models import BOUNDARY_ELEMENTS
 from validation.railway.problems.rail_quantity import RailQuantity
 from validation.railway.problems.rail_strip import strip_bands
 from validation.simulation.method import Resolution

@@ -17,10 +17,10 @@ from validation.cases.rolling.ridges import RollingOverRidges
 from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.judging.kinds import from_report
 from validation.judging.kinds.held_out_solves import THIRD, OblongStrip, roll_oblong
+from validation.railway.models.rail import BOUNDARY_ELEMENTS
 from validation.railway.problems import rail_models, wheel_on_rail
 from validation.railway.problems.equivalent_displacement import RolledRail, roll_rail
 from validation.railway.problems.rail_across import WideRail, roll_both_ways
-from validation.railway.problems.rail_models import BOUNDARY_ELEMENTS
 from validation.railway.problems.rail_sound import HeldWheel, roll_held_wheel
 from validation.railway.problems.wheel_on_rail import WheelOnRail, roll_and_move
 from validation.railway.scenes.transverse_profile import TransverseProfile

@@ -5,36 +5,22 @@ References are closed forms, which hold at the ends: the flat punch, Hertz, wave
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
-from itertools import product
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 import mdr
-from validation.analysis.statistics import FloatArray, ratio_of_means
-from validation.judging.judgement import Conditions
-from validation.judging.kinds import rolling, surfaces
+from validation.analysis.statistics import FloatArray
+from validation.judging.kinds import rolling
 from validation.judging.kinds.judge import Finding, Found, LostError, ModelAnswer, asked, attempted, rule
 from validation.judging.kinds.references import known
-from validation.judging.kinds.stiffness import (
-    FEWEST,
-    FORCE,
-    MEAN,
-    MODULUS,
-    SIDE,
-    AskedPunch,
-    H,
-    answers_of,
-    draws,
-    load_of,
-)
+from validation.judging.kinds.stiffness import FEWEST, FORCE, MEAN, MODULUS, SIDE, AskedPunch, H, answers_of
 from validation.judging.registry import Caller, Failed
 from validation.theory.closed_forms import SQUARE_PUNCH
 
 HEAVY, LIGHT, FEW = "under a heavy load", "under a light load", "on few cells"
 LONG, SHORT, SMOOTH = "for long waves", "for short waves", "smooth wheel on few cells"
-EXACT_SWEEP, SPHERE, TRACK = 1e-9, 64, 8
+EXACT, SPHERE, TRACK = 1e-9, 64, 8
 """Tolerance of a bound; cells on a side below a sphere; contact radii along and across a track."""
 
 
@@ -105,7 +91,7 @@ class ModelSweep(NamedTuple):
     bound: bool = False
 
 
-OF_CELLS = "cells in the contact", "cells to a contact radius"
+CELLS = "cells in the contact", "cells to a contact radius"
 SWEEPS: Mapping[str, Sequence[ModelSweep]] = {
     "stiffness_model": (
         ModelSweep(
@@ -115,7 +101,7 @@ SWEEPS: Mapping[str, Sequence[ModelSweep]] = {
             LIGHT, FORCE, (1e-8, 1e-6, 1e-4), lambda m, x: min(stiffness(m, 2 * x) / stiffness(m, x), 1.0), bound=True
         ),
     ),
-    "stiffness_of_surface": (ModelSweep(FEW, OF_CELLS[0], (3, 10, 30, 100, 300), below_a_sphere),),
+    "stiffness_of_surface": (ModelSweep(FEW, CELLS[0], (3, 10, 30, 100, 300), below_a_sphere),),
     "force_spectrum": (ModelSweep(LONG, "q a", (1e-4, 1e-3, 1e-2), rms_of_long_waves, 1e-2),),
     "contact_filter": (
         ModelSweep(LONG, "q a", (0, 1e-6, 1e-3), amplitude, 1e-3),
@@ -123,7 +109,7 @@ SWEEPS: Mapping[str, Sequence[ModelSweep]] = {
     ),
     "rolling_model": (
         ModelSweep(
-            SMOOTH, OF_CELLS[1], (1, 2, 4, 8, 16), lambda m, x: float(rolled(m, x, np.zeros(round(TRACK * x))).mean())
+            SMOOTH, CELLS[1], (1, 2, 4, 8, 16), lambda m, x: float(rolled(m, x, np.zeros(round(TRACK * x))).mean())
         ),
         ModelSweep(LONG, "wavelength over a", (32, 128), followed, 1e-2),
     ),
@@ -140,112 +126,4 @@ def swept(model: Caller) -> Iterator[Finding]:
             found: Found = attempted(one.ratio, model, x)
             if model.warned and isinstance(found, float):
                 found = ModelAnswer(found, reason=f"it warned: {model.warned}")
-            yield rule(one.quantity, {one.along: x}, found, left, EXACT_SWEEP if one.bound else None)
-
-
-EXACT, OF_SAMPLE = 1e-6, 2.0
-"""Tolerance; of a mean of draws so many half-widths of its 95 % interval, so that chance breaks none of many rules."""
-LOADS, WAVES, CELLS, PUNCH = (0.01, 3.0), (1.25, 10.0), 8, "stiffness"
-"""Fbar of a punch; q a of a spectrum; cells to a contact radius of a strip; how kinds of punches begin."""
-HURSTS, HEIGHTS = (0.7, 0.4, 1.0), (rolling.HEIGHTS[0], rolling.HEIGHTS[-1])
-
-
-class Powers(NamedTuple):
-    """Of E*, of all lengths, and of the heights of a punch with the load that they bear."""
-
-    modulus: int = 0
-    length: int = 0
-    height: int = 0
-
-
-LENGTH = Powers(length=1)
-GIVEN = dict.fromkeys(("side", "spacing", "contact_radius", "approach", "radius"), LENGTH) | {
-    "load": Powers(1, 2, 1),
-    "modulus": Powers(modulus=1),
-    "height": Powers(length=1, height=1),
-    "line": Powers(length=1, height=1),
-    "q": Powers(length=-1),
-}
-FOUND = {
-    "stiffness_model": Powers(1, 1),
-    "stiffness_of_surface": Powers(1, 1),
-    "force_spectrum": Powers(2, 5),
-    "rolling_model": Powers(1, 2),
-}
-"""Of the arguments, and of the answers; that of a rolling model under a load is a length."""
-RULES = {
-    "scaling with the modulus": Powers(3, 1, 1),
-    "scaling with the length": Powers(1, 3, 1),
-    "scaling with the height": Powers(1, 1, 3),
-}
-"""Factors; the last of punches alone, whose heights are small beside their side."""
-
-
-def judged(model: Caller) -> Iterator[Finding]:
-    """At a light and a heavy contact, of spectra for a long and a short wave."""
-    if model.kind not in FOUND:
-        return
-    answer = LENGTH if model.kind == "rolling_model" and "load" in model.asks else FOUND[model.kind]
-    rules = {name: by for name, by in RULES.items() if by.height == 1 or model.kind.startswith(PUNCH)}
-    for where, given in _places(model):
-        before = attempted(_answers, model, given)
-        for quantity, by in rules.items():
-            other = scaled(given, by), _factor(answer, by)
-            found = before if isinstance(before, Failed) else attempted(_ratio, model, before, *other)
-            value, within = (found, None) if isinstance(found, Failed) else found
-            yield rule(quantity, where, value, within=within)
-
-
-def _answers(model: Caller, given: Mapping[str, Any]) -> FloatArray:
-    """One, or those of the same draws each time. Raises LostError where there is none."""
-    found = draws(model, given, FEWEST) if "rng" in model.asks else np.atleast_1d(asked(model, **given))
-    if model.kind.startswith(PUNCH) and not found[0] > 0:
-        raise LostError(Failed(f"a stiffness of {found[0]:.3g} N/m"))
-    return found
-
-
-def _ratio(model: Caller, before: FloatArray, given: Mapping[str, Any], factor: float) -> tuple[float, float]:
-    """Of means of draws, or of one number; of several one and the rms of what is apart; and how near one it must be."""
-    after = _answers(model, given) / factor
-    if "rng" in model.asks:
-        ratio = ratio_of_means(after, before)
-        return ratio.value, max(EXACT, OF_SAMPLE * ratio.half_width)
-    peak = float(np.abs(before).max()) or 1.0
-    apart, size = (after - before) / peak, float(np.linalg.norm(before / peak)) or 1.0
-    return 1 + float(apart[0] if apart.size == 1 else np.linalg.norm(apart)) / size, EXACT
-
-
-def _places(model: Caller) -> Iterator[tuple[Conditions, dict[str, Any]]]:
-    """Conditions, and arguments in SI units."""
-    if model.kind == "stiffness_model":
-        for hurst, force in product(HURSTS[:1] if "rng" in model.asks else HURSTS, LOADS):
-            yield {H: hurst, FORCE: force}, AskedPunch(hurst, force).arguments
-    if model.kind == "stiffness_of_surface":
-        surface, spacing = SIDE * surfaces.roughness(HURSTS[0]).surface(surfaces.CELLS, 0), SIDE / surfaces.CELLS
-        for force in LOADS:
-            given = {"height": surface, "spacing": spacing, "modulus": MODULUS, "load": load_of(force)}
-            yield {FORCE: force}, given
-    if model.kind == "force_spectrum":
-        for height, qa in product(HEIGHTS, WAVES):
-            given = rolling.over(np.array([qa / rolling.CONTACT]), rolling.ground_of(height))
-            yield {rolling.HEIGHT: height, rolling.Q: qa}, given
-    if model.kind == "rolling_model":
-        for height in HEIGHTS:
-            yield {rolling.HEIGHT: height}, rolling.on(rolling.strip_of(height).surface(CELLS, 0), CELLS)
-
-
-def scaled(given: Mapping[str, Any], by: Powers) -> dict[str, Any]:
-    """The same problem in other units."""
-    return {name: _scaled(value, name, by) for name, value in given.items()}
-
-
-def _scaled(value: Any, name: str, by: Powers) -> Any:
-    if name == "roughness":
-        band = {end: getattr(value, end) / by.length for end in ("q_min", "q_max")}
-        return replace(value, rms=value.rms * by.length * by.height, **band)
-    factor = _factor(GIVEN[name], by)
-    return tuple(factor * one for one in value) if isinstance(value, tuple) else factor * value
-
-
-def _factor(powers: Powers, by: Powers) -> float:
-    return math.prod(float(factor) ** power for factor, power in zip(by, powers, strict=True))
+            yield rule(one.quantity, {one.along: x}, found, left, EXACT if one.bound else None)

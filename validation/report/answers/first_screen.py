@@ -6,7 +6,8 @@ from itertools import groupby
 
 from validation.analysis.claims import listed
 from validation.analysis.evidence import Evidence, Number, Place, Verdict, placed
-from validation.report.answers.questions import QUESTIONS, Alternative, Printed, Question, per_cent, times
+from validation.report.answers.question import Alternative, Printed, Question, per_cent, times
+from validation.report.answers.questions import QUESTIONS
 from validation.report.answers.seconds import TIMES
 from validation.report.answers.strip import TERMS, WORDS, Cell, Source, ends, interval, span
 from validation.report.section import Section

@@ -13,7 +13,7 @@ from validation.benchmarks.work_precision.rolling import RollingProblem
 from validation.cases.limits.limits import SUMMARY
 from validation.cases.punch.ensembles import FORCE
 from validation.cases.rolling.force_spectrum import SLOPE
-from validation.report.answers.questions import BEM
+from validation.report.answers.question import BEM
 from validation.report.answers.seconds import ENOUGH, TIMES
 from validation.report.answers.strip import TERMS
 from validation.report.section import Section

@@ -1,11 +1,8 @@
 """The questions of the first screen, in the order of their cases."""
 
-import math
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
-from validation.analysis.statistics import DECIBEL
 from validation.cases.punch import ensembles as punch
 from validation.cases.punch import fractal_punch_study as fig_14_1
 from validation.cases.punch import interface
@@ -15,63 +12,11 @@ from validation.cases.wheel import half_space as wheel
 from validation.cases.wheel.features import LEVEL
 from validation.cases.wheel.half_space_study import WHEEL
 from validation.engine.street import brought
-from validation.report.answers.seconds import Timed, a_surface, a_track, a_wheel, an_integral
+from validation.report.answers.question import BEM, INTEGRAL, Alternative, Question, in_decibels, per_cent, times
+from validation.report.answers.seconds import a_surface, a_track, a_wheel, an_integral
 from validation.report.answers.strip import Source
 from validation.report.contents import CASES
 from validation.simulation.quantities import RMS_FORCE
-
-INTEGRAL = "an integral over the spectrum"
-"""What linear models cost, in words."""
-CONTACT, SPRINGS, BEM = "roughness and contact", "springs, Geike's rule", "boundary elements"
-Printed = Callable[[float], str]
-"""From the difference of a number in decibels to a text with its unit."""
-
-
-def per_cent(decibels: float) -> str:
-    """Of an amplitude: -12 %."""
-    return f"{round(100 * math.expm1(decibels / DECIBEL)) + 0:+d} %"
-
-
-def times(decibels: float) -> str:
-    """Of an amplitude: 0.53 times, 350 times."""
-    return f"{float(f'{math.exp(decibels / DECIBEL):.2g}'):g} times"
-
-
-def in_decibels(decibels: float) -> str:
-    return f"{round(decibels, 1) + 0.0:+.3g} dB"
-
-
-@dataclass(frozen=True)
-class Alternative:
-    """What could be taken in the place of MDR; without a source it is what the others are judged by.
-
-    cost: in words; timed: its seconds, of the evidence of `precision`; by: what its margin is of, where that is not the
-    quantity of the question.
-    """
-
-    name: str
-    source: Source | None = None
-    cost: str = ""
-    timed: Timed | None = None
-    by: str = ""
-
-
-@dataclass(frozen=True)
-class Question:
-    """A row of the first screen.
-
-    asks: without "is MDR enough?"; source: its numbers; printed: their differences; instead: the cheapest first; model:
-    what stands for MDR; of_scene: a table and the column of it that says what else the numbers were measured for.
-    """
-
-    name: str
-    asks: str
-    source: Source
-    printed: Printed
-    instead: tuple[Alternative, ...]
-    model: str = SPRINGS
-    of_scene: tuple[str, str] | None = None
-
 
 LINEAR_3D = wheel.LINEAR_3D
 PRESSED = Alternative(BEM, timed=a_surface())
