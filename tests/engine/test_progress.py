@@ -15,7 +15,7 @@ def test_the_line_names_the_part_its_solves_and_the_time_left_for_all():
     hertz, punch = run.parts["hertz"], run.parts["fractal_punch"]
     assert run.line == "[1/3] hertz, whole report about 3 min left"
     hertz.over = True
-    punch.begin("press surface", total=420, found=2, failed=1)
+    punch.begin("press surface", total=420, stored=2, failed=1)
     for _ in range(40):
         punch.step()
     assert run.line.startswith("[2/3] fractal_punch: press surface 42/420, 2 from an earlier run, 1 failed, whole rep")
@@ -29,11 +29,11 @@ def test_the_time_left_follows_the_pace_of_this_machine(pace):
     """And not what was stored; what is expected counts as ten seconds of work."""
     run = Progress({"stored": 700.0, "first": 1000.0, "second": 500.0}, workers=2, shown=False)
     stored, first = run.parts["stored"], run.parts["first"]
-    stored.begin("solve", total=100, found=100)
+    stored.begin("solve", total=100, stored=100)
     stored.over = True
     # before anything is done: as expected of two workers
     assert run.seconds_left == pytest.approx(1500 / 2)
-    first.begin("solve", total=100, found=50)
+    first.begin("solve", total=100, stored=50)
     for _ in range(5):
         first.step(seconds=10 * pace)
     # 1000 s less 90 % of 55 hundredths, of which this run has done 5

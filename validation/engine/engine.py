@@ -71,20 +71,22 @@ class Engine:
         places = [stored.place_of(self.store, *name, key) if self.store else None for key in keys]
         if self.timed_results is not None:
             self.timed_results.update((place, key) for place, key in zip(places, keys, strict=True) if place)
-        found = [stored.load(place, key) if place else None for place, key in zip(places, keys, strict=True)]
-        known = {i: outcome for i, outcome in enumerate(found) if outcome is not None}
-        failed = sum(map(_failed, known.values()))
+        stored_outcomes = [stored.load(place, key) if place else None for place, key in zip(places, keys, strict=True)]
+        outcomes = {i: outcome for i, outcome in enumerate(stored_outcomes) if outcome is not None}
+        failed = sum(map(_has_failures, outcomes.values()))
         progress = self.progress or Part()
-        progress.begin(solve.__name__.replace("_", " "), total=len(problems), found=len(known), failed=failed)
+        progress.begin(solve.__name__.replace("_", " "), total=len(problems), stored=len(outcomes), failed=failed)
         tasks = [
-            _PendingSolve(solve, problem, i, places[i], keys[i]) for i, problem in enumerate(problems) if i not in known
+            _PendingSolve(solve, problem, i, places[i], keys[i])
+            for i, problem in enumerate(problems)
+            if i not in outcomes
         ]
         # an exception in this block ends the workers at once
-        with closing(self._solved(tasks)) as solved:
-            for i, outcome, seconds in solved:
-                known[i] = outcome
-                progress.step(_failed(outcome), seconds)
-        return [known[i] for i in range(len(problems))]
+        with closing(self._results(tasks)) as results:
+            for i, outcome, seconds in results:
+                outcomes[i] = outcome
+                progress.step(_has_failures(outcome), seconds)
+        return [outcomes[i] for i in range(len(problems))]
 
     def map_groups(self, solve: Callable[[P], Outcome], groups: Mapping[K, Sequence[P]]) -> dict[K, list[Outcome]]:
         """`map` over the problems of all groups at once: the outcomes of each group, by its key."""
@@ -101,21 +103,21 @@ class Engine:
         yield replace(self, workers=1, executor=LOCAL, shared=None, timed_results=measured)
         stored.forget(measured)
 
-    def _solved(self, tasks: Sequence["_PendingSolve[P]"]) -> Generator[tuple[int, Outcome, float], None, None]:
+    def _results(self, tasks: Sequence["_PendingSolve[P]"]) -> Generator[tuple[int, Outcome, float], None, None]:
         """Index, outcome and seconds of each task, in the order in which they finish."""
         if not tasks:
             return
         if self.executor == LOCAL:
             with nullcontext(self.shared) if self.shared else Workers(self.workers) as workers:
-                yield from _solved_by(workers, tasks)
+                yield from _results_of_workers(workers, tasks)
             return
         by_index = {task.index: task for task in tasks}
         with _client(self.executor) as (client, as_arrived):
             submitted = [
                 client.submit(_solve, t.solve, t.problem, t.index, version_of_numerics(), pure=False) for t in tasks
             ]
-            for arrived in as_arrived(submitted, loop=client.loop):
-                i, outcome, seconds = arrived.result()
+            for future in as_arrived(submitted, loop=client.loop):
+                i, outcome, seconds = future.result()
                 by_index[i].save(outcome)
                 yield i, outcome, seconds
 
@@ -123,8 +125,8 @@ class Engine:
 SERIAL = Engine()
 
 
-def _solved_by(workers: Workers, tasks: Sequence["_PendingSolve[P]"]) -> Iterator[tuple[int, Outcome, float]]:
-    """One that fails cancels those that wait; others may share the workers."""
+def _results_of_workers(workers: Workers, tasks: Sequence["_PendingSolve[P]"]) -> Iterator[tuple[int, Outcome, float]]:
+    """Results in the order in which workers finish; an error cancels the tasks of this call that still wait."""
     if workers.count == 1:
         yield from (_solve_and_save(task, version_of_numerics()) for task in tasks)
         return
@@ -152,13 +154,14 @@ class _PendingSolve(Generic[P]):
 
 
 def _solve_and_save(task: _PendingSolve[P], numerics: str) -> tuple[int, Outcome, float]:
+    """`_solve`, whose outcome is on disk before it is returned."""
     i, outcome, seconds = _solve(task.solve, task.problem, task.index, numerics)
     task.save(outcome)
     return i, outcome, seconds
 
 
 def _solve(solve: Callable[[P], Outcome], problem: P, i: int, numerics: str) -> tuple[int, Outcome, float]:
-    """On a worker, perhaps on another machine: only if its numerics are those of the caller."""
+    """Index, outcome and seconds of a solve; ValueError on a worker whose numerics are not those of the caller."""
     if version_of_numerics() != numerics:
         raise ValueError("a worker has another version of the numerics or of their libraries: it needs the same")
     began = time.perf_counter()
@@ -170,7 +173,8 @@ def _solve(solve: Callable[[P], Outcome], problem: P, i: int, numerics: str) -> 
         raise
 
 
-def _failed(outcome: Outcome) -> bool:
+def _has_failures(outcome: Outcome) -> bool:
+    """Whether any entry of the number "failed" is not zero; an outcome without that number has converged."""
     return bool(outcome.get("failed", np.zeros(1)).any())
 
 

@@ -24,7 +24,7 @@ def place_in(folder: Path, name: str) -> Path:
 
 
 def name_in(folder: Path, place: Path) -> str:
-    """The name of a file of a folder, with /: the other way round."""
+    """The name of a file of a folder, with /: the inverse of `place_in`."""
     return os.fsencode(place.relative_to(folder).as_posix()).decode(errors="replace")
 
 
@@ -35,14 +35,14 @@ def write_given(path: Path, contents: bytes) -> None:
     Raises OSError, which names the path.
     """
     with with_path_in_errors(path):
-        there = path.stat() if path.exists() else None
-        if there and (stream := _stream_of(there)):
+        status = path.stat() if path.exists() else None
+        if status and (stream := _stream_of(status)):
             stream.flush()
             _write_into(os.dup(stream.fileno()), contents)
-        elif there and not stat.S_ISREG(there.st_mode):
+        elif status and not stat.S_ISREG(status.st_mode):
             _write_into(os.open(path, os.O_WRONLY), contents)
         else:
-            write_whole(Path(os.path.realpath(path)), contents, like=there)
+            write_whole(Path(os.path.realpath(path)), contents, like=status)
 
 
 def write_whole(path: Path, contents: bytes, *, like: os.stat_result | None = None) -> None:
@@ -52,7 +52,7 @@ def write_whole(path: Path, contents: bytes, *, like: os.stat_result | None = No
     """
     with with_path_in_errors(path):
         temporary = write_partial_file(path, contents)
-        with _removed_on_errors(temporary):
+        with _remove_on_errors(temporary):
             if like:
                 with suppress(PermissionError):
                     os.chown(temporary, like.st_uid, like.st_gid)
@@ -66,19 +66,19 @@ def write_partial_file(path: Path, contents: bytes) -> Path:
         path.parent.mkdir(parents=True, exist_ok=True)
         temporary = path.parent / f".mdr-validation-{secrets.token_hex(4)}.part"
         handle = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o666)
-        with _removed_on_errors(temporary):
+        with _remove_on_errors(temporary):
             _write_into(handle, contents)
     return temporary
 
 
 def _write_into(handle: int, contents: bytes) -> None:
-    """And close it."""
+    """Write the contents to an open handle, and close it."""
     with os.fdopen(handle, "wb") as file:
         file.write(contents)
 
 
 def _stream_of(file: os.stat_result) -> TextIO | None:
-    """The stream of this program that writes to the same file."""
+    """The stream of this program that writes to the same file, None where neither does."""
     for stream in (sys.stdout, sys.stderr):
         # what stands in their place may be no file
         with suppress(OSError, ValueError, AttributeError):
@@ -88,7 +88,8 @@ def _stream_of(file: os.stat_result) -> TextIO | None:
 
 
 @contextmanager
-def _removed_on_errors(temporary: Path) -> Iterator[None]:
+def _remove_on_errors(temporary: Path) -> Iterator[None]:
+    """Remove a temporary file where the block raises, an interruption included."""
     try:
         yield
     except BaseException:

@@ -22,7 +22,7 @@ UNKNOWN = 600.0
 
 @dataclass
 class Solves:
-    """Of one kind: how many there are, how many were found in the store, are done with those, and did not converge."""
+    """Solves of one kind: their number, those found in the store, those done with these, those not converged."""
 
     doing: str
     total: int = 0
@@ -38,12 +38,12 @@ class Part:
         self.name, self.seconds, self.worked, self.over = name, seconds, 0.0, False
         self.kinds: list[Solves] = []
 
-    def begin(self, doing: str, *, total: int, found: int = 0, failed: int = 0) -> None:
-        """Solves that follow, more of the last kind or another. found: in the store; failed: of those."""
+    def begin(self, doing: str, *, total: int, stored: int = 0, failed: int = 0) -> None:
+        """Solves that follow, more of the last kind or another. stored: in the store; failed: of those."""
         if not self.kinds or self.kinds[-1].doing != doing:
             self.kinds.append(Solves(doing))
         kind = self.kinds[-1]
-        kind.total, kind.found, kind.done = kind.total + total, kind.found + found, kind.done + found
+        kind.total, kind.found, kind.done = kind.total + total, kind.found + stored, kind.done + stored
         kind.failed += failed
 
     def step(self, failed: bool = False, seconds: float = 0.0) -> None:
@@ -59,16 +59,17 @@ class Part:
 
     @property
     def share(self) -> float:
-        """Of the part that is done."""
+        """Share of the part that is done, stored solves included [-]."""
         return 1.0 if self.over else self._share(sum(kind.done for kind in self.kinds))
 
     @property
     def share_of_this_run(self) -> float:
-        """Of the part that is done and was not found in the store."""
-        found = sum(kind.found for kind in self.kinds)
-        return self.share - (self._share(found) / BEFORE_EVIDENCE if self.over else self._share(found))
+        """Share of the part that this run has done itself: solves in the store do not count [-]."""
+        stored = sum(kind.found for kind in self.kinds)
+        return self.share - (self._share(stored) / BEFORE_EVIDENCE if self.over else self._share(stored))
 
     def _share(self, solves: int) -> float:
+        """Share of the part that so many of its solves are: evaluation is the rest, from `BEFORE_EVIDENCE` on [-]."""
         return BEFORE_EVIDENCE * solves / max(sum(kind.total for kind in self.kinds), 1)
 
     @property
@@ -76,9 +77,9 @@ class Part:
         if not self.kinds:
             return self.name
         kind = self.kinds[-1]
-        found = f", {kind.found} from an earlier run" if kind.found else ""
+        stored = f", {kind.found} from an earlier run" if kind.found else ""
         failed = f", {kind.failed} failed" if kind.failed else ""
-        return f"{self.name}: {kind.doing} {kind.done}/{kind.total}{found}{failed}"
+        return f"{self.name}: {kind.doing} {kind.done}/{kind.total}{stored}{failed}"
 
 
 class Progress:
@@ -107,7 +108,7 @@ class Progress:
 
     @contextmanager
     def aside(self) -> Iterator[None]:
-        """Something else is printed meanwhile."""
+        """Erase the line, and print none while the block writes to the terminal."""
         with self._lock:
             if self._shown:
                 self._write("")
@@ -115,15 +116,15 @@ class Progress:
 
     @property
     def line(self) -> str:
-        """Of the first part that is not over."""
+        """State of the first part that is not over, and the time left for all parts."""
         parts = list(self.parts.values())
         i = next((i for i, part in enumerate(parts) if not part.over), len(parts) - 1)
-        place, whole = (f"[{i + 1}/{len(parts)}] ", "whole report ") if len(parts) > 1 else ("", "")
-        return f"{place}{parts[i].line}, {whole}{format_left(self.seconds_left)} left"
+        place, scope = (f"[{i + 1}/{len(parts)}] ", "whole report ") if len(parts) > 1 else ("", "")
+        return f"{place}{parts[i].line}, {scope}{format_left(self.seconds_left)} left"
 
     @property
     def seconds_left(self) -> float:
-        """By the pace of the solves of this run, and the expected one as long as these are few."""
+        """Expected seconds of what is left, times the pace of this run, which counts more the more it has solved."""
         parts = self.parts.values()
         expected = sum(part.seconds * part.share_of_this_run for part in parts if part.worked)
         pace = (sum(part.worked for part in parts) + TRUSTED) / (expected + TRUSTED)
@@ -135,7 +136,7 @@ class Progress:
                 self._write(self.line)
 
     def _write(self, line: str) -> None:
-        """On a terminal over the last one, in a log below it; an empty one erases the last."""
+        """Write a line over the last one on a terminal, below it in a log; an empty line erases the last."""
         if self._terminal:
             sys.stderr.write(f"\r{line[: shutil.get_terminal_size().columns - 1]}\x1b[K")
         elif line:
@@ -145,13 +146,13 @@ class Progress:
 
 @contextmanager
 def progress_of(name: str, workers: int) -> Iterator[Part]:
-    """Of a run that is a single part, of which nobody knows how long it takes."""
+    """Progress of a run that is a single part of unknown duration."""
     with Progress({name: UNKNOWN}, workers=workers) as progress:
         yield progress.parts[name]
 
 
 def format_left(seconds: float) -> str:
-    """As exact as it can be known."""
+    """Time left in words, no more exact than such an estimate can be."""
     if seconds < 10:
         return "a few seconds"
     if seconds < 90:

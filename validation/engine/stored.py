@@ -34,8 +34,8 @@ def load(path: Path, key: str) -> Outcome | None:
     if is_there(path) and not is_plain(path):
         raise ValueError(f"a stored result must be a plain file, got {path}: move that away")
     try:
-        whole = read_plain(path)
-        archive, seal = whole[:-SEAL], whole[-SEAL:]
+        contents = read_plain(path)
+        archive, seal = contents[:-SEAL], contents[-SEAL:]
         if hashlib.sha256(archive).digest() != seal:
             return None
         with np.load(io.BytesIO(archive), allow_pickle=False) as entries:
@@ -44,13 +44,13 @@ def load(path: Path, key: str) -> Outcome | None:
     # a valid seal may have been put behind any bytes
     except Exception:
         return None
-    return arrays if label == {"format": FORMAT, "key": key, "arrays": _listed(arrays)} else None
+    return arrays if label == {"format": FORMAT, "key": key, "arrays": _array_types(arrays)} else None
 
 
 def save(path: Path, key: str, outcome: Outcome) -> None:
     """Store a result, whole or not at all. Raises OSError, which names the place."""
     arrays = {name: np.asarray(value) for name, value in outcome.items()}
-    label = json.dumps({"format": FORMAT, "key": key, "arrays": _listed(arrays)}, sort_keys=True)
+    label = json.dumps({"format": FORMAT, "key": key, "arrays": _array_types(arrays)}, sort_keys=True)
     archive = io.BytesIO()
     np.savez(archive, **{LABEL: np.array(label), **arrays})  # type: ignore[arg-type]  # stubs take a name for a flag
     contents = archive.getvalue()
@@ -65,5 +65,6 @@ def forget(stored: Mapping[Path, str]) -> None:
             path.unlink()
 
 
-def _listed(arrays: Outcome) -> dict[str, list[object]]:
+def _array_types(arrays: Outcome) -> dict[str, list[object]]:
+    """Data type and shape of each array, as the label of an archive has them."""
     return {name: [array.dtype.str, list(array.shape)] for name, array in arrays.items()}

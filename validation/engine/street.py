@@ -12,20 +12,20 @@ from types import ModuleType
 from typing import Any
 
 HOUSES = ("advice", "railway", "judging")
-"""In the order of the street: each may import those before it."""
+"""Names in the order of the street: each house may import those before it."""
 ROOT = "validation"
 
 
 @cache
 def houses() -> tuple[str, ...]:
-    """Those that are there."""
+    """Names of the houses whose package is installed, in the order of the street."""
     return tuple(name for name in HOUSES if find_spec(f"{ROOT}.{name}"))
 
 
 def places(use: str) -> tuple[str, ...]:
     """Where houses have what they bring for a use."""
-    found = (resolve_name(f"{ROOT}.{house}").BRINGS.get(use) for house in houses())
-    return tuple(place for place in found if place)
+    entries = (resolve_name(f"{ROOT}.{house}").BRINGS.get(use) for house in houses())
+    return tuple(place for place in entries if place)
 
 
 def brought(use: str) -> list[Any]:
@@ -47,4 +47,4 @@ def modules_in(folder: str) -> Iterator[ModuleType]:
     for house in houses():
         if find_spec(f"{ROOT}.{house}.{folder}"):
             package = resolve_name(f"{ROOT}.{house}.{folder}")
-            yield from (resolve_name(f"{package.__name__}.{one.name}") for one in iter_modules(package.__path__))
+            yield from (resolve_name(f"{package.__name__}.{module.name}") for module in iter_modules(package.__path__))

@@ -38,13 +38,13 @@ def terminable() -> Iterator[None]:
         yield
         return
     before = {number: signal.getsignal(number) for number in SIGNALS}
-    ours = [number for number, handler in before.items() if handler is signal.SIG_DFL]
+    unhandled = [number for number, handler in before.items() if handler is signal.SIG_DFL]
     try:
-        for number in ours:
+        for number in unhandled:
             signal.signal(number, _raise_terminated)
         yield
     finally:
-        for number in ours:
+        for number in unhandled:
             signal.signal(number, signal.SIG_DFL)
 
 
@@ -82,13 +82,13 @@ def end_after(waiting: Callable[[], object]) -> None:
 
 
 def as_one_line(message: Warning | str, *_: object, **__: object) -> str:
-    """In place of `warnings.formatwarning`."""
+    """A warning without its source line, in place of `warnings.formatwarning`."""
     return f"warning: {' '.join(str(message).split())}\n"
 
 
 @contextmanager
 def one_line_warnings() -> Iterator[None]:
-    """In this process, for as long as it lasts."""
+    """Warnings of this process take one line each while the block runs."""
     before = warnings.formatwarning
     warnings.formatwarning = as_one_line
     try:
@@ -131,15 +131,15 @@ class Workers:
                 + RESUME_NOTE
             ) from None
 
-    def submit(self, function: Callable[P, R], *arguments: P.args, **named: P.kwargs) -> Future[R]:
+    def submit(self, function: Callable[P, R], *arguments: P.args, **keywords: P.kwargs) -> Future[R]:
         """A call on a worker, or here and now where there is one alone; its error is that of the future."""
         if self._over:
             raise CancelledError("the workers have been ended")
         if self.count > 1:
-            return self._pool().submit(function, *arguments, **named)
+            return self._pool().submit(function, *arguments, **keywords)
         future = Future[R]()
         try:
-            future.set_result(function(*arguments, **named))
+            future.set_result(function(*arguments, **keywords))
         except Exception as error:
             future.set_exception(error)
         return future
@@ -193,6 +193,6 @@ class Workers:
 
 
 def _begin(parent: int) -> None:
-    """In a worker, before its first call."""
+    """Prepare a worker before its first call: warnings of one line, and an end with its parent."""
     warnings.formatwarning = as_one_line
     end_with_parent(parent)
