@@ -60,7 +60,7 @@ def elliptic_contact(
 
 
 def _axis_ratio(radius_ratio: float) -> float:
-    """b/a from R_b / R_a, both one at the most: it lies between that and one."""
+    """b/a from R_b / R_a <= 1: b/a lies between that ratio and one [-]."""
     if radius_ratio == 1:
         return 1.0
 
@@ -73,11 +73,11 @@ def _axis_ratio(radius_ratio: float) -> float:
 
 @cache
 def gauss_legendre(nodes: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """On [-1, 1], read-only; exact for polynomials of degree 2 nodes - 1."""
-    found = np.polynomial.legendre.leggauss(nodes)
-    for values in found:
+    """Nodes and weights on [-1, 1], read-only; exact for polynomials of degree 2 nodes - 1."""
+    rule = np.polynomial.legendre.leggauss(nodes)
+    for values in rule:
         values.flags.writeable = False
-    return found
+    return rule
 
 
 def on_panels(ends: ArrayLike, nodes: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -113,6 +113,7 @@ class LoveHalfSpace:
 
     @cached_property
     def _transfer(self) -> NDArray[np.complex128]:
+        """u(q) / p(q) of each wave of the padded grid, of the periodic one 2 / (E* q) [m/Pa]."""
         (n, m), (dx, dy) = self.shape, self.spacing
         if self.periodic:
             q = 2 * math.pi * np.hypot(fft.fftfreq(n, dx)[:, np.newaxis], fft.rfftfreq(m, dy))

@@ -21,7 +21,7 @@ FloatArray = NDArray[np.float64]
 Spectrum = Callable[[FloatArray], FloatArray]
 
 NODES = 24
-"""Of Gauss and Legendre, on a panel no longer than half a wave of sin^2."""
+"""Nodes of Gauss and Legendre on a panel no longer than half a wave of sin^2."""
 WIDEST = 1.4
 """Largest ratio of both ends of a panel, on which a power law is a polynomial to rounding."""
 
@@ -75,10 +75,13 @@ def section(q: ArrayLike, c2d: Spectrum, *, edges: Sequence[float], period: floa
 
     q, c2d, edges: as of `force_spectrum_3d`; period: of an oscillation of c2d over its argument.
     """
-    return np.asarray(np.vectorize(lambda one: _section(abs(one), c2d, edges, period))(np.asarray(q, dtype=np.float64)))
+    return np.asarray(
+        np.vectorize(lambda wavenumber: _section(abs(wavenumber), c2d, edges, period))(np.asarray(q, dtype=np.float64))
+    )
 
 
 def _section(q: float, c2d: Spectrum, edges: Sequence[float], period: float) -> float:
+    """`section` at one wavenumber, not negative, by Gauss and Legendre on each panel over k."""
     ends = np.array(_panels(q, edges, period))
     if ends.size < 2:
         return 0.0
@@ -181,7 +184,7 @@ def linear_force(height: ArrayLike, *, spacing: float, radius: float, modulus: f
 ComplexArray = NDArray[np.complex128]
 
 POINTS = 16_000
-"""Of the trapezoidal rule from -q_max to q_max."""
+"""Intervals of the trapezoidal rule from -q_max to q_max."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -228,18 +231,23 @@ class RollingWheel:
         q: [rad/m]; c1d: C_1D of the track, two-sided [m^3], zero beyond q_max.
         """
         k = np.linspace(-q_max, q_max, POINTS + 1)
-        places = np.atleast_1d(np.asarray(q, dtype=np.float64))
-        found = np.array([np.trapezoid(self._pairs(k, one - k, c1d), k) for one in places.tolist()])
-        return np.asarray(2 * (self.modulus * self.radius / (4 * self.contact_radius)) ** 2 * found)
+        wavenumbers = np.atleast_1d(np.asarray(q, dtype=np.float64))
+        integrals = np.array(
+            [np.trapezoid(self._pairs(k, wavenumber - k, c1d), k) for wavenumber in wavenumbers.tolist()]
+        )
+        return np.asarray(2 * (self.modulus * self.radius / (4 * self.contact_radius)) ** 2 * integrals)
 
     def _pairs(self, k: FloatArray, other: FloatArray, c1d: Callable[[FloatArray], FloatArray]) -> FloatArray:
+        """Integrand of `force_spectrum` for waves k and other = q - k: C_1D C_1D abs(U U + V V)^2 [m^6]."""
         power = c1d(np.abs(k)) * c1d(np.abs(other))
-        some = power > 0
-        k, other = k[some], other[some]
-        mine, its = self.motion(k), self.motion(other)
-        turn, its_turn = np.exp(1j * k * self.contact_radius), np.exp(1j * other * self.contact_radius)
-        ends = (turn + mine) * (its_turn + its) + (turn.conj() + mine) * (its_turn.conj() + its)
-        power[some] *= np.abs(ends) ** 2
+        nonzero = power > 0
+        k, other = k[nonzero], other[nonzero]
+        motion, other_motion = self.motion(k), self.motion(other)
+        phase, other_phase = np.exp(1j * k * self.contact_radius), np.exp(1j * other * self.contact_radius)
+        ends = (phase + motion) * (other_phase + other_motion) + (phase.conj() + motion) * (
+            other_phase.conj() + other_motion
+        )
+        power[nonzero] *= np.abs(ends) ** 2
         return power
 
     def acceleration(self, omega: ArrayLike, c1d: Callable[[FloatArray], FloatArray], *, q_max: float) -> FloatArray:
