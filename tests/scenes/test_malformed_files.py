@@ -106,13 +106,13 @@ def test_keys_that_are_meant_are_named_with_their_table(text, old, new, words, t
 
 
 def test_places_of_keys_are_those_of_scenes_with_the_same_table():
-    assert places_of("mass", beside="wheel", roots=()) == ()
-    assert places_of("mass", beside="punch", roots=()) == ()
-    assert places_of("springs", beside="", roots=("name", "wheel", "material", "rail", "simulation")) == (
+    assert places_of("mass", required="wheel", roots=()) == ()
+    assert places_of("mass", required="punch", roots=()) == ()
+    assert places_of("springs", required="", roots=("name", "wheel", "material", "rail", "simulation")) == (
         "in [simulation]",
     )
-    assert places_of("springs", beside="", roots=("name", "punch", "material")) == ()
-    assert set(places_of("load", beside="material", roots=())) == {"in [wheel]", "in [punch]", "in [sphere]"}
+    assert places_of("springs", required="", roots=("name", "punch", "material")) == ()
+    assert set(places_of("load", required="material", roots=())) == {"in [wheel]", "in [punch]", "in [sphere]"}
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="the superuser may read all files")

@@ -15,7 +15,7 @@ COMMENTED = re.compile(r"^# (\w+ = |\[[\w.]+\]\s)")
 
 
 HEADER = re.compile(r"^\[([\w.]+)\]")
-"""Of a table."""
+"""The line with the name of a table."""
 
 
 def bundled() -> tuple[str, ...]:
@@ -24,7 +24,7 @@ def bundled() -> tuple[str, ...]:
 
 
 def _files() -> dict[str, Path]:
-    """By their names; those of the houses, too."""
+    """Path of each shipped scene by its name, scenes of the houses included."""
     folders = [SCENES, *(Path(next(iter(house.__path__))) for house in brought("scenes"))]
     return {path.stem: path for folder in folders for path in folder.glob("*.toml")}
 
@@ -48,33 +48,33 @@ def line_for(key: str) -> str:
 
     Where no scene has the key in this table, one that has it in another. A line of a table in comments counts, too.
     """
-    elsewhere, name = "", key.rpartition(".")[2]
+    fallback, name = "", key.rpartition(".")[2]
     for scene in bundled():
         for table, code in _lines_of(scene):
             if code == f"[{key}]" or (code.startswith(f"{name} = ") and ".".join(filter(None, (table, name))) == key):
                 return code
             if code.startswith(f"{name} = "):
-                elsewhere = elsewhere or code
-    return elsewhere
+                fallback = fallback or code
+    return fallback
 
 
-def places_of(key: str, *, beside: str, roots: Collection[str]) -> tuple[str, ...]:
+def places_of(key: str, *, required: str, roots: Collection[str]) -> tuple[str, ...]:
     """Where shipped scenes have a key, "in [wheel]", or a table of that name, "as [rail.levels]".
 
-    beside: a table that those scenes must have; roots: where that is the top of a file, all tables there may be.
+    required: a table that those scenes must have; roots: where that is the top of a file, all tables there may be.
     """
-    found: dict[str, None] = {}
+    places: dict[str, None] = {}
     for scene in bundled():
         lines = [*_lines_of(scene)]
         tables = {part for table, _ in lines for part in (table, table.rpartition(".")[0])}
-        if not (beside in tables if beside else all(table.partition(".")[0] in roots for table in tables if table)):
+        if not (required in tables if required else all(table.partition(".")[0] in roots for table in tables if table)):
             continue
         for table, code in lines:
-            if code.startswith(f"{key} = ") and table != beside:
-                found[f"in [{table}]"] = None
+            if code.startswith(f"{key} = ") and table != required:
+                places[f"in [{table}]"] = None
             elif table.rpartition(".")[2] == key:
-                found[f"as [{table}]"] = None
-    return tuple(found)
+                places[f"as [{table}]"] = None
+    return tuple(places)
 
 
 def _lines_of(scene: str) -> Iterator[tuple[str, str]]:
@@ -95,7 +95,7 @@ KINDS = {
     stat.S_IFCHR: "a device",
     stat.S_IFBLK: "a device",
 }
-"""Of what is no regular file."""
+"""Words for files that are not regular, by their type."""
 
 
 class SceneError(ValueError):

@@ -44,7 +44,7 @@ class Column:
 
     def is_called(self, name: str) -> bool:
         """Whether it has this name, without its unit or with it, as the file writes it or as it is printed."""
-        return plain(name) in {plain(one) for one in (self.name, str(self), self.written) if one}
+        return plain(name) in {plain(label) for label in (self.name, str(self), self.written) if label}
 
 
 def plain(text: str) -> str:
@@ -55,55 +55,60 @@ def plain(text: str) -> str:
 
 def column_of(text: str) -> Column:
     """Name, unit and reference in a cell of a header. A unit in brackets need not be one of ours."""
-    return replace(_column_of(text), written=text.strip())
+    return replace(_parse_column(text), written=text.strip())
 
 
-def _column_of(text: str) -> Column:
+def _parse_column(text: str) -> Column:
+    """Name, unit and reference; a unit that is known precedes others in brackets, or stands at the end."""
     words = MICRO.sub("u", text.strip().strip('"').strip())
     if PLACE.fullmatch(words):
         return Column(words)
-    inside = [(found, (found[1] or found[2] or "").strip()) for found in IN_BRACKETS.finditer(words)]
-    known = [(found, unit) for found, unit in inside if _unit(unit) in KNOWN]
-    if not known and (last := AT_THE_END.search(words)):
-        return Column(words[: last.start()].strip(" _/,"), KNOWN[last[1]], _reference(words))
-    if not inside:
+    brackets = [(match, (match[1] or match[2] or "").strip()) for match in IN_BRACKETS.finditer(words)]
+    unit_brackets = [(match, unit) for match, unit in brackets if _bracket_unit(unit) in KNOWN]
+    if not unit_brackets and (ending := AT_THE_END.search(words)):
+        return Column(words[: ending.start()].strip(" _/,"), KNOWN[ending[1]], _decibel_reference(words))
+    if not brackets:
         return Column(words)
-    found, unit = (known or inside[-1:])[0]
-    name = " ".join(f"{words[: found.start()]} {words[found.end() :]}".partition(" re ")[0].split())
-    return Column(name.strip(" /_"), KNOWN.get(_unit(unit), _unit(unit)), _reference(words))
+    match, unit = (unit_brackets or brackets[-1:])[0]
+    name = " ".join(f"{words[: match.start()]} {words[match.end() :]}".partition(" re ")[0].split())
+    return Column(name.strip(" /_"), KNOWN.get(_bracket_unit(unit), _bracket_unit(unit)), _decibel_reference(words))
 
 
-def _unit(words: str) -> str:
-    """Of what stands in brackets, as "dB re 1 um" or "in mm"."""
+def _bracket_unit(words: str) -> str:
+    """The unit of the words in brackets, as "dB" of "dB re 1 um" and "mm" of "in mm"."""
     return words.removeprefix("in ").partition(" ")[0].rstrip(",;")
 
 
-def _reference(words: str) -> str:
-    found = REFERENCE.search(words)
-    return found[1].strip() if found else ""
+def _decibel_reference(words: str) -> str:
+    """The words behind "re", "ref" or "rel", as "1 um"; empty where there are none."""
+    match = REFERENCE.search(words)
+    return match[1].strip() if match else ""
 
 
 def columns_of(above: Sequence[str], count: int, delimiter: str) -> tuple[Column, ...]:
-    """Of the nearest lines above so many columns: one with units, or one of names; without names where none has."""
+    """Columns by the nearest lines of a header, one with units or one of names; without names where none has any."""
     stripped = (line.strip().lstrip("#%/; ").strip() for line in above)
     # "Unit: nm" looks like two columns
     lines = [text for text in stripped if text and not UNIT_OF_ALL.match(text)][-3:]
-    found = [tuple(map(column_of, cells)) for line in reversed(lines) if (cells := _cells(line, count, delimiter))]
-    with_units = [i for i, columns in enumerate(found) if any(column.unit for column in columns)]
+    headers = [
+        tuple(map(column_of, cells)) for line in reversed(lines) if (cells := _header_cells(line, count, delimiter))
+    ]
+    with_units = [i for i, columns in enumerate(headers) if any(column.unit for column in columns)]
     if not with_units:
-        return found[0] if found else (Column(),) * count
-    columns = found[with_units[0]]
-    if any(column.name for column in columns) or len(found) == with_units[0] + 1:
+        return headers[0] if headers else (Column(),) * count
+    columns = headers[with_units[0]]
+    if any(column.name for column in columns) or len(headers) == with_units[0] + 1:
         return columns
     # a line of units below one of names
-    names = found[with_units[0] + 1]
+    names = headers[with_units[0] + 1]
     return tuple(
-        Column(one.name, two.unit, two.reference, one.written) for one, two in zip(names, columns, strict=True)
+        Column(name_cell.name, unit_cell.unit, unit_cell.reference, name_cell.written)
+        for name_cell, unit_cell in zip(names, columns, strict=True)
     )
 
 
-def _cells(line: str, count: int, delimiter: str) -> list[str] | None:
-    """So many cells of a header, between the delimiter of the rows or another."""
+def _header_cells(line: str, count: int, delimiter: str) -> list[str] | None:
+    """Cells of a line of a header, between the delimiter of the rows or another; None unless there are `count`."""
     if count == 1:
         return None if re.search(r"[;,\t]", line) else [line]
     for pattern in (re.escape(delimiter), r"\t", ";", ",", r"\s{2,}", r"\s+(?![\[(/])"):
@@ -115,12 +120,12 @@ def _cells(line: str, count: int, delimiter: str) -> list[str] | None:
 
 def unit_of_all(above: Sequence[str]) -> set[str]:
     """Units of length that lines of a header have for all numbers below: `z [um]` alone, or `Unit: um`."""
-    found = set()
+    units = set()
     for line in above:
         text = line.strip().lstrip("#%/; ").strip().strip('"')
-        told = UNIT_OF_ALL.match(text)
-        one = column_of(f"[{told[1].strip(' []()')}]" if told else text)
-        alone = told or re.fullmatch(r"[^\s,;:\d]+[\s_/]*[\[(][^\])]*[\])]", text)
-        if alone and one.unit in UNITS["length"]:
-            found.add(one.unit)
-    return found
+        match = UNIT_OF_ALL.match(text)
+        column = column_of(f"[{match[1].strip(' []()')}]" if match else text)
+        is_unit_line = match or re.fullmatch(r"[^\s,;:\d]+[\s_/]*[\[(][^\])]*[\])]", text)
+        if is_unit_line and column.unit in UNITS["length"]:
+            units.add(column.unit)
+    return units

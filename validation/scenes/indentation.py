@@ -90,7 +90,7 @@ class IndentationScene(OnHalfSpace, SceneDefaults):
 
     @property
     def smooth_contact(self) -> ContactEllipse | None:
-        """Of a sphere; that of a flat punch has no approach of Hertz."""
+        """The contact of Hertz of a sphere; None of a flat punch, which has no such approach."""
         return self.contact_of_hertz if self.shape == "sphere" else None
 
     @property
@@ -100,7 +100,7 @@ class IndentationScene(OnHalfSpace, SceneDefaults):
 
     @property
     def size_key(self) -> str:
-        """Of a scene file."""
+        """The key of the size in a scene file."""
         return "sphere.radius" if self.shape == "sphere" else "punch.side"
 
     @property
@@ -110,7 +110,7 @@ class IndentationScene(OnHalfSpace, SceneDefaults):
 
     @property
     def stiffness(self) -> float:
-        """Of the smooth body, 2 E* a or 1.1523 E* L [N/m]."""
+        """Stiffness of the smooth body, 2 E* a or 1.1523 E* L [N/m]."""
         sphere = self.shape == "sphere"
         return self.body.stiffness if sphere else square_punch_stiffness(side=self.size, modulus=self.modulus)
 
@@ -149,16 +149,16 @@ class IndentationScene(OnHalfSpace, SceneDefaults):
 
     def diagnose(self) -> tuple[str, ...]:
         """What may be wrong about this scene though it is valid, in sentences with numbers."""
-        found = self.ground.notes() if self.ground else ()
+        notes = self.ground.notes() if self.ground else ()
         if self.shape == "punch" and self.modulus != 1 and self.pressure > MOST_PRESSURE * self.modulus:
             return (
-                *found,
+                *notes,
                 f"the mean pressure on the punch is {self.pressure / self.modulus:.3g} of E*, more than a tenth: no "
                 "half-space; are the units of punch.load, punch.side and E* right?",
             )
         if 1 != self.modulus < SOFTEST:
-            found = *found, f"E* is {self.modulus:.3g} Pa, softer than a gel: is its unit Pa?"
-        return (*found, *self.diagnose_contact_radius("sphere")) if self.shape == "sphere" else found
+            notes = *notes, f"E* is {self.modulus:.3g} Pa, softer than a gel: is its unit Pa?"
+        return (*notes, *self.diagnose_contact_radius("sphere")) if self.shape == "sphere" else notes
 
     def _check_waves(self, rough: Roughness) -> None:
         check_band("roughness", rough)

@@ -22,9 +22,9 @@ from validation.scenes.roughness import roughness_of
 from validation.scenes.scene import Scene
 
 BODIES, GROUNDS = ("sphere", "punch", "wheel"), ("roughness", "heights")
-"""Of which a scene has one, and one at the most."""
+"""Tables of bodies, of which a scene has one, and of roughness, of which it has one at the most."""
 LOADS = ("load", "pressure")
-"""Of which a punch has one: its force, or the mean pressure over its side squared."""
+"""Keys of which a punch has one: its force, or the mean pressure on its face."""
 OTHER_GROUNDS = ("roughness", "levels", "lines", "across", "alpha")
 """Keys of a body or a rail that heights stand in place of."""
 
@@ -65,15 +65,15 @@ def load_scene(scene: str | Path, *, heights: object = None) -> Scene:
     tables = tables_of(path)
     ground = heights if isinstance(heights, MeasuredHeights | None) else measured(heights)
     with errors_of_file(path):
-        return _scene_of(tables if ground is None else _with_heights(tables, ground), path.parent)
+        return _read_scene(tables if ground is None else _replace_roughness(tables, ground), path.parent)
 
 
 def files_of(scene: str | Path) -> tuple[Path, ...]:
     """The file of a scene, and the files beside it that its values name."""
     path = path_of(scene)
-    named = (path.parent / text for text in _texts(tables_of(path)))
+    candidates = (path.parent / text for text in _texts(tables_of(path)))
     # unlike that of a Path, which raises for a text that is too long for a name
-    return path, *(one for one in named if os.path.isfile(one))  # noqa: PTH113
+    return path, *(file for file in candidates if os.path.isfile(file))  # noqa: PTH113
 
 
 def _texts(value: object) -> Iterator[str]:
@@ -81,8 +81,8 @@ def _texts(value: object) -> Iterator[str]:
     if isinstance(value, str):
         yield value
     elif isinstance(value, dict | list):
-        for one in value.values() if isinstance(value, dict) else value:
-            yield from _texts(one)
+        for entry in value.values() if isinstance(value, dict) else value:
+            yield from _texts(entry)
 
 
 def load_varied(scene: str | Path, key: str, value: str) -> Scene:
@@ -94,45 +94,46 @@ def load_varied(scene: str | Path, key: str, value: str) -> Scene:
     path = path_of(scene)
     tables = tables_of(path)
     with errors_of_file(path):
-        *rooms, last = key.split(".")
+        *sections, last = key.split(".")
         inner: Any = tables
-        for room in rooms:
-            inner = inner.get(room)
+        for section in sections:
+            inner = inner.get(section)
             if not isinstance(inner, dict):
                 raise ValueError(f"{printable(key)} must be a key in a table of the scene, as wheel.load")
         if isinstance(inner.get(last), dict):
             raise ValueError(f"{printable(key)} must be a key with a value, got a table")
-        inner[last] = _value(value)
+        inner[last] = _number_or_text(value)
         tables["name"] = f"{tables.get('name')}, {last} = {value}"
-        return _scene_of(tables, path.parent)
+        return _read_scene(tables, path.parent)
 
 
-def _value(text: str) -> object:
-    """A number, or a text."""
+def _number_or_text(text: str) -> object:
+    """The value of a text as TOML would have it: a whole number, another number, or the text itself."""
     for read in (int, float):
         with suppress(ValueError):
             return read(text)
     return text
 
 
-def _with_heights(tables: dict[str, Any], heights: MeasuredHeights) -> dict[str, Any]:
+def _replace_roughness(tables: dict[str, Any], heights: MeasuredHeights) -> dict[str, Any]:
     """The tables of a scene with these heights in place of their roughness."""
     if "wheel" in tables:
         rail = tables.get("rail")
-        others = {key: value for key, value in tables.items() if key != "simulation"}
-        return {**others, "rail": _with_heights(rail if isinstance(rail, dict) else {}, heights)}
+        rest = {key: value for key, value in tables.items() if key != "simulation"}
+        return {**rest, "rail": _replace_roughness(rail if isinstance(rail, dict) else {}, heights)}
     return {**{key: value for key, value in tables.items() if key not in OTHER_GROUNDS}, "heights": heights}
 
 
-def _scene_of(tables: dict[str, Any], folder: Path) -> Scene:
+def _read_scene(tables: dict[str, Any], folder: Path) -> Scene:
+    """The scene by its body and, of a wheel, by the first house that reads such tables; folder: of files it names."""
     if not any(body in tables for body in BODIES):
         for table_name in tables:
             if meant := difflib.get_close_matches(table_name.casefold(), BODIES, 1):
                 raise ValueError(f"{printable(table_name)} is unknown, as: [{meant[0]}]")
     one_of(tables, "a scene", BODIES)
-    body = next(one for one in BODIES if one in tables)
+    body = next(name for name in BODIES if name in tables)
     if body != "wheel":
-        return _pressed(body, tables, folder)
+        return _indentation_scene(body, tables, folder)
     for reader in brought("scene"):
         if reader.reads(tables):
             scene: Scene = reader.scene_of(tables, folder)
@@ -142,7 +143,7 @@ def _scene_of(tables: dict[str, Any], folder: Path) -> Scene:
     # which checks the simulation against the scene; `compare` has no need of one
     if moving and "simulation" in tables and not (isinstance(rail, dict) and "heights" in rail):
         return RollingScene.of_wheel(wheel_of(tables))
-    return _rolling(tables, moving, folder)
+    return _rolling_scene(tables, moving, folder)
 
 
 def bundled_for_compare() -> tuple[str, ...]:
@@ -150,39 +151,42 @@ def bundled_for_compare() -> tuple[str, ...]:
     return tuple(name for name in bundled() if "roughness" not in tables_of(path_of(name)).get("wheel", {}))
 
 
-def _pressed(body: str, tables: dict[str, Any], folder: Path) -> IndentationScene:
+def _indentation_scene(body: str, tables: dict[str, Any], folder: Path) -> IndentationScene:
+    """A sphere or a punch; a mean pressure becomes a load, F = p L^2."""
     size, loads = ("radius", LOADS[:1]) if body == "sphere" else ("side", LOADS)
     readers: dict[str, Reader] = {
         **values("name"),
         body: partial(table, values(size, *loads), LOADS if len(loads) > 1 else ()),
         "material": material_of,
-        **_grounds(folder),
+        **_ground_readers(folder),
     }
-    found = table(readers, GROUNDS, "", tables)
-    load: float = one_of(found[body], body, loads)
+    entries = table(readers, GROUNDS, "", tables)
+    load: float = one_of(entries[body], body, loads)
     return IndentationScene(
-        name=found["name"],
+        name=entries["name"],
         shape="sphere" if body == "sphere" else "punch",
-        size=found[body][size],
-        load=load * found[body][size] ** 2 if "pressure" in found[body] else load,
-        modulus=found["material"].modulus,
-        material=found["material"],
-        ground=one_of(found, "a scene", GROUNDS, least=0),
+        size=entries[body][size],
+        load=load * entries[body][size] ** 2 if "pressure" in entries[body] else load,
+        modulus=entries["material"].modulus,
+        material=entries["material"],
+        ground=one_of(entries, "a scene", GROUNDS, least=0),
     )
 
 
-def _rolling(tables: dict[str, Any], moving: bool, folder: Path) -> RollingScene:
+def _rolling_scene(tables: dict[str, Any], moving: bool, folder: Path) -> RollingScene:
+    """A wheel on rough ground; moving: whether it has a mass and a speed."""
     wheel = values("radius", "load", *(("mass", "speed") if moving else ()), "damping")
     readers: dict[str, Reader] = {
         **values("name"),
         "wheel": partial(table, wheel, ("damping",)),
         "material": material_of,
-        "rail": partial(table, _grounds(folder), GROUNDS),
+        "rail": partial(table, _ground_readers(folder), GROUNDS),
     }
-    found = table(readers, (), "", tables)
-    ground, material = one_of(found.pop("rail"), "rail", GROUNDS), found["material"]
-    return RollingScene(ground=ground, modulus=material.modulus, **found.pop("wheel"), **found)
+    entries = table(readers, (), "", tables)
+    ground, material = one_of(entries.pop("rail"), "rail", GROUNDS), entries["material"]
+    return RollingScene(ground=ground, modulus=material.modulus, **entries.pop("wheel"), **entries)
 
 
-def _grounds(folder: Path) -> dict[str, Reader]:
+def _ground_readers(folder: Path) -> dict[str, Reader]:
+    """Readers of the tables of roughness; folder: that of the files which they name."""
     return {"roughness": roughness_of, "heights": partial(heights_of, folder=folder)}

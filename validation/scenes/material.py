@@ -9,8 +9,8 @@ from validation.scenes.printable import quoted
 from validation.scenes.reader import nonblank_text, table, values
 from validation.scenes.units import in_unit
 
-OTHERS = ("youngs_modulus", "poisson_ratio", "counterface")
-"""What stands in the place of a contact modulus."""
+ELASTIC_KEYS = ("youngs_modulus", "poisson_ratio", "counterface")
+"""Keys that stand in the place of a contact modulus."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,18 +64,18 @@ class Material:
     counterface: Literal["rigid", "same"] | Elastic | None = None
 
     def __post_init__(self) -> None:
-        others = [key for key in OTHERS if getattr(self, key) is not None]
+        keys = [key for key in ELASTIC_KEYS if getattr(self, key) is not None]
         if self.contact_modulus is not None:
-            if others:
-                raise ValueError(f"material.contact_modulus must stand alone, got {', '.join(others)} beside it")
+            if keys:
+                raise ValueError(f"material.contact_modulus must stand alone, got {', '.join(keys)} beside it")
             positive("material.contact_modulus", self.contact_modulus)
             return
-        if not others:
-            raise ValueError(f"material must have contact_modulus, or else {', '.join(OTHERS)}, got none of them")
-        for key in OTHERS[:2]:
-            if key not in others:
+        if not keys:
+            raise ValueError(f"material must have contact_modulus, or else {', '.join(ELASTIC_KEYS)}, got none of them")
+        for key in ELASTIC_KEYS[:2]:
+            if key not in keys:
                 raise ValueError(f"material.{key} is missing, material must have it")
-        _check("material", self._body)
+        _check_moduli("material", self._body)
         self._check_counterface()
         positive("material: E* of both bodies", self.modulus)
 
@@ -100,6 +100,7 @@ class Material:
 
     @property
     def _body(self) -> Elastic:
+        """The first body, where E* is not a value of its own."""
         assert self.youngs_modulus is not None  # unless E* was given
         assert self.poisson_ratio is not None
         return Elastic(youngs_modulus=self.youngs_modulus, poisson_ratio=self.poisson_ratio)
@@ -116,7 +117,7 @@ class Material:
                 "or a table [material.counterface] with youngs_modulus and poisson_ratio of the other body"
             )
         if isinstance(other, Elastic):
-            _check("material.counterface", other)
+            _check_moduli("material.counterface", other)
         elif other not in ("rigid", "same"):
             raise ValueError(
                 'material.counterface must be "rigid", "same", or a table with youngs_modulus and poisson_ratio of the '
@@ -124,14 +125,14 @@ class Material:
             )
 
 
-def material_of(name: str, given: object) -> Material:
-    """Of a table in a scene file."""
-    readers = {**values("contact_modulus"), **BODY, "counterface": _counterface}
-    return Material(**table(readers, tuple(readers), name, given))
+def material_of(name: str, value: object) -> Material:
+    """The material of a table in a scene file."""
+    readers = {**values("contact_modulus"), **BODY, "counterface": _read_counterface}
+    return Material(**table(readers, tuple(readers), name, value))
 
 
 def check_scene(scene: Any, keys: Sequence[str], optional: Sequence[str] = ()) -> None:
-    """Its name, what must be positive, by the keys of a scene file, and E*, which must be that of its material.
+    """Check the name of a scene, the positive values of `keys`, and E*, which must be that of its material.
 
     Raises ValueError or TypeError. optional: keys of values that may be None.
     """
@@ -150,12 +151,13 @@ def check_scene(scene: Any, keys: Sequence[str], optional: Sequence[str] = ()) -
 BODY = values("youngs_modulus", "poisson_ratio")
 
 
-def _counterface(name: str, given: object) -> object:
-    """A word, which the material knows or not, or the other body."""
-    return Elastic(**table(BODY, (), name, given)) if isinstance(given, dict) else given
+def _read_counterface(name: str, value: object) -> object:
+    """The other body of a table, or the value itself, which the material checks."""
+    return Elastic(**table(BODY, (), name, value)) if isinstance(value, dict) else value
 
 
-def _check(key: str, body: Elastic) -> None:
+def _check_moduli(key: str, body: Elastic) -> None:
+    """Raise ValueError unless E > 0 and 0 <= nu <= 0.5; the message begins with the key of the body."""
     positive(f"{key}.youngs_modulus", body.youngs_modulus)
     if not 0 <= finite(f"{key}.poisson_ratio", body.poisson_ratio) <= 0.5:
         raise ValueError(f"{key}.poisson_ratio must lie in [0, 0.5], got {body.poisson_ratio}")

@@ -18,7 +18,7 @@ BY_HAND = "cut out a part that is known, or fill them in from their neighbours"
 MOST_FILLED = 0.01
 """Of the points without data: a larger part is no longer a detail of the surface."""
 SQUARE = 1e-6
-"""By how much both sides of a square may differ, over one of them."""
+"""Largest difference of both sides of a square, over one of them."""
 
 
 def real_numbers(height: ArrayLike) -> FloatArray:
@@ -56,25 +56,26 @@ class HeightEdits:
 
     @property
     def words(self) -> str:
-        """For a description, after a list of other words."""
-        cropped = f", the central square of {_shape(self.cropped_from)}" if self.cropped_from else ""
-        return cropped + (f", {self._points} filled in" if self.filled else "")
+        """The edits as the end of a description, with a comma before each."""
+        cropped = f", the central square of {_size(self.cropped_from)}" if self.cropped_from else ""
+        return cropped + (f", {self._gaps} filled in" if self.filled else "")
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """In sentences."""
-        found = [*self.told]
+        """The assumptions about the file, and the edits, each in a sentence."""
+        notes = [*self.told]
         if self.cropped_from:
-            found.append(f"heights are the central square of {_shape(self.cropped_from)} points, as asked by crop.")
+            notes.append(f"heights are the central square of {_size(self.cropped_from)} points, as asked by crop.")
         if self.filled:
-            found.append(
-                f"heights had no data at {self._points}, which were filled in from their neighbours, as asked by fill: "
+            notes.append(
+                f"heights had no data at {self._gaps}, which were filled in from their neighbours, as asked by fill: "
                 "short waves are missing there, and a summit would be lost."
             )
-        return tuple(found)
+        return tuple(notes)
 
     @property
-    def _points(self) -> str:
+    def _gaps(self) -> str:
+        """Number and share of the points that were filled in, in words."""
         return f"{self.filled} {'point' if self.filled == 1 else 'points'} ({100 * self.share:.3g} %)"
 
 
@@ -87,28 +88,28 @@ def edited_lines(height: FloatArray, *, fill: bool, asked_by: str, missing: str 
     missing: what stands in the cells of a file without data.
     """
     count, share = points_to_fill(height, fill=fill, asked_by=asked_by, missing=missing)
-    found = np.stack([_filled_line(line) for line in height.T], axis=1) if count else height
-    return found, HeightEdits(filled=count, share=share)
+    lines = np.stack([_filled_line(line) for line in height.T], axis=1) if count else height
+    return lines, HeightEdits(filled=count, share=share)
 
 
 def without_unknown_ends(height: FloatArray) -> tuple[FloatArray, tuple[str, ...]]:
     """Lines, shape (points, lines), less the rows at both ends in which a line has no data, and a note of that."""
-    known = np.flatnonzero(~np.isnan(height).any(axis=1))
-    if not known.size or known.size == len(height):
+    complete_rows = np.flatnonzero(~np.isnan(height).any(axis=1))
+    if not complete_rows.size or complete_rows.size == len(height):
         return height, ()
-    first, last = int(known[0]), int(known[-1])
+    first, last = int(complete_rows[0]), int(complete_rows[-1])
     ends = [f"{count} at its {end}" for count, end in ((first, "beginning"), (len(height) - 1 - last, "end")) if count]
     note = f"rows without data are left out, {' and '.join(ends)}"
     # most of a line, or one of several lines, is no end
-    kept = 2 * (last + 1 - first) > len(height)
-    return (height[first : last + 1], (note,) if ends else ()) if kept else (height, ())
+    mostly_complete = 2 * (last + 1 - first) > len(height)
+    return (height[first : last + 1], (note,) if ends else ()) if mostly_complete else (height, ())
 
 
 def _filled_line(line: FloatArray) -> FloatArray:
-    """Linear between known points, and about the mean slope beyond the first and the last."""
-    known, at = np.isfinite(line), np.arange(line.size)
-    mean = np.polynomial.Polynomial.fit(at[known], line[known], 1)(at)
-    return np.asarray(mean + np.interp(at, at[known], (line - mean)[known]))
+    """A line, linear between its finite points, and about the mean slope beyond the first and the last."""
+    finite, at = np.isfinite(line), np.arange(line.size)
+    mean = np.polynomial.Polynomial.fit(at[finite], line[finite], 1)(at)
+    return np.asarray(mean + np.interp(at, at[finite], (line - mean)[finite]))
 
 
 def points_to_fill(
@@ -123,19 +124,20 @@ def points_to_fill(
     infinite, unknown = np.isinf(height), np.isnan(height)
     if infinite.any():
         raise ValueError(
-            f"heights must be finite, got {_counted(infinite, 'infinite')}: a point without data is nan, not infinite"
+            f"heights must be finite, got {_extent(infinite, 'infinite')}: a point without data is nan, not infinite"
         )
     count, share = int(unknown.sum()), float(unknown.mean()) if height.size else 0.0
     if count and not (fill and share < MOST_FILLED):
         advice = f"fewer than 1 % can be filled in from their neighbours, as: {asked_by}" if asked_by else BY_HAND
         if asked_by and share >= MOST_FILLED:
             advice = f"cut out a part that is known; {advice}"
-        found = _counted(unknown, "without data (NaN or masked)") + (f", cells with {missing}" if missing else "")
-        raise ValueError(f"heights must be known everywhere, got {found}: {advice}")
+        gaps = _extent(unknown, "without data (NaN or masked)") + (f", cells with {missing}" if missing else "")
+        raise ValueError(f"heights must be known everywhere, got {gaps}: {advice}")
     return count, share
 
 
-def _counted(places: NDArray[np.bool_], what: str) -> str:
+def _extent(places: NDArray[np.bool_], what: str) -> str:
+    """Number and share of the places, and the first of them, in words."""
     count, first = int(places.sum()), np.argwhere(places)[0].tolist()
     return f"{count} of {places.size} ({100 * count / places.size:.3g} %) {what}, the first at {first}"
 
@@ -151,7 +153,7 @@ def central_square(height: FloatArray, spacing: tuple[float, float]) -> FloatArr
     fits = (across >= 1) & (across <= ny) & (np.abs(across * dy - along * dx) <= SQUARE * along * dx)
     if not fits.any() or 2 * along[fits][0] * dx < min(nx * dx, ny * dy):
         raise ValueError(
-            f"crop must find a square of whole points, got {_shape(height.shape)} points, {dx:.5g} x {dy:.5g} m apart: "
+            f"crop must find a square of whole points, got {_size(height.shape)} points, {dx:.5g} x {dy:.5g} m apart: "
             "resample the heights onto square points"
         )
     first_x, first_y = (nx - along[fits][0]) // 2, (ny - across[fits][0]) // 2
@@ -166,45 +168,46 @@ def filled_in(height: FloatArray, spacing: tuple[float, float]) -> FloatArray:
     """
     unknown, index = np.isnan(height), np.arange(height.size).reshape(height.shape)
     plane = _plane(height, ~unknown)
-    every, edges, weights = unknown.ravel(), [], []
+    is_unknown, edges, weights = unknown.ravel(), [], []
     for axis, step in enumerate(spacing):
         near = np.delete(unknown, -1, axis) | np.delete(unknown, 0, axis)
         edges.append(np.stack([np.delete(index, end, axis)[near] for end in (-1, 0)]))
         weights.append(np.full(edges[-1].shape[1], (min(spacing) / step) ** 2))
-    (one, other), weight = np.hstack(edges), np.hstack(weights)
-    rows, columns = np.hstack([one, other, one, other]), np.hstack([one, other, other, one])
+    (first, second), weight = np.hstack(edges), np.hstack(weights)
+    rows, columns = np.hstack([first, second, first, second]), np.hstack([first, second, second, first])
     values = np.hstack([weight, weight, -weight, -weight])
-    laplacian = scipy.sparse.coo_array((values, (rows, columns)), shape=(every.size,) * 2).tocsr()[every]
+    laplacian = scipy.sparse.coo_array((values, (rows, columns)), shape=(is_unknown.size,) * 2).tocsr()[is_unknown]
     right = -laplacian @ np.where(unknown, 0.0, height - plane).ravel()
-    found = height.copy()
-    found[unknown] = scipy.sparse.linalg.spsolve(laplacian[:, every].tocsc(), right) + plane[unknown]
-    return found
+    filled = height.copy()
+    filled[unknown] = scipy.sparse.linalg.spsolve(laplacian[:, is_unknown].tocsc(), right) + plane[unknown]
+    return filled
 
 
-def _plane(height: FloatArray, known: NDArray[np.bool_]) -> FloatArray:
-    """The plane of least squares through the known heights, everywhere."""
+def _plane(height: FloatArray, mask: NDArray[np.bool_]) -> FloatArray:
+    """The plane of least squares through the heights of the mask, at all points [m]."""
     x, y = (np.linspace(-1.0, 1.0, n) for n in height.shape)
-    values = np.where(known, height, 0.0)
-    in_x, in_y = known.sum(axis=1), known.sum(axis=0)
+    values = np.where(mask, height, 0.0)
+    in_x, in_y = mask.sum(axis=1), mask.sum(axis=0)
     moments = np.array(
         [
             [in_x.sum(), in_x @ x, in_y @ y],
-            [in_x @ x, in_x @ x**2, x @ known @ y],
-            [in_y @ y, x @ known @ y, in_y @ y**2],
+            [in_x @ x, in_x @ x**2, x @ mask @ y],
+            [in_y @ y, x @ mask @ y, in_y @ y**2],
         ]
     )
     mean, slope_x, slope_y = np.linalg.solve(moments, [values.sum(), x @ values.sum(axis=1), values.sum(axis=0) @ y])
     return np.asarray(mean + slope_x * x[:, np.newaxis] + slope_y * y)
 
 
-def _shape(shape: tuple[int, ...]) -> str:
+def _size(shape: tuple[int, ...]) -> str:
+    """A shape as "512 x 256"."""
     return " x ".join(map(str, shape))
 
 
 FEWEST = 16
 """Points along each side, below which there is no spectrum to speak of."""
 RINGS = 5
-"""To an octave of wavenumbers."""
+"""Rings of the spectrum in an octave of wavenumbers."""
 STEEP = 0.3
 """Rms gradient from where on it is warned of."""
 OBLONG, SKEWED, PEAKED, TILTED = 1.5, 0.5, 1.0, 1.0
@@ -266,7 +269,7 @@ class MeasuredHeights:
         check_grid(height)
         for name, side in zip(("spacing[0]", "spacing[1]"), self.spacing, strict=True):
             positive(name, side)
-        level = _levelled(height)
+        level = _subtract_plane(height)
         if not level.std() > 1e-9 * np.abs(height).max():
             raise ValueError("heights must be rough, got a plane")
         kept = {"none": height, "mean": height - height.mean(), "plane": level}[self.detrend]
@@ -297,12 +300,12 @@ class MeasuredHeights:
 
     @property
     def q_min(self) -> float:
-        """Of the first ring [rad/m]."""
+        """Lower end of the first ring [rad/m]."""
         return self.edges[0]
 
     @property
     def q_max(self) -> float:
-        """Of the last ring, at the Nyquist wavenumber of the coarser axis [rad/m]."""
+        """Upper end of the last ring, the Nyquist wavenumber of the coarser axis [rad/m]."""
         return self.edges[-1]
 
     @property
@@ -312,7 +315,7 @@ class MeasuredHeights:
 
     @property
     def q_resolved(self) -> float:
-        """Of waves with four points [rad/m]."""
+        """Wavenumber of waves with four points [rad/m]."""
         return self.q_max / 2
 
     def c2d(self, q: ArrayLike) -> FloatArray:
@@ -331,9 +334,11 @@ class MeasuredHeights:
     @property
     def waves(self) -> str:
         """Points and sides, distances of points where they differ, and what was done to the heights, in words."""
-        sides, steps = (" x ".join(in_unit(one, "length") for one in both) for both in (self.sides, self.spacing))
-        apart = f", {steps} apart" if abs(self.spacing[0] / self.spacing[1] - 1) > 1e-6 else ""
-        return f"measured, {self.height.shape[0]} x {self.height.shape[1]} points on {sides}{apart}{self.edits.words}"
+        sides, steps = (" x ".join(in_unit(length, "length") for length in pair) for pair in (self.sides, self.spacing))
+        distances = f", {steps} apart" if abs(self.spacing[0] / self.spacing[1] - 1) > 1e-6 else ""
+        return (
+            f"measured, {self.height.shape[0]} x {self.height.shape[1]} points on {sides}{distances}{self.edits.words}"
+        )
 
     def mean_over_cells(self, shape: tuple[int, int], cell: float) -> FloatArray:
         """Mean heights over square cells about the middle, so that short waves are no longer ones [m]."""
@@ -351,41 +356,41 @@ class MeasuredHeights:
 
     def notes(self) -> tuple[str, ...]:
         """All that may be wrong about these heights though they are valid, in sentences."""
-        found = [*self.edits.notes]
+        notes = [*self.edits.notes]
         if self.gradient > STEEP:
-            found.append(
+            notes.append(
                 f"heights are steep, rms gradient {self.gradient:.2g}: theory is that of small slopes; are the units "
                 "of heights and of their spacing right?"
             )
         if self.tilt > TILTED:
             removed = "removed" if self.detrend == "plane" else "kept, as asked by detrend"
-            found.append(
+            notes.append(
                 f"heights are tilted: the mean plane, which was {removed}, is {self.tilt:.2g} times as rough as "
                 "what is left; it would matter for a body that cannot rotate."
             )
         (nx, ny), (dx, dy) = self.height.shape, self.spacing
         if nx != ny and abs(dx * nx / (dy * ny) * nx / ny - 1) < 1e-6:
-            found.append(
+            notes.append(
                 f"{nx} x {ny} heights are {dx * nx:.3g} m x {dy * ny:.3g} m large, so that their points are "
                 f"{max(dx / dy, dy / dx):.3g} times as far apart along one side as along the other; with both sides "
                 "exchanged they would be equally far apart: are the sides in the order of the axes?"
             )
-        return (*found, *self.beyond_a_spectrum())
+        return (*notes, *self.beyond_a_spectrum())
 
     def beyond_a_spectrum(self) -> tuple[str, ...]:
         """What Geike's rule takes for granted and these heights do not have: isotropy, Gaussian heights."""
-        found = []
+        sentences = []
         if self.texture > OBLONG:
-            found.append(
+            sentences.append(
                 f"heights are anisotropic, slopes along one axis {self.texture:.2g} times those along the other: "
                 "models of an isotropic spectrum do not hold, boundary elements do."
             )
-        if said := self.not_gaussian():
-            found.append(said)
-        return tuple(found)
+        if sentence := self.not_gaussian():
+            sentences.append(sentence)
+        return tuple(sentences)
 
     def not_gaussian(self) -> str:
-        """How far from it heights are, in a sentence; empty where they are Gaussian, about."""
+        """Skewness, kurtosis and summits of heights in a sentence; empty where they are Gaussian, about."""
         skewness, kurtosis = (
             float(scipy.stats.skew(self.height, axis=None)),
             float(scipy.stats.kurtosis(self.height, axis=None)),
@@ -402,28 +407,30 @@ class MeasuredHeights:
     @property
     def gradient(self) -> float:
         """g, the root mean square of abs(grad h), by differences of neighbouring points [-]."""
-        return math.hypot(*self._slopes)
+        return math.hypot(*self._rms_slopes)
 
     @property
     def slope_along(self) -> float:
         """h', the rms slope along the first axis, in one direction, by the same differences [-]."""
-        return self._slopes[0]
+        return self._rms_slopes[0]
 
     @cached_property
-    def _slopes(self) -> tuple[float, float]:
+    def _rms_slopes(self) -> tuple[float, float]:
+        """Root mean square of dh/dx and of dh/dy, by differences of neighbouring points [-]."""
         along, across = (np.diff(self.height, axis=i) / d for i, d in enumerate(self.spacing))
         return math.sqrt(float(np.mean(along**2))), math.sqrt(float(np.mean(across**2)))
 
     @cached_property
     def _rings(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """`_spectrum` of these heights, computed once."""
         return _spectrum(self.height, self.spacing)
 
 
 def check_covers(name: str, heights: MeasuredHeights, sides: tuple[float, float], contact_radius: float) -> None:
     """Raises ValueError for a surface that is smaller than these sides, or whose points miss the contact."""
     if any(side < needed for side, needed in zip(heights.sides, sides, strict=True)):
-        long, wide, *got = (in_unit(side, "length", digits=3) for side in (*sides, *heights.sides))
-        raise ValueError(f"{name} must be {long} long and {wide} wide for this contact, got {' and '.join(got)}")
+        long, wide, *actual = (in_unit(side, "length", digits=3) for side in (*sides, *heights.sides))
+        raise ValueError(f"{name} must be {long} long and {wide} wide for this contact, got {' and '.join(actual)}")
     if max(heights.spacing) > contact_radius:
         raise ValueError(
             f"heights.spacing must be no more than the contact radius, {contact_radius:.3g} m, got "
@@ -437,8 +444,8 @@ def check_grid(values: FloatArray) -> None:
         raise ValueError(f"heights must be {FEWEST} points or more along two sides, got shape {values.shape}")
 
 
-def _levelled(height: FloatArray) -> FloatArray:
-    """Less the plane of least squares; rows and columns are orthogonal about their middle."""
+def _subtract_plane(height: FloatArray) -> FloatArray:
+    """Heights less their plane of least squares; rows and columns are orthogonal about their middle."""
     x, y = (np.arange(n) - (n - 1) / 2 for n in height.shape)
     slope_x = (height.mean(axis=1) @ x) / (x @ x)
     slope_y = (height.mean(axis=0) @ y) / (y @ y)
@@ -460,6 +467,6 @@ def _spectrum(height: FloatArray, spacing: tuple[float, float]) -> tuple[tuple[f
     counts, sums = np.histogram(q, edges)[0], np.histogram(q, edges, weights=power)[0]
     # an empty ring between others has the level of the one before
     level = (sums / np.maximum(counts, 1))[np.maximum.accumulate(np.where(counts > 0, np.arange(counts.size), 0))]
-    whole = np.pi * float(np.sum(level * np.diff(edges**2)))
-    level *= height.var() / whole
+    mean_square = np.pi * float(np.sum(level * np.diff(edges**2)))
+    level *= height.var() / mean_square
     return tuple(edges.tolist()), tuple(level.tolist())

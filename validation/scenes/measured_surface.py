@@ -71,9 +71,9 @@ def measured(
     """
     if not (hasattr(surface, "heights") and hasattr(surface, "physical_sizes")):
         raise TypeError(f"surface must have heights and physical_sizes, got {type(surface).__name__}")
-    for name, wish in (("crop", crop), ("fill", fill)):
-        if not isinstance(wish, bool):
-            raise TypeError(f"{name} must be True or False, got {shortened(wish)}")
+    for name, option in (("crop", crop), ("fill", fill)):
+        if not isinstance(option, bool):
+            raise TypeError(f"{name} must be True or False, got {shortened(option)}")
     height = real_numbers(surface.heights() if callable(surface.heights) else surface.heights)
     sizes = surface.physical_sizes
     if not isinstance(sizes, (Sequence, np.ndarray)) or height.ndim != 2 or len(sizes) != 2:
@@ -85,48 +85,48 @@ def measured(
     metres = _metres(surface, unit)
     sides = [length * metres for length in lengths]
     spacing = sides[0] / max(height.shape[0], 1), sides[1] / max(height.shape[1], 1)
-    return as_asked(height * metres, spacing, crop=crop, fill=fill, asked_by="fill=True", detrend=detrend)
+    return edit_heights(height * metres, spacing, crop=crop, fill=fill, asked_by="fill=True", detrend=detrend)
 
 
-def as_asked(
+def edit_heights(
     height: FloatArray,
     spacing: tuple[float, float],
     *,
     crop: bool,
     fill: bool,
     asked_by: str,
-    told: tuple[str, ...] = (),
+    assumptions: tuple[str, ...] = (),
     missing: str = "",
     detrend: Detrend = "plane",
 ) -> MeasuredHeights:
     """Heights in metres, NaN where there are no data, after the edits that were asked for.
 
-    The square is cut out first, so that points without data count in it alone. asked_by: how fill is asked for; told:
-    what was assumed of their file; missing: what stands in its cells without data; detrend: what is
+    The square is cut out first, so that points without data count in it alone. asked_by: how fill is asked for;
+    assumptions: sentences about their file; missing: what stands in its cells without data; detrend: what is
     subtracted. Raises ValueError as `central_square`, `points_to_fill` and `MeasuredHeights`.
     """
     check_grid(height)
     part = central_square(height, spacing) if crop else height
     count, share = points_to_fill(part, fill=fill, asked_by=asked_by, missing=missing)
     cropped = None if part.shape == height.shape else height.shape
-    edits = HeightEdits(filled=count, share=share, cropped_from=cropped, told=told)
-    known = filled_in(part, spacing) if count else part
-    return MeasuredHeights(height=known, spacing=spacing, edits=edits, detrend=detrend)
+    edits = HeightEdits(filled=count, share=share, cropped_from=cropped, told=assumptions)
+    complete = filled_in(part, spacing) if count else part
+    return MeasuredHeights(height=complete, spacing=spacing, edits=edits, detrend=detrend)
 
 
-def _metres(surface: Any, given: str | None) -> float:
-    """The unit of a surface, as it names it or as it is given. Raises ValueError for none, and for two."""
+def _metres(surface: Any, argument: str | None) -> float:
+    """The unit of a surface in metres, by its own name or the argument. Raises ValueError for none, and for two."""
     info = getattr(surface, "info", None)
-    noted = info.get("unit") if isinstance(info, Mapping) else None
-    named = {"unit": getattr(surface, "unit", None), "info": noted, "unit=": given}
-    factors = {metres_of("unit of the surface", one) for one in named.values() if one}
+    info_unit = info.get("unit") if isinstance(info, Mapping) else None
+    units = {"unit": getattr(surface, "unit", None), "info": info_unit, "unit=": argument}
+    factors = {metres_of("unit of the surface", unit) for unit in units.values() if unit}
     if not factors:
         raise ValueError(
             'unit of the surface must be known, got an object that names none: measured(surface, unit="m") says it'
         )
     if len(factors) > 1:
-        shown = " and ".join(f"{name} {shortened(one)}" for name, one in named.items() if one)
-        raise ValueError(f"unit of the surface must be one, got {shown}")
+        listing = " and ".join(f"{name} {shortened(unit)}" for name, unit in units.items() if unit)
+        raise ValueError(f"unit of the surface must be one, got {listing}")
     return factors.pop()
 
 
@@ -138,30 +138,30 @@ Face = tuple[FloatArray, Spacing | None, tuple[str, ...]]
 """Heights [m], their spacing [m] as far as it is known, and what was assumed."""
 
 
-def heights_of(name: str, given: object, *, folder: Path) -> MeasuredHeights:
-    """Of a table in a scene file: the file beside it, how to read it, spacing and unit, and what to do to the heights.
+def heights_of(name: str, value: object, *, folder: Path) -> MeasuredHeights:
+    """Heights of a table in a scene file: a file, how to read it, spacing and unit, and the edits of the heights.
 
-    Heights that are already there are those.
+    MeasuredHeights in place of a table are returned as they are.
     """
-    if isinstance(given, MeasuredHeights):
-        return given
+    if isinstance(value, MeasuredHeights):
+        return value
     readers: dict[str, Reader] = {
         **values("file"),
-        "spacing": _spacing,
+        "spacing": _read_spacing,
         "unit": unit_of,
         **FORM,
         **values("crop", "fill", "detrend"),
     }
-    found = table(readers, tuple(readers)[1:], name, given)
-    path, numbers = table_beside(name, found, folder)
-    wishes = {"crop": found.get("crop", False), "fill": found.get("fill", False), "missing": numbers.missing}
-    wishes["detrend"] = found.get("detrend", "plane")
+    settings = table(readers, tuple(readers)[1:], name, value)
+    path, numbers = table_beside(name, settings, folder)
+    edits = {"crop": settings.get("crop", False), "fill": settings.get("fill", False), "missing": numbers.missing}
+    edits["detrend"] = settings.get("detrend", "plane")
     try:
-        height, known, notes = _face(numbers, found.get("unit"), found.get("spacing"))
-        if known is None:
+        height, spacing, notes = _face(numbers, settings.get("unit"), settings.get("spacing"))
+        if spacing is None:
             raise ValueError(f'spacing is missing, {name} must have it, as: spacing = "1 um"')
-        told = sentence_about(path, (*numbers.notes, *notes))
-        return as_asked(height, known, **wishes, asked_by="fill = true", told=told)
+        assumptions = sentence_about(path, (*numbers.notes, *notes))
+        return edit_heights(height, spacing, **edits, asked_by="fill = true", assumptions=assumptions)
     except ValueError as problem:
         separator = "." if str(problem).partition(" ")[0] in readers else ": "
         raise ValueError(f"{name}{separator}{problem}") from None
@@ -180,29 +180,29 @@ def _face(numbers: NumberTable, metre: float | None, spacing: Spacing | None) ->
     if {"x", "y", "z"} <= {column.name.lower() for column in numbers.columns}:
         numbers = numbers.chosen(["x", "y", "z"])
     if numbers.values.shape[1] == 3 and len(values) > FEWEST:
-        return _of_three(numbers, metre, spacing)
-    return _of_rows(numbers, metre, spacing)
+        return _face_of_points(numbers, metre, spacing)
+    return _face_of_rows(numbers, metre, spacing)
 
 
-def _of_rows(numbers: NumberTable, metre: float | None, spacing: Spacing | None) -> Face:
-    """A row for each x, without its places: those of x in the first column, and of y in a first row."""
+def _face_of_rows(numbers: NumberTable, metre: float | None, spacing: Spacing | None) -> Face:
+    """Heights in rows, one for each x, less the places of x in the first column, and of y in a first row."""
     values, along, across = numbers.values, None, None
     if min(values.shape) > FEWEST:
         across = places_of(values[0, 1:]) if places_of(values[1:, 0]) else None
         across = None if across is None or across.gaps else across
         along = places_of(values[1 if across else 0 :, 0])
     if along is None or along.gaps:
-        return _below_first_row(numbers, metre, spacing)
+        return _face_below_first_row(numbers, metre, spacing)
     axes = [(along, numbers.columns[0].unit, "first column"), *([(across, "", "first row")] if across else [])]
     height, notes = heights_of_columns(numbers, range(1, values.shape[1]), metre)[len(axes) - 1 :], []
-    for (places, unit, what), given in zip(axes, spacing or (None, None), strict=False):
-        step = metres_of_step(places.step, unit, given, f"the {what}")
+    for (places, unit, what), length in zip(axes, spacing or (None, None), strict=False):
+        step = metres_of_step(places.step, unit, length, f"the {what}")
         notes.append(f"its {what} runs evenly, {in_unit(step, 'length')} apart, and is left out of the heights")
-    return height[tuple(slice(None, None, -1 if one.step < 0 else 1) for one, _, _ in axes)], spacing, tuple(notes)
+    return height[tuple(slice(None, None, -1 if axis.step < 0 else 1) for axis, _, _ in axes)], spacing, tuple(notes)
 
 
-def _below_first_row(numbers: NumberTable, metre: float | None, spacing: Spacing | None) -> Face:
-    """A row for each x; a first row that runs evenly, as the second does not, has the places of y."""
+def _face_below_first_row(numbers: NumberTable, metre: float | None, spacing: Spacing | None) -> Face:
+    """Heights in rows, one for each x; a first row that runs evenly, as the second does not, has the places of y."""
     values = numbers.values
     height = heights_of_columns(numbers, range(values.shape[1]), metre)
     across = places_of(values[0]) if min(values.shape) > FEWEST and places_of(values[1]) is None else None
@@ -213,26 +213,27 @@ def _below_first_row(numbers: NumberTable, metre: float | None, spacing: Spacing
     return height[1:, :: -1 if across.step < 0 else 1], spacing, (note,)
 
 
-def _of_three(numbers: NumberTable, metre: float | None, spacing: Spacing | None) -> Face:
-    """x, y and height in columns of these names, or in this order."""
+def _face_of_points(numbers: NumberTable, metre: float | None, spacing: Spacing | None) -> Face:
+    """Heights on the grid of three columns: x, y and height by these names, or in this order."""
     named = [column.name.lower() for column in numbers.columns]
     x, y = (named.index("x"), named.index("y")) if {"x", "y"} <= set(named) else (0, 1)
     z = 3 - x - y
     height, steps = grid_of(numbers.values[:, x], numbers.values[:, y], heights_of_columns(numbers, [z], metre)[:, 0])
     units = [numbers.columns[i].unit for i in (x, y)]
     dx, dy = (
-        metres_of_step(*one, numbers.names([x, y])) for one in zip(steps, units, spacing or (None, None), strict=True)
+        metres_of_step(step, unit, length, numbers.names([x, y]))
+        for step, unit, length in zip(steps, units, spacing or (None, None), strict=True)
     )
     size = " x ".join(map(str, height.shape))
     shown = f"{in_unit(dx, 'length')} and {in_unit(dy, 'length')}"
     return height, (dx, dy), (f"its columns are x, y and height of {size} points, {shown} apart",)
 
 
-def _spacing(name: str, given: object) -> Spacing:
-    """One distance of points for both axes, or two."""
-    if not isinstance(given, list):
-        both: float = LENGTH(name, given)
-        return both, both
-    if len(given) != 2:
-        raise ValueError(f'{name} must be a length or two, as ["1 um", "2 um"] along x and y, got {shortened(given)}')
-    return LENGTH(f"{name}[0]", given[0]), LENGTH(f"{name}[1]", given[1])
+def _read_spacing(name: str, value: object) -> Spacing:
+    """The distances of points along both axes, of a length for both or a list of two [m]."""
+    if not isinstance(value, list):
+        length: float = LENGTH(name, value)
+        return length, length
+    if len(value) != 2:
+        raise ValueError(f'{name} must be a length or two, as ["1 um", "2 um"] along x and y, got {shortened(value)}')
+    return LENGTH(f"{name}[0]", value[0]), LENGTH(f"{name}[1]", value[1])

@@ -52,7 +52,7 @@ class TableForm:
 
     @property
     def of_text(self) -> list[str]:
-        """Keys that are given and say how a text is written."""
+        """Keys about the writing of a text that have a value."""
         return [name for name in ("skip", "decimal", "encoding") if getattr(self, name) is not None]
 
 
@@ -77,7 +77,7 @@ class NumberTable:
             object.__setattr__(self, "columns", (Column(),) * self.values.shape[1])
 
     def names(self, places: Sequence[int]) -> str:
-        """Of columns, for a sentence: as they are called, or as they are counted."""
+        """Columns as a sentence has them: by their names, or by their numbers where they have none."""
         words = [token(str(self.columns[i]), bare=True) or f"column {i + 1}" for i in places[:FEW]]
         return " and ".join(words) + (f" and {len(places) - FEW} more" if len(places) > FEW else "")
 
@@ -85,55 +85,60 @@ class NumberTable:
         """The columns that are asked for, in this order. Raises ValueError for one that is not there."""
         if columns is None:
             return self
-        places = [self._place(column) for column in columns]
+        places = [self._column_index(column) for column in columns]
         return replace(self, values=self.values[:, places], columns=tuple(self.columns[i] for i in places))
 
-    def _place(self, column: str | int) -> int:
+    def _column_index(self, column: str | int) -> int:
+        """Index of the column with this name, or this number from one. Raises ValueError unless there is just one."""
         width = len(self.columns)
         if isinstance(column, int):
             if not 1 <= column <= width:
                 raise ValueError(f"columns must be numbers from 1 to {width}, or names, got {column}")
             return column - 1
-        found = [i for i, one in enumerate(self.columns) if one.is_called(column)]
-        if len(found) != 1:
-            names = [one.written or one.name for one in self.columns[:FEW]]
-            known = ", ".join(map(quoted, filter(None, names))) or "without names"
-            raise ValueError(f"columns must name one column each, got {quoted(column)}: the table has {width}, {known}")
-        return found[0]
+        matches = [i for i, candidate in enumerate(self.columns) if candidate.is_called(column)]
+        if len(matches) != 1:
+            names = [candidate.written or candidate.name for candidate in self.columns[:FEW]]
+            available = ", ".join(map(quoted, filter(None, names))) or "without names"
+            raise ValueError(
+                f"columns must name one column each, got {quoted(column)}: the table has {width}, {available}"
+            )
+        return matches[0]
 
 
 def table_of_text(file: IO[bytes], form: TableForm) -> NumberTable:
-    """Of a CSV or another text, as its first lines are written. Raises ValueError, whose sentence names a key.
+    """The table of a CSV or another text, read as its first lines are written. ValueError names a key.
 
     Where columns are chosen, others may be texts.
     """
     lines, encoding = text_dialect.lines_of(file, form.encoding)
     if form.columns is not None:
         with suppress(ValueError):
-            return _as_written(lines, encoding, form, None)
-    return _as_written(lines, encoding, form, None if form.columns is None else len(form.columns))
+            return _parse_table(lines, encoding, form, None)
+    return _parse_table(lines, encoding, form, None if form.columns is None else len(form.columns))
 
 
-def _as_written(lines: Sequence[str], encoding: str, form: TableForm, numeric: int | None) -> NumberTable:
-    """numeric: as of a `Dialect`."""
-    skip, nodata = form.skip or 0, frozenset(str(one).strip().lower() for one in form.nodata)
+def _parse_table(lines: Sequence[str], encoding: str, form: TableForm, numeric: int | None) -> NumberTable:
+    """The table of these lines, its sentinels masked, its columns chosen. numeric: as of a `Dialect`."""
+    skip, nodata = form.skip or 0, frozenset(str(value).strip().lower() for value in form.nodata)
     sample = text_dialect.sample_of(lines, skip)
-    dialect, first, width = text_dialect.recognised(sample, skip, form.decimal, nodata, numeric)
+    dialect, first, width = text_dialect.recognise_dialect(sample, skip, form.decimal, nodata, numeric)
     _check_thousands(sample[first:], first, dialect, width)
-    values, below, missing, grouped = _values(lines[first:], first, dialect, width)
+    values, below, missing, grouped = _parse_rows(lines[first:], first, dialect, width)
     above = lines[skip:first]
     units, columns = unit_of_all(above), columns_of(above, width, dialect.delimiter)
     unit = units.pop() if len(units) == 1 and not any(column.unit for column in columns) else ""
-    notes = _how(dialect, width, lines[:first], encoding)
+    notes = _dialect_notes(dialect, width, lines[:first], encoding)
     notes += (f"{below} {'line' if below == 1 else 'lines'} below its numbers",) if below else ()
     notes += (f"{grouped} of its rows have a sign between thousands",) if grouped else ()
-    notes += (f"cells without a number have no data: {_counted(missing)}",) if _has_errors(missing) else ()
+    notes += (f"cells without a number have no data: {_missing_summary(missing)}",) if _has_errors(missing) else ()
     notes += (f"its header has the unit {unit}",) if unit else ()
     if width > 1 and np.isnan(values[:, -1]).all() and not columns[-1].name:
         # a delimiter at the end of each line
         values, columns = values[:, :-1], columns[:-1]
-    table = NumberTable(values=values, columns=columns, unit=unit, notes=notes, missing=_counted(missing), header=first)
-    return known_alone(table, form.nodata).chosen(form.columns)
+    table = NumberTable(
+        values=values, columns=columns, unit=unit, notes=notes, missing=_missing_summary(missing), header=first
+    )
+    return mask_sentinels(table, form.nodata).chosen(form.columns)
 
 
 def _check_thousands(lines: Sequence[str], first: int, dialect: Dialect, columns: int) -> None:
@@ -148,21 +153,25 @@ def _check_thousands(lines: Sequence[str], first: int, dialect: Dialect, columns
         bare = ((i, cell.strip().strip('"').strip()) for (i, _), cell in zip(rows, column, strict=True))
         texts = {i: text for i, text in bare if not dialect.says_missing(text)}
         signed = {i: text for i, text in texts.items() if dialect.decimal in text}
-        whole = [text for text in texts.values() if UP_TO_999.fullmatch(text)]
-        both = len(signed) >= FEWEST_SIGNS and any(len(text) >= HUNDRED for text in whole)
-        if both and len(signed) + len(whole) == len(texts) and all(map(LIKE_THOUSANDS.fullmatch, signed.values())):
+        whole_numbers = [text for text in texts.values() if UP_TO_999.fullmatch(text)]
+        both = len(signed) >= FEWEST_SIGNS and any(len(text) >= HUNDRED for text in whole_numbers)
+        if (
+            both
+            and len(signed) + len(whole_numbers) == len(texts)
+            and all(map(LIKE_THOUSANDS.fullmatch, signed.values()))
+        ):
             at = min(signed)
             raise ValueError(text_dialect.about_thousands(signed[at], at))
 
 
-def _values(
+def _parse_rows(
     lines: Iterable[str], first: int, dialect: Dialect, width: int
 ) -> tuple[FloatArray, int, Counter[str], int]:
     """Rows, up to the first line without a number; how many lines stand below, none of which has one.
 
     Also cells without data by what stands in them, and how many rows have signs between thousands.
     """
-    found, below, problem = array("d"), 0, ""
+    numbers, below, problem = array("d"), 0, ""
     missing, grouped = Counter[str](), 0
     for index, line in enumerate(lines, first):
         if dialect.says_nothing(line):
@@ -172,7 +181,7 @@ def _values(
             if len(cells) != width or below:
                 raise ValueError
             plain = dialect.plain(cells)
-            found.extend(dialect.numbers(cells) if plain is None else plain)
+            numbers.extend(dialect.numbers(cells) if plain is None else plain)
             if plain is None or any(map(math.isnan, plain)):
                 missing.update(token(cell, bare=True) for cell in cells if dialect.says_missing(cell))
                 grouped += any(dialect.without_thousands(text) != text for text in (cell.strip() for cell in cells))
@@ -181,61 +190,69 @@ def _values(
             if any(map(text_dialect.STARTS, cells)):
                 raise ValueError(problem) from None
             below += 1
-        if len(found) > MOST_VALUES * max(1, 3 * (width == 3)):
+        if len(numbers) > MOST_VALUES * max(1, 3 * (width == 3)):
             raise ValueError(f"the table must hold at most {MOST_VALUES} heights, got more")
-    return np.frombuffer(found, dtype=np.float64).reshape(-1, width), below, missing, grouped
+    return np.frombuffer(numbers, dtype=np.float64).reshape(-1, width), below, missing, grouped
 
 
-def _counted(missing: Counter[str]) -> str:
+def _missing_summary(missing: Counter[str]) -> str:
     """What stands in cells without data, and how often; nothing of empty ones."""
     shown = [f"{text} {count}" for text, count in missing.most_common(MOST_SHOWN) if text]
     return ", ".join(shown) + (f" and {len(missing) - MOST_SHOWN} others" if len(missing) > MOST_SHOWN else "")
 
 
 def _has_errors(missing: Counter[str]) -> bool:
+    """Whether a cell without data holds an error of a spreadsheet, as #DIV/0!."""
     return any(text_dialect.ERRORS.fullmatch(text.lower()) for text in missing)
 
 
-def known_alone(table: NumberTable, nodata: Sequence[str | float] = ()) -> NumberTable:
-    """NaN in place of the values of nodata, and of those that instruments write for it, far from all others."""
+def mask_sentinels(table: NumberTable, nodata: Sequence[str | float] = ()) -> NumberTable:
+    """The table with NaN in place of the values of nodata, and of sentinels of instruments far from all data."""
     values, notes, missing = table.values, list(table.notes), [table.missing]
-    wanted = [float(one) for one in nodata if not isinstance(one, str) or NUMERIC.fullmatch(one.strip())]
-    gone = np.isin(values, wanted)
+    nodata_numbers = [
+        float(value) for value in nodata if not isinstance(value, str) or NUMERIC.fullmatch(value.strip())
+    ]
+    absent = np.isin(values, nodata_numbers)
     for i in range(values.shape[1]) if values.shape[1] <= FEW else [slice(None)]:
         part = values[:, i]
         huge = np.isfinite(part) & (np.abs(part) > HUGE)
-        found = {f"{one:g}": part == one for one in SENTINELS if one not in wanted and _is_lonely(part, one)}
-        for shown, where in [*found.items(), *([(f"more than {HUGE:g}", huge)] if huge.any() else [])]:
-            gone[:, i] |= where
-            notes.append(f"{shown} stands for no data at {int(where.sum())} of {part.size} points, far from all others")
-            missing.append(f"{shown} {int(where.sum())}")
-    if not gone.any():
+        masks = {
+            f"{value:g}": part == value
+            for value in SENTINELS
+            if value not in nodata_numbers and _is_lonely(part, value)
+        }
+        for label, mask in [*masks.items(), *([(f"more than {HUGE:g}", huge)] if huge.any() else [])]:
+            absent[:, i] |= mask
+            notes.append(f"{label} stands for no data at {int(mask.sum())} of {part.size} points, far from all others")
+            missing.append(f"{label} {int(mask.sum())}")
+    if not absent.any():
         return table
-    values = np.where(gone, np.nan, values)
+    values = np.where(absent, np.nan, values)
     return replace(table, values=values, notes=tuple(notes), missing=", ".join(filter(None, missing)))
 
 
-def _is_lonely(values: FloatArray, one: float) -> bool:
-    if not (values == one).any():
+def _is_lonely(values: FloatArray, sentinel: float) -> bool:
+    """Whether a sentinel occurs and lies more than `LONELY` spans of all data from them."""
+    if not (values == sentinel).any():
         return False
-    others = values[np.isfinite(values) & (np.abs(values) <= HUGE) & ~np.isin(values, SENTINELS)]
-    if others.size < FEW:
+    data = values[np.isfinite(values) & (np.abs(values) <= HUGE) & ~np.isin(values, SENTINELS)]
+    if data.size < FEW:
         return False
-    low, high = float(others.min()), float(others.max())
-    return max(low - one, one - high) > LONELY * (high - low)
+    low, high = float(data.min()), float(data.max())
+    return max(low - sentinel, sentinel - high) > LONELY * (high - low)
 
 
-def _how(dialect: Dialect, width: int, header: Sequence[str], encoding: str) -> tuple[str, ...]:
-    """What is not as in a plain CSV: commas, points, one line of names, UTF-8."""
+def _dialect_notes(dialect: Dialect, width: int, header: Sequence[str], encoding: str) -> tuple[str, ...]:
+    """How a text differs from a plain CSV with commas, points, one line of names and UTF-8, in a note; none if not."""
     delimiter = (
         {";": "semicolons", "\t": "tabs", "|": "bars", "": "spaces", ",": ""}[dialect.delimiter] if width > 1 else ""
     )
     above = sum(bool(line.strip()) and not line.strip().startswith(COMMENTS) for line in header)
-    found = [
+    deviations = [
         f"{delimiter} between its columns" if delimiter else "",
         "decimal commas" if dialect.decimal == "," else "",
         f"{above} lines above its numbers" if above > 1 else "",
         "" if encoding.startswith("utf-8") else f"the encoding {codecs.lookup(encoding).name}",
     ]
-    words = ", ".join(filter(None, found))
+    words = ", ".join(filter(None, deviations))
     return (f"it has {words}",) if words else ()

@@ -47,7 +47,7 @@ class Places:
 
 
 def places_of(values: FloatArray) -> Places | None:
-    """Of a column that runs evenly up or down, but for the last digit and missing rows; None of another."""
+    """Places of a column that runs evenly up or down, but for the last digit and missing rows; None of another."""
     if values.size < FEWEST or not np.isfinite(values).all():
         return None
     steps = np.diff(values)
@@ -69,9 +69,9 @@ def places_of(values: FloatArray) -> Places | None:
 
 def _last_digit(values: FloatArray) -> float:
     """The decimal place to which all values are rounded; zero where there is none."""
-    off = 1e-12 * max(1.0, np.abs(values).max())
-    found = (n for n in range(10) if np.allclose(np.round(values, n), values, rtol=1e-15, atol=off))
-    return next((10.0**-n for n in found), 0.0)
+    tolerance = 1e-12 * max(1.0, np.abs(values).max())
+    decimals = (n for n in range(10) if np.allclose(np.round(values, n), values, rtol=1e-15, atol=tolerance))
+    return next((10.0**-n for n in decimals), 0.0)
 
 
 def runs_one_way(values: FloatArray) -> bool:
@@ -98,8 +98,8 @@ def faults_of_places(values: FloatArray) -> str:
         if where.any():
             at = int(np.argmax(where))
             ends = (f"{values[i]:.6g}" for i in (at, at + 1))
-            others = int(where.sum()) - 1
-            more = f", and in {others} other {'row' if others == 1 else 'rows'}" if others else ""
+            remaining = int(where.sum()) - 1
+            more = f", and in {remaining} other {'row' if remaining == 1 else 'rows'}" if remaining else ""
             return f"{words.format(*ends)} in row {at + 2}{more}"
     return ""
 
@@ -109,38 +109,39 @@ def first_of_each(values: FloatArray) -> NDArray[np.bool_]:
     return np.append(True, np.diff(values) != 0)
 
 
-def metres_of_step(step: float, unit: str, given: float | None, what: str) -> float:
-    """The spacing of places a step apart [m], which must be the given one where there is one.
+def metres_of_step(step: float, unit: str, spacing: float | None, what: str) -> float:
+    """The spacing of places a step apart [m], which must be `spacing` unless that is None.
 
-    unit: of the places, empty where it is not known: then the given spacing tells it. Raises ValueError.
+    unit: of the places, empty where it is not known: then `spacing` tells it. Raises ValueError.
     """
-    found = abs(step)
+    metres = abs(step)
     if unit:
-        found *= metres_of(f"the unit of {what}", unit)
-        if given is not None and abs(found / given - 1) > AGREE:
-            here, there = in_unit(found, "length"), in_unit(given, "length")
-            raise ValueError(f"spacing must be that of {what}, {here}, or be left out, got {there}")
-        return found if given is None else given
-    if given is None:
+        metres *= metres_of(f"the unit of {what}", unit)
+        if spacing is not None and abs(metres / spacing - 1) > AGREE:
+            step_length, spacing_length = in_unit(metres, "length"), in_unit(spacing, "length")
+            raise ValueError(f"spacing must be that of {what}, {step_length}, or be left out, got {spacing_length}")
+        return metres if spacing is None else spacing
+    if spacing is None:
         raise ValueError(
-            f"spacing is missing: the step of {what} is {found:.6g}, in no unit that the file names, as: "
+            f"spacing is missing: the step of {what} is {metres:.6g}, in no unit that the file names, as: "
             'spacing = "1 mm"'
         )
-    if not any(abs(found * float(metre) / given - 1) < AGREE for metre in UNITS["length"].values()):
+    if not any(abs(metres * float(metre) / spacing - 1) < AGREE for metre in UNITS["length"].values()):
         raise ValueError(
-            f"spacing must be that of {what}, {found:.6g} apart in some unit of length, got {in_unit(given, 'length')}"
+            f"spacing must be that of {what}, {metres:.6g} apart in some unit of length, got "
+            f"{in_unit(spacing, 'length')}"
         )
-    return given
+    return spacing
 
 
-def own_spacing(numbers: NumberTable, metre: float | None, given: Sequence[float | None]) -> tuple[float, ...]:
-    """The spacing that the file of an instrument has [m], in its own unit or the given one. Raises ValueError."""
+def own_spacing(numbers: NumberTable, metre: float | None, spacing: Sequence[float | None]) -> tuple[float, ...]:
+    """The spacing in the file of an instrument [m], in its own unit or in `metre`, checked against `spacing`."""
     if not numbers.unit and metre is None:
         raise ValueError('unit is missing: the file names none, as: unit = "um"')
     scale = 1.0 if numbers.unit else metre or 1.0
     return tuple(
-        metres_of_step(step * scale, numbers.unit or "m", one, "the file")
-        for step, one in zip(numbers.spacing or (), given, strict=True)
+        metres_of_step(step * scale, numbers.unit or "m", length, "the file")
+        for step, length in zip(numbers.spacing or (), spacing, strict=True)
     )
 
 

@@ -18,7 +18,7 @@ from validation.scenes.units import Dimension, quantity
 Reader = Callable[[str, object], Any]
 
 MOST_BYTES, LONGEST_LINE = 100_000, 1000
-"""Of a scene file. Keys of thousands of parts, all on one line, would take minutes to parse."""
+"""Bounds of a scene file: keys of thousands of parts, all on one line, would take minutes to parse."""
 AT_LINE = re.compile(r"at line (\d+)")
 UNQUOTED = re.compile(r"\s*\w+\s*=\s*(?:[-+]?\d[\d.eE+-]*\s*[a-zA-Zµ%]|[“”„'‘’«])")
 """A number with a unit, or signs that are no quotation marks of TOML."""
@@ -37,21 +37,21 @@ def tables_of(path: Path) -> dict[str, Any]:
         # with or without the mark that some editors put in front
         return tomllib.loads(contents.decode("utf-8-sig"))
     except (ValueError, RecursionError) as problem:
-        raise ValueError(f"scene {printable(path)} must be valid TOML, got: {_wrong(contents, problem)}") from None
+        raise ValueError(f"scene {printable(path)} must be valid TOML, got: {_toml_error(contents, problem)}") from None
 
 
-def _wrong(contents: bytes, problem: Exception) -> str:
-    """What is wrong with a file that is no TOML, and what would be right, without its own words."""
+def _toml_error(contents: bytes, problem: Exception) -> str:
+    """Why a file is no TOML, and the line that would be right, without text of the file itself."""
     if isinstance(problem, RecursionError | UnicodeDecodeError):
         return "values nested too deep" if isinstance(problem, RecursionError) else "no text in UTF-8"
-    got = printable(problem)
-    if "Cannot overwrite" in got or "twice" in got:
-        return f"{got}: a key or a table is given twice"
-    at = AT_LINE.search(got)
-    line = contents.decode("utf-8-sig").splitlines()[int(at[1]) - 1 : int(at[1])] if at else []
+    message = printable(problem)
+    if "Cannot overwrite" in message or "twice" in message:
+        return f"{message}: a key or a table is given twice"
+    location = AT_LINE.search(message)
+    line = contents.decode("utf-8-sig").splitlines()[int(location[1]) - 1 : int(location[1])] if location else []
     if line and UNQUOTED.match(line[0]):
-        return f'{got}: a value with a unit stands in quotation marks, as: load = "50 kN"'
-    return got
+        return f'{message}: a value with a unit stands in quotation marks, as: load = "50 kN"'
+    return message
 
 
 @contextmanager
@@ -68,81 +68,82 @@ def errors_of_file(path: Path) -> AbstractContextManager[None]:
     return errors_of(f"scene {printable(path)}: ", kind=SceneError)
 
 
-def table(readers: Mapping[str, Reader], optional: tuple[str, ...], name: str, given: object) -> dict[str, Any]:
+def table(readers: Mapping[str, Reader], optional: tuple[str, ...], name: str, entries: object) -> dict[str, Any]:
     """Read each value of a table by its own reader. ValueError for an unknown key, or a missing one that is needed."""
-    if not isinstance(given, dict):
-        raise ValueError(f"{name} must be a table, got {shortened(given)}")
-    full = {key: f"{name}.{key}" if name else key for key in (*given, *readers)}
-    for key in given:
+    if not isinstance(entries, dict):
+        raise ValueError(f"{name} must be a table, got {shortened(entries)}")
+    full = {key: f"{name}.{key}" if name else key for key in (*entries, *readers)}
+    for key in entries:
         if key not in readers:
-            unknown, right = printable(full[key]), _meant(key, name, readers)
+            unknown, right = printable(full[key]), _suggestion(key, name, readers)
             raise ValueError(f"{unknown} is unknown, {name or 'a scene'} must be made of {', '.join(readers)}{right}")
     for key in readers:
-        if key not in given and key not in optional:
-            raise ValueError(f"{full[key]} is missing, {name or 'a scene'} must have it{_as_line(full[key])}")
-    return {key: read(full[key], given[key]) for key, read in readers.items() if key in given}
+        if key not in entries and key not in optional:
+            raise ValueError(f"{full[key]} is missing, {name or 'a scene'} must have it{_example_line(full[key])}")
+    return {key: read(full[key], entries[key]) for key, read in readers.items() if key in entries}
 
 
-def one_of(given: dict[str, Any], name: str, keys: tuple[str, ...], *, least: int = 1) -> Any:
+def one_of(entries: dict[str, Any], name: str, keys: tuple[str, ...], *, least: int = 1) -> Any:
     """The value of one of these keys. ValueError for more of them, or fewer than the least."""
-    found = [key for key in keys if key in given]
-    if not least <= len(found) <= 1:
-        raise ValueError(f"{name} must have one of {', '.join(keys)}, got {' and '.join(found) or 'none'}")
-    return given[found[0]] if found else None
+    present = [key for key in keys if key in entries]
+    if not least <= len(present) <= 1:
+        raise ValueError(f"{name} must have one of {', '.join(keys)}, got {' and '.join(present) or 'none'}")
+    return entries[present[0]] if present else None
 
 
-def _meant(key: str, name: str, readers: Collection[str]) -> str:
-    """What an unknown key of a table may have been: one in other letters, one of another table, a similar one."""
-    in_table = {one.casefold(): one for one in readers}
-    if (same := in_table.get(key.casefold())) or not (places := places_of(key, beside=name, roots=readers)):
-        meant = [same] if same else difflib.get_close_matches(key.casefold(), [*readers], 1)
-        return _as_line(f"{name}.{meant[0]}" if name else meant[0]) or f", as {meant[0]}" if meant else ""
+def _suggestion(key: str, name: str, readers: Collection[str]) -> str:
+    """A hint at the key that an unknown one may stand for: in other case, of another table, or a similar one."""
+    in_table = {candidate.casefold(): candidate for candidate in readers}
+    if (same := in_table.get(key.casefold())) or not (places := places_of(key, required=name, roots=readers)):
+        similar = [same] if same else difflib.get_close_matches(key.casefold(), [*readers], 1)
+        return _example_line(f"{name}.{similar[0]}" if name else similar[0]) or f", as {similar[0]}" if similar else ""
     return f"; {key} stands {' or '.join(places)}"
 
 
-def _as_line(key: str) -> str:
-    """A line that would be right."""
+def _example_line(key: str) -> str:
+    """The line of a shipped scene with this key, as the end of a message; empty where none has it."""
     line = line_for(key)
     return f", as: {line}" if line else ""
 
 
-def without_unit(read: Reader, name: str, given: object) -> Any:
+def without_unit(read: Reader, name: str, value: object) -> Any:
     """Read a value without unit. A wrong type is a ValueError here: in a file it is a wrong value."""
-    if isinstance(given, (dict, list)):
-        raise ValueError(f"{name} must be a number, got {shortened(given)}")
+    if isinstance(value, (dict, list)):
+        raise ValueError(f"{name} must be a number, got {shortened(value)}")
     try:
-        return read(name, given)
+        return read(name, value)
     except TypeError as problem:
         raise ValueError(str(problem)) from None
     except OverflowError:
-        raise ValueError(f"{name} must be finite, got a number of {len(str(given))} digits") from None
+        raise ValueError(f"{name} must be finite, got a number of {len(str(value))} digits") from None
 
 
-def nonblank_text(name: str, given: object) -> str:
+def nonblank_text(name: str, value: object) -> str:
     """Check a text: one line, not blank, printable."""
-    if not isinstance(given, str) or not given.strip():
-        raise ValueError(f"{name} must be a text that is not blank, got {shortened(given)}")
-    if not is_printable(given):
-        raise ValueError(f"{name} must be one line without control characters, got {shortened(given)}")
-    return given
+    if not isinstance(value, str) or not value.strip():
+        raise ValueError(f"{name} must be a text that is not blank, got {shortened(value)}")
+    if not is_printable(value):
+        raise ValueError(f"{name} must be one line without control characters, got {shortened(value)}")
+    return value
 
 
-def yes_or_no(name: str, given: object) -> bool:
-    if not isinstance(given, bool):
-        raise ValueError(f"{name} must be true or false, got {shortened(given)}, as: {name.rpartition('.')[2]} = true")
-    return given
+def yes_or_no(name: str, value: object) -> bool:
+    """Check a bool, which TOML writes true or false."""
+    if not isinstance(value, bool):
+        raise ValueError(f"{name} must be true or false, got {shortened(value)}, as: {name.rpartition('.')[2]} = true")
+    return value
 
 
-def one_word(name: str, given: object, *, words: tuple[str, ...]) -> str:
+def one_word(name: str, value: object, *, words: tuple[str, ...]) -> str:
     """Check one of some words."""
-    if given not in words:
-        raise ValueError(f"{name} must be one of {', '.join(map(quoted, words))}, got {shortened(given)}")
-    return str(given)
+    if value not in words:
+        raise ValueError(f"{name} must be one of {', '.join(map(quoted, words))}, got {shortened(value)}")
+    return str(value)
 
 
-def _number_or(dimension: Dimension, name: str, given: object) -> float:
-    """A number, or a text with its unit."""
-    return quantity(name, given, dimension) if isinstance(given, str) else float(NUMBER(name, given))
+def _number_or_quantity(dimension: Dimension, name: str, value: object) -> float:
+    """A number without unit, or a text with a unit of the dimension, in SI units."""
+    return quantity(name, value, dimension) if isinstance(value, str) else float(NUMBER(name, value))
 
 
 LENGTH, MASS, FORCE, PRESSURE, SPEED = (
@@ -150,13 +151,13 @@ LENGTH, MASS, FORCE, PRESSURE, SPEED = (
     for dimension in ("length", "mass", "force", "pressure", "speed")
 )
 NUMBER, POSITIVE, WHOLE = (partial(without_unit, read) for read in (finite, positive, partial(count, least=1)))
-DECIBELS: Reader = partial(_number_or, "level")
+DECIBELS: Reader = partial(_number_or_quantity, "level")
 _LENGTHS = "radius diameter transverse_radius crown_radius side distance longest shortest spacing"
 VALUES: dict[str, Reader] = {
     **dict.fromkeys(_LENGTHS.split(), LENGTH),
     **{"load": FORCE, "axle_load": FORCE, "mass": MASS, "speed": SPEED, "youngs_modulus": PRESSURE},
     **{"pressure": PRESSURE, "contact_modulus": PRESSURE, "poisson_ratio": NUMBER, "alpha": POSITIVE, "springs": WHOLE},
-    **{"wheels_per_axle": WHOLE, "damping": partial(_number_or, "share of critical")},
+    **{"wheels_per_axle": WHOLE, "damping": partial(_number_or_quantity, "share of critical")},
     "detrend": partial(one_word, words=get_args(Detrend)),
     **{"name": nonblank_text, "file": nonblank_text, "curve": nonblank_text, "fill": yes_or_no, "crop": yes_or_no},
 }

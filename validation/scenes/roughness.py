@@ -99,14 +99,14 @@ RoughSurface = Roughness | MeasuredHeights
 """Roughness that is drawn from its spectrum, or one surface that was measured."""
 
 
-def roughness_of(name: str, given: object) -> Roughness:
-    """Of a table in a scene file."""
+def roughness_of(name: str, value: object) -> Roughness:
+    """Roughness of a table in a scene file."""
     readers: dict[str, Reader] = {"rms": LENGTH, "hurst": NUMBER, "longest": LENGTH, "shortest": LENGTH}
-    return Roughness(**table(readers, (), name, given))
+    return Roughness(**table(readers, (), name, value))
 
 
 def check_band(key: str, rough: object) -> None:
-    """Roughness in itself."""
+    """Raise TypeError or ValueError unless the object is a Roughness whose band and spectrum are valid."""
     if not isinstance(rough, Roughness):
         raise TypeError(f"{key} must be a Roughness or None, got {rough!r}")
     longest, shortest = positive(f"{key}.longest", rough.longest), positive(f"{key}.shortest", rough.shortest)

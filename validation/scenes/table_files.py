@@ -22,7 +22,7 @@ from mdr.checks import count, finite
 from validation.analysis.statistics import FloatArray
 from validation.scenes.bundled import check_regular
 from validation.scenes.measured import real_numbers
-from validation.scenes.number_table import MOST_VALUES, NumberTable, TableForm, known_alone, table_of_text
+from validation.scenes.number_table import MOST_VALUES, NumberTable, TableForm, mask_sentinels, table_of_text
 from validation.scenes.printable import printable, quoted, shortened
 from validation.scenes.reader import Reader, nonblank_text, without_unit
 from validation.scenes.text_dialect import NoTextError
@@ -68,7 +68,7 @@ BEGINNINGS = (
     (b"%PDF", ENDINGS[".pdf"]),
     (b"\x1f\x8b", ENDINGS[".gz"]),
 )
-"""The same by its first bytes."""
+"""What a file is, by its first bytes, and how it is exported."""
 LONGEST_MARK = max(len(mark) for mark, _ in BEGINNINGS)
 
 
@@ -79,11 +79,11 @@ def how_to_export(path: Path, beginning: bytes) -> str:
 
 
 MOST_BYTES = 2**28
-"""Of a file; 4096 x 4096 heights of sixteen characters."""
+"""Largest size of a file: 4096 x 4096 heights of sixteen characters."""
 ARRAYS, ARCHIVE = (".npy", ".npz"), b"PK"
 """How the names of numpy's files end, and how an .npz begins."""
 MOST_KEYS = 12
-"""Of an archive that are named in a sentence."""
+"""Keys of an archive that a sentence names."""
 TEXTS = (".sdf",)
 """How the names of files of instruments end that are texts, but no tables; all others are told from texts by bytes."""
 MISSING = (
@@ -114,8 +114,8 @@ def read_table(name: str, path: Path, form: TableForm = PLAIN) -> NumberTable:
     try:
         with path.open("rb") as file:
             if not is_array:
-                return _of_text(file, path, form)
-            values = _array(file, size, form.key, room)
+                return _read_text(file, path, form)
+            values = _read_array(file, size, form.key, room)
     except OSError as problem:
         raise OSError(f"{name} {printable(path)} cannot be read: {problem.strerror or problem}") from None
     except KeyOfArchiveError as problem:
@@ -127,16 +127,17 @@ def read_table(name: str, path: Path, form: TableForm = PLAIN) -> NumberTable:
         raise ValueError(f"{name} {printable(path)} must hold at most {MOST_VALUES} heights, got {values.size}")
     if values.dtype.kind not in "fiu":
         raise ValueError(f"{name} {printable(path)} must hold real numbers, got {values.dtype}")
-    found = NumberTable(values=np.asarray(values, dtype=np.float64))
-    return known_alone(found, form.nodata).chosen(form.columns) if values.ndim == 2 and values.size else found
+    table = NumberTable(values=np.asarray(values, dtype=np.float64))
+    return mask_sentinels(table, form.nodata).chosen(form.columns) if values.ndim == 2 and values.size else table
 
 
-def table_beside(name: str, found: dict[str, Any], folder: Path, *, key: str = "") -> tuple[Path, NumberTable]:
-    """Of the file that a table of a scene names, which is taken out of its values with what is said about the file.
+def table_beside(name: str, entries: dict[str, Any], folder: Path, *, key: str = "") -> tuple[Path, NumberTable]:
+    """Path and numbers of the file that a table of a scene names; its entries about the file are removed.
 
-    name: of the table; folder: of the scene; key: of the file, where it is no key of that table.
+    name: of the table; entries: of the table; folder: of the scene; key: of the file, where it is no key of that table.
     """
-    path, form = folder / found.pop("file"), TableForm(**{one: found.pop(one) for one in FORM if one in found})
+    path = folder / entries.pop("file")
+    form = TableForm(**{setting: entries.pop(setting) for setting in FORM if setting in entries})
     return path, read_table(key or f"{name}.file", path, form)
 
 
@@ -168,8 +169,8 @@ def sentence_about(path: Path, notes: Sequence[str]) -> tuple[str, ...]:
     return (f"{printable(path.name)}: {'; '.join(notes)}.",) if notes else ()
 
 
-def _of_text(file: IO[bytes], path: Path, form: TableForm) -> NumberTable:
-    """A text, or what an instrument wrote, which most of them write in bytes that no text has."""
+def _read_text(file: IO[bytes], path: Path, form: TableForm) -> NumberTable:
+    """The table of a text or of a file of an instrument, which most of them write in bytes that no text has."""
     if path.suffix.lower() not in TEXTS:
         try:
             return table_of_text(file, form)
@@ -182,49 +183,50 @@ def _of_text(file: IO[bytes], path: Path, form: TableForm) -> NumberTable:
             # some files of these formats are read in spite of that
             with contextlib.suppress(*([ValueError] if exported else [])):
                 if not of_text:
-                    return known_alone(_topography(path), form.nodata)
+                    return mask_sentinels(_read_topography(path), form.nodata)
             must = "must be a text, an array of numpy or heights of an instrument"
             raise ValueError(f"the file {must}, got {exported}") from None
-    return known_alone(_topography(path), form.nodata)
+    return mask_sentinels(_read_topography(path), form.nodata)
 
 
 # Arrays of numpy: nothing is allocated before it is known to be there
 
 
-def _array(file: IO[bytes], size: int, key: str | None, room: str) -> NDArray[np.generic]:
-    """That of an .npy, or one of an .npz, whatever the name of the file."""
+def _read_array(file: IO[bytes], size: int, key: str | None, room: str) -> NDArray[np.generic]:
+    """The array of an .npy, or that of a key of an .npz; the first bytes decide, not the name of the file."""
     is_archive = file.read(len(ARCHIVE)) == ARCHIVE
     file.seek(0)
     if not is_archive:
         if key is not None:
             raise ValueError(f"one array without a name, for which {room}.key has no use")
-        return _of_npy(file, size)
+        return _read_npy(file, size)
     try:
         with zipfile.ZipFile(file) as archive:
-            members = {one.filename.removesuffix(".npy"): one for one in archive.infolist() if not one.is_dir()}
+            members = {info.filename.removesuffix(".npy"): info for info in archive.infolist() if not info.is_dir()}
             if key not in members:
-                raise KeyOfArchiveError(_about_keys(key, list(members)))
+                raise KeyOfArchiveError(_key_sentence(key, list(members)))
             size = members[key].file_size
             if size > MOST_BYTES:
                 raise ValueError(f"an array of {size} bytes, more than {MOST_BYTES}")
             with archive.open(members[key]) as member:
-                return _of_npy(member, size)
+                return _read_npy(member, size)
     except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError, struct.error) as problem:
         raise ValueError(f"an archive that cannot be read, {printable(problem)}") from None
 
 
-def _about_keys(key: str | None, keys: list[str]) -> str:
+def _key_sentence(key: str | None, keys: list[str]) -> str:
+    """Why a key selects no array of an archive, and the keys that it has; follows the name of the key."""
     if not keys:
         return "is of no use, the archive is empty"
-    shown = ", ".join(quoted(one) for one in keys[:MOST_KEYS])
+    shown = ", ".join(quoted(name) for name in keys[:MOST_KEYS])
     more = f" and {len(keys) - MOST_KEYS} more" if len(keys) > MOST_KEYS else ""
     meant = difflib.get_close_matches(key or "heights", keys, 1, cutoff=0.3) or keys[:1]
     wrong = "is missing" if key is None else f"must be in the archive, got {quoted(key)}"
     return f"{wrong}, the archive has {shown}{more}, as: key = {quoted(meant[0])}"
 
 
-def _of_npy(file: IO[bytes], size: int) -> NDArray[np.generic]:
-    """Its array, once its header is known to promise no more than the file holds."""
+def _read_npy(file: IO[bytes], size: int) -> NDArray[np.generic]:
+    """The array of an .npy, allocated after its header is found to promise no more than the file holds."""
     if not size:
         raise ValueError("an empty file")
     try:
@@ -254,7 +256,7 @@ def _of_npy(file: IO[bytes], size: int) -> NDArray[np.generic]:
 
 @contextlib.contextmanager
 def _silent() -> Iterator[None]:
-    """Some of its readers print what stands in a file that they cannot read."""
+    """Suppress output and warnings: some readers print what stands in a file that they cannot read."""
     with (
         contextlib.redirect_stdout(io.StringIO()),
         contextlib.redirect_stderr(io.StringIO()),
@@ -264,7 +266,7 @@ def _silent() -> Iterator[None]:
 
 
 @_silent()
-def _topography(path: Path) -> NumberTable:
+def _read_topography(path: Path) -> NumberTable:
     """Heights of the file of an instrument, with its spacing and unit as far as it has them.
 
     Raises ValueError where SurfaceTopography is missing or cannot read the file; the sentence shows nothing of it.
@@ -277,19 +279,21 @@ def _topography(path: Path) -> NumberTable:
         with open_topography(str(path)) as reader:
             channel = reader.default_channel
             sizes = {} if channel.physical_sizes is not None else {"physical_sizes": channel.nb_grid_pts}
-            found = reader.topography(**sizes)
-            heights = real_numbers(found.heights())
+            topography = reader.topography(**sizes)
+            heights = real_numbers(topography.heights())
     except Exception as problem:  # whatever a reader of forty formats meets in a file of none
         raise ValueError(
             f"the file must have a format that SurfaceTopography reads, got {type(problem).__name__} from it"
         ) from None
-    if not found.is_uniform:
+    if not topography.is_uniform:
         raise ValueError("points must be equally far apart, got a line of points that are not: resample it")
-    known = None if sizes else tuple(float(s) / n for s, n in zip(found.physical_sizes, heights.shape, strict=True))
+    spacing = (
+        None if sizes else tuple(float(s) / n for s, n in zip(topography.physical_sizes, heights.shape, strict=True))
+    )
     return NumberTable(
         values=heights if heights.ndim == 2 else heights[:, None],
-        unit=str(found.unit or ""),
-        spacing=known,
+        unit=str(topography.unit or ""),
+        spacing=spacing,
         notes=(f"SurfaceTopography read it as {type(reader).__name__.removesuffix('Reader')}",),
     )
 
@@ -297,38 +301,42 @@ def _topography(path: Path) -> NumberTable:
 # Keys of a scene
 
 
-def _columns(name: str, given: object) -> tuple[str | int, ...]:
-    listed = given if isinstance(given, list) else [given]
-    if not listed or not all(isinstance(one, str | int) and not isinstance(one, bool) for one in listed):
-        raise ValueError(f'{name} must be names or numbers of columns, as ["x", "z"] or [1, 3], got {shortened(given)}')
-    return tuple(listed)
+def _read_columns(name: str, value: object) -> tuple[str | int, ...]:
+    """Names or numbers of columns, of one value or a list."""
+    columns = value if isinstance(value, list) else [value]
+    if not columns or not all(isinstance(column, str | int) and not isinstance(column, bool) for column in columns):
+        raise ValueError(f'{name} must be names or numbers of columns, as ["x", "z"] or [1, 3], got {shortened(value)}')
+    return tuple(columns)
 
 
-def _nodata(name: str, given: object) -> tuple[str | float, ...]:
-    listed = given if isinstance(given, list) else [given]
-    return tuple(one if isinstance(one, str) else without_unit(finite, name, one) for one in listed)
+def _read_nodata(name: str, value: object) -> tuple[str | float, ...]:
+    """Numbers and texts of cells without data, of one value or a list."""
+    entries = value if isinstance(value, list) else [value]
+    return tuple(entry if isinstance(entry, str) else without_unit(finite, name, entry) for entry in entries)
 
 
-def _decimal(name: str, given: object) -> str:
-    if given not in (".", ","):
-        raise ValueError(f'{name} must be "." or ",", got {shortened(given)}')
-    return str(given)
+def _read_decimal(name: str, value: object) -> str:
+    """Check a decimal sign, a point or a comma."""
+    if value not in (".", ","):
+        raise ValueError(f'{name} must be "." or ",", got {shortened(value)}')
+    return str(value)
 
 
-def _encoding(name: str, given: object) -> str:
+def _read_encoding(name: str, value: object) -> str:
+    """Check the name of a text encoding that Python has."""
     try:
-        "".encode(codecs.lookup(nonblank_text(name, given)).name)
+        "".encode(codecs.lookup(nonblank_text(name, value)).name)
     except LookupError:
-        raise ValueError(f'{name} must be an encoding, as "latin-1" or "utf-16", got {shortened(given)}') from None
-    return str(given)
+        raise ValueError(f'{name} must be an encoding, as "latin-1" or "utf-16", got {shortened(value)}') from None
+    return str(value)
 
 
 FORM: dict[str, Reader] = {
     "skip": partial(without_unit, partial(count, least=0)),
-    "columns": _columns,
-    "decimal": _decimal,
-    "encoding": _encoding,
-    "nodata": _nodata,
+    "columns": _read_columns,
+    "decimal": _read_decimal,
+    "encoding": _read_encoding,
+    "nodata": _read_nodata,
     "key": nonblank_text,
 }
 """How each value about a file is read, as of a `TableForm`."""

@@ -14,7 +14,7 @@ from validation.scenes.column_names import column_of
 from validation.scenes.printable import printable
 
 MOST_LINES, LONGEST_LINE = 2**23, 2**25
-"""Of a file; characters of a line."""
+"""Most lines of a file, and most characters of a line."""
 MOST_HEADER, SAMPLE, RUN = 2000, 2**20, 3
 """Lines in which the first row of numbers is looked for, and characters; rows on end that make a table."""
 MANY = 10
@@ -71,13 +71,13 @@ class Dialect:
     sure: bool = False
 
     def cells(self, line: str) -> list[str]:
-        """Those of one line."""
+        """The cells of one line; quotation marks may stand around a delimiter."""
         if '"' in line and len(line) < csv.field_size_limit():
             return next(csv.reader([line.strip()], delimiter=self.delimiter or " ", skipinitialspace=True))
         return line.split(self.delimiter) if self.delimiter else line.split()
 
     def number(self, cell: str) -> float:
-        """Of one cell, NaN for one without data. Raises ValueError."""
+        """The number of one cell, NaN for one without data. Raises ValueError."""
         text = cell.strip().strip('"').strip()
         if self.says_missing(text):
             return math.nan
@@ -97,31 +97,31 @@ class Dialect:
 
         A comma or a point can be the decimal sign, unless it stands there twice or before the decimal sign.
         """
-        found = THOUSANDS.fullmatch(text)
-        if found is None or found["sign"] == self.decimal:
+        match = THOUSANDS.fullmatch(text)
+        if match is None or match["sign"] == self.decimal:
             return text
-        sign, rest = found["sign"], found["rest"] or ""
+        sign, rest = match["sign"], match["rest"] or ""
         sure = rest[:1] == self.decimal or (not rest and (self.sure or sign not in ".," or text.count(sign) > 1))
         return text.replace(sign, "") if sure else text
 
     def numbers(self, cells: Sequence[str]) -> list[float]:
-        """Of a line. Raises ValueError for cells that are none."""
+        """The numbers of the cells of a line, NaN for texts where `numeric` allows them. Raises ValueError."""
         if (plain := self.plain(cells)) is not None:
             return plain
         if self.numeric is None:
             return list(map(self.number, cells))
-        found = [self.number(cell) if self.is_number(cell) else math.nan for cell in cells]
-        if len(found) - sum(map(math.isnan, found)) < self.numeric:
+        values = [self.number(cell) if self.is_number(cell) else math.nan for cell in cells]
+        if len(values) - sum(map(math.isnan, values)) < self.numeric:
             raise ValueError
-        return found
+        return values
 
     def plain(self, cells: Sequence[str]) -> list[float] | None:
-        """Of a line of numbers as Python writes them, as most are, but for the decimal sign; None of any other."""
+        """Numbers of a line as Python writes them, as most are, but for the decimal sign; None of any other line."""
         # Python alone reads 1_000, and infinite ones are none
         if not any("_" in cell or (self.decimal == "," and "." in cell) for cell in cells):
             with suppress(ValueError):
-                found = [float(cell.replace(self.decimal, ".")) for cell in cells]
-                return None if any(map(math.isinf, found)) else found
+                values = [float(cell.replace(self.decimal, ".")) for cell in cells]
+                return None if any(map(math.isinf, values)) else values
         return None
 
     def is_number(self, cell: str) -> bool:
@@ -130,13 +130,13 @@ class Dialect:
             return not math.isnan(self.number(cell))
         return False
 
-    def row(self, line: str, *, known: bool = True) -> int:
-        """How many columns a line of numbers has, 0 if it is none. known: whether one at least must have data."""
+    def row(self, line: str, *, needs_data: bool = True) -> int:
+        """How many columns a line of numbers has, 0 if it is none. needs_data: whether one at least must have data."""
         if self.delimiter == self.decimal and '"' not in line:
             return 0
         cells = self.cells(line)
         with suppress(ValueError):
-            return len(cells) if not all(map(math.isnan, self.numbers(cells))) or not known else 0
+            return len(cells) if not all(map(math.isnan, self.numbers(cells))) or not needs_data else 0
         return 0
 
     def says_nothing(self, line: str) -> bool:
@@ -147,31 +147,31 @@ class Dialect:
         return text.startswith(COMMENTS) and not (text.startswith(";") and self.delimiter == ";" and self.row(text))
 
 
-def lines_of(file: IO[bytes], given: str | None) -> tuple[list[str], str]:
-    """Of a text, and its encoding: the given one, that of its mark, UTF-8, or Windows-1252, which has Latin-1.
+def lines_of(file: IO[bytes], encoding: str | None) -> tuple[list[str], str]:
+    """Lines of a text, and its encoding: `encoding`, that of its mark, UTF-8, or Windows-1252, which has Latin-1.
 
     Raises ValueError for what is no text, not in that encoding, or too long; the sentence shows nothing of the file.
     """
     contents = file.read()
-    known = given or next((name for mark, name in MARKS if contents.startswith(mark)), "")
-    if known and codecs.lookup(known).name == "utf-8":
-        known = "utf-8-sig"
+    codec = encoding or next((name for mark, name in MARKS if contents.startswith(mark)), "")
+    if codec and codecs.lookup(codec).name == "utf-8":
+        codec = "utf-8-sig"
     for half, name in ((1, "utf-16-le"), (0, "utf-16-be")):
-        if not known and contents[half:4:2] == b"\x00\x00" and 0 not in contents[1 - half : 4 : 2]:
-            known = name
-    if not re.search("16|32", known) and CONTROL.search(contents):
+        if not codec and contents[half:4:2] == b"\x00\x00" and 0 not in contents[1 - half : 4 : 2]:
+            codec = name
+    if not re.search("16|32", codec) and CONTROL.search(contents):
         raise NoTextError("the file must be a text of numbers, got one with bytes that no text has")
-    for encoding in (known,) if known else ("utf-8", "cp1252", "latin-1"):
+    for candidate in (codec,) if codec else ("utf-8", "cp1252", "latin-1"):
         with suppress(UnicodeError):
-            return _split(contents.decode(encoding)), encoding
-    raise NoTextError(f'the file must be a text in {known}, got other bytes; encoding = "latin-1" is another')
+            return _split_lines(contents.decode(candidate)), candidate
+    raise NoTextError(f'the file must be a text in {codec}, got other bytes; encoding = "latin-1" is another')
 
 
 class NoTextError(ValueError):
     """A file that holds no text."""
 
 
-def _split(text: str) -> list[str]:
+def _split_lines(text: str) -> list[str]:
     """Lines of bounded number and length, without comments behind numbers."""
     text = text.replace("\r\n", "\n").replace("\r", "\n").removesuffix("\n")
     lines = text.split("\n", MOST_LINES)
@@ -189,7 +189,7 @@ def sample_of(lines: Sequence[str], skip: int) -> Sequence[str]:
     return lines[: skip + min(max(few, RUN) + 1, MOST_HEADER)]
 
 
-def recognised(
+def recognise_dialect(
     lines: Sequence[str], skip: int, decimal: str | None, nodata: frozenset[str], numeric: int | None
 ) -> tuple[Dialect, int, int]:
     """How the first lines of a file are written, the index of its first row of numbers, and its number of columns.
@@ -201,12 +201,12 @@ def recognised(
         for sign, point in WRITTEN
         if decimal in (None, point)
     ]
-    starts = {way: start for way in ways if (start := _start(lines, skip, way))}
+    starts = {way: start for way in ways if (start := _first_row(lines, skip, way))}
     if not starts:
-        raise ValueError(_no_table(lines, skip, ways))
+        raise ValueError(_no_table_sentence(lines, skip, ways))
     first = min(starts.values())[0]
     # whole numbers are the same in any way of writing: later lines decide
-    read = {way: _read_by(lines[first:], way, width) for way, (start, width) in starts.items() if start == first}
+    read = {way: _count_rows(lines[first:], way, width) for way, (start, width) in starts.items() if start == first}
     tied = {(way.delimiter, way.decimal, starts[way][1]): way for way in read if read[way] == max(read.values())}
     dialect, points = next(iter(tied.values())), tied.get((",", ".", 2))
     commas = next((way for (_, sign, width), way in tied.items() if (sign, width) == (",", 1)), None)
@@ -216,7 +216,7 @@ def recognised(
     return dialect, *starts[dialect]
 
 
-def _start(lines: Sequence[str], skip: int, dialect: Dialect) -> tuple[int, int] | None:
+def _first_row(lines: Sequence[str], skip: int, dialect: Dialect) -> tuple[int, int] | None:
     """The index of the first of a few rows on end of equal length, and this length.
 
     Where cells may be texts, lines of a header look like rows: then it is the first of those up to the end.
@@ -232,10 +232,10 @@ def _start(lines: Sequence[str], skip: int, dialect: Dialect) -> tuple[int, int]
     return (first, columns) if columns else None
 
 
-def _read_by(lines: Sequence[str], dialect: Dialect, columns: int) -> int:
+def _count_rows(lines: Sequence[str], dialect: Dialect, columns: int) -> int:
     """How many lines a dialect reads as rows of so many columns before one that is none."""
     rows = (line for line in lines if not dialect.says_nothing(line))
-    return sum(1 for _ in takewhile(lambda line: dialect.row(line, known=False) == columns, rows))
+    return sum(1 for _ in takewhile(lambda line: dialect.row(line, needs_data=False) == columns, rows))
 
 
 def _has_decimal_commas(above: Sequence[str], rows: Sequence[str], points: Dialect) -> bool:
@@ -254,14 +254,14 @@ def _has_decimal_commas(above: Sequence[str], rows: Sequence[str], points: Diale
 
 def _check_above(lines: Sequence[str], skip: int, first: int, dialect: Dialect, columns: int) -> None:
     """Raises ValueError where a line of the table seems to stand above its first row."""
-    said = [i for i in range(skip, first) if not dialect.says_nothing(lines[i])]
-    if not said:
+    header = [i for i in range(skip, first) if not dialect.says_nothing(lines[i])]
+    if not header:
         return
-    others, last = [i for i in said if not dialect.row(lines[i]) == columns > 1], said[-1]
-    alike = len(said) - len(others)
+    text_lines, last = [i for i in header if not dialect.row(lines[i]) == columns > 1], header[-1]
+    alike = len(header) - len(text_lines)
     if alike and (dialect.numeric is None or MANY * alike > len(lines) - first):
-        raise ValueError(about_row(lines[others[-1]], others[-1], dialect, columns))
-    cells, before = dialect.cells(lines[last]), dialect.cells(lines[said[-2]]) if len(said) > 1 else []
+        raise ValueError(about_row(lines[text_lines[-1]], text_lines[-1], dialect, columns))
+    cells, before = dialect.cells(lines[last]), dialect.cells(lines[header[-2]]) if len(header) > 1 else []
     is_row = all(map(STARTS, cells)) or any(column_of(cell).unit for cell in before)
     if len(cells) == columns > 1 and any(map(dialect.is_number, cells)) and is_row:
         raise ValueError(about_row(lines[last], last, dialect, columns))
@@ -272,7 +272,8 @@ def _check_above(lines: Sequence[str], skip: int, first: int, dialect: Dialect, 
         )
 
 
-def _no_table(lines: Sequence[str], skip: int, ways: Sequence[Dialect]) -> str:
+def _no_table_sentence(lines: Sequence[str], skip: int, ways: Sequence[Dialect]) -> str:
+    """Why these lines hold no table in any dialect, and the key that may mend it."""
     if not any(line.strip() for line in lines):
         return "the file must hold rows of numbers, got an empty file"
     if skip >= len(lines):
@@ -300,7 +301,7 @@ def _is_value(way: Dialect, cell: str) -> bool:
 
 
 def about_row(line: str, index: int, dialect: Dialect, columns: int) -> str:
-    """What is wrong with a line of a table."""
+    """Why a line is no row of a table of so many columns, and the key that may mend it, in a sentence."""
     cells = dialect.cells(line)
     for i, cell in enumerate(cells):
         try:
@@ -309,14 +310,14 @@ def about_row(line: str, index: int, dialect: Dialect, columns: int) -> str:
             if THOUSANDS.fullmatch(cell.strip()):
                 return about_thousands(cell, index)
             if TIME.fullmatch(cell.strip().strip('"')):
-                return _about_times(cells, i, index, dialect)
+                return _time_sentence(cells, i, index, dialect)
             if dialect.decimal == "." and COMMA.fullmatch(cell.strip()):
                 return f'decimal commas must be told, as: decimal = ",", got {token(cell)} in line {index + 1}'
-            whole = len(cell.strip()) <= SHOWN
-            told = f', a cell without data told, as: nodata = "{token(cell, bare=True)}"' if whole else ""
+            is_short = len(cell.strip()) <= SHOWN
+            nodata_hint = f', a cell without data told, as: nodata = "{token(cell, bare=True)}"' if is_short else ""
             return (
                 f"rows must be numbers, got {token(cell)} in column {i + 1} of line {index + 1}: a comment begins with "
-                f"a #, a header is left out by skip, a column by columns{told}"
+                f"a #, a header is left out by skip, a column by columns{nodata_hint}"
             )
     return (
         f"rows must be of one length, got {len(cells)} {'cell' if len(cells) == 1 else 'cells'} in line {index + 1} of "
@@ -325,7 +326,7 @@ def about_row(line: str, index: int, dialect: Dialect, columns: int) -> str:
 
 
 def about_thousands(cell: str, index: int) -> str:
-    """What decides about a number whose sign may be either."""
+    """The sentence about a number whose sign may be decimal or stand between thousands, and the key that decides."""
     sign = '"."' if "," in cell else '","'
     return (
         f"a comma or a point must be a decimal sign or stand between thousands, got {token(cell)} in line {index + 1}, "
@@ -333,12 +334,12 @@ def about_thousands(cell: str, index: int) -> str:
     )
 
 
-def _about_times(cells: Sequence[str], i: int, index: int, dialect: Dialect) -> str:
-    """The columns that can be read in place of time stamps."""
-    others = [j + 1 for j, cell in enumerate(cells) if dialect.is_number(cell) or dialect.says_missing(cell)]
+def _time_sentence(cells: Sequence[str], i: int, index: int, dialect: Dialect) -> str:
+    """The sentence about a time stamp in a row, with the columns that can be read in its place."""
+    readable_columns = [j + 1 for j, cell in enumerate(cells) if dialect.is_number(cell) or dialect.says_missing(cell)]
     return (
         f"columns must be numbers, got the time stamp {token(cells[i])} in column {i + 1} of line {index + 1}, "
-        f"which is no place: it is left out, as: columns = {others or [2]}; of lines without a column of "
+        f"which is no place: it is left out, as: columns = {readable_columns or [2]}; of lines without a column of "
         'places spacing is told, too, as: spacing = "1 mm"'
     )
 

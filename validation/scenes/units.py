@@ -40,12 +40,13 @@ RANGE: dict[Dimension, tuple[float, float]] = {
 """Of a quantity that must be positive, in SI units: no body has another, and beyond it doubles or grids have an end."""
 
 
-def _exact(units: str) -> dict[str, Fraction]:
+def _unit_factors(units: str) -> dict[str, Fraction]:
+    """SI units in each unit of pairs as "mm=1e-3", exactly, so that a quantity is rounded once."""
     return {unit: Fraction(si) for unit, _, si in (pair.partition("=") for pair in units.split())}
 
 
-UNITS = {dimension: _exact(units) for dimension, (_, _, units) in TABLE.items()}
-LENGTHS = UNITS["length"] | _exact("Å=1e-10 A=1e-10 pm=1e-12")
+UNITS = {dimension: _unit_factors(units) for dimension, (_, _, units) in TABLE.items()}
+LENGTHS = UNITS["length"] | _unit_factors("Å=1e-10 A=1e-10 pm=1e-12")
 """With those of the atomic force microscope, over a metre; A is how SurfaceTopography writes Å in ASCII."""
 SAME = {"\N{GREEK SMALL LETTER MU}": "µ", "m²": "m2", "m^2": "m2"}
 """What looks the same, or means the same in a unit."""
@@ -72,18 +73,18 @@ def quantity(name: str, text: object, dimension: Dimension, *, positive: bool = 
         if ending and words.count(",") == 1:
             accepted += ", with a point before the decimals"
         raise ValueError(f"{name} must be {accepted}, got {quoted(text)}") from None
-    found, unit = math.nan, UNITS[dimension][ending]
+    value, unit = math.nan, UNITS[dimension][ending]
     if number.is_finite():
-        found = float(DECIMAL.divide(DECIMAL.multiply(number, Decimal(unit.numerator)), Decimal(unit.denominator)))
-    if not math.isfinite(found):
+        value = float(DECIMAL.divide(DECIMAL.multiply(number, Decimal(unit.numerator)), Decimal(unit.denominator)))
+    if not math.isfinite(value):
         raise ValueError(f"{name} must be finite, got {quoted(text)}")
-    if positive and found <= 0:
+    if positive and value <= 0:
         raise ValueError(f"{name} must be positive, got {quoted(text)}")
     low, high = RANGE.get(dimension, (0.0, math.inf))
-    if positive and not low * (1 - 1e-9) <= found <= high * (1 + 1e-9):
+    if positive and not low * (1 - 1e-9) <= value <= high * (1 + 1e-9):
         ends = " and ".join(f"{end / float(unit):g} {ending}" for end in (low, high))
         raise ValueError(f"{name} must lie between {ends}, got {quoted(text)}: is its unit right?")
-    return found
+    return value
 
 
 def in_unit(value: float, dimension: Dimension, *, digits: int = 5) -> str:
@@ -96,10 +97,10 @@ def in_unit(value: float, dimension: Dimension, *, digits: int = 5) -> str:
 def metres_of(name: str, unit: object, *, hint: str = "") -> float:
     """How many metres a unit of heights is. Raises ValueError that begins with the name and ends with the hint."""
     # the micro sign and the Greek letter look the same, as do the letter and the sign of an angstrom
-    found = LENGTHS.get(str(unit).strip().replace("\N{GREEK SMALL LETTER MU}", "µ").replace("\N{ANGSTROM SIGN}", "Å"))
-    if found is None:
+    factor = LENGTHS.get(str(unit).strip().replace("\N{GREEK SMALL LETTER MU}", "µ").replace("\N{ANGSTROM SIGN}", "Å"))
+    if factor is None:
         raise ValueError(f"{name} must be one of {', '.join(LENGTHS)}, got {shortened(unit)}{hint}")
-    return float(found)
+    return float(factor)
 
 
 unit_of = partial(metres_of, hint=', as: unit = "um"')
