@@ -176,7 +176,7 @@ def test_a_band_without_a_wave_that_fits_is_a_row_with_its_reason():
 
 def test_short_waves_are_counted_as_one_by_one(monkeypatch):
     ground = waves(last=90, hurst=0.4)
-    whole = pressed_heights._whole.__wrapped__
+    whole = pressed_heights._rms_factor.__wrapped__
     one_by_one = whole(ground, 1.0)
     monkeypatch.setattr(pressed_heights, "LATTICE", 30)
     # waves near a circle are counted with an error of the order of its radius to the power of two thirds
@@ -290,7 +290,7 @@ def test_realisations_are_others():
         for realisation, seed in ((0, 3), (1, 4)):
             # of some hundred waves
             assert abs(np.corrcoef(draw(1, 3), draw(realisation, seed))[0, 1]) < 0.5
-    tracks, _ = rolled._tracks(RollingQuantity(wheel(), "force-rms"), 3, 3)
+    tracks, _ = rolled._draw_tracks(RollingQuantity(wheel(), "force-rms"), 3, 3)
     assert (abs(np.corrcoef(tracks.T) - np.eye(3)) < 0.5).all()
 
 

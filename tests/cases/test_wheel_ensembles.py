@@ -81,7 +81,7 @@ def test_rail_and_wheel_add_as_spectra():
     errors of a mean of products of independent waves."""
     count, steps = 40, rides(BOTH).steps
     alone = rides(replace(BOTH, rail=None))
-    turns = [alone._drawn(BOTH.wheel, BOTH.circumference_points, wheel_ensemble.WHEEL, i) for i in range(count)]
+    turns = [alone._draw_track(BOTH.wheel, BOTH.circumference_points, wheel_ensemble.WHEEL, i) for i in range(count)]
     both, rail = (rides(one, count=count).heights()[:steps] for one in (BOTH, replace(BOTH, wheel=None)))
     of_wheel = np.stack([np.resize(one, steps) for one in turns], axis=1)
     assert both == pytest.approx(rail + of_wheel, abs=1e-18)

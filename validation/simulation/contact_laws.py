@@ -90,7 +90,7 @@ class SpringsLaw:
         return self.foundation.force(place, approach)
 
     def at_rest(self, place: int) -> FloatArray:
-        """By Newton's method on the springs."""
+        """The approach of each wheel under its load, by Newton's method on the springs [m]."""
         return self.foundation.approach(place, self.wheel.load)
 
 
@@ -114,14 +114,19 @@ class BoundaryElementsLaw:
     def force(self, place: int, approach: FloatArray) -> FloatArray:
         """One contact problem a wheel, begun from those of the two places before."""
         pairs = zip(self.contacts, approach, strict=True)
-        return np.array([self._solved(contact.press(place, float(d)), place).force for contact, d in pairs])
+        return np.array(
+            [self._require_convergence(contact.press(place, float(d)), place).force for contact, d in pairs]
+        )
 
     def at_rest(self, place: int) -> FloatArray:
-        """The contact under the load itself."""
-        solved = (self._solved(contact.carry(place, self.wheel.load), place) for contact in self.contacts)
-        return np.array([contact.approach for contact in solved])
+        """The approach of each contact under the load, a solve a wheel [m]."""
+        contacts = (
+            self._require_convergence(contact.carry(place, self.wheel.load), place) for contact in self.contacts
+        )
+        return np.array([contact.approach for contact in contacts])
 
-    def _solved(self, contact: bem3d.WheelContact, place: int) -> bem3d.WheelContact:
+    def _require_convergence(self, contact: bem3d.WheelContact, place: int) -> bem3d.WheelContact:
+        """The contact itself, its applications counted; ConvergenceError unless it has converged."""
         self.operator_applications += contact.operator_applications
         if not contact.converged:
             raise bem3d.ConvergenceError(

@@ -13,9 +13,9 @@ from validation.theory import closed_forms
 from validation.theory.half_space import EllipticContact, elliptic_contact
 
 
-def off(found: FloatArray, true: FloatArray) -> float:
-    """Relative difference in L2."""
-    return float(np.sqrt(np.sum((found - true) ** 2) / np.sum(true**2)))
+def off(values: FloatArray, true: FloatArray) -> float:
+    """Relative difference from the true values in L2 [-]."""
+    return float(np.sqrt(np.sum((values - true) ** 2) / np.sum(true**2)))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,7 +37,7 @@ class SmoothSphere:
 
     @property
     def force(self) -> float:
-        """Of Hertz [N]."""
+        """Force of Hertz at the approach [N]."""
         return closed_forms.hertz_force(approach=self.approach, radius=self.radius, modulus=self.modulus)
 
 
@@ -179,9 +179,9 @@ def press_ellipse(problem: PublishedContact) -> Outcome:
     shape = tuple(2 * round(STRIP / 2 * axis / spacing) + 1 for axis in (2 * smooth.along, 2 * smooth.across))
     track = bem3d.Track(height=np.zeros(shape), spacing=spacing, radius=RADII, modulus=problem.modulus)
     wheel = bem3d.RollingContact(track, tolerance=problem.tolerance)
-    found = wheel.carry(0, FORCE)
+    contact = wheel.carry(0, FORCE)
     return {
-        APPROACH: np.array(1e3 * found.approach),
-        PRESSURE: np.array(1e-6 * wheel.pressure()[2].max() if found.converged else math.nan),
-        "failed": np.array(float(not found.converged)),
+        APPROACH: np.array(1e3 * contact.approach),
+        PRESSURE: np.array(1e-6 * wheel.pressure()[2].max() if contact.converged else math.nan),
+        "failed": np.array(float(not contact.converged)),
     }

@@ -112,13 +112,13 @@ def first_period(scheme: str, x: FloatArray) -> FloatArray:
     u^2 (1 - x^2 / 4) + u'^2, so x^2 / 4.
     """
     n = np.ceil(2 * np.pi / x)
-    found = {
+    changes = {
         EXPLICIT_EULER.name: np.expm1(n * np.log1p(x**2)),
         SYMPLECTIC_EULER.name: x / 2 / (1 - x / 2),
         VELOCITY_VERLET.name: x**2 / 4,
         RUNGE_KUTTA.name: -np.expm1(n * np.log1p(-(x**6) / 72 + x**8 / 576)),
     }
-    return np.asarray(found[scheme])
+    return np.asarray(changes[scheme])
 
 
 def long_run(problem: LongRun) -> Outcome:
@@ -127,8 +127,8 @@ def long_run(problem: LongRun) -> Outcome:
     tenth = problem.steps // TENTHS
     law, d = HertzLaw(WHEEL, highest.size), WHEEL.approach * highest
     u, v = march(scheme, law, problem.omega_dt, d, TENTHS * tenth)
-    found = {"energy": hertz_energy(u, v), "kept": kept_energy(u, v, problem.omega_dt)}
-    return {name: e.reshape(TENTHS, tenth, -1).mean(axis=1) / e[0] for name, e in found.items()}
+    energies = {"energy": hertz_energy(u, v), "kept": kept_energy(u, v, problem.omega_dt)}
+    return {name: e.reshape(TENTHS, tenth, -1).mean(axis=1) / e[0] for name, e in energies.items()}
 
 
 def hertz_energy(u: FloatArray, v: FloatArray) -> FloatArray:

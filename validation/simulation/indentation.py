@@ -21,7 +21,7 @@ SURFACES = 2
 FEW, MANY = 16, 512
 """Cells a side of the coarsest grid that is worth a solve, and of the finest that is offered to drawn heights."""
 MANY_POINTS = 2048
-"""The same of measured ones, which are solved once and on their own points: a mean over cells hides their summits."""
+"""Finest grid of measured heights, solved once and on their own points: a mean over cells hides their summits."""
 WAVE = 8
 """Cells to the shortest wave on the finest grid."""
 RADIUS = 16
@@ -42,19 +42,19 @@ def is_pressed(scene: Any, quantity: str) -> bool:
 
 
 def is_rough(scene: Any, quantity: str) -> bool:
-    """The same of a rough body."""
+    """Whether a model of the stiffness of a rough body may have the quantity."""
     return is_pressed(scene, quantity) and scene.ground is not None
 
 
 def ground_of(scene: IndentationScene) -> RoughSurface:
-    """What is rough. Raises ValueError for a smooth body."""
+    """The roughness of a body. Raises ValueError for a smooth one."""
     if scene.ground is None:
         raise ValueError("scene must be rough for this model")
     return scene.ground
 
 
 def side_of(scene: IndentationScene) -> float:
-    """Of the model: that of the punch, or what a rough sphere may touch and the longest wave [m]."""
+    """Side of the model: that of the punch, or what a rough sphere may touch and the longest wave [m]."""
     if scene.shape == "punch":
         return scene.size
     ground = ground_of(scene)
@@ -90,13 +90,13 @@ def cells_wanted(scene: IndentationScene) -> int:
     ground = ground_of(scene)
     if isinstance(ground, MeasuredHeights):
         return max(FEW, round(side_of(scene) / min(ground.spacing)))
-    wanted = WAVE * ground.q_max * side_of(scene) / (2 * math.pi)
+    cells = WAVE * ground.q_max * side_of(scene) / (2 * math.pi)
     if scene.shape == "sphere":
-        wanted = max(wanted, RADIUS * side_of(scene) / scene.contact_radius)
+        cells = max(cells, RADIUS * side_of(scene) / scene.contact_radius)
     else:
         gradient = rms_gradient(ground.c2d, edges=ground.edges)
-        wanted = max(wanted, scene.size * math.sqrt(CONTACT * scene.modulus * gradient / (2 * scene.load)))
-    return int(max(FEW, 2 ** math.ceil(math.log2(wanted * (1 - 1e-9)))))
+        cells = max(cells, scene.size * math.sqrt(CONTACT * scene.modulus * gradient / (2 * scene.load)))
+    return int(max(FEW, 2 ** math.ceil(math.log2(cells * (1 - 1e-9)))))
 
 
 def shortest_held(scene: IndentationScene, cells: int) -> float:
@@ -123,12 +123,12 @@ def highest_of(scene: IndentationScene, cells: int) -> FloatArray:
     """The highest of the measured points in each cell, where the mean may hide a summit [m]."""
     heights, side = ground_of(scene), side_of(scene)
     assert isinstance(heights, MeasuredHeights)  # as asked
-    found = heights.mean_over_cells((cells, cells), side / cells)
+    highest = heights.mean_over_cells((cells, cells), side / cells)
     i, j = (np.floor((end / side + 0.5) * cells).astype(np.int64) for end in heights.places)
     inside = np.ix_((i >= 0) & (i < cells), (j >= 0) & (j < cells))
     i, j = np.broadcast_arrays(i[:, np.newaxis], j)
-    np.maximum.at(found, (i[inside], j[inside]), heights.height[inside])
-    return found
+    np.maximum.at(highest, (i[inside], j[inside]), heights.height[inside])
+    return highest
 
 
 def _drawn(ground: RoughSurface, shortest: float, cells: int, side: float, rng: np.random.Generator) -> FloatArray:
@@ -136,12 +136,12 @@ def _drawn(ground: RoughSurface, shortest: float, cells: int, side: float, rng: 
     draw = partial(draw_surface, shape=(cells, cells), spacing=side / cells, rng=rng)
     surface = draw(lambda q: np.where(np.abs(q) <= shortest, ground.c2d(q), 0.0))
     # the mean square of the whole band, less what is left out of it
-    return np.asarray(surface * _whole(ground, side))
+    return np.asarray(surface * _rms_factor(ground, side))
 
 
 @lru_cache(maxsize=64)
-def _whole(ground: RoughSurface, side: float) -> float:
-    """What makes the height of all waves of the square that of the scene.
+def _rms_factor(ground: RoughSurface, side: float) -> float:
+    """Factor that gives the waves of the square the rms height of the scene [-].
 
     Raises ValueError where no wave of the band fits the side a whole number of times.
     """
@@ -151,12 +151,12 @@ def _whole(ground: RoughSurface, side: float) -> float:
     q = 2 * np.pi / side * np.hypot(i[:, np.newaxis], i)
     if waves > LATTICE:
         q = q[q <= 2 * np.pi / side * LATTICE]
-    drawn = (2 * np.pi / side) ** 2 * float(ground.c2d(q[q > 0]).sum())
+    mean_square = (2 * np.pi / side) ** 2 * float(ground.c2d(q[q > 0]).sum())
     if waves > LATTICE:
         # and 2 pi int C_2D q dq of shorter ones
         low = max(2 * np.pi / side * LATTICE, ground.q_min)
         q, weight = on_panels(np.geomspace(low, ground.q_max, 2 + math.ceil(math.log2(ground.q_max / low))), 24)
-        drawn += float(2 * np.pi * np.sum(weight * q * ground.c2d(q)))
-    if not drawn > 0:
+        mean_square += float(2 * np.pi * np.sum(weight * q * ground.c2d(q)))
+    if not mean_square > 0:
         raise ValueError("no wave of the roughness fits the side a whole number of times")
-    return ground.rms / math.sqrt(drawn)
+    return ground.rms / math.sqrt(mean_square)

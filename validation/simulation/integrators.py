@@ -60,7 +60,7 @@ def _runge_kutta(f: Acceleration, y: FloatArray, v: FloatArray, dt: float) -> It
 
 
 def velocity_verlet(rate: float = 0.0) -> Integrator:
-    """Of y'' = f - rate y', rate = c / M [1/s].
+    """Velocity Verlet of y'' = f - rate y', rate = c / M [1/s].
 
     The new velocity is solved from its own damping: y_(n+1) - 2 y_n + y_(n-1) = dt^2 f_n - rate dt (y_(n+1) - y_(n-1))
     / 2, of second order, with the limit of the wheel without a dashpot.

@@ -35,10 +35,10 @@ def press_interface(surface: Surface) -> Outcome:
         for contact in path:
             frozen = contact.frozen
             converged = contact.converged and frozen is not None and frozen.converged
-            known = (contact.stiffness(), contact.area, -contact.approach) if converged else LOST[:3]
+            values = (contact.stiffness(), contact.area, -contact.approach) if converged else LOST[:3]
             applications = contact.operator_applications, frozen.operator_applications if frozen is not None else 0
-            rows.append((*known, contact.residual, *applications))
+            rows.append((*values, contact.residual, *applications))
     names = "stiffness", "area", "gap", "residual", "applications", "frozen applications"
-    found = dict(zip(names, np.array(rows).T, strict=True))
-    lost = np.array(float(np.isnan(found["stiffness"]).sum()))
-    return {**found, "highest": np.array(height.max()), "failed": lost}
+    columns = dict(zip(names, np.array(rows).T, strict=True))
+    lost = np.array(float(np.isnan(columns["stiffness"]).sum()))
+    return {**columns, "highest": np.array(height.max()), "failed": lost}

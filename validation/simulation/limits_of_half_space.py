@@ -28,7 +28,7 @@ def sphere(cells: int, spacing: float, place: float = 0.0) -> FloatArray:
 
 
 def half_space(cells: int, spacing: float, *, periodic: bool = False) -> bem3d.HalfSpace:
-    """E* = 1."""
+    """A half-space of cells x cells, E* = 1."""
     return bem3d.HalfSpace(shape=(cells, cells), spacing=spacing, modulus=1.0, periodic=periodic)
 
 
@@ -126,8 +126,8 @@ def full_contact(load: float, cells: int = 128) -> tuple[float, float, str]:
     """Force at the approach that a mean pressure over p* has; from full contact on that is the mean gap."""
     body, gap, x = _wave(cells)
     force = load * math.pi * body.cell_area * x.size
-    known, _ = answered(partial(bem3d.solve, body, gap, force=force, tolerance=1e-9))
-    approach = known.approach if load < 1 else float(gap.mean())
+    reference, _ = answered(partial(bem3d.solve, body, gap, force=force, tolerance=1e-9))
+    approach = reference.approach if load < 1 else float(gap.mean())
     contact, message = recorded(partial(bem3d.solve, body, gap, approach=approach, tolerance=RESIDUAL))
     return load, math.inf if contact is None else abs(contact.force / force - 1), message
 

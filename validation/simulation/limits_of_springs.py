@@ -74,7 +74,7 @@ def octaves(centres: Values, *, seed: int, lines: int = 48) -> Outcome:
         return abs(10 * math.log10(springs / true))
 
     # springs have a spectrum and no surface: one track, with the waves about the contact, gives their only message
-    message = message_of(partial(_rolled, self_affine(HURST, 0.25, 8.0), seed))
+    message = message_of(partial(_roll_track, self_affine(HURST, 0.25, 8.0), seed))
     return swept(centres, list(map(error, centres)), [message] * len(centres))
 
 
@@ -92,7 +92,7 @@ def anisotropy(ratio: float, seed: int) -> tuple[float, float, str]:
     cut = PiecewisePowerLaw(edges=edges, exponents=spectrum.exponents)
     springs = force_variance(cut.c2d, edges=cut.edges, **UNIT)
     error = abs(math.sqrt(springs / stretched_variance(spectrum, ratio)) - 1)
-    return ratio - 1, error, message_of(partial(_rolled, cut, seed))
+    return ratio - 1, error, message_of(partial(_roll_track, cut, seed))
 
 
 def stretched_variance(spectrum: PiecewisePowerLaw, ratio: float, lines: int = 1500, angles: int = 180) -> float:
@@ -105,8 +105,8 @@ def stretched_variance(spectrum: PiecewisePowerLaw, ratio: float, lines: int = 1
     return float(np.sum(weight * response(k, **UNIT) ** 2))
 
 
-def _rolled(spectrum: PiecewisePowerLaw, seed: int) -> FloatArray:
-    """What a user of Geike's rule does: a track of little roughness on enough springs, rolled over."""
+def _roll_track(spectrum: PiecewisePowerLaw, seed: int) -> FloatArray:
+    """Force on a track of Geike's rule, of little roughness and on enough springs, at each of its places."""
     length = 8 * 2 * math.pi / spectrum.edges[0]
     points = math.ceil(length * max(16.0, 8 * spectrum.edges[-1] / (2 * math.pi)))
     rng = random_generator(seed, GEIKE_TRACK)
@@ -141,9 +141,9 @@ def rough_strips(heights: Values, *, length: float, strip_cells: int, seed: int,
     def point(height: float) -> Point:
         scene = RoughStrip(spectrum=spectrum, height=height, length=length, width=width, seed=seed)
         strip = Strip(scene=scene, realisation=0, cells=strip_cells, tolerance=1e-4)
-        found, message = answered(partial(roll_strip, strip))
-        failed.append(float(found["failed"]))
-        return float(np.nanstd(found["force"] - found["linear"]) / np.std(found["linear"])), message
+        outcome, message = answered(partial(roll_strip, strip))
+        failed.append(float(outcome["failed"]))
+        return float(np.nanstd(outcome["force"] - outcome["linear"]) / np.std(outcome["linear"])), message
 
     points = list(map(point, heights))
     return swept(heights, *zip(*points, strict=True), measured=spectrum.gradient, failed=sum(failed))
@@ -164,11 +164,11 @@ def time_steps(steps: Values, *, scheme: str, turns: int = 3) -> Outcome:
     energy in a turn. Messages are those of beginning a motion; a scheme may take several cells of the track in a step.
     """
     integrator = SCHEMES[scheme]
-    found = vibrate(Vibrations(scheme=scheme, steps=steps, natural_periods=turns))
-    error = np.maximum(found["growth"] - 1, 0.0) if integrator is VELOCITY_VERLET else found["change"]
+    outcome = vibrate(Vibrations(scheme=scheme, steps=steps, natural_periods=turns))
+    error = np.maximum(outcome["growth"] - 1, 0.0) if integrator is VELOCITY_VERLET else outcome["change"]
     begin = partial(simulate, WHEEL, HertzLaw(WHEEL), steps=1, integrator=integrator)
     dt = np.array(steps) / WHEEL.eigenfrequency / integrator.cells
-    return swept(steps, error, [message_of(partial(begin, time_step=one)) for one in dt.tolist()])
+    return swept(steps, error, [message_of(partial(begin, time_step=seconds)) for seconds in dt.tolist()])
 
 
 def higher_tracks(heights: Values, *, wheels: int, seed: int, waves: int = 6) -> Outcome:
@@ -176,13 +176,13 @@ def higher_tracks(heights: Values, *, wheels: int, seed: int, waves: int = 6) ->
     the largest tension of linear theory is the load; imbalance: largest error of the balance of momentum, over F_N T.
     """
 
-    def rolled(height: float) -> tuple[Outcome, str]:
+    def roll(height: float) -> tuple[Outcome, str]:
         track = RoughTrack(rms=height * WHEEL.approach, seed=seed, waves=waves)
         # a linear contact in motion has its force from the filter, which is what warns
         message = message_of(partial(filtered, track, track.heights(1)[:, 0]))
         return lift_off(LiftOff(track=track, wheels=wheels)), message
 
-    found, messages = zip(*map(rolled, heights), strict=True)
-    imbalance = [float(np.abs(one["imbalance"]).max()) for one in found]
-    airborne = [float(one["airborne"].mean()) for one in found]
-    return swept(heights, airborne, messages, measured=heights[0] / found[0]["pull"].max(), imbalance=imbalance)
+    outcomes, messages = zip(*map(roll, heights), strict=True)
+    imbalance = [float(np.abs(outcome["imbalance"]).max()) for outcome in outcomes]
+    airborne = [float(outcome["airborne"].mean()) for outcome in outcomes]
+    return swept(heights, airborne, messages, measured=heights[0] / outcomes[0]["pull"].max(), imbalance=imbalance)

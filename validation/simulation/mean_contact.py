@@ -16,13 +16,13 @@ from validation.engine.engine import FloatArray
 
 EDGES = np.linspace(0.0, 3.0, 49)
 RADII, AREAS = (EDGES[1:] + EDGES[:-1]) / 2, np.pi * np.diff(EDGES**2)
-"""Of rings of equal width."""
+"""Radii and areas of rings of equal width."""
 SOFTEST = 1e-3
 """-dg / d ln p at the least: without it a smooth wheel has no tangent outside of its contact."""
 LOWEST = -300.0
 """ln p, below which nothing touches."""
 STEPS = 300
-"""Of Newton's method, each at most one in ln p."""
+"""Most steps of Newton's method, each at most one in ln p."""
 
 
 class GapLaw:
@@ -61,7 +61,7 @@ class MeanContact:
 
 
 def mean_contact(law: GapLaw, approach: float) -> MeanContact:
-    """By Newton's method on ln p. Raises ArithmeticError where it does not converge."""
+    """The mean contact at an approach, by Newton's method on ln p. ArithmeticError where it does not converge."""
     operator, r = ring_operator(), RADII
     log_p = np.log(2 / np.pi * np.sqrt(np.maximum(approach - r**2 / 2, 0.0)) + 1e-3 * np.exp(-(r**2) / 2))
     for _ in range(STEPS):

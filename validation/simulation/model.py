@@ -57,7 +57,7 @@ class ErrorEstimate:
 
     @property
     def error(self) -> float:
-        """Both, added as if they went the same way."""
+        """Errors of model and sample, added as if they had the same sign."""
         return self.model + self.sample
 
     @property
@@ -124,7 +124,7 @@ class Model:
     @property
     def place(self) -> tuple[str, str]:
         """Module and variable in which it is declared."""
-        return next((module, variable) for module, variable, one in _declared() if one is self)
+        return next((module, variable) for module, variable, candidate in _model_variables() if candidate is self)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """To another process goes its place: functions inside of functions do not."""
@@ -160,7 +160,7 @@ class GridModel(Model):
 
 
 Value = float | FloatArray | Result
-"""Of the quantity that is asked; a Result where there are more values, several realisations, or none."""
+"""Value of the target's quantity; a Result where there are more values, several realisations, or none."""
 Function = Callable[[Target, Resolution], Value]
 
 
@@ -169,8 +169,8 @@ def model(*, cost: Callable[[Target, Resolution], Cost], **declared: Any) -> Cal
 
     def declare(function: Function) -> Model:
         def prepare(target: Target, resolution: Resolution) -> Prepared:
-            def read(found: Value) -> Result:
-                result = found if isinstance(found, Result) else Result({target.quantity: np.asarray(found)})
+            def read(value: Value) -> Result:
+                result = value if isinstance(value, Result) else Result({target.quantity: np.asarray(value)})
                 return replace(result, work=float(cost(target, resolution).work))
 
             return lambda _: Solve(partial(function, target, resolution), read)
@@ -186,13 +186,13 @@ def models_serving(scene: Any, quantity: str) -> tuple[Model, ...]:
 
 
 def all_models() -> tuple[Model, ...]:
-    """In the order of `MODELS`, then of their names."""
+    """All models that are declared, in the order of `MODELS`, then of their names."""
     order = {name: place for place, name in enumerate(MODELS)}
-    found = dict.fromkeys(model for *_, model in _declared())
-    return tuple(sorted(found, key=lambda model: (order.get(model.name, len(order)), model.name)))
+    models = dict.fromkeys(model for *_, model in _model_variables())
+    return tuple(sorted(models, key=lambda model: (order.get(model.name, len(order)), model.name)))
 
 
-def _declared() -> Iterator[tuple[str, str, Model]]:
-    """The variables of all modules in folders `models` that are models."""
+def _model_variables() -> Iterator[tuple[str, str, Model]]:
+    """Module, name and value of each variable that is a model, in the modules of folders `models`."""
     for module in modules_in("models"):
-        yield from ((module.__name__, key, one) for key, one in vars(module).items() if isinstance(one, Model))
+        yield from ((module.__name__, key, value) for key, value in vars(module).items() if isinstance(value, Model))

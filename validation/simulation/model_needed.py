@@ -30,9 +30,9 @@ def of_each(quantities: Sequence[SceneQuantity], shown: Callable[[SceneQuantity]
 
 def along(name: str, scenes: Sequence[tuple[float, Scene]], quantity: SceneQuantity) -> str:
     """Models along a parameter, in pieces: "springs for Fbar from 0.02 to 0.5; ..."."""
-    found = [(value, model_for(scene, quantity)) for value, scene in scenes]
+    pairs = [(value, model_for(scene, quantity)) for value, scene in scenes]
     pieces = []
-    for model, group in groupby(found, key=lambda pair: pair[1]):
+    for model, group in groupby(pairs, key=lambda pair: pair[1]):
         values = [value for value, _ in group]
         span = f"{values[0]:.2g}" if len(values) == 1 else f"{values[0]:.2g} to {values[-1]:.2g}"
         pieces.append(f"{model} for {name} {span}" if len(scenes) > len(values) else model)
@@ -40,26 +40,26 @@ def along(name: str, scenes: Sequence[tuple[float, Scene]], quantity: SceneQuant
 
 
 def sphere(case: Any) -> str:
-    """Of a radius [m], a force [N] and a modulus E* [Pa]."""
+    """Models of a smooth sphere by its radius [m], its force [N] and its modulus E* [Pa]."""
     scene = IndentationScene(name="sphere", shape="sphere", size=case.radius, load=case.force, modulus=case.modulus)
     return of_each(PRESSED, partial(model_for, scene))
 
 
 def punches(case: Any, hurst: float = 0.7, first: int = 1) -> str:
-    """Those of Fig. 14.1, for H = 0.7."""
+    """Models of the punches of Fig. 14.1, by default for H = 0.7."""
     roughness = PunchRoughness(hurst=hurst, waves=(first, case.cells // 4), seed=0)
     scenes = [(force, roughness.scene(force)) for force in case.forces]
     return f"mean {of_each(PRESSED, partial(along, 'Fbar', scenes))} (H = {hurst:g})"
 
 
 def rolled_off(case: Any) -> str:
-    """With a roll-off."""
+    """Models of punches whose spectrum has a roll-off."""
     roll_off, hurst = case.pressed
     return punches(case, hurst, roll_off)
 
 
 def rolling(case: Any) -> str:
-    """The spectrum of the force, height by height: a = d = E* = 1."""
+    """Models of the spectrum of the force of a wheel, height by height: a = d = E* = 1."""
     longest, shortest = (2 * math.pi / case.spectrum.edges[end] for end in (0, -1))
     scenes = []
     for height in case.heights:

@@ -47,7 +47,8 @@ class Motion:
         return np.asarray(self.next_acceleration - self.acceleration[0])
 
 
-def _with_dashpot(integrator: Integrator, rate: float) -> Integrator:
+def _damped_integrator(integrator: Integrator, rate: float) -> Integrator:
+    """The integrator for a dashpot of rate c / M [1/s]: velocity Verlet alone has one. Raises ValueError."""
     if rate and integrator is not VELOCITY_VERLET:
         raise ValueError(f"integrator must be {VELOCITY_VERLET.name} for a wheel with damping, got {integrator.name}")
     return velocity_verlet(rate) if rate else integrator
@@ -82,25 +83,25 @@ def simulate(
     if not (np.isfinite(d).all() and np.isfinite(v).all() and d.shape == v.shape):
         raise ValueError(f"approach and velocity must be finite and alike in shape, got {d} and {v}")
     gravity, rate = wheel.load / wheel.mass, damping_rate(wheel)
-    integrator = _with_dashpot(integrator, rate)
+    integrator = _damped_integrator(integrator, rate)
 
     def acceleration(place: int, d: FloatArray) -> FloatArray:
         return np.asarray(gravity - law.force(place, d) / wheel.mass)
 
     states = integrator.march(acceleration, d, v, time_step)
-    found, initial_velocity = np.empty((steps, d.size)), v
-    kept, forces = np.empty((2, steps, d.size)) if path else (None, None)
+    record, initial_velocity = np.empty((steps, d.size)), v
+    paths, forces = np.empty((2, steps, d.size)) if path else (None, None)
     lowest, highest, airborne = d, d, np.zeros(d.size, dtype=np.int64)
     for n in range(steps):
         d, v, a = next(states)
-        np.negative(a - rate * v, out=found[n])
+        np.negative(a - rate * v, out=record[n])
         lowest, highest = np.minimum(lowest, d), np.maximum(highest, d)
         airborne += a >= gravity
-        if kept is not None and forces is not None:
-            kept[n], forces[n] = d, wheel.load - wheel.mass * a
+        if paths is not None and forces is not None:
+            paths[n], forces[n] = d, wheel.load - wheel.mass * a
     d, v, a = next(states)
     return Motion(
-        acceleration=found,
+        acceleration=record,
         time_step=step,
         lowest=lowest,
         highest=highest,
@@ -109,7 +110,7 @@ def simulate(
         approach=d,
         velocity=v,
         next_acceleration=-(a - rate * v),
-        path=kept,
+        path=paths,
         force=forces,
     )
 
@@ -175,6 +176,7 @@ def natural_periods(wheel: Wheel, length: float, speed: float) -> float:
 
 
 def _check_stable(wheel: Wheel, step: float, integrator: Integrator) -> None:
+    """Raise ValueError where omega_eigen times the step [s] reaches the limit of the integrator."""
     omega_dt, limit = wheel.eigenfrequency * step, max(integrator.limit, 2.0)
     if omega_dt >= limit:
         why = "the motion would grow without bound"

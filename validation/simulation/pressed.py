@@ -17,7 +17,7 @@ from validation.simulation.method import Prepared, Resolution, Result, Solve, Va
 from validation.simulation.surface import middle_of
 
 MOST_ITERATIONS = 5000
-"""Of Polonsky and Keer's method."""
+"""Most iterations of Polonsky and Keer's method."""
 FIXED_AREA_RESIDUAL = 1e-4
 """Residual of a fixed contact area, whose stiffness is good to some tens of times its square."""
 
@@ -75,7 +75,7 @@ def press_on_grid(
             contact = solver(half_space, gap, **scene.load(cells), tolerance=resolution.residual)
             return contact, scene.finish(contact)
 
-        return Solve(run, lambda found: Result(scene.read(*found), cell_applications(*found)))
+        return Solve(run, lambda contacts: Result(scene.read(*contacts), cell_applications(*contacts)))
 
     draw(0).run()
     return draw
@@ -144,12 +144,12 @@ def press(strip: FloatArray, spacing: float) -> Layers:
         with warnings.catch_warnings():
             # how much of it touches is what a layer is for
             warnings.simplefilter("ignore", bem3d.ResolutionWarning)
-            found = bem3d.solve(half_space, -strip, force=mean * strip.size * spacing**2, tolerance=TOLERANCE)
-        deformed = half_space.displacement(found.pressure) - found.approach
+            contact = bem3d.solve(half_space, -strip, force=mean * strip.size * spacing**2, tolerance=TOLERANCE)
+        deformed = half_space.displacement(contact.pressure) - contact.approach
         gaps.append(deformed.mean())
         heights.append(np.fft.rfft(deformed - gaps[-1], axis=0))
-        pressures.append(np.fft.rfft(found.pressure - mean, axis=0))
-        work += found.operator_applications * strip.size
+        pressures.append(np.fft.rfft(contact.pressure - mean, axis=0))
+        work += contact.operator_applications * strip.size
     # a trial correlates three fields of weights with the layers, each of which costs an application at most
     work += 3 * len(TRIALS) * len(PRESSURES) * strip.size
     return Layers(np.array(heights), np.array(pressures), GapLaw(PRESSURES, np.array(gaps)), len(strip), work)
@@ -158,7 +158,7 @@ def press(strip: FloatArray, spacing: float) -> Layers:
 def _trial(layers: Layers, across: int, spacing: float, approach: float) -> tuple[FloatArray, FloatArray]:
     """Force of the trial at each row, and the approach for which no step is left."""
     contact = mean_contact(layers.law, approach)
-    p, tangent, displaced, share = _on_cells(contact, across, spacing)
+    p, tangent, displaced, share = _contact_fields(contact, across, spacing)
     # under less than the lowest pressure, the same asperities carry in proportion
     carried = share * np.minimum(p / PRESSURES[0], 1.0)
 
@@ -174,10 +174,10 @@ def _trial(layers: Layers, across: int, spacing: float, approach: float) -> tupl
     return force, approach - step / max(contact.stiffness, 1e-9)
 
 
-def _on_cells(
+def _contact_fields(
     contact: MeanContact, across: int, spacing: float
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """p, P, K P on the cells of the contact, (along, across), and the shares of each layer there, layers first."""
+    """p, P, K P on the cells of the contact, (along, across), and the share of each layer there, layers first [-]."""
     reach = math.floor(ALONG / spacing)
     x, y = np.arange(-reach, reach + 1)[:, np.newaxis] * spacing, (np.arange(across) - (across - 1) / 2) * spacing
     p, tangent, displaced = (

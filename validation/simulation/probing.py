@@ -57,12 +57,12 @@ def recorded(call: Callable[[], T]) -> tuple[T | None, str]:
             answer = call()
         except REFUSALS as error:
             return None, f"{type(error).__name__}: {error}"
-    given = [w for w in caught if not issubclass(w.category, (mdr.SpringUnitsWarning, bem3d.UnitsWarning))]
-    return answer, "; ".join(f"{w.category.__name__}: {getattr(w.message, 'detail', w.message)}" for w in given)
+    relevant = [w for w in caught if not issubclass(w.category, (mdr.SpringUnitsWarning, bem3d.UnitsWarning))]
+    return answer, "; ".join(f"{w.category.__name__}: {getattr(w.message, 'detail', w.message)}" for w in relevant)
 
 
 def answered(call: Callable[[], T]) -> tuple[T, str]:
-    """The same of a call that must not refuse. Raises ArithmeticError with its reason."""
+    """Answer and message of a call that must not refuse, as of `recorded`. ArithmeticError has the reason."""
     answer, message = recorded(call)
     if answer is None:
         raise ArithmeticError(message)
@@ -70,4 +70,5 @@ def answered(call: Callable[[], T]) -> tuple[T, str]:
 
 
 def message_of(call: Callable[[], object]) -> str:
+    """Warnings or refusal of a call, as of `recorded`; empty without any."""
     return recorded(call)[1]

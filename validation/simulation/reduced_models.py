@@ -36,17 +36,20 @@ class Rolled:
 
 
 def springs_on_a_line(strip: FloatArray, dx: float) -> Rolled:
-    found = mdr.roll(strip[:, strip.shape[1] // 2], spacing=dx, **SMOOTH)
-    return Rolled(found.force / HERTZ, float(found.examined.sum()))
+    """MDR on the middle line of the strip."""
+    rolling = mdr.roll(strip[:, strip.shape[1] // 2], spacing=dx, **SMOOTH)
+    return Rolled(rolling.force / HERTZ, float(rolling.examined.sum()))
 
 
 def linear_theory(strip: FloatArray, dx: float) -> Rolled:
+    """Linear theory of the half-space, a contact that keeps its radius."""
     return Rolled(linear_force(strip, spacing=dx, **SMOOTH) / HERTZ, float(strip.size))
 
 
 def springs_that_read(strip: FloatArray, dx: float) -> Rolled:
-    found = mdr.roll_surface(middle_of(strip, 1.1, dx, more=0), spacing=dx, **SMOOTH)
-    return Rolled(found.force / HERTZ, float(found.examined.sum()) + math.pi / 2 * len(strip) / dx**2)
+    """MDR springs, each of which reads the surface on its circle, within 1.1 radii of the middle."""
+    rolling = mdr.roll_surface(middle_of(strip, 1.1, dx, more=0), spacing=dx, **SMOOTH)
+    return Rolled(rolling.force / HERTZ, float(rolling.examined.sum()) + math.pi / 2 * len(strip) / dx**2)
 
 
 def one_sided_bed(strip: FloatArray, dx: float) -> Rolled:
@@ -65,15 +68,15 @@ def one_sided_bed(strip: FloatArray, dx: float) -> Rolled:
 
 def boundary_elements(strip: FloatArray, dx: float) -> Rolled:
     """work: of windows three radii wide, doubled in free space; a position that does not converge has no force."""
-    found = bem3d.roll(
+    rolling = bem3d.roll(
         crop_to_reach(strip, dx),
         spacing=dx,
         tolerance=TOLERANCE * float(strip.std()),
         raise_on_failure=False,
         **SMOOTH,
     )
-    work = float(found.operator_applications.sum()) * (2 * 3 / dx) ** 2
-    return Rolled(found.force / HERTZ, work, found.area / math.pi)
+    work = float(rolling.operator_applications.sum()) * (2 * 3 / dx) ** 2
+    return Rolled(rolling.force / HERTZ, work, rolling.area / math.pi)
 
 
 Solve = Callable[[FloatArray, float], Rolled]
@@ -105,21 +108,22 @@ def roll_by_all(strip: Strip) -> Outcome:
     kept: area of contact on boundary elements over that of a smooth wheel under the same force, which is as its power
     2/3; failed: models with a position that did not converge, which have no level.
     """
-    rolled = {name: _roll(strip, solve, coarser) for name, (solve, coarser) in MODELS.items()}
+    rolled = {name: _roll_model(strip, solve, coarser) for name, (solve, coarser) in MODELS.items()}
     spacings = [coarser / strip.cells for _, coarser in MODELS.values()]
     bands = bands_of(strip.scene.spectrum)
     pairs = zip(rolled.values(), spacings, strict=True)
     judge = rolled[JUDGE]
     assert judge.area is not None
     return {
-        "level": np.array([levels(waves(one.force, spacing=spacing), bands) for one, spacing in pairs]),
-        "work": np.array([one.work for one in rolled.values()]),
+        "level": np.array([levels(waves(result.force, spacing=spacing), bands) for result, spacing in pairs]),
+        "work": np.array([result.work for result in rolled.values()]),
         "kept": np.array(judge.area.mean() / (np.maximum(judge.force, 0.0) ** (2 / 3)).mean()),
-        "failed": np.array(float(sum(np.isnan(one.force).any() for one in rolled.values()))),
+        "failed": np.array(float(sum(np.isnan(result.force).any() for result in rolled.values()))),
     }
 
 
-def _roll(strip: Strip, solve: Solve, coarser: int) -> Rolled:
+def _roll_model(strip: Strip, solve: Solve, coarser: int) -> Rolled:
+    """One model on the strip with fewer cells: one to each `coarser` of them along and across."""
     cells = strip.cells // coarser
     with warnings.catch_warnings():
         # what fewer cells change is compared, or small beside what the models leave

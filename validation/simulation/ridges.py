@@ -74,14 +74,15 @@ def roll_over(track: RidgesTrack) -> Outcome:
         "modulus": 1.0,
         **({"approach": 1.0} if by_approach else {"force": 4 / 3}),
     }
-    found = [_roll(track, sign * height, settings) for sign in (1, -1)]
-    up, down = (one.force if by_approach else one.approach for one in found)
+    runs = [_roll(track, sign * height, settings) for sign in (1, -1)]
+    up, down = (run.force if by_approach else run.approach for run in runs)
     response = ridges.response(up, down, height) / 2
-    failed = sum(np.count_nonzero(~one.converged) for one in found if isinstance(one, bem3d.Rolling))
+    failed = sum(np.count_nonzero(~run.converged) for run in runs if isinstance(run, bem3d.Rolling))
     return {"response": np.stack([response.real, response.imag]), "failed": np.array(float(failed))}
 
 
 def _roll(track: RidgesTrack, height: FloatArray, settings: dict[str, Any]) -> bem3d.Rolling | mdr.RollingTrack:
+    """The ridges rolled over by the method of the track: on springs, or by boundary elements on a strip of them."""
     if track.method != BEM:
         return mdr.roll(height, contact=CONTACT[track.method], **settings)
     width = 2 * math.ceil(1.45 / settings["spacing"])

@@ -31,13 +31,13 @@ TRACKS, STRIPS = 1, 2
 LONGEST, RADII = 8, 32
 """Longest waves, and contact radii, along a strip at least."""
 ACROSS, WIDE = 3, 6
-"""The same across it."""
+"""Longest waves, and contact radii, across a strip at least."""
 SPRINGS = 32
-"""To a contact radius at least, and four to the shortest wave."""
+"""Springs to a contact radius at least; there are four to the shortest wave."""
 FINE, LEAST = 4.0, 8
 """Cells to the shortest wave on the fine grid, and to a contact radius at least on either."""
 MOST_CELLS = 64
-"""To a contact radius, on the finest grid that is offered."""
+"""Cells to a contact radius on the finest grid that is offered."""
 MOST_GRIDS, GROWTH = 3, 1.5
 """Grids of measured points, and the ratio of one to the next at the least."""
 
@@ -81,7 +81,7 @@ class RollingGrid:
 
 
 APPLICATIONS = 7
-"""Of the operator, a position."""
+"""Applications of the operator a position."""
 
 
 def grids_of_points(heights: MeasuredHeights, contact_radius: float) -> tuple[float, ...]:
@@ -90,12 +90,12 @@ def grids_of_points(heights: MeasuredHeights, contact_radius: float) -> tuple[fl
     So each point is the middle of a cell on every grid: others miss its summit, each by another part of it.
     """
     points, odd = contact_radius / min(heights.spacing), 1
-    found: list[float] = []
-    while len(found) < MOST_GRIDS and odd * points <= MOST_CELLS:
+    grids: list[float] = []
+    while len(grids) < MOST_GRIDS and odd * points <= MOST_CELLS:
         if odd * points >= LEAST:
-            found.append(odd * points)
+            grids.append(odd * points)
         odd = 2 * math.ceil(GROWTH * odd / 2 - 0.5) + 1
-    return tuple(found)
+    return tuple(grids)
 
 
 def strip_of(quantity: RollingQuantity, cells: float, realisation: int, seed: int) -> FloatArray:
@@ -121,22 +121,22 @@ def by_boundary_elements(quantity: RollingQuantity, surface: FloatArray, spacing
     tolerance = float(np.clip(1e-4 * quantity.scene.roughness_ratio, 1e-7, 3e-5))
     if quantity.dynamic:
         law = partial(BoundaryElementsLaw, body, [strip], spacing, tolerance=tolerance)
-        return np.asarray(_accelerated(quantity, law, linear_law_3d(body, surface, spacing), spacing)[0])
-    found = bem3d.roll(strip, spacing=spacing, tolerance=tolerance, raise_on_failure=False, **body.smooth)
-    if not found.converged.all():
+        return np.asarray(_acceleration_levels(quantity, law, linear_law_3d(body, surface, spacing), spacing)[0])
+    rolling = bem3d.roll(strip, spacing=spacing, tolerance=tolerance, raise_on_failure=False, **body.smooth)
+    if not rolling.converged.all():
         return np.full(len(quantity.bands.edges) - 1, np.nan)
-    if few := too_few(float(np.median(found.area)) / spacing**2, "cells"):
+    if few := too_few(float(np.median(rolling.area)) / spacing**2, "cells"):
         raise ValueError(few)
-    return levels_of(quantity, found.force, spacing)
+    return levels_of(quantity, rolling.force, spacing)
 
 
 def on_boundary_elements(quantity: RollingQuantity, cells: float, realisation: int, seed: int) -> FloatArray:
     """ln of levels over those of linear theory on the same strip; of measured heights, of the levels themselves."""
     surface, spacing = strip_of(quantity, cells, realisation, seed), quantity.scene.contact_radius / cells
-    found = np.log(by_boundary_elements(quantity, surface, spacing))
+    log_levels = np.log(by_boundary_elements(quantity, surface, spacing))
     if quantity.scene.ground.is_single:
-        return found
-    return np.asarray(found - np.log(by_linear_theory(quantity, surface, spacing)))
+        return log_levels
+    return np.asarray(log_levels - np.log(by_linear_theory(quantity, surface, spacing)))
 
 
 def on_springs(quantity: RollingQuantity, tracks: int, seed: int) -> FloatArray:
@@ -146,29 +146,30 @@ def on_springs(quantity: RollingQuantity, tracks: int, seed: int) -> FloatArray:
     the rolling spectrum, over the half-space.
     """
     body = quantity.scene.body
-    height, spacing = _tracks(quantity, tracks, seed)
+    height, spacing = _draw_tracks(quantity, tracks, seed)
     if quantity.dynamic:
         law, linear = partial(SpringsLaw, body, height, spacing), linear_law_1d(body, height, spacing)
-        found = _accelerated(quantity, law, linear, spacing)
-        return np.asarray(np.log(found) - np.log(quantity.expected(one_dimensional=False)))
+        band_rms = _acceleration_levels(quantity, law, linear, spacing)
+        return np.asarray(np.log(band_rms) - np.log(quantity.expected(one_dimensional=False)))
     wheel = {"spacing": spacing, **body.smooth}
     with warnings.catch_warnings():
         # how far a linear contact is off is what both are compared for
         warnings.simplefilter("ignore", mdr.LinearityWarning)
-        found = levels_of(quantity, np.array([mdr.roll(track, **wheel).force for track in height.T]), spacing)
+        band_rms = levels_of(quantity, np.array([mdr.roll(track, **wheel).force for track in height.T]), spacing)
         if quantity.name == "force-rms":
             filtered = np.array([mdr.roll(track, contact="linear", **wheel).force for track in height.T])
-            return np.asarray(np.log(found) - np.log(levels_of(quantity, filtered, spacing)))
-    return np.asarray(np.log(found) - np.log(quantity.expected(one_dimensional=False)))
+            return np.asarray(np.log(band_rms) - np.log(levels_of(quantity, filtered, spacing)))
+    return np.asarray(np.log(band_rms) - np.log(quantity.expected(one_dimensional=False)))
 
 
 def springs_to_a_radius(quantity: RollingQuantity) -> int:
-    """Four to the shortest wave, and 32 at least."""
+    """Springs to a contact radius: four to the shortest wave, and 32 at least."""
     scene = quantity.scene
     return max(SPRINGS, math.ceil(4 * scene.ground.q_max * scene.contact_radius / (2 * math.pi)))
 
 
-def _tracks(quantity: RollingQuantity, tracks: int, seed: int) -> tuple[FloatArray, float]:
+def _draw_tracks(quantity: RollingQuantity, tracks: int, seed: int) -> tuple[FloatArray, float]:
+    """Heights of so many tracks, (places, tracks), and the spacing of their springs [m]."""
     ground, a, springs = quantity.scene.ground, quantity.scene.contact_radius, springs_to_a_radius(quantity)
     points, spacing = RollingGrid.of(quantity, 1).along * springs, a / springs
     rule: InputSpectrum = "geike" if quantity.name == "force-rms" else "rolling"
@@ -176,7 +177,7 @@ def _tracks(quantity: RollingQuantity, tracks: int, seed: int) -> tuple[FloatArr
     return np.array([draw(rng=random_generator(seed, TRACKS, i)) for i in range(tracks)]).T, spacing
 
 
-def _accelerated(
+def _acceleration_levels(
     quantity: RollingQuantity, law: Callable[[], ContactLaw], linear: LinearLaw, spacing: float
 ) -> FloatArray:
     """Levels of wheels over one round, (wheels, bands), begun on the linear motion that repeats itself; NaN where lost.
@@ -198,10 +199,10 @@ def levels_of(
     transfer: Callable[[FloatArray], FloatArray] | None = None,
 ) -> FloatArray:
     """sqrt(2 sum |c|^2) over each band, along the last axis of a series."""
-    found = waves(series, spacing=spacing)
+    harmonics = waves(series, spacing=spacing)
     if transfer is not None:
-        found = type(found)(found.q, found.amplitude * transfer(found.q))
-    return np.asarray(np.sqrt(2 * levels(found, quantity.bands)))
+        harmonics = type(harmonics)(harmonics.q, harmonics.amplitude * transfer(harmonics.q))
+    return np.asarray(np.sqrt(2 * levels(harmonics, quantity.bands)))
 
 
 ASSUMED = 3.0

@@ -31,7 +31,7 @@ SMOOTH: dict[str, Any] = {"radius": 1.0, "modulus": 1.0, "approach": 1.0}
 TRACKS, STRIPS = 1, 2
 """Keys of random numbers: the roughness of both methods."""
 POINTS = 48
-"""Of the midpoint rule in each band."""
+"""Points of the midpoint rule in each band."""
 ROUNDING = 1e-300
 """Where (14.12) is zero, its level is rounding's, which is no reference."""
 
@@ -110,13 +110,13 @@ def roll_strip(strip: Strip) -> Outcome:
     """
     surface, spacing = strip.surface(), 1 / strip.cells
     linear = linear_force(surface, spacing=spacing, **SMOOTH)
-    found = bem3d.roll(
+    rolling = bem3d.roll(
         crop_to_reach(surface, spacing), spacing=spacing, tolerance=strip.tolerance, raise_on_failure=False, **SMOOTH
     )
     return {
-        "force": found.force / HERTZ,
+        "force": rolling.force / HERTZ,
         "linear": linear / HERTZ,
-        "failed": np.array(float(np.count_nonzero(~found.converged))),
+        "failed": np.array(float(np.count_nonzero(~rolling.converged))),
     }
 
 
@@ -133,8 +133,8 @@ def roll_strips(groups: Mapping[K, Sequence[Strip]], engine: Engine) -> tuple[di
         for s, o in zip(strips, outcomes[key], strict=True)
         if o["failed"]
     )
-    for key, found in outcomes.items():
-        converged = sum(not outcome["failed"] for outcome in found)
+    for key, strip_outcomes in outcomes.items():
+        converged = sum(not outcome["failed"] for outcome in strip_outcomes)
         if converged < FEWEST:
             raise NotConvergedError(f"{converged} strips of {key} converged, {FEWEST} are needed", unconverged)
     return outcomes, unconverged
@@ -159,11 +159,11 @@ def roll_tracks(tracks: Tracks) -> Outcome:
             warnings.simplefilter("ignore", mdr.LinearityWarning)
             force[i], linear[i] = roll().force / HERTZ, roll(contact="linear").force / HERTZ
     narrow = waves(force, spacing=spacing)
-    known = narrow.q < tracks.bands.edges[-1]
+    in_bands = narrow.q < tracks.bands.edges[-1]
     return {
         **levels_beside_linear(force, linear, spacing, tracks.bands),
-        "wavenumber": narrow.q[known],
-        "spectrum": narrow.spectrum.mean(axis=0)[known],
+        "wavenumber": narrow.q[in_bands],
+        "spectrum": narrow.spectrum.mean(axis=0)[in_bands],
     }
 
 
@@ -202,7 +202,7 @@ def roll_loaded_strip(strip: Strip) -> Outcome:
 
 
 def tangent_stiffness(wheel: bem3d.RollingContact, position: int) -> float:
-    """Of the contact under the load of Hertz over one cell of the track; NaN where it does not converge."""
+    """dF/dd of the contact under the load of Hertz over one cell of the track; NaN where it does not converge."""
     if not wheel.carry(position, HERTZ).converged:
         return math.nan
     _, _, pressure = wheel.pressure()
@@ -212,7 +212,7 @@ def tangent_stiffness(wheel: bem3d.RollingContact, position: int) -> float:
 
 @cache
 def half_space(shape: tuple[int, int], spacing: float) -> bem3d.HalfSpace:
-    """Frames along a track have few shapes."""
+    """A half-space with E* = 1, made once a shape: frames along a track have few."""
     return bem3d.HalfSpace(shape=shape, spacing=spacing, modulus=1.0)
 
 
@@ -223,7 +223,7 @@ def roll_loaded_tracks(tracks: Tracks) -> Outcome:
         # the smooth contact has springs enough, which is what the warning is about
         warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
         rolled = [mdr.roll(h, spacing=spacing, radius=1.0, modulus=1.0, force=HERTZ) for h in tracks.heights()]
-    return stiffness_moments(np.array([one.stiffness for one in rolled]) / STIFFNESS)
+    return stiffness_moments(np.array([track.stiffness for track in rolled]) / STIFFNESS)
 
 
 def stiffness_moments(stiffness: FloatArray) -> Outcome:
@@ -240,12 +240,12 @@ def level_1d(spectrum: PiecewisePowerLaw, rule: InputSpectrum, bands: Bands) -> 
 
 @cache
 def level_3d(spectrum: PiecewisePowerLaw, bands: Bands) -> FloatArray:
-    """The same of the half-space."""
+    """int C_F dq over each band of the half-space, `force_3d`."""
     return over_bands(lambda q: force_3d(q, spectrum), bands) / HERTZ**2
 
 
 def force_3d(q: FloatArray, spectrum: PiecewisePowerLaw) -> FloatArray:
-    """C_F itself of the half-space."""
+    """C_F of the half-space, a = E* = 1, over the mean square height."""
     return force_spectrum_3d(q, spectrum.c2d, edges=spectrum.edges, contact_radius=1.0, modulus=1.0)
 
 

@@ -78,12 +78,13 @@ class PunchRoughness:
     def _drawn(
         self, draw: Callable[..., FloatArray], spectrum: Spectrum, kind: int, realisation: int, **grid: Any
     ) -> FloatArray:
-        """The address of a Hurst exponent is its own, unless they have common random numbers."""
+        """Heights of a realisation; each Hurst exponent has random numbers of its own, unless they are `common`."""
         address = 0 if self.common else round(1000 * self.hurst)
         rng = random_generator(self.seed, kind, address, realisation)
         return self._normalised(draw(spectrum, rng=rng, rms=self.height, amplitudes=self.amplitudes, **grid))
 
     def _normalised(self, height: FloatArray) -> FloatArray:
+        """Heights with exactly the rms height of the scene, where the amplitudes of each draw scatter."""
         if self.amplitudes == "fixed" or self.normalised == "ensemble":
             return height
         return np.asarray(height * (self.height / height.std()))
@@ -138,17 +139,17 @@ def press_surface(surface: Surface) -> Outcome:
         for contact in path:
             frozen, gap = contact.frozen, float((contact.pressure * uniform).sum()) - contact.approach
             converged = contact.converged and frozen is not None and frozen.converged
-            known = (contact.stiffness(), contact.area, contact.approach, gap) if converged else LOST
+            values = (contact.stiffness(), contact.area, contact.approach, gap) if converged else LOST
             applications = contact.operator_applications, frozen.operator_applications if frozen is not None else 0
-            rows.append((*known, contact.residual, *applications))
+            rows.append((*values, contact.residual, *applications))
     names = "stiffness", "area", "approach", "gap", "residual", "applications", "frozen applications"
-    found = dict(zip(names, np.array(rows).T, strict=True))
+    columns = dict(zip(names, np.array(rows).T, strict=True))
     of_surface = {"height": np.array(height.std()), "gradient": np.array(_gradient(height))}
-    return {**found, **of_surface, "failed": np.array(float(np.isnan(found["stiffness"]).sum()))}
+    return {**columns, **of_surface, "failed": np.array(float(np.isnan(columns["stiffness"]).sum()))}
 
 
 def press_profiles(profiles: Profiles) -> Outcome:
-    """Springs: the same of every profile at each force, one sort a profile; area: springs in contact over all."""
+    """Springs: `press_surface` of each profile at each force, one sort a profile; area: springs in contact over all."""
     roughness, length = profiles.roughness, profiles.length
     force = roughness.height * np.array(profiles.forces)
     stiffness, approach = np.empty((2, profiles.realisations, force.size))
@@ -230,7 +231,7 @@ class RolledOffRoughness(PunchRoughness):
 
 
 CELLS_A_WAVE = 4
-"""Of the shortest wave on the grid that a surface is drawn on; a finer one has the same waves."""
+"""Cells to the shortest wave on the grid that a surface is drawn on; a finer one has the same waves."""
 OVERLAPPING = 4
 """Times the cells on a side: when more overlap, an application by transforms costs less than one by a matrix."""
 TOUCHING = 1
@@ -247,24 +248,28 @@ def press_lightly(surface: Surface) -> Outcome:
     cells = surface.cells
     half_space = bem3d.HalfSpace(shape=(cells, cells), spacing=1 / cells, modulus=1.0)
     forces = surface.roughness.height * np.array(surface.forces)
-    found: list[tuple[float, ...]] = []
+    rows: list[tuple[float, ...]] = []
     # two real transforms of a padded grid take 5/2 n log2(n) operations each, a product two
     points = (2 * cells) ** 2
     products = 2.5 * points * math.log2(points)
     try:
         contacts = bem3d.indent_few_cells(
-            half_space, -_height(surface), forces=forces, max_cells=OVERLAPPING * cells, tolerance=surface.tolerance
+            half_space,
+            -_surface_height(surface),
+            forces=forces,
+            max_cells=OVERLAPPING * cells,
+            tolerance=surface.tolerance,
         )
         for contact in _while_few(contacts, forces, TOUCHING * cells):
             work = np.array([contact.products, contact.stiffness_products]) / products
-            found.append((contact.stiffness, contact.area, contact.approach, contact.residual, *work))
+            rows.append((contact.stiffness, contact.area, contact.approach, contact.residual, *work))
     except (bem3d.TooManyCellsError, bem3d.ConvergenceError):
         pass
     names = "stiffness", "area", "approach", "residual", "applications", "frozen applications"
-    columns = np.array(found).reshape(-1, len(names)).T
+    columns = np.array(rows).reshape(-1, len(names)).T
     outcome = dict(zip(names, columns, strict=True))
-    if len(found) < len(forces):
-        rest = press_surface(replace(surface, forces=surface.forces[len(found) :]))
+    if len(rows) < len(forces):
+        rest = press_surface(replace(surface, forces=surface.forces[len(rows) :]))
         outcome = {name: np.append(values, rest[name]) for name, values in outcome.items()}
     return {**outcome, "failed": np.array(float(np.isnan(outcome["stiffness"]).sum()))}
 
@@ -279,8 +284,8 @@ def _while_few(
             return
 
 
-def _height(surface: Surface) -> FloatArray:
-    """Heights of the realisation on the grid, drawn on a coarser one where that has all its waves."""
+def _surface_height(surface: Surface) -> FloatArray:
+    """Heights of the realisation on its grid, drawn on a coarser one and refined where that has all its waves."""
     _, last = surface.roughness.waves
-    drawn = min(surface.cells, CELLS_A_WAVE * last)
-    return refined(surface.roughness.surface(drawn, surface.realisation), surface.cells)
+    cells = min(surface.cells, CELLS_A_WAVE * last)
+    return refined(surface.roughness.surface(cells, surface.realisation), surface.cells)

@@ -80,7 +80,7 @@ def lift_off(problem: LiftOff) -> Outcome:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", mdr.LinearityWarning)
         # dF / F_N of (14.11)
-        linear = np.stack([filtered(track, one).force / WHEEL.load - 1 for one in height.T], axis=1)
+        linear = np.stack([filtered(track, profile).force / WHEEL.load - 1 for profile in height.T], axis=1)
     return {
         "airborne": motion.airborne / len(force),
         "lowest": force.min(axis=0),
@@ -90,6 +90,7 @@ def lift_off(problem: LiftOff) -> Outcome:
 
 
 def filtered(track: RoughTrack, height: FloatArray) -> mdr.RollingTrack:
+    """The force of the linear filter (14.11) along one track, at the approach d_N."""
     return mdr.roll(height, spacing=track.spacing, contact="linear", **WHEEL.smooth)
 
 
@@ -106,8 +107,8 @@ def coarsen(track: RoughTrack) -> Outcome:
         middle = slice((stride - 1) // 2, None, stride)
         force = mdr.rolling_force(height[middle], spacing=stride * track.spacing, **WHEEL.smooth)
         error = np.std(force - fine[middle]) / fine.std()
-        found = level(force, track) / level(fine, track), linear_level(height, stride, track)
-        rows.append((error, *found, math.hypot(finest, spread(track, stride))))
+        ratios = level(force, track) / level(fine, track), linear_level(height, stride, track)
+        rows.append((error, *ratios, math.hypot(finest, spread(track, stride))))
     return dict(zip(("error", "level", "linear", "spread"), np.array(rows).T, strict=True))
 
 
@@ -196,7 +197,7 @@ def press_areas(areas: RoughAreas) -> Outcome:
 
 
 def _fraction(height: FloatArray, load: FloatArray) -> FloatArray:
-    """Linear between the loads at which one more spring touches."""
+    """Contact fraction at each load, linear between the loads at which one more spring touches [-]."""
     ordered = np.sort(height)[::-1]
     touching = np.arange(1, ordered.size + 1)
     overlap = (np.cumsum(ordered) - touching * ordered) / ordered.size

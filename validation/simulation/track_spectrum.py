@@ -51,10 +51,10 @@ class PiecewisePowerLaw:
     @property
     def _levels(self) -> FloatArray:
         """C_2D at the first edge of each piece, of mean square one."""
-        found = [1.0]
+        values = [1.0]
         for low, high, n in zip(self.edges, self.edges[1:], self.exponents, strict=False):
-            found.append(found[-1] * (high / low) ** -n)
-        levels = np.array(found[:-1])
+            values.append(values[-1] * (high / low) ** -n)
+        levels = np.array(values[:-1])
         return levels / self._moment(levels, 0)
 
     @property
@@ -72,8 +72,8 @@ class PiecewisePowerLaw:
         total = 0.0
         for low, high, n, level in zip(self.edges, self.edges[1:], self.exponents, levels, strict=False):
             power, log = 2 + order - n, math.log(high / low)
-            whole = log if power == 0 else math.expm1(power * log) / power
-            total += 2 * math.pi * level * low ** (2 + order) * whole
+            integral = log if power == 0 else math.expm1(power * log) / power
+            total += 2 * math.pi * level * low ** (2 + order) * integral
         return total
 
 
@@ -96,11 +96,12 @@ class TrackSpectrum:
     def __call__(self, q: NDArray[np.floating]) -> FloatArray:
         if self.input_spectrum == "geike":
             return mdr.geike(q, self.spectrum.c2d)
-        return _values(self, tuple(q.ravel().tolist())).reshape(q.shape)
+        return _spectrum_by_quadrature(self, tuple(q.ravel().tolist())).reshape(q.shape)
 
 
 @cache
-def _values(track: TrackSpectrum, q: tuple[float, ...]) -> FloatArray:
+def _spectrum_by_quadrature(track: TrackSpectrum, q: tuple[float, ...]) -> FloatArray:
+    """C_1D of the line trace or of the rolling-equivalent spectrum at the wavenumbers, each a quadrature."""
     c2d, edges = track.spectrum.c2d, track.spectrum.edges
     if track.input_spectrum == "line":
         return section(np.array(q), c2d, edges=edges)

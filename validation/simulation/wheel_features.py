@@ -22,11 +22,11 @@ def third_region(scene: WheelScene, jump: float) -> tuple[float, float]:
 
 
 def features_of(scene: WheelScene, omega: FloatArray, hann: FloatArray) -> dict[str, float]:
-    """As far as the scene has room for them: a jump apart from the peak, enough periods of the oscillation."""
+    """Features that the band of the scene can hold: a jump above the peak, enough periods of the oscillation."""
     between, period = math.sqrt(scene.eigenfrequency * scene.jump), scene.oscillation_period
-    apart = scene.jump > PEAK_LAST * scene.eigenfrequency
-    values = {PEAK: regions.peak(omega, hann, between if apart else PEAK_LAST * scene.eigenfrequency)}
-    if apart:
+    has_jump = scene.jump > PEAK_LAST * scene.eigenfrequency
+    values = {PEAK: regions.peak(omega, hann, between if has_jump else PEAK_LAST * scene.eigenfrequency)}
+    if has_jump:
         values[JUMP] = regions.jump(omega, hann, between, 0.5 * scene.cutoff)
     first, last = third_region(scene, values.get(JUMP, scene.jump))
     if last - first >= MIN_PERIODS * period:

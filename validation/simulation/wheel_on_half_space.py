@@ -82,15 +82,15 @@ def simulate_strip(strip: WheelStrip) -> Outcome:
     contact = BoundaryElementsLaw(
         wheel, [crop_to_reach(surface, strip.spacing, wheel)], strip.spacing, tolerance=strip.tolerance
     )
-    beside = simulate(wheel, linear, time_step=time_step, steps=steps, approach=approach, velocity=velocity)
+    linear_motion = simulate(wheel, linear, time_step=time_step, steps=steps, approach=approach, velocity=velocity)
     try:
         motion = simulate_from_linear_motion(contact, linear, time_step, steps)
     except bem3d.ConvergenceError:
         motion = None
-    found = motion.acceleration[:, 0] if motion else np.full(steps, np.nan)
+    acceleration = motion.acceleration[:, 0] if motion else np.full(steps, np.nan)
     return {
-        "bem": found,
-        "linear": beside.acceleration[:, 0],
+        "bem": acceleration,
+        "linear": linear_motion.acceleration[:, 0],
         "time step": np.array(time_step),
         "applications": np.array(contact.operator_applications / steps),
         "lowest": np.array(motion.lowest[0] / wheel.approach if motion else np.nan),

@@ -77,10 +77,10 @@ class WheelEnsemble:
         height = np.zeros((self.places, self.count))
         for i, number in enumerate(numbers):
             if scene.rail:
-                height[:, i] += self._drawn(scene.rail, self.places, RAIL, number)
+                height[:, i] += self._draw_track(scene.rail, self.places, RAIL, number)
             if scene.wheel:
-                around = self._drawn(scene.wheel, self._circumference, WHEEL, number)
-                height[:, i] += around[self._rolled % self._circumference]
+                around = self._draw_track(scene.wheel, self._circumference, WHEEL, number)
+                height[:, i] += around[self._rolled_cells % self._circumference]
         return height
 
     @property
@@ -89,13 +89,14 @@ class WheelEnsemble:
         return self.scene.circumference_points if self.track == "open" else self.places
 
     @property
-    def _rolled(self) -> NDArray[np.int64]:
+    def _rolled_cells(self) -> NDArray[np.int64]:
         """Cells rolled when the wheel is over each place; the last places of an open track lie behind the first."""
         place = np.arange(self.places)
         middle = (self.steps + self.places) // 2
         return np.where(place > middle, place - self.places, place)
 
-    def _drawn(self, roughness: Roughness, points: int, kind: int, number: int) -> FloatArray:
+    def _draw_track(self, roughness: Roughness, points: int, kind: int, number: int) -> FloatArray:
+        """Heights of one realisation of the roughness of rail or wheel, by its kind, at so many places [m]."""
         return draw_track(
             roughness,
             self.input_spectrum,
