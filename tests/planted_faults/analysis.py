@@ -23,7 +23,7 @@ from tests.analysis import (
 )
 from tests.analysis import test_spectra as test_wheel_spectra
 from tests.cases import test_interface
-from tests.planted_faults.wrong import Fault, with_math
+from tests.planted_faults.wrong import Fault, module_with
 from validation.analysis import claims, contents, spectra, statistics
 from validation.analysis import series as declared
 from validation.analysis import series as over_range
@@ -31,7 +31,6 @@ from validation.analysis import spectra as nominal_bands
 from validation.analysis import spectra as regions
 from validation.analysis import statistics as multilevel
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Number, Verdict
-from validation.analysis.series import worst
 from validation.cases.punch import fractal_punch
 from validation.cases.rolling import force_spectrum
 
@@ -70,7 +69,7 @@ def holds_unless_it_differs(claim):
 
 def mean_of_the_range(points):
     """The signed mean over a range, in which signs cancel."""
-    return replace(worst(points), value=float(np.mean([p.difference for p in points])))
+    return replace(declared.worst(points), value=float(np.mean([p.difference for p in points])))
 
 
 def about_its_mean(points, tolerance, reason):
@@ -193,7 +192,7 @@ FAULTS = [
         multilevel, "student", lambda freedom, confidence=0.95: statistics.student(freedom)
     ),
     test_multilevel.test_the_bias_of_a_logarithm_is_half_of_its_variance,
-    Fault("no bias of the logarithm taken off").at(multilevel, "math", with_math(log1p=lambda relative: 0.0)),
+    Fault("no bias of the logarithm taken off").at(multilevel, "math", module_with(math, log1p=lambda relative: 0.0)),
     test_error_bars_of_grids.test_the_sample_interval_of_fig_14_1,
     Fault("profiles and surfaces taken for the same realisations").at(
         multilevel.Linearised, "beside", lambda mine, other: mine - other

@@ -24,7 +24,7 @@ from tests.cases import (
     test_wheel_stability,
 )
 from tests.cases import test_from_force_to_roughness_and_stiffness as test_force
-from tests.planted_faults.wrong import Fault, Times
+from tests.planted_faults.wrong import Fault, Times, module_with
 from tests.railway import test_rail_cases
 from tests.railway import test_rail_sound_case as test_rail_sound
 from validation.advice.cases import model_selection as calibration
@@ -210,9 +210,7 @@ FAULTS = [
     ),
     test_force.test_models_on_a_strip_have_its_level_where_it_is_low,
     Fault("half of the force of linear theory beside boundary elements").at(reduced_models, "linear_force", Times(0.5)),
-    Fault("contact kept beside a square wheel").at(
-        reduced_models, "math", types.SimpleNamespace(**{**vars(math), "pi": 4.0})
-    ),
+    Fault("contact kept beside a square wheel").at(reduced_models, "math", module_with(math, pi=4.0)),
     partial(test_force.test_the_stiffness_along_a_track_is_the_change_of_force_with_approach, 0.3),
     Fault("stiffness of the frame for that of the contact").at(
         rolling_strip, "tangent_stiffness", whole_frame_in_contact

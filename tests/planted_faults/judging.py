@@ -15,7 +15,7 @@ from tests.judging import (
     test_judgement,
     test_references,
 )
-from tests.planted_faults.wrong import Fault, with_math
+from tests.planted_faults.wrong import Fault, module_with
 from validation.analysis import statistics as independent_records
 from validation.judging import judgement
 from validation.judging import worker as others
@@ -74,7 +74,7 @@ FAULTS = [
     Fault("a verdict without its interval").at(judgement, "verdict_of", without_its_interval),
     partial(test_judgement.test_a_ratio_of_ten_per_cent_is_0_83_decibels_of_a_level, 0.8, 0.02, "agree"),
     Fault("decibels of a power for those of an amplitude").at(
-        judgement, "math", with_math(log10=lambda x: math.log10(x) / 2)
+        judgement, "math", module_with(math, log10=lambda x: math.log10(x) / 2)
     ),
     test_judged_stiffness.test_realisations_have_their_mean_and_deviation_with_the_error_of_the_sample,
     Fault("realisations without the error of their sample").at(stiffness, "sampled", without_the_error_of_the_sample),

@@ -1,6 +1,5 @@
 """Faults planted in what `tests/mdr` looks at: where, what is wrong there, and the test that must catch it."""
 
-import types
 from functools import partial
 
 import numpy as np
@@ -24,7 +23,7 @@ from tests.mdr import test_rolling_springs as of_springs
 from tests.mdr import test_rolling_surface as of_surfaces
 from tests.mdr import test_spring_warnings as doubts
 from tests.mdr import test_springs_against_brute_force as brute_force
-from tests.planted_faults.wrong import E_FOR_E_STAR, Fault, Times
+from tests.planted_faults.wrong import E_FOR_E_STAR, Fault, Times, module_with
 from validation.theory import rolling as rolling_theory
 
 
@@ -47,11 +46,6 @@ def on_the_highest_spring_alone(track, block, wanted, d):
 
 load_curve = foundation.load_curve
 resolved = profile_module._resolved
-
-
-def in_numpy(wrong):
-    """numpy with some names changed."""
-    return types.SimpleNamespace(**{**vars(np), **wrong})
 
 
 def profile_half_a_cell_ahead(wheels, springs):
@@ -100,7 +94,7 @@ FAULTS = [
     of_springs.test_force_is_the_sum_over_all_springs,
     Fault("x^2 / 2R under the wheel").at(wheel_on_springs.SpringTrack, "wheel", Times(0.5)),
     Fault("springs that pull wherever they are in doubt").at(
-        wheel_on_springs, "np", in_numpy({"maximum": lambda values, least: values})
+        wheel_on_springs, "np", module_with(np, maximum=lambda values, least: values)
     ),
     of_springs.test_one_sided_force_leaves_the_linear_one_at_second_order,
     Fault("springs that pull under the smooth wheel").at(
@@ -112,11 +106,11 @@ FAULTS = [
     Fault("E for E* under many wheels").at(mdr.RollingEnsemble, "force", Times(E_FOR_E_STAR)),
     partial(in_step.test_force_to_1e_12_of_the_smooth_wheel, 30.0, 0.1),
     Fault("springs that pull under many wheels").at(
-        wheels_in_step, "np", in_numpy({"maximum": lambda values, least, out=None: values})
+        wheels_in_step, "np", module_with(np, maximum=lambda values, least, out=None: values)
     ),
     in_step.test_forces_are_independent_of_the_batch_to_the_last_bit,
     Fault("sums that round").at(
-        wheels_in_step, "np", in_numpy({"rint": lambda values: np.asarray(values, dtype=np.float64)})
+        wheels_in_step, "np", module_with(np, rint=lambda values: np.asarray(values, dtype=np.float64))
     ),
     partial(doubts.test_what_is_warned_of, "short waves"),
     Fault("springs that say nothing of short waves").at(profile_module, "diagnose_waves", lambda *_: ()),

@@ -1,10 +1,11 @@
 """Faults planted in how models of somebody's own are calibrated and chosen, and the test that must catch each."""
 
+import math
 from dataclasses import replace
 from functools import partial
 
 from tests.judging import test_own_models
-from tests.planted_faults.wrong import Fault, with_math
+from tests.planted_faults.wrong import Fault, module_with
 from validation.advice.calibration_scenes import Answers
 from validation.judging import files_read as read_files
 from validation.judging import own_kinds, own_models
@@ -35,7 +36,7 @@ FAULTS = [
     Fault("a key without the bytes of data that the file reads").at(others.Visitor, "digest", property(code_of)),
     Fault("a key that is taken before a call loads a module").at(own_models, "_probe", lambda called: None),
     partial(test_own_models.test_a_law_that_is_wrong_by_thirty_per_cent_claims_that_and_is_not_chosen, 0.7),
-    Fault("a claim that is a distance of logarithms").at(own_models, "math", with_math(expm1=float)),
+    Fault("a claim that is a distance of logarithms").at(own_models, "math", module_with(math, expm1=float)),
     test_own_models.test_without_references_an_error_is_unknown_and_nothing_is_chosen,
     Fault("a model without references that is chosen").at(
         own_models.OwnModel, "_claim", lambda own, *_: ErrorEstimate(reason="none is known")

@@ -70,8 +70,7 @@ def over_all_lines(model, contact):
 slope_error, borne_by = graduation.Graduation.slope_error, equivalent_displacement.borne_by
 ground_of_strip = rail_strip.RailGround
 smoothing_error, stands_out = RailQuantity.smoothing_error.func, RailQuantity.stands_out.fget
-BARS, SCATTERED, FORCE = test_rail_error_bars, test_scattered_levels, test_contact_force
-HELD = SCATTERED.test_the_smooth_ground_is_held
+HELD = test_scattered_levels.test_the_smooth_ground_is_held
 UNHEARD = silent.test_no_model_is_enough_where_no_band_counts
 ERRORS = test_across.test_a_filter_over_boundary_elements_has_their_errors_in_the_bands_that_count
 SECOND_ORDER = test_across.test_a_wider_bed_and_three_lines_are_the_half_space_to_second_order
@@ -100,15 +99,15 @@ FAULTS = [
     Fault("strips too narrow for oblique long waves").at(rail_across, "LINES", 0.05),
     test_across.test_both_ways_are_the_heights_and_the_opposite_ones,
     Fault("strips rolled over one way alone").at(rail_across, "_roll", lambda rail, sign: roll_one_way(rail, 1)),
-    BARS.test_the_sample_leaves_students_interval_of_the_strips,
+    test_rail_error_bars.test_the_sample_leaves_students_interval_of_the_strips,
     Fault("boundary elements on a rail without their sample error").at(
         ContactFilter, "over_twin", without_sample_error
     ),
-    BARS.test_the_grid_leaves_what_second_order_makes_of_two_grids,
+    test_rail_error_bars.test_the_grid_leaves_what_second_order_makes_of_two_grids,
     Fault("a tenth of the grid error of boundary elements on a rail").at(
         rail_models, "OF_FINE", 0.1 * rail_models.OF_FINE
     ),
-    BARS.test_what_the_ground_leaves_adds_to_grid_and_sample_as_it_is,
+    test_rail_error_bars.test_what_the_ground_leaves_adds_to_grid_and_sample_as_it_is,
     Fault("a bias on a rail added at a right angle").at(
         Answer, "error_in_bands", property(lambda answer: np.sqrt(sum(part**2 for part in answer.band_errors.values())))
     ),
@@ -136,27 +135,31 @@ FAULTS = [
     Fault("levels of few waves that stand out as those of many").at(
         isotropic_line, "graduated", lambda *args, least: of_equal_weights(graduated(*args, least=least))
     ),
-    SCATTERED.test_what_smoothing_leaves_is_its_slope_error_and_three_times_what_more_smoothing_changes,
+    test_scattered_levels.test_what_smoothing_leaves_is_its_slope_error_and_three_times_what_more_smoothing_changes,
     Fault("half of what smoothing leaves").at(
         RailQuantity, "smoothing_error", property(lambda quantity: smoothing_error(quantity) / 2)
     ),
-    SCATTERED.test_bands_that_stand_out_keep_their_names_under_longer_waves,
+    test_scattered_levels.test_bands_that_stand_out_keep_their_names_under_longer_waves,
     Fault("a corrugation at other waves").at(
         RailQuantity, "stands_out", property(lambda quantity: np.roll(stands_out(quantity), -3))
     ),
-    partial(BARS.test_contacts_longer_or_wider_than_those_on_strips_have_no_known_error, over=0.48, known=True),
+    partial(
+        test_rail_error_bars.test_contacts_longer_or_wider_than_those_on_strips_have_no_known_error,
+        over=0.48,
+        known=True,
+    ),
     Fault("a_x / a_y in place of a_y / a_x").at(rail_models, "ASPECTS", (1 / 1.9, 1 / 0.45)),
     partial(test_rail_filters.test_one_sided_models_follow_their_linear_twin_on_a_smoother_rail, ONE_SIDED_BED),
     Fault("a bed of springs under another load").at(
         equivalent_displacement, "borne_by", lambda levels, wanted: borne_by(levels, 1.5 * wanted)
     ),
-    FORCE.test_each_band_is_weighted_as_the_table_of_the_standard_has_its_frequency,
+    test_contact_force.test_each_band_is_weighted_as_the_table_of_the_standard_has_its_frequency,
     Fault("a force at nominal frequencies").at(NominalBands, "wavelengths", property(lambda bands: bands.nominal)),
-    FORCE.test_the_error_of_the_sum_counts_loud_bands_most,
+    test_contact_force.test_the_error_of_the_sum_counts_loud_bands_most,
     Fault("the mean error of bands as that of their sum").at(
         contact_force.ContactForce, "error", property(lambda force: float(force.half_width.mean()))
     ),
-    FORCE.test_bands_without_an_answer_are_left_out_of_both_sums,
+    test_contact_force.test_bands_without_an_answer_are_left_out_of_both_sums,
     Fault("sums over unlike bands beside each other").at(
         contact_force.ContactForce, "over_chosen", lambda force, model: force.total(model) - force.total("by 0 dB")
     ),
@@ -172,21 +175,21 @@ FAULTS = [
     ),
     partial(test_isotropic_line.test_smooth_levels_stay_as_they_are_to_the_bit, "iso3095-2013"),
     Fault("smooth levels that are smoothed").at(isotropic_line, "WHOLE_DECIBELS", -1.0),
-    partial(HELD, SCATTERED.by_linear_theory, 6, 0, 0.95),
+    partial(HELD, test_scattered_levels.by_linear_theory, 6, 0, 0.95),
     Fault("levels that scatter taken as they are").at(isotropic_line, "graduated", as_they_are),
-    partial(HELD, SCATTERED.by_what_the_ground_leaves, 12, 0, 0.92),
+    partial(HELD, test_scattered_levels.by_what_the_ground_leaves, 12, 0, 0.92),
     Fault("no error of levels that scatter").at(
         RailQuantity, "smoothing_error", property(lambda quantity: 0 * quantity.wave)
     ),
-    partial(HELD, SCATTERED.by_linear_theory, 24, 5, 0.95),
+    partial(HELD, test_scattered_levels.by_linear_theory, 24, 5, 0.95),
     Fault("no error of a wide corrugation that is in part taken for ground").at(rail_quantity, "OF_SMOOTHING", 0.0),
-    SCATTERED.test_a_corrugation_costs_its_own_bands_alone_and_they_lie_between_ridges_and_isotropic_ground,
+    test_scattered_levels.test_a_corrugation_costs_its_own_bands_alone_and_they_lie_between_ridges_and_isotropic_ground,
     Fault("a corrugation taken for isotropic ground").at(RailQuantity, "between", lambda quantity, ends: ends[-1:]),
-    SCATTERED.test_strips_have_the_power_of_what_stands_out,
+    test_scattered_levels.test_strips_have_the_power_of_what_stands_out,
     Fault("strips without a corrugation").at(
         rail_strip, "RailGround", lambda **waves: ground_of_strip(**{**waves, "whole": None})
     ),
-    SCATTERED.test_loss_of_contact_is_that_of_the_levels_as_they_are,
+    test_scattered_levels.test_loss_of_contact_is_that_of_the_levels_as_they_are,
     Fault("the loss of contact of smooth levels alone").at(
         test_scattered_levels, "lost_contact_number", by_smooth_levels
     ),

@@ -32,8 +32,6 @@ from validation.report.answers import questions as question
 from validation.report.answers import strip
 from validation.report.page import PageFigure
 
-AGREE, DIFFER = Verdict.AGREE, Verdict.DIFFER
-
 
 def by_its_own_peak(samples, full_scale):
     """A sound that is as loud as a file can hold, whatever the others are."""
@@ -43,13 +41,17 @@ def by_its_own_peak(samples, full_scale):
 
 def enough_by_most(cell):
     """A counterexample outvoted."""
-    return AGREE if 2 * sum(number.verdict is AGREE for number in cell.numbers) > len(cell.numbers) else DIFFER
+    return (
+        Verdict.AGREE
+        if 2 * sum(number.verdict is Verdict.AGREE for number in cell.numbers) > len(cell.numbers)
+        else Verdict.DIFFER
+    )
 
 
 def enough_unless_it_differs(cell):
     """What is undecided taken for what agrees."""
     right = verdict_of_a_cell(cell)
-    return AGREE if right is Verdict.UNDECIDED and not cell.lacking else right
+    return Verdict.AGREE if right is Verdict.UNDECIDED and not cell.lacking else right
 
 
 STYLES = style.styles_of
@@ -130,7 +132,7 @@ FAULTS = [
     Fault("the power of a ratio printed for its amplitude").at(question, "DECIBEL", statistics.POWER_DECIBEL),
     test_sounds.test_files_differ_by_the_level_of_the_forces,
     Fault("a sound normalised by itself").at(sounds, "quantised", by_its_own_peak),
-    partial(test_claims.test_a_status_has_its_word_and_sign, [AGREE, DIFFER], {}, "✗ contradicted"),
+    partial(test_claims.test_a_status_has_its_word_and_sign, [Verdict.AGREE, Verdict.DIFFER], {}, "✗ contradicted"),
     Fault("a contradicted claim under a green badge").at(
         formats, "format_status", lambda status, **_: Markup('<span class="verdict holds">✓ holds</span>')
     ),

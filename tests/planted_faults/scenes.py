@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from tests.planted_faults.wrong import Fault, Times, with_math
+from tests.planted_faults.wrong import Fault, Times, module_with
 from tests.railway import test_profiled_rail, test_rail
 from tests.scenes import (
     test_damping_key,
@@ -145,6 +145,6 @@ FAULTS = [
     ),
     test_steadiness.test_rail_and_wheel_are_rough_together,
     Fault("the rougher of wheel and rail for both").at(
-        steadiness, "math", with_math(hypot=lambda *heights: max(heights))
+        steadiness, "math", module_with(math, hypot=lambda *heights: max(heights))
     ),
 ]

@@ -3,7 +3,6 @@
 import dataclasses
 import functools
 import math
-import types
 
 import numpy as np
 
@@ -22,7 +21,7 @@ from tests.advice import (
 )
 from tests.advice import test_model_hierarchy as test_ladder
 from tests.benchmarks import test_chart_points as test_points
-from tests.planted_faults.wrong import Fault, Times, with_math
+from tests.planted_faults.wrong import Fault, Times, module_with
 from tests.railway import test_contact_force
 from validation.advice import (
     calibrate,
@@ -217,7 +216,7 @@ FAULTS = [
         test_points.test_an_answer_that_luck_has_put_on_its_reference_scatters_as_much, test_points.MEAN, True
     ),
     Fault("an error that luck has made small, and its interval").at(
-        precision_error, "math", types.SimpleNamespace(**{**vars(math), "copysign": lambda *_: 1.0})
+        precision_error, "math", module_with(math, copysign=lambda *_: 1.0)
     ),
     functools.partial(test_claims.test_what_a_grid_leaves_is_the_rest_of_its_series_and_of_its_sample, 0.75, 3.0),
     Fault("a series of grids without the noise of its last change").at(
@@ -234,7 +233,7 @@ FAULTS = [
     Fault("one strip and one track for all").at(rolled, "random_generator", the_same_every_time),
     functools.partial(test_claims.test_no_stiffness_depends_on_units, test_claims.ROUGH_BODIES[1]),
     Fault("a half-space of unit modulus").at(
-        boundary_elements_pressed, "bem3d", types.SimpleNamespace(**{**vars(bem3d), "HalfSpace": of_unit_modulus})
+        boundary_elements_pressed, "bem3d", module_with(bem3d, HalfSpace=of_unit_modulus)
     ),
     test_claims.test_one_measured_face_is_not_the_mean_of_all,
     Fault("one measured face for the mean of all").at(pressed, "SCATTER", 0.0),
@@ -262,10 +261,10 @@ FAULTS = [
     ),
     functools.partial(test_ladder.test_bands_are_told_with_wavenumber_frequency_and_level, "force-spectrum", "N"),
     Fault("decibels of a power for those of a level").at(
-        tolerance, "math", with_math(log10=lambda value: math.log10(value) / 2)
+        tolerance, "math", module_with(math, log10=lambda value: math.log10(value) / 2)
     ),
     functools.partial(test_ladder.test_bands_are_told_with_wavenumber_frequency_and_level, "acceleration", "m/s²"),
-    Fault("radians in a second told as hertz").at(compare, "math", with_math(pi=0.5)),
+    Fault("radians in a second told as hertz").at(compare, "math", module_with(math, pi=0.5)),
     test_what_compare_says.test_spectra_stand_side_by_side_in_decibels,
     Fault("models side by side in decibels of a power").at(
         (columns, side_by_side), "differences", lambda one, other: 10 * np.log10(one.answer.value / other.answer.value)

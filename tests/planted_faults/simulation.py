@@ -136,30 +136,59 @@ def on_the_fitted_radius(strip, profile):
     return slice(None), -(y**2) / (2 * strip.radii[1])
 
 
-def told_of_none(solve):
+def without_flag(solve):
     """The outcome of a solve, without its flag."""
     return lambda *given, **settings: {**solve(*given, **settings), "failed": np.array(0.0)}
 
 
-def without_its_flag(place, solve, path):
-    """A solve that keeps what failed to itself, and the test that rolls it over a position without a solution."""
-    test = partial(test_flags_of_rolling.test_a_position_without_a_solution_is_flagged_and_is_no_number, path)
-    return test, Fault(f"{solve} without its flag").at(place, solve, told_of_none(getattr(place, solve)))
-
-
-ON_A_RAIL = test_flags_of_rolling.ON_A_RAIL
-FLAGS = (
-    (test_flags_of_rolling, "roll_strip", "validation.simulation.rolling_strip:roll_strip"),
-    (test_flags_of_rolling, "roll_rail", ON_A_RAIL),
-    (test_flags_of_rolling, "roll_held_wheel", f"{ON_A_RAIL}, at a constant height"),
-    (test_flags_of_rolling, "roll_and_move", f"{ON_A_RAIL}, before it moves"),
-    (test_flags_of_rolling, "roll_by_all", "validation.simulation.reduced_models:boundary_elements"),
-    (ridges, "roll_over", "validation.simulation.ridges:_roll"),
-    (rolling_strip, "roll_loaded_strip", "validation.simulation.rolling_strip:roll_loaded_strip"),
-)
-
 FAULTS = [
-    *(row for flag in FLAGS for row in without_its_flag(*flag)),
+    partial(
+        test_flags_of_rolling.test_a_position_without_a_solution_is_flagged_and_is_no_number,
+        "validation.simulation.rolling_strip:roll_strip",
+    ),
+    Fault("roll_strip without its flag").at(
+        test_flags_of_rolling, "roll_strip", without_flag(test_flags_of_rolling.roll_strip)
+    ),
+    partial(
+        test_flags_of_rolling.test_a_position_without_a_solution_is_flagged_and_is_no_number,
+        test_flags_of_rolling.ON_A_RAIL,
+    ),
+    Fault("roll_rail without its flag").at(
+        test_flags_of_rolling, "roll_rail", without_flag(test_flags_of_rolling.roll_rail)
+    ),
+    partial(
+        test_flags_of_rolling.test_a_position_without_a_solution_is_flagged_and_is_no_number,
+        test_flags_of_rolling.ON_A_RAIL + ", at a constant height",
+    ),
+    Fault("roll_held_wheel without its flag").at(
+        test_flags_of_rolling, "roll_held_wheel", without_flag(test_flags_of_rolling.roll_held_wheel)
+    ),
+    partial(
+        test_flags_of_rolling.test_a_position_without_a_solution_is_flagged_and_is_no_number,
+        test_flags_of_rolling.ON_A_RAIL + ", before it moves",
+    ),
+    Fault("roll_and_move without its flag").at(
+        test_flags_of_rolling, "roll_and_move", without_flag(test_flags_of_rolling.roll_and_move)
+    ),
+    partial(
+        test_flags_of_rolling.test_a_position_without_a_solution_is_flagged_and_is_no_number,
+        "validation.simulation.reduced_models:boundary_elements",
+    ),
+    Fault("roll_by_all without its flag").at(
+        test_flags_of_rolling, "roll_by_all", without_flag(test_flags_of_rolling.roll_by_all)
+    ),
+    partial(
+        test_flags_of_rolling.test_a_position_without_a_solution_is_flagged_and_is_no_number,
+        "validation.simulation.ridges:_roll",
+    ),
+    Fault("roll_over without its flag").at(ridges, "roll_over", without_flag(ridges.roll_over)),
+    partial(
+        test_flags_of_rolling.test_a_position_without_a_solution_is_flagged_and_is_no_number,
+        "validation.simulation.rolling_strip:roll_loaded_strip",
+    ),
+    Fault("roll_loaded_strip without its flag").at(
+        rolling_strip, "roll_loaded_strip", without_flag(rolling_strip.roll_loaded_strip)
+    ),
     test_flags_of_rolling.test_a_position_without_a_solution_has_no_number,
     Fault("a rolling contact that always says it has converged").at(
         rolling_contact.WheelContact, "converged", property(lambda contact: True)

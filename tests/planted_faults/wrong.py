@@ -2,12 +2,8 @@
 
 import functools
 import inspect
-import math
 import types
 from dataclasses import dataclass, replace
-
-import mdr
-from validation.analysis import spectra
 
 
 @dataclass(frozen=True)
@@ -42,9 +38,9 @@ class Fault:
             monkeypatch.setattr(place, self.name, wrong)
 
 
-def with_math(**wrong):
-    """math with some names changed."""
-    return types.SimpleNamespace(**{**vars(math), **wrong})
+def module_with(module, **wrong):
+    """A module with some names changed."""
+    return types.SimpleNamespace(**{**vars(module), **wrong})
 
 
 def scaled(function, factor):
@@ -58,11 +54,3 @@ def scaled(function, factor):
 
 
 E_FOR_E_STAR = 1 - (1 / 3) ** 2
-
-
-def one_sided_spectrum(found):
-    return 2 * two_sided(found)
-
-
-force_in_step = mdr.RollingEnsemble.force
-two_sided = spectra.Waves.spectrum.fget
