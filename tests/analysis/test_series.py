@@ -6,6 +6,7 @@ import re
 import numpy as np
 import pytest
 
+from tests.seeded import catches
 from validation.analysis.evidence import Role, Verdict
 from validation.analysis.series import MARGINS, Estimates, Margin, Series, masked, numbers_of, single, spans, tables_of
 from validation.analysis.statistics import Estimate, Interval, extrapolated, student
@@ -57,6 +58,11 @@ def test_points_without_a_value_are_left_out_and_the_range_ends_before_them():
     assert series(0.1, math.nan, math.nan, fewest=2).numbers == []
 
 
+@catches(
+    "a series without the error of its reference",
+    "validation.analysis.statistics.Estimate.minus",
+    lambda mine, other: Estimate(mine.value - other.value, mine.error, mine.samples),
+)
 def test_a_reference_with_an_error_widens_the_interval_and_one_without_does_not():
     margin = Margin(tolerance=1.0, reason="r")
     exact, sampled = (
