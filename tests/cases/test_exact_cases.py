@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from tests.cases.planted import changed, judged, statuses, times
+from tests.seeded import catches
 from validation.analysis.evidence import ClaimStatus, Verdict
 from validation.cases.exact import geike, hertz
 from validation.simulation import exact_contacts as contacts
@@ -71,6 +72,15 @@ def test_the_order_of_errors_is_the_power_of_the_cell_size(power):
             assert hertz.order(cells, sign * 3.0 / np.array(cells) ** power) == pytest.approx(power, abs=1e-12)
 
 
+order = hertz.order
+
+
+@catches(
+    "a tenth more in the order of a case",
+    "validation.cases.exact.hertz.order",
+    lambda cells, errors: order(cells, errors) + 0.1,
+    power=1.0,
+)
 @pytest.mark.parametrize("power", [1.0, 2.0])
 def test_a_case_has_the_order_of_its_errors(power):
     """Planted errors of that power, of the sphere and of the square: numbers and data have it."""

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.report.test_printed import html_of, number
+from tests.seeded import catches
 from validation.analysis.evidence import Evidence, Role, Table, Verdict
 from validation.benchmarks.work_precision.case import POINTS
 from validation.benchmarks.work_precision.figure_cost import COST_OF_STEPS
@@ -22,7 +23,7 @@ from validation.cases.wheel.half_space import GEIKE, OVER_BEM
 from validation.railway.cases import across, rolled_filters
 from validation.railway.cases.filters import OFFSET
 from validation.railway.cases.rail_dynamic import BESIDE, RMS, SPRINGS_OVER_BEM
-from validation.report.answers import seconds
+from validation.report.answers import first_screen, seconds, strip
 from validation.report.answers.first_screen import answered_questions, from_to, plain
 from validation.report.answers.questions import QUESTIONS, in_decibels, per_cent, times
 from validation.report.answers.strip import Cell, span
@@ -152,6 +153,7 @@ def by_hurst():
     ]
 
 
+@catches("a strip that hides its Hurst exponent", "validation.report.answers.strip.alone", lambda *_: "")
 def test_a_strip_and_its_sentence_name_the_hurst_exponents_on_which_a_verdict_depends():
     row = mean_stiffness(*by_hurst())
     assert [cell.alone for cell in row.strip] == ["", "H = 1 alone", "", "H = 0.4 alone", "", ""]
@@ -164,6 +166,11 @@ def test_a_strip_and_its_sentence_name_the_hurst_exponents_on_which_a_verdict_de
     assert "Fbar, 0.1 to 1: yes at H = 0.55 to 1; open at H = 0.4." in text
 
 
+@catches(
+    "neighbours that share a value",
+    f"{__name__}.plain",
+    lambda rows: [{**row, "strip": []} for row in first_screen.plain(rows)],
+)
 def test_the_table_of_the_readme_names_them_and_its_ranges_share_no_value():
     (row,) = (row for row in plain([mean_stiffness(*by_hurst())]))
     _, answer, over, _ = runpy.run_path(str(ROOT / ".ci" / "readme.py"))["cells"](json.loads(json.dumps(row)))
@@ -326,6 +333,14 @@ def test_ranges_that_overlap_are_one_cell():
     assert [place for place, _ in strip_of(mean_stiffness(*numbers))] == ["< 0.1", "0.1 to 1", "1 to 10", "> 10"]
 
 
+apart = strip._apart
+
+
+def last_of_those_that_join(found):
+    return {place: numbers[-1:] for place, numbers in apart(found).items()}
+
+
+@catches("numbers dropped where ranges join", "validation.report.answers.strip._apart", last_of_those_that_join, off=0)
 @pytest.mark.parametrize("off", range(4))
 def test_ranges_that_join_keep_all_of_their_numbers(off):
     """Of each range: whichever of the numbers differs, the joined place has its verdict and its size."""

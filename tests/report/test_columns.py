@@ -6,6 +6,7 @@ import pytest
 
 from tests.report.remade import REFERENCE
 from tests.report.test_page import section_of
+from tests.seeded import catches
 from validation.analysis.contents import as_csv, from_csv
 from validation.analysis.evidence import Table
 from validation.report.columns import COLUMNS, columns_file, described
@@ -59,6 +60,12 @@ def test_a_unit_stands_in_the_header_and_comes_back(table, first):
     assert from_csv("t", text) == table
 
 
+@catches(
+    "a mean that is called nothing",
+    "validation.report.columns._MEANINGS",
+    {},
+    *("fractal_punch", "mean stiffness, judged", "ensemble mean"),
+)
 @pytest.mark.parametrize(
     ("case", "table", "words"),
     [
