@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from tests.seeded import catches
+from validation.analysis import series as declared
 from validation.analysis.evidence import Role, Verdict
 from validation.analysis.series import MARGINS, Estimates, Margin, Series, masked, numbers_of, single, spans, tables_of
 from validation.analysis.statistics import Estimate, Interval, extrapolated, student
@@ -88,6 +89,11 @@ def test_a_number_of_its_own_has_no_range():
     assert (number.value, number.where, number.verdict) == (2.0, {"h": 1.0}, Verdict.DIFFER)
 
 
+@catches(
+    "a relative tolerance in the unit",
+    f"{__name__}.Margin",
+    lambda relative=False, **settings: declared.Margin(**settings),
+)
 def test_a_relative_margin_is_of_the_reference_and_a_criterion_has_a_finding_for_its_rms():
     margin = Margin(tolerance=0.1, reason="r", relative=True, role=Role.CRITERION, rms=(1.0, "q"))
     worst, rms = series(30.0, margin=margin, reference=20.0, scale=2.0).numbers

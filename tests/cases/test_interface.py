@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from validation.analysis.evidence import ClaimStatus, Verdict, numbers_with
+from tests.seeded import catches
+from validation.analysis.evidence import ClaimStatus, Number, Verdict, numbers_with
 from validation.analysis.study import Outcomes
 from validation.cases.punch import interface_study
 from validation.cases.punch.interface import (
@@ -82,6 +83,11 @@ def test_theory_is_put_over_boundary_elements_and_few_waves_do_not_judge_it():
     assert found.claims[1].status is ClaimStatus.HOLDS
 
 
+@catches(
+    "sample and grid exchanged",
+    "validation.analysis.series.Number",
+    lambda grid, sample, **settings: Number(grid=sample, sample=grid, **settings),
+)
 def test_what_finer_cells_change_is_extrapolated_and_half_of_it_left_open():
     """5 % stiffer on half as wide cells: 10 % on those of no size, to first order, in the logarithm."""
     plain, finer = (evidence(theory, finer=factor) for factor in (1.0, 1.05))
