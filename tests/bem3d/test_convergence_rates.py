@@ -48,7 +48,7 @@ def test_sphere_anywhere_between_the_cells(offset, across):
 
 
 def forgiving_residual(pressure, w, overlap):
-    return 1e-6 * contact.residual(pressure, w, overlap)
+    return 1e-6 * bem3d.residual(pressure, w, overlap)
 
 
 @catches("no padding, seen in a contact", "bem3d.halfspace._doubled", lambda points: points + points % 2)

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import bem3d
-from bem3d import contact, few_cells
+from bem3d import few_cells
 from tests.oracles import approach_by_least_squares, contact_by_least_squares, dense_operator
 from tests.seeded import E_FOR_E_STAR, Times, catches
 from tests.strategies import pressed
@@ -71,7 +71,7 @@ def test_any_gap_beside_least_squares(problem):
 
 
 def forgiving_residual(pressure, w, overlap):
-    return 1e-6 * contact.residual(pressure, w, overlap)
+    return 1e-6 * bem3d.residual(pressure, w, overlap)
 
 
 @catches("the cells that are looked at first, and no others", "bem3d.few_cells.GROWTH", 1)
