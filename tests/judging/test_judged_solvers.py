@@ -11,6 +11,7 @@ import pytest
 import bem3d
 from bem3d import kernel
 from tests import oracles
+from tests.seeded import catches
 from validation import contact_solver
 from validation.benchmarks import discrete, peers
 from validation.benchmarks.discrete import STATED, ContactProblem, pressed
@@ -147,6 +148,12 @@ FAULTS = {
 }
 
 
+@catches(
+    "properties of nothing but a square",
+    "validation.judging.solvers.judged._rectangle",
+    lambda problem, shape, longer: problem,
+    *FAULTS["cells of a rectangle in another order"],
+)
 @pytest.mark.parametrize(("solve", "quantity", "reason"), FAULTS.values(), ids=FAULTS)
 def test_a_planted_fault_is_caught_and_named(solve, quantity, reason):
     assert any(reason in finding.reason for finding in wrong_in(solve) if finding.quantity == quantity)
@@ -166,6 +173,12 @@ SOFTER = {
 }
 
 
+@catches(
+    "the approach of an answer for the one that is prescribed, in causes",
+    "validation.judging.solvers.diagnosis._shift",
+    lambda contact: 0.0,
+    fault="heights from their mean",
+)
 @pytest.mark.parametrize("fault", ["E for E*", "a factor 2 in the operator", "half a cell", "tension", *SOFTER])
 def test_a_fault_is_caught_by_approach_too(fault):
     solve, _, reason = (FAULTS | SOFTER)[fault]
@@ -208,6 +221,14 @@ def test_no_answer_is_a_finding_with_its_reason(answer, reason):
     assert {finding.quantity for finding in found} == {"answer", *PROPERTIES, "order of convergence"} - {"shift"}
 
 
+left = discrete.ContactProblem.left
+
+
+@catches(
+    "the approach of a contact for the one that is prescribed",
+    "validation.benchmarks.discrete.ContactProblem.left",
+    lambda problem, pressure, by_force, *operator: left(problem, pressure, True, *operator),
+)
 def test_a_condition_that_is_left_has_its_size():
     problem = STATED["sphere"].on(12)
     p = pressed(problem, 1e-11, force=problem.force).pressure
@@ -259,6 +280,15 @@ LARGE = {
 }
 
 
+timed = judged.timed
+
+
+@catches(
+    "answers that are timed and not judged",
+    "validation.judging.solvers.judged.timed",
+    lambda asked: (([], times) for _, times in timed(asked)),
+    *LARGE["an even pressure"],
+)
 @pytest.mark.parametrize(("way", "quantity"), LARGE.values(), ids=LARGE)
 def test_a_solver_that_is_right_on_small_grids_alone_is_wrong(way, quantity):
     """What is timed is judged, and its grid is named."""
