@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from tests.advice.planted_answers import punch, waves, wheel
+from tests.seeded import catches
 from validation.advice import calibrate, calibration, calibration_scenes
 from validation.advice.calibrate import as_table, calibration_age, check_calibration, measured_table
 from validation.advice.calibration import (
@@ -278,6 +279,11 @@ def test_the_fit_claims_less_under_more_waves():
     assert calibrated(cheap("fit", many), many).error < 0.7 * calibrated(cheap("fit", few), few).error
 
 
+@catches(
+    "a reference of the calibration with the surfaces of the models",
+    "validation.advice.calibration_scenes.OTHER_SEED",
+    0,
+)
 def test_the_reference_has_surfaces_of_its_own_on_its_finest_grid():
     """Errors beside surfaces that the models were solved on, too, would have no scatter of those in them."""
     seeds = {True: set(), False: set()}

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 import validation
 from tests.advice.planted_answers import Fake, Finding, compared, planted
+from tests.seeded import catches
 from validation.__main__ import main
 from validation.advice import figure as figures
 from validation.advice import scene_model
@@ -102,6 +103,11 @@ def test_a_distance_of_numbers_is_in_the_unit_of_the_tolerance():
     assert table["low"] == pytest.approx([0.0, np.nan], nan_ok=True) and table["high"] == pytest.approx([21.0, 1.0])
 
 
+@catches(
+    "decibels of a power as those of an amplitude",
+    "validation.advice.side_by_side.decibels",
+    lambda error: 10 * np.log10(1 + error),
+)
 def test_a_distance_in_decibels_has_the_errors_of_its_band_and_the_reference_that_of_its_worst():
     """Of the bands that count, that in which models are farthest; without grid and sample both errors add there."""
     found = solved(RAIL)

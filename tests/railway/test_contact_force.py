@@ -11,6 +11,7 @@ import pytest
 
 import validation
 from tests.advice.planted_answers import Finding, compared, planted
+from tests.seeded import catches
 from validation.advice.columns import bands_of
 from validation.advice.scene_model import Answer
 from validation.advice.summary import summary
@@ -60,6 +61,11 @@ def answering(found, which, **changes):
     return replace(found, selection=replace(found.selection, candidates=tuple(models)))
 
 
+@catches(
+    "a force at nominal frequencies",
+    "validation.analysis.spectra.NominalBands.wavelengths",
+    property(lambda bands: bands.nominal),
+)
 def test_each_band_is_weighted_as_the_table_of_the_standard_has_its_frequency():
     """f = v / lambda of the exact wavelength of the band: a nominal one, as 160 for 158.5 mm, is off by 0.1 dB."""
     force = filters(0.0).force
@@ -67,6 +73,11 @@ def test_each_band_is_weighted_as_the_table_of_the_standard_has_its_frequency():
     np.testing.assert_allclose((force.levels[force.chosen] - unweighted)[:34], TABLE, atol=0.065)
 
 
+@catches(
+    "the mean error of bands as that of their sum",
+    "validation.advice.contact_force.ContactForce.error",
+    property(lambda force: float(force.half_width.mean())),
+)
 def test_the_error_of_the_sum_counts_loud_bands_most():
     """All bands louder by their errors, over the sum as it is: a loud band of 3 dB among others that are known."""
     found = filters(0.0)
@@ -94,6 +105,11 @@ def test_the_error_of_the_sum_is_that_of_its_bands_and_says_which_are_unknown():
     assert f"bands of unknown error, {100 * share:.2g} % of its energy" in force.sentences[0]
 
 
+@catches(
+    "sums over unlike bands beside each other",
+    "validation.advice.contact_force.ContactForce.over_chosen",
+    lambda force, model: force.total(model) - force.total("by 0 dB"),
+)
 def test_bands_without_an_answer_are_left_out_of_both_sums():
     """A filter is no quieter where it has no answer; its own sum is that of the bands that it has."""
     number, found = np.arange(35), filters(0.0, 2.0)

@@ -6,10 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tests.seeded import catches
 from validation import compare, load_scene
 from validation.advice.quantities import all_quantities
 from validation.advice.scene_model import SceneModel
-from validation.railway.problems import rail_models
+from validation.railway.problems import equivalent_displacement, rail_models
 from validation.railway.problems.equivalent_displacement import ONE_SIDED, RolledRail, linear_displacement, roll_rail
 from validation.railway.problems.rail_models import COARSE, FINE, RailModel
 from validation.railway.problems.rail_quantity import RAIL_QUANTITIES, RailQuantity
@@ -112,6 +113,15 @@ def test_contact_filters_are_models_of_a_rail_and_of_its_quantities_alone(name):
         assert len(found) == (11 if name == "rail" and quantity in RAIL_QUANTITIES else 0), quantity
 
 
+borne_by = equivalent_displacement.borne_by
+
+
+@catches(
+    "a bed of springs under another load",
+    "validation.railway.problems.equivalent_displacement.borne_by",
+    lambda levels, wanted: borne_by(levels, 1.5 * wanted),
+    model=ONE_SIDED_BED,
+)
 @pytest.mark.slow
 @pytest.mark.parametrize("model", ONE_SIDED)
 def test_one_sided_models_follow_their_linear_twin_on_a_smoother_rail(model):
