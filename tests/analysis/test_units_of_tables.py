@@ -4,9 +4,18 @@ import math
 
 import pytest
 
+from tests.seeded import catches
 from validation.analysis.series import Series, tables_of
 
 
+@catches(
+    "a ratio in decibels",
+    "validation.analysis.series.Series.shown_unit",
+    property(lambda one: one.unit),
+    quantity="ratio",
+    changes={"unit": "dB", "shown": math.exp},
+    unit="",
+)
 @pytest.mark.parametrize(
     ("quantity", "changes", "unit"),
     [

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import bem3d
-from bem3d import contact
 from tests.oracles import flat_square_by_graded_cells
 from tests.seeded import E_FOR_E_STAR, Times, catches
 from validation.cases.exact import hertz

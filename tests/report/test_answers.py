@@ -10,6 +10,7 @@ import pytest
 
 from tests.report.test_printed import html_of, number
 from tests.seeded import catches
+from validation.analysis import statistics
 from validation.analysis.evidence import Evidence, Role, Table, Verdict
 from validation.benchmarks.work_precision.case import POINTS
 from validation.benchmarks.work_precision.figure_cost import COST_OF_STEPS
@@ -88,6 +89,20 @@ def words_of(row):
     return [word for _, word in strip_of(row)]
 
 
+def enough_by_most(cell):
+    """A counterexample outvoted."""
+    return (
+        Verdict.AGREE
+        if 2 * sum(number.verdict is Verdict.AGREE for number in cell.numbers) > len(cell.numbers)
+        else Verdict.DIFFER
+    )
+
+
+@catches(
+    "a cell that says what most of its numbers say",
+    "validation.report.answers.strip.Cell.verdict",
+    property(enough_by_most),
+)
 def test_one_counterexample_among_all_exponents_is_a_no():
     """At each place the worst of its numbers decides, and the sentence has the numbers that differ, no others."""
     values = ((0.4, 0.1), (0.7, 2.0), (1.0, 0.2), ("mean over H", 0.0))
@@ -323,6 +338,7 @@ def test_numbers_of_another_model_are_no_answer():
     assert row_of("rolling-spectrum", rolling(RMS_LEVEL, LINEAR_3D, 0.0)).word == "Not measured"
 
 
+@catches("cells that overlap", "validation.report.answers.strip._apart", lambda found: dict(sorted(found.items())))
 def test_ranges_that_overlap_are_one_cell():
     """One H was measured less far than the other: both are numbers of the same cell."""
     numbers = [
@@ -402,6 +418,11 @@ def test_the_scatter_has_numbers_of_its_own():
 # --- words ---
 
 
+@catches(
+    "the power of a ratio printed for its amplitude",
+    "validation.report.answers.questions.DECIBEL",
+    statistics.POWER_DECIBEL,
+)
 def test_decibels_are_printed_as_their_quantity():
     assert per_cent(TEN) == "+10 %"
     assert per_cent(-1e-9) == "+0 %"
@@ -417,6 +438,22 @@ AGREES, DIFFERS, UNDECIDED = (0.0, 0.0), (9.0, 0.0), (0.0, 9.0)
 YES, NO, OPEN = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
 
 
+def enough_unless_it_differs(cell):
+    """What is undecided taken for what agrees."""
+    right = verdict_of_a_cell(cell)
+    return Verdict.AGREE if right is Verdict.UNDECIDED and not cell.lacking else right
+
+
+verdict_of_a_cell = strip.Cell.verdict.fget
+
+
+@catches(
+    "a place with one number that is undecided under a yes",
+    "validation.report.answers.strip.Cell.verdict",
+    property(enough_unless_it_differs),
+    found=[AGREES, UNDECIDED],
+    verdict=Verdict.UNDECIDED,
+)
 @pytest.mark.parametrize(
     ("found", "verdict"),
     [

@@ -3,6 +3,7 @@
 import pytest
 
 from tests.report.test_page import pages_of, section_of
+from tests.seeded import catches
 from validation.report.columns import SYMBOLS, symbols_in
 
 
@@ -10,6 +11,13 @@ def names_in(text):
     return [symbol.name for symbol in symbols_in(text)]
 
 
+@catches(
+    "a symbol found inside of words",
+    "validation.report.columns.Symbol.stands_in",
+    lambda symbol, text: symbol.name in text,
+    text="a wheel on E*",
+    names=["E*"],
+)
 @pytest.mark.parametrize(
     ("text", "names"),
     [
