@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import bem3d
+from tests.seeded import catches
 from validation.advice.cases import edge_scenes, model_selection
 from validation.advice.cases.edge_scenes import (
     EDGE_KINDS,
@@ -94,6 +95,12 @@ def pressed(scene):
     return contact.stiffness(), np.count_nonzero(contact.pressure)
 
 
+@catches(
+    "a window of a measured sphere that ends at its contact",
+    "validation.simulation.indentation.MARGIN",
+    2,
+    body="sphere",
+)
 @pytest.mark.slow
 @pytest.mark.parametrize("body", [PUNCH, SPHERE])
 def test_claims_hold_on_measured_faces_and_few_of_them_are_refused(body):
@@ -206,6 +213,12 @@ def test_answers_at_the_edges_are_counted_with_those_that_are_none():
 LOST = NotConvergedError("lost"), "", True
 
 
+@catches(
+    "a contact at the edge that did not converge taken for a refusal",
+    "validation.advice.cases.model_selection.NotConvergedError",
+    KeyError,
+    *LOST,
+)
 @pytest.mark.parametrize(
     ("found", "refused", "failed"),
     [
@@ -305,6 +318,7 @@ def test_what_grids_share_changes_no_answer():
     assert solved
 
 
+@catches("the reference on the surfaces of the tested models", "validation.advice.cases.model_selection.OTHER_SEED", 0)
 @pytest.mark.slow
 def test_the_reference_of_the_calibration_test_has_surfaces_of_its_own():
     """The tested models draw with the seed of the trial, the reference with another."""

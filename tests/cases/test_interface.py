@@ -59,6 +59,13 @@ def theory(ground, factor=1.0):
     return factor * persson_stiffness(CASE.pressures(ground), c2d=spectrum.c2d, edges=spectrum.edges, modulus=1.0)
 
 
+@catches(
+    "exponents of an interface over equal steps of the load",
+    "validation.cases.punch.interface.Interface.slopes",
+    lambda case, ground: lambda mean, _: np.diff(np.log(mean)) / np.log(3),
+    exponent=1.0,
+    status=ClaimStatus.HOLDS,
+)
 @pytest.mark.parametrize(("exponent", "status"), [(1.0, ClaimStatus.HOLDS), (0.9, ClaimStatus.CONTRADICTED)])
 def test_a_power_of_the_load_is_found_and_judged(exponent, status):
     found = evidence(power(exponent))
@@ -96,6 +103,15 @@ def test_what_finer_cells_change_is_extrapolated_and_half_of_it_left_open():
     assert two.grid - one.grid == pytest.approx(20 * np.log10(1.05), rel=1e-3)
 
 
+SERIES = 1.1523, Verdict.AGREE
+
+
+@catches(
+    "an interface and a punch side by side",
+    "validation.cases.punch.interface._over_series",
+    lambda rows: np.log(rows.mean(axis=0)[0] / (rows.mean(axis=0)[1] + 1.1523)),
+    *SERIES,
+)
 @pytest.mark.parametrize(("flat", "verdict"), [(1.1523, Verdict.AGREE), (0.8, Verdict.DIFFER)])
 def test_a_punch_is_put_beside_its_interface_in_series_with_the_flat_punch(flat, verdict):
     heaviest = numbers_with(evidence(theory, THREE, flat=flat).numbers, OF_SERIES)[-1]
