@@ -50,6 +50,10 @@ def conditions(point, kind):
     return {name: x if name == HURST else 10**x for name, x in zip(NAMES[kind], point, strict=True)}
 
 
+@catches(
+    "the error nearby, without what covers it", "validation.advice.calibration.MeasuredErrors.factor", 1.0, kind="punch"
+)
+@catches("a claim that half of the scenes exceed", "validation.advice.calibration.SHARE", 0.5, kind="sphere")
 @pytest.mark.parametrize("kind", NAMES)
 def test_claims_cover_new_scenes_and_are_tight(kind):
     covered, ratios = [], []
@@ -70,6 +74,15 @@ def one_of_each(kind="punch", error=0.1):
     return measured(kind, np.repeat(corners, 2, axis=0), np.full(32, error))
 
 
+@catches(
+    "a table of errors held constant beyond its end",
+    "validation.advice.calibration.OPEN_BELOW",
+    (LOAD,),
+    kind="punch",
+    name=LOAD,
+    inside=0.0075,
+    outside=0.0065,
+)
 @pytest.mark.parametrize(
     ("kind", "name", "inside", "outside"),
     [
@@ -137,6 +150,15 @@ def left_out_by_loops(table, scene):
     return table.shapes[scene] * math.sqrt(np.average(squares, weights=weights))
 
 
+@catches(
+    "a scene that calibrates itself",
+    "validation.advice.calibration.MeasuredErrors.left_out",
+    lambda table: table.errors,
+    kind="punch",
+)
+@catches(
+    "a table without the growth of its errors", "validation.advice.calibration.MeasuredErrors.trend", 0.0, kind="sphere"
+)
 @pytest.mark.parametrize("kind", NAMES)
 def test_errors_nearby_are_those_of_a_loop_over_all_scenes(kind):
     points, errors = population(200, 8, kind)

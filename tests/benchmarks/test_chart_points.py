@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.benchmarks.made_up import MEAN, k
-from tests.seeded import Times, catches
+from tests.seeded import Times, catches, module_with
 from validation.benchmarks.timing import FINISHED, OUT_OF_RANGE, Configuration
 from validation.benchmarks.work_precision import errors
 from validation.benchmarks.work_precision.errors import MethodValues, error, points, reference_of
@@ -87,6 +87,13 @@ def test_levels_differ_by_the_root_mean_square_of_decibels():
     assert error(several, MethodValues(k([[1.1, 0.7]])), reference).value == pytest.approx(0.3)
 
 
+@catches(
+    "an error that luck has made small, and its interval",
+    "validation.benchmarks.work_precision.errors.math",
+    module_with(math, copysign=lambda *_: 1.0),
+    quantity=MEAN,
+    paired=True,
+)
 @pytest.mark.parametrize("quantity", [MEAN, LEVEL])
 @pytest.mark.parametrize("paired", [True, False])
 def test_an_answer_that_luck_has_put_on_its_reference_scatters_as_much(quantity, paired):

@@ -1,6 +1,7 @@
 """The A-weighted contact force of a rail: k times the equivalent displacement, by the table of the standard."""
 
 import csv
+import dataclasses
 import io
 import json
 import math
@@ -12,9 +13,12 @@ import pytest
 import validation
 from tests.advice.planted_answers import Finding, compared, planted
 from tests.seeded import catches
+from validation.advice import compare
 from validation.advice.columns import bands_of
 from validation.advice.scene_model import Answer
 from validation.advice.summary import summary
+from validation.railway import exported
+from validation.railway.scenes import rail
 from validation.simulation.model import Cost
 
 RAIL = validation.load_scene("rail")
@@ -44,6 +48,19 @@ def filters(*shifts, speed=KILOHERTZ_AT_20_MM, error=0.5, known=35):
     return compared(*first, scene=replace(RAIL, speed=speed), quantity="contact-filter", solve_all=True)
 
 
+real_contact = rail.RailScene.contact.func
+
+
+def of_the_secant(scene):
+    contact = real_contact(scene)
+    return dataclasses.replace(contact, stiffness=contact.force / contact.approach)
+
+
+@catches(
+    "the force over the approach for the stiffness of Hertz",
+    "validation.railway.scenes.rail.RailScene.contact",
+    property(of_the_secant),
+)
 def test_the_force_is_the_stiffness_of_hertz_times_the_equivalent_displacement():
     """At 1 kHz nothing is weighted; k = 3 F / (2 d), 50 kN and 65.6 um."""
     force = filters(0.0).force
@@ -61,6 +78,14 @@ def answering(found, which, **changes):
     return replace(found, selection=replace(found.selection, candidates=tuple(models)))
 
 
+real_weighting = exported.a_weighting
+
+
+@catches(
+    "A-weighting at the frequency of half a wave",
+    "validation.railway.exported.a_weighting",
+    lambda frequency: real_weighting(2 * frequency),
+)
 @catches(
     "a force at nominal frequencies",
     "validation.analysis.spectra.NominalBands.wavelengths",
@@ -96,6 +121,17 @@ def test_another_filter_changes_the_sum_by_what_it_is_louder():
     assert force.change.endswith(" -1.5 to +0.8 dB(A)")
 
 
+def independent_bands(force):
+    level = force.levels[force.chosen]
+    share = 10 ** (level / 10) / np.sum(10 ** (level / 10))
+    return float(np.sqrt(np.sum((share * force.half_width) ** 2)))
+
+
+@catches(
+    "errors of bands taken as independent in their sum",
+    "validation.advice.contact_force.ContactForce.error",
+    property(independent_bands),
+)
 def test_the_error_of_the_sum_is_that_of_its_bands_and_says_which_are_unknown():
     assert filters(0.0).force.error == pytest.approx(0.5)
     force = filters(0.0, known=20).force
@@ -133,6 +169,11 @@ def test_the_closed_filters_stand_beside_the_chosen_one_unasked():
     assert "another filter changes the sum by +0.2 to +0.6 dB(A)" in " ".join(summary(found).split())
 
 
+@catches(
+    "the equivalent roughness filtered once more",
+    "validation.advice.compare.Comparison.a3_of",
+    compare.Comparison.value_of,
+)
 def test_text_json_and_csv_have_the_same_table():
     """L_eq = L_r + A3, whichever quantity is asked."""
     filters, keys = [], ("roughness_dB", "a3_dB", "equivalent_dB", "force_dBA")
