@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 import bem3d
+from tests.seeded import catches
 from validation.__main__ import main
+from validation.scenes import roughness
 from validation.scenes.bundled import SCENES
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import load_wheel_scene
@@ -42,6 +44,11 @@ def written(folder, text, line=""):
 # E*
 
 
+@catches(
+    "the other body taken for a rigid one",
+    "validation.scenes.material.Material.modulus",
+    property(lambda both: both._body.against_rigid),
+)
 def test_two_bodies_share_the_compliance():
     for first, other in ((210e9, 70e9), (1e6, 3e9)):
         body = steel(youngs_modulus=first, counterface=Elastic(youngs_modulus=other, poisson_ratio=0.33))
@@ -149,6 +156,14 @@ def test_what_contradicts_itself_is_refused_by_name(tmp_path, text, load, line, 
 # What was understood
 
 
+slope_in_one_direction = roughness.Roughness.slope_along.fget
+
+
+@catches(
+    "the slope of the gradient for that along the track",
+    "validation.scenes.roughness.Roughness.slope_along",
+    property(lambda rough: math.sqrt(2) * slope_in_one_direction(rough)),
+)
 def test_slopes_are_those_of_the_spectrum():
     for hurst in (0.3, 0.7, 1.0, 1.2):
         rough = Roughness(rms=2e-6, hurst=hurst, longest=1e-3, shortest=1e-4)
