@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tests.cases.planted import BOTH, LITTLE, ROUNDING, SMALL, TRACKS, power, rides
-from tests.seeded import catches
+from tests.seeded import Times, catches
 from validation.cases.wheel import features as wheel_features
 from validation.cases.wheel.features import FLOOR, Spectrum
 from validation.simulation import wheel_on_springs as wheel_ensemble
@@ -198,6 +198,13 @@ def closed_form(scene, omega, length):
     return force * 2 * np.pi / scene.speed * resonator
 
 
+def inverted(omega, *, eigenfrequency, mass, damping):
+    """omega / omega_0 for omega_0 / omega."""
+    return 1 / (mass * (1 - (np.asarray(omega) / eigenfrequency) ** 2)) ** 2
+
+
+@catches("omega / omega_0 for omega_0 / omega", "validation.theory.wheel.acceleration_over_force", inverted)
+@catches("factor 2 pi lost over frequency", "validation.theory.wheel.over_frequency", Times(1 / (2 * np.pi)))
 def test_the_linear_contact_has_its_closed_form_wave_by_wave():
     """A steady record is one period of its track, so waves are lines. Leapfrog sees 2 sin(omega dt / 2) / dt for omega,
     by which the resonator is known to be off; where a wave is too weak for its rounding, to that."""
