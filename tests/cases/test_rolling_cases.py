@@ -9,7 +9,7 @@ import pytest
 from scipy import integrate
 
 from tests.cases.planted import changed, judged
-from tests.seeded import catches
+from tests.seeded import catches, catches_root_of_two
 from validation.analysis.evidence import ClaimStatus, Verdict
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import ridges
@@ -37,6 +37,21 @@ def rough(**changes):
     return RoughStrip(**{**settings, **changes})
 
 
+@catches_root_of_two(
+    "h' of power laws",
+    "validation.simulation.track_spectrum.slope_in_one_direction",
+    spectrum=PiecewisePowerLaw(edges=(1.0, 3.0), exponents=(2.0,)),
+)
+@catches_root_of_two(
+    "the gradient of power laws",
+    "validation.simulation.track_spectrum.PiecewisePowerLaw.gradient",
+    spectrum=PiecewisePowerLaw(edges=(1.0, 3.0), exponents=(2.0,)),
+)
+@catches_root_of_two(
+    "h' a/d in the words of rolling",
+    "validation.simulation.track_spectrum.PiecewisePowerLaw.slope_along",
+    spectrum=PiecewisePowerLaw(edges=(1.0, 3.0), exponents=(2.0,)),
+)
 @pytest.mark.parametrize(
     "spectrum",
     [

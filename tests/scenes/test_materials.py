@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import bem3d
-from tests.seeded import catches
+from tests.seeded import catches, catches_root_of_two
 from validation.__main__ import main
 from validation.scenes import roughness
 from validation.scenes.bundled import SCENES
@@ -159,6 +159,7 @@ def test_what_contradicts_itself_is_refused_by_name(tmp_path, text, load, line, 
 slope_in_one_direction = roughness.Roughness.slope_along.fget
 
 
+@catches_root_of_two("the gradient of a drawn surface", "validation.scenes.roughness.rms_gradient")
 @catches(
     "the slope of the gradient for that along the track",
     "validation.scenes.roughness.Roughness.slope_along",
@@ -171,6 +172,8 @@ def test_slopes_are_those_of_the_spectrum():
         assert rough.slope_along == pytest.approx(math.sqrt(np.pi * np.trapezoid(q**3 * rough.c2d(q), q)), rel=1e-5)
 
 
+@catches_root_of_two("h' of measured heights", "validation.scenes.measured.MeasuredHeights.slope_along")
+@catches_root_of_two("the gradient of measured heights", "validation.scenes.measured.MeasuredHeights.gradient")
 def test_slopes_are_those_of_heights():
     rough, n = Roughness(rms=1e-6, hurst=0.7, longest=2.5e-4, shortest=3.2e-5), 512
     height = bem3d.rough_surface(rough.c2d, shape=(n, n), spacing=1e-3 / n, rng=np.random.default_rng(1), rms=1e-6)

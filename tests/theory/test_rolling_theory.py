@@ -11,7 +11,7 @@ from scipy import integrate
 
 import mdr
 from tests.oracles import moment_1d
-from tests.seeded import Times, catches
+from tests.seeded import Times, catches, catches_root_of_two
 from tests.strategies import bumps
 from validation.analysis import spectra
 from validation.analysis.spectra import Bands, waves
@@ -252,6 +252,7 @@ def test_spectra_of_profiles_are_the_ones_they_are_drawn_from():
     assert found.spectrum == pytest.approx(spectrum.c1d(found.q), rel=1e-9, abs=1e-15)
 
 
+@catches_root_of_two("the gradient of lost contact", "validation.theory.rolling.rms_gradient", height=1.0)
 @pytest.mark.parametrize("height", [0.003, 0.05, 1.0, 1e6])
 def test_contact_that_linear_theory_loses_by_drawing_pressures(height):
     c2d, edges = (lambda q: np.where((q >= 1) & (q <= 8), height**2 * q**-3.4, 0.0)), (1.0, 8.0)
