@@ -1,4 +1,4 @@
-"""Solvers of others: the right one is accepted, each planted fault is caught and named."""
+"""Solvers of others: the right one is accepted, each seeded fault is caught and named."""
 
 import math
 import runpy
@@ -155,7 +155,7 @@ FAULTS = {
     *FAULTS["cells of a rectangle in another order"],
 )
 @pytest.mark.parametrize(("solve", "quantity", "reason"), FAULTS.values(), ids=FAULTS)
-def test_a_planted_fault_is_caught_and_named(solve, quantity, reason):
+def test_a_seeded_fault_is_caught_and_named(solve, quantity, reason):
     assert any(reason in finding.reason for finding in wrong_in(solve) if finding.quantity == quantity)
 
 
