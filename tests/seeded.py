@@ -59,21 +59,33 @@ FAULTS: list[SeededFault] = []
 """Of all files of tests that are imported."""
 
 
-def catches(
-    what: str, target: str | tuple[str, ...], wrong: Any, /, *row: Any, **arguments: Any
-) -> Callable[[Test], Test]:
-    """A fault that the decorated test must catch: the attribute `target` has the value `wrong`.
+@dataclass(frozen=True)
+class Seed:
+    """The name of a fault, and arguments of the test that must catch it."""
 
-    what: is wrong, unique; target: dotted name of the attribute where it is looked up, or several; wrong: another
-    function or number, `Times` a factor on what is right; row, arguments: of a parametrized test, as pytest has them.
+    what: str
+    row: tuple[Any, ...]
+    arguments: dict[str, Any]
+
+    def at(self, target: str | tuple[str, ...], wrong: Any) -> Callable[[Test], Test]:
+        """target: dotted name of the attribute where it is looked up, or several; wrong: its value while the fault is
+        seeded, another function or number, or `Times` a factor on what is right.
+        """
+        targets = (target,) if isinstance(target, str) else target
+
+        def decorator(test: Test) -> Test:
+            FAULTS.append(SeededFault(self.what, test, targets, wrong, self.row, self.arguments))
+            return test
+
+        return decorator
+
+
+def catches(what: str, /, *row: Any, **arguments: Any) -> Seed:
+    """A fault that the decorated test must catch: `@catches("what is wrong", argument=value).at(target, wrong)`.
+
+    what: is wrong, unique; row, arguments: of a parametrized test, as pytest has them.
     """
-    targets = (target,) if isinstance(target, str) else target
-
-    def decorator(test: Test) -> Test:
-        FAULTS.append(SeededFault(what, test, targets, wrong, row, arguments))
-        return test
-
-    return decorator
+    return Seed(what, row, arguments)
 
 
 def catches_root_of_two(what: str, target: str, /, *row: Any, **arguments: Any) -> Callable[[Test], Test]:
@@ -81,7 +93,7 @@ def catches_root_of_two(what: str, target: str, /, *row: Any, **arguments: Any) 
 
     def decorator(test: Test) -> Test:
         for change, factor in (("lost", math.sqrt(0.5)), ("gained", math.sqrt(2))):
-            catches(f"a root of two {change} in {what}", target, Times(factor), *row, **arguments)(test)
+            catches(f"a root of two {change} in {what}", *row, **arguments).at(target, Times(factor))(test)
         return test
 
     return decorator

@@ -64,10 +64,8 @@ def test_a_number_comes_in_si_units_with_its_relative_error():
     assert first.cost > 0
 
 
-@catches(
-    "a level of the face without its logarithm",
-    "validation.advice.compare.Comparison.is_level",
-    property(lambda result: False),
+@catches("a level of the face without its logarithm").at(
+    "validation.advice.compare.Comparison.is_level", property(lambda result: False)
 )
 def test_levels_come_in_decibels():
     result = spectrum()
@@ -92,10 +90,8 @@ def comparison(status, *, failed="", quantity="stiffness"):
     return Comparison(scene, quantity, Selection(0.2, (Candidate(Model(), status, "why", estimate, answer),)))
 
 
-@catches(
-    "a tolerance of the face that is always met",
-    "validation.advice.hierarchy.Selection.met",
-    property(lambda selection: True),
+@catches("a tolerance of the face that is always met").at(
+    "validation.advice.hierarchy.Selection.met", property(lambda selection: True)
 )
 def test_a_missed_tolerance_leaves_the_best_value():
     result = comparison("not accurate enough")

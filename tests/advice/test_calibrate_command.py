@@ -117,10 +117,8 @@ def refusal(**counts):
     return ""
 
 
-@catches(
-    "a table of any size in the place of that of the package",
-    "validation.advice.calibrate._refuse_fewer",
-    lambda mine, there: None,
+@catches("a table of any size in the place of that of the package").at(
+    "validation.advice.calibrate._refuse_fewer", lambda mine, there: None
 )
 def test_the_run_that_the_table_is_of_may_be_installed_and_no_smaller_one():
     """Scenes without an answer of boundary elements are none of the table."""

@@ -49,7 +49,7 @@ def test_a_model_of_a_rail_draws_as_many_cells_and_rolls_over_as_many_positions_
     assert seconds < told.seconds < seconds + 0.2
 
 
-@catches("a cost without the strips that are drawn", "validation.railway.problems.rail_models.DRAWN", 0.0)
+@catches("a cost without the strips that are drawn").at("validation.railway.problems.rail_models.DRAWN", 0.0)
 def test_cells_that_are_drawn_are_most_of_the_cost_of_springs_on_a_line():
     """Where the draws had been left out, the cost was a twentieth."""
     (line,) = (model for model in ON_STRIPS if model.name == "springs on the line")

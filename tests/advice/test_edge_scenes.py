@@ -95,11 +95,8 @@ def pressed(scene):
     return contact.stiffness(), np.count_nonzero(contact.pressure)
 
 
-@catches(
-    "a window of a measured sphere that ends at its contact",
-    "validation.simulation.indentation.MARGIN",
-    2,
-    body="sphere",
+@catches("a window of a measured sphere that ends at its contact", body="sphere").at(
+    "validation.simulation.indentation.MARGIN", 2
 )
 @pytest.mark.slow
 @pytest.mark.parametrize("body", [PUNCH, SPHERE])
@@ -142,11 +139,9 @@ def test_ridges_lose_contact_where_linear_theory_claims_less_for_waves_in_all_di
     assert distance(linear.solve().value, rolled_over) <= linear.estimate().error
 
 
-@catches(
-    "measured points between the cells of a wheel's grid",
+@catches("measured points between the cells of a wheel's grid", number=0).at(
     "validation.simulation.rolling_levels.grids_of_points",
     lambda heights, radius: tuple(n * radius / heights.spacing[0] for n in (2, 4)),
-    number=0,
 )
 @pytest.mark.parametrize("number", [0, 3, 7, 9])
 def test_every_grid_under_a_wheel_has_all_measured_points(number):
@@ -198,10 +193,8 @@ def counted(outcomes):
     return [values[0] for values in columns], numbers_of(at_edges(edges))
 
 
-@catches(
-    "an answer at the edge that always holds",
-    "validation.advice.cases.model_selection_study.over_estimate",
-    lambda table: 0 * table["true error"],
+@catches("an answer at the edge that always holds").at(
+    "validation.advice.cases.model_selection_study.over_estimate", lambda table: 0 * table["true error"]
 )
 def test_answers_at_the_edges_are_counted_with_those_that_are_none():
     outcomes = [
@@ -224,11 +217,8 @@ def test_answers_at_the_edges_are_counted_with_those_that_are_none():
 LOST = NotConvergedError("lost"), "", True
 
 
-@catches(
-    "a contact at the edge that did not converge taken for a refusal",
-    "validation.advice.cases.model_selection.NotConvergedError",
-    KeyError,
-    *LOST,
+@catches("a contact at the edge that did not converge taken for a refusal", *LOST).at(
+    "validation.advice.cases.model_selection.NotConvergedError", KeyError
 )
 @pytest.mark.parametrize(
     ("found", "refused", "failed"),
@@ -329,7 +319,9 @@ def test_what_grids_share_changes_no_answer():
     assert solved
 
 
-@catches("the reference on the surfaces of the tested models", "validation.advice.cases.model_selection.OTHER_SEED", 0)
+@catches("the reference on the surfaces of the tested models").at(
+    "validation.advice.cases.model_selection.OTHER_SEED", 0
+)
 @pytest.mark.slow
 def test_the_reference_of_the_calibration_test_has_surfaces_of_its_own():
     """The tested models draw with the seed of the trial, the reference with another."""

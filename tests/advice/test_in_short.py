@@ -31,8 +31,8 @@ def test_three_lines_at_most_end_it(name):
             assert math.isfinite(error) or REASON.strip() in " ".join(text.split())
 
 
-@catches(
-    "a missed tolerance told as met", "validation.advice.hierarchy.Selection.met", property(lambda selection: True)
+@catches("a missed tolerance told as met").at(
+    "validation.advice.hierarchy.Selection.met", property(lambda selection: True)
 )
 def test_the_error_is_told_beside_what_was_wanted_with_what_is_left():
     found = compared(Finding(parts=(0.1, 0.03, 0.04)), tolerance="20%")

@@ -131,10 +131,8 @@ def test_a_distance_is_over_all_numbers():
     assert distance(np.array([1.1]), np.array([1.0])) == pytest.approx(distance(np.array([1.0]), np.array([1.1])))
 
 
-@catches(
-    "one standard error for a 95 % interval",
-    f"{__name__}.mean_error",
-    lambda ratios: float(np.sqrt(np.mean(ratios.var(axis=0, ddof=1) / len(ratios)))),
+@catches("one standard error for a 95 % interval").at(
+    f"{__name__}.mean_error", lambda ratios: float(np.sqrt(np.mean(ratios.var(axis=0, ddof=1) / len(ratios))))
 )
 @pytest.mark.slow
 def test_the_error_of_a_mean_covers_it_in_95_of_100():
@@ -166,7 +164,7 @@ def test_a_heavily_loaded_punch_is_a_flat_one_on_its_rough_face():
     assert errors == sorted(errors, reverse=True)
 
 
-@catches("twice the separation of a rough face", "validation.theory.closed_forms.INTERFACE", 0.96, load=1.0)
+@catches("twice the separation of a rough face", load=1.0).at("validation.theory.closed_forms.INTERFACE", 0.96)
 @pytest.mark.parametrize("load", [0.3, 1.0, 3.0])
 def test_the_law_of_interfaces_holds_as_it_claims(load):
     fit = model_of_kind("fit", punch(load=load), "stiffness", 0.2, seed=8)
@@ -207,8 +205,8 @@ def other_waves_on_every_grid(ground, shortest, cells, side, rng):
     return drawn_on_a_grid(ground, shortest, cells, side, np.random.default_rng(cells))
 
 
-@catches(
-    "other waves on every grid of the ladder", "validation.simulation.indentation._drawn", other_waves_on_every_grid
+@catches("other waves on every grid of the ladder").at(
+    "validation.simulation.indentation._drawn", other_waves_on_every_grid
 )
 def test_waves_that_a_grid_cannot_carry_are_left_out_and_no_others_changed():
     fine, coarse, coarser = (pressed_heights.height_of(punch(), cells, 0, seed=3) for cells in (32, 16, 8))
@@ -226,8 +224,7 @@ def test_waves_that_a_grid_cannot_carry_are_left_out_and_no_others_changed():
 surfaces = boundary_elements_pressed.MODEL
 
 
-@catches(
-    "a grid that leaves too much solved to the end of its sample",
+@catches("a grid that leaves too much solved to the end of its sample").at(
     "validation.advice.models.boundary_elements_pressed.MODEL",
     dataclasses.replace(surfaces, grid_error=lambda *_: (0.0, "")),
 )
@@ -245,10 +242,8 @@ def by_the_filter_of_one_dimension(q, c2d, *, edges, contact_radius, modulus):
     return rolling.force_spectrum_1d(q, geike, contact_radius=contact_radius, modulus=modulus)
 
 
-@catches(
-    "Geike for the half-space under a wheel",
-    "validation.scenes.rolling_quantity.force_spectrum_3d",
-    by_the_filter_of_one_dimension,
+@catches("Geike for the half-space under a wheel").at(
+    "validation.scenes.rolling_quantity.force_spectrum_3d", by_the_filter_of_one_dimension
 )
 def test_the_expected_levels_are_integrals_of_the_spectrum():
     quantity = RollingQuantity(wheel(), "force-spectrum")
@@ -268,8 +263,8 @@ def test_the_expected_levels_are_integrals_of_the_spectrum():
         assert level**2 == pytest.approx(2 * integrate.quad(density, low, high, epsrel=1e-5)[0], rel=1e-4)
 
 
-@catches(
-    "a factor 2 lost in the variance of the force", "validation.scenes.rolling_quantity.force_variance", Times(0.5)
+@catches("a factor 2 lost in the variance of the force").at(
+    "validation.scenes.rolling_quantity.force_variance", Times(0.5)
 )
 def test_one_dimension_has_the_variance_of_the_force_and_not_its_levels():
     rms = RollingQuantity(wheel(), "force-rms")
@@ -282,8 +277,8 @@ def test_one_dimension_has_the_variance_of_the_force_and_not_its_levels():
     assert np.sqrt(np.mean(ratio[levels.bands.centres > 4] ** 2)) == pytest.approx(10 ** (4 / 20), rel=0.15)
 
 
-@catches(
-    "one panel of a quadrature over decades", "validation.scenes.rolling_quantity.PANEL", 1e9, one_dimensional=False
+@catches("one panel of a quadrature over decades", one_dimensional=False).at(
+    "validation.scenes.rolling_quantity.PANEL", 1e9
 )
 @pytest.mark.parametrize("one_dimensional", [True, False])
 def test_the_whole_is_the_root_of_the_sum_of_its_bands(one_dimensional):
@@ -293,8 +288,7 @@ def test_the_whole_is_the_root_of_the_sum_of_its_bands(one_dimensional):
     assert whole[0] ** 2 == pytest.approx(np.sum(bands**2), rel=1e-3)
 
 
-@catches(
-    "no resonator between force and acceleration",
+@catches("no resonator between force and acceleration").at(
     "validation.scenes.rolling_quantity.RollingQuantity.transfer",
     lambda quantity, q: np.ones_like(q) / quantity.scene.body.mass,
 )
@@ -430,10 +424,8 @@ def at_points(heights, shape, cell):
     return heights.at(*((np.arange(n) - (n - 1) / 2) * cell for n in shape))
 
 
-@catches(
-    "measured heights at points, not over cells",
-    "validation.scenes.measured.MeasuredHeights.mean_over_cells",
-    at_points,
+@catches("measured heights at points, not over cells").at(
+    "validation.scenes.measured.MeasuredHeights.mean_over_cells", at_points
 )
 def test_short_waves_of_a_measured_track_are_no_longer_ones():
     # cells of a / 8, and a wave of a / 7 along the track: at the centres alone one of a, of the same height
@@ -470,19 +462,11 @@ def test_linear_theory_answers_for_bands_in_which_a_track_has_no_waves():
     assert linear.estimate().error < distance(found.value, rolled_over) <= found.error
 
 
-@catches(
-    "decibels of a power for those of a level",
-    "validation.advice.tolerance.math",
-    module_with(math, log10=lambda value: math.log10(value) / 2),
-    quantity="force-spectrum",
-    unit="N",
+@catches("decibels of a power for those of a level", quantity="force-spectrum", unit="N").at(
+    "validation.advice.tolerance.math", module_with(math, log10=lambda value: math.log10(value) / 2)
 )
-@catches(
-    "radians in a second told as hertz",
-    "validation.advice.compare.math",
-    module_with(math, pi=0.5),
-    quantity="acceleration",
-    unit="m/s²",
+@catches("radians in a second told as hertz", quantity="acceleration", unit="m/s²").at(
+    "validation.advice.compare.math", module_with(math, pi=0.5)
 )
 @pytest.mark.parametrize(("quantity", "unit"), [("force-spectrum", "N"), ("acceleration", "m/s²")])
 def test_bands_are_told_with_wavenumber_frequency_and_level(quantity, unit):

@@ -33,10 +33,8 @@ def solved(scene, **settings):
 real_models_of = compare.models_of
 
 
-@catches(
-    "a rail solved anew for each quantity",
-    "validation.advice.compare.models_of",
-    lambda *given, **named: real_models_of(*given[:4], **named),
+@catches("a rail solved anew for each quantity").at(
+    "validation.advice.compare.models_of", lambda *given, **named: real_models_of(*given[:4], **named)
 )
 @pytest.mark.slow
 def test_both_quantities_of_a_rail_are_solved_once():
@@ -54,10 +52,8 @@ def test_both_quantities_of_a_rail_are_solved_once():
     assert all(f"\n{quantity} by linear, ellipse" in text for quantity in both)
 
 
-@catches(
-    "a sweep with values in units of their own",
-    "validation.advice.compare.quantity",
-    lambda name, text, dimension: float(compare.NUMBER.fullmatch(text)[1]),
+@catches("a sweep with values in units of their own").at(
+    "validation.advice.compare.quantity", lambda name, text, dimension: float(compare.NUMBER.fullmatch(text)[1])
 )
 def test_a_sweep_has_the_values_in_the_unit_of_the_first():
     def values(*texts):
@@ -88,10 +84,8 @@ def of_its_own_grid(model, count, compared=0):
     return sum(model.shared[model.model, model.resolution].seconds[:count])
 
 
-@catches(
-    "seconds without those of the grids that tell the error",
-    "validation.advice.scene_model.SceneModel.seconds_of",
-    of_its_own_grid,
+@catches("seconds without those of the grids that tell the error").at(
+    "validation.advice.scene_model.SceneModel.seconds_of", of_its_own_grid
 )
 @pytest.mark.slow
 def test_seconds_are_those_of_all_solves_that_a_model_needs():
@@ -125,15 +119,11 @@ def test_a_distance_of_numbers_is_in_the_unit_of_the_tolerance():
     assert table["low"] == pytest.approx([0.0, np.nan], nan_ok=True) and table["high"] == pytest.approx([21.0, 1.0])
 
 
-@catches(
-    "a distance from the reference where nothing is left to hear",
-    "validation.advice.side_by_side.counts",
-    lambda comparison, one: np.full(comparison.value_of(one).size, True),
+@catches("a distance from the reference where nothing is left to hear").at(
+    "validation.advice.side_by_side.counts", lambda comparison, one: np.full(comparison.value_of(one).size, True)
 )
-@catches(
-    "decibels of a power as those of an amplitude",
-    "validation.advice.side_by_side.decibels",
-    lambda error: 10 * np.log10(1 + error),
+@catches("decibels of a power as those of an amplitude").at(
+    "validation.advice.side_by_side.decibels", lambda error: 10 * np.log10(1 + error)
 )
 def test_a_distance_in_decibels_has_the_errors_of_its_band_and_the_reference_that_of_its_worst():
     """Of the bands that count, that in which models are farthest; without grid and sample both errors add there."""
@@ -169,10 +159,8 @@ def test_speed_and_accuracy_are_drawn_for_one_scene_whose_models_were_timed(tmp_
         figure_over_seconds(compared(Fake(failed="lost"), solve_all=True), "svg")
 
 
-@catches(
-    "curves in the order of their cost",
-    "validation.advice.figure.shown_models",
-    lambda found: [one.name for one in found.models],
+@catches("curves in the order of their cost").at(
+    "validation.advice.figure.shown_models", lambda found: [one.name for one in found.models]
 )
 def test_five_curves_at_the_most_are_told_apart_in_colour_and_in_grey():
     found = planted("rail", "contact-filter")

@@ -37,10 +37,8 @@ def test_no_array_of_a_comparison_can_be_written(scene, quantity, through):
     assert np.array_equal(found.value, before)
 
 
-@catches(
-    "a value that can be written",
-    ("validation.advice.compare.kept", "validation.advice.scene_model.kept"),
-    lambda array: array.copy(),
+@catches("a value that can be written").at(
+    ("validation.advice.compare.kept", "validation.advice.scene_model.kept"), lambda array: array.copy()
 )
 def test_one_number_cannot_be_written_either():
     found = compared(Finding(value=(3.0,)))

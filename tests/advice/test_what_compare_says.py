@@ -49,10 +49,8 @@ def test_bands_of_a_wheel_with_a_speed_have_nominal_frequencies():
     assert still.nominal_hz.size == 0 and "band [Hz]" not in summary(still)
 
 
-@catches(
-    "springs that are enough whatever error they have",
-    "validation.advice.hierarchy.Candidate.error",
-    property(lambda candidate: 0.0),
+@catches("springs that are enough whatever error they have").at(
+    "validation.advice.hierarchy.Candidate.error", property(lambda candidate: 0.0)
 )
 def test_mdr_is_named_where_it_is_enough_and_where_not():
     """Of 12 % wanted: found, claimed, too much by its claim, without a known error, and lost."""
@@ -172,8 +170,7 @@ def test_the_difference_on_the_page_is_that_of_the_band_that_is_farthest_off_on_
     assert (shown, nothing) == (f"{-6 * sign:+d} ± 0.91 dB", "—")
 
 
-@catches(
-    "models side by side in decibels of a power",
+@catches("models side by side in decibels of a power").at(
     ("validation.advice.columns.differences", "validation.advice.side_by_side.differences"),
     lambda one, other: 10 * np.log10(one.answer.value / other.answer.value),
 )

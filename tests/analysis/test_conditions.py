@@ -21,13 +21,8 @@ def by_hurst(letters, values=(0.4, 0.55, 0.7, 0.85, 1.0)):
 
 
 @catches(
-    "exponents between those that differ named with them",
-    "validation.analysis.claims._in_a_row",
-    lambda *_: True,
-    letters="dadad",
-    verdict=DIFFER,
-    said="H = 0.4, 0.7 and 1",
-)
+    "exponents between those that differ named with them", letters="dadad", verdict=DIFFER, said="H = 0.4, 0.7 and 1"
+).at("validation.analysis.claims._in_a_row", lambda *_: True)
 @pytest.mark.parametrize(
     ("letters", "verdict", "said"),
     [

@@ -32,12 +32,12 @@ def of_one_tail(estimate):
     return float(stats.t.ppf(0.95, estimate.samples - 1)) * estimate.error
 
 
-@catches("one tail of Student's t", "validation.analysis.statistics.Estimate.half_width", property(of_one_tail), size=2)
-@catches(
-    "the normal quantile for Student's",
+@catches("one tail of Student's t", size=2).at(
+    "validation.analysis.statistics.Estimate.half_width", property(of_one_tail)
+)
+@catches("the normal quantile for Student's", size=5).at(
     "validation.analysis.statistics.student",
     lambda degrees, confidence=0.95: float(stats.norm.ppf((1 + confidence) / 2)),
-    size=5,
 )
 @pytest.mark.parametrize("size", [2, 3, 5, 30])
 def test_the_interval_of_a_mean_is_students(size):
@@ -87,11 +87,9 @@ def test_an_error_that_is_not_known_stays_unknown_and_none_makes_no_interval():
     assert Estimate(2.0, 0.0, 3).minus(Estimate(1.0, 0.0, 4)).half_width == 0.0
 
 
-@catches(
-    "a jackknife without its n - 1",
+@catches("a jackknife without its n - 1", size=7).at(
     "validation.analysis.statistics.jackknife_error",
     lambda without: np.std(without, axis=0, ddof=1) / math.sqrt(len(without)),
-    size=7,
 )
 @pytest.mark.parametrize("size", [7, 300])
 def test_leaving_out_one_is_the_standard_error_of_a_mean(size):

@@ -38,7 +38,7 @@ def half_of_the_way(coarse, finer):
     return replace(value, value=coarse.value + finer.value), left
 
 
-@catches("half of the way to cells of no size", f"{__name__}.extrapolated", half_of_the_way)
+@catches("half of the way to cells of no size").at(f"{__name__}.extrapolated", half_of_the_way)
 def test_what_extrapolation_leaves_open_is_half_of_its_way_and_the_interval_of_all_of_it():
     """To cells of no size it is twice the change from one grid to the next."""
     coarse, finer = Estimate(1.0, 0.2, 20), Estimate(-0.1, 0.03, 4)
@@ -118,12 +118,8 @@ def cancelled(weights, parts):
     return replace(whole, grid=abs(float(np.dot(weights, [part.grid for part in parts]))))
 
 
-@catches(
-    "grid errors of Fig. 14.1 that cancel in a difference",
-    f"{__name__}.combined",
-    cancelled,
-    weights=(-2.0, 2.0),
-    left=0.16,
+@catches("grid errors of Fig. 14.1 that cancel in a difference", weights=(-2.0, 2.0), left=0.16).at(
+    f"{__name__}.combined", cancelled
 )
 @pytest.mark.parametrize(("weights", "left"), [((0.5, 0.5), 0.04), ((-2.0, 2.0), 0.16), ((2.0, -2.0), 0.16)])
 def test_grid_errors_of_fig_14_1_never_cancel(weights, left):
@@ -137,11 +133,11 @@ def beside_with_its_sign(one, other):
     return statistics.Resolved(one.value.beside(other.value), abs(one.grid - other.grid))
 
 
-@catches(
-    "grid errors of Fig. 14.1 that cancel in an exponent", "validation.cases.punch.fractal_punch.combined", cancelled
+@catches("grid errors of Fig. 14.1 that cancel in an exponent").at(
+    "validation.cases.punch.fractal_punch.combined", cancelled
 )
-@catches(
-    "grid errors of two methods that cancel", "validation.analysis.statistics.Resolved.beside", beside_with_its_sign
+@catches("grid errors of two methods that cancel").at(
+    "validation.analysis.statistics.Resolved.beside", beside_with_its_sign
 )
 def test_grid_errors_of_an_exponent_a_trend_and_a_ratio_add_up():
     """The same grid error at both ends of a decade, at all Hurst exponents and in both methods."""
@@ -157,10 +153,8 @@ def test_grid_errors_of_an_exponent_a_trend_and_a_ratio_add_up():
         assert number_of(resolved(0.03).beside(resolved(0.05)), name).grid == pytest.approx(scale * 0.08)
 
 
-@catches(
-    "profiles and surfaces taken for the same realisations",
-    "validation.analysis.statistics.Linearised.beside",
-    lambda mine, other: mine - other,
+@catches("profiles and surfaces taken for the same realisations").at(
+    "validation.analysis.statistics.Linearised.beside", lambda mine, other: mine - other
 )
 def test_the_sample_interval_of_fig_14_1():
     """Root of the sum of squares of surfaces and profiles, at once for all forces of the decade."""

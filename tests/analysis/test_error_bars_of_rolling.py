@@ -35,10 +35,8 @@ def rolled(rng, *, springs=1.2, finer=0.98, case=ROLLING):
     return Outcomes(case, {(rolling.BEM, 0.1): bem, (rolling.REFINED, 0.1): refined, (SPRINGS, 0.1): tracks})
 
 
-@catches(
-    "decibels of an amplitude for those of a power, in rolling",
-    "validation.cases.rolling.force_spectrum.POWER_DECIBEL",
-    statistics.DECIBEL,
+@catches("decibels of an amplitude for those of a power, in rolling").at(
+    "validation.cases.rolling.force_spectrum.POWER_DECIBEL", statistics.DECIBEL
 )
 def test_levels_of_rolling_are_powers_in_decibels():
     """10 lg of a ratio of powers: 1.2 of springs, 0.98 from one grid to the next, which are 0.98^2 to no cells."""
@@ -62,13 +60,10 @@ def unpaired(values, references, weights):
     return replace(mine.minus(other), samples=mine.samples)
 
 
-@catches(
-    "two standard errors of a sample of four",
-    "validation.analysis.statistics.Estimate.half_width",
-    property(lambda estimate: 2 * estimate.error),
-    strips=4,
+@catches("two standard errors of a sample of four", strips=4).at(
+    "validation.analysis.statistics.Estimate.half_width", property(lambda estimate: 2 * estimate.error)
 )
-@catches("pairs of strips taken for independent ones", f"{__name__}.log_ratio_of_means", unpaired, strips=4)
+@catches("pairs of strips taken for independent ones", strips=4).at(f"{__name__}.log_ratio_of_means", unpaired)
 @pytest.mark.parametrize("strips", [4, 6])
 def test_ratios_of_levels_cover_their_truth(strips):
     """ln of 1.5, in the mean over bands of unequal scatter that share their surfaces; a row that is lost counts not."""

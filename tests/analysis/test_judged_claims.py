@@ -45,10 +45,8 @@ def holds_unless_it_differs(claim):
     return ClaimStatus.CONTRADICTED if claim.count(Verdict.DIFFER) else ClaimStatus.HOLDS
 
 
-@catches(
-    "an undecided number taken for one that confirms",
-    "validation.analysis.evidence.JudgedClaim.status",
-    property(holds_unless_it_differs),
+@catches("an undecided number taken for one that confirms").at(
+    "validation.analysis.evidence.JudgedClaim.status", property(holds_unless_it_differs)
 )
 @given(verdicts)
 def test_one_counterexample_contradicts_and_nothing_undecided_holds(found):
@@ -62,12 +60,9 @@ def test_one_counterexample_contradicts_and_nothing_undecided_holds(found):
 claim_status = JudgedClaim.status.fget
 
 
-@catches(
-    "limits taken at their word",
+@catches("limits taken at their word", inside=Verdict.UNDECIDED, status=ClaimStatus.CONTRADICTED).at(
     "validation.analysis.evidence.JudgedClaim.status",
     property(lambda claim: ClaimStatus.LIMITED if claim.inside else claim_status(claim)),
-    inside=Verdict.UNDECIDED,
-    status=ClaimStatus.CONTRADICTED,
 )
 @pytest.mark.parametrize(("inside", "status"), [(AGREE, ClaimStatus.LIMITED), (UNDECIDED, ClaimStatus.CONTRADICTED)])
 def test_limits_hold_only_where_all_inside_agrees(inside, status):
@@ -117,11 +112,8 @@ WORST = [
 ]
 
 
-@catches(
-    "the farthest point for the worst",
-    f"{__name__}.worst",
-    lambda points: max(points, key=lambda p: abs(p.difference)),
-    *WORST[0],
+@catches("the farthest point for the worst", *WORST[0]).at(
+    f"{__name__}.worst", lambda points: max(points, key=lambda p: abs(p.difference))
 )
 @pytest.mark.parametrize(("points", "at"), WORST)
 def test_the_worst_point_is_the_farthest_beyond_its_tolerance_with_its_interval(points, at):
@@ -133,7 +125,7 @@ def mean_of_the_range(points):
     return replace(series.worst(points), value=float(np.mean([p.difference for p in points])))
 
 
-@catches("the mean of a range for its worst point", f"{__name__}.worst", mean_of_the_range)
+@catches("the mean of a range for its worst point").at(f"{__name__}.worst", mean_of_the_range)
 def test_a_mean_of_both_signs_agrees_where_the_range_does_not():
     points = [point(8.0, 0.1, at=1.0), point(-8.0, 0.1, at=2.0)]
     assert np.mean([p.difference for p in points]) == 0.0
@@ -149,7 +141,7 @@ def about_its_mean(points, tolerance, reason):
     return replace(found, value=float(np.std([point.difference for point in points])))
 
 
-@catches("a root mean square about the mean", f"{__name__}.root_mean_square", about_its_mean)
+@catches("a root mean square about the mean").at(f"{__name__}.root_mean_square", about_its_mean)
 @given(st.lists(st.tuples(st.floats(-9, 9), st.floats(-2, 2)), min_size=1, max_size=8))
 def test_the_interval_of_a_root_mean_square_holds_whenever_those_of_its_points_do(pairs):
     """Errors as large as the half-widths allow, of any signs."""
@@ -159,8 +151,7 @@ def test_the_interval_of_a_root_mean_square_holds_whenever_those_of_its_points_d
     assert abs(rms.value - true) <= rms.sample * (1 + 1e-9) + 1e-9
 
 
-@catches(
-    "the interval of one point for all of a range",
+@catches("the interval of one point for all of a range").at(
     "validation.analysis.statistics.Estimate.half_width_among",
     lambda one, points: statistics.student(one.samples - 1) * one.error,
 )

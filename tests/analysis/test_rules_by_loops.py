@@ -164,7 +164,7 @@ def both_edges(bands, q, values):
     return values @ inside.astype(complex)
 
 
-@catches("a line at the upper edge of a band counted in it", "validation.analysis.spectra.Bands.sums", both_edges)
+@catches("a line at the upper edge of a band counted in it").at("validation.analysis.spectra.Bands.sums", both_edges)
 def test_a_band_holds_its_lower_edge_and_not_its_upper():
     bands = Bands((1.0, 2.0, 4.0))
     q, values = np.array([0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0]), np.array([1.0, 2, 4, 8, 16, 32, 64])

@@ -59,8 +59,7 @@ def test_points_without_a_value_are_left_out_and_the_range_ends_before_them():
     assert series(0.1, math.nan, math.nan, fewest=2).numbers == []
 
 
-@catches(
-    "a series without the error of its reference",
+@catches("a series without the error of its reference").at(
     "validation.analysis.statistics.Estimate.minus",
     lambda mine, other: Estimate(mine.value - other.value, mine.error, mine.samples),
 )
@@ -89,10 +88,8 @@ def test_a_number_of_its_own_has_no_range():
     assert (number.value, number.where, number.verdict) == (2.0, {"h": 1.0}, Verdict.DIFFER)
 
 
-@catches(
-    "a relative tolerance in the unit",
-    f"{__name__}.Margin",
-    lambda relative=False, **settings: declared.Margin(**settings),
+@catches("a relative tolerance in the unit").at(
+    f"{__name__}.Margin", lambda relative=False, **settings: declared.Margin(**settings)
 )
 def test_a_relative_margin_is_of_the_reference_and_a_criterion_has_a_finding_for_its_rms():
     margin = Margin(tolerance=0.1, reason="r", relative=True, role=Role.CRITERION, rms=(1.0, "q"))

@@ -45,26 +45,14 @@ def weighed(factor):
 spectra_of_records = spectra.record_spectra
 
 
-@catches(
-    "dt for dt^2 in (14.17)",
-    "validation.analysis.spectra.record_spectra",
-    weighed(lambda time_step, _: 1 / time_step),
-    steps=31,
-    window="none",
+@catches("dt for dt^2 in (14.17)", steps=31, window="none").at(
+    "validation.analysis.spectra.record_spectra", weighed(lambda time_step, _: 1 / time_step)
 )
-@catches(
-    "one-sided spectrum of a record",
-    "validation.analysis.spectra.record_spectra",
-    weighed(lambda *_: 2),
-    steps=31,
-    window="none",
+@catches("one-sided spectrum of a record", steps=31, window="none").at(
+    "validation.analysis.spectra.record_spectra", weighed(lambda *_: 2)
 )
-@catches(
-    "Hann without its mean square",
-    "validation.analysis.spectra.record_spectra",
-    weighed(lambda _, window: 3 / 8 if window == "hann" else 1),
-    steps=31,
-    window="hann",
+@catches("Hann without its mean square", steps=31, window="hann").at(
+    "validation.analysis.spectra.record_spectra", weighed(lambda _, window: 3 / 8 if window == "hann" else 1)
 )
 @pytest.mark.parametrize("window", WINDOWS)
 @pytest.mark.parametrize("steps", [3, 8, 31, 32])
@@ -134,11 +122,8 @@ def leak(distance):
 peak = spectra.peak
 
 
-@catches(
-    "half a line on in the peak",
-    "validation.analysis.spectra.peak",
-    lambda omega, hann, below: peak(omega, hann, below) + omega[0] / 2,
-    place=30.5,
+@catches("half a line on in the peak", place=30.5).at(
+    "validation.analysis.spectra.peak", lambda omega, hann, below: peak(omega, hann, below) + omega[0] / 2
 )
 @pytest.mark.parametrize("place", [8.0, 8.2, 8.499, 8.501, 8.77, 30.5, 31.0, 200.35])
 def test_peak_of_a_tone_between_lines(place):
@@ -204,7 +189,9 @@ def slope_of_what_is_steep(omega, density, first, last, period):
     return float(np.polyfit(np.log(centres), np.log(means), 1)[0])
 
 
-@catches("slope of bands that are not levelled", "validation.analysis.spectra.slope", slope_of_what_is_steep, hurst=0.7)
+@catches("slope of bands that are not levelled", hurst=0.7).at(
+    "validation.analysis.spectra.slope", slope_of_what_is_steep
+)
 @pytest.mark.parametrize("hurst", [0.1, 0.4, 0.7, 1.0])
 def test_slope_under_an_oscillation(hurst):
     """A band may have a line more or less than a period: its mean is off by as much as one line has of all of them."""

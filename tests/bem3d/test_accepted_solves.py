@@ -87,19 +87,11 @@ def at_ten_times_the_tolerance(attempt, residual, tolerance, max_iterations):
 judged = window_solve.IterationState.record_residual
 
 
-@catches(
-    "accepted at ten times its tolerance",
-    "bem3d.window_solve.IterationState.record_residual",
-    at_ten_times_the_tolerance,
-    solver="solve",
-    limit=3,
+@catches("accepted at ten times its tolerance", solver="solve", limit=3).at(
+    "bem3d.window_solve.IterationState.record_residual", at_ten_times_the_tolerance
 )
-@catches(
-    "the iteration limit taken for convergence",
-    "bem3d.contact.Contact.converged",
-    property(lambda one: one.status in ("converged", "iteration limit")),
-    solver="solve",
-    limit=3,
+@catches("the iteration limit taken for convergence", solver="solve", limit=3).at(
+    "bem3d.Contact.converged", property(lambda one: one.status in ("converged", "iteration limit"))
 )
 @pytest.mark.parametrize("limit", [1, 2, 3, 5, 8])
 @pytest.mark.parametrize("solver", ASKED_ONCE)
@@ -167,7 +159,7 @@ def test_a_fixed_area_is_within_its_tolerance():
         assert np.sqrt(np.mean(left**2)) <= tolerance * (1 + 1e-6)
 
 
-@catches("a residual of rolling that is not looked at", "bem3d.rolling_solve.residual", lambda *_: 0.0)
+@catches("a residual of rolling that is not looked at").at("bem3d.rolling_solve.residual", lambda *_: 0.0)
 def test_every_position_of_a_wheel_is_within_its_tolerance():
     body = bem3d.HalfSpace(shape=(48, 24), spacing=1 / 6, modulus=1.0)
     for tolerance in ASKED[:-4]:

@@ -19,8 +19,7 @@ TIGHT = 1e-12
 exponents = st.integers(-30, 30)
 
 
-@catches(
-    "a residual blind to penetration",
+@catches("a residual blind to penetration").at(
     ("bem3d.window_solve.residual", "bem3d.projected_cg.residual"),
     lambda p, w, overlap: contact.residual(p, np.maximum(w, 0.0), overlap),
 )
@@ -55,8 +54,7 @@ def test_scaling_by_powers_of_two_is_exact(problem, metre, height, pascal):
     assert other.stiffness() == modulus * scale * one.stiffness()
 
 
-@catches(
-    "stiffness of a contact grown by a cell",
+@catches("stiffness of a contact grown by a cell").at(
     "bem3d.contact.solve_fixed_area",
     lambda body, cells, **settings: solve_fixed_area(body, cells | np.roll(cells, 1, axis=0), **settings),
 )

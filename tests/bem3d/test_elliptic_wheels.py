@@ -46,10 +46,8 @@ def test_the_published_example_of_contact():
     assert wheel.pressure()[2].max() == pytest.approx(770.6e6, rel=5e-3)
 
 
-@catches(
-    "a circle of the mean radius for an ellipse",
-    "bem3d.rolling_frame.smooth_contact",
-    lambda radii: smooth_contact((math.sqrt(radii[0] * radii[1]),) * 2),
+@catches("a circle of the mean radius for an ellipse").at(
+    "bem3d.rolling_frame.smooth_contact", lambda radii: smooth_contact((math.sqrt(radii[0] * radii[1]),) * 2)
 )
 def test_the_expected_contact_is_the_ellipse_of_hertz():
     """From which a force begins, frames are made and diagnostics are: no solve tells it wrong."""
@@ -67,12 +65,8 @@ def test_a_track_that_is_turned_has_the_radii_changed_about():
     assert forces[0] == pytest.approx(forces[1], rel=1e-4)
 
 
-@catches(
-    "the radii along and across exchanged",
-    "bem3d.rolling_frame.Track.radii",
-    property(lambda track: track.radius[::-1]),
-    radii=(1.0, 0.2),
-    waves=(1, 0),
+@catches("the radii along and across exchanged", radii=(1.0, 0.2), waves=(1, 0)).at(
+    "bem3d.Track.radii", property(lambda track: track.radius[::-1])
 )
 @pytest.mark.parametrize("radii", RADII[:2])
 @pytest.mark.parametrize("waves", [(1, 0), (0, 1), (2, 1)])

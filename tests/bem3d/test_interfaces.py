@@ -24,8 +24,8 @@ def yielding_mean_plane(shape, spacing, modulus):
     return symbol
 
 
-@catches(
-    "a mean plane of a periodic half-space that yields", "bem3d.kernel.periodic_symbol", yielding_mean_plane, load=0.3
+@catches("a mean plane of a periodic half-space that yields", load=0.3).at(
+    "bem3d.kernel.periodic_symbol", yielding_mean_plane
 )
 @pytest.mark.parametrize("load", [0.05, 0.3, 0.8])
 def test_a_wave_has_the_stiffness_and_the_approach_of_westergaard(load):
@@ -52,8 +52,8 @@ def rough(scale=1e-3):
     return bem3d.rough_surface(c2d, shape=(N, N), spacing=1 / N, rng=np.random.default_rng(3), rms=scale)
 
 
-@catches(
-    "a mean gap that the stiffness does not close", "bem3d.kernel.periodic_symbol", yielding_mean_plane, pressure=5e-3
+@catches("a mean gap that the stiffness does not close", pressure=5e-3).at(
+    "bem3d.kernel.periodic_symbol", yielding_mean_plane
 )
 @pytest.mark.parametrize("pressure", [2e-4, 5e-3])
 def test_the_stiffness_of_an_interface_is_what_closes_its_mean_gap(pressure):
@@ -65,11 +65,8 @@ def test_the_stiffness_of_an_interface_is_what_closes_its_mean_gap(pressure):
     assert -2e-5 * pressure / (gaps[2] - gaps[0]) == pytest.approx(solved[1].stiffness(), rel=1e-3)
 
 
-@catches(
-    "half of the stiffness along a load path",
-    "bem3d.contact.Contact.stiffness",
-    lambda contact: contact.frozen.stiffness / 2,
-    shape="sphere",
+@catches("half of the stiffness along a load path", shape="sphere").at(
+    "bem3d.Contact.stiffness", lambda contact: contact.frozen.stiffness / 2
 )
 @pytest.mark.parametrize("shape", ["punch", "sphere", "interface"])
 def test_a_load_path_lies_between_those_of_the_smooth_bodies_at_the_extreme_heights(shape):

@@ -53,7 +53,7 @@ def sum_of_the_pressure(half_space, cells, **settings):
     return dataclasses.replace(result, stiffness=float(result.pressure.sum()) * half_space.cell_area)
 
 
-@catches("stiffness to first order in the residual", "bem3d.solve_fixed_area", sum_of_the_pressure)
+@catches("stiffness to first order in the residual").at("bem3d.solve_fixed_area", sum_of_the_pressure)
 @pytest.mark.slow
 @given(problem=pressed(most=12, by=("force",)))
 def test_error_of_the_stiffness_is_the_residual_squared(problem):

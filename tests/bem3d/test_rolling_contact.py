@@ -57,20 +57,13 @@ STRIPS = {
 CELLS = {"flat": 6, "smooth": 8, "rough": 7, "very rough": 6, "as rough as deep": 6}
 
 
-@catches("x^2 / R under the sphere", "bem3d.rolling_frame.Track.wheel", Times(2.0), name="smooth", by="approach")
-@catches(
-    "the wheel half a cell ahead",
-    "bem3d.rolling_frame.Track.along",
-    lambda track, rows: (np.asarray(rows) + 0.5) * track.steps[0],
-    name="smooth",
-    by="approach",
+@catches("x^2 / R under the sphere", name="smooth", by="approach").at("bem3d.Track.wheel", Times(2.0))
+@catches("the wheel half a cell ahead", name="smooth", by="approach").at(
+    "bem3d.Track.along", lambda track, rows: (np.asarray(rows) + 0.5) * track.steps[0]
 )
-@catches(
-    "the wheel half a cell aside",
-    "bem3d.rolling_frame.Track.across",
+@catches("the wheel half a cell aside", name="smooth", by="approach").at(
+    "bem3d.Track.across",
     lambda track, columns: (np.asarray(columns) - track.height.shape[1] / 2) * track.steps[1],
-    name="smooth",
-    by="approach",
 )
 @pytest.mark.slow
 @pytest.mark.parametrize("name", STRIPS)
@@ -139,7 +132,7 @@ def pairs(wave, height, cells, *, positions):
     return (up - down) / 2, (up + down) / 2 - flat
 
 
-@catches("factor 2 lost in linear theory, seen by boundary elements", f"{__name__}.response", Times(0.5), waves=1)
+@catches("factor 2 lost in linear theory, seen by boundary elements", waves=1).at(f"{__name__}.response", Times(0.5))
 @pytest.mark.slow
 @pytest.mark.parametrize("waves", [1, 2])
 def test_ridges_across_the_track_tend_to_the_filter(waves):
@@ -189,7 +182,7 @@ def bumpy(*, row, column=0.0, cells=6, tall=4.0):
     return height
 
 
-@catches("a frame that is trusted", "bem3d.rolling_frame.Frame.outside", lambda *_: None, by="approach", column=0.0)
+@catches("a frame that is trusted", by="approach", column=0.0).at("bem3d.rolling_frame.Frame.outside", lambda *_: None)
 @pytest.mark.slow
 @pytest.mark.parametrize("by", ["approach", "force"])
 @pytest.mark.parametrize("column", [0.0, 1.5, -2.0])

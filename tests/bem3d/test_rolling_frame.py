@@ -36,10 +36,8 @@ def framed(height, spans):
 moments = Frame._moments
 
 
-@catches(
-    "a bound four times as large",
-    "bem3d.rolling_frame.Frame._moments",
-    lambda *given: (4 * moments(*given)[0], *moments(*given)[1:]),
+@catches("a bound four times as large").at(
+    "bem3d.rolling_frame.Frame._moments", lambda *given: (4 * moments(*given)[0], *moments(*given)[1:])
 )
 @pytest.mark.slow
 @given(

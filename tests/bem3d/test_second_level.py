@@ -27,7 +27,7 @@ def with_levels(test):
     return run
 
 
-@catches("a far field of half the blocks", "bem3d.kernel.far_table", Times(0.5), spacing=1.0)
+@catches("a far field of half the blocks", spacing=1.0).at("bem3d.kernel.far_table", Times(0.5))
 @pytest.mark.parametrize("spacing", [1.0, (1.0, 0.7)])
 @with_levels
 def test_far_away_a_block_is_felt_as_the_pressure_on_it(spacing):
@@ -43,10 +43,8 @@ def test_far_away_a_block_is_felt_as_the_pressure_on_it(spacing):
 periodic_symbol = kernel.periodic_symbol
 
 
-@catches(
-    "a far field that is all of K",
-    "bem3d.kernel.far_periodic_symbol",
-    lambda shape, steps, modulus, _: periodic_symbol(shape, steps, modulus),
+@catches("a far field that is all of K").at(
+    "bem3d.kernel.far_periodic_symbol", lambda shape, steps, modulus, _: periodic_symbol(shape, steps, modulus)
 )
 @with_levels
 def test_waves_of_a_period_are_near_or_far():
@@ -60,11 +58,8 @@ def test_waves_of_a_period_are_near_or_far():
     np.testing.assert_allclose(body.inverse(wave), wave / near, rtol=1e-9)
 
 
-@catches(
-    "a near field alone",
-    "bem3d.far_field.FarField._settled",
-    lambda self, pressed, stiffness: 0 * pressed,
-    periodic=False,
+@catches("a near field alone", periodic=False).at(
+    "bem3d.far_field.FarField._settled", lambda self, pressed, stiffness: 0 * pressed
 )
 @pytest.mark.parametrize("periodic", [False, True])
 def test_work_on_a_contact_does_not_grow_with_the_grid(periodic):
@@ -156,7 +151,7 @@ def test_no_free_cell_and_no_displacement_need_no_pressure():
     assert not cells.inverse(np.zeros(144), everywhere).any()
 
 
-@catches("one step on the blocks", "bem3d.far_field.MOST_STEPS", 1)
+@catches("one step on the blocks").at("bem3d.far_field.MOST_STEPS", 1)
 @with_levels
 def test_the_system_on_the_blocks_is_solved_within_its_accuracy():
     """(1 + C D) y = C b, by matrices."""

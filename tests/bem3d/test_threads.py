@@ -38,11 +38,8 @@ def started():
 share = blocked_convolution.share
 
 
-@catches(
-    "threads that share a buffer",
-    "bem3d.blocked_convolution.share",
-    lambda work, blocks, buffers: share(work, blocks, [buffers[0]] * len(buffers)),
-    periodic=False,
+@catches("threads that share a buffer", periodic=False).at(
+    "bem3d.blocked_convolution.share", lambda work, blocks, buffers: share(work, blocks, [buffers[0]] * len(buffers))
 )
 @pytest.mark.parametrize("periodic", [False, True])
 def test_bits_of_a_displacement_are_equal_for_any_threads(periodic):
@@ -98,10 +95,8 @@ def test_a_convolution_of_one_half_space_waits_for_the_other():
             np.testing.assert_array_equal(found, expected)
 
 
-@catches(
-    "a spectrum for each convolution",
-    "bem3d.halfspace.HalfSpace._memory",
-    property(lambda body: blocked_convolution.SpectrumMemory()),
+@catches("a spectrum for each convolution").at(
+    "bem3d.HalfSpace._memory", property(lambda body: blocked_convolution.SpectrumMemory())
 )
 def test_memory_of_the_operators():
     """In fields: a spectrum of 2 that both share, quadrants of the symbols of 1 and a quarter, and buffers."""
@@ -176,7 +171,7 @@ def watched():
             watch.awaited.set()
 
 
-@catches("nobody waits for the other threads", "bem3d.threads._wait", lambda left, at_work: None, in_the_caller=True)
+@catches("nobody waits for the other threads", in_the_caller=True).at("bem3d.threads._wait", lambda left, at_work: None)
 @pytest.mark.parametrize("in_the_caller", [True, False])
 def test_after_an_exception_in_a_block_the_next_answer_is_right(in_the_caller):
     """As Ctrl-C is one: nothing further is begun, and nobody writes to the buffers of the next call."""
@@ -222,7 +217,7 @@ def wait_uninterrupted(left, at_work):
         shared_out.sleep(shared_out.POLL)
 
 
-@catches("a second interrupt ends the wait", "bem3d.threads._wait", wait_once_more, interrupts=2)
+@catches("a second interrupt ends the wait", interrupts=2).at("bem3d.threads._wait", wait_once_more)
 @pytest.mark.parametrize("interrupts", [0, 1, 2, 5])
 def test_interrupts_of_the_wait_come_after_the_last_block(interrupts):
     """As many Ctrl-C as there are; the first of them is raised."""
@@ -261,7 +256,7 @@ def share_by_futures(work, blocks, buffers):
         wait(futures)
 
 
-@catches("a thread whose future is lost", "bem3d.threads.share", share_by_futures)
+@catches("a thread whose future is lost").at("bem3d.threads.share", share_by_futures)
 def test_a_thread_is_waited_for_whose_start_is_interrupted():
     """It is at work already, and its caller has no future of it."""
     pool, begun, ended = shared_out._pool(1, os.getpid()), threading.Event(), []

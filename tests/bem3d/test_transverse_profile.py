@@ -34,8 +34,7 @@ def worn(y):
     return -(y**2) / 0.6 - beyond**2 * (1 / 0.08 - 1 / 0.6)
 
 
-@catches(
-    "a profile across for the parabola that it is about",
+@catches("a profile across for the parabola that it is about").at(
     "bem3d.rolling_frame.checked_profile",
     lambda z, columns, step: (
         -(((np.arange(columns) - (columns - 1) / 2) * step) ** 2) / (2 * equivalent_radius(z, step))

@@ -32,12 +32,8 @@ def half_a_window(half_space, marked):
     )
 
 
-@catches(
-    "a window that cuts cells off",
-    "bem3d.window_solve.smallest_box",
-    half_a_window,
-    places=[(8, 8, 0.0), (110, 70, 0.2)],
-    force=1000.0,
+@catches("a window that cuts cells off", places=[(8, 8, 0.0), (110, 70, 0.2)], force=1000.0).at(
+    "bem3d.window_solve.smallest_box", half_a_window
 )
 @pytest.mark.parametrize("places", [[(10, 100, 0.0)], [(8, 8, 0.0), (110, 70, 0.2)], [(60, 3, 0.0), (64, 90, 1.0)]])
 @pytest.mark.parametrize("force", [3.0, 100.0, 1000.0])

@@ -19,8 +19,7 @@ from validation.engine.convergence import NotConvergedError
 LEVEL = mean_of("level", "k", decibel=True, order=2.0)
 
 
-@catches(
-    "the same surfaces taken for others",
+@catches("the same surfaces taken for others").at(
     f"{__name__}.error",
     lambda quantity, mine, reference: errors.error(quantity, dataclasses.replace(mine, paired=False), reference),
 )
@@ -58,11 +57,8 @@ def at_first_order(answer, quantity, rows):
 log_of_answer = errors.MethodValues.log
 
 
-@catches(
-    "first order for second in an extrapolation",
-    "validation.benchmarks.work_precision.errors.MethodValues.log",
-    at_first_order,
-    order=2.0,
+@catches("first order for second in an extrapolation", order=2.0).at(
+    "validation.benchmarks.work_precision.errors.MethodValues.log", at_first_order
 )
 @pytest.mark.parametrize("order", [1.0, 2.0])
 def test_two_grids_of_a_power_law_are_extrapolated_to_the_truth(order):
@@ -72,10 +68,8 @@ def test_two_grids_of_a_power_law_are_extrapolated_to_the_truth(order):
     assert error(quantity, MethodValues(fine), MethodValues(k([1.0]))).value > 1e-4
 
 
-@catches(
-    "decibels of an amplitude for those of a power",
-    "validation.benchmarks.work_precision.problem.ChartQuantity.distance",
-    Times(2.0),
+@catches("decibels of an amplitude for those of a power").at(
+    "validation.benchmarks.work_precision.problem.ChartQuantity.distance", Times(2.0)
 )
 def test_levels_differ_by_the_root_mean_square_of_decibels():
     """Other values by the farthest of them; several numbers have no ratio."""
@@ -87,12 +81,8 @@ def test_levels_differ_by_the_root_mean_square_of_decibels():
     assert error(several, MethodValues(k([[1.1, 0.7]])), reference).value == pytest.approx(0.3)
 
 
-@catches(
-    "an error that luck has made small, and its interval",
-    "validation.benchmarks.work_precision.errors.math",
-    module_with(math, copysign=lambda *_: 1.0),
-    quantity=MEAN,
-    paired=True,
+@catches("an error that luck has made small, and its interval", quantity=MEAN, paired=True).at(
+    "validation.benchmarks.work_precision.errors.math", module_with(math, copysign=lambda *_: 1.0)
 )
 @pytest.mark.parametrize("quantity", [MEAN, LEVEL])
 @pytest.mark.parametrize("paired", [True, False])

@@ -35,10 +35,8 @@ def names(found):
     return [(p.method, p.value) for p in found]
 
 
-@catches(
-    "nothing left open by a reference",
-    "validation.benchmarks.work_precision.pareto.Point.rank",
-    property(lambda point: point.error + point.half_width),
+@catches("nothing left open by a reference").at(
+    "validation.benchmarks.work_precision.pareto.Point.rank", property(lambda point: point.error + point.half_width)
 )
 def test_the_front_is_what_nothing_beats_and_ends_in_the_band():
     """BEM with 32 cells is closer than with 16, but below what the reference can tell."""
@@ -68,10 +66,8 @@ def test_neither_who_has_not_finished_nor_the_reference_is_on_the_front(settings
     assert front([no_part]) == []
 
 
-@catches(
-    "errors ranked without their intervals",
-    "validation.benchmarks.work_precision.pareto.Point.rank",
-    property(lambda point: max(point.error, point.band)),
+@catches("errors ranked without their intervals").at(
+    "validation.benchmarks.work_precision.pareto.Point.rank", property(lambda point: max(point.error, point.band))
 )
 def test_errors_are_ranked_by_their_upper_ends():
     sure, unsure = point("sure", 0.02, 1.0), point("unsure", 0.01, 0.5, half_width=0.5)
@@ -122,11 +118,12 @@ BESIDE_SPRINGS = [
 
 @catches(
     "a time beside that of a method that is not as close",
-    "validation.benchmarks.work_precision.case.cheapest_as_close",
-    lambda _, others: min(others, key=lambda one: one.seconds[1], default=None),
     another=timed_point(FILTER_1D, 0.3, 1e-6),
     status="holds",
     rivals=(BEM, BEM),
+).at(
+    "validation.benchmarks.work_precision.case.cheapest_as_close",
+    lambda _, others: min(others, key=lambda one: one.seconds[1], default=None),
 )
 @pytest.mark.parametrize(
     ("another", "status", "rivals"),
@@ -147,8 +144,7 @@ def test_the_cheapest_is_claimed_of_times(another, status, rivals):
     assert tuple(number.source for number in numbers) == rivals
 
 
-@catches(
-    "times beside a grid that is not as close",
+@catches("times beside a grid that is not as close").at(
     "validation.benchmarks.work_precision.pareto.cheapest_as_close",
     lambda _, others: min(others, key=lambda one: one.seconds[1], default=None),
 )
@@ -162,7 +158,7 @@ def test_times_faster_are_those_of_the_cheapest_boundary_elements_with_no_larger
     assert table["error of boundary elements"].tolist() == pytest.approx([11.0])
 
 
-@catches("times that are known exactly", "validation.benchmarks.work_precision.pareto._uncertainty", lambda _: 0.0)
+@catches("times that are known exactly").at("validation.benchmarks.work_precision.pareto._uncertainty", lambda _: 0.0)
 def test_times_faster_have_the_intervals_of_both_medians():
     """Of 16 runs whose quartiles are 0.3 of the median apart: 1.57 x 0.3 / 4 each."""
     table = faster([[point(MDR, 0.1, 1e-5, runs=16), point(BEM, 0.1, 1e-3, runs=16)]])

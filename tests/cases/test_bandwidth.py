@@ -44,7 +44,9 @@ def test_a_wider_band_has_the_long_waves_of_the_one_before():
     assert 0.9 < ratio[0].real < 1
 
 
-@catches("no plateau below the roll-off", "validation.simulation.rough_punch.PlateauSpectrum.c2d", mdr.SelfAffine.c2d)
+@catches("no plateau below the roll-off").at(
+    "validation.simulation.rough_punch.PlateauSpectrum.c2d", mdr.SelfAffine.c2d
+)
 def test_the_plateau_is_flat_and_the_band_beyond_is_self_affine():
     """Four waves on a side at the roll-off: equal power in each below, (q_r / q)^(2 H + 2) above, none beyond."""
     case = replace(WIDE, bands=(Band(16, 64, 3, 3), Band(32, 128, 3, 3)), roll_off=(4, 0))
@@ -71,11 +73,8 @@ def test_surfaces_are_those_of_fig_14_1():
 FRACTION = spring_tracks._fraction
 
 
-@catches(
-    "overlap of springs over an area without their own height",
-    "validation.simulation.spring_tracks._fraction",
-    lambda height, load: FRACTION(height, 2 * load),
-    overlap=0.1,
+@catches("overlap of springs over an area without their own height", overlap=0.1).at(
+    "validation.simulation.spring_tracks._fraction", lambda height, load: FRACTION(height, 2 * load)
 )
 @pytest.mark.parametrize("overlap", [1e-3, 0.1])
 def test_springs_over_an_area_carry_the_load(overlap):
@@ -111,8 +110,7 @@ def planted(*, wide=0.1, springs=(0.12, 0.12), finer=0.1, rolled=1.0, pairs=400)
     return Outcomes(WIDE, found)
 
 
-@catches(
-    "a wide band without the change from the narrow one",
+@catches("a wide band without the change from the narrow one").at(
     "validation.cases.punch.bandwidth.multilevel_moments",
     lambda columns: statistics.multilevel_moments(columns[:1]) * len(columns),
 )
@@ -128,8 +126,7 @@ def test_deviations_add_up_over_bands():
 STEPS = bandwidth.Deviations.steps
 
 
-@catches(
-    "a change to finer cells that is taken once",
+@catches("a change to finer cells that is taken once").at(
     "validation.cases.punch.bandwidth.Deviations.steps",
     lambda found, *key: {i: 0.5 * one for i, one in STEPS(found, *key).items()},
 )
@@ -140,7 +137,7 @@ def test_a_change_to_finer_cells_is_doubled_and_left_open_also_in_wider_bands():
         assert value.grid == pytest.approx(np.log(1.05), rel=0.05)
 
 
-@catches("a change by factor e of bandwidth for that by decade", "numpy.log10", np.log)
+@catches("a change by factor e of bandwidth for that by decade").at("numpy.log10", np.log)
 def test_a_change_by_decade_is_that_of_the_ratio():
     """A decade of bandwidth: springs 20 % more, boundary elements 5 %; with a roll-off springs 30 % more."""
     evidence = STUDY.evidence(planted(wide=0.105, springs=(0.1, 0.12), rolled=1.3))
@@ -149,10 +146,8 @@ def test_a_change_by_decade_is_that_of_the_ratio():
         assert values == pytest.approx([20 * np.log10(change)] * count, abs=0.05)
 
 
-@catches(
-    "as many springs over an area as boundary elements have cells in contact",
-    "validation.cases.punch.bandwidth.nearest",
-    lambda fractions, wide: nearest(fractions, 0.01 * wide),
+@catches("as many springs over an area as boundary elements have cells in contact").at(
+    "validation.cases.punch.bandwidth.nearest", lambda fractions, wide: nearest(fractions, 0.01 * wide)
 )
 def test_springs_without_coupling_stand_beside():
     """Deviation 0.12 along a line, 0.05 over an area at equal load; under a light force the band is too narrow."""

@@ -28,17 +28,11 @@ OFF = {
 """Which claim, and what is off: a force by two per cent, (dx/a)^2 / 4 is 0.4 %; a wave too wide by two cells a side."""
 
 
-@catches(
-    "the stiffness of the square is that of the finest grid",
-    "validation.cases.exact.hertz.first_order_limit",
-    lambda values: values[-1],
-    contact="square",
+@catches("the stiffness of the square is that of the finest grid", contact="square").at(
+    "validation.cases.exact.hertz.first_order_limit", lambda values: values[-1]
 )
-@catches(
-    "one of two elastic bodies taken for rigid",
-    "validation.simulation.exact_contacts.PublishedContact.modulus",
-    property(lambda problem: 2 * 82e9 / (1 - 0.28)),
-    contact="ellipse",
+@catches("one of two elastic bodies taken for rigid", contact="ellipse").at(
+    "validation.simulation.exact_contacts.PublishedContact.modulus", property(lambda problem: 2 * 82e9 / (1 - 0.28))
 )
 @pytest.mark.parametrize("contact", OFF)
 def test_a_contact_that_is_off_contradicts_its_claim(contact):
@@ -54,10 +48,8 @@ def test_springs_as_long_as_the_side_are_softer_than_the_square_by_its_capacitan
     assert number.value == pytest.approx(100 * (1 / 1.1523 - 1), abs=0.01) and number.verdict is Verdict.DIFFER
 
 
-@catches(
-    "a line trace with the moments of Geike's spectrum",
-    "validation.cases.exact.geike.mean_power_of_cosine",
-    lambda n: 1.0,
+@catches("a line trace with the moments of Geike's spectrum").at(
+    "validation.cases.exact.geike.mean_power_of_cosine", lambda n: 1.0
 )
 def test_a_profile_keeps_the_moments_and_a_line_the_share_of_its_direction():
     """Sums over 65 and more waves in place of integrals: the first wave counts whole, 0.7 / 65 of the height."""
@@ -75,7 +67,7 @@ def test_a_profile_keeps_the_moments_and_a_line_the_share_of_its_direction():
     assert line[2] == pytest.approx(0.5, rel=0.02)
 
 
-@catches("the spectrum of a line in Geike's place", "mdr.spectrum.SelfAffine.line", mdr.SelfAffine.c1d)
+@catches("the spectrum of a line in Geike's place").at("mdr.SelfAffine.line", mdr.SelfAffine.c1d)
 def test_lines_of_a_drawn_surface_have_the_line_trace():
     """A sum over waves across the line in place of an integral; the integrand is smooth there, and small at its end."""
     waves = np.arange(2 * DRAWN.case.longest, 3 * DRAWN.case.longest)
@@ -94,11 +86,8 @@ def test_the_order_of_errors_is_the_power_of_the_cell_size(power):
 order = hertz.order
 
 
-@catches(
-    "a tenth more in the order of a case",
-    "validation.cases.exact.hertz.order",
-    lambda cells, errors: order(cells, errors) + 0.1,
-    power=1.0,
+@catches("a tenth more in the order of a case", power=1.0).at(
+    "validation.cases.exact.hertz.order", lambda cells, errors: order(cells, errors) + 0.1
 )
 @pytest.mark.parametrize("power", [1.0, 2.0])
 def test_a_case_has_the_order_of_its_errors(power):

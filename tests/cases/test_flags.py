@@ -131,11 +131,8 @@ LOST = {
 }
 
 
-@catches(
-    "failed loads are not listed",
-    "validation.cases.punch.ensembles.describe_failures",
-    lambda *_: (),
-    name="fractal punch, finer grid",
+@catches("failed loads are not listed", name="fractal punch, finer grid").at(
+    "validation.cases.punch.ensembles.describe_failures", lambda *_: ()
 )
 @pytest.mark.parametrize("name", LOST)
 def test_what_is_lost_is_a_line_of_the_result(name):

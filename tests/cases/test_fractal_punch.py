@@ -58,12 +58,11 @@ def gap_of_the_rigid_surface(surface):
 
 
 @catches_root_of_two("the gradient of a drawn punch", "validation.simulation.rough_punch._gradient")
-@catches(
-    "half of the force in Fig. 14.1",
+@catches("half of the force in Fig. 14.1").at(
     "validation.simulation.rough_punch.bem3d",
     pressed_by(lambda *args, forces, **more: bem3d.indent(*args, forces=halves(forces), **more)),
 )
-@catches("mean gap of a half-space that does not yield", f"{__name__}.press_surface", gap_of_the_rigid_surface)
+@catches("mean gap of a half-space that does not yield").at(f"{__name__}.press_surface", gap_of_the_rigid_surface)
 def test_surfaces_are_pressed_as_they_stand():
     """Approach, stiffness and mean gap of the dense solution: a bump raises the force, h = 1e-3 exactly, F = Fbar h."""
     half_space = bem3d.HalfSpace(shape=(8, 8), spacing=1 / 8, modulus=1.0)
@@ -109,11 +108,8 @@ def line_for_geike(roughness):
     return LineForGeike(hurst=roughness.hurst, q_min=2 * np.pi * first, q_max=2 * np.pi * last, rms=roughness.height)
 
 
-@catches(
-    "line trace for Geike in Fig. 14.1",
-    "validation.simulation.rough_punch.PunchRoughness.spectrum",
-    property(line_for_geike),
-    length=1.0,
+@catches("line trace for Geike in Fig. 14.1", length=1.0).at(
+    "validation.simulation.rough_punch.PunchRoughness.spectrum", property(line_for_geike)
 )
 @pytest.mark.parametrize("length", [1.0, 1.1523])
 def test_profiles_are_those_of_geikes_spectrum(length):
@@ -134,8 +130,7 @@ def test_profiles_are_those_of_geikes_spectrum(length):
             assert found["gap"][i, j] == pytest.approx(np.maximum(-(height + d), 0).mean(), rel=1e-9, abs=1e-15)
 
 
-@catches(
-    "every profile drawn twice",
+@catches("every profile drawn twice").at(
     "validation.simulation.rough_punch.random_generator",
     lambda entropy, *key: random_generator(entropy, *key[:-1], key[-1] // 2),
 )
@@ -184,12 +179,10 @@ def numbers(evidence, name):
     return numbers_with(evidence.numbers, name, OVER)
 
 
-@catches(
-    "no grid error",
-    "validation.analysis.statistics.Resolved.beside",
-    lambda one, other: Resolved(one.value.beside(other.value), 0.0),
+@catches("no grid error").at(
+    "validation.analysis.statistics.Resolved.beside", lambda one, other: Resolved(one.value.beside(other.value), 0.0)
 )
-@catches("no extrapolation", "validation.cases.punch.fractal_punch.on_no_size", statistics.on_finest)
+@catches("no extrapolation").at("validation.cases.punch.fractal_punch.on_no_size", statistics.on_finest)
 def test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar():
     """First order: 5 % stiffer on cells half as wide is 10 % at cells of no size. Cells twice as wide that are 10 %
     softer say the same but for what the logarithms differ by, and that is left. No change of the deviation."""
@@ -204,8 +197,7 @@ def test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar():
         assert [n.grid for n in numbers(found, name)] == pytest.approx([grid] * 2, abs=1e-6)
 
 
-@catches(
-    "the mean of a decade for its worst force",
+@catches("the mean of a decade for its worst force").at(
     "validation.analysis.series.worst",
     lambda points: replace(points[0], value=float(np.mean([p.difference for p in points]))),
 )
@@ -218,13 +210,8 @@ def test_a_decade_is_judged_by_its_worst_force():
     assert low.where["worst at"] in (pytest.approx(0.1), pytest.approx(10**-0.5))
 
 
-@catches(
-    "a third of the interval",
-    "validation.analysis.statistics.student",
-    lambda freedom, confidence=0.95: 2 / 3,
-    apart=1.25,
-    surfaces=60,
-    verdict=Verdict.UNDECIDED,
+@catches("a third of the interval", apart=1.25, surfaces=60, verdict=Verdict.UNDECIDED).at(
+    "validation.analysis.statistics.student", lambda freedom, confidence=0.95: 2 / 3
 )
 @pytest.mark.parametrize(
     ("apart", "surfaces", "verdict"),
@@ -248,10 +235,8 @@ def test_verdicts_on_known_deviations(apart, surfaces, verdict):
 combined = statistics.combined
 
 
-@catches(
-    "the order of the curves turned round",
-    "validation.cases.punch.fractal_punch.combined",
-    lambda weights, parts: combined(-np.abs(weights), parts),
+@catches("the order of the curves turned round").at(
+    "validation.cases.punch.fractal_punch.combined", lambda weights, parts: combined(-np.abs(weights), parts)
 )
 def test_the_order_of_the_curves_is_found_or_shown_to_be_absent():
     """Deviations that rise by exp(0.5 H) are found to, though each of them is known to some 15 % alone."""
@@ -274,8 +259,7 @@ def test_exponents_of_a_power_law():
 DRAWN = PunchRoughness._drawn
 
 
-@catches(
-    "other phases for every Hurst exponent",
+@catches("other phases for every Hurst exponent").at(
     "validation.simulation.rough_punch.PunchRoughness._drawn",
     lambda mine, *of, **grid: DRAWN(replace(mine, common=False), *of, **grid),
 )

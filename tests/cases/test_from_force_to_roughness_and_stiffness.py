@@ -36,10 +36,8 @@ def off(found):
     return 10 * np.log10(found[CASE.between_zeros] / TRUE[CASE.between_zeros])
 
 
-@catches(
-    "factor 2 lost in the mean filter, read backwards",
-    "validation.simulation.rolling_levels.mean_force_spectrum_1d",
-    Times(0.5),
+@catches("factor 2 lost in the mean filter, read backwards").at(
+    "validation.simulation.rolling_levels.mean_force_spectrum_1d", Times(0.5)
 )
 def test_the_mean_filter_finds_the_roughness_of_the_mean_force():
     """To the bend of the spectrum in a band."""
@@ -47,10 +45,8 @@ def test_the_mean_filter_finds_the_roughness_of_the_mean_force():
     assert np.abs(off(roughness_from_force.by_mean_filter(CASE.bands, levels))).max() < 0.25
 
 
-@catches(
-    "half of the height in the filter of three dimensions, read backwards",
-    "validation.simulation.rolling_levels.level_3d",
-    Times(0.5),
+@catches("half of the height in the filter of three dimensions, read backwards").at(
+    "validation.simulation.rolling_levels.level_3d", Times(0.5)
 )
 def test_the_filter_in_three_dimensions_finds_isotropic_roughness():
     """And next to nothing below it, where the mean filter finds a twelfth of it."""
@@ -91,12 +87,12 @@ def test_the_parameter_that_decides_is_found(by, status):
     assert statuses(models.STUDY.evidence(Outcomes(case, found))) == [LIMITED, HOLDS, status]
 
 
-@catches(
-    "half of the force of linear theory beside boundary elements",
-    "validation.simulation.reduced_models.linear_force",
-    Times(0.5),
+@catches("half of the force of linear theory beside boundary elements").at(
+    "validation.simulation.reduced_models.linear_force", Times(0.5)
 )
-@catches("contact kept beside a square wheel", "validation.simulation.reduced_models.math", module_with(math, pi=4.0))
+@catches("contact kept beside a square wheel").at(
+    "validation.simulation.reduced_models.math", module_with(math, pi=4.0)
+)
 def test_models_on_a_strip_have_its_level_where_it_is_low():
     """Whatever the cells, within half of a decibel of linear theory; contact is whole, to cells at its edge."""
     scene = RoughStrip(spectrum=self_affine(0.7, 1.0, 8.0), height=0.01, length=19.0, width=7.0, seed=1)
@@ -121,11 +117,8 @@ def whole_frame_in_contact(wheel, position):
     return bem3d.solve_fixed_area(body, np.ones(pressure.shape, dtype=bool)).stiffness
 
 
-@catches(
-    "stiffness of the frame for that of the contact",
-    "validation.simulation.rolling_strip.tangent_stiffness",
-    whole_frame_in_contact,
-    height=0.3,
+@catches("stiffness of the frame for that of the contact", height=0.3).at(
+    "validation.simulation.rolling_strip.tangent_stiffness", whole_frame_in_contact
 )
 @pytest.mark.parametrize("height", [0.0, 0.3])
 def test_the_stiffness_along_a_track_is_the_change_of_force_with_approach(height):

@@ -83,11 +83,8 @@ def test_an_outcome_elsewhere_changes_the_claims(result):
     assert (predicted.count(Verdict.AGREE), len(predicted.numbers)) == (0, 20)
 
 
-@catches(
-    "a limit read on its good side",
-    "validation.cases.limits.sweeps.Sweep.past_threshold",
-    sweeps.Sweep.before_threshold,
-    side="above",
+@catches("a limit read on its good side", side="above").at(
+    "validation.cases.limits.sweeps.Sweep.past_threshold", sweeps.Sweep.before_threshold
 )
 @pytest.mark.parametrize("side", ["above", "below"])
 def test_crossings_of_a_power_law(side):
@@ -131,13 +128,9 @@ def test_a_threshold_is_positive_where_it_fails_later(error, side, octaves):
 REAL_CROSSING = sweeps.Sweep.crossing.fget
 
 
-@catches(
-    "a sweep that passes no threshold agrees at its end",
+@catches("a sweep that passes no threshold agrees at its end", error=[1.0] * 4, side="above", at=1.0).at(
     "validation.cases.limits.sweeps.Sweep.crossing",
     property(lambda sweep: REAL_CROSSING(sweep) or (sweep.values[:: sweep.sign][-1], 0.0)),
-    error=[1.0] * 4,
-    side="above",
-    at=1.0,
 )
 @pytest.mark.parametrize("at", [0.5, 1.0, 2.0, 20.0])
 @pytest.mark.parametrize(
@@ -217,7 +210,7 @@ def test_stiffness_of_a_lone_cell():
     assert k / (2.0 * 0.3) == pytest.approx(elements.LONE_CELL, rel=1e-9)
 
 
-@catches("factor 2 lost in the periodic symbol, seen by images", "bem3d.kernel.periodic_symbol", Times(0.5))
+@catches("factor 2 lost in the periodic symbol, seen by images").at("bem3d.kernel.periodic_symbol", Times(0.5))
 def test_images_err_as_the_lattice_sum_says():
     """1.655 a / L, but for (a / L)^3 of the forces of images that are no points, and the kernels of the cells."""
     found = elements.images((6, 12, 24), fine=8)
@@ -225,7 +218,7 @@ def test_images_err_as_the_lattice_sum_says():
     assert found["error"][0] == pytest.approx(expected, rel=0.025)
 
 
-@catches("factor 4 lost over a stretched surface", "validation.simulation.limits_of_springs.response", Times(0.5))
+@catches("factor 4 lost over a stretched surface").at("validation.simulation.limits_of_springs.response", Times(0.5))
 def test_a_stretched_surface_by_another_quadrature():
     """Isotropic it is force_variance; of short waves the variance does not depend on the ratio."""
     long, short = self_affine(0.7, 0.5, 4.0), self_affine(0.7, 100.0, 400.0)

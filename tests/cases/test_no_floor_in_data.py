@@ -41,12 +41,8 @@ def floored(statistics, hurst, method, statistic, level):
     return statistics.counted(hurst, method, level)
 
 
-@catches(
-    "a floor of a judgement in the data",
-    "validation.cases.punch.fractal_punch.PunchStatistics.ratio",
-    floored,
-    apart=0.0,
-    spread=0.1,
+@catches("a floor of a judgement in the data", apart=0.0, spread=0.1).at(
+    "validation.cases.punch.fractal_punch.PunchStatistics.ratio", floored
 )
 @pytest.mark.parametrize("apart", [0.0, 0.2, 0.5, 0.96, 1.0, 3.0])
 @pytest.mark.parametrize("spread", [0.002, 0.012, 0.1])
@@ -60,11 +56,8 @@ def test_the_ratio_of_two_deviations_is_that_of_the_deviations(apart, spread):
     assert springs == pytest.approx(apart * spread * np.ones(springs.size), rel=0.01)
 
 
-@catches(
-    "a rule of judgement that nobody applies",
-    "validation.cases.punch.fractal_punch.LEAST",
-    -math.inf,
-    *(0.5, 0.005, AGREE, 0.0),
+@catches("a rule of judgement that nobody applies", *(0.5, 0.005, AGREE, 0.0)).at(
+    "validation.cases.punch.fractal_punch.LEAST", -math.inf
 )
 @pytest.mark.parametrize(
     ("apart", "spread", "verdict", "value"),
@@ -113,7 +106,7 @@ def no_less_than_the_panel_shows(sweep):
         yield Series(one.quantity, one.model, [max(x, 0.04) for x in one.found], along=one.along, at=one.at)
 
 
-@catches("the floor of a panel in the data", "validation.cases.limits.limits.shown", no_less_than_the_panel_shows)
+@catches("the floor of a panel in the data").at("validation.cases.limits.limits.shown", no_less_than_the_panel_shows)
 def test_the_data_of_a_limit_are_the_errors_of_its_sweep():
     """Smaller than a hundredth of the tolerance too, which is where the panel ends."""
     error = np.array([0.0, 1e-9, 5.0, math.inf])

@@ -104,8 +104,7 @@ def test_tracks_have_the_variance_of_linear_theory():
     assert outcome["level"].sum(axis=1).mean() * 2 <= outcome["variance"].mean() * (1 + 1e-9)
 
 
-@catches(
-    "a band of all waves for the waves of a track, in the curve of the book",
+@catches("a band of all waves for the waves of a track, in the curve of the book").at(
     "validation.cases.rolling.force_spectrum.levels_on_track",
     lambda case, spectrum: level_1d(case.spectrum, "geike", case.bands),
 )

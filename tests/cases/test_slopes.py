@@ -226,19 +226,11 @@ def test_loads_of_an_interface_have_the_contact_of_their_name():
     np.testing.assert_allclose(found, case.contacts, rtol=0.03)
 
 
-@catches(
-    "a root of two lost in the gradient of a light punch",
-    "validation.simulation.indentation.rms_gradient",
-    Times(math.sqrt(0.5)),
-    more=1.04,
-    cells=256,
+@catches("a root of two lost in the gradient of a light punch", more=1.04, cells=256).at(
+    "validation.simulation.indentation.rms_gradient", Times(math.sqrt(0.5))
 )
-@catches(
-    "a root of two gained in the gradient of a light punch",
-    "validation.simulation.indentation.rms_gradient",
-    Times(math.sqrt(2)),
-    more=0.96,
-    cells=128,
+@catches("a root of two gained in the gradient of a light punch", more=0.96, cells=128).at(
+    "validation.simulation.indentation.rms_gradient", Times(math.sqrt(2))
 )
 @pytest.mark.parametrize(("more", "cells"), [(1.04, 256), (0.96, 128)])
 def test_cells_of_a_light_punch_are_those_of_the_gradient(more, cells):

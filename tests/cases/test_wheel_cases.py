@@ -234,11 +234,8 @@ def with_filled_zeros(share, lines=60):
 zeros_of = half_space_study.zeros_of
 
 
-@catches(
-    "a contrast read at the maxima",
-    "validation.cases.wheel.half_space_study.zeros_of",
-    lambda scene: zeros_of(scene) + 0.5,
-    share=0.1,
+@catches("a contrast read at the maxima", share=0.1).at(
+    "validation.cases.wheel.half_space_study.zeros_of", lambda scene: zeros_of(scene) + 0.5
 )
 @pytest.mark.parametrize("share", [0.01, 0.1, 0.5, 1.0])
 def test_the_contrast_is_that_of_filled_zeros(share):

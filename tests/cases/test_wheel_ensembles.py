@@ -46,21 +46,13 @@ STEADY = {"track": "steady-state"}
 places_of = wheel_ensemble.WheelEnsemble.places.fget
 
 
-@catches(
-    "a periodic track taken as open",
+@catches("a periodic track taken as open", track="steady-state", rounds=1, distance=0.16).at(
     "validation.simulation.wheel_on_springs.WheelEnsemble.places",
     property(lambda rides: places_of(replace(rides, track="open"))),
-    track="steady-state",
-    rounds=1,
-    distance=0.16,
 )
-@catches(
-    "a part of a motion that repeats itself after the part",
+@catches("a part of a motion that repeats itself after the part", track="part", rounds=2, distance=0.16).at(
     "validation.simulation.wheel_on_springs.WheelEnsemble.places",
     property(lambda rides: places_of(replace(rides, **STEADY))),
-    track="part",
-    rounds=2,
-    distance=0.16,
 )
 @pytest.mark.parametrize("distance", [0.03, 0.16, 0.1851])
 @pytest.mark.parametrize(("track", "rounds"), [("steady-state", 1), ("part", 2)])
@@ -86,8 +78,7 @@ def test_a_part_is_the_beginning_of_the_motion_that_repeats_itself(linear):
     assert np.abs(all_of_it.jump).max() < 1e-3 * np.abs(some.jump).min()
 
 
-@catches(
-    "a wheel of half of its circumference",
+@catches("a wheel of half of its circumference").at(
     "validation.scenes.dynamic_wheel.WheelScene.circumference_points",
     property(lambda one: round(np.pi * one.radius / one.spacing)),
 )
@@ -124,8 +115,7 @@ def test_rail_and_wheel_add_as_spectra():
 heights_of = wheel_ensemble.WheelEnsemble.heights
 
 
-@catches(
-    "Geike's spectrum for the rolling-equivalent one",
+@catches("Geike's spectrum for the rolling-equivalent one").at(
     "validation.simulation.wheel_on_springs.WheelEnsemble.heights",
     lambda rides: heights_of(replace(rides, input_spectrum="geike")),
 )
@@ -203,8 +193,8 @@ def inverted(omega, *, eigenfrequency, mass, damping):
     return 1 / (mass * (1 - (np.asarray(omega) / eigenfrequency) ** 2)) ** 2
 
 
-@catches("omega / omega_0 for omega_0 / omega", "validation.theory.wheel.acceleration_over_force", inverted)
-@catches("factor 2 pi lost over frequency", "validation.theory.wheel.over_frequency", Times(1 / (2 * np.pi)))
+@catches("omega / omega_0 for omega_0 / omega").at("validation.theory.wheel.acceleration_over_force", inverted)
+@catches("factor 2 pi lost over frequency").at("validation.theory.wheel.over_frequency", Times(1 / (2 * np.pi)))
 def test_the_linear_contact_has_its_closed_form_wave_by_wave():
     """A steady record is one period of its track, so waves are lines. Leapfrog sees 2 sin(omega dt / 2) / dt for omega,
     by which the resonator is known to be off; where a wave is too weak for its rounding, to that."""

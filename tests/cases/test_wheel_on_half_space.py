@@ -34,10 +34,8 @@ def test_a_strip_is_that_of_a_rough_rail_alone(scene):
         strip(scene)
 
 
-@catches(
-    "factor 2 lost in linear theory, seen by boundary elements in the loop",
-    "validation.simulation.wheel_on_half_space.linear_force",
-    Times(0.5),
+@catches("factor 2 lost in linear theory, seen by boundary elements in the loop").at(
+    "validation.simulation.wheel_on_half_space.linear_force", Times(0.5)
 )
 @pytest.mark.slow
 def test_a_low_strip_is_the_linear_contact():

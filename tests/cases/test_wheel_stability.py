@@ -39,11 +39,8 @@ def test_all_criteria_are_met(result):
 amplification = free.amplification
 
 
-@catches(
-    "half of the longest step",
-    "validation.simulation.free_vibration.amplification",
-    lambda scheme, x: amplification(scheme, 2 * np.asarray(x)),
-    scheme=integrators.VELOCITY_VERLET,
+@catches("half of the longest step", scheme=integrators.VELOCITY_VERLET).at(
+    "validation.simulation.free_vibration.amplification", lambda scheme, x: amplification(scheme, 2 * np.asarray(x))
 )
 @BY_NAME
 def test_limits_are_those_of_the_eigenvalue(scheme):
@@ -126,11 +123,8 @@ def test_a_planted_change_is_noticed(result, name, change, quantity, model):
 linear_response = rough.linear_response
 
 
-@catches(
-    "coarse springs taken for a continuum",
-    "validation.simulation.spring_tracks.linear_response",
-    lambda track, stride: linear_response(track, 1),
-    seed=0,
+@catches("coarse springs taken for a continuum", seed=0).at(
+    "validation.simulation.spring_tracks.linear_response", lambda track, stride: linear_response(track, 1)
 )
 @pytest.mark.parametrize("seed", range(5))
 def test_linear_spacing_holds_for_other_tracks(seed):

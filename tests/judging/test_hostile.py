@@ -296,23 +296,15 @@ RMS = "object.__setattr__(roughness, 'rms', 3.0)"
 DEEP = "roughness.parts[1]['a'][0] = 1.0"
 
 
-@catches(
-    "a changed argument that is never named",
-    "validation.judging.replies.changed",
-    lambda arguments, lent: "",
-    change=RMS,
+@catches("a changed argument that is never named", change=RMS).at(
+    "validation.judging.replies.changed", lambda arguments, lent: ""
 )
-@catches(
-    "an argument itself lent, so that the next call has what this one left",
-    "validation.judging.replies.copy_of",
-    lambda v: v,
-    change=RMS,
+@catches("an argument itself lent, so that the next call has what this one left", change=RMS).at(
+    "validation.judging.replies.copy_of", lambda v: v
 )
-@catches(
-    "arguments compared by their attributes, and not by what these hold",
+@catches("arguments compared by their attributes, and not by what these hold", change=DEEP).at(
     "validation.judging.replies.changed",
     lambda a, b: next((n for n in a if getattr(a[n], "rms", 0) != getattr(b[n], "rms", 0)), ""),
-    change=DEEP,
 )
 @pytest.mark.parametrize("change", CHANGES)
 def test_an_argument_that_is_changed_is_seen_and_the_next_call_has_a_fresh_one(change):
@@ -347,7 +339,7 @@ def test_what_a_model_of_measured_heights_is_given_is_compared_as_well():
     assert rng.random() != np.random.default_rng(1).random()  # drawing from it is its use
 
 
-@catches("arrays that can be written", "validation.judging.replies.as_argument", lambda value: value.copy())
+@catches("arrays that can be written").at("validation.judging.replies.as_argument", lambda value: value.copy())
 def test_arrays_cannot_be_written_and_are_compared_to_the_byte():
     before, other = {"x": np.array([0.0, np.nan])}, {"x": np.array([0.0, np.nan])}
     assert lent.changed(before, other) == ""

@@ -58,7 +58,7 @@ def again(function):
     return repeated(model)
 
 
-@catches("noise of ten per cent that is the same", "validation.judging.kinds.judge.SAME", 0.5, size=0.05)
+@catches("noise of ten per cent that is the same", size=0.05).at("validation.judging.kinds.judge.SAME", 0.5)
 @pytest.mark.parametrize("size", [0.05, 2e-3])
 def test_noise_is_random_without_rng(size):
     found = again(partial_of(noisy, size, np.random.default_rng(1)))
@@ -240,7 +240,7 @@ def test_draws_that_are_drawn_unequally_often_have_the_error_of_fewer(times):
     assert found.mean.value == pytest.approx(np.dot(pool, times) / n)
 
 
-@catches("draws that are equal under one load", "validation.judging.kinds.stiffness.EQUAL", 10.0)
+@catches("draws that are equal under one load").at("validation.judging.kinds.stiffness.EQUAL", 10.0)
 def test_draws_that_differ_under_any_load_are_draws():
     """Springs that are pressed flat are all as stiff."""
     model = Called(springs)

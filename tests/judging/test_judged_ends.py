@@ -103,9 +103,9 @@ WRONG = [
 STAYING = {kind: [one._replace(at=one.at[:1] * len(one.at)) for one in some] for kind, some in sweeps.SWEEPS.items()}
 
 
-@catches("a sweep that stays where it begins", "validation.judging.kinds.sweeps.SWEEPS", STAYING, *WRONG[5])
-@catches("a track shorter than the contact", "validation.judging.kinds.sweeps.TRACK", 1, *WRONG[8])
-@catches("a bound for a closed form", "validation.judging.kinds.sweeps.EXACT", None, *WRONG[-1])
+@catches("a sweep that stays where it begins", *WRONG[5]).at("validation.judging.kinds.sweeps.SWEEPS", STAYING)
+@catches("a track shorter than the contact", *WRONG[8]).at("validation.judging.kinds.sweeps.TRACK", 1)
+@catches("a bound for a closed form", *WRONG[-1]).at("validation.judging.kinds.sweeps.EXACT", None)
 @pytest.mark.parametrize(("kind", "function", "quantity", "expected"), WRONG)
 def test_where_a_model_breaks_is_found(kind, function, quantity, expected):
     assert [p.verdict for p in of(judged(kind, function, by=SWEEPS), quantity)] == expected
@@ -167,12 +167,9 @@ UNSCALED = [
 ONE = sweeps.Powers(1, 1, 1)
 
 
-@catches("a rule of scaling by the tolerance of a user", "validation.judging.kinds.sweeps.EXACT", 0.5, *UNSCALED[0])
-@catches(
-    "heights that never change",
-    "validation.judging.kinds.sweeps.RULES",
-    {**sweeps.RULES, "scaling with the height": ONE},
-    *UNSCALED[6],
+@catches("a rule of scaling by the tolerance of a user", *UNSCALED[0]).at("validation.judging.kinds.sweeps.EXACT", 0.5)
+@catches("heights that never change", *UNSCALED[6]).at(
+    "validation.judging.kinds.sweeps.RULES", {**sweeps.RULES, "scaling with the height": ONE}
 )
 @pytest.mark.parametrize(("kind", "function", "what", "expected"), UNSCALED)
 def test_what_is_right_in_some_units_alone_is_found(kind, function, what, expected):
@@ -180,7 +177,7 @@ def test_what_is_right_in_some_units_alone_is_found(kind, function, what, expect
     assert verdicts(judged(kind, function, tolerance=0.5, by=SCALING), f"scaling with the {what}") == expected
 
 
-@catches("a warning that is not heard", "validation.judging.worker.Called.warned", property(lambda called: ""))
+@catches("a warning that is not heard").at("validation.judging.worker.Called.warned", property(lambda called: ""))
 def test_a_warning_stands_beside_the_number():
     def warns(load, side, modulus, roughness):
         if load > 50 * modulus * roughness.rms * side:
@@ -223,10 +220,8 @@ def test_seconds_are_of_the_slowest_call_that_was_answered(monkeypatch):
     assert own.costs_of(model, points)[0].seconds == 2.0
 
 
-@catches(
-    "another quantity on the chart of errors",
-    "validation.judging.kinds.own.MAIN",
-    dict.fromkeys(own.MAIN, "contact filter of a long wave"),
+@catches("another quantity on the chart of errors").at(
+    "validation.judging.kinds.own.MAIN", dict.fromkeys(own.MAIN, "contact filter of a long wave")
 )
 def test_errors_are_medians_of_the_quantity_of_their_kind():
     points = list(points_of(Called(offer("contact_filter", "mine", {}, divides)), 0.1))
@@ -235,7 +230,9 @@ def test_errors_are_medians_of_the_quantity_of_their_kind():
     assert math.isnan(own.error_of("contact_law", points))
 
 
-@catches("a rule of scaling by ten times the interval of its draws", "validation.judging.kinds.sweeps.OF_SAMPLE", 20.0)
+@catches("a rule of scaling by ten times the interval of its draws").at(
+    "validation.judging.kinds.sweeps.OF_SAMPLE", 20.0
+)
 def test_draws_that_scale_wrong_by_more_than_two_intervals_are_found():
     """Each draw has its own power of E*, whose mean is off one by 4 %; the interval of eight draws is some 1.5 %."""
 

@@ -148,11 +148,8 @@ FAULTS = {
 }
 
 
-@catches(
-    "properties of nothing but a square",
-    "validation.judging.solvers.judged._rectangle",
-    lambda problem, shape, longer: problem,
-    *FAULTS["cells of a rectangle in another order"],
+@catches("properties of nothing but a square", *FAULTS["cells of a rectangle in another order"]).at(
+    "validation.judging.solvers.judged._rectangle", lambda problem, shape, longer: problem
 )
 @pytest.mark.parametrize(("solve", "quantity", "reason"), FAULTS.values(), ids=FAULTS)
 def test_a_seeded_fault_is_caught_and_named(solve, quantity, reason):
@@ -173,11 +170,8 @@ SOFTER = {
 }
 
 
-@catches(
-    "the approach of an answer for the one that is prescribed, in causes",
-    "validation.judging.solvers.diagnosis._shift",
-    lambda contact: 0.0,
-    fault="heights from their mean",
+@catches("the approach of an answer for the one that is prescribed, in causes", fault="heights from their mean").at(
+    "validation.judging.solvers.diagnosis._shift", lambda contact: 0.0
 )
 @pytest.mark.parametrize("fault", ["E for E*", "a factor 2 in the operator", "half a cell", "tension", *SOFTER])
 def test_a_fault_is_caught_by_approach_too(fault):
@@ -224,8 +218,7 @@ def test_no_answer_is_a_finding_with_its_reason(answer, reason):
 left = discrete.ContactProblem.left
 
 
-@catches(
-    "the approach of a contact for the one that is prescribed",
+@catches("the approach of a contact for the one that is prescribed").at(
     "validation.benchmarks.discrete.ContactProblem.left",
     lambda problem, pressure, by_force, *operator: left(problem, pressure, True, *operator),
 )
@@ -283,11 +276,8 @@ LARGE = {
 timed = judged.timed
 
 
-@catches(
-    "answers that are timed and not judged",
-    "validation.judging.solvers.judged.timed",
-    lambda asked: (([], times) for _, times in timed(asked)),
-    *LARGE["an even pressure"],
+@catches("answers that are timed and not judged", *LARGE["an even pressure"]).at(
+    "validation.judging.solvers.judged.timed", lambda asked: (([], times) for _, times in timed(asked))
 )
 @pytest.mark.parametrize(("way", "quantity"), LARGE.values(), ids=LARGE)
 def test_a_solver_that_is_right_on_small_grids_alone_is_wrong(way, quantity):

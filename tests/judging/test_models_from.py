@@ -188,7 +188,7 @@ def test_a_file_that_is_changed_while_its_models_are_compared_ends_the_command(h
     assert main(["compare", "rough_punch", "--models-from", str(path), "--models", "mine"]) == 2
 
 
-@catches("one measured surface without its scatter", "validation.scenes.measured.MeasuredHeights.is_single", False)
+@catches("one measured surface without its scatter").at("validation.scenes.measured.MeasuredHeights.is_single", False)
 def test_a_claim_for_one_measured_surface_has_its_scatter_about_the_mean():
     height = np.random.default_rng(4).normal(size=(32, 32)) * 1e-6
     one = replace(ROUGH, ground=validation.MeasuredHeights(height=height, spacing=(ROUGH.size / 32,) * 2))
@@ -211,10 +211,8 @@ def test_a_claim_for_one_measured_surface_has_its_scatter_about_the_mean():
     assert left[1] - left[0] == pytest.approx(2 * SCATTER) and left[2] == pytest.approx(left[0])
 
 
-@catches(
-    "a file that is changed while it is compared",
-    "validation.judging.own_models.OwnModel.check_unchanged",
-    lambda own: None,
+@catches("a file that is changed while it is compared").at(
+    "validation.judging.own_models.OwnModel.check_unchanged", lambda own: None
 )
 def test_a_file_that_is_changed_is_seen_before_it_is_called():
     tmp_path = Path(tempfile.mkdtemp())

@@ -83,8 +83,8 @@ def next_scenes(answers, group):
     return ((replace(point, number=point.number + 1), *rest) for point, *rest in scenes_of(answers, group))
 
 
-@catches(
-    "the error of the next scene of the calibration", "validation.advice.calibration_scenes.Answers.scenes", next_scenes
+@catches("the error of the next scene of the calibration").at(
+    "validation.advice.calibration_scenes.Answers.scenes", next_scenes
 )
 def test_each_error_is_that_of_its_own_scene_and_no_less_than_the_answer_leaves():
     """So that a model that was fitted to the answers is not known to be nearer."""
@@ -108,11 +108,8 @@ def test_a_calibrated_function_is_chosen_like_any_other():
     assert found.models["springs"].status == "not asked"
 
 
-@catches(
-    "a claim that is a distance of logarithms",
-    "validation.judging.own_models.math",
-    module_with(math, expm1=float),
-    off=0.7,
+@catches("a claim that is a distance of logarithms", off=0.7).at(
+    "validation.judging.own_models.math", module_with(math, expm1=float)
 )
 @pytest.mark.parametrize("off", [1.3, 0.7])
 def test_a_law_that_is_wrong_by_thirty_per_cent_claims_that_and_is_not_chosen(off):
@@ -143,10 +140,8 @@ def test_no_model_and_one_twice_are_refused_before_any_is_measured(models, said,
         validation.compare(ROUGH, models=models)
 
 
-@catches(
-    "a model without references that is chosen",
-    "validation.judging.own_models.OwnModel._claim",
-    lambda own, *_: ErrorEstimate(reason="none is known"),
+@catches("a model without references that is chosen").at(
+    "validation.judging.own_models.OwnModel._claim", lambda own, *_: ErrorEstimate(reason="none is known")
 )
 def test_without_references_an_error_is_unknown_and_nothing_is_chosen():
     with stored():
@@ -156,10 +151,8 @@ def test_without_references_an_error_is_unknown_and_nothing_is_chosen():
     assert "no answers of boundary elements are stored" in alone.reason and alone.answer.value[0] > 0
 
 
-@catches(
-    "a function without a file that is stored",
-    "validation.judging.own_models._digest_of_file",
-    lambda offered: "a file",
+@catches("a function without a file that is stored").at(
+    "validation.judging.own_models._digest_of_file", lambda offered: "a file"
 )
 def test_a_function_without_a_file_is_neither_calibrated_nor_stored():
     with stored((PUNCH, answers())) as folder:
@@ -215,16 +208,14 @@ def code_of(visitor):
     return files_read.digest_of(path for path in visitor.sources if path.suffix == ".py")
 
 
-@catches(
-    "a key without the bytes of a module that the file loads",
-    "validation.judging.worker.Visitor.digest",
-    property(lambda visitor: files_read.digest_of([visitor.path])),
+@catches("a key without the bytes of a module that the file loads").at(
+    "validation.judging.worker.Visitor.digest", property(lambda visitor: files_read.digest_of([visitor.path]))
 )
-@catches(
-    "a key without the bytes of data that the file reads", "validation.judging.worker.Visitor.digest", property(code_of)
+@catches("a key without the bytes of data that the file reads").at(
+    "validation.judging.worker.Visitor.digest", property(code_of)
 )
-@catches(
-    "a key that is taken before a call loads a module", "validation.judging.own_models._probe", lambda called: None
+@catches("a key that is taken before a call loads a module").at(
+    "validation.judging.own_models._probe", lambda called: None
 )
 @pytest.mark.slow
 def test_the_key_has_the_bytes_of_modules_and_data_that_a_call_reads():
@@ -324,7 +315,7 @@ def test_springs_on_a_rule_are_those_of_the_package():
     assert abs(mine.mean() / theirs.mean() - 1) < 4 * mine.std() / mine.mean() / math.sqrt(100)
 
 
-@catches("surfaces of another seed than those of the reference", "validation.judging.own_models.OTHER_SEED", 0)
+@catches("surfaces of another seed than those of the reference").at("validation.judging.own_models.OTHER_SEED", 0)
 def test_surfaces_are_those_that_boundary_elements_have():
     """So that no scatter of the surfaces is left of an error."""
 
@@ -348,10 +339,8 @@ def as_reference(name, a3):
     return ContactFilter(name=name, closed=lambda quantity: a3, is_reference=True)
 
 
-@catches(
-    "a filter of somebody's own that is the reference",
-    ("validation.judging.own_kinds.filter_of", "validation.judging.own_models.filter_of"),
-    as_reference,
+@catches("a filter of somebody's own that is the reference").at(
+    ("validation.judging.own_kinds.filter_of", "validation.judging.own_models.filter_of"), as_reference
 )
 def test_a_filter_of_a_rail_claims_what_the_same_one_of_the_package_does():
     @validation.contact_filter("sinc")

@@ -144,11 +144,11 @@ def test_the_line_of_the_file_stands_with_an_error_of_a_library(tmp_path):
     assert reply.reason == f"raised LinAlgError: Singular matrix, line {HEAD.count(chr(10)) + 3} of bad.py"
 
 
-@catches(
-    "a refusal of whatever a line of the file comes to", "validation.judging.replies._is_thrown_into", lambda *_: True
+@catches("a refusal of whatever a line of the file comes to").at(
+    "validation.judging.replies._is_thrown_into", lambda *_: True
 )
-@catches(
-    "no refusal by a function without a file", "validation.judging.replies.homes_of", lambda function, file=None: ()
+@catches("no refusal by a function without a file").at(
+    "validation.judging.replies.homes_of", lambda function, file=None: ()
 )
 def test_in_this_process_a_function_of_a_console_refuses_too():
     """Its code has a file that is none."""

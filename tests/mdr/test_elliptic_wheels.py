@@ -14,10 +14,8 @@ from tests.seeded import catches
 from validation.theory.half_space import elliptic_contact
 
 
-@catches(
-    "the radius along the track for that of the contact",
-    f"{__name__}.spring_wheel",
-    lambda radius, modulus: (radius[0], modulus, 1.0),
+@catches("the radius along the track for that of the contact").at(
+    f"{__name__}.spring_wheel", lambda radius, modulus: (radius[0], modulus, 1.0)
 )
 @given(pair=st.tuples(st.floats(0.05, 5), st.floats(0.05, 5)), approach=st.floats(1e-7, 1e-4))
 @example(pair=(0.46, 0.3), approach=6e-5)
@@ -30,8 +28,7 @@ def test_springs_have_the_load_curve_and_the_length_of_the_ellipse(pair, approac
     assert 2 * modulus * smooth.along == pytest.approx(smooth.stiffness, rel=1e-9)
 
 
-@catches(
-    "springs of an ellipse as stiff as those of a sphere",
+@catches("springs of an ellipse as stiff as those of a sphere").at(
     "mdr.rolling.spring_wheel",
     lambda radius, modulus: elliptic_wheel.spring_wheel(radius, 1.0)._replace(modulus=modulus),
 )
@@ -54,8 +51,7 @@ def test_ridges_across_the_track_pass_with_the_filter_of_the_semi_axis_along(wav
     assert mode == pytest.approx(np.sinc(q * smooth.along / np.pi), abs=5e-3)
 
 
-@catches(
-    "an ensemble on the springs of a sphere",
+@catches("an ensemble on the springs of a sphere").at(
     "mdr.rolling_ensemble.spring_wheel",
     lambda radius, modulus: elliptic_wheel.spring_wheel(radius, modulus)._replace(modulus=modulus),
 )

@@ -138,29 +138,13 @@ def profile_half_a_cell_ahead(wheels, springs):
     return np.rint((x**2 / wheels.radius)[:, np.newaxis] / wheels.quantum)
 
 
-@catches(
-    "x^2 / 2R under many wheels", "mdr.rolling_ensemble.RollingEnsemble._profile", Times(0.5), springs=7.3, rms=0.1
+@catches("x^2 / 2R under many wheels", springs=7.3, rms=0.1).at("mdr.RollingEnsemble._profile", Times(0.5))
+@catches("many wheels half a cell ahead", springs=7.3, rms=0.1).at(
+    "mdr.RollingEnsemble._profile", profile_half_a_cell_ahead
 )
-@catches(
-    "many wheels half a cell ahead",
-    "mdr.rolling_ensemble.RollingEnsemble._profile",
-    profile_half_a_cell_ahead,
-    springs=7.3,
-    rms=0.1,
-)
-@catches(
-    "E for E* under many wheels",
-    "mdr.rolling_ensemble.RollingEnsemble.force",
-    Times(E_FOR_E_STAR),
-    springs=7.3,
-    rms=0.1,
-)
-@catches(
-    "springs that pull under many wheels",
-    "mdr.rolling_ensemble.np",
-    module_with(np, maximum=lambda values, least, out=None: values),
-    springs=30.0,
-    rms=0.1,
+@catches("E for E* under many wheels", springs=7.3, rms=0.1).at("mdr.RollingEnsemble.force", Times(E_FOR_E_STAR))
+@catches("springs that pull under many wheels", springs=30.0, rms=0.1).at(
+    "mdr.rolling_ensemble.np", module_with(np, maximum=lambda values, least, out=None: values)
 )
 @pytest.mark.parametrize("springs", [1.0, 7.3, 30.0, 100.0])
 @pytest.mark.parametrize("rms", [0.0, 1e-3, 0.1])
@@ -185,10 +169,8 @@ def groups(order, cuts):
     return [list(order[first:last]) for first, last in itertools.pairwise(edges)]
 
 
-@catches(
-    "sums that round",
-    "mdr.rolling_ensemble.np",
-    module_with(np, rint=lambda values: np.asarray(values, dtype=np.float64)),
+@catches("sums that round").at(
+    "mdr.rolling_ensemble.np", module_with(np, rint=lambda values: np.asarray(values, dtype=np.float64))
 )
 @pytest.mark.slow
 @given(data=st.data(), track=tracks(fewest=10.0, roughest=0.15, wheels=5), way=ways())

@@ -37,11 +37,9 @@ def assert_is_the_sum(track, found, approach):
     assert (np.rint(in_contact) <= most).all()
 
 
-@catches("x^2 / 2R under the wheel", "mdr.spring_track.SpringTrack.wheel", Times(0.5))
-@catches(
-    "springs that pull wherever they are in doubt",
-    "mdr.rolling.np",
-    module_with(np, maximum=lambda values, least: values),
+@catches("x^2 / 2R under the wheel").at("mdr.spring_track.SpringTrack.wheel", Times(0.5))
+@catches("springs that pull wherever they are in doubt").at(
+    "mdr.rolling.np", module_with(np, maximum=lambda values, least: values)
 )
 @given(track=on_springs(), seed=st.integers(0, 1000))
 def test_force_is_the_sum_over_all_springs(track, seed):
@@ -128,7 +126,9 @@ def on_the_highest_spring_alone(track, block, wanted, d):
     return Borne(borne.approach + wanted * (1 - 1 / borne.pressed), borne.pressed, borne.looked)
 
 
-@catches("a light wheel on its highest spring alone", "mdr.rolling.by_sorting", on_the_highest_spring_alone, spike=0.1)
+@catches("a light wheel on its highest spring alone", spike=0.1).at(
+    "mdr.rolling.by_sorting", on_the_highest_spring_alone
+)
 @pytest.mark.parametrize("spike", [0.1, 10.0, -10.0, 1e8, -1e8])
 def test_a_light_wheel_over_a_spike(spike):
     """Where the steps of Newton's method are lost in the rounding of the profile, for ever."""
@@ -137,10 +137,8 @@ def test_a_light_wheel_over_a_spike(spike):
     assert_is_borne(found, height, **LIGHT, positions=[0, 71, 132, 133, 134, 140, 210, 399])
 
 
-@catches(
-    "a spike that nobody rolls over",
-    "mdr.candidate_springs.Near.beyond",
-    lambda _, offsets: np.zeros(offsets.shape, dtype=bool),
+@catches("a spike that nobody rolls over").at(
+    "mdr.candidate_springs.Near.beyond", lambda _, offsets: np.zeros(offsets.shape, dtype=bool)
 )
 def test_a_light_wheel_over_a_spike_of_a_thousand_times_the_roughness():
     """Four thousand positions, and no more springs looked at than a few times those of a track without it."""
@@ -266,7 +264,7 @@ def test_units_do_not_matter(kind, track, force, length):
     assert np.abs(found - expected).max() <= track.rounding
 
 
-@catches("factor 4 lost in (14.12)", "validation.theory.rolling.response", Times(0.5))
+@catches("factor 4 lost in (14.12)").at("validation.theory.rolling.response", Times(0.5))
 @given(track=on_springs())
 def test_spectrum_of_the_linear_force_is_14_12(track):
     """C_F = 4 E*^2 sin^2(q a) / q^2 C_1D, wave by wave."""
@@ -290,8 +288,8 @@ def wave(springs, *, half=0.5):
 reach = rolling.SpringTrack.reach
 
 
-@catches(
-    "a for 2a under the wheel", "mdr.spring_track.SpringTrack.reach", lambda track, level: reach(track, level) // 2
+@catches("a for 2a under the wheel").at(
+    "mdr.spring_track.SpringTrack.reach", lambda track, level: reach(track, level) // 2
 )
 def test_full_contact_tends_to_the_filter_at_second_order():
     """A spring to each cell of a contact of 2m + 1 of them, the midpoint rule: error (dx^2 / 24) (F'(a) - F'(-a))."""
@@ -305,10 +303,8 @@ def test_full_contact_tends_to_the_filter_at_second_order():
     assert orders == pytest.approx(2, abs=0.05)
 
 
-@catches(
-    "springs that pull under the smooth wheel",
-    "mdr.rolling._one_sided",
-    lambda track, d: rolling._full(track, float(d[0]), None),
+@catches("springs that pull under the smooth wheel").at(
+    "mdr.rolling._one_sided", lambda track, d: rolling._full(track, float(d[0]), None)
 )
 def test_one_sided_force_leaves_the_linear_one_at_second_order():
     """F - F(0) = linear part + E* R / (4 a) (h(x + a)^2 + h(x - a)^2): springs lost and gained at both edges.

@@ -46,8 +46,8 @@ def even_across(half_widths, points, step):
     return inside / inside.sum(axis=0)
 
 
-@catches(
-    "equal weights across the contact", "mdr.rolling_surface.weights_across", even_across, radius=1.0, waves=(0, 3)
+@catches("equal weights across the contact", radius=1.0, waves=(0, 3)).at(
+    "mdr.rolling_surface.weights_across", even_across
 )
 @pytest.mark.parametrize("radius", [1.0, (1.0, 0.3), (0.3, 1.0)])
 @pytest.mark.parametrize("waves", [(1, 0), (3, 2), (0, 3), (6, 1)])
@@ -76,8 +76,7 @@ def test_over_ridges_it_is_the_springs_of_a_line():
         np.testing.assert_array_equal(np.rint(ridges.stiffness / springs.stiffness), 1.0)
 
 
-@catches(
-    "one width across for all springs",
+@catches("one width across for all springs").at(
     "mdr.rolling_surface.weights_across",
     lambda widths, points, step: weights_across(np.full_like(widths, widths.max()), points, step),
 )

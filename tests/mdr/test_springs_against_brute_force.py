@@ -15,8 +15,7 @@ from validation.theory import closed_forms
 load_curve = foundation.load_curve
 
 
-@catches(
-    "E for E* in springs",
+@catches("E for E* in springs").at(
     "mdr.load_curve",
     lambda height, *, length, modulus: load_curve(height, length=length, modulus=E_FOR_E_STAR * modulus),
 )
@@ -100,11 +99,8 @@ def test_profile_of_the_sphere():
     np.testing.assert_array_equal(mdr.sphere_profile([-6.0, 0.0, 3.0], radius=4.0), [9.0, 0.0, 2.25])
 
 
-@catches(
-    "x^2 / 2R in one dimension",
-    "mdr.sphere_profile",
-    lambda x, *, radius: np.asarray(x) ** 2 / (2 * radius),
-    offset=0.1,
+@catches("x^2 / 2R in one dimension", offset=0.1).at(
+    "mdr.sphere_profile", lambda x, *, radius: np.asarray(x) ** 2 / (2 * radius)
 )
 @pytest.mark.parametrize("offset", [0.0, 0.1, 0.37, 0.5])
 def test_springs_under_a_parabola_tend_to_the_sphere_at_second_order(offset):

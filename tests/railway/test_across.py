@@ -70,11 +70,9 @@ def by_double_sum(response, ground, wavelength):
 filter_of = filters.filter_of
 
 
-@catches(
-    "Remington's circle as long as the ellipse",
+@catches("Remington's circle as long as the ellipse", model=filters.REMINGTON_THERE).at(
     "validation.railway.cases.filters.filter_of",
     lambda model, contact: filter_of(model, replace(contact, across=contact.along)),
-    model=filters.REMINGTON_THERE,
 )
 @pytest.mark.slow
 @pytest.mark.parametrize("model", [*RESPONSES, filters.REMINGTON])
@@ -97,9 +95,9 @@ def over_all_lines(model, contact):
     return filter_of("linear, on the line" if model.startswith("mean of") else model, contact)
 
 
-@catches("a bed that is narrower by 2/√3", "validation.railway.cases.filters.WIDER", 3**0.5 / 2)
-@catches("three lines at the edges of the contact", "validation.railway.cases.filters.NEAR", 1.0)
-@catches("one line for the mean of three", "validation.railway.cases.filters.filter_of", over_all_lines)
+@catches("a bed that is narrower by 2/√3").at("validation.railway.cases.filters.WIDER", 3**0.5 / 2)
+@catches("three lines at the edges of the contact").at("validation.railway.cases.filters.NEAR", 1.0)
+@catches("one line for the mean of three").at("validation.railway.cases.filters.filter_of", over_all_lines)
 def test_a_wider_bed_and_three_lines_are_the_half_space_to_second_order():
     contact = scene_of(WHEEL).contact
     x, y = 0.02 / A_X, 0.03 / A_Y
@@ -109,11 +107,8 @@ def test_a_wider_bed_and_three_lines_are_the_half_space_to_second_order():
         assert 1 - float(transfer(np.array(x), np.array(y))) == pytest.approx(half_space, rel=1e-3)
 
 
-@catches(
-    "strips too narrow for oblique long waves",
-    "validation.railway.problems.rail_across.LINES",
-    0.05,
-    ground="alpha = 0.25",
+@catches("strips too narrow for oblique long waves", ground="alpha = 0.25").at(
+    "validation.railway.problems.rail_across.LINES", 0.05
 )
 @pytest.mark.parametrize("ground", ["alpha = 0.25", "alpha = 8", "isotropic ground"])
 def test_strips_are_so_wide_that_their_line_has_the_power_of_the_ground(ground):
@@ -168,12 +163,12 @@ def of_the_fine_cells(result, key, model, other):
     return left_by_grid(result, key, model, other) * (fine - coarse) / coarse
 
 
-@catches(
-    "a change of the cells for what they leave, in contact filters",
-    "validation.railway.cases.rolled_filters.RolledFiltersResult.left_by_grid",
-    of_the_fine_cells,
+@catches("a change of the cells for what they leave, in contact filters").at(
+    "validation.railway.cases.rolled_filters.RolledFiltersResult.left_by_grid", of_the_fine_cells
 )
-@catches("bands that do not count, in contact filters", "validation.railway.cases.across.counted", lambda a3: a3 < 1.0)
+@catches("bands that do not count, in contact filters").at(
+    "validation.railway.cases.across.counted", lambda a3: a3 < 1.0
+)
 def test_a_filter_over_boundary_elements_has_their_errors_in_the_bands_that_count():
     result = rolled(0.5)
     key = result.case.keys[2]
@@ -196,8 +191,7 @@ def test_a_filter_over_boundary_elements_has_their_errors_in_the_bands_that_coun
 beyond_linear = across.AcrossResult.beyond_linear
 
 
-@catches(
-    "contact that adds to one line and not to boundary elements",
+@catches("contact that adds to one line and not to boundary elements").at(
     "validation.railway.cases.across.AcrossResult.beyond_linear",
     lambda result, key, sign=0: -beyond_linear(result, key, sign),
 )
@@ -239,8 +233,8 @@ def test_the_nearest_alpha_and_factor_are_those_by_which_the_reference_was_made(
     assert np.allclose(across.in_counted(scene, BED, 0.5, keep, larger), wider(1.3))
 
 
-@catches(
-    "forces that are not A-weighted", "validation.railway.cases.filters.a_weighting", lambda frequency: 0 * frequency
+@catches("forces that are not A-weighted").at(
+    "validation.railway.cases.filters.a_weighting", lambda frequency: 0 * frequency
 )
 def test_forces_in_decibel_a_are_beside_those_of_boundary_elements():
     """0.5 dB louder in all bands that strips have; IEC 61672 by its formula."""
@@ -262,10 +256,8 @@ def test_forces_in_decibel_a_are_beside_those_of_boundary_elements():
 roll_one_way = rail_across._roll
 
 
-@catches(
-    "strips rolled over one way alone",
-    "validation.railway.problems.rail_across._roll",
-    lambda rail, sign: roll_one_way(rail, 1),
+@catches("strips rolled over one way alone").at(
+    "validation.railway.problems.rail_across._roll", lambda rail, sign: roll_one_way(rail, 1)
 )
 def test_both_ways_are_the_heights_and_the_opposite_ones():
     rail, seen = wide_rail(scene_of(WHEEL), "ridges", 6, 0, 1), []

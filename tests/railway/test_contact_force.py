@@ -56,10 +56,8 @@ def of_the_secant(scene):
     return dataclasses.replace(contact, stiffness=contact.force / contact.approach)
 
 
-@catches(
-    "the force over the approach for the stiffness of Hertz",
-    "validation.railway.scenes.rail.RailScene.contact",
-    property(of_the_secant),
+@catches("the force over the approach for the stiffness of Hertz").at(
+    "validation.railway.scenes.rail.RailScene.contact", property(of_the_secant)
 )
 def test_the_force_is_the_stiffness_of_hertz_times_the_equivalent_displacement():
     """At 1 kHz nothing is weighted; k = 3 F / (2 d), 50 kN and 65.6 um."""
@@ -81,15 +79,11 @@ def answering(found, which, **changes):
 real_weighting = exported.a_weighting
 
 
-@catches(
-    "A-weighting at the frequency of half a wave",
-    "validation.railway.exported.a_weighting",
-    lambda frequency: real_weighting(2 * frequency),
+@catches("A-weighting at the frequency of half a wave").at(
+    "validation.railway.exported.a_weighting", lambda frequency: real_weighting(2 * frequency)
 )
-@catches(
-    "a force at nominal frequencies",
-    "validation.analysis.spectra.NominalBands.wavelengths",
-    property(lambda bands: bands.nominal),
+@catches("a force at nominal frequencies").at(
+    "validation.analysis.spectra.NominalBands.wavelengths", property(lambda bands: bands.nominal)
 )
 def test_each_band_is_weighted_as_the_table_of_the_standard_has_its_frequency():
     """f = v / lambda of the exact wavelength of the band: a nominal one, as 160 for 158.5 mm, is off by 0.1 dB."""
@@ -98,10 +92,8 @@ def test_each_band_is_weighted_as_the_table_of_the_standard_has_its_frequency():
     np.testing.assert_allclose((force.levels[force.chosen] - unweighted)[:34], TABLE, atol=0.065)
 
 
-@catches(
-    "the mean error of bands as that of their sum",
-    "validation.advice.contact_force.ContactForce.error",
-    property(lambda force: float(force.half_width.mean())),
+@catches("the mean error of bands as that of their sum").at(
+    "validation.advice.contact_force.ContactForce.error", property(lambda force: float(force.half_width.mean()))
 )
 def test_the_error_of_the_sum_counts_loud_bands_most():
     """All bands louder by their errors, over the sum as it is: a loud band of 3 dB among others that are known."""
@@ -127,10 +119,8 @@ def independent_bands(force):
     return float(np.sqrt(np.sum((share * force.half_width) ** 2)))
 
 
-@catches(
-    "errors of bands taken as independent in their sum",
-    "validation.advice.contact_force.ContactForce.error",
-    property(independent_bands),
+@catches("errors of bands taken as independent in their sum").at(
+    "validation.advice.contact_force.ContactForce.error", property(independent_bands)
 )
 def test_the_error_of_the_sum_is_that_of_its_bands_and_says_which_are_unknown():
     assert filters(0.0).force.error == pytest.approx(0.5)
@@ -141,8 +131,7 @@ def test_the_error_of_the_sum_is_that_of_its_bands_and_says_which_are_unknown():
     assert f"bands of unknown error, {100 * share:.2g} % of its energy" in force.sentences[0]
 
 
-@catches(
-    "sums over unlike bands beside each other",
+@catches("sums over unlike bands beside each other").at(
     "validation.advice.contact_force.ContactForce.over_chosen",
     lambda force, model: force.total(model) - force.total("by 0 dB"),
 )
@@ -169,10 +158,8 @@ def test_the_closed_filters_stand_beside_the_chosen_one_unasked():
     assert "another filter changes the sum by +0.2 to +0.6 dB(A)" in " ".join(summary(found).split())
 
 
-@catches(
-    "the equivalent roughness filtered once more",
-    "validation.advice.compare.Comparison.a3_of",
-    compare.Comparison.value_of,
+@catches("the equivalent roughness filtered once more").at(
+    "validation.advice.compare.Comparison.a3_of", compare.Comparison.value_of
 )
 def test_text_json_and_csv_have_the_same_table():
     """L_eq = L_r + A3, whichever quantity is asked."""

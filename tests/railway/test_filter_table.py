@@ -67,10 +67,8 @@ def test_longer_waves_are_those_of_a_scene_that_has_them(across):
     assert (tables[1][:14] < 0).any()
 
 
-@catches(
-    "long waves that pass under every filter",
-    "validation.railway.exported.of_longer_waves",
-    lambda model, target: np.zeros(35),
+@catches("long waves that pass under every filter").at(
+    "validation.railway.exported.of_longer_waves", lambda model, target: np.zeros(35)
 )
 def test_springs_on_geikes_spectrum_are_off_for_long_waves_too():
     """By sqrt(pi) Gamma((p + 1) / 2) / Gamma(p / 2) of C_line ~ q^-p: 2.0 dB for p = 2."""

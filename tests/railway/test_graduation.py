@@ -28,7 +28,9 @@ def test_a_straight_line_is_its_own_graduation():
     assert found.scatter == 1e-3
 
 
-@catches("lone values that keep their weight", "validation.railway.scenes.isotropic_line.LONE", 1e3, first=10, count=3)
+@catches("lone values that keep their weight", first=10, count=3).at(
+    "validation.railway.scenes.isotropic_line.LONE", 1e3
+)
 @pytest.mark.parametrize(("first", "count"), [(0, 1), (17, 1), (10, 3), (15, 4), (34, 1)])
 def test_lone_values_lose_their_weight(first, count):
     series = LINE.copy()
@@ -36,7 +38,9 @@ def test_lone_values_lose_their_weight(first, count):
     np.testing.assert_allclose(graduated(series, EVEN, least=1.0).values, LINE, atol=1e-3)
 
 
-@catches("values that stand out weighed by Huber's rule", "validation.railway.scenes.isotropic_line.REDESCENDING", -1)
+@catches("values that stand out weighed by Huber's rule").at(
+    "validation.railway.scenes.isotropic_line.REDESCENDING", -1
+)
 def test_a_value_weighs_by_tukeys_biweight_of_its_deviation():
     """The graduation solves its own normal equations, W (y - z) = 10 B' B z, w = w0 (1 - (deviation / 3 s)^2)^2."""
     rng = np.random.default_rng(2)
@@ -50,7 +54,7 @@ def test_a_value_weighs_by_tukeys_biweight_of_its_deviation():
     assert np.abs(deviation).max() > 2 and (biweight < 0.5 * weights).sum() >= 2
 
 
-@catches("one standard error of a slope", "validation.railway.scenes.isotropic_line.Graduation.quantile", 1.0)
+@catches("one standard error of a slope").at("validation.railway.scenes.isotropic_line.Graduation.quantile", 1.0)
 def test_errors_of_slopes_cover_those_of_a_line_with_known_scatter():
     """95 % of all slopes, within three standard errors of as many independent stretches of seven values."""
     rng, inside, widths = np.random.default_rng(4), [], []
@@ -71,8 +75,7 @@ def of_equal_weights(found):
 slope_error = isotropic_line.Graduation.slope_error
 
 
-@catches(
-    "slopes whose errors have equal weights",
+@catches("slopes whose errors have equal weights").at(
     "validation.railway.scenes.isotropic_line.Graduation.slope_error",
     lambda found, reach: slope_error(of_equal_weights(found), reach),
 )

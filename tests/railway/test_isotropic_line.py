@@ -26,11 +26,8 @@ def level_of(line):
     return 10 * np.log10(ISO.bands.powers_of_spectrum(line) / 1e-12)
 
 
-@catches(
-    "smooth levels that are smoothed",
-    "validation.railway.scenes.isotropic_line.WHOLE_DECIBELS",
-    -1.0,
-    name="iso3095-2013",
+@catches("smooth levels that are smoothed", name="iso3095-2013").at(
+    "validation.railway.scenes.isotropic_line.WHOLE_DECIBELS", -1.0
 )
 @pytest.mark.parametrize("name", ["iso3095-2013", "cnossos-average"])
 def test_smooth_levels_stay_as_they_are_to_the_bit(name):
@@ -58,8 +55,7 @@ def of_equal_weights(found):
     return replace(found, of_values=np.ones(len(found.values)))
 
 
-@catches(
-    "levels of few waves that stand out as those of many",
+@catches("levels of few waves that stand out as those of many").at(
     "validation.railway.scenes.isotropic_line.graduated",
     lambda *args, least: of_equal_weights(graduated(*args, least=least)),
 )
@@ -92,8 +88,7 @@ def test_levels_that_rise_too_steeply_are_named_and_the_ground_falls():
     assert found.stands_out[NOMINAL > 40].all() and not found.stands_out[NOMINAL < 16].any()
 
 
-@catches(
-    "few waves that weigh as much as many",
+@catches("few waves that weigh as much as many").at(
     "validation.railway.scenes.isotropic_line.graduated",
     lambda series, weights, *, least: graduated(series, np.ones(len(series)), least=least),
 )

@@ -36,21 +36,11 @@ def asked(model):
     raise AssertionError(f"{model.name} is solved")
 
 
-@catches(
-    "the bands of a wrong filter that count",
-    "validation.railway.problems.rail_quantity.RailQuantity.no_answer",
-    "",
-    across="isotropic",
-    scene=QUIET,
-    span="12.5 to 10 mm",
+@catches("the bands of a wrong filter that count", across="isotropic", scene=QUIET, span="12.5 to 10 mm").at(
+    "validation.railway.problems.rail_quantity.RailQuantity.no_answer", ""
 )
-@catches(
-    "levels counted that no one hears",
-    "validation.railway.problems.rail_quantity.COUNTED",
-    -60.0,
-    across="ridges",
-    scene=SHORT,
-    span="6.3 to 3.15 mm",
+@catches("levels counted that no one hears", across="ridges", scene=SHORT, span="6.3 to 3.15 mm").at(
+    "validation.railway.problems.rail_quantity.COUNTED", -60.0
 )
 @pytest.mark.parametrize(("scene", "span"), [(SHORT, "6.3 to 3.15 mm"), (QUIET, "12.5 to 10 mm")])
 @pytest.mark.parametrize("across", ["ridges", "isotropic", 0.5, None])
@@ -66,8 +56,8 @@ def test_no_model_is_enough_where_no_band_counts(scene, span, across):
     assert json.loads(to_json(found))["met"] is False
 
 
-@catches(
-    "enough where no band counts", "validation.railway.problems.rail_models.worst", lambda quantity, a3, error: 0.0
+@catches("enough where no band counts").at(
+    "validation.railway.problems.rail_models.worst", lambda quantity, a3, error: 0.0
 )
 def test_a_solve_leaves_its_bands_and_no_error():
     """As with --all: what was found is told, and no error of it is known."""

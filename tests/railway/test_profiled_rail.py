@@ -65,11 +65,8 @@ def radius_of(profile, load=5e4):
     return fitted_radius(profile, along=0.46, modulus=STEEL, load=load)
 
 
-@catches(
-    "y^2 / R for y^2 / (2 R) in the radius of a transverse profile",
-    "validation.railway.scenes.transverse_profile.TransverseProfile.radius_within",
-    Times(2.0),
-    load=5e4,
+@catches("y^2 / R for y^2 / (2 R) in the radius of a transverse profile", load=5e4).at(
+    "validation.railway.scenes.transverse_profile.TransverseProfile.radius_within", Times(2.0)
 )
 @pytest.mark.parametrize("load", [5e3, 5e4, 2e5])
 def test_a_parabola_has_its_radius_under_any_load(load):
@@ -79,10 +76,8 @@ def test_a_parabola_has_its_radius_under_any_load(load):
 right_both_together = transverse_profile.both_together
 
 
-@catches(
-    "the curvature of the other body taken off that of a profile",
-    f"{__name__}.both_together",
-    lambda bodies, curvature: right_both_together(bodies, 0.0),
+@catches("the curvature of the other body taken off that of a profile").at(
+    f"{__name__}.both_together", lambda bodies, curvature: right_both_together(bodies, 0.0)
 )
 def test_a_hollow_wheel_and_a_crown_are_one_profile():
     """1 / 200 - 1 / 600 = 1 / 300 mm, of two profiles and of a profile and a radius."""
@@ -98,8 +93,7 @@ def test_a_hollow_wheel_and_a_crown_are_one_profile():
 radius_of_parabola = TransverseProfile.radius_within
 
 
-@catches(
-    "a radius of more than the contact",
+@catches("a radius of more than the contact").at(
     "validation.railway.scenes.transverse_profile.TransverseProfile.radius_within",
     lambda profile, half: radius_of_parabola(profile, 2 * half),
 )
@@ -264,15 +258,11 @@ def second_contact(gap, load):
 check_alone = transverse_profile._check_alone
 
 
-@catches(
-    "a second contact that is not seen",
-    "validation.railway.scenes.transverse_profile._check_alone",
-    lambda *arguments: None,
+@catches("a second contact that is not seen").at(
+    "validation.railway.scenes.transverse_profile._check_alone", lambda *arguments: None
 )
-@catches(
-    "surfaces that do not give way beside the contact",
-    "validation.railway.scenes.transverse_profile._check_alone",
-    lambda *of: check_alone(*of[:3], 0.0),
+@catches("surfaces that do not give way beside the contact").at(
+    "validation.railway.scenes.transverse_profile._check_alone", lambda *of: check_alone(*of[:3], 0.0)
 )
 def test_a_second_contact_is_refused_and_a_second_top_that_does_not_touch_is_none():
     """The approach is 66 um; 30 mm beside the contact the surfaces give way by F / (pi E* r) = 4.6 um."""
@@ -283,15 +273,12 @@ def test_a_second_contact_is_refused_and_a_second_top_that_does_not_touch_is_non
 moved = TransverseProfile.moved
 
 
-@catches(
-    "a wheel moved to the other side",
+@catches("a wheel moved to the other side").at(
     "validation.railway.scenes.transverse_profile.TransverseProfile.moved",
     lambda profile, offset: moved(profile, -offset),
 )
-@catches(
-    "contact where the rail alone is highest",
-    f"{__name__}.both_together",
-    lambda bodies, *other: right_both_together(bodies[:1], *other),
+@catches("contact where the rail alone is highest").at(
+    f"{__name__}.both_together", lambda bodies, *other: right_both_together(bodies[:1], *other)
 )
 def test_two_bodies_touch_where_both_together_are_highest():
     """-(y^2 / 600 + (y - 6)^2 / 1200) at y = 2 mm; a crown of 300 mm is as steep as a cone of 1 in 100 at 3 mm."""

@@ -51,10 +51,8 @@ def on_the_fitted_radius(strip, profile):
     return slice(None), -(y**2) / (2 * strip.radii[1])
 
 
-@catches(
-    "a fitted radius in place of the transverse profile",
-    "validation.railway.problems.equivalent_displacement.heights_across",
-    on_the_fitted_radius,
+@catches("a fitted radius in place of the transverse profile").at(
+    "validation.railway.problems.equivalent_displacement.heights_across", on_the_fitted_radius
 )
 @pytest.mark.slow
 def test_a_worn_rail_rolls_as_its_profile_and_not_as_the_radius_of_its_contact():

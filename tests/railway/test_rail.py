@@ -22,10 +22,8 @@ def scene(**other):
 radii_of_rail = rail.RailScene.radii.fget
 
 
-@catches(
-    "radii across and along that changed places",
-    "validation.railway.scenes.rail.RailScene.radii",
-    property(lambda scene: radii_of_rail(scene)[::-1]),
+@catches("radii across and along that changed places").at(
+    "validation.railway.scenes.rail.RailScene.radii", property(lambda scene: radii_of_rail(scene)[::-1])
 )
 def test_the_contact_of_the_field():
     """50 kN, 920 mm, crown 300 mm, steel: a_x = 5.68 mm along, a_y = 4.28 mm across, d = 65.6 um."""
@@ -35,8 +33,7 @@ def test_the_contact_of_the_field():
     assert contact.approach == pytest.approx(65.6e-6, abs=5e-8)
 
 
-@catches(
-    "the mean of both curvatures across for their sum",
+@catches("the mean of both curvatures across for their sum").at(
     "validation.railway.scenes.rail.RailScene.radii",
     property(lambda scene: (scene.radius, 2 * radii_of_rail(scene)[1])),
 )
@@ -74,17 +71,12 @@ def test_bundled_curves_are_those_of_the_standards():
     assert len(iso.levels) == len(average.levels) == 35
 
 
-@catches(
-    "a level as 10 lg of the height",
+@catches("a level as 10 lg of the height", name="iso3095-2013").at(
     "validation.railway.scenes.level_files.RoughnessLevels.powers",
     property(lambda of: 1e-12 * 10 ** (np.array(of.levels) / 20)),
-    name="iso3095-2013",
 )
-@catches(
-    "a spectrum of the powers of its bands, without what their slopes take",
-    "validation.railway.scenes.level_files.STEPS",
-    1,
-    name="cnossos-average",
+@catches("a spectrum of the powers of its bands, without what their slopes take", name="cnossos-average").at(
+    "validation.railway.scenes.level_files.STEPS", 1
 )
 @pytest.mark.parametrize("name", ["iso3095-2013", "cnossos-average"])
 def test_the_spectrum_has_the_power_of_each_band(name):
@@ -109,8 +101,7 @@ def test_levels_of_a_power_law_are_its_power_law():
 within = RoughnessLevels.within
 
 
-@catches(
-    "levels of exact centres without their end bands",
+@catches("levels of exact centres without their end bands").at(
     "validation.railway.scenes.level_files.RoughnessLevels.within",
     lambda of, *ends: within(of, ends[0] or of.wavelengths[0], ends[1] or of.wavelengths[-1]),
 )

@@ -44,11 +44,8 @@ def closed(scene, across, *names):
     }
 
 
-@catches(
-    "long waves that do not pass under springs on the rolling spectrum",
-    "validation.railway.problems.equivalent_displacement.rolling_input_filter",
-    Times(1.1),
-    across="isotropic",
+@catches("long waves that do not pass under springs on the rolling spectrum", across="isotropic").at(
+    "validation.railway.problems.equivalent_displacement.rolling_input_filter", Times(1.1)
 )
 @pytest.mark.parametrize("across", ["ridges", "isotropic", 0.5, None])
 def test_long_waves_pass_under_every_model_but_springs_on_geikes_spectrum(across):
@@ -67,11 +64,9 @@ def falling(exponent):
     return replace(RAIL, roughness=RoughnessLevels.of_powers(RAIL.levels.bands, powers, source="a power law"))
 
 
-@catches(
-    "the line trace taken for Geike's spectrum under springs on a rail",
+@catches("the line trace taken for Geike's spectrum under springs on a rail", exponent=2.0).at(
     "validation.railway.problems.equivalent_displacement.geike_over_line",
     lambda wavenumber, ground: np.ones_like(wavenumber),
-    exponent=2.0,
 )
 @pytest.mark.parametrize("exponent", [1.0, 2.0, 2.5])
 def test_long_waves_under_springs_on_geikes_spectrum_are_off_by_his_rule_over_the_line(exponent):
@@ -88,10 +83,8 @@ def surface_itself(along, across, *, semi_axes):
     return np.ones_like(along + across)
 
 
-@catches(
-    "the line taken for the rolling spectrum of a rail",
-    "validation.railway.problems.equivalent_displacement.rolling_input_filter",
-    surface_itself,
+@catches("the line taken for the rolling spectrum of a rail").at(
+    "validation.railway.problems.equivalent_displacement.rolling_input_filter", surface_itself
 )
 def test_short_waves_under_springs_on_the_rolling_spectrum_have_the_level_of_the_half_space():
     """On a circle, in the mean over bands, since zeros of springs do not fill; the line is (p + 1) / p too loud."""
@@ -138,11 +131,9 @@ def test_contact_filters_are_models_of_a_rail_and_of_its_quantities_alone(name):
 borne_by = equivalent_displacement.borne_by
 
 
-@catches(
-    "a bed of springs under another load",
+@catches("a bed of springs under another load", model=ONE_SIDED_BED).at(
     "validation.railway.problems.equivalent_displacement.borne_by",
     lambda levels, wanted: borne_by(levels, 1.5 * wanted),
-    model=ONE_SIDED_BED,
 )
 @pytest.mark.slow
 @pytest.mark.parametrize("model", ONE_SIDED)
@@ -165,12 +156,10 @@ def share_of_oblique_waves(along, across, *, semi_axes):
     return 1 / np.sqrt(1 + (along * semi_axes[0]) ** 2 + (across * semi_axes[1]) ** 2)
 
 
-@catches(
-    "the rolling spectrum of a rail that filters ridges",
-    "validation.railway.problems.equivalent_displacement.rolling_input_filter",
-    share_of_oblique_waves,
+@catches("the rolling spectrum of a rail that filters ridges").at(
+    "validation.railway.problems.equivalent_displacement.rolling_input_filter", share_of_oblique_waves
 )
-@catches("20 lg of a ratio of powers", "validation.railway.problems.rail_quantity.RailQuantity.filtered", Times(2.0))
+@catches("20 lg of a ratio of powers").at("validation.railway.problems.rail_quantity.RailQuantity.filtered", Times(2.0))
 def test_over_ridges_models_are_sinc_squared_above_the_first_zero():
     """The band mean of (sin(k a_x) / (k a_x))^2 by a sum over many wavenumbers of the line's own power."""
     quantity, filters = closed(RAIL, "ridges")
@@ -198,10 +187,8 @@ def test_at_fixed_aspect_the_filter_over_wavelength_and_contact_does_not_depend_
             np.testing.assert_allclose(other[name][2:-bands], a3[2 + bands :], atol=0.02, err_msg=f"{name}, {across}")
 
 
-@catches(
-    "a ground that is not given taken for known",
-    "validation.railway.problems.rail_quantity.RailQuantity.half_width",
-    property(lambda quantity: 0 * quantity.wave),
+@catches("a ground that is not given taken for known").at(
+    "validation.railway.problems.rail_quantity.RailQuantity.half_width", property(lambda quantity: 0 * quantity.wave)
 )
 def test_ground_that_is_not_given_is_a_band_between_ridges_and_isotropic_ground():
     both = compare(replace(RAIL, across=None), "contact-filter", "3 dB")
@@ -213,10 +200,8 @@ def test_ground_that_is_not_given_is_a_band_between_ridges_and_isotropic_ground(
     assert "across is not given" in linear.reason
 
 
-@catches(
-    "errors of contact filters claimed beyond where they were measured",
-    "validation.railway.problems.rail_models.MOST_LOST",
-    10.0,
+@catches("errors of contact filters claimed beyond where they were measured").at(
+    "validation.railway.problems.rail_models.MOST_LOST", 10.0
 )
 def test_beyond_what_was_measured_no_error_is_claimed():
     rough = replace(RAIL, roughness=RAIL.levels.raised(25.0))
@@ -228,8 +213,7 @@ def test_beyond_what_was_measured_no_error_is_claimed():
             assert claimed.in_range or word in claimed.reason
 
 
-@catches(
-    "the error of linear theory claimed by every contact filter",
+@catches("the error of linear theory claimed by every contact filter").at(
     "validation.railway.problems.rail_models.ContactFilter.model_error",
     lambda model, quantity, a3: rail_models.linear_error(quantity),
 )

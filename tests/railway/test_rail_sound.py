@@ -45,10 +45,8 @@ def _without_shift(signals, *strips):
         yield np.fft.irfft(np.fft.rfft(signal) * np.exp(-1j * np.pi * f * one.spacing / RAIL.speed), SAMPLES)
 
 
-@catches(
-    "the line trace taken for Geike's spectrum",
-    f"{__name__}.geike_track",
-    lambda strip: equivalent_displacement.linear_displacement(strip, LINE),
+@catches("the line trace taken for Geike's spectrum").at(
+    f"{__name__}.geike_track", lambda strip: equivalent_displacement.linear_displacement(strip, LINE)
 )
 def test_geikes_track_has_his_spectrum_and_the_phases_of_the_line():
     """C_1D / C_line = pi k C_2D / C_line of the continuous ground; of a strip, sums over k_y are 5 % off at most."""
@@ -69,7 +67,7 @@ def springs_on_middle_line(height, *, spacing, **wheel):
     return mdr.roll(height[:, height.shape[1] // 2], spacing=spacing[0], **wheel)
 
 
-@catches("springs that read one line of the surface", "mdr.roll_surface", springs_on_middle_line)
+@catches("springs that read one line of the surface").at("mdr.roll_surface", springs_on_middle_line)
 def test_springs_that_read_a_smoother_rail_are_linear_theory():
     """While all springs touch they differ by discretisation alone, 3 %."""
     one = strip(offset=-40.0)

@@ -30,12 +30,8 @@ def result(**of_model):
 REAL_WEIGHTING = filters.a_weighting
 
 
-@catches(
-    "a weighting of amplitudes taken twice",
-    "validation.railway.cases.rail_sound.a_weighting",
-    lambda f: 2 * REAL_WEIGHTING(f),
-    frequency=100,
-    weight=-19.1,
+@catches("a weighting of amplitudes taken twice", frequency=100, weight=-19.1).at(
+    "validation.railway.cases.rail_sound.a_weighting", lambda f: 2 * REAL_WEIGHTING(f)
 )
 @pytest.mark.parametrize(("frequency", "weight"), [(100, -19.1), (1000, 0.0), (10000, -2.5)])
 def test_a_level_has_the_weight_of_the_standard(frequency, weight):

@@ -33,11 +33,8 @@ def circle_for_the_ellipse(along, across, *, semi_axes):
 ellipse_of_springs = spring_input.rolling_input_filter
 
 
-@catches(
-    "a circle for the ellipse in the rolling spectrum of a rail",
-    "validation.railway.theory.contact_filters.rolling_input_filter",
-    circle_for_the_ellipse,
-    wavenumber=700.0,
+@catches("a circle for the ellipse in the rolling spectrum of a rail", wavenumber=700.0).at(
+    "validation.railway.theory.contact_filters.rolling_input_filter", circle_for_the_ellipse
 )
 @pytest.mark.parametrize("wavenumber", [120.0, 700.0, 5e3])
 def test_on_a_circle_it_is_the_rolling_spectrum_of_a_wheel(wavenumber):
@@ -65,11 +62,8 @@ def test_short_waves_of_a_power_law_have_the_level_of_the_half_space(exponent, s
     np.testing.assert_allclose(passed, share, rtol=5e-3)
 
 
-@catches(
-    "Geike's rule over the line without pi",
-    "validation.railway.theory.contact_filters.geike_over_line",
-    Times(1 / math.pi),
-    exponent=2.0,
+@catches("Geike's rule over the line without pi", exponent=2.0).at(
+    "validation.railway.theory.contact_filters.geike_over_line", Times(1 / math.pi)
 )
 @pytest.mark.parametrize("exponent", [1.0, 2.0, 3.0, 3.4])
 def test_geikes_rule_over_the_line_of_a_power_law(exponent):

@@ -40,8 +40,7 @@ def test_over_little_roughness_motion_lifts_as_linear_theory_does(model):
         assert off(outcome[name], outcome["linear"]) < 0.12
 
 
-@catches(
-    "a linear spring for Hertz in what lifts a wheel",
+@catches("a linear spring for Hertz in what lifts a wheel").at(
     "validation.railway.problems.wheel_on_rail.lift",
     lambda wheel, force, approach: wheel.approach + (force - wheel.load) / wheel.stiffness - approach,
 )
@@ -70,8 +69,8 @@ def middle_line(half_widths, points, step):
     return weights
 
 
-@catches(
-    "springs in a time step that read one line", "validation.railway.problems.wheel_on_rail.weights_across", middle_line
+@catches("springs in a time step that read one line").at(
+    "validation.railway.problems.wheel_on_rail.weights_across", middle_line
 )
 def test_springs_in_a_time_step_are_those_of_a_track():
     """At each place the law carries the load at the approach of `mdr.roll_surface`."""

@@ -98,10 +98,8 @@ def enough_by_most(cell):
     )
 
 
-@catches(
-    "a cell that says what most of its numbers say",
-    "validation.report.answers.strip.Cell.verdict",
-    property(enough_by_most),
+@catches("a cell that says what most of its numbers say").at(
+    "validation.report.answers.strip.Cell.verdict", property(enough_by_most)
 )
 def test_one_counterexample_among_all_exponents_is_a_no():
     """At each place the worst of its numbers decides, and the sentence has the numbers that differ, no others."""
@@ -168,7 +166,7 @@ def by_hurst():
     ]
 
 
-@catches("a strip that hides its Hurst exponent", "validation.report.answers.strip.alone", lambda *_: "")
+@catches("a strip that hides its Hurst exponent").at("validation.report.answers.strip.alone", lambda *_: "")
 def test_a_strip_and_its_sentence_name_the_hurst_exponents_on_which_a_verdict_depends():
     row = mean_stiffness(*by_hurst())
     assert [cell.alone for cell in row.strip] == ["", "H = 1 alone", "", "H = 0.4 alone", "", ""]
@@ -181,10 +179,8 @@ def test_a_strip_and_its_sentence_name_the_hurst_exponents_on_which_a_verdict_de
     assert "Fbar, 0.1 to 1: yes at H = 0.55 to 1; open at H = 0.4." in text
 
 
-@catches(
-    "neighbours that share a value",
-    f"{__name__}.plain",
-    lambda rows: [{**row, "strip": []} for row in first_screen.plain(rows)],
+@catches("neighbours that share a value").at(
+    f"{__name__}.plain", lambda rows: [{**row, "strip": []} for row in first_screen.plain(rows)]
 )
 def test_the_table_of_the_readme_names_them_and_its_ranges_share_no_value():
     (row,) = (row for row in plain([mean_stiffness(*by_hurst())]))
@@ -338,7 +334,7 @@ def test_numbers_of_another_model_are_no_answer():
     assert row_of("rolling-spectrum", rolling(RMS_LEVEL, LINEAR_3D, 0.0)).word == "Not measured"
 
 
-@catches("cells that overlap", "validation.report.answers.strip._apart", lambda found: dict(sorted(found.items())))
+@catches("cells that overlap").at("validation.report.answers.strip._apart", lambda found: dict(sorted(found.items())))
 def test_ranges_that_overlap_are_one_cell():
     """One H was measured less far than the other: both are numbers of the same cell."""
     numbers = [
@@ -356,7 +352,9 @@ def last_of_those_that_join(found):
     return {place: numbers[-1:] for place, numbers in apart(found).items()}
 
 
-@catches("numbers dropped where ranges join", "validation.report.answers.strip._apart", last_of_those_that_join, off=0)
+@catches("numbers dropped where ranges join", off=0).at(
+    "validation.report.answers.strip._apart", last_of_those_that_join
+)
 @pytest.mark.parametrize("off", range(4))
 def test_ranges_that_join_keep_all_of_their_numbers(off):
     """Of each range: whichever of the numbers differs, the joined place has its verdict and its size."""
@@ -418,10 +416,8 @@ def test_the_scatter_has_numbers_of_its_own():
 # --- words ---
 
 
-@catches(
-    "the power of a ratio printed for its amplitude",
-    "validation.report.answers.questions.DECIBEL",
-    statistics.POWER_DECIBEL,
+@catches("the power of a ratio printed for its amplitude").at(
+    "validation.report.answers.questions.DECIBEL", statistics.POWER_DECIBEL
 )
 def test_decibels_are_printed_as_their_quantity():
     assert per_cent(TEN) == "+10 %"
@@ -448,12 +444,8 @@ verdict_of_a_cell = strip.Cell.verdict.fget
 
 
 @catches(
-    "a place with one number that is undecided under a yes",
-    "validation.report.answers.strip.Cell.verdict",
-    property(enough_unless_it_differs),
-    found=[AGREES, UNDECIDED],
-    verdict=Verdict.UNDECIDED,
-)
+    "a place with one number that is undecided under a yes", found=[AGREES, UNDECIDED], verdict=Verdict.UNDECIDED
+).at("validation.report.answers.strip.Cell.verdict", property(enough_unless_it_differs))
 @pytest.mark.parametrize(
     ("found", "verdict"),
     [

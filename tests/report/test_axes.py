@@ -216,7 +216,7 @@ def with_exchanged_axes(chart, evidence):
     return figure
 
 
-@catches("axes of the calibration chart exchanged", f"{__name__}.draw", with_exchanged_axes)
+@catches("axes of the calibration chart exchanged").at(f"{__name__}.draw", with_exchanged_axes)
 def test_the_calibration_chart_has_estimated_errors_along_and_true_ones_up():
     """Four scenes with known errors and times: words, columns, scales and points."""
     scenes = [(0.02, 0.01, 1.0, 7.0), (0.05, 0.004, 2.0, 9.0), (0.08, 0.03, 4.0, 44.0)]

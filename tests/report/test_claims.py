@@ -66,11 +66,11 @@ WITHIN = {"limits": "below 1", "inside": numbers_with([AGREE])}
 
 @catches(
     "a contradicted claim under a green badge",
-    "validation.report.formats.format_status",
-    lambda status, **_: Markup('<span class="verdict holds">✓ holds</span>'),
     verdicts=[Verdict.AGREE, Verdict.DIFFER],
     changes={},
     words="✗ contradicted",
+).at(
+    "validation.report.formats.format_status", lambda status, **_: Markup('<span class="verdict holds">✓ holds</span>')
 )
 @pytest.mark.parametrize(
     ("verdicts", "changes", "words"),
@@ -193,18 +193,12 @@ def test_a_statement_has_the_status_of_its_numbers(verdicts):
     assert whole["answer"] == "Tested as “It is so.” It is 1 to 9."
 
 
-@catches(
-    "a statement of the book answered by numbers of another model",
-    "validation.report.chapter.Claim",
-    lambda model, **more: Claim(**more),
-    test={"quantity": "y0", "model": "m"},
+@catches("a statement of the book answered by numbers of another model", test={"quantity": "y0", "model": "m"}).at(
+    "validation.report.chapter.Claim", lambda model, **more: Claim(**more)
 )
 @catches(
-    "a statement of the book answered outside of its assumptions",
-    "validation.report.chapter.Claim",
-    lambda where, **more: Claim(**more),
-    test={"quantity": "y0", "where": {"h/d": 0.01}},
-)
+    "a statement of the book answered outside of its assumptions", test={"quantity": "y0", "where": {"h/d": 0.01}}
+).at("validation.report.chapter.Claim", lambda where, **more: Claim(**more))
 @pytest.mark.parametrize(
     "test",
     [

@@ -48,22 +48,15 @@ def exchanged(one, other):
     return lambda: SHEET.replace(f".{one}", ".between").replace(f".{other}", f".{one}").replace(".between", f".{other}")
 
 
-@catches(
-    "yes in the colours of no",
-    f"{__name__}.sheet",
-    exchanged("yes", "no"),
-    yes=".cell.yes",
-    no=".cell.no",
-    undecided=".cell.open",
+@catches("yes in the colours of no", yes=".cell.yes", no=".cell.no", undecided=".cell.open").at(
+    f"{__name__}.sheet", exchanged("yes", "no")
 )
 @catches(
     "what differs in the colours of what agrees",
-    f"{__name__}.sheet",
-    exchanged("agree", "differ"),
     yes=".verdict.agree",
     no=".verdict.differ",
     undecided=".verdict.undecided",
-)
+).at(f"{__name__}.sheet", exchanged("agree", "differ"))
 @pytest.mark.parametrize(("yes", "no", "undecided"), list(zip(YES, NO, OPEN, strict=True)))
 def test_yes_is_green_no_is_red_and_undecided_is_neither(yes, no, undecided):
     text = sheet()

@@ -32,7 +32,7 @@ def test_a_column_that_nobody_explains_has_no_meaning():
     assert list(described("geike", Table("t", {"nobody knows [m]": [1.0]}))) == [("*", "nobody knows [m]", "m", "")]
 
 
-@catches("data without units", "validation.report.columns.header_of", lambda table: list(table.columns))
+@catches("data without units").at("validation.report.columns.header_of", lambda table: list(table.columns))
 def test_values_have_the_unit_of_their_table():
     rows = list(described("rolling", Table("rms force, judged", {"h/d": [1.0], "value": [2.0], "low": [1.0]}, "dB")))
     of_rms = "square root of the ensemble mean of the variance, over that of boundary elements"
@@ -61,11 +61,8 @@ def test_a_unit_stands_in_the_header_and_comes_back(table, first):
     assert from_csv("t", text) == table
 
 
-@catches(
-    "a mean that is called nothing",
-    "validation.report.columns._MEANINGS",
-    {},
-    *("fractal_punch", "mean stiffness, judged", "ensemble mean"),
+@catches("a mean that is called nothing", *("fractal_punch", "mean stiffness, judged", "ensemble mean")).at(
+    "validation.report.columns._MEANINGS", {}
 )
 @pytest.mark.parametrize(
     ("case", "table", "words"),

@@ -79,11 +79,8 @@ def test_seconds_at_equal_error_stand_on_the_page():
     assert "3.50 ± 0.50 %, 120 µs" in text and "3 %, 120 ms" in text
 
 
-@catches(
-    "the end of an interval for the error",
-    "validation.report.answers.front_tables.ENOUGH",
-    {"%": 0.0, "dB": -1.0},
-    *("dB", 0.65, 0.85, 1.5, "inconclusive"),
+@catches("the end of an interval for the error", *("dB", 0.65, 0.85, 1.5, "inconclusive")).at(
+    "validation.report.answers.front_tables.ENOUGH", {"%": 0.0, "dB": -1.0}
 )
 @pytest.mark.parametrize(
     ("unit", "value", "half", "end", "verdict"),

@@ -70,7 +70,7 @@ def as_of_today(about, before, kept):
     return WITH_KEPT(about, {**before, "kept": {}, "commit": about["commit"]}, kept)
 
 
-@catches("a case that is kept has today's commit", "validation.report.provenance.with_kept", as_of_today)
+@catches("a case that is kept has today's commit").at("validation.report.provenance.with_kept", as_of_today)
 def test_a_case_that_is_kept_twice_has_the_commit_that_made_it():
     about = {"commit": "today00", "seeds": {"ridges": 1}, "seconds": {"ridges": 1.0}, "kept": {}}
     before = {"commit": "before0", "seeds": {}, "seconds": {"hertz": 3.0}, "kept": {"geike": "first00"}}
@@ -95,12 +95,8 @@ def test_what_cannot_be_kept_is_refused(tmp_path, capsys):
     refused(capsys, "cannot keep hertz: 'title'", tmp_path, "--only", "geike", "--keep")
 
 
-@catches(
-    "a case that is kept, whatever code has made it",
-    "validation.report.provenance.require_todays_code",
-    lambda *of: None,
-    made_by={},
-    named="geike and hertz",
+@catches("a case that is kept, whatever code has made it", made_by={}, named="geike and hertz").at(
+    "validation.report.provenance.require_todays_code", lambda *of: None
 )
 @pytest.mark.parametrize(
     ("made_by", "named"),
@@ -124,7 +120,7 @@ def test_every_case_has_a_digest_of_its_own(monkeypatch):
     assert len({digest for some in found for digest in some.values()}) == 2 * len(CASES | TIMED)
 
 
-@catches("the code behind a case without its settings", "validation.report.provenance.as_json", lambda value: b"")
+@catches("the code behind a case without its settings").at("validation.report.provenance.as_json", lambda value: b"")
 def test_the_code_behind_a_case_is_what_makes_its_numbers():
     """Settings and series; neither a study in a file of its own nor the page."""
     roots, case = [], CASES["wheel_distance"]

@@ -107,8 +107,7 @@ def test_a_table_with_few_verdicts_stays_as_it_is(columns):
 CITATION = PageFigure.citation
 
 
-@catches(
-    "a figure of a case that is kept is cited with today's commit",
+@catches("a figure of a case that is kept is cited with today's commit").at(
     "validation.report.page.PageFigure.citation",
     lambda figure, about, profile: CITATION(figure, {**about, "kept": {}}, profile),
 )

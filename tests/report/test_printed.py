@@ -70,10 +70,8 @@ def test_rows_of_the_file_and_of_the_results_are_the_numbers():
     assert [row["met"] for row in rows] == [True, False, None]
 
 
-@catches(
-    "two signs of verdicts exchanged",
-    "validation.report.formats.SYMBOL",
-    {"agree": "≠", "differ": "✓", "undecided": "?"},
+@catches("two signs of verdicts exchanged").at(
+    "validation.report.formats.SYMBOL", {"agree": "≠", "differ": "✓", "undecided": "?"}
 )
 def test_every_verdict_has_its_word_and_sign():
     assert formats.SYMBOL == {"agree": "✓", "differ": "≠", "undecided": "?"} and set(formats.SYMBOL) == set(Verdict)

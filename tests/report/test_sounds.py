@@ -52,7 +52,7 @@ def by_its_own_peak(samples, full_scale):
     return np.rint(sounds.LARGEST / np.abs(values).max() * values).astype(np.int16)
 
 
-@catches("a sound normalised by itself", "validation.report.sounds.quantised", by_its_own_peak)
+@catches("a sound normalised by itself").at("validation.report.sounds.quantised", by_its_own_peak)
 def test_files_differ_by_the_level_of_the_forces():
     """Rounding to whole numbers leaves less than 0.001 dB."""
     loud = 500 * np.sin(2 * np.pi * TONE * TIME)

@@ -11,12 +11,8 @@ def names_in(text):
     return [symbol.name for symbol in symbols_in(text)]
 
 
-@catches(
-    "a symbol found inside of words",
-    "validation.report.columns.Symbol.stands_in",
-    lambda symbol, text: symbol.name in text,
-    text="a wheel on E*",
-    names=["E*"],
+@catches("a symbol found inside of words", text="a wheel on E*", names=["E*"]).at(
+    "validation.report.columns.Symbol.stands_in", lambda symbol, text: symbol.name in text
 )
 @pytest.mark.parametrize(
     ("text", "names"),

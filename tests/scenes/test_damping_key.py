@@ -39,10 +39,8 @@ def test_a_ratio_is_read_in_per_cent_or_as_a_number(tmp_path, given, found):
     assert load_scene(rail(tmp_path, f'mass = "500 kg"\ndamping = {given}')).damping == found
 
 
-@catches(
-    "per cent of damping taken for the ratio",
-    "validation.scenes.units.UNITS",
-    units.UNITS | {"share of critical": {"%": Fraction(1)}},
+@catches("per cent of damping taken for the ratio").at(
+    "validation.scenes.units.UNITS", units.UNITS | {"share of critical": {"%": Fraction(1)}}
 )
 def test_per_cent_is_a_hundredth():
     assert [VALUES["damping"]("wheel.damping", text) for text in ("2 %", "2%", "0.7 %", 0.02)] == [

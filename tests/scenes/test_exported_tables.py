@@ -370,10 +370,8 @@ def test_the_place_along_the_track_is_no_line():
     assert lines.height.shape == (800, 1) and lines.height[:, 0] == pytest.approx(1e-6 * Z)
 
 
-@catches(
-    "wavenumbers in cycles taken for radians",
-    "validation.railway.scenes.level_files.WAVENUMBERS",
-    {"1/m": 1 / (2 * math.pi), "1/cm": 1e2 / (2 * math.pi)},
+@catches("wavenumbers in cycles taken for radians").at(
+    "validation.railway.scenes.level_files.WAVENUMBERS", {"1/m": 1 / (2 * math.pi), "1/cm": 1e2 / (2 * math.pi)}
 )
 def test_wavenumbers_are_cycles_over_a_metre():
     assert level_files._wavelengths(np.array([10.0, 16.0, 31.5]), "1/m")[0] == [0.1, 0.063, 0.0315]
@@ -381,10 +379,8 @@ def test_wavenumbers_are_cycles_over_a_metre():
     assert level_files._wavelengths(np.array([62.8, 100.5]), "rad/m")[0] == [0.1, 0.063]
 
 
-@catches(
-    "a line filled in with its mean",
-    "validation.scenes.measured._filled_line",
-    lambda line: np.where(np.isnan(line), np.nanmean(line), line),
+@catches("a line filled in with its mean").at(
+    "validation.scenes.measured._filled_line", lambda line: np.where(np.isnan(line), np.nanmean(line), line)
 )
 def test_holes_of_a_line_lie_between_their_neighbours():
     line = np.array([0.0, 1.0, np.nan, 3.0, 9.0] + 300 * [0.0])[:, np.newaxis]
@@ -441,11 +437,8 @@ def test_a_header_with_a_decimal_comma_is_no_pair_of_names_nor_a_mark_part_of_on
 number = text_dialect.Dialect.number
 
 
-@catches(
-    "a point without data at zero",
-    "validation.scenes.text_dialect.Dialect.number",
-    lambda dialect, cell: np.nan_to_num(number(dialect, cell)),
-    cell="BAD",
+@catches("a point without data at zero", cell="BAD").at(
+    "validation.scenes.text_dialect.Dialect.number", lambda dialect, cell: np.nan_to_num(number(dialect, cell))
 )
 @pytest.mark.parametrize("cell", ["", "BAD", "***", "NaN", "n/a", "-", "#N/A", "7.5"])
 def test_cells_without_data_are_no_numbers(cell):

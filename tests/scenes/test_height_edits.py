@@ -44,10 +44,8 @@ def test_a_hole_in_a_harmonic_surface_is_found_again():
 right_filled_in = height_edits.filled_in
 
 
-@catches(
-    "cells taken for squares where points without data are filled in",
-    f"{__name__}.filled_in",
-    lambda height, spacing: right_filled_in(height, (1.0, 1.0)),
+@catches("cells taken for squares where points without data are filled in").at(
+    f"{__name__}.filled_in", lambda height, spacing: right_filled_in(height, (1.0, 1.0))
 )
 def test_holes_at_an_edge_against_repeated_means():
     """Of the neighbours that there are, about the plane of least squares through what is known."""
@@ -65,11 +63,9 @@ def test_holes_at_an_edge_against_repeated_means():
     assert filled_in(holes, (3.0, 1.0)) == pytest.approx(rest + level, abs=1e-12)
 
 
-@catches(
-    "the mean of all heights for points without data",
+@catches("the mean of all heights for points without data", hidden="nan").at(
     "validation.scenes.measured_surface.filled_in",
     lambda height, spacing: np.where(np.isnan(height), np.nanmean(height), height),
-    hidden="nan",
 )
 @pytest.mark.parametrize("hidden", ["nan", "mask"])
 def test_few_points_are_filled_in_where_it_is_asked_for_and_told(hidden):
@@ -146,10 +142,8 @@ def test_the_central_square_is_cut_out(shape, spacing, part):
     assert found.shape[0] * spacing[0] == pytest.approx(found.shape[1] * spacing[1], rel=1e-12)
 
 
-@catches(
-    "the first square for the central one",
-    "validation.scenes.measured_surface.central_square",
-    lambda height, spacing: height[-32:, -32:],
+@catches("the first square for the central one").at(
+    "validation.scenes.measured_surface.central_square", lambda height, spacing: height[-32:, -32:]
 )
 def test_a_crop_is_told_and_its_points_alone_count():
     height = with_holes(ROUGH, (slice(0, 4), slice(0, 32)), (20, 20))

@@ -44,10 +44,8 @@ def written(folder, text, line=""):
 # E*
 
 
-@catches(
-    "the other body taken for a rigid one",
-    "validation.scenes.material.Material.modulus",
-    property(lambda both: both._body.against_rigid),
+@catches("the other body taken for a rigid one").at(
+    "validation.scenes.material.Material.modulus", property(lambda both: both._body.against_rigid)
 )
 def test_two_bodies_share_the_compliance():
     for first, other in ((210e9, 70e9), (1e6, 3e9)):
@@ -160,8 +158,7 @@ slope_in_one_direction = roughness.Roughness.slope_along.fget
 
 
 @catches_root_of_two("the gradient of a drawn surface", "validation.scenes.roughness.rms_gradient")
-@catches(
-    "the slope of the gradient for that along the track",
+@catches("the slope of the gradient for that along the track").at(
     "validation.scenes.roughness.Roughness.slope_along",
     property(lambda rough: math.sqrt(2) * slope_in_one_direction(rough)),
 )

@@ -59,7 +59,9 @@ def half_of_the_level(height, spacing):
     return edges, tuple(value / 2 for value in level)
 
 
-@catches("measured heights over half of their mean square", "validation.scenes.measured._spectrum", half_of_the_level)
+@catches("measured heights over half of their mean square").at(
+    "validation.scenes.measured._spectrum", half_of_the_level
+)
 def test_the_spectrum_has_the_height():
     found = heights(drawn())
     edges = np.array(found.edges)
@@ -95,7 +97,7 @@ def test_note_of_heights_that_are_not_gaussian():
     assert re.match(r"heights are not Gaussian, skewness -\d", doubt)
 
 
-@catches("plateaus taken for Gaussian heights", "validation.scenes.measured.FLAT", 0.0)
+@catches("plateaus taken for Gaussian heights").at("validation.scenes.measured.FLAT", 0.0)
 def test_note_of_plateaus_that_neither_skewness_nor_kurtosis_shows():
     """Ground on top and pitted as deep below: of honed faces at a light load springs were a factor of six too soft."""
     plateaus = np.clip(drawn(), -1.6e-7, 1.6e-7)
@@ -121,10 +123,8 @@ def refusal(question):
     return ""
 
 
-@catches(
-    "heights behind a mask",
-    "validation.scenes.measured_surface.real_numbers",
-    lambda height: np.asarray(height, dtype=np.float64),
+@catches("heights behind a mask").at(
+    "validation.scenes.measured_surface.real_numbers", lambda height: np.asarray(height, dtype=np.float64)
 )
 def test_points_without_data_are_refused():
     """A masked point is no height: what stands behind the mask entered as one, and gave a stiffness 8 % off."""
@@ -140,11 +140,8 @@ def test_points_without_data_are_refused():
     assert (measured(surface(np.ma.masked_array(height))).height == heights(height).height).all()
 
 
-@catches(
-    "a surface in micrometres taken for one in metres",
-    "validation.scenes.measured_surface._metres",
-    lambda surface, given: 1.0,
-    more={"unit": "um"},
+@catches("a surface in micrometres taken for one in metres", more={"unit": "um"}).at(
+    "validation.scenes.measured_surface._metres", lambda surface, given: 1.0
 )
 @pytest.mark.parametrize(
     "more", [{"unit": "um"}, {"unit": None, "info": {"unit": "µm"}}, {"unit": "um", "info": {"unit": "µm"}}]

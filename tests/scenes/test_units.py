@@ -20,13 +20,8 @@ TIMES |= {"N/m2": 1, "kN/m2": 1e3, "MN/m2": 1e6, "N/mm2": 1e6, "kN/mm2": 1e9, "c
 EVERY_UNIT = [(dimension, unit) for dimension, units in UNITS.items() for unit in units]
 
 
-@catches(
-    "a load in uN taken for one in mN",
-    "validation.scenes.units.UNITS",
-    {**units.UNITS, "force": {**units.UNITS["force"], "uN": Fraction(1, 1000)}},
-    text="40 uN",
-    dimension="force",
-    value=4e-5,
+@catches("a load in uN taken for one in mN", text="40 uN", dimension="force", value=4e-5).at(
+    "validation.scenes.units.UNITS", {**units.UNITS, "force": {**units.UNITS["force"], "uN": Fraction(1, 1000)}}
 )
 @pytest.mark.parametrize(
     ("text", "dimension", "value"),

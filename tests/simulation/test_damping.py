@@ -43,8 +43,8 @@ def test_without_damping_all_numbers_are_those_of_plain_velocity_verlet_to_the_b
     assert np.array_equal(linear(change, 0.0).steady_state(0.1), LinearLaw(WHEEL, change).steady_state(0.1))
 
 
-@catches("factor 2 in the constant of the dashpot", "validation.simulation.motion.damping_rate", Times(2.0))
-@catches("a dashpot that drives the wheel", "validation.simulation.motion.damping_rate", Times(-1.0))
+@catches("factor 2 in the constant of the dashpot").at("validation.simulation.motion.damping_rate", Times(2.0))
+@catches("a dashpot that drives the wheel").at("validation.simulation.motion.damping_rate", Times(-1.0))
 def test_free_vibration_decays_by_the_exact_law_of_a_dashpot_at_second_order():
     """y = A exp(-zeta t) (cos(w t) + zeta / w sin(w t)), w = sqrt(1 - zeta^2), released at rest."""
     errors, w = [], math.sqrt(1 - ZETA**2)
@@ -59,11 +59,8 @@ def test_free_vibration_decays_by_the_exact_law_of_a_dashpot_at_second_order():
     assert -np.diff(np.log2(errors)) == pytest.approx(2, abs=0.05)
 
 
-@catches(
-    "factor 2 in the dashpot of the steady state",
-    "validation.simulation.contact_laws.damping_rate",
-    Times(2.0),
-    frequency=0.5,
+@catches("factor 2 in the dashpot of the steady state", frequency=0.5).at(
+    "validation.simulation.contact_laws.damping_rate", Times(2.0)
 )
 @pytest.mark.slow
 @pytest.mark.parametrize("frequency", [0.5, 1.0, 3.0])
@@ -142,11 +139,8 @@ def gain(omega, dt, wheel, zeta):
     return s**2 / np.abs(wheel.stiffness - wheel.mass * s**2 + 1j * c * np.sin(omega * dt) / dt)
 
 
-@catches(
-    "damping forgotten in a scene of springs",
-    "validation.scenes.dynamic_wheel.DampedWheel",
-    lambda damping, **given: Wheel(**given),
-    linear_contact=True,
+@catches("damping forgotten in a scene of springs", linear_contact=True).at(
+    "validation.scenes.dynamic_wheel.DampedWheel", lambda damping, **given: Wheel(**given)
 )
 @pytest.mark.slow
 @pytest.mark.parametrize("linear_contact", [True, False], ids=["linear", "springs"])
@@ -190,11 +184,8 @@ def without_a_dashpot(case):
     return Wheel(radius=springs.radius, modulus=springs.modulus, mass=case.mass, load=case.strip.force)
 
 
-@catches(
-    "damping forgotten on a rail",
-    "validation.railway.problems.wheel_on_rail.WheelOnRail.wheel",
-    property(without_a_dashpot),
-    model=SPRINGS,
+@catches("damping forgotten on a rail", model=SPRINGS).at(
+    "validation.railway.problems.wheel_on_rail.WheelOnRail.wheel", property(without_a_dashpot)
 )
 @pytest.mark.parametrize("model", [pytest.param(BEM, marks=pytest.mark.slow), SPRINGS])
 def test_a_wheel_on_a_rail_moves_by_its_equation_with_the_dashpot(model):

@@ -120,42 +120,24 @@ def without_flag(solve):
     return lambda *given, **settings: {**solve(*given, **settings), "failed": np.array(0.0)}
 
 
-@catches(
-    "roll_strip without its flag",
-    f"{__name__}.roll_strip",
-    without_flag(roll_strip),
-    path="validation.simulation.rolling_strip:roll_strip",
+@catches("roll_strip without its flag", path="validation.simulation.rolling_strip:roll_strip").at(
+    f"{__name__}.roll_strip", without_flag(roll_strip)
 )
-@catches("roll_rail without its flag", f"{__name__}.roll_rail", without_flag(roll_rail), path=ON_A_RAIL)
-@catches(
-    "roll_held_wheel without its flag",
-    f"{__name__}.roll_held_wheel",
-    without_flag(roll_held_wheel),
-    path=ON_A_RAIL + ", at a constant height",
+@catches("roll_rail without its flag", path=ON_A_RAIL).at(f"{__name__}.roll_rail", without_flag(roll_rail))
+@catches("roll_held_wheel without its flag", path=ON_A_RAIL + ", at a constant height").at(
+    f"{__name__}.roll_held_wheel", without_flag(roll_held_wheel)
 )
-@catches(
-    "roll_and_move without its flag",
-    f"{__name__}.roll_and_move",
-    without_flag(roll_and_move),
-    path=ON_A_RAIL + ", before it moves",
+@catches("roll_and_move without its flag", path=ON_A_RAIL + ", before it moves").at(
+    f"{__name__}.roll_and_move", without_flag(roll_and_move)
 )
-@catches(
-    "roll_by_all without its flag",
-    f"{__name__}.roll_by_all",
-    without_flag(roll_by_all),
-    path="validation.simulation.reduced_models:boundary_elements",
+@catches("roll_by_all without its flag", path="validation.simulation.reduced_models:boundary_elements").at(
+    f"{__name__}.roll_by_all", without_flag(roll_by_all)
 )
-@catches(
-    "roll_over without its flag",
-    "validation.simulation.ridges.roll_over",
-    without_flag(ridges.roll_over),
-    path="validation.simulation.ridges:_roll",
+@catches("roll_over without its flag", path="validation.simulation.ridges:_roll").at(
+    "validation.simulation.ridges.roll_over", without_flag(ridges.roll_over)
 )
-@catches(
-    "roll_loaded_strip without its flag",
-    "validation.simulation.rolling_strip.roll_loaded_strip",
-    without_flag(rolling_strip.roll_loaded_strip),
-    path="validation.simulation.rolling_strip:roll_loaded_strip",
+@catches("roll_loaded_strip without its flag", path="validation.simulation.rolling_strip:roll_loaded_strip").at(
+    "validation.simulation.rolling_strip.roll_loaded_strip", without_flag(rolling_strip.roll_loaded_strip)
 )
 @pytest.mark.parametrize("path", PATHS)
 def test_a_position_without_a_solution_is_flagged_and_is_no_number(path):
@@ -196,13 +178,11 @@ def test_all_that_rolls_is_looked_at():
     assert {path for path in found if ".examples." not in path} == {path.partition(",")[0] for path in PATHS}
 
 
-@catches(
-    "a rolling contact that always says it has converged",
-    "bem3d.rolling_contact.WheelContact.converged",
-    property(lambda contact: True),
+@catches("a rolling contact that always says it has converged").at(
+    "bem3d.WheelContact.converged", property(lambda contact: True)
 )
-@catches(
-    "numbers of a rolling contact that has not converged", "bem3d.rolling_contact.math", types.SimpleNamespace(nan=1.0)
+@catches("numbers of a rolling contact that has not converged").at(
+    "bem3d.rolling_contact.math", types.SimpleNamespace(nan=1.0)
 )
 def test_a_position_without_a_solution_has_no_number():
     """Of force, approach and area; residual and work are known."""

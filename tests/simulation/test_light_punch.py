@@ -27,8 +27,8 @@ def half_a_fine_cell_aside(height, cells):
     return (fine + np.roll(fine, 1, axis=0)) / 2
 
 
-@catches(
-    "a finer grid half a cell aside", "validation.simulation.rough_punch.refined", half_a_fine_cell_aside, cells=128
+@catches("a finer grid half a cell aside", cells=128).at(
+    "validation.simulation.rough_punch.refined", half_a_fine_cell_aside
 )
 @pytest.mark.parametrize("cells", [32, 64, 128])
 def test_the_same_numbers_as_by_transforms(cells):
@@ -44,7 +44,7 @@ def half_of_a_light_force(half_space, gap, *, forces, **settings):
     return few_cells.indent_few_cells(half_space, gap, forces=forces / 2, **settings)
 
 
-@catches("half of a light force", "bem3d.indent_few_cells", half_of_a_light_force)
+@catches("half of a light force").at("bem3d.indent_few_cells", half_of_a_light_force)
 def test_beside_the_dense_solution():
     """A bump raises the force, F = Fbar h; stiffness is that of the cells in contact."""
     surface = replace(SURFACE, cells=12, roughness=replace(ROUGHNESS, waves=(1, 3)), tolerance=1e-8)
@@ -60,16 +60,15 @@ def test_beside_the_dense_solution():
         assert found["area"][i] == pytest.approx(cells.size / 144)
 
 
+press_surface = light_punch.press_surface
+
+
 def heavier_loads_as_light_ones(surface):
-    return light_punch.press_surface(dataclasses.replace(surface, forces=tuple(f / 2 for f in surface.forces)))
+    return press_surface(dataclasses.replace(surface, forces=tuple(f / 2 for f in surface.forces)))
 
 
-@catches(
-    "light loads that are not carried on",
-    "validation.simulation.rough_punch.press_surface",
-    heavier_loads_as_light_ones,
-    limit="OVERLAPPING",
-    times=1,
+@catches("light loads that are not carried on", limit="OVERLAPPING", times=1).at(
+    "validation.simulation.rough_punch.press_surface", heavier_loads_as_light_ones
 )
 @pytest.mark.parametrize(("limit", "times"), [("OVERLAPPING", 1), ("TOUCHING", 0.1)])
 def test_heavier_loads_go_on_by_transforms(limit, times):
@@ -83,10 +82,8 @@ def test_heavier_loads_go_on_by_transforms(limit, times):
         np.testing.assert_allclose(light[name], expected[name], rtol=1e-4)
 
 
-@catches(
-    "a load tried on a matrix whatever touches",
-    "validation.simulation.rough_punch._while_few",
-    lambda contacts, forces, most: contacts,
+@catches("a load tried on a matrix whatever touches").at(
+    "validation.simulation.rough_punch._while_few", lambda contacts, forces, most: contacts
 )
 def test_a_load_that_will_have_many_cells_is_not_tried():
     """The contact before it tells: their number goes with the force."""

@@ -22,7 +22,7 @@ def one_copy(wheel, law, **settings):
     return motion.approach, motion.velocity, np.zeros(start[0].shape)
 
 
-@catches("shooting without a correction", f"{__name__}.periodic_motion", one_copy)
+@catches("shooting without a correction").at(f"{__name__}.periodic_motion", one_copy)
 def test_the_periodic_motion_of_a_linear_contact_is_its_steady_state():
     """Shooting is exact in one round for a linear contact, but for its derivative by differences: 1e-16 / 1e-6."""
     change, dt = track(120, 3, 0.4), 0.08
@@ -72,7 +72,7 @@ def periodogram(record, time_step):
     return np.fft.fftfreq(count, time_step), spectrum
 
 
-@catches("factor 4 lost in the leakage", "validation.theory.wheel.leakage", Times(4.0), count=64)
+@catches("factor 4 lost in the leakage", count=64).at("validation.theory.wheel.leakage", Times(4.0))
 @pytest.mark.parametrize("count", [64, 101])
 def test_leakage_is_the_spectrum_of_a_ramp(count):
     dt, jump = 0.3, -1.7

@@ -23,19 +23,12 @@ def draws(roughness, method, count):
     return [roughness.surface(16, i) if method == "bem3d" else roughness.profile(64, i) for i in range(count)]
 
 
-@catches(
-    "rms of the ensemble for that of each",
-    "validation.simulation.rough_punch.PunchRoughness._normalised",
-    lambda roughness, height: height,
-    method="bem3d",
-    hurst=1.0,
+@catches("rms of the ensemble for that of each", method="bem3d", hurst=1.0).at(
+    "validation.simulation.rough_punch.PunchRoughness._normalised", lambda roughness, height: height
 )
-@catches(
-    "rms of each for that of the ensemble",
+@catches("rms of each for that of the ensemble", method="mdr", hurst=1.0).at(
     "validation.simulation.rough_punch.PunchRoughness._normalised",
     lambda roughness, height: height * roughness.height / height.std(),
-    method="mdr",
-    hurst=1.0,
 )
 @pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)

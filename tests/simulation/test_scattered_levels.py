@@ -97,33 +97,20 @@ def as_they_are(series, weights, *, least):
     return isotropic_line.Graduation(np.asarray(series), np.eye(n), least, np.ones(n))
 
 
-@catches(
-    "levels that scatter taken as they are",
-    "validation.railway.scenes.isotropic_line.graduated",
-    as_they_are,
-    answer=by_linear_theory,
-    files=6,
-    wide=0,
-    share=0.95,
+@catches("levels that scatter taken as they are", answer=by_linear_theory, files=6, wide=0, share=0.95).at(
+    "validation.railway.scenes.isotropic_line.graduated", as_they_are
 )
-@catches(
-    "no error of levels that scatter",
+@catches("no error of levels that scatter", answer=by_what_the_ground_leaves, files=12, wide=0, share=0.92).at(
     "validation.railway.problems.rail_quantity.RailQuantity.smoothing_error",
     property(lambda quantity: 0 * quantity.wave),
-    answer=by_what_the_ground_leaves,
-    files=12,
-    wide=0,
-    share=0.92,
 )
 @catches(
     "no error of a wide corrugation that is in part taken for ground",
-    "validation.railway.problems.rail_quantity.OF_SMOOTHING",
-    0.0,
     answer=by_linear_theory,
     files=24,
     wide=5,
     share=0.95,
-)
+).at("validation.railway.problems.rail_quantity.OF_SMOOTHING", 0.0)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("answer", "files", "wide", "share"),
@@ -139,8 +126,7 @@ def test_the_smooth_ground_is_held(answer, files, wide, share):
 smoothing_error = RailQuantity.smoothing_error.func
 
 
-@catches(
-    "half of what smoothing leaves",
+@catches("half of what smoothing leaves").at(
     "validation.railway.problems.rail_quantity.RailQuantity.smoothing_error",
     property(lambda quantity: smoothing_error(quantity) / 2),
 )
@@ -167,10 +153,8 @@ def corrugated(across="isotropic", by=6.0, waves=(31.5, 25)):
     return replace(RAIL, across=across, roughness=replace(ISO, levels=tuple(scattered.tolist())))
 
 
-@catches(
-    "a corrugation taken for isotropic ground",
-    "validation.railway.problems.rail_quantity.RailQuantity.between",
-    lambda quantity, ends: ends[-1:],
+@catches("a corrugation taken for isotropic ground").at(
+    "validation.railway.problems.rail_quantity.RailQuantity.between", lambda quantity, ends: ends[-1:]
 )
 def test_a_corrugation_costs_its_own_bands_alone_and_they_lie_between_ridges_and_isotropic_ground():
     asked, smooth = (RailQuantity(one, "contact-filter") for one in (corrugated(), RAIL))
@@ -188,8 +172,7 @@ def test_a_corrugation_costs_its_own_bands_alone_and_they_lie_between_ridges_and
 stands_out = RailQuantity.stands_out.fget
 
 
-@catches(
-    "a corrugation at other waves",
+@catches("a corrugation at other waves").at(
     "validation.railway.problems.rail_quantity.RailQuantity.stands_out",
     property(lambda quantity: np.roll(stands_out(quantity), -3)),
 )
@@ -203,10 +186,8 @@ def test_bands_that_stand_out_keep_their_names_under_longer_waves():
 ground_of_strip = rail_strip.RailGround
 
 
-@catches(
-    "strips without a corrugation",
-    "validation.railway.problems.rail_strip.RailGround",
-    lambda **waves: ground_of_strip(**{**waves, "whole": None}),
+@catches("strips without a corrugation").at(
+    "validation.railway.problems.rail_strip.RailGround", lambda **waves: ground_of_strip(**{**waves, "whole": None})
 )
 def test_strips_have_the_power_of_what_stands_out():
     """As ridges over isotropic ground, all along both ends."""
@@ -225,7 +206,7 @@ def by_smooth_levels(scene):
     return slope * scene.contact.along / scene.contact.approach
 
 
-@catches("the loss of contact of smooth levels alone", f"{__name__}.lost_contact_number", by_smooth_levels)
+@catches("the loss of contact of smooth levels alone").at(f"{__name__}.lost_contact_number", by_smooth_levels)
 def test_loss_of_contact_is_that_of_the_levels_as_they_are():
     """h'^2 is the sum of (2 pi / lambda)^2 times the power of each band of a strip."""
     for by in (0.0, 15.0):

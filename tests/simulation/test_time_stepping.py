@@ -33,11 +33,8 @@ def half_a_step(scheme):
     return dataclasses.replace(scheme, march=lambda f, y, v, dt: scheme.march(f, y, v, dt / 2))
 
 
-@catches(
-    "the step of a cell for that of two in Runge and Kutta",
-    f"{__name__}.SCHEMES",
-    {**SCHEMES, "Runge-Kutta": half_a_step(integrators.RUNGE_KUTTA)},
-    name="Runge-Kutta",
+@catches("the step of a cell for that of two in Runge and Kutta", name="Runge-Kutta").at(
+    f"{__name__}.SCHEMES", {**SCHEMES, "Runge-Kutta": half_a_step(integrators.RUNGE_KUTTA)}
 )
 @pytest.mark.parametrize("name", SCHEMES)
 def test_order_of_a_scheme_on_a_free_vibration(name):
@@ -68,15 +65,12 @@ def old_force_in_the_velocity(f, y, v, dt):
         y, v, place = y + dt * v + dt**2 / 2 * a, v + dt * a, place + 1
 
 
-@catches(
-    "velocity Verlet with the force of the beginning alone",
+@catches("velocity Verlet with the force of the beginning alone", name="velocity Verlet", highest=1.5).at(
     f"{__name__}.SCHEMES",
     {
         **SCHEMES,
         "velocity Verlet": dataclasses.replace(integrators.VELOCITY_VERLET, march=old_force_in_the_velocity),
     },
-    name="velocity Verlet",
-    highest=1.5,
 )
 @pytest.mark.parametrize("name", SYMPLECTIC)
 @pytest.mark.parametrize("highest", [1.5, 2.5])

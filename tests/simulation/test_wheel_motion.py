@@ -24,12 +24,8 @@ def without_load(wheel, law, **settings):
     return motion.simulate(weightless, law, **settings)
 
 
-@catches(
-    "load forgotten in the equation of motion",
-    f"{__name__}.simulate",
-    without_load,
-    law=contact_laws.HertzLaw(WHEEL, 2),
-    each=4 * ULP,
+@catches("load forgotten in the equation of motion", law=contact_laws.HertzLaw(WHEEL, 2), each=4 * ULP).at(
+    f"{__name__}.simulate", without_load
 )
 @pytest.mark.parametrize(
     ("law", "each"),
@@ -53,22 +49,16 @@ def test_on_a_smooth_track_a_wheel_stays_at_rest(law, each):
     assert (motion.highest == motion.path.max(axis=0)).all()
 
 
-@catches(
-    "E for E* in the force, not in the approach at rest",
-    "mdr.rolling_ensemble.RollingEnsemble.force",
-    Times(E_FOR_E_STAR),
-)
+@catches("E for E* in the force, not in the approach at rest").at("mdr.RollingEnsemble.force", Times(E_FOR_E_STAR))
 def test_at_rest_the_wheel_bears_its_load():
     for law in (HertzLaw(WHEEL, 2), LinearLaw(WHEEL, track(40, 2, 0.3)), springs_law(track(40, 2, 0.3), 12.5)):
         for place in (0, 3, 17):
             assert law.force(place, law.at_rest(place)) == pytest.approx(4 / 3, rel=4 * quantum(12.5))
 
 
-@catches(
-    "a jump that is not there",
+@catches("a jump that is not there", name="linear").at(
     "validation.simulation.motion.Motion.jump",
     property(lambda motion: motion.next_acceleration - motion.next_acceleration),
-    name="linear",
 )
 @pytest.mark.parametrize("name", ["springs", "linear", "Hertz"])
 def test_the_change_of_velocity_is_the_mean_acceleration(name):
@@ -96,12 +86,8 @@ def by_another(march):
     return {**motion.simulate.__kwdefaults__, "integrator": march}
 
 
-@catches(
-    "explicit Euler where nothing is asked for",
-    "validation.simulation.motion.simulate.__kwdefaults__",
-    by_another(integrators.EXPLICIT_EULER),
-    rms=0.05,
-    thrown=0.0,
+@catches("explicit Euler where nothing is asked for", rms=0.05, thrown=0.0).at(
+    "validation.simulation.motion.simulate.__kwdefaults__", by_another(integrators.EXPLICIT_EULER)
 )
 @pytest.mark.parametrize(("rms", "thrown"), [(0.0, 0.3), (0.05, 0.0), (0.3, 0.0), (0.2, 1.5)])
 def test_time_reversal(rms, thrown):
@@ -146,11 +132,8 @@ def test_units_do_not_matter(length, modulus, mass, seed):
 # --- the linear contact -----------------------------------------------------------------------------------------------
 
 
-@catches(
-    "symplectic Euler where nothing is asked for",
-    "validation.simulation.motion.simulate.__kwdefaults__",
-    by_another(integrators.SYMPLECTIC_EULER),
-    turn=0.3,
+@catches("symplectic Euler where nothing is asked for", turn=0.3).at(
+    "validation.simulation.motion.simulate.__kwdefaults__", by_another(integrators.SYMPLECTIC_EULER)
 )
 @pytest.mark.parametrize("turn", [0.01, 0.3, 1.0, 1.9, 1.999])
 def test_free_vibration_of_a_linear_contact_is_the_exact_one_of_leapfrog(turn):
@@ -179,12 +162,8 @@ def softer_steady(law, time_step):
     return law.wheel.approach + d[0], (d[1] - d[-1]) / (2 * time_step)
 
 
-@catches(
-    "a steady motion in continuous time",
-    "validation.simulation.contact_laws.LinearLaw.steady_state",
-    softer_steady,
-    points=50,
-    time_step=0.1,
+@catches("a steady motion in continuous time", points=50, time_step=0.1).at(
+    "validation.simulation.contact_laws.LinearLaw.steady_state", softer_steady
 )
 @pytest.mark.parametrize(("points", "time_step"), [(50, 0.1), (51, 0.7), (64, 1.7), (7, 0.3), (2, 0.3)])
 def test_the_steady_motion_is_that_of_a_dense_solve_and_repeats_itself(points, time_step):

@@ -27,10 +27,8 @@ def contact_fraction(pressure, gradient):
     return special.erf(math.sqrt(2) * pressure / gradient)
 
 
-@catches(
-    "pressures that diffuse half as fast",
-    f"{__name__}.contact_fraction",
-    lambda pressure, gradient: math.erf(pressure / gradient),
+@catches("pressures that diffuse half as fast").at(
+    f"{__name__}.contact_fraction", lambda pressure, gradient: math.erf(pressure / gradient)
 )
 def test_the_area_is_that_of_pressures_that_diffuse():
     """The pressure is p at first, diffuses by dW = W'' dV / 2 and is absorbed at zero: Crank and Nicolson, from a
@@ -68,17 +66,11 @@ def slopes_in_one_direction(c2d, edges):
 SLOPES = interface._slopes
 
 
-@catches(
-    "waves of an interface by their slope in one direction",
-    "validation.theory.interface._slopes",
-    slopes_in_one_direction,
-    gamma=0.45,
+@catches("waves of an interface by their slope in one direction", gamma=0.45).at(
+    "validation.theory.interface._slopes", slopes_in_one_direction
 )
-@catches(
-    "the contact of an interface without the root of two",
-    "validation.theory.interface.special",
-    types.SimpleNamespace(erf=lambda x: special.erf(x / math.sqrt(2))),
-    gamma=0.45,
+@catches("the contact of an interface without the root of two", gamma=0.45).at(
+    "validation.theory.interface.special", types.SimpleNamespace(erf=lambda x: special.erf(x / math.sqrt(2)))
 )
 @pytest.mark.parametrize("gamma", [1.0, 0.45])
 def test_the_stiffness_is_the_slope_of_the_gap_that_the_energy_leaves(gamma):

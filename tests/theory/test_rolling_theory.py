@@ -38,12 +38,8 @@ def power_law(hurst, first=1.0, last=20.0):
     return spectrum, (first, last)
 
 
-@catches(
-    "factor 4 lost in the spectrum of the half-space",
-    "validation.theory.rolling.response",
-    Times(0.5),
-    hurst=0.7,
-    q=1.7,
+@catches("factor 4 lost in the spectrum of the half-space", hurst=0.7, q=1.7).at(
+    "validation.theory.rolling.response", Times(0.5)
 )
 @pytest.mark.parametrize("hurst", HURSTS)
 @pytest.mark.parametrize("q", [0.0, 0.3, 1.0, 1.7, math.pi, 10.0, 19.0])
@@ -144,7 +140,7 @@ def test_the_response_is_that_of_the_flat_punch():
         assert line == pytest.approx(expected, abs=1e-12 * 2 * modulus * a)
 
 
-@catches("Geike for the line trace in rolling", "mdr.spectrum.SelfAffine.line", mdr.SelfAffine.c1d, hurst=0.7)
+@catches("Geike for the line trace in rolling", hurst=0.7).at("mdr.SelfAffine.line", mdr.SelfAffine.c1d)
 @pytest.mark.parametrize("hurst", HURSTS)
 def test_sections_are_line_traces(hurst):
     spectrum, edges = power_law(hurst)
@@ -152,11 +148,8 @@ def test_sections_are_line_traces(hurst):
     assert section(q, spectrum.c2d, edges=edges) == pytest.approx(spectrum.line(q), rel=1e-9, abs=1e-18)
 
 
-@catches(
-    "springs that roll fed by the line trace",
-    "mdr.rolling_spectrum._across",
-    lambda q, c2d, edges, flat: float(rolling.section(q, c2d, edges=edges)),
-    hurst=0.7,
+@catches("springs that roll fed by the line trace", hurst=0.7).at(
+    "mdr.rolling_spectrum._across", lambda q, c2d, edges, flat: float(rolling.section(q, c2d, edges=edges))
 )
 @pytest.mark.parametrize("hurst", HURSTS)
 def test_large_wheels_are_fed_less_than_geike(hurst):
@@ -200,12 +193,8 @@ def band_levels(values, q, bands):
     return np.array([values[band].sum() for band in inside])
 
 
-@catches(
-    "springs that roll fed by Geike",
-    "mdr.rolling_spectrum._across",
-    lambda q, c2d, edges, flat: float(np.pi * q * c2d(np.array(q))),
-    hurst=0.7,
-    first=1.0,
+@catches("springs that roll fed by Geike", hurst=0.7, first=1.0).at(
+    "mdr.rolling_spectrum._across", lambda q, c2d, edges, flat: float(np.pi * q * c2d(np.array(q)))
 )
 @pytest.mark.slow
 @pytest.mark.parametrize("first", [1.0, 2 ** (1 / 6)])
@@ -239,10 +228,8 @@ def test_springs_that_are_fed_for_rolling_have_the_level_of_the_half_space(hurst
 two_sided = spectra.Waves.spectrum.fget
 
 
-@catches(
-    "one-sided spectrum of a track",
-    "validation.analysis.spectra.Waves.spectrum",
-    property(lambda waves: 2 * two_sided(waves)),
+@catches("one-sided spectrum of a track").at(
+    "validation.analysis.spectra.Waves.spectrum", property(lambda waves: 2 * two_sided(waves))
 )
 def test_spectra_of_profiles_are_the_ones_they_are_drawn_from():
     """Two-sided, wave by wave, since the amplitudes are fixed."""

@@ -28,10 +28,8 @@ def profiles():
 pairs_of = RollingWheel._pairs
 
 
-@catches(
-    "one end of the contact for both",
-    "validation.theory.rolling.RollingWheel._pairs",
-    lambda wheel, *waves: pairs_of(wheel, *waves) / 4,
+@catches("one end of the contact for both").at(
+    "validation.theory.rolling.RollingWheel._pairs", lambda wheel, *waves: pairs_of(wheel, *waves) / 4
 )
 def test_two_waves_have_the_force_of_their_sum_and_difference():
     """An even band so narrow that it is two waves, +k and -k: 2 k and 0 have the power of a square, slowly summed."""
@@ -67,14 +65,12 @@ def test_the_motion_is_that_of_a_force_integrated_over_the_contact_and_of_a_driv
     assert abs(complex(FIXED.motion(q))) == 0.0
 
 
-@catches(
-    "half of the second-order force", "validation.theory.rolling.RollingWheel.force_spectrum", Times(0.25), wheel=FIXED
+@catches("half of the second-order force", wheel=FIXED).at(
+    "validation.theory.rolling.RollingWheel.force_spectrum", Times(0.25)
 )
-@catches(
-    "pairs of waves without the motion of the wheel",
+@catches("pairs of waves without the motion of the wheel", wheel=MOVING).at(
     "validation.theory.rolling.RollingWheel._pairs",
     lambda wheel, *waves: pairs_of(replace(wheel, mass=math.inf), *waves),
-    wheel=MOVING,
 )
 @pytest.mark.parametrize("wheel", [FIXED, MOVING], ids=["fixed", "moving"])
 def test_the_second_order_force_is_that_of_drawn_profiles(wheel):
@@ -109,8 +105,7 @@ def test_springs_below_the_band_have_the_second_order_force():
 compliance_of = RollingWheel.compliance
 
 
-@catches(
-    "twice the dashpot at the resonance",
+@catches("twice the dashpot at the resonance").at(
     "validation.theory.rolling.RollingWheel.compliance",
     lambda wheel, q: compliance_of(replace(wheel, damping=2 * wheel.damping), q),
 )

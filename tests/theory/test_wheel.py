@@ -28,10 +28,8 @@ def damped_wheel_alone(omega, **given):
     return wheel.acceleration_over_force(omega, mass=1.0, **given)
 
 
-@catches(
-    "a dashpot without its own force on the wheel",
-    "validation.theory.wheel.contact_force_over_force",
-    damped_wheel_alone,
+@catches("a dashpot without its own force on the wheel").at(
+    "validation.theory.wheel.contact_force_over_force", damped_wheel_alone
 )
 def test_acceleration_and_force_over_the_force_at_a_fixed_approach():
     d = np.array([solved(w) for w in OMEGA])
