@@ -60,9 +60,6 @@ def test_beside_the_dense_solution():
         assert found["area"][i] == pytest.approx(cells.size / 144)
 
 
-press_surface = light_punch.press_surface
-
-
 def heavier_loads_as_light_ones(surface):
     return press_surface(dataclasses.replace(surface, forces=tuple(f / 2 for f in surface.forces)))
 
