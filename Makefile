@@ -57,9 +57,9 @@ oldest-python:
 
 oldest: oldest-python $(if $(OLDEST_PYTHON),$(OLDEST)/ready)  ## the tests not marked slow, on the oldest versions that pyproject.toml allows
 	# an old library says of its own imports that they are deprecated
-	# planted faults and mutants try the tests, cases what they say, the table of imports our own files: no library
+	# seeded faults and mutants try the tests, cases what they say, the table of imports our own files: no library
 	$(OLDEST)/bin/python -m pytest -q $(SHARED) -m "not slow" -W ignore::DeprecationWarning \
-		$(addprefix --ignore=tests/,planted_faults cases mutation test_architecture.py) $(ARGS)
+		$(addprefix --ignore=tests/,test_seeded_faults.py cases mutation test_architecture.py) $(ARGS)
 
 accessibility: $(AXE)  ## the page of a report by axe-core in a headless chromium, which has to be there
 	$(RUN) pytest -q $(SHARED) tests/report/test_axe.py $(ARGS)

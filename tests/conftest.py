@@ -87,7 +87,7 @@ def without_figures(monkeypatch):
 
 @pytest.fixture(scope="session", autouse=True)
 def texts_of_sources_are_read_once():
-    """What a text of code imports and says, by its bytes: a digest of the project takes seconds, and planted faults
+    """What a text of code imports and says, by its bytes: a digest of the project takes seconds, and seeded faults
     forget what the project remembers of it."""
     # as below: not before coverage is measured
     from validation.engine import sources

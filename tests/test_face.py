@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import validation
+from tests.seeded import catches
 from validation.__main__ import main
 from validation.advice.compare import Comparison
 from validation.advice.hierarchy import Candidate, Selection
@@ -63,6 +64,9 @@ def test_a_number_comes_in_si_units_with_its_relative_error():
     assert first.cost > 0
 
 
+@catches("a level of the face without its logarithm").at(
+    "validation.advice.compare.Comparison.is_level", property(lambda result: False)
+)
 def test_levels_come_in_decibels():
     result = spectrum()
     answer = result.selection.best.answer
@@ -86,6 +90,9 @@ def comparison(status, *, failed="", quantity="stiffness"):
     return Comparison(scene, quantity, Selection(0.2, (Candidate(Model(), status, "why", estimate, answer),)))
 
 
+@catches("a tolerance of the face that is always met").at(
+    "validation.advice.hierarchy.Selection.met", property(lambda selection: True)
+)
 def test_a_missed_tolerance_leaves_the_best_value():
     result = comparison("not accurate enough")
     assert (result.met, result.model, result.value.tolist(), result.error) == (False, "model", [2.0], 0.3)

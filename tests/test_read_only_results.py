@@ -9,6 +9,7 @@ import pytest
 
 import bem3d
 import mdr
+from tests.seeded import catches
 
 BODY = bem3d.HalfSpace(shape=(6, 5), spacing=1.0, modulus=1.0)
 GAP = np.random.default_rng(1).normal(size=(6, 5))
@@ -67,6 +68,7 @@ def with_an_older_view(values):
     return array, view
 
 
+@catches("a gap that the caller may still write to").at("bem3d.problem.kept", lambda values: values)
 def test_an_older_view_of_the_gap_changes_no_problem():
     gap, view = with_an_older_view(GAP)
     contact, path = bem3d.solve(BODY, gap, approach=0.5), list(bem3d.indent(BODY, gap, approaches=[0.4, 0.5]))

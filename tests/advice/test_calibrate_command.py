@@ -5,6 +5,7 @@ from collections import Counter
 import numpy as np
 import pytest
 
+from tests.seeded import catches
 from validation.__main__ import main
 from validation.advice import calibrate, calibration
 from validation.advice.calibrate import CalibrationRun, as_table, check_installable, install
@@ -116,6 +117,9 @@ def refusal(**counts):
     return ""
 
 
+@catches("a table of any size in the place of that of the package").at(
+    "validation.advice.calibrate._refuse_fewer", lambda mine, there: None
+)
 def test_the_run_that_the_table_is_of_may_be_installed_and_no_smaller_one():
     """Scenes without an answer of boundary elements are none of the table."""
     assert not refusal()

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from tests.advice.planted_answers import punch, waves, wheel
+from tests.seeded import catches
 from validation.advice import calibrate, calibration, calibration_scenes
 from validation.advice.calibrate import as_table, calibration_age, check_calibration, measured_table
 from validation.advice.calibration import (
@@ -49,6 +50,10 @@ def conditions(point, kind):
     return {name: x if name == HURST else 10**x for name, x in zip(NAMES[kind], point, strict=True)}
 
 
+@catches("the error nearby, without what covers it", kind="punch").at(
+    "validation.advice.calibration.MeasuredErrors.factor", 1.0
+)
+@catches("a claim that half of the scenes exceed", kind="sphere").at("validation.advice.calibration.SHARE", 0.5)
 @pytest.mark.parametrize("kind", NAMES)
 def test_claims_cover_new_scenes_and_are_tight(kind):
     covered, ratios = [], []
@@ -69,6 +74,9 @@ def one_of_each(kind="punch", error=0.1):
     return measured(kind, np.repeat(corners, 2, axis=0), np.full(32, error))
 
 
+@catches("a table of errors held constant beyond its end", kind="punch", name=LOAD, inside=0.0075, outside=0.0065).at(
+    "validation.advice.calibration.OPEN_BELOW", (LOAD,)
+)
 @pytest.mark.parametrize(
     ("kind", "name", "inside", "outside"),
     [
@@ -136,6 +144,12 @@ def left_out_by_loops(table, scene):
     return table.shapes[scene] * math.sqrt(np.average(squares, weights=weights))
 
 
+@catches("a scene that calibrates itself", kind="punch").at(
+    "validation.advice.calibration.MeasuredErrors.left_out", lambda table: table.errors
+)
+@catches("a table without the growth of its errors", kind="sphere").at(
+    "validation.advice.calibration.MeasuredErrors.trend", 0.0
+)
 @pytest.mark.parametrize("kind", NAMES)
 def test_errors_nearby_are_those_of_a_loop_over_all_scenes(kind):
     points, errors = population(200, 8, kind)
@@ -278,6 +292,9 @@ def test_the_fit_claims_less_under_more_waves():
     assert calibrated(cheap("fit", many), many).error < 0.7 * calibrated(cheap("fit", few), few).error
 
 
+@catches("a reference of the calibration with the surfaces of the models").at(
+    "validation.advice.calibration_scenes.OTHER_SEED", 0
+)
 def test_the_reference_has_surfaces_of_its_own_on_its_finest_grid():
     """Errors beside surfaces that the models were solved on, too, would have no scatter of those in them."""
     seeds = {True: set(), False: set()}

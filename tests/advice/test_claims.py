@@ -1,5 +1,6 @@
 """No claim outside of what was measured, no answer that stands on a handful of cells, no error bar without a limit."""
 
+import dataclasses
 import math
 from dataclasses import replace
 
@@ -10,16 +11,19 @@ from scipy import stats
 import bem3d
 from tests.advice.by_kind import OURS, estimates_by_kind, grid_of, grids_of, model_of_kind
 from tests.advice.planted_answers import ROUGH, ball, punch, waves, wheel
+from tests.seeded import catches, module_with
 from validation.advice.calibration import calibrated
 from validation.advice.compare import compare
 from validation.advice.hierarchy import select_model
 from validation.advice.models import boundary_elements_pressed, boundary_elements_rolling, pressed
 from validation.advice.models import rolling as rolling_models
 from validation.advice.quantities import models_of, quantities_of
+from validation.engine.random_numbers import random_generator
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling_quantity import RollingQuantity
 from validation.scenes.roughness import Roughness
 from validation.simulation import indentation as pressed_heights
+from validation.simulation import method, surface
 from validation.simulation import rolling_levels as rolled
 from validation.simulation.method import grid_error, mean_error
 from validation.simulation.model import Target
@@ -49,6 +53,14 @@ def test_the_error_of_a_grid_covers_the_limit_of_a_series():
     assert np.mean(inside) >= 0.95 - 2 * math.sqrt(0.95 * 0.05 / 4000)
 
 
+def the_last_change_alone(earlier, last):
+    return abs(float(last.mean())) + method.mean_error(last[:, np.newaxis])
+
+
+@catches("grids that do not converge with the error bar of those that do").at(
+    f"{__name__}.grid_error", the_last_change_alone
+)
+@catches("the error of a grid without that of its sample").at("validation.simulation.method.mean_error", lambda _: 0.0)
 def test_grids_that_do_not_converge_have_no_error_bar():
     # one cell in contact: each refinement makes it half as stiff
     assert grid_error(np.full(8, -math.log(2)), np.full(8, -math.log(2))) == math.inf
@@ -77,6 +89,9 @@ def summit_stiffness(scene, realisation, cells=64):
     return 2 * (0.75 * scene.load * radius) ** (1 / 3)
 
 
+@catches("a punch without the error at its edge", cells=32).at(
+    "validation.advice.models.boundary_elements_pressed.edge_error", lambda scene, cells: 0.0
+)
 @pytest.mark.parametrize("cells", [32, 64])
 def test_a_pressed_face_claims_no_less_than_the_edge_of_the_flat_punch(cells):
     """In nearly full contact, where the waves that a grid leaves out may hide it in the change of the grid."""
@@ -102,6 +117,7 @@ def test_light_loads_have_no_answer_unless_it_is_that_of_the_summits(load, last)
     assert statuses(found)["fit"] == "out of range"
 
 
+@catches("an answer that stands on one cell").at("validation.advice.scene_model.too_few", lambda *_: "")
 @pytest.mark.slow
 def test_few_springs_and_few_cells_are_no_answer():
     scene = punch(load=1e-3, ground=waves(last=32))
@@ -152,6 +168,9 @@ def test_beyond_what_was_measured_springs_and_filters_claim_nothing(name, inside
             assert beyond[model].reason.startswith(f"{name} = ")
 
 
+@catches("a linear filter for waves shorter than the contact", quantity="force-rms", tolerance=0.15).at(
+    "validation.advice.calibration.outside", lambda *_: ""
+)
 @pytest.mark.parametrize(("quantity", "tolerance"), [("force-spectrum", 10 ** (4 / 20) - 1), ("force-rms", 0.15)])
 def test_waves_shorter_than_the_contact_are_left_to_boundary_elements(quantity, tolerance):
     scene = wheel(ground=Roughness(rms=0.05, hurst=0.9, longest=0.6, shortest=0.2))
@@ -215,6 +234,15 @@ def test_what_does_not_fit_into_memory_is_said_before_it_is_begun():
 # Error bars of grids and samples, by hand
 
 
+def without_the_noise_of_its_series(earlier, last):
+    before, after = (abs(float(change.mean())) for change in (earlier, last))
+    ratio = min(after / before, method.SLOWEST)
+    return after * max(1.0, ratio / (1 - ratio)) + method.mean_error(last[:, np.newaxis])
+
+
+@catches("a series of grids without the noise of its last change", ratio=0.75, factor=3.0).at(
+    f"{__name__}.grid_error", without_the_noise_of_its_series
+)
 @pytest.mark.parametrize(
     ("ratio", "factor"), [(0.25, 1.0), (0.5, 1.0), (0.75, 3.0), (0.82, 4.0), (0.9, 9.0), (1.01, math.inf)]
 )
@@ -227,6 +255,11 @@ def test_what_a_grid_leaves_is_the_rest_of_its_series_and_of_its_sample(ratio, f
     assert grid_error(-0.3 + scatter, -last + scatter) == pytest.approx(factor * (last + noise), rel=1e-12)
 
 
+def mean_over_bands(ratios):
+    return float(np.mean([method.mean_error(band[:, np.newaxis]) for band in ratios.T]))
+
+
+@catches("quiet bands in the error of loud ones").at(f"{__name__}.mean_error", mean_over_bands)
 def test_the_error_over_bands_is_their_root_mean_square():
     """The loudest band decides, as it does in the distance between two answers."""
     one, other = 0.1 * np.array([1.0, -1.0] * 3), 0.4 * np.array([1.0, -1.0] * 3)
@@ -263,6 +296,18 @@ def test_a_single_face_leaves_its_change_and_as_much_for_each_doubling_to_come(c
     assert left == pytest.approx(error)
 
 
+surfaces = boundary_elements_pressed.MODEL
+
+
+def another_surface_on_coarser_grids(target, resolution):
+    solve = surfaces.prepare(target, resolution)
+    return (lambda surface: solve(surface + 1)) if resolution.size < 32 else solve
+
+
+@catches("coarser grids on other surfaces").at(
+    "validation.advice.models.boundary_elements_pressed.MODEL",
+    dataclasses.replace(surfaces, prepare=another_surface_on_coarser_grids),
+)
 def test_grids_are_compared_on_the_same_surfaces():
     seen = []
 
@@ -278,6 +323,14 @@ def test_grids_are_compared_on_the_same_surfaces():
     assert sorted(seen) == sorted([*fine, *((cells, i, 3) for cells in (8, 16) for i in range(8))])
 
 
+def the_same_every_time(entropy, *key):
+    return random_generator(entropy, *key[:-1], 0)
+
+
+@catches("one surface for all").at("validation.simulation.indentation.random_generator", the_same_every_time)
+@catches("one strip and one track for all").at(
+    "validation.simulation.rolling_levels.random_generator", the_same_every_time
+)
 def test_realisations_are_others():
     def heights(realisation, seed):
         return pressed_heights.height_of(punch(), 32, realisation, seed).ravel()
@@ -301,6 +354,7 @@ def claims(scene, quantity="stiffness", tolerance=0.1):
     return {kind: estimate.error for kind, estimate in estimates_by_kind(scene, quantity, tolerance).items()}
 
 
+@catches("one measured face for the mean of all").at("validation.advice.models.pressed.SCATTER", 0.0)
 def test_one_measured_face_is_not_the_mean_of_all():
     """A surface scatters by 0.22 about the mean of those that have its spectrum: two such deviations are claimed."""
     height = bem3d.rough_surface(ROUGH.c2d, shape=(32, 32), spacing=1 / 32, rng=np.random.default_rng(2), rms=1e-3)
@@ -343,6 +397,10 @@ RULES = [
 ]
 
 
+@catches("the rule of the rms for levels in bands", *RULES[1]).at(
+    "validation.advice.models.rolling.ON_HALF_SPACE",
+    dataclasses.replace(rolling_models.ON_HALF_SPACE, bands=rolling_models.LINEAR_RMS),
+)
 @pytest.mark.parametrize(("quantity", "rules"), RULES)
 def test_claims_of_cheap_models_of_rolling(quantity, rules):
     """Of the contact that linear theory loses, of h/d, and of neither; springs beside a tenth of the tolerance."""
@@ -359,6 +417,22 @@ def test_claims_of_cheap_models_of_rolling(quantity, rules):
 # Rolling, grid beside grid
 
 
+strips = boundary_elements_rolling.MODEL
+
+
+def another_strip_on_the_coarse_grid(target, resolution):
+    solve = strips.prepare(target, resolution)
+    coarse, _ = strips.resolutions(target)
+    return (lambda strip: solve(strip + 1)) if resolution == coarse else solve
+
+
+@catches("what the finer of two grids leaves, for the coarser", finest=False).at(
+    "validation.advice.models.boundary_elements_rolling.OF_FINE", boundary_elements_rolling.OF_FINE - 1
+)
+@catches("a grid beside another on another strip", finest=True).at(
+    "validation.advice.models.boundary_elements_rolling.MODEL",
+    dataclasses.replace(strips, prepare=another_strip_on_the_coarse_grid),
+)
 @pytest.mark.parametrize("finest", [False, True])
 def test_two_grids_of_second_order_leave_what_they_miss(finest):
     """ln of a level is c / cells^2 beside its limit, and strips scatter by far more: they are compared one by one."""
@@ -388,6 +462,10 @@ def test_springs_leave_what_their_tracks_scatter(monkeypatch):
     assert found.model == springs.estimate().model
 
 
+@catches("Geike's spectrum for springs that roll", quantity="force-spectrum").at(
+    "validation.simulation.rolling_levels.draw_track",
+    lambda ground, rule, **settings: surface.draw_track(ground, "geike", **settings),
+)
 @pytest.mark.slow
 @pytest.mark.parametrize("quantity", ["force-rms", "force-spectrum", "acceleration", "acceleration-rms"])
 def test_springs_on_low_roughness_are_linear_theory_in_the_mean_over_bands(quantity):
@@ -421,6 +499,13 @@ def in_other_units(scene, modulus=2e11, length=1e-6):
 ROUGH_BODIES = [punch(load=0.01, ground=waves(last=16)), ball(0.1, 1, 4)]
 
 
+def of_unit_modulus(**settings):
+    return bem3d.HalfSpace(**{**settings, "modulus": 1.0})
+
+
+@catches("a half-space of unit modulus", scene=ROUGH_BODIES[1]).at(
+    "validation.advice.models.boundary_elements_pressed.bem3d", module_with(bem3d, HalfSpace=of_unit_modulus)
+)
 @pytest.mark.parametrize("scene", ROUGH_BODIES)
 def test_no_stiffness_depends_on_units(scene):
     """Every model counts as many springs and cells, and answers E* times length more."""
@@ -436,6 +521,7 @@ def test_no_stiffness_depends_on_units(scene):
         assert (there.failed, there.cost) == (here.failed, here.cost)
 
 
+@catches("one cell in contact of a light punch").at("validation.simulation.indentation.CONTACT", 1)
 def test_grids_are_as_fine_in_any_unit():
     """Sixteen cells in contact of a light punch, 2 F / (E* h' L^2) of all, h' the rms slope of the gradient."""
     for scene in (*ROUGH_BODIES, light := punch(load=0.001, ground=waves(last=4))):
@@ -453,6 +539,7 @@ def test_a_sphere_of_low_roughness_is_that_of_hertz():
     assert abs(math.log(found.value[0] / scene.stiffness)) <= found.error + 0.32 * 0.01 + 0.01
 
 
+@catches("a sphere cut off at its smooth approach").at("validation.simulation.indentation.DEEPEST", 0.0)
 def test_the_side_of_a_sphere_holds_what_it_may_touch():
     """Four heights above the smooth approach: r^2 = 2 R (d + 4 h)."""
     scene = ball(0.1, 4.5, 9)

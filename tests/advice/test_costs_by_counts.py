@@ -5,6 +5,7 @@ import math
 import pytest
 
 import mdr
+from tests.seeded import catches
 from validation.advice.models import boundary_elements_pressed as pressed
 from validation.advice.models import pressed as on_profiles
 from validation.advice.quantities import models_of
@@ -48,6 +49,7 @@ def test_a_model_of_a_rail_draws_as_many_cells_and_rolls_over_as_many_positions_
     assert seconds < told.seconds < seconds + 0.2
 
 
+@catches("a cost without the strips that are drawn").at("validation.railway.problems.rail_models.DRAWN", 0.0)
 def test_cells_that_are_drawn_are_most_of_the_cost_of_springs_on_a_line():
     """Where the draws had been left out, the cost was a twentieth."""
     (line,) = (model for model in ON_STRIPS if model.name == "springs on the line")

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import bem3d
+from tests.seeded import catches
 from validation.advice.cases import edge_scenes, model_selection
 from validation.advice.cases.edge_scenes import (
     EDGE_KINDS,
@@ -94,6 +95,9 @@ def pressed(scene):
     return contact.stiffness(), np.count_nonzero(contact.pressure)
 
 
+@catches("a window of a measured sphere that ends at its contact", body="sphere").at(
+    "validation.simulation.indentation.MARGIN", 2
+)
 @pytest.mark.slow
 @pytest.mark.parametrize("body", [PUNCH, SPHERE])
 def test_claims_hold_on_measured_faces_and_few_of_them_are_refused(body):
@@ -135,6 +139,10 @@ def test_ridges_lose_contact_where_linear_theory_claims_less_for_waves_in_all_di
     assert distance(linear.solve().value, rolled_over) <= linear.estimate().error
 
 
+@catches("measured points between the cells of a wheel's grid", number=0).at(
+    "validation.simulation.rolling_levels.grids_of_points",
+    lambda heights, radius: tuple(n * radius / heights.spacing[0] for n in (2, 4)),
+)
 @pytest.mark.parametrize("number", [0, 3, 7, 9])
 def test_every_grid_under_a_wheel_has_all_measured_points(number):
     """So that no grid misses a summit: on others, levels in bands changed by 20 % from grid to grid without end."""
@@ -185,6 +193,9 @@ def counted(outcomes):
     return [values[0] for values in columns], numbers_of(at_edges(edges))
 
 
+@catches("an answer at the edge that always holds").at(
+    "validation.advice.cases.model_selection_study.over_estimate", lambda table: 0 * table["true error"]
+)
 def test_answers_at_the_edges_are_counted_with_those_that_are_none():
     outcomes = [
         outcome(0.05, 0.02),
@@ -206,6 +217,9 @@ def test_answers_at_the_edges_are_counted_with_those_that_are_none():
 LOST = NotConvergedError("lost"), "", True
 
 
+@catches("a contact at the edge that did not converge taken for a refusal", *LOST).at(
+    "validation.advice.cases.model_selection.NotConvergedError", KeyError
+)
 @pytest.mark.parametrize(
     ("found", "refused", "failed"),
     [
@@ -305,6 +319,9 @@ def test_what_grids_share_changes_no_answer():
     assert solved
 
 
+@catches("the reference on the surfaces of the tested models").at(
+    "validation.advice.cases.model_selection.OTHER_SEED", 0
+)
 @pytest.mark.slow
 def test_the_reference_of_the_calibration_test_has_surfaces_of_its_own():
     """The tested models draw with the seed of the trial, the reference with another."""

@@ -6,6 +6,7 @@ import pytest
 
 import validation
 from tests.advice.planted_answers import REASON, Fake, Finding, compared, planted, wheel
+from tests.seeded import catches
 from validation.__main__ import main
 from validation.advice.quantities import quantities_of
 from validation.advice.summary import WIDTH, findings, in_short
@@ -30,6 +31,9 @@ def test_three_lines_at_most_end_it(name):
             assert math.isfinite(error) or REASON.strip() in " ".join(text.split())
 
 
+@catches("a missed tolerance told as met").at(
+    "validation.advice.hierarchy.Selection.met", property(lambda selection: True)
+)
 def test_the_error_is_told_beside_what_was_wanted_with_what_is_left():
     found = compared(Finding(parts=(0.1, 0.03, 0.04)), tolerance="20%")
     assert answer_of(found)[:2] == ["stiffness = 1.00 ± 0.15 N/m by fake, ensemble mean", EACH_PART]

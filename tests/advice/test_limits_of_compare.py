@@ -12,6 +12,7 @@ import pytest
 import validation
 from tests.advice.planted_answers import Finding, compared
 from tests.judging.test_own_models import OPEN, PUNCH, SCENES, answers, stored
+from tests.seeded import catches
 from validation.advice import compare
 from validation.advice.quantities import models_of
 from validation.advice.scene_model import Answer, SceneModel
@@ -36,6 +37,9 @@ def test_another_seed_draws_other_surfaces_and_the_same_one_the_same():
     assert found[0] == found[2] != found[1]
 
 
+@catches("a model out of its range that takes as long as it likes", seconds=61.0, solved=False).at(
+    "validation.advice.compare.LONGEST_BEYOND_RANGE", math.inf
+)
 @pytest.mark.parametrize(("seconds", "solved"), [(59.0, True), (61.0, False)])
 def test_out_of_its_range_a_model_is_solved_that_takes_a_minute_at_the_most(seconds, solved):
     target = SimpleNamespace(scene=ROUGH, quantity="stiffness")
@@ -60,6 +64,7 @@ def test_an_error_is_known_of_a_model_that_answers_twenty_scenes(known, is_known
     assert (own.errors[PUNCH].measured is not None) is is_known
 
 
+@catches("bands of which nothing is left").at("validation.railway.problems.rail_quantity.COUNTED", -math.inf)
 def test_bands_count_in_which_something_is_left():
     rail = validation.load_scene("rail")
     answer = SceneModel(LINEAR_ELLIPSE, Target(rail, "contact-filter"), Resolution()).solve()
@@ -93,6 +98,7 @@ def scripted(noise):
     return Scripted(model.model, Target(ROUGH, "stiffness", 0.05), model.resolution, noise=noise)
 
 
+@catches("noise taken for the error of a grid").at("validation.advice.scene_model.FALLS", 0.5)
 def test_a_grid_whose_error_is_noise_is_compared_on_more_surfaces():
     model = scripted(noise=True)
     answer = model.solve()
@@ -100,6 +106,7 @@ def test_a_grid_whose_error_is_noise_is_compared_on_more_surfaces():
     assert model.asked[0] == (8, 8) and model.asked[1] == (16, 16)
 
 
+@catches("the error of a grid taken for noise").at("validation.advice.scene_model.FALLS", 1.0)
 def test_a_grid_whose_error_is_its_own_is_given_up_soon():
     model = scripted(noise=False)
     assert model.solve().error > 0.05 and model.asked == [(8, 8), (16, 16)]

@@ -1,5 +1,7 @@
 """The ladder: it climbs as far as a tolerance asks and no farther, says why, and its claims are honest."""
 
+import dataclasses
+import functools
 import math
 import warnings
 from dataclasses import dataclass, replace
@@ -14,6 +16,7 @@ import bem3d
 import mdr
 from tests.advice.by_kind import CHEAP, estimates_by_kind, grid_of, grids_of, model_of_kind
 from tests.advice.planted_answers import PARTS, ROUGH, Fake, Finding, compared, punch, wheel
+from tests.seeded import Times, catches, module_with
 from validation.advice import calibration_scenes
 from validation.advice.cases.random_scenes import KINDS, random_scene
 from validation.advice.columns import bands_of
@@ -30,6 +33,7 @@ from validation.scenes.rolling_quantity import RollingQuantity
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
 from validation.simulation.method import distance, mean_error
+from validation.theory import rolling
 
 
 def rough(shape, spacing, *, first=1.0, last=8.0, hurst=0.7, rms=1e-3, seed=2):
@@ -127,6 +131,9 @@ def test_a_distance_is_over_all_numbers():
     assert distance(np.array([1.1]), np.array([1.0])) == pytest.approx(distance(np.array([1.0]), np.array([1.1])))
 
 
+@catches("one standard error for a 95 % interval").at(
+    f"{__name__}.mean_error", lambda ratios: float(np.sqrt(np.mean(ratios.var(axis=0, ddof=1) / len(ratios))))
+)
 @pytest.mark.slow
 def test_the_error_of_a_mean_covers_it_in_95_of_100():
     rng = np.random.default_rng(5)
@@ -157,6 +164,7 @@ def test_a_heavily_loaded_punch_is_a_flat_one_on_its_rough_face():
     assert errors == sorted(errors, reverse=True)
 
 
+@catches("twice the separation of a rough face", load=1.0).at("validation.theory.closed_forms.INTERFACE", 0.96)
 @pytest.mark.parametrize("load", [0.3, 1.0, 3.0])
 def test_the_law_of_interfaces_holds_as_it_claims(load):
     fit = model_of_kind("fit", punch(load=load), "stiffness", 0.2, seed=8)
@@ -190,6 +198,16 @@ def test_boundary_elements_are_those_of_the_solver():
     assert answer.sample == pytest.approx(mean_error(np.array(drawn)[:, np.newaxis] / np.mean(drawn)), rel=1e-6)
 
 
+drawn_on_a_grid = pressed_heights._drawn
+
+
+def other_waves_on_every_grid(ground, shortest, cells, side, rng):
+    return drawn_on_a_grid(ground, shortest, cells, side, np.random.default_rng(cells))
+
+
+@catches("other waves on every grid of the ladder").at(
+    "validation.simulation.indentation._drawn", other_waves_on_every_grid
+)
 def test_waves_that_a_grid_cannot_carry_are_left_out_and_no_others_changed():
     fine, coarse, coarser = (pressed_heights.height_of(punch(), cells, 0, seed=3) for cells in (32, 16, 8))
     waves, fewer = np.fft.fft2(fine, norm="forward"), np.fft.fft2(coarse, norm="forward")
@@ -203,6 +221,13 @@ def test_waves_that_a_grid_cannot_carry_are_left_out_and_no_others_changed():
     assert coarser.std() < 0.99 * coarse.std()
 
 
+surfaces = boundary_elements_pressed.MODEL
+
+
+@catches("a grid that leaves too much solved to the end of its sample").at(
+    "validation.advice.models.boundary_elements_pressed.MODEL",
+    dataclasses.replace(surfaces, grid_error=lambda *_: (0.0, "")),
+)
 def test_a_coarse_grid_knows_how_far_it_is_from_a_fine_one():
     tolerance = 0.4
     coarse, fine = (grid_of(punch(), tolerance, 3, n).solve() for n in (32, 64))
@@ -212,6 +237,14 @@ def test_a_coarse_grid_knows_how_far_it_is_from_a_fine_one():
 # Models of a wheel
 
 
+def by_the_filter_of_one_dimension(q, c2d, *, edges, contact_radius, modulus):
+    geike = functools.partial(mdr.geike, c2d=c2d)
+    return rolling.force_spectrum_1d(q, geike, contact_radius=contact_radius, modulus=modulus)
+
+
+@catches("Geike for the half-space under a wheel").at(
+    "validation.scenes.rolling_quantity.force_spectrum_3d", by_the_filter_of_one_dimension
+)
 def test_the_expected_levels_are_integrals_of_the_spectrum():
     quantity = RollingQuantity(wheel(), "force-spectrum")
     found = quantity.expected(one_dimensional=False)
@@ -230,6 +263,9 @@ def test_the_expected_levels_are_integrals_of_the_spectrum():
         assert level**2 == pytest.approx(2 * integrate.quad(density, low, high, epsrel=1e-5)[0], rel=1e-4)
 
 
+@catches("a factor 2 lost in the variance of the force").at(
+    "validation.scenes.rolling_quantity.force_variance", Times(0.5)
+)
 def test_one_dimension_has_the_variance_of_the_force_and_not_its_levels():
     rms = RollingQuantity(wheel(), "force-rms")
     c2d = rms.scene.ground.c2d
@@ -241,6 +277,9 @@ def test_one_dimension_has_the_variance_of_the_force_and_not_its_levels():
     assert np.sqrt(np.mean(ratio[levels.bands.centres > 4] ** 2)) == pytest.approx(10 ** (4 / 20), rel=0.15)
 
 
+@catches("one panel of a quadrature over decades", one_dimensional=False).at(
+    "validation.scenes.rolling_quantity.PANEL", 1e9
+)
 @pytest.mark.parametrize("one_dimensional", [True, False])
 def test_the_whole_is_the_root_of_the_sum_of_its_bands(one_dimensional):
     moving = wheel(first=1 / 100, last=4.0, mass=2.0, speed=400.0)
@@ -249,6 +288,10 @@ def test_the_whole_is_the_root_of_the_sum_of_its_bands(one_dimensional):
     assert whole[0] ** 2 == pytest.approx(np.sum(bands**2), rel=1e-3)
 
 
+@catches("no resonator between force and acceleration").at(
+    "validation.scenes.rolling_quantity.RollingQuantity.transfer",
+    lambda quantity, q: np.ones_like(q) / quantity.scene.body.mass,
+)
 def test_the_transfer_of_a_wheel_is_that_of_its_resonator():
     quantity = RollingQuantity(wheel(mass=2.0, speed=3.0), "acceleration")
     q = np.array([0.5, 2.0, 7.0])
@@ -377,6 +420,13 @@ def test_a_summit_beyond_four_times_the_roughness_is_under_the_sphere():
     assert found.value[0] == pytest.approx(whole, rel=1e-3)
 
 
+def at_points(heights, shape, cell):
+    return heights.at(*((np.arange(n) - (n - 1) / 2) * cell for n in shape))
+
+
+@catches("measured heights at points, not over cells").at(
+    "validation.scenes.measured.MeasuredHeights.mean_over_cells", at_points
+)
 def test_short_waves_of_a_measured_track_are_no_longer_ones():
     # cells of a / 8, and a wave of a / 7 along the track: at the centres alone one of a, of the same height
     x = (np.arange(1024) + 0.5) / 32
@@ -412,6 +462,12 @@ def test_linear_theory_answers_for_bands_in_which_a_track_has_no_waves():
     assert linear.estimate().error < distance(found.value, rolled_over) <= found.error
 
 
+@catches("decibels of a power for those of a level", quantity="force-spectrum", unit="N").at(
+    "validation.advice.tolerance.math", module_with(math, log10=lambda value: math.log10(value) / 2)
+)
+@catches("radians in a second told as hertz", quantity="acceleration", unit="m/s²").at(
+    "validation.advice.compare.math", module_with(math, pi=0.5)
+)
 @pytest.mark.parametrize(("quantity", "unit"), [("force-spectrum", "N"), ("acceleration", "m/s²")])
 def test_bands_are_told_with_wavenumber_frequency_and_level(quantity, unit):
     scene = wheel(first=1 / 20, mass=2.0, speed=400.0, radius=4.0, load=4 / 3 * 16)

@@ -8,6 +8,7 @@ import pytest
 
 import validation
 from tests.advice.planted_answers import Fake, Finding, compared, punch
+from tests.seeded import catches
 from validation.__main__ import main
 from validation.advice.compare import SceneProblem
 from validation.advice.hierarchy import select_model
@@ -33,6 +34,9 @@ def test_short_names_are_mdr_and_the_grid_that_claims_the_tolerance():
     assert "side by side; differences from boundary elements 64²" in summary(found)
 
 
+@catches("dominated models among those that are offered", models=(), count=0).at(
+    ("validation.advice.quantities.BY_NAME", "validation.advice.compare.BY_NAME"), ()
+)
 @pytest.mark.parametrize(("models", "count"), [((), 0), (("Remington",), 0), ((SPRINGS_THAT_READ,), 1), (("mdr",), 1)])
 def test_springs_that_read_the_surface_are_there_by_name_alone(models, count):
     rail = SceneProblem(validation.load_scene("rail"), ("contact-filter",), 0.3, models=models)

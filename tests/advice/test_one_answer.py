@@ -12,6 +12,7 @@ import pytest
 
 import validation
 from tests.advice.planted_answers import Fake, Finding, compared, planted, punch, wheel
+from tests.seeded import catches
 from validation.advice import advice
 from validation.advice import advice as on_mdr
 from validation.advice.columns import overview_of
@@ -68,6 +69,12 @@ def test_errors_in_bands_of_two_answers_add_up_as_if_they_went_opposite_ways(dec
     assert contradict(one, other, 0.05) is contradict(other, one, 0.05) is apart
 
 
+@catches("a contradiction that nobody looks for").at(
+    "validation.advice.hierarchy.contradicting", lambda found, one: None
+)
+@catches("the model with the smallest error, however biased").at(
+    "validation.advice.hierarchy.bias", lambda answer: (answer.error, 0.0)
+)
 def test_no_model_is_selected_that_a_less_biased_one_contradicts():
     """Springs find 4 % and are 30 % off boundary elements: those are the answer, within the tolerance or not."""
     springs = Finding(name="springs", is_mdr=True, parts=(0.04, 0, 0), value=(1.0,))
@@ -87,6 +94,7 @@ def test_no_model_is_selected_that_a_less_biased_one_contradicts():
     assert unlike.model == "springs" and unlike.met
 
 
+@catches("errors that a sample tells apart", sample=0.12, name="grid").at("validation.advice.hierarchy.ALIKE", 1.0)
 @pytest.mark.parametrize(("sample", "name"), [(0.12, "grid"), (0.1 * ALIKE, "grid"), (0.1 * ALIKE + 0.01, "springs")])
 def test_of_errors_that_are_alike_the_less_biased_model_is_taken(sample, name):
     springs = Finding(name="springs", parts=(0.1, 0, 0))
@@ -94,6 +102,7 @@ def test_of_errors_that_are_alike_the_less_biased_model_is_taken(sample, name):
     assert found.model == name and not found.met
 
 
+@catches("a prediction told as a solve").at("validation.advice.advice.is_solved", lambda comparison, springs: True)
 def test_a_sentence_on_springs_that_were_not_solved_says_predicted():
     cheaper, springs = Fake(name="formula", seconds=0.5), Fake(name="line", is_mdr=True, claimed=0.1)
     found = compared(cheaper, springs)
@@ -155,6 +164,13 @@ BODIES = [
 ]
 
 
+@catches("a half-space that bears any pressure", *BODIES[0]).at(
+    "validation.advice.compare.beyond_elasticity", lambda scene: ""
+)
+@catches("the peak for the mean pressure", *BODIES[1]).at(
+    "validation.scenes.scene.ContactEllipse.mean_pressure",
+    property(lambda contact: 1.5 * contact.load / (math.pi * contact.along**2)),
+)
 @pytest.mark.parametrize(("kind", "about"), BODIES)
 def test_no_model_is_enough_beyond_linear_elasticity(kind, about):
     for over, holds in ((0.099, True), (0.101, False), (9.4, False)):
@@ -191,6 +207,9 @@ def vars_of(scene):
 ROUGH = validation.load_scene("rough_punch")
 
 
+@catches("no number of realisations would do").at(
+    "validation.advice.advice.wanted_realisations", lambda one, tolerance: 0
+)
 def test_where_the_sample_is_the_error_a_number_of_realisations_is_advised_that_does():
     """N = (2 s / (0.9 t))^2: with as many, the tolerance is met, and the command tells what they cost before."""
     found = validation.compare(ROUGH, tolerance="4%", models=["boundary elements 64²", "springs"], realisations=8)
@@ -239,6 +258,7 @@ def test_the_sample_that_is_claimed_of_so_many_realisations_is_half_of_a_95_per_
     assert 1.96 * standard_error <= model.estimate().sample <= 2.5 * standard_error
 
 
+@catches("as many realisations as ever").at("validation.advice.scene_model.replace", lambda plan, **_: plan)
 def test_so_many_realisations_are_solved_as_are_asked():
     for count in (2, 9):
         found = validation.compare(ROUGH, tolerance="1%", models=["boundary elements 64²"], realisations=count)

@@ -12,9 +12,10 @@ from matplotlib.figure import Figure
 
 import validation
 from tests.advice.planted_answers import Fake, Finding, compared, planted
+from tests.seeded import catches
 from validation.__main__ import main
+from validation.advice import compare, scene_model
 from validation.advice import figure as figures
-from validation.advice import scene_model
 from validation.advice.compare import SceneProblem, swept_values
 from validation.advice.figure import draw_sweep, figure_over_seconds
 from validation.advice.side_by_side import shown_models, speed_and_accuracy
@@ -29,6 +30,12 @@ def solved(scene, **settings):
     return validation.compare(scene, "contact-filter", "1 dB", models=CLOSED, **settings)
 
 
+real_models_of = compare.models_of
+
+
+@catches("a rail solved anew for each quantity").at(
+    "validation.advice.compare.models_of", lambda *given, **named: real_models_of(*given[:4], **named)
+)
 @pytest.mark.slow
 def test_both_quantities_of_a_rail_are_solved_once():
     asked, found, quantities = [], ContactFilter.find, ("contact-filter", "equivalent-roughness")
@@ -45,6 +52,9 @@ def test_both_quantities_of_a_rail_are_solved_once():
     assert all(f"\n{quantity} by linear, ellipse" in text for quantity in both)
 
 
+@catches("a sweep with values in units of their own").at(
+    "validation.advice.compare.quantity", lambda name, text, dimension: float(compare.NUMBER.fullmatch(text)[1])
+)
 def test_a_sweep_has_the_values_in_the_unit_of_the_first():
     def values(*texts):
         return [(one.value, one.unit) for one in swept_values("wheel.load", texts, "scene")]
@@ -70,6 +80,13 @@ def test_a_sweep_of_two_scenes_is_a_line_a_scene_over_the_swept_value():
     assert (lines["one"].get_ydata().tolist(), lines["other"].get_ydata().tolist()) == ([2, 1, 3], [12, 11, 13])
 
 
+def of_its_own_grid(model, count, compared=0):
+    return sum(model.shared[model.model, model.resolution].seconds[:count])
+
+
+@catches("seconds without those of the grids that tell the error").at(
+    "validation.advice.scene_model.SceneModel.seconds_of", of_its_own_grid
+)
 @pytest.mark.slow
 def test_seconds_are_those_of_all_solves_that_a_model_needs():
     """A clock on which each realisation takes a second; what another grid has solved counts, too."""
@@ -102,6 +119,12 @@ def test_a_distance_of_numbers_is_in_the_unit_of_the_tolerance():
     assert table["low"] == pytest.approx([0.0, np.nan], nan_ok=True) and table["high"] == pytest.approx([21.0, 1.0])
 
 
+@catches("a distance from the reference where nothing is left to hear").at(
+    "validation.advice.side_by_side.counts", lambda comparison, one: np.full(comparison.value_of(one).size, True)
+)
+@catches("decibels of a power as those of an amplitude").at(
+    "validation.advice.side_by_side.decibels", lambda error: 10 * np.log10(1 + error)
+)
 def test_a_distance_in_decibels_has_the_errors_of_its_band_and_the_reference_that_of_its_worst():
     """Of the bands that count, that in which models are farthest; without grid and sample both errors add there."""
     found = solved(RAIL)
@@ -136,6 +159,9 @@ def test_speed_and_accuracy_are_drawn_for_one_scene_whose_models_were_timed(tmp_
         figure_over_seconds(compared(Fake(failed="lost"), solve_all=True), "svg")
 
 
+@catches("curves in the order of their cost").at(
+    "validation.advice.figure.shown_models", lambda found: [one.name for one in found.models]
+)
 def test_five_curves_at_the_most_are_told_apart_in_colour_and_in_grey():
     found = planted("rail", "contact-filter")
     axes = Figure().subplots()

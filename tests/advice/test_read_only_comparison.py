@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from tests.advice.planted_answers import Finding, compared, planted, wheel
+from tests.seeded import catches
 from validation.advice.scene_model import Answer
 from validation.simulation.model import Cost
 
@@ -36,6 +37,9 @@ def test_no_array_of_a_comparison_can_be_written(scene, quantity, through):
     assert np.array_equal(found.value, before)
 
 
+@catches("a value that can be written").at(
+    ("validation.advice.compare.kept", "validation.advice.scene_model.kept"), lambda array: array.copy()
+)
 def test_one_number_cannot_be_written_either():
     found = compared(Finding(value=(3.0,)))
     for array in (found.value, compared().value):

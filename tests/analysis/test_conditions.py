@@ -3,6 +3,7 @@
 import pytest
 
 from tests.analysis.test_declared_claims import number
+from tests.seeded import catches
 from validation.analysis.claims import Claim, alone
 from validation.analysis.evidence import Verdict
 
@@ -19,6 +20,9 @@ def by_hurst(letters, values=(0.4, 0.55, 0.7, 0.85, 1.0)):
     return [at(letter, H=h) for letter, h in zip(letters, values, strict=True)]
 
 
+@catches(
+    "exponents between those that differ named with them", letters="dadad", verdict=DIFFER, said="H = 0.4, 0.7 and 1"
+).at("validation.analysis.claims._in_a_row", lambda *_: True)
 @pytest.mark.parametrize(
     ("letters", "verdict", "said"),
     [

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 
 from tests.analysis.test_judged_claims import point, points_with, verdicts
+from tests.seeded import catches
 from validation.analysis.claims import (
     NOT_THIS_CURVE,
     Claim,
@@ -78,6 +79,7 @@ def test_status_limits_and_headline_follow_from_verdicts(verdicts, status, limit
     assert CLAIM.headline(judged) == headline
 
 
+@catches("limits of whatever agrees").at("validation.analysis.claims.takewhile", filter)
 @given(verdicts)
 def test_limits_are_the_first_piece_of_a_range(found):
     """What agrees behind a counterexample is outside of the limits."""

@@ -11,6 +11,7 @@ from scipy import stats
 
 from tests.analysis.intervals import covered, ends, holds
 from tests.cases.test_limits import STEEP
+from tests.seeded import catches
 from validation.advice.cases.model_selection_study import clopper_pearson
 from validation.analysis.statistics import (
     Estimate,
@@ -26,6 +27,18 @@ from validation.simulation.probing import swept
 # --- of a mean, of a ratio, of a difference ---
 
 
+def of_one_tail(estimate):
+    """The quantile of 90 %."""
+    return float(stats.t.ppf(0.95, estimate.samples - 1)) * estimate.error
+
+
+@catches("one tail of Student's t", size=2).at(
+    "validation.analysis.statistics.Estimate.half_width", property(of_one_tail)
+)
+@catches("the normal quantile for Student's", size=5).at(
+    "validation.analysis.statistics.student",
+    lambda degrees, confidence=0.95: float(stats.norm.ppf((1 + confidence) / 2)),
+)
 @pytest.mark.parametrize("size", [2, 3, 5, 30])
 def test_the_interval_of_a_mean_is_students(size):
     rng = np.random.default_rng(size)
@@ -74,6 +87,10 @@ def test_an_error_that_is_not_known_stays_unknown_and_none_makes_no_interval():
     assert Estimate(2.0, 0.0, 3).minus(Estimate(1.0, 0.0, 4)).half_width == 0.0
 
 
+@catches("a jackknife without its n - 1", size=7).at(
+    "validation.analysis.statistics.jackknife_error",
+    lambda without: np.std(without, axis=0, ddof=1) / math.sqrt(len(without)),
+)
 @pytest.mark.parametrize("size", [7, 300])
 def test_leaving_out_one_is_the_standard_error_of_a_mean(size):
     """Of each column, in as many as a hundred groups of realisations; lost ones count not."""

@@ -1,12 +1,15 @@
 """Error bars of pairs of grids, and of methods on a chart, on populations with a known answer."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy import stats
 
 from tests.analysis.intervals import covered, holds, t
+from tests.seeded import catches
+from validation.analysis import statistics
 from validation.analysis.series import Series
 from validation.analysis.statistics import (
     DECIBEL,
@@ -29,6 +32,13 @@ from validation.cases.punch.fractal_punch import FractalPunch, PunchStatistics
 from validation.simulation.rough_punch import MDR
 
 
+def half_of_the_way(coarse, finer):
+    """What halving the cells changes, for what all halvings do."""
+    value, left = statistics.extrapolated(coarse, finer)
+    return replace(value, value=coarse.value + finer.value), left
+
+
+@catches("half of the way to cells of no size").at(f"{__name__}.extrapolated", half_of_the_way)
 def test_what_extrapolation_leaves_open_is_half_of_its_way_and_the_interval_of_all_of_it():
     """To cells of no size it is twice the change from one grid to the next."""
     coarse, finer = Estimate(1.0, 0.2, 20), Estimate(-0.1, 0.03, 4)
@@ -99,6 +109,18 @@ def resolved(grid, value=1.0):
     return Resolved(Linearised(value, np.zeros(5)), grid)
 
 
+COMBINED = statistics.combined
+
+
+def cancelled(weights, parts):
+    """Grid errors with the signs of their weights."""
+    whole = COMBINED(weights, parts)
+    return replace(whole, grid=abs(float(np.dot(weights, [part.grid for part in parts]))))
+
+
+@catches("grid errors of Fig. 14.1 that cancel in a difference", weights=(-2.0, 2.0), left=0.16).at(
+    f"{__name__}.combined", cancelled
+)
 @pytest.mark.parametrize(("weights", "left"), [((0.5, 0.5), 0.04), ((-2.0, 2.0), 0.16), ((2.0, -2.0), 0.16)])
 def test_grid_errors_of_fig_14_1_never_cancel(weights, left):
     """Two grid errors of unknown sign add up in a mean and in a difference, whichever is the larger."""
@@ -107,6 +129,16 @@ def test_grid_errors_of_fig_14_1_never_cancel(weights, left):
         assert combined(weights, parts).grid == pytest.approx(left)
 
 
+def beside_with_its_sign(one, other):
+    return statistics.Resolved(one.value.beside(other.value), abs(one.grid - other.grid))
+
+
+@catches("grid errors of Fig. 14.1 that cancel in an exponent").at(
+    "validation.cases.punch.fractal_punch.combined", cancelled
+)
+@catches("grid errors of two methods that cancel").at(
+    "validation.analysis.statistics.Resolved.beside", beside_with_its_sign
+)
 def test_grid_errors_of_an_exponent_a_trend_and_a_ratio_add_up():
     """The same grid error at both ends of a decade, at all Hurst exponents and in both methods."""
     case = FractalPunch(hursts=(0.4, 0.7, 1.0), cells=8, surfaces=((0, 4, 4, 4, 0),), decades=(-1, 0))
@@ -121,6 +153,9 @@ def test_grid_errors_of_an_exponent_a_trend_and_a_ratio_add_up():
         assert number_of(resolved(0.03).beside(resolved(0.05)), name).grid == pytest.approx(scale * 0.08)
 
 
+@catches("profiles and surfaces taken for the same realisations").at(
+    "validation.analysis.statistics.Linearised.beside", lambda mine, other: mine - other
+)
 def test_the_sample_interval_of_fig_14_1():
     """Root of the sum of squares of surfaces and profiles, at once for all forces of the decade."""
     one, four = (compared(steps(0.2, 0.25, 0.27), steps(0.5, 0.5, error=0.02), among=n) for n in (1, 4))

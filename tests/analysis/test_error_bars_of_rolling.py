@@ -1,11 +1,14 @@
 """Error bars of levels along a rolling track, on populations with a known answer."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from tests.analysis.intervals import TRIALS, holds
+from tests.seeded import catches
+from validation.analysis import statistics
 from validation.analysis.evidence import number_with
 from validation.analysis.series import Estimates, numbers_of
 from validation.analysis.statistics import POWER_DECIBEL, log_ratio_of_means
@@ -32,6 +35,9 @@ def rolled(rng, *, springs=1.2, finer=0.98, case=ROLLING):
     return Outcomes(case, {(rolling.BEM, 0.1): bem, (rolling.REFINED, 0.1): refined, (SPRINGS, 0.1): tracks})
 
 
+@catches("decibels of an amplitude for those of a power, in rolling").at(
+    "validation.cases.rolling.force_spectrum.POWER_DECIBEL", statistics.DECIBEL
+)
 def test_levels_of_rolling_are_powers_in_decibels():
     """10 lg of a ratio of powers: 1.2 of springs, 0.98 from one grid to the next, which are 0.98^2 to no cells."""
     result = rolled(np.random.default_rng(0))
@@ -48,6 +54,16 @@ def test_levels_of_rolling_are_powers_in_decibels():
     assert number.sample == pytest.approx(math.sqrt(np.mean(np.square(halves))), rel=0.01)
 
 
+def unpaired(values, references, weights):
+    """The ratio of two means as if each were of realisations of its own."""
+    mine, other = (statistics.log_ratio_of_means(x, np.ones(x.shape[1]), weights) for x in (values, references))
+    return replace(mine.minus(other), samples=mine.samples)
+
+
+@catches("two standard errors of a sample of four", strips=4).at(
+    "validation.analysis.statistics.Estimate.half_width", property(lambda estimate: 2 * estimate.error)
+)
+@catches("pairs of strips taken for independent ones", strips=4).at(f"{__name__}.log_ratio_of_means", unpaired)
 @pytest.mark.parametrize("strips", [4, 6])
 def test_ratios_of_levels_cover_their_truth(strips):
     """ln of 1.5, in the mean over bands of unequal scatter that share their surfaces; a row that is lost counts not."""

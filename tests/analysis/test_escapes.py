@@ -9,6 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.seeded import catches
+from validation.analysis import contents
 from validation.analysis.contents import LONGEST_NAME, as_csv, as_json, folder_names
 from validation.analysis.escapes import cell_text, is_printable, printable
 from validation.analysis.evidence import Table
@@ -40,6 +42,9 @@ FORMULAS = [
 ]
 
 
+@catches("a cell that a spreadsheet computes", text="=1+1").at(
+    "validation.analysis.contents.cell_text", contents.printable
+)
 @pytest.mark.parametrize("text", FORMULAS)
 def test_a_text_that_a_spreadsheet_computes_is_quoted_in_every_cell_and_header(text):
     contents = as_csv(Table("it", {text: [text, "a"], "number": [-1.5, 2.0], "-": ["-", "="]})).decode()
@@ -61,6 +66,9 @@ def test_tables_of_our_own_figures_stay_as_they_are():
     assert as_csv(table, drawn=True) == b"model,value\n-2 H - 3,1\n+0.1 / +0.2,2\n"
 
 
+@catches("JSON as Python writes it").at(
+    "validation.analysis.contents.json_text", lambda value: json.dumps(value, ensure_ascii=False)
+)
 @given(st.text(st.characters(exclude_categories=["Cs"])))
 def test_json_reads_back_and_has_no_character_that_acts(text):
     contents = as_json({text: [text, {"deep": {"deeper": {"deepest": text}}}]}).decode()
@@ -84,6 +92,8 @@ NAMES = [
 ]
 
 
+@catches("folders that upper case alone tells apart", *NAMES[0]).at("validation.analysis.contents._as_stored", str)
+@catches("folders with names of devices", *NAMES[1]).at("validation.analysis.contents.RESERVED", set())
 @pytest.mark.parametrize(("texts", "names"), NAMES)
 def test_names_of_folders_are_valid_and_apart_on_every_file_system(texts, names):
     assert folder_names(texts) == names

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from tests.seeded import catches
 from validation.analysis.statistics import Estimate, half_width, independent_records, student
 
 POINTS = 4096
@@ -39,12 +40,14 @@ def test_equal_records_are_one_whatever_their_scale_sign_direction_and_shift(sam
     assert independent_records(np.vstack([others, others])) == pytest.approx(4.0, rel=1e-6)
 
 
+@catches("records of which none is alike").at("validation.analysis.statistics.CHANCE", 1.0)
 def test_overlapping_pieces_are_between():
     """Two records that share a half of themselves correlate by about that: 2^2 / (2 + 2 / 4)."""
     found = independent_records(pieces(40 * POINTS, [0, POINTS // 2]))
     assert found == pytest.approx(4 / 2.5, abs=0.15)
 
 
+@catches("red noise that is not whitened").at("validation.analysis.statistics.NEIGHBOURS", 4001)
 def test_pieces_of_a_short_track_are_about_as_many_as_it_has_room_for():
     starts = np.random.default_rng(2).integers(0, 10**6, 20)
     assert independent_records(pieces(POINTS // 3, starts)) < 2.5

@@ -1,12 +1,15 @@
 """Claims and ranges: one counterexample contradicts, no mean of both signs agrees, no identity is evidence."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.seeded import catches
+from validation.analysis import series, statistics
 from validation.analysis.evidence import ClaimStatus, Evidence, JudgedClaim, Number, Role, Verdict
 from validation.analysis.series import root_mean_square, worst
 from validation.analysis.statistics import Estimate, student
@@ -37,6 +40,14 @@ def evidence(numbers, claims, **changes):
     return Evidence(**texts, numbers=tuple(numbers), claims=tuple(claims))
 
 
+def holds_unless_it_differs(claim):
+    """A claim whose numbers are undecided taken for one that holds."""
+    return ClaimStatus.CONTRADICTED if claim.count(Verdict.DIFFER) else ClaimStatus.HOLDS
+
+
+@catches("an undecided number taken for one that confirms").at(
+    "validation.analysis.evidence.JudgedClaim.status", property(holds_unless_it_differs)
+)
 @given(verdicts)
 def test_one_counterexample_contradicts_and_nothing_undecided_holds(found):
     """Of a claim that things agree, and of one that they differ."""
@@ -46,6 +57,13 @@ def test_one_counterexample_contradicts_and_nothing_undecided_holds(found):
         assert (status is ClaimStatus.HOLDS) == (set(found) == {confirmed})
 
 
+claim_status = JudgedClaim.status.fget
+
+
+@catches("limits taken at their word", inside=Verdict.UNDECIDED, status=ClaimStatus.CONTRADICTED).at(
+    "validation.analysis.evidence.JudgedClaim.status",
+    property(lambda claim: ClaimStatus.LIMITED if claim.inside else claim_status(claim)),
+)
 @pytest.mark.parametrize(("inside", "status"), [(AGREE, ClaimStatus.LIMITED), (UNDECIDED, ClaimStatus.CONTRADICTED)])
 def test_limits_hold_only_where_all_inside_agrees(inside, status):
     numbers = points_with([inside, DIFFER])
@@ -94,11 +112,20 @@ WORST = [
 ]
 
 
+@catches("the farthest point for the worst", *WORST[0]).at(
+    f"{__name__}.worst", lambda points: max(points, key=lambda p: abs(p.difference))
+)
 @pytest.mark.parametrize(("points", "at"), WORST)
 def test_the_worst_point_is_the_farthest_beyond_its_tolerance_with_its_interval(points, at):
     assert worst(points).where["q a"] == worst(points[::-1]).where["q a"] == at
 
 
+def mean_of_the_range(points):
+    """The signed mean over a range, in which signs cancel."""
+    return replace(series.worst(points), value=float(np.mean([p.difference for p in points])))
+
+
+@catches("the mean of a range for its worst point").at(f"{__name__}.worst", mean_of_the_range)
 def test_a_mean_of_both_signs_agrees_where_the_range_does_not():
     points = [point(8.0, 0.1, at=1.0), point(-8.0, 0.1, at=2.0)]
     assert np.mean([p.difference for p in points]) == 0.0
@@ -108,6 +135,13 @@ def test_a_mean_of_both_signs_agrees_where_the_range_does_not():
     assert rms.verdict is DIFFER
 
 
+def about_its_mean(points, tolerance, reason):
+    """The scatter over a range, of which a constant difference is no part."""
+    found = series.root_mean_square(points, tolerance, reason)
+    return replace(found, value=float(np.std([point.difference for point in points])))
+
+
+@catches("a root mean square about the mean").at(f"{__name__}.root_mean_square", about_its_mean)
 @given(st.lists(st.tuples(st.floats(-9, 9), st.floats(-2, 2)), min_size=1, max_size=8))
 def test_the_interval_of_a_root_mean_square_holds_whenever_those_of_its_points_do(pairs):
     """Errors as large as the half-widths allow, of any signs."""
@@ -117,6 +151,10 @@ def test_the_interval_of_a_root_mean_square_holds_whenever_those_of_its_points_d
     assert abs(rms.value - true) <= rms.sample * (1 + 1e-9) + 1e-9
 
 
+@catches("the interval of one point for all of a range").at(
+    "validation.analysis.statistics.Estimate.half_width_among",
+    lambda one, points: statistics.student(one.samples - 1) * one.error,
+)
 def test_intervals_of_a_range_hold_at_once():
     """Of seven means of ten, drawn with a known answer: all hold in 95 % of the draws; each for itself in 70 %."""
     rng = np.random.default_rng(5)

@@ -1,11 +1,14 @@
 """Multilevel estimates on populations whose answer is known: no bias, and intervals that hold as often as they say."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy import stats
 
+from tests.seeded import catches, module_with
+from validation.analysis import statistics
 from validation.analysis.statistics import Linearised, log, moments, multilevel_moments, weighted_sum
 
 SPREAD = 0.25
@@ -30,6 +33,9 @@ def finest(rng, sizes, correlations):
     return multilevel_moments(population(rng, sizes, correlations))[-1]
 
 
+@catches("the quantile of 90 % for that of 95", sizes=(300, 60), correlations=(0.95,), at_least=0.93).at(
+    "validation.analysis.statistics.student", lambda freedom, confidence=0.95: 1.6
+)
 @pytest.mark.parametrize(
     ("sizes", "correlations", "at_least"),
     [
@@ -55,6 +61,22 @@ def test_intervals_hold_as_often_as_they_say(sizes, correlations, at_least):
         assert np.median([x.error for x in known]) == pytest.approx(np.std([x.value for x in known]), rel=0.3)
 
 
+moments_with_step = statistics.Moments.with_step
+
+
+def with_n(values, used):
+    """Variances of samples that are too small by 1 / n."""
+    found = multilevel_moments_of(values, used)
+    return replace(found, variance=(1 - 1 / used.sum()) * found.variance)
+
+
+multilevel_moments_of = statistics.moments
+
+
+@catches("steps between grids taken the wrong way", sizes=(8, 4), correlations=(0.9,)).at(
+    "validation.analysis.statistics.Moments.with_step", lambda mine, fine, coarse: moments_with_step(mine, coarse, fine)
+)
+@catches("variances with n", sizes=(8, 4), correlations=(0.9,)).at("validation.analysis.statistics.moments", with_n)
 @pytest.mark.slow
 @pytest.mark.parametrize(("sizes", "correlations"), [((8, 4), (0.9,)), ((20, 10, 5), (0.5, 0.2))])
 def test_mean_and_variance_have_no_bias(sizes, correlations):
@@ -82,6 +104,14 @@ def test_what_is_lost_on_one_grid_counts_in_no_step():
     assert multilevel_moments([coarse, fine])[-1].mean.value == pytest.approx(2.5 + 0.5)
 
 
+def shuffled(other):
+    """The same error, of other realisations."""
+    return replace(other, influence=other.influence[::-1])
+
+
+@catches("the covariance of two grids lost").at(
+    "validation.analysis.statistics.Linearised.__sub__", lambda mine, other: mine + -1.0 * shuffled(other)
+)
 def test_values_from_the_same_realisations_share_their_errors():
     rng = np.random.default_rng(7)
     x = multilevel_moments([rng.standard_normal(100) + 3])[0].mean
@@ -99,6 +129,9 @@ def test_degrees_of_freedom_are_twice_the_square_of_the_mean_square_over_its_var
     assert Linearised(0.0, influence).freedom == pytest.approx(2 * 200**2 / (100**2 + 100 - 200**2 / 101))
 
 
+@catches("no bias of the logarithm taken off").at(
+    "validation.analysis.statistics.math", module_with(math, log1p=lambda relative: 0.0)
+)
 def test_the_bias_of_a_logarithm_is_half_of_its_variance():
     """E ln x = ln m - var(x) / 2 m^2 + ...: of a log-normal x with relative variance v, ln(1 + v) / 2 exactly."""
     found = log(Linearised(2.0, np.array([0.6, -0.8])))
@@ -106,6 +139,9 @@ def test_the_bias_of_a_logarithm_is_half_of_its_variance():
     assert found.influence.tolist() == [0.3, -0.4]
 
 
+@catches("degrees of freedom that two surfaces do not have").at(
+    "validation.analysis.statistics.Linearised.freedom", property(lambda mine: math.inf)
+)
 def test_a_sample_of_two_has_one_degree_of_freedom():
     """Its two contributions are always alike, as if nothing scattered; the interval of the mean holds in 95 %."""
     drawn = np.random.default_rng(9).standard_normal((2000, 2))
@@ -120,6 +156,12 @@ def test_no_deviation_is_minus_infinity_and_a_negative_variance_is_none():
     assert math.isnan(log(Linearised(-1.0, np.ones(3))).value)
 
 
+right_student = statistics.student
+
+
+@catches("intervals of single points for those of a range", points=25).at(
+    "validation.analysis.statistics.student", lambda freedom, confidence=0.95: right_student(freedom)
+)
 @pytest.mark.parametrize("points", [1, 4, 25])
 def test_intervals_that_hold_together_share_their_five_per_cent(points):
     """Bonferroni: each of so many misses in 0.05 / points, by Student's quantile of eight equal realisations."""

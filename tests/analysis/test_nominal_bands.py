@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy import integrate
 
+from tests.seeded import Times, catches
 from validation.analysis.spectra import NominalBands, band_number
 
 TABLE = (2000, 1600, 1250, 1000, 800, 630, 500, 400, 315, 250, 200, 160, 125, 100, 80, 63, 50, 40, 31.5, 25, 20, 16)
@@ -20,6 +21,10 @@ def test_names_are_those_of_the_tables():
     np.testing.assert_allclose(bands.wavelengths, bands.nominal, rtol=0.01)
 
 
+@catches("bands of base two for those of base ten").at(
+    "validation.analysis.spectra.NominalBands.edges",
+    property(lambda bands: bands.centres[0] * 2 ** ((np.arange(len(bands) + 1) - 0.5) / 3)),
+)
 def test_bands_are_base_ten_and_lie_beside_each_other():
     bands = NominalBands(0, -20)
     np.testing.assert_allclose(bands.edges[1:] / bands.edges[:-1], 10**0.1, rtol=1e-12)
@@ -47,6 +52,7 @@ def test_what_is_no_row_of_bands(wavelengths, said):
         NominalBands.named(wavelengths)
 
 
+@catches("positive wavenumbers alone for the power of a band").at("validation.analysis.spectra.levels", Times(0.5))
 def test_power_of_a_wave_is_in_its_band_alone():
     """A cosine of amplitude A has A^2 / 2."""
     bands = NominalBands(-10, -20)
@@ -89,6 +95,7 @@ def test_bands_within_two_wavelengths():
         NominalBands().within(0.012, 0.011)
 
 
+@catches("lines that keep their slope").at("scipy.signal.detrend", lambda heights, type: heights)
 def test_power_of_a_record_is_that_of_its_waves():
     """Of a cut through two cosines on a slope: their mean squares, and nothing of the slope."""
     bands, x = NominalBands(-5, -20), np.arange(20000) * 1e-3

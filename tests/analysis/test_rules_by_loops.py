@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 
+from tests.seeded import catches
 from validation.analysis import spectra, statistics
 from validation.analysis import spectra as regions
 from validation.analysis.spectra import Bands
@@ -158,6 +159,12 @@ def test_a_line_forty_times_the_median_is_no_noise(above, finite, monkeypatch):
 # --- bands ---
 
 
+def both_edges(bands, q, values):
+    inside = (q[:, np.newaxis] >= bands.edges[:-1]) & (q[:, np.newaxis] <= bands.edges[1:])
+    return values @ inside.astype(complex)
+
+
+@catches("a line at the upper edge of a band counted in it").at("validation.analysis.spectra.Bands.sums", both_edges)
 def test_a_band_holds_its_lower_edge_and_not_its_upper():
     bands = Bands((1.0, 2.0, 4.0))
     q, values = np.array([0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0]), np.array([1.0, 2, 4, 8, 16, 32, 64])

@@ -6,6 +6,8 @@ import re
 import numpy as np
 import pytest
 
+from tests.seeded import catches
+from validation.analysis import series as declared
 from validation.analysis.evidence import Role, Verdict
 from validation.analysis.series import MARGINS, Estimates, Margin, Series, masked, numbers_of, single, spans, tables_of
 from validation.analysis.statistics import Estimate, Interval, extrapolated, student
@@ -57,6 +59,10 @@ def test_points_without_a_value_are_left_out_and_the_range_ends_before_them():
     assert series(0.1, math.nan, math.nan, fewest=2).numbers == []
 
 
+@catches("a series without the error of its reference").at(
+    "validation.analysis.statistics.Estimate.minus",
+    lambda mine, other: Estimate(mine.value - other.value, mine.error, mine.samples),
+)
 def test_a_reference_with_an_error_widens_the_interval_and_one_without_does_not():
     margin = Margin(tolerance=1.0, reason="r")
     exact, sampled = (
@@ -82,6 +88,9 @@ def test_a_number_of_its_own_has_no_range():
     assert (number.value, number.where, number.verdict) == (2.0, {"h": 1.0}, Verdict.DIFFER)
 
 
+@catches("a relative tolerance in the unit").at(
+    f"{__name__}.Margin", lambda relative=False, **settings: declared.Margin(**settings)
+)
 def test_a_relative_margin_is_of_the_reference_and_a_criterion_has_a_finding_for_its_rms():
     margin = Margin(tolerance=0.1, reason="r", relative=True, role=Role.CRITERION, rms=(1.0, "q"))
     worst, rms = series(30.0, margin=margin, reference=20.0, scale=2.0).numbers

@@ -1,12 +1,14 @@
 """Spectra of records and their bands against slow sums; the regions of a spectrum found again in synthetic ones."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.seeded import catches
 from validation.analysis import spectra
 from validation.analysis import spectra as regions
 
@@ -30,6 +32,28 @@ def by_slow_sums(x, time_step, window):
 # --- (14.17) ----------------------------------------------------------------------------------------------------------
 
 
+def weighed(factor):
+    """(14.17) with a factor, of time step and window."""
+
+    def wrong(series, *, time_step, window="none"):
+        record = spectra_of_records(series, time_step=time_step, window=window)
+        return replace(record, density=factor(time_step, window) * record.density)
+
+    return wrong
+
+
+spectra_of_records = spectra.record_spectra
+
+
+@catches("dt for dt^2 in (14.17)", steps=31, window="none").at(
+    "validation.analysis.spectra.record_spectra", weighed(lambda time_step, _: 1 / time_step)
+)
+@catches("one-sided spectrum of a record", steps=31, window="none").at(
+    "validation.analysis.spectra.record_spectra", weighed(lambda *_: 2)
+)
+@catches("Hann without its mean square", steps=31, window="hann").at(
+    "validation.analysis.spectra.record_spectra", weighed(lambda _, window: 3 / 8 if window == "hann" else 1)
+)
 @pytest.mark.parametrize("window", WINDOWS)
 @pytest.mark.parametrize("steps", [3, 8, 31, 32])
 def test_spectra_by_slow_sums(steps, window):
@@ -95,6 +119,12 @@ def leak(distance):
     return 1 / (np.pi * distance * (distance**2 - 1)) * 3 * np.pi / 8
 
 
+peak = spectra.peak
+
+
+@catches("half a line on in the peak", place=30.5).at(
+    "validation.analysis.spectra.peak", lambda omega, hann, below: peak(omega, hann, below) + omega[0] / 2
+)
 @pytest.mark.parametrize("place", [8.0, 8.2, 8.499, 8.501, 8.77, 30.5, 31.0, 200.35])
 def test_peak_of_a_tone_between_lines(place):
     """Off by the mirror image, twice its frequency away: it changes r by up to 2 leaks of r, and e by 3 r / (r + 1)^2
@@ -154,6 +184,14 @@ def lever():
     return float(np.abs(x).sum() / (x**2).sum())
 
 
+def slope_of_what_is_steep(omega, density, first, last, period):
+    centres, means = spectra.compensated_band_means(omega, density, first, last, period, 0.0)
+    return float(np.polyfit(np.log(centres), np.log(means), 1)[0])
+
+
+@catches("slope of bands that are not levelled", hurst=0.7).at(
+    "validation.analysis.spectra.slope", slope_of_what_is_steep
+)
 @pytest.mark.parametrize("hurst", [0.1, 0.4, 0.7, 1.0])
 def test_slope_under_an_oscillation(hurst):
     """A band may have a line more or less than a period: its mean is off by as much as one line has of all of them."""

@@ -4,9 +4,13 @@ import math
 
 import pytest
 
+from tests.seeded import catches
 from validation.analysis.series import Series, tables_of
 
 
+@catches("a ratio in decibels", quantity="ratio", changes={"unit": "dB", "shown": math.exp}, unit="").at(
+    "validation.analysis.series.Series.shown_unit", property(lambda one: one.unit)
+)
 @pytest.mark.parametrize(
     ("quantity", "changes", "unit"),
     [

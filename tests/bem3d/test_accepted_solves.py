@@ -10,8 +10,10 @@ import numpy as np
 import pytest
 
 import bem3d
+from bem3d import window_solve
 from bem3d.window_solve import IterationState
 from tests.oracles import displacement, residual
+from tests.seeded import catches
 
 ASKED = np.geomspace(3e-2, 3e-9, 15)
 """Close enough that a residual ten times too large falls between two of them."""
@@ -78,6 +80,19 @@ ASKED_ONCE = {
 }
 
 
+def at_ten_times_the_tolerance(attempt, residual, tolerance, max_iterations):
+    judged(attempt, residual, 10 * tolerance, max_iterations)
+
+
+judged = window_solve.IterationState.record_residual
+
+
+@catches("accepted at ten times its tolerance", solver="solve", limit=3).at(
+    "bem3d.window_solve.IterationState.record_residual", at_ten_times_the_tolerance
+)
+@catches("the iteration limit taken for convergence", solver="solve", limit=3).at(
+    "bem3d.Contact.converged", property(lambda one: one.status in ("converged", "iteration limit"))
+)
 @pytest.mark.parametrize("limit", [1, 2, 3, 5, 8])
 @pytest.mark.parametrize("solver", ASKED_ONCE)
 def test_a_solve_that_is_cut_short_says_so(solver, limit):
@@ -144,6 +159,7 @@ def test_a_fixed_area_is_within_its_tolerance():
         assert np.sqrt(np.mean(left**2)) <= tolerance * (1 + 1e-6)
 
 
+@catches("a residual of rolling that is not looked at").at("bem3d.rolling_solve.residual", lambda *_: 0.0)
 def test_every_position_of_a_wheel_is_within_its_tolerance():
     body = bem3d.HalfSpace(shape=(48, 24), spacing=1 / 6, modulus=1.0)
     for tolerance in ASKED[:-4]:

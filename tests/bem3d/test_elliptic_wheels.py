@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import bem3d
+from bem3d.smooth_wheel import smooth_contact
+from tests.seeded import catches
 from validation.railway.theory.contact_filters import half_space_filter
 from validation.theory.half_space import elliptic_contact
 
@@ -44,6 +46,9 @@ def test_the_published_example_of_contact():
     assert wheel.pressure()[2].max() == pytest.approx(770.6e6, rel=5e-3)
 
 
+@catches("a circle of the mean radius for an ellipse").at(
+    "bem3d.rolling_frame.smooth_contact", lambda radii: smooth_contact((math.sqrt(radii[0] * radii[1]),) * 2)
+)
 def test_the_expected_contact_is_the_ellipse_of_hertz():
     """From which a force begins, frames are made and diagnostics are: no solve tells it wrong."""
     hertz = elliptic_contact((0.46, 0.3), modulus=1.0, force=1e-3)
@@ -60,6 +65,9 @@ def test_a_track_that_is_turned_has_the_radii_changed_about():
     assert forces[0] == pytest.approx(forces[1], rel=1e-4)
 
 
+@catches("the radii along and across exchanged", radii=(1.0, 0.2), waves=(1, 0)).at(
+    "bem3d.Track.radii", property(lambda track: track.radius[::-1])
+)
 @pytest.mark.parametrize("radii", RADII[:2])
 @pytest.mark.parametrize("waves", [(1, 0), (0, 1), (2, 1)])
 def test_low_waves_under_an_ellipse_have_the_filter_of_the_half_space(radii, waves):

@@ -2,11 +2,14 @@
 
 import numpy as np
 import pytest
+import scipy
 from hypothesis import given
 from hypothesis import strategies as st
 
 import bem3d
+from bem3d import few_cells
 from tests.oracles import approach_by_least_squares, contact_by_least_squares, dense_operator
+from tests.seeded import E_FOR_E_STAR, Times, catches
 from tests.strategies import pressed
 
 FORCES = (1e-6, 4e-6, 2e-5)
@@ -41,6 +44,9 @@ def test_the_same_as_by_transforms(seed):
         assert few.pressure.sum() * body.cell_area == pytest.approx(few.force, rel=1e-12)
 
 
+@catches("a cell that has left, kept for the rounding of its pressure").at(
+    "bem3d.projected_cg._left_over", lambda pressure, change: np.maximum(pressure + change, 0.0)
+)
 def test_a_cell_that_leaves_the_contact_keeps_no_rounding_of_its_pressure():
     """One asperity carries all; a second, pressed on the way there, once kept 1e-17 of it and counted as contact."""
     body, gap = rough_punch(cells=24, seed=35)
@@ -62,6 +68,12 @@ def test_any_gap_beside_least_squares(problem):
     assert np.abs(displaced).max() < 1e-6 * overlap
 
 
+def forgiving_residual(pressure, w, overlap):
+    return 1e-6 * bem3d.residual(pressure, w, overlap)
+
+
+@catches("the cells that are looked at first, and no others").at("bem3d.few_cells.GROWTH", 1)
+@catches("few cells judged by a forgiving residual").at("bem3d.few_cells.residual", forgiving_residual)
 @given(seed=st.integers(0, 100), force=st.sampled_from([1e-6, 1e-5, 1e-4]))
 def test_the_residual_is_that_of_the_whole_grid(seed, force):
     """Cells that do not overlap cannot touch: it is taken on all others."""
@@ -74,6 +86,7 @@ def test_the_residual_is_that_of_the_whole_grid(seed, force):
     assert contact.residual <= 1e-7
 
 
+@catches("a stiffness of few cells within a tenth").at("bem3d.few_cells.STIFFNESS_TOLERANCE", 0.1)
 def test_stiffness_is_the_slope_of_the_load():
     """Between two near forces whose contact is the same."""
     body, gap = rough_punch()
@@ -83,6 +96,15 @@ def test_stiffness_is_the_slope_of_the_load():
     assert before.stiffness == pytest.approx(slope, rel=1e-5)
 
 
+def summed_pressure(operator):
+    """1.x by the same iteration, of x itself."""
+    ones = np.ones(len(operator.matrix))
+    return float(scipy.sparse.linalg.cg(operator.matrix, ones, rtol=few_cells.STIFFNESS_TOLERANCE)[0].sum())
+
+
+@catches("the sum of the pressure for its energy", spacing=(1.0, 1.0)).at(
+    "bem3d.few_cells._sum_of_unit_pressure", summed_pressure
+)
 @pytest.mark.parametrize("spacing", [(1.0, 1.0), (1.0, 30.0), (1000.0, 1.0)])
 def test_stiffness_of_a_flat_punch_is_that_of_a_direct_solve(spacing):
     """Error: the square of the residual, 1e-12, times the condition of K, and the rounding of the direct solve."""
@@ -93,6 +115,13 @@ def test_stiffness_of_a_flat_punch_is_that_of_a_direct_solve(spacing):
     assert contact.stiffness == pytest.approx(exact, rel=1e-12 * np.linalg.cond(dense) + 1e-13)
 
 
+influence = few_cells._influence
+
+
+@catches("E for E* among few cells").at("bem3d.few_cells._influence", Times(E_FOR_E_STAR))
+@catches("few cells as wide as they are long").at(
+    "bem3d.few_cells._influence", lambda body: influence(body.like(shape=body.shape, spacing=body.steps[0]))
+)
 def test_one_cell_is_as_soft_as_it_is_alone():
     body = bem3d.HalfSpace(shape=(16, 9), spacing=(2.0, 0.5), modulus=3.0)
     gap = np.ones(body.shape)
@@ -103,6 +132,17 @@ def test_one_cell_is_as_soft_as_it_is_alone():
     assert contact.approach == pytest.approx(contact.pressure[0] * body.self_compliance, rel=1e-12)
 
 
+def of_the_first_body(kept):
+    """Influence kept by the shape of the grid alone."""
+    return lambda body: kept.setdefault(body.shape, influence(body))
+
+
+@catches("a second modulus among few cells", modulus=3.0).at(
+    "bem3d.few_cells._influence", lambda body: influence(body) / body.modulus
+)
+@catches("few cells on the body that was pressed before", modulus=3.0).at(
+    "bem3d.few_cells._influence", of_the_first_body({})
+)
 @pytest.mark.parametrize("modulus", [1e-3, 3.0, 2e11])
 def test_the_modulus_is_the_unit_of_force(modulus):
     """The same grid under E* times the force, one body after another: every approach is the same."""

@@ -12,6 +12,7 @@ from scipy import integrate
 import bem3d
 from bem3d import blocked_convolution, halfspace, kernel
 from tests.oracles import dense_operator, love_by_logarithms
+from tests.seeded import catches
 from tests.strategies import half_spaces
 
 
@@ -35,12 +36,35 @@ def assert_dense(half_space, seed):
     np.testing.assert_allclose(fast.ravel(), dense, atol=1e-12 * np.abs(dense).max(initial=1e-300))
 
 
+def shifted_table(cells, aspect):
+    x, y = np.arange(cells[0])[:, np.newaxis], aspect * np.arange(cells[1])
+    return kernel.love(x + 0.5, y, 1.0, aspect)
+
+
+def repeated(quadrant, padded):
+    rest = quadrant[1 : (padded[0] + 1) // 2]
+    return np.concatenate([quadrant, rest]) / (padded[0] * padded[1])
+
+
+@catches("a symbol that repeats instead of mirroring").at("bem3d.convolution._halfplane", repeated)
+# 2n - 2 points would do, since the kernel is even: the two farthest distances may share a point
+@catches("padding two points short").at(
+    "bem3d.halfspace._doubled", lambda points: max(points + points % 2, 2 * points - 4)
+)
+@catches("kernel shifted by half a cell").at("bem3d.kernel.love_table", shifted_table)
 @pytest.mark.slow
 @given(half_space=half_spaces(most=8), seed=st.integers(0, 1000))
 def test_displacement(half_space, seed):
     assert_dense(half_space, seed)
 
 
+multiply = blocked_convolution.BlockedConvolution._multiply
+
+
+@catches("a symbol a row too far").at(
+    "bem3d.blocked_convolution.BlockedConvolution._multiply",
+    lambda convolution, buffers, block: multiply(convolution, buffers, (block[0], np.roll(block[1], 1, axis=0))),
+)
 @pytest.mark.slow
 @given(
     half_space=half_spaces(most=8),
@@ -56,6 +80,7 @@ def test_displacement_by_blocks(half_space, seed, columns, numbers, threads):
         assert_dense(dataclasses.replace(half_space, threads=threads), seed)
 
 
+@catches("columns a power of two apart", n=1024).at("bem3d.blocked_convolution.COLUMNS_AT_ONCE", 32)
 @pytest.mark.parametrize("n", [256, 512, 1024])
 def test_rows_of_a_block_of_columns_are_not_a_power_of_two_apart(n):
     """Or they would share a few places of the cache, and displace each other."""
@@ -70,6 +95,9 @@ def test_love_against_the_textbook_logarithms(x, y, dx, dy):
     assert kernel.love(x, y, dx, dy) == pytest.approx(love_by_logarithms(x, y, dx, dy), rel=1e-9, abs=1e-11)
 
 
+@catches("half of the corner function").at(
+    "bem3d.kernel.corner", lambda x, y: kernel._half(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
+)
 def test_love_against_quadrature():
     value, error = integrate.dblquad(lambda s, t: 1 / np.hypot(3 - s, 2 - t), -1, 1, -0.5, 0.5)
     assert kernel.love(3.0, 2.0, 1.0, 2.0) == pytest.approx(value, abs=10 * error)

@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 import bem3d
-from bem3d import far_field, halfspace
+from bem3d import far_field, halfspace, kernel
 from tests.bem3d.test_extreme_input import checked
 from tests.bem3d.test_iteration_counts import self_affine
 from tests.oracles import dense_operator, displacement
+from tests.seeded import Times, catches
 
 
 def with_levels(test):
@@ -26,6 +27,7 @@ def with_levels(test):
     return run
 
 
+@catches("a far field of half the blocks", spacing=1.0).at("bem3d.kernel.far_table", Times(0.5))
 @pytest.mark.parametrize("spacing", [1.0, (1.0, 0.7)])
 @with_levels
 def test_far_away_a_block_is_felt_as_the_pressure_on_it(spacing):
@@ -38,6 +40,12 @@ def test_far_away_a_block_is_felt_as_the_pressure_on_it(spacing):
     np.testing.assert_allclose(body.far(sums)[distant], whole[distant], rtol=0.01)
 
 
+periodic_symbol = kernel.periodic_symbol
+
+
+@catches("a far field that is all of K").at(
+    "bem3d.kernel.far_periodic_symbol", lambda shape, steps, modulus, _: periodic_symbol(shape, steps, modulus)
+)
 @with_levels
 def test_waves_of_a_period_are_near_or_far():
     """2 / (E* q), of the sums of a wave over blocks of an eighth of it, of which the mean is sinc(1/8) of the wave."""
@@ -50,6 +58,9 @@ def test_waves_of_a_period_are_near_or_far():
     np.testing.assert_allclose(body.inverse(wave), wave / near, rtol=1e-9)
 
 
+@catches("a near field alone", periodic=False).at(
+    "bem3d.far_field.FarField._settled", lambda self, pressed, stiffness: 0 * pressed
+)
 @pytest.mark.parametrize("periodic", [False, True])
 def test_work_on_a_contact_does_not_grow_with_the_grid(periodic):
     """The tops of four cells a wave, a twentieth of the cells: from 128 to 512 one iteration more, without it four."""
@@ -140,6 +151,7 @@ def test_no_free_cell_and_no_displacement_need_no_pressure():
     assert not cells.inverse(np.zeros(144), everywhere).any()
 
 
+@catches("one step on the blocks").at("bem3d.far_field.MOST_STEPS", 1)
 @with_levels
 def test_the_system_on_the_blocks_is_solved_within_its_accuracy():
     """(1 + C D) y = C b, by matrices."""

@@ -9,7 +9,7 @@ import threading
 import time
 import tracemalloc
 from collections import deque
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from types import SimpleNamespace
@@ -22,6 +22,7 @@ import bem3d
 from bem3d import blocked_convolution
 from bem3d import threads as shared_out
 from tests.bem3d.test_operator_against_dense_twin import in_blocks, random_pressure
+from tests.seeded import catches
 from validation.engine.engine import Engine
 
 LARGE = {"shape": (523, 611), "spacing": (1.0, 1.3), "modulus": 2.0}
@@ -34,6 +35,12 @@ def started():
     return [thread for thread in threading.enumerate() if thread.name.startswith(f"bem3d-{os.getpid()}")]
 
 
+share = blocked_convolution.share
+
+
+@catches("threads that share a buffer", periodic=False).at(
+    "bem3d.blocked_convolution.share", lambda work, blocks, buffers: share(work, blocks, [buffers[0]] * len(buffers))
+)
 @pytest.mark.parametrize("periodic", [False, True])
 def test_bits_of_a_displacement_are_equal_for_any_threads(periodic):
     one, *others = (bem3d.HalfSpace(**LARGE, periodic=periodic, threads=n) for n in (1, 2, 3, 5))
@@ -88,6 +95,9 @@ def test_a_convolution_of_one_half_space_waits_for_the_other():
             np.testing.assert_array_equal(found, expected)
 
 
+@catches("a spectrum for each convolution").at(
+    "bem3d.HalfSpace._memory", property(lambda body: blocked_convolution.SpectrumMemory())
+)
 def test_memory_of_the_operators():
     """In fields: a spectrum of 2 that both share, quadrants of the symbols of 1 and a quarter, and buffers."""
     body = bem3d.HalfSpace(shape=(1024, 1024), spacing=1.0, modulus=1.0)
@@ -161,6 +171,7 @@ def watched():
             watch.awaited.set()
 
 
+@catches("nobody waits for the other threads", in_the_caller=True).at("bem3d.threads._wait", lambda left, at_work: None)
 @pytest.mark.parametrize("in_the_caller", [True, False])
 def test_after_an_exception_in_a_block_the_next_answer_is_right(in_the_caller):
     """As Ctrl-C is one: nothing further is begun, and nobody writes to the buffers of the next call."""
@@ -191,6 +202,22 @@ def test_after_an_exception_in_a_block_the_next_answer_is_right(in_the_caller):
     np.testing.assert_array_equal(body.displacement(pressure), expected)
 
 
+def wait_once_more(left, at_work):
+    """A wait that survives one interrupt, and no second one."""
+    try:
+        wait_uninterrupted(left, at_work)
+    except KeyboardInterrupt:
+        wait_uninterrupted(left, at_work)
+        raise
+
+
+def wait_uninterrupted(left, at_work):
+    deque(left, maxlen=0)
+    while at_work:
+        shared_out.sleep(shared_out.POLL)
+
+
+@catches("a second interrupt ends the wait", interrupts=2).at("bem3d.threads._wait", wait_once_more)
 @pytest.mark.parametrize("interrupts", [0, 1, 2, 5])
 def test_interrupts_of_the_wait_come_after_the_last_block(interrupts):
     """As many Ctrl-C as there are; the first of them is raised."""
@@ -212,6 +239,24 @@ def test_interrupts_of_the_wait_come_after_the_last_block(interrupts):
     assert interrupted.value.args == ("interrupt 0" if interrupts else "block",)
 
 
+def share_by_futures(work, blocks, buffers):
+    """Only what has a future is waited for."""
+    left, futures = iter(blocks), []
+
+    def part(own):
+        for block in left:
+            work(own, block)
+
+    try:
+        for own in buffers[1:]:
+            futures.append(shared_out._pool(len(buffers) - 1, os.getpid()).submit(part, own))
+        part(buffers[0])
+    finally:
+        deque(left, maxlen=0)
+        wait(futures)
+
+
+@catches("a thread whose future is lost").at("bem3d.threads.share", share_by_futures)
 def test_a_thread_is_waited_for_whose_start_is_interrupted():
     """It is at work already, and its caller has no future of it."""
     pool, begun, ended = shared_out._pool(1, os.getpid()), threading.Event(), []

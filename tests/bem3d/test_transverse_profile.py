@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 import bem3d
+from bem3d.transverse_profile import equivalent_radius
+from tests.seeded import catches
 
 SETTINGS = {"spacing": 2.5e-4, "modulus": 1.154e11}
 STRIP = 2e-7 * np.random.default_rng(5).standard_normal((64, 48))
@@ -32,6 +34,12 @@ def worn(y):
     return -(y**2) / 0.6 - beyond**2 * (1 / 0.08 - 1 / 0.6)
 
 
+@catches("a profile across for the parabola that it is about").at(
+    "bem3d.rolling_frame.checked_profile",
+    lambda z, columns, step: (
+        -(((np.arange(columns) - (columns - 1) / 2) * step) ** 2) / (2 * equivalent_radius(z, step))
+    ),
+)
 def test_a_worn_profile_against_a_fine_solve_of_the_plain_contact():
     """Force and pressure at an approach; the reference has four times as many cells a side and no rolling in it."""
     found = []

@@ -11,6 +11,7 @@ import bem3d
 import mdr
 from bem3d import diagnostics
 from tests.oracles import dense_operator
+from tests.seeded import catches
 
 BODY = bem3d.HalfSpace(shape=(24, 24), spacing=1.0, modulus=1.0)
 
@@ -83,6 +84,7 @@ def test_a_spike_across_the_edge_of_a_period_is_not_alone():
     assert said(bem3d.solve, body, gap, force=8.0)[1] == []
 
 
+@catches("a modulus in gigapascals that nobody asks about").at("bem3d.contact.diagnose_units", lambda **_: ())
 def test_warning_of_a_modulus_in_gigapascals():
     """2 GPa typed as 2: a grid of a millimetre, pressed by metres; once along a path, and of a wheel."""
     x = (np.arange(24) - 11.5) * 1e-3 / 24
@@ -128,6 +130,15 @@ def asked(gap, *, modulus=1e11, metre=1.0, **load):
     return sentences
 
 
+@catches(
+    "heights in nm on a grid in m that nobody asks about", gap=-1e9 * SURFACE, settings={"force": 1e-3}, word="above"
+).at("bem3d.contact.typical_slope", lambda *_: 0.0)
+@catches(
+    "heights in m on a grid in um that nobody asks about",
+    gap=-SURFACE,
+    settings={"force": 1e-3, "metre": 1e6},
+    word="below",
+).at("bem3d.diagnostics.LIGHTEST_PRESSURE", 0.0)
 @pytest.mark.parametrize(
     ("gap", "settings", "word"),
     [
@@ -152,6 +163,13 @@ def test_heights_in_another_unit_than_the_grid(gap, settings, word):
     assert sentences.startswith(f"half of the cells have a slope {word} ") == (word is not None)
 
 
+def mean_slope(gap, steps):
+    return float(np.abs(np.diff(gap, axis=0)).mean()) / steps[0]
+
+
+@catches("the edge of a punch asked about as a slope", gap=PUNCH, load={"force": 1e-2}).at(
+    "bem3d.contact.typical_slope", mean_slope
+)
 @pytest.mark.parametrize(
     ("gap", "load"),
     [
@@ -193,6 +211,7 @@ def test_the_slope_of_a_large_grid_is_that_of_a_plane():
     assert diagnostics.typical_slope(2.0 * rows[:, :1], (1.0, 1.0)) == 2.0
 
 
+@catches("a strip in um that nobody asks about").at("bem3d.rolling_frame.typical_slope", lambda *_: 0.0)
 def test_heights_of_a_strip_in_another_unit():
     wheel = {"spacing": 1e-4, "radius": 0.5, "modulus": 2e11, "approach": 2e-6, "positions": 1}
     waves = 1e-7 * np.cos(2 * np.pi * np.arange(64) / 16)[:, np.newaxis] * np.ones(48)

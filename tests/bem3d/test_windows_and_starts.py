@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 import bem3d
-from bem3d import nested, projected_cg
+from bem3d import nested, projected_cg, window
 from tests.oracles import residual
+from tests.seeded import catches
 
 
 def left(contact):
@@ -23,6 +24,17 @@ def spheres(shape, *places, radius=200.0):
     return np.min([((x - i) ** 2 + (y - j) ** 2) / (2 * radius) + high for i, j, high in places], axis=0)
 
 
+def half_a_window(half_space, marked):
+    """The middle of the box that holds all cells which may touch."""
+    return tuple(
+        slice(side.start + (side.stop - side.start) // 4, side.stop - (side.stop - side.start) // 4)
+        for side in window.smallest_box(half_space, marked)
+    )
+
+
+@catches("a window that cuts cells off", places=[(8, 8, 0.0), (110, 70, 0.2)], force=1000.0).at(
+    "bem3d.window_solve.smallest_box", half_a_window
+)
 @pytest.mark.parametrize("places", [[(10, 100, 0.0)], [(8, 8, 0.0), (110, 70, 0.2)], [(60, 3, 0.0), (64, 90, 1.0)]])
 @pytest.mark.parametrize("force", [3.0, 100.0, 1000.0])
 def test_contacts_anywhere_on_the_grid(places, force):

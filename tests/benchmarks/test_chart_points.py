@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 from tests.benchmarks.made_up import MEAN, k
+from tests.seeded import Times, catches, module_with
 from validation.benchmarks.timing import FINISHED, OUT_OF_RANGE, Configuration
+from validation.benchmarks.work_precision import errors
 from validation.benchmarks.work_precision.errors import MethodValues, error, points, reference_of
 from validation.benchmarks.work_precision.pressed import log_deviation
 from validation.benchmarks.work_precision.problem import EXTRAPOLATED, ChartQuantity, mean_of
@@ -17,6 +19,10 @@ from validation.engine.convergence import NotConvergedError
 LEVEL = mean_of("level", "k", decibel=True, order=2.0)
 
 
+@catches("the same surfaces taken for others").at(
+    f"{__name__}.error",
+    lambda quantity, mine, reference: errors.error(quantity, dataclasses.replace(mine, paired=False), reference),
+)
 def test_what_realisations_have_of_their_own_drops_out_of_paired_errors():
     drawn = np.random.default_rng(1).lognormal(0, 0.3, 12)
     paired = error(MEAN, MethodValues(k(1.1 * drawn)), MethodValues(k(drawn)))
@@ -44,6 +50,16 @@ def test_no_scatter_is_all_wrong_and_a_single_value_has_none():
     assert found.value == 1.0
 
 
+def at_first_order(answer, quantity, rows):
+    return log_of_answer(answer, dataclasses.replace(quantity, order=1.0), rows)
+
+
+log_of_answer = errors.MethodValues.log
+
+
+@catches("first order for second in an extrapolation", order=2.0).at(
+    "validation.benchmarks.work_precision.errors.MethodValues.log", at_first_order
+)
 @pytest.mark.parametrize("order", [1.0, 2.0])
 def test_two_grids_of_a_power_law_are_extrapolated_to_the_truth(order):
     quantity = dataclasses.replace(MEAN, order=order)
@@ -52,6 +68,9 @@ def test_two_grids_of_a_power_law_are_extrapolated_to_the_truth(order):
     assert error(quantity, MethodValues(fine), MethodValues(k([1.0]))).value > 1e-4
 
 
+@catches("decibels of an amplitude for those of a power").at(
+    "validation.benchmarks.work_precision.problem.ChartQuantity.distance", Times(2.0)
+)
 def test_levels_differ_by_the_root_mean_square_of_decibels():
     """Other values by the farthest of them; several numbers have no ratio."""
     several = ChartQuantity(name="several", log=lambda a: np.log(a["k"].mean(axis=0)), needs=("k",))
@@ -62,6 +81,9 @@ def test_levels_differ_by_the_root_mean_square_of_decibels():
     assert error(several, MethodValues(k([[1.1, 0.7]])), reference).value == pytest.approx(0.3)
 
 
+@catches("an error that luck has made small, and its interval", quantity=MEAN, paired=True).at(
+    "validation.benchmarks.work_precision.errors.math", module_with(math, copysign=lambda *_: 1.0)
+)
 @pytest.mark.parametrize("quantity", [MEAN, LEVEL])
 @pytest.mark.parametrize("paired", [True, False])
 def test_an_answer_that_luck_has_put_on_its_reference_scatters_as_much(quantity, paired):

@@ -6,6 +6,7 @@ import math
 import pytest
 
 from tests.benchmarks.made_up import point
+from tests.seeded import catches
 from validation.analysis.series import numbers_of
 from validation.benchmarks.work_precision.case import STUDY, times
 from validation.benchmarks.work_precision.pareto import (
@@ -34,6 +35,9 @@ def names(found):
     return [(p.method, p.value) for p in found]
 
 
+@catches("nothing left open by a reference").at(
+    "validation.benchmarks.work_precision.pareto.Point.rank", property(lambda point: point.error + point.half_width)
+)
 def test_the_front_is_what_nothing_beats_and_ends_in_the_band():
     """BEM with 32 cells is closer than with 16, but below what the reference can tell."""
     assert names(front(CHART)) == [("MDR", 16), ("MDR", 32), ("BEM", 8), ("BEM", 16)]
@@ -62,6 +66,9 @@ def test_neither_who_has_not_finished_nor_the_reference_is_on_the_front(settings
     assert front([no_part]) == []
 
 
+@catches("errors ranked without their intervals").at(
+    "validation.benchmarks.work_precision.pareto.Point.rank", property(lambda point: max(point.error, point.band))
+)
 def test_errors_are_ranked_by_their_upper_ends():
     sure, unsure = point("sure", 0.02, 1.0), point("unsure", 0.01, 0.5, half_width=0.5)
     assert cheapest([sure, unsure], 0.1).method == "sure"
@@ -109,6 +116,15 @@ BESIDE_SPRINGS = [
 ]
 
 
+@catches(
+    "a time beside that of a method that is not as close",
+    another=timed_point(FILTER_1D, 0.3, 1e-6),
+    status="holds",
+    rivals=(BEM, BEM),
+).at(
+    "validation.benchmarks.work_precision.case.cheapest_as_close",
+    lambda _, others: min(others, key=lambda one: one.seconds[1], default=None),
+)
 @pytest.mark.parametrize(
     ("another", "status", "rivals"),
     [
@@ -128,6 +144,10 @@ def test_the_cheapest_is_claimed_of_times(another, status, rivals):
     assert tuple(number.source for number in numbers) == rivals
 
 
+@catches("times beside a grid that is not as close").at(
+    "validation.benchmarks.work_precision.pareto.cheapest_as_close",
+    lambda _, others: min(others, key=lambda one: one.seconds[1], default=None),
+)
 def test_times_faster_are_those_of_the_cheapest_boundary_elements_with_no_larger_error():
     """At the least error of springs, 0.12: not the coarsest grid, whose error is larger, nor a finer and dearer one."""
     springs = [point(MDR, 0.13, 1e-5), point(MDR, 0.12, 2e-5), point(MDR, 0.12, 4e-5)]
@@ -138,6 +158,7 @@ def test_times_faster_are_those_of_the_cheapest_boundary_elements_with_no_larger
     assert table["error of boundary elements"].tolist() == pytest.approx([11.0])
 
 
+@catches("times that are known exactly").at("validation.benchmarks.work_precision.pareto._uncertainty", lambda _: 0.0)
 def test_times_faster_have_the_intervals_of_both_medians():
     """Of 16 runs whose quartiles are 0.3 of the median apart: 1.57 x 0.3 / 4 each."""
     table = faster([[point(MDR, 0.1, 1e-5, runs=16), point(BEM, 0.1, 1e-3, runs=16)]])

@@ -11,6 +11,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from tests.seeded import catches
 from validation.analysis.series import numbers_of
 from validation.benchmarks import peers, timing
 from validation.benchmarks import solvers as comparison
@@ -177,6 +178,7 @@ def timed_rows(configurations, given):
     ]
 
 
+@catches("our solver for the first of the list").at("validation.benchmarks.solvers.OUR_SOLVER", "theirs")
 def test_a_solver_that_is_placed_first_does_not_become_ours():
     with pytest.MonkeyPatch.context() as monkeypatch:
         monkeypatch.setattr(peers, "SOLVERS", FIRST)
@@ -233,6 +235,9 @@ def test_the_half_spaces_of_a_race_are_those_that_a_solver_of_the_file_serves():
     assert len(CASE.quick.problems()) == 4
 
 
+@catches("a median without an interval").at(
+    "validation.benchmarks.timing.interval_of_median", lambda times: (np.median(times), np.median(times))
+)
 def test_the_median_lies_between_order_statistics():
     """Of 1000 samples of 7 or 15 skew runs, at least 93 % have an interval that holds the median of all."""
     rng = np.random.default_rng(6)
@@ -261,6 +266,13 @@ def test_a_difference_of_answers_is_a_missed_criterion(result):
     assert sum(not number.met for number in CASE.evidence(off).numbers) == 2
 
 
+def rigid(problem):
+    return SimpleNamespace(displacement=lambda pressure: 0 * pressure)
+
+
+@catches("a rim that touches", gap=[[0.0] * 3] * 5, periodic=False, shape=(6, 4)).at(
+    "validation.benchmarks.discrete.ContactProblem.half_space", property(rigid)
+)
 @pytest.mark.parametrize(
     ("gap", "periodic", "shape"),
     [([[0.0] * 3] * 5, False, (6, 4)), ([[0.0, 2.0], [1.0, 0.5], [2.0, 1.0]], True, (6, 2))],

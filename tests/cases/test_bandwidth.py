@@ -5,13 +5,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import mdr
 from tests.cases.planted import statuses
 from tests.oracles import spring_sum
+from tests.seeded import catches
+from validation.analysis import statistics
 from validation.analysis.evidence import ClaimStatus, numbers_with
+from validation.analysis.statistics import nearest
 from validation.analysis.study import Outcomes
-from validation.cases.punch import fractal_punch_study
+from validation.cases.punch import bandwidth, fractal_punch_study
 from validation.cases.punch.bandwidth import AREA, DOUBLED, FINER, LOADS, ROLL_OFF, Band, Bandwidth, Deviations
 from validation.cases.punch.bandwidth_study import CASE, DRIFT, ROLLED, STUDY
+from validation.simulation import spring_tracks
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS as MDR
 from validation.simulation.rough_punch import PunchRoughness
@@ -39,6 +44,9 @@ def test_a_wider_band_has_the_long_waves_of_the_one_before():
     assert 0.9 < ratio[0].real < 1
 
 
+@catches("no plateau below the roll-off").at(
+    "validation.simulation.rough_punch.PlateauSpectrum.c2d", mdr.SelfAffine.c2d
+)
 def test_the_plateau_is_flat_and_the_band_beyond_is_self_affine():
     """Four waves on a side at the roll-off: equal power in each below, (q_r / q)^(2 H + 2) above, none beyond."""
     case = replace(WIDE, bands=(Band(16, 64, 3, 3), Band(32, 128, 3, 3)), roll_off=(4, 0))
@@ -62,6 +70,12 @@ def test_surfaces_are_those_of_fig_14_1():
     assert band.waves == figure.roughness(0.7).waves[1] and sum(both) >= band.heavy
 
 
+FRACTION = spring_tracks._fraction
+
+
+@catches("overlap of springs over an area without their own height", overlap=0.1).at(
+    "validation.simulation.spring_tracks._fraction", lambda height, load: FRACTION(height, 2 * load)
+)
 @pytest.mark.parametrize("overlap", [1e-3, 0.1])
 def test_springs_over_an_area_carry_the_load(overlap):
     """Spring by spring at the height where as many touch: their force is the load, to one spring."""
@@ -96,6 +110,10 @@ def planted(*, wide=0.1, springs=(0.12, 0.12), finer=0.1, rolled=1.0, pairs=400)
     return Outcomes(WIDE, found)
 
 
+@catches("a wide band without the change from the narrow one").at(
+    "validation.cases.punch.bandwidth.multilevel_moments",
+    lambda columns: statistics.multilevel_moments(columns[:1]) * len(columns),
+)
 def test_deviations_add_up_over_bands():
     """A tenth of the surfaces tells the change of the deviation, whose level all of them tell: half of the error."""
     found = Deviations(planted(wide=0.11))
@@ -105,6 +123,13 @@ def test_deviations_add_up_over_bands():
     assert all_of_them.half_width < 0.5 * 1.96 / np.sqrt(2 * np.isfinite(few).sum())
 
 
+STEPS = bandwidth.Deviations.steps
+
+
+@catches("a change to finer cells that is taken once").at(
+    "validation.cases.punch.bandwidth.Deviations.steps",
+    lambda found, *key: {i: 0.5 * one for i, one in STEPS(found, *key).items()},
+)
 def test_a_change_to_finer_cells_is_doubled_and_left_open_also_in_wider_bands():
     found = Deviations(planted(finer=0.105)).resolved(BEM, 0.7, 0)
     for value in found.values():
@@ -112,6 +137,7 @@ def test_a_change_to_finer_cells_is_doubled_and_left_open_also_in_wider_bands():
         assert value.grid == pytest.approx(np.log(1.05), rel=0.05)
 
 
+@catches("a change by factor e of bandwidth for that by decade").at("numpy.log10", np.log)
 def test_a_change_by_decade_is_that_of_the_ratio():
     """A decade of bandwidth: springs 20 % more, boundary elements 5 %; with a roll-off springs 30 % more."""
     evidence = STUDY.evidence(planted(wide=0.105, springs=(0.1, 0.12), rolled=1.3))
@@ -120,6 +146,9 @@ def test_a_change_by_decade_is_that_of_the_ratio():
         assert values == pytest.approx([20 * np.log10(change)] * count, abs=0.05)
 
 
+@catches("as many springs over an area as boundary elements have cells in contact").at(
+    "validation.cases.punch.bandwidth.nearest", lambda fractions, wide: nearest(fractions, 0.01 * wide)
+)
 def test_springs_without_coupling_stand_beside():
     """Deviation 0.12 along a line, 0.05 over an area at equal load; under a light force the band is too narrow."""
     (alone,) = Deviations(planted()).without_coupling(0.7, 6).values()

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from tests.analysis.test_judged_claims import point
+from tests.seeded import catches
 from validation.analysis.evidence import Role, Verdict, numbers_with
 from validation.analysis.series import Estimates, numbers_of
 from validation.analysis.statistics import DECIBEL, POWER_DECIBEL, Estimate, Linearised, Resolved, student
@@ -40,6 +41,9 @@ def found_in_fig_14_1(contact=lambda *_: 1e9):
     )
 
 
+@catches("decibels of a power for those of an amplitude, in Fig. 14.1").at(
+    "validation.cases.punch.ensembles.DECIBEL", DECIBEL / 2
+)
 def test_each_length_of_springs_has_its_own_level_and_exponents_their_grid():
     study, found = fractal_punch_study, found_in_fig_14_1()
     numbers = numbers_of(study.compared(found, 0.7))
@@ -56,6 +60,7 @@ def test_each_length_of_springs_has_its_own_level_and_exponents_their_grid():
     assert law.sample == pytest.approx(0.01 * student(8, 1 - 0.05 / 2))
 
 
+@catches("published exponents turned round").at("validation.cases.punch.fractal_punch_study.PUBLISHED", (0.49, 0.75))
 def test_published_exponents_are_those_of_their_hurst_exponent():
     """0.77 at H = 0, 0.51 at H = 1."""
     numbers = [n for h in (0.4, 0.7) for n in numbers_of(fractal_punch_study.exponents(found_in_fig_14_1(), h))]
@@ -73,6 +78,9 @@ def test_the_figure_as_printed_has_the_margin_of_60_surfaces_and_the_same_number
     assert {n.verdict for n in accurate} == {Verdict.DIFFER} and {n.verdict for n in printed} == {Verdict.AGREE}
 
 
+@catches("a fit without the flat punch").at(
+    "validation.cases.punch.fractal_punch_study.fitted", lambda case, force: force / 0.48
+)
 def test_the_fit_is_judged_by_its_formula_where_most_of_the_face_carries():
     """Boundary elements of exp(-0.1); the fit in series: the farthest force is the lightest of the range, 0.46."""
     study = fractal_punch_study
@@ -92,6 +100,9 @@ def test_a_decade_that_is_not_whole_is_not_judged():
     assert [n.where[fractal_punch.FORCE][0] for n in judged] == pytest.approx(list(PUNCH.first_forces[:-1]))
 
 
+@catches("a deviation of nothing that is infinitely far from a small one", value=0.001, seen=0.01, left=0.0).at(
+    "validation.cases.punch.fractal_punch.LEAST", -1e9
+)
 @pytest.mark.parametrize(("value", "seen", "left"), [(0.3, 0.3, 0.0), (0.009, 0.01, 0.018), (0.001, 0.01, 0.0)])
 def test_a_deviation_below_a_hundredth_counts_as_one(value, seen, left):
     """In verdicts, which are left open by as much as its interval, of 10 % here, reaches above."""
@@ -134,6 +145,9 @@ def result_of(bem, finer, springs, height=0.1, case=ROLLING):
     return Outcomes(case, found)
 
 
+@catches("levels of the finest cells for those of no size").at(
+    "validation.analysis.series.Estimates.on_no_size", lambda mine, finer: mine
+)
 def test_the_rms_and_the_mean_force_are_those_on_cells_of_no_size():
     """Boundary elements 10 % over linear theory in power, 2 % less on finer cells; springs 30 % over it."""
     bem, springs = of_strips(1.1, 4), of_strips(1.3, 60)
@@ -154,6 +168,9 @@ def ratio_of_logs(one):
     return Estimates.ratios(one["variance"], one["linear variance"])[0]
 
 
+@catches("decibels of an amplitude for those of a power, in the mean curve").at(
+    "validation.cases.rolling.force_spectrum.POWER_DECIBEL", DECIBEL
+)
 def test_the_mean_curve_is_too_loud_by_its_limit_where_boundary_elements_are_linear_theory():
     """Within half a decibel at q a of 4 and more; 1 % less power on finer cells raises it by two of them."""
     case, name = replace(ROLLING, last=20.0), force_spectrum.MEAN_1D + force_spectrum.OVER
@@ -167,6 +184,9 @@ def test_the_mean_curve_is_too_loud_by_its_limit_where_boundary_elements_are_lin
     assert number.grid == pytest.approx(-10 * math.log10(0.99))
 
 
+@catches("linear theory must hold over any roughness", height=0.1).at(
+    "validation.cases.rolling.force_spectrum.MUST_BE_LINEAR", 1.0
+)
 @pytest.mark.parametrize("height", [0.01, 0.1])
 def test_the_curve_is_judged_over_low_roughness_where_linear_theory_must_hold(height):
     """Linear theory is 2 in each band, (14.12) 2.6; the worst octave of linear theory is a criterion."""

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from tests.analysis.test_error_bars_of_wheels import strips_of
+from tests.seeded import catches
 from validation.analysis.evidence import numbers_with
 from validation.analysis.series import Estimates, numbers_of
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, student
@@ -14,6 +15,9 @@ from validation.analysis.study import Outcomes
 from validation.cases.wheel import half_space, half_space_study
 
 
+@catches("one number of the claim on the wheel for all of them").at(
+    "validation.cases.wheel.half_space_study.OF_FIGURE", 1
+)
 def test_a_wheel_in_three_dimensions_is_judged_by_the_worst_band_of_each_range():
     """With grid and solver added up; intervals of all bands of a range and of five numbers hold at once."""
     over = Estimates(Estimate(x, 0.05, 6) for x in (0.1, -0.3, 0.2, 0.0, 0.4))

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tests.seeded import catches
 from validation import __main__ as command
 from validation.analysis.case import Case
 from validation.analysis.evidence import Evidence, Number, Role, Verdict
@@ -84,6 +85,7 @@ def section_of(part, result, making, monkeypatch):
     return build._section("geike", CASES["geike"].quick, future, part)
 
 
+@catches("a lost solve that nobody tells", making=as_it_is).at("validation.report.build._lost", lambda progress: ())
 @pytest.mark.parametrize("making", [as_it_is, of_a_number_that_is_lost])
 def test_a_lost_solve_is_told_whatever_its_case_makes_of_it(making):
     """A case that drops the flag, or whose evidence cannot be made of what is left, has not converged either."""

@@ -8,6 +8,7 @@ import pytest
 
 import bem3d
 from tests.cases.planted import judged, statuses
+from tests.seeded import Times, catches, module_with
 from validation.analysis.evidence import ClaimStatus
 from validation.analysis.study import Outcomes
 from validation.cases.rolling import reduced_models as models
@@ -35,12 +36,18 @@ def off(found):
     return 10 * np.log10(found[CASE.between_zeros] / TRUE[CASE.between_zeros])
 
 
+@catches("factor 2 lost in the mean filter, read backwards").at(
+    "validation.simulation.rolling_levels.mean_force_spectrum_1d", Times(0.5)
+)
 def test_the_mean_filter_finds_the_roughness_of_the_mean_force():
     """To the bend of the spectrum in a band."""
     levels = over_bands(lambda q: mean_force_spectrum_1d(q, GEIKE, modulus=1.0), CASE.bands) / HERTZ**2
     assert np.abs(off(roughness_from_force.by_mean_filter(CASE.bands, levels))).max() < 0.25
 
 
+@catches("half of the height in the filter of three dimensions, read backwards").at(
+    "validation.simulation.rolling_levels.level_3d", Times(0.5)
+)
 def test_the_filter_in_three_dimensions_finds_isotropic_roughness():
     """And next to nothing below it, where the mean filter finds a twelfth of it."""
     roughness_from_force.filter_3d.cache_clear()
@@ -80,6 +87,12 @@ def test_the_parameter_that_decides_is_found(by, status):
     assert statuses(models.STUDY.evidence(Outcomes(case, found))) == [LIMITED, HOLDS, status]
 
 
+@catches("half of the force of linear theory beside boundary elements").at(
+    "validation.simulation.reduced_models.linear_force", Times(0.5)
+)
+@catches("contact kept beside a square wheel").at(
+    "validation.simulation.reduced_models.math", module_with(math, pi=4.0)
+)
 def test_models_on_a_strip_have_its_level_where_it_is_low():
     """Whatever the cells, within half of a decibel of linear theory; contact is whole, to cells at its edge."""
     scene = RoughStrip(spectrum=self_affine(0.7, 1.0, 8.0), height=0.01, length=19.0, width=7.0, seed=1)
@@ -97,6 +110,16 @@ def test_models_on_a_strip_have_its_level_where_it_is_low():
 SMALL = stiffness.TrackStiffness(forces=(1.0,), length=16, strips=3, refined=3, tracks=5)
 
 
+def whole_frame_in_contact(wheel, position):
+    wheel.carry(position, 4 / 3)
+    pressure = wheel.pressure()[2]
+    body = bem3d.HalfSpace(shape=pressure.shape, spacing=wheel.track.spacing, modulus=1.0)
+    return bem3d.solve_fixed_area(body, np.ones(pressure.shape, dtype=bool)).stiffness
+
+
+@catches("stiffness of the frame for that of the contact", height=0.3).at(
+    "validation.simulation.rolling_strip.tangent_stiffness", whole_frame_in_contact
+)
 @pytest.mark.parametrize("height", [0.0, 0.3])
 def test_the_stiffness_along_a_track_is_the_change_of_force_with_approach(height):
     """Beside a finite difference; on a smooth track 2 E* a, to an edge some tenths of a cell out of place."""

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from validation.analysis.evidence import ClaimStatus, Verdict, numbers_with
+from tests.seeded import catches
+from validation.analysis.evidence import ClaimStatus, Number, Verdict, numbers_with
 from validation.analysis.study import Outcomes
 from validation.cases.punch import interface_study
 from validation.cases.punch.interface import (
@@ -58,6 +59,10 @@ def theory(ground, factor=1.0):
     return factor * persson_stiffness(CASE.pressures(ground), c2d=spectrum.c2d, edges=spectrum.edges, modulus=1.0)
 
 
+@catches("exponents of an interface over equal steps of the load", exponent=1.0, status=ClaimStatus.HOLDS).at(
+    "validation.cases.punch.interface.Interface.slopes",
+    lambda case, ground: lambda mean, _: np.diff(np.log(mean)) / np.log(3),
+)
 @pytest.mark.parametrize(("exponent", "status"), [(1.0, ClaimStatus.HOLDS), (0.9, ClaimStatus.CONTRADICTED)])
 def test_a_power_of_the_load_is_found_and_judged(exponent, status):
     found = evidence(power(exponent))
@@ -82,6 +87,9 @@ def test_theory_is_put_over_boundary_elements_and_few_waves_do_not_judge_it():
     assert found.claims[1].status is ClaimStatus.HOLDS
 
 
+@catches("sample and grid exchanged").at(
+    "validation.analysis.series.Number", lambda grid, sample, **settings: Number(grid=sample, sample=grid, **settings)
+)
 def test_what_finer_cells_change_is_extrapolated_and_half_of_it_left_open():
     """5 % stiffer on half as wide cells: 10 % on those of no size, to first order, in the logarithm."""
     plain, finer = (evidence(theory, finer=factor) for factor in (1.0, 1.05))
@@ -90,6 +98,13 @@ def test_what_finer_cells_change_is_extrapolated_and_half_of_it_left_open():
     assert two.grid - one.grid == pytest.approx(20 * np.log10(1.05), rel=1e-3)
 
 
+SERIES = 1.1523, Verdict.AGREE
+
+
+@catches("an interface and a punch side by side", *SERIES).at(
+    "validation.cases.punch.interface._over_series",
+    lambda rows: np.log(rows.mean(axis=0)[0] / (rows.mean(axis=0)[1] + 1.1523)),
+)
 @pytest.mark.parametrize(("flat", "verdict"), [(1.1523, Verdict.AGREE), (0.8, Verdict.DIFFER)])
 def test_a_punch_is_put_beside_its_interface_in_series_with_the_flat_punch(flat, verdict):
     heaviest = numbers_with(evidence(theory, THREE, flat=flat).numbers, OF_SERIES)[-1]

@@ -11,8 +11,10 @@ import bem3d
 import mdr
 from tests.cases.planted import changed, whole
 from tests.oracles import dense_operator
+from tests.seeded import Times, catches
 from validation.analysis.evidence import Role, Verdict
 from validation.cases.limits import limits as case
+from validation.cases.limits import sweeps
 from validation.cases.limits.sweeps import LIMITS, Failing, Judged, Limit, LimitName, Probe, Sweep
 from validation.simulation import limits_of_half_space as elements
 from validation.simulation import limits_of_springs as springs
@@ -81,6 +83,9 @@ def test_an_outcome_elsewhere_changes_the_claims(result):
     assert (predicted.count(Verdict.AGREE), len(predicted.numbers)) == (0, 20)
 
 
+@catches("a limit read on its good side", side="above").at(
+    "validation.cases.limits.sweeps.Sweep.past_threshold", sweeps.Sweep.before_threshold
+)
 @pytest.mark.parametrize("side", ["above", "below"])
 def test_crossings_of_a_power_law(side):
     """y = x^2 is past 4 from x = 2 on; mirrored, y = 16 / x^2 up to there."""
@@ -120,6 +125,13 @@ def test_a_threshold_is_positive_where_it_fails_later(error, side, octaves):
     assert number.tolerance == pytest.approx(math.log2(1.5)) and number.role is Role.FINDING
 
 
+REAL_CROSSING = sweeps.Sweep.crossing.fget
+
+
+@catches("a sweep that passes no threshold agrees at its end", error=[1.0] * 4, side="above", at=1.0).at(
+    "validation.cases.limits.sweeps.Sweep.crossing",
+    property(lambda sweep: REAL_CROSSING(sweep) or (sweep.values[:: sweep.sign][-1], 0.0)),
+)
 @pytest.mark.parametrize("at", [0.5, 1.0, 2.0, 20.0])
 @pytest.mark.parametrize(
     ("error", "side"),
@@ -198,6 +210,7 @@ def test_stiffness_of_a_lone_cell():
     assert k / (2.0 * 0.3) == pytest.approx(elements.LONE_CELL, rel=1e-9)
 
 
+@catches("factor 2 lost in the periodic symbol, seen by images").at("bem3d.kernel.periodic_symbol", Times(0.5))
 def test_images_err_as_the_lattice_sum_says():
     """1.655 a / L, but for (a / L)^3 of the forces of images that are no points, and the kernels of the cells."""
     found = elements.images((6, 12, 24), fine=8)
@@ -205,6 +218,7 @@ def test_images_err_as_the_lattice_sum_says():
     assert found["error"][0] == pytest.approx(expected, rel=0.025)
 
 
+@catches("factor 4 lost over a stretched surface").at("validation.simulation.limits_of_springs.response", Times(0.5))
 def test_a_stretched_surface_by_another_quadrature():
     """Isotropic it is force_variance; of short waves the variance does not depend on the ratio."""
     long, short = self_affine(0.7, 0.5, 4.0), self_affine(0.7, 100.0, 400.0)

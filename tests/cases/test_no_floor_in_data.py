@@ -13,10 +13,11 @@ from tests.cases.test_interface import CASE as INTERFACE
 from tests.cases.test_interface import outcome as pressed
 from tests.cases.test_interface import theory
 from tests.cases.test_limits import STEEP
+from tests.seeded import catches
 from validation.advice.cases import model_selection as ladder
 from validation.advice.cases import model_selection_study as calibration
 from validation.analysis.evidence import Verdict, numbers_with
-from validation.analysis.series import Estimates, tables_of
+from validation.analysis.series import Estimates, Series, tables_of
 from validation.analysis.statistics import Interval
 from validation.analysis.study import Outcomes
 from validation.cases.limits import limits
@@ -29,11 +30,20 @@ from validation.cases.punch.interface import GAP, GAP_OVER_H, PUNCH
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.stability import wheel_stability
 from validation.cases.wheel.half_space import LOOSE, TIGHT, WheelLevels
+from validation.judging.judgement import AGREE
 from validation.railway.cases import across, across_study
 
 # --- the punch of Fig. 14.1 ---
 
 
+def floored(statistics, hurst, method, statistic, level):
+    """The ratio as it is judged, in the place of the one that was found."""
+    return statistics.counted(hurst, method, level)
+
+
+@catches("a floor of a judgement in the data", apart=0.0, spread=0.1).at(
+    "validation.cases.punch.fractal_punch.PunchStatistics.ratio", floored
+)
 @pytest.mark.parametrize("apart", [0.0, 0.2, 0.5, 0.96, 1.0, 3.0])
 @pytest.mark.parametrize("spread", [0.002, 0.012, 0.1])
 def test_the_ratio_of_two_deviations_is_that_of_the_deviations(apart, spread):
@@ -46,6 +56,9 @@ def test_the_ratio_of_two_deviations_is_that_of_the_deviations(apart, spread):
     assert springs == pytest.approx(apart * spread * np.ones(springs.size), rel=0.01)
 
 
+@catches("a rule of judgement that nobody applies", *(0.5, 0.005, AGREE, 0.0)).at(
+    "validation.cases.punch.fractal_punch.LEAST", -math.inf
+)
 @pytest.mark.parametrize(
     ("apart", "spread", "verdict", "value"),
     [
@@ -85,6 +98,15 @@ def test_springs_that_all_touch_leave_no_gap_and_no_ratio_of_gaps():
     assert len(numbers_with(evidence.numbers, GAP)) == 5
 
 
+shown = limits.shown
+
+
+def no_less_than_the_panel_shows(sweep):
+    for one in shown(sweep):
+        yield Series(one.quantity, one.model, [max(x, 0.04) for x in one.found], along=one.along, at=one.at)
+
+
+@catches("the floor of a panel in the data").at("validation.cases.limits.limits.shown", no_less_than_the_panel_shows)
 def test_the_data_of_a_limit_are_the_errors_of_its_sweep():
     """Smaller than a hundredth of the tolerance too, which is where the panel ends."""
     error = np.array([0.0, 1e-9, 5.0, math.inf])

@@ -9,6 +9,7 @@ import pytest
 from scipy import integrate
 
 from tests.cases.planted import changed, judged
+from tests.seeded import catches, catches_root_of_two
 from validation.analysis.evidence import ClaimStatus, Verdict
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import ridges
@@ -17,7 +18,7 @@ from validation.cases.rolling.force_spectrum_study import CASE
 from validation.report.answers.first_screen import answered_questions
 from validation.report.section import Section
 from validation.simulation import rolling_strip
-from validation.simulation.rolling_strip import RoughStrip, Tracks, crop_to_reach, roll_tracks
+from validation.simulation.rolling_strip import RoughStrip, Tracks, crop_to_reach, level_1d, roll_tracks
 from validation.simulation.track_spectrum import INPUT_SPECTRA, PiecewisePowerLaw, TrackSpectrum
 from validation.theory.rolling import force_spectrum_1d, force_variance
 
@@ -36,6 +37,21 @@ def rough(**changes):
     return RoughStrip(**{**settings, **changes})
 
 
+@catches_root_of_two(
+    "h' of power laws",
+    "validation.simulation.track_spectrum.slope_in_one_direction",
+    spectrum=PiecewisePowerLaw(edges=(1.0, 3.0), exponents=(2.0,)),
+)
+@catches_root_of_two(
+    "the gradient of power laws",
+    "validation.simulation.track_spectrum.PiecewisePowerLaw.gradient",
+    spectrum=PiecewisePowerLaw(edges=(1.0, 3.0), exponents=(2.0,)),
+)
+@catches_root_of_two(
+    "h' a/d in the words of rolling",
+    "validation.simulation.track_spectrum.PiecewisePowerLaw.slope_along",
+    spectrum=PiecewisePowerLaw(edges=(1.0, 3.0), exponents=(2.0,)),
+)
 @pytest.mark.parametrize(
     "spectrum",
     [
@@ -88,6 +104,10 @@ def test_tracks_have_the_variance_of_linear_theory():
     assert outcome["level"].sum(axis=1).mean() * 2 <= outcome["variance"].mean() * (1 + 1e-9)
 
 
+@catches("a band of all waves for the waves of a track, in the curve of the book").at(
+    "validation.cases.rolling.force_spectrum.levels_on_track",
+    lambda case, spectrum: level_1d(case.spectrum, "geike", case.bands),
+)
 def test_the_curve_on_a_track_is_that_of_its_waves_through_the_filter():
     """(14.12) on the waves that a drawn track has, beside (14.11) over the track itself."""
     tracks = replace(SMALL, tracks=2).tracks_of(1e-3)

@@ -14,6 +14,7 @@ import pytest
 from scipy import integrate, special
 
 import validation
+from tests.seeded import Times, catches, catches_root_of_two
 from validation.advice.compare import models_of
 from validation.advice.models.rolling import RollingClaim, linear_filter_3d
 from validation.advice.summary import heading
@@ -71,6 +72,10 @@ def models_evidence(case):
 # --- one number for one wheel ---
 
 
+@catches_root_of_two("h' of a drawn surface", "validation.scenes.roughness.slope_in_one_direction")
+@catches_root_of_two("h' a/d of the wheel on the page", "validation.cases.wheel.half_space_study.slope_ratio")
+@catches_root_of_two("h' a/d of Table 14.1 beside spectra", "validation.cases.rolling.reduced_models.slope_ratio")
+@catches_root_of_two("h' a/d of a description", "validation.scenes.description.slope_ratio")
 def test_table_14_1_has_one_slope_everywhere():
     """On the page, in `compare`, under the question of the first screen, and in the units of the cases."""
     expected = slope_of_table_14_1()
@@ -87,6 +92,7 @@ def test_table_14_1_has_one_slope_everywhere():
     assert WHEEL.rms / d * spectrum.slope_along == pytest.approx(expected, rel=1e-9)
 
 
+@catches_root_of_two("h' of rail and wheel", "validation.scenes.dynamic_wheel.WheelScene.slope_along")
 def test_slopes_of_rail_and_wheel_add_by_squares():
     both = replace(WHEEL, wheel=replace(WHEEL.rail, rms=3 * WHEEL.rail.rms))
     assert of_wheel(both)["h' a/d"] == pytest.approx(math.sqrt(10) * slope_of_table_14_1(), rel=1e-9)
@@ -116,6 +122,9 @@ def band_edges(longest, shortest):
     return 2 * math.pi / longest / 10**0.05, 2 * math.pi / shortest * 10**0.05
 
 
+@catches_root_of_two("h' of a line", "validation.analysis.spectra.NominalBands.slope_of_spectrum")
+@catches_root_of_two("h' of levels", "validation.railway.scenes.level_files.RoughnessLevels.slope_along")
+@catches_root_of_two("the loss-of-contact number of a case", "validation.railway.cases.rough_rail.lost_contact_number")
 def test_a_rail_has_one_slope_of_its_strips_and_one_of_all_bands():
     """In the description, the claims of models, and the case; of 50 to 3.15 mm, and of 2000 to 0.8 mm."""
     scene = falling_rail()
@@ -134,6 +143,9 @@ def test_a_rail_has_one_slope_of_its_strips_and_one_of_all_bands():
     assert table[rough_rail.WAVES][0] == "50 to 3.15 mm"
 
 
+@catches_root_of_two(
+    "the loss-of-contact number of models", "validation.railway.problems.rail_quantity.lost_contact_number"
+)
 def test_the_error_of_linear_theory_on_a_rail_goes_with_the_slope_along():
     """0.2 min(1, q a_x) + 1.1 q a_x h' a_x / d [dB]."""
     scene = falling_rail()
@@ -154,6 +166,7 @@ def periodic_slopes(height, spacing):
     return tuple(math.sqrt((waves * one**2).sum()) for one in (q[0][:, np.newaxis], q[1]))
 
 
+@catches_root_of_two("heights at an h' a/d", "validation.cases.rolling.reduced_models.height_at", gradient=0.3)
 @pytest.mark.parametrize("gradient", [0.1, 0.3, 1.0])
 def test_strips_at_equal_slopes_have_them(gradient):
     """Each spectrum has the rms gradient that is sqrt 2 times h' a/d, and its h/d stands beside it."""
@@ -177,6 +190,9 @@ def threshold_of(title, probe, *values, **settings):
 ROLLED = {"force": np.arange(4.0), "linear": np.arange(4.0), "failed": np.array(0.0)}
 
 
+@catches_root_of_two(
+    "the gradient of the linear filter's limit", "validation.simulation.track_spectrum.PiecewisePowerLaw.gradient"
+)
 @patch.object(limits_of_springs, "roll_strip", lambda strip: ROLLED)
 def test_the_linear_filter_in_3d_ends_where_persson_loses_a_fifth():
     """sqrt(pi / 8) g a / d = 0.2, whatever the force."""
@@ -185,6 +201,12 @@ def test_the_linear_filter_in_3d_ends_where_persson_loses_a_fifth():
     assert found == pytest.approx(0.2 / (math.sqrt(math.pi / 8) * gradient), rel=1e-6)
 
 
+@catches_root_of_two(
+    "p over E* g of nine tenths in contact", "validation.cases.limits.sweeps.FULL", title="true contact area", share=0.9
+)
+@catches_root_of_two(
+    "p over E* g of one half in contact", "validation.cases.limits.sweeps.HALF", title="mean gap", share=0.5
+)
 @pytest.mark.parametrize(("title", "share"), [("true contact area", 0.9), ("mean gap", 0.5)])
 def test_springs_are_right_where_persson_has_a_share_in_contact(title, share):
     """erf(sqrt(2) p / (E* g)) at the threshold, g of the surface as it was drawn; p = F / L^2."""
@@ -195,6 +217,7 @@ def test_springs_are_right_where_persson_has_a_share_in_contact(title, share):
     assert special.erf(math.sqrt(2) * pressure / gradient) == pytest.approx(share, abs=1e-4)
 
 
+@catches_root_of_two("loads of an interface by their contact", "validation.cases.punch.interface.Interface.pressures")
 def test_loads_of_an_interface_have_the_contact_of_their_name():
     """erf(sqrt(2) p / (E* g)), g of a surface as it is drawn, whose waves are whole numbers a period: some per cent."""
     case = Interface()
@@ -203,6 +226,12 @@ def test_loads_of_an_interface_have_the_contact_of_their_name():
     np.testing.assert_allclose(found, case.contacts, rtol=0.03)
 
 
+@catches("a root of two lost in the gradient of a light punch", more=1.04, cells=256).at(
+    "validation.simulation.indentation.rms_gradient", Times(math.sqrt(0.5))
+)
+@catches("a root of two gained in the gradient of a light punch", more=0.96, cells=128).at(
+    "validation.simulation.indentation.rms_gradient", Times(math.sqrt(2))
+)
 @pytest.mark.parametrize(("more", "cells"), [(1.04, 256), (0.96, 128)])
 def test_cells_of_a_light_punch_are_those_of_the_gradient(more, cells):
     """Sixteen in contact, 2 F / (E* g L^2) of all, just below and above 128 cells a side."""
@@ -213,6 +242,7 @@ def test_cells_of_a_light_punch_are_those_of_the_gradient(more, cells):
     assert indentation.cells_wanted(light) == cells
 
 
+@catches_root_of_two("the gradient of a claim on ridges", "validation.scenes.measured.MeasuredHeights.gradient")
 @patch.object(RollingClaim, "estimate", lambda *_: ErrorEstimate(model=0.1, reason=""))
 def test_anisotropic_heights_leave_their_gradient_open():
     """Ridges along the track, which h' does not see, are as rough as any for a filter in all directions."""

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from tests.cases.planted import DECIBEL, QUICK_3D, ROUNDING, SMALL, TABLE, changed, statuses, times, whole
+from tests.seeded import catches
 from validation.analysis.evidence import ClaimStatus, Verdict, number_with, numbers_with
 from validation.cases.wheel import distance as by_distance
 from validation.cases.wheel import half_space, half_space_study, spectrum
@@ -230,6 +231,12 @@ def with_filled_zeros(share, lines=60):
     return omega, ((1 - share) * wave + share / 2) * omega ** (-2 * TABLE.rail.hurst - 3)
 
 
+zeros_of = half_space_study.zeros_of
+
+
+@catches("a contrast read at the maxima", share=0.1).at(
+    "validation.cases.wheel.half_space_study.zeros_of", lambda scene: zeros_of(scene) + 0.5
+)
 @pytest.mark.parametrize("share", [0.01, 0.1, 0.5, 1.0])
 def test_the_contrast_is_that_of_filled_zeros(share):
     """(1 + e c) / (1 - e c), e = 1 - share; c = sin(pi / 12) / (pi / 12): the band is a twelfth of a period."""

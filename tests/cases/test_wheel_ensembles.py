@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from tests.cases.planted import BOTH, LITTLE, ROUNDING, SMALL, TRACKS, power, rides
+from tests.seeded import Times, catches
 from validation.cases.wheel import features as wheel_features
 from validation.cases.wheel.features import FLOOR, Spectrum
 from validation.simulation import wheel_on_springs as wheel_ensemble
@@ -39,6 +40,20 @@ def test_open_tracks_are_longer_than_what_is_rolled(distance):
     assert (ride.places - ride.steps) * ride.scene.spacing >= 4 * 10e-3
 
 
+STEADY = {"track": "steady-state"}
+
+
+places_of = wheel_ensemble.WheelEnsemble.places.fget
+
+
+@catches("a periodic track taken as open", track="steady-state", rounds=1, distance=0.16).at(
+    "validation.simulation.wheel_on_springs.WheelEnsemble.places",
+    property(lambda rides: places_of(replace(rides, track="open"))),
+)
+@catches("a part of a motion that repeats itself after the part", track="part", rounds=2, distance=0.16).at(
+    "validation.simulation.wheel_on_springs.WheelEnsemble.places",
+    property(lambda rides: places_of(replace(rides, **STEADY))),
+)
 @pytest.mark.parametrize("distance", [0.03, 0.16, 0.1851])
 @pytest.mark.parametrize(("track", "rounds"), [("steady-state", 1), ("part", 2)])
 def test_periodic_tracks_take_whole_natural_periods_and_a_half(track, rounds, distance):
@@ -63,6 +78,10 @@ def test_a_part_is_the_beginning_of_the_motion_that_repeats_itself(linear):
     assert np.abs(all_of_it.jump).max() < 1e-3 * np.abs(some.jump).min()
 
 
+@catches("a wheel of half of its circumference").at(
+    "validation.scenes.dynamic_wheel.WheelScene.circumference_points",
+    property(lambda one: round(np.pi * one.radius / one.spacing)),
+)
 def test_the_roughness_of_a_wheel_repeats_after_its_circumference():
     """Two pi R, to half a cell; not after half of it, and its rms is that of one turn."""
     around = round(2 * math.pi * LITTLE.radius / LITTLE.spacing)
@@ -93,6 +112,13 @@ def test_rail_and_wheel_add_as_spectra():
     assert wheel_features.roughness(SMALL)(q) == pytest.approx(SMALL.rail.spectrum.c1d(q), rel=ROUNDING)
 
 
+heights_of = wheel_ensemble.WheelEnsemble.heights
+
+
+@catches("Geike's spectrum for the rolling-equivalent one").at(
+    "validation.simulation.wheel_on_springs.WheelEnsemble.heights",
+    lambda rides: heights_of(replace(rides, input_spectrum="geike")),
+)
 def test_the_rolling_spectrum_has_long_waves_and_geikes_has_none():
     """Below q_min, what crosses the track aslant; above, Geike's has more in every wave."""
     tracks = [rides(track="steady-state", input_spectrum=feed) for feed in ("geike", "rolling")]
@@ -162,6 +188,13 @@ def closed_form(scene, omega, length):
     return force * 2 * np.pi / scene.speed * resonator
 
 
+def inverted(omega, *, eigenfrequency, mass, damping):
+    """omega / omega_0 for omega_0 / omega."""
+    return 1 / (mass * (1 - (np.asarray(omega) / eigenfrequency) ** 2)) ** 2
+
+
+@catches("omega / omega_0 for omega_0 / omega").at("validation.theory.wheel.acceleration_over_force", inverted)
+@catches("factor 2 pi lost over frequency").at("validation.theory.wheel.over_frequency", Times(1 / (2 * np.pi)))
 def test_the_linear_contact_has_its_closed_form_wave_by_wave():
     """A steady record is one period of its track, so waves are lines. Leapfrog sees 2 sin(omega dt / 2) / dt for omega,
     by which the resonator is known to be off; where a wave is too weak for its rounding, to that."""

@@ -7,9 +7,11 @@ import pytest
 
 from tests.cases import planted
 from tests.cases.planted import changed, whole
+from tests.seeded import catches
 from validation.analysis.evidence import Role, Verdict
 from validation.cases.stability import wheel_stability as case
 from validation.simulation import free_vibration as free
+from validation.simulation import integrators
 from validation.simulation import spring_tracks as rough
 from validation.simulation.contact_laws import HertzLaw
 from validation.simulation.integrators import EXPLICIT_EULER, INTEGRATORS, RUNGE_KUTTA, VELOCITY_VERLET
@@ -34,6 +36,12 @@ def test_all_criteria_are_met(result):
     assert {number.role for number in evidence.numbers} == {Role.CRITERION, Role.FINDING}
 
 
+amplification = free.amplification
+
+
+@catches("half of the longest step", scheme=integrators.VELOCITY_VERLET).at(
+    "validation.simulation.free_vibration.amplification", lambda scheme, x: amplification(scheme, 2 * np.asarray(x))
+)
 @BY_NAME
 def test_limits_are_those_of_the_eigenvalue(scheme):
     """Bounded just below the limit, growing just above it: to the first order in what lies between."""
@@ -112,6 +120,12 @@ def test_a_planted_change_is_noticed(result, name, change, quantity, model):
     assert verdicts(changed(result, {name: change(result[name])}), quantity, model) == {Verdict.DIFFER}
 
 
+linear_response = rough.linear_response
+
+
+@catches("coarse springs taken for a continuum", seed=0).at(
+    "validation.simulation.spring_tracks.linear_response", lambda track, stride: linear_response(track, 1)
+)
 @pytest.mark.parametrize("seed", range(5))
 def test_linear_spacing_holds_for_other_tracks(seed):
     """Within the five standard deviations of the error model; in them it is neither far too wide nor too narrow."""

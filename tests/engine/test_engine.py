@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 from tests.engine.toys import ENVIRONMENT, ROOT, computed, other_toy, same, toy
+from tests.seeded import catches
 from validation.engine import engine as ensemble
 from validation.engine import sources, stored
 from validation.engine.engine import Engine
@@ -217,6 +218,7 @@ def test_fewer_surfaces_are_the_first_of_more():
     np.testing.assert_array_equal(of_few, of_more[:4])
 
 
+@catches("results of other libraries", library="scipy").at("validation.engine.sources.LIBRARIES", ("numpy",))
 @pytest.mark.parametrize("library", ["numpy", "scipy", "pyfftw"])
 def test_another_version_of_a_library_is_another_version_of_the_numerics(library):
     digest, version = sources.version_of_numerics.__wrapped__, importlib.metadata.version

@@ -12,6 +12,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 import pytest
 
+from tests.seeded import catches
 from validation.__main__ import main
 from validation.engine import stored
 from validation.engine.files import ERRORS_OF_A_PATH, read_plain, write_given, write_whole
@@ -41,6 +42,7 @@ def test_a_new_file_has_the_mode_of_the_umask(write, mask, wanted, tmp_path, uma
     assert mode(tmp_path / "new") == wanted
 
 
+@catches("a mode of our own for the file that is there", before=0o600).at("stat.S_IMODE", lambda mode: 0o644)
 @pytest.mark.parametrize("before", [0o600, 0o640, 0o666])
 def test_a_file_that_is_there_keeps_its_mode_and_is_replaced(before):
     """It is replaced: who reads it goes on with the file that it was."""
@@ -54,6 +56,7 @@ def test_a_file_that_is_there_keeps_its_mode_and_is_replaced(before):
         assert (path.read_bytes(), path.stat().st_mode & 0o777, names(path.parent)) == (b"after", before, ["old"])
 
 
+@catches("a link replaced by a file").at("posixpath.realpath", str)
 def test_a_link_is_followed():
     """To a file, and to nothing yet."""
     with TemporaryDirectory() as folder:

@@ -5,6 +5,8 @@ import math
 import numpy as np
 import pytest
 
+from tests.seeded import catches
+from validation.judging.kinds import diagnosis
 from validation.judging.kinds.diagnosis import OF_POWERS, OF_VALUES, common_factor, named
 
 RNG = np.random.default_rng(5)
@@ -37,6 +39,9 @@ def test_a_factor_within_the_errors_of_most_points_is_none():
     assert common_factor(np.full(40, 1.3), np.full(40, 0.4)) is None
 
 
+@catches("a factor that no name is near", factor=0.909, names=diagnosis.OF_VALUES, word="E for E*, at nu = 0.3").at(
+    "validation.judging.kinds.diagnosis.NEAR", 0.0
+)
 @pytest.mark.parametrize(
     ("factor", "names", "word"),
     [

@@ -14,6 +14,7 @@ import pytest
 
 import mdr
 from tests.engine.toys import ENVIRONMENT, wait_until
+from tests.seeded import catches
 from validation import stiffness_model
 from validation.judging import replies as lent
 from validation.judging import worker as others
@@ -289,6 +290,22 @@ def members(kind):
     return vars(kind).keys() - {"__slotnames__"}
 
 
+RMS = "object.__setattr__(roughness, 'rms', 3.0)"
+
+
+DEEP = "roughness.parts[1]['a'][0] = 1.0"
+
+
+@catches("a changed argument that is never named", change=RMS).at(
+    "validation.judging.replies.changed", lambda arguments, lent: ""
+)
+@catches("an argument itself lent, so that the next call has what this one left", change=RMS).at(
+    "validation.judging.replies.copy_of", lambda v: v
+)
+@catches("arguments compared by their attributes, and not by what these hold", change=DEEP).at(
+    "validation.judging.replies.changed",
+    lambda a, b: next((n for n in a if getattr(a[n], "rms", 0) != getattr(b[n], "rms", 0)), ""),
+)
 @pytest.mark.parametrize("change", CHANGES)
 def test_an_argument_that_is_changed_is_seen_and_the_next_call_has_a_fresh_one(change):
     def function(load, roughness):
@@ -322,6 +339,7 @@ def test_what_a_model_of_measured_heights_is_given_is_compared_as_well():
     assert rng.random() != np.random.default_rng(1).random()  # drawing from it is its use
 
 
+@catches("arrays that can be written").at("validation.judging.replies.as_argument", lambda value: value.copy())
 def test_arrays_cannot_be_written_and_are_compared_to_the_byte():
     before, other = {"x": np.array([0.0, np.nan])}, {"x": np.array([0.0, np.nan])}
     assert lent.changed(before, other) == ""

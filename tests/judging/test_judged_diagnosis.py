@@ -7,6 +7,7 @@ import pytest
 
 import mdr
 from tests.judging.test_judged_stiffness import as_known, series
+from tests.seeded import catches
 from validation import judge, stiffness_model
 from validation.judging.judgement import AGAIN, UNTRUSTED, trusted
 from validation.judging.kinds import filters, profiles, stiffness
@@ -57,6 +58,7 @@ def again(function):
     return repeated(model)
 
 
+@catches("noise of ten per cent that is the same", size=0.05).at("validation.judging.kinds.judge.SAME", 0.5)
 @pytest.mark.parametrize("size", [0.05, 2e-3])
 def test_noise_is_random_without_rng(size):
     found = again(partial_of(noisy, size, np.random.default_rng(1)))
@@ -238,6 +240,7 @@ def test_draws_that_are_drawn_unequally_often_have_the_error_of_fewer(times):
     assert found.mean.value == pytest.approx(np.dot(pool, times) / n)
 
 
+@catches("draws that are equal under one load").at("validation.judging.kinds.stiffness.EQUAL", 10.0)
 def test_draws_that_differ_under_any_load_are_draws():
     """Springs that are pressed flat are all as stiff."""
     model = Called(springs)

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from tests.judging.judged_points import SCALING, SWEEPS, judged, of, verdicts
+from tests.seeded import catches
 from validation.judging import replies
-from validation.judging.kinds import own, sweeps
+from validation.judging.kinds import own, scaling, sweeps
 from validation.judging.kinds.judge import Finding, ModelAnswer, points_of
 from validation.judging.kinds.own import ellipse, half_space, in_3d
 from validation.judging.kinds.references import Reference
@@ -99,6 +100,12 @@ WRONG = [
 ]
 
 
+STAYING = {kind: [one._replace(at=one.at[:1] * len(one.at)) for one in some] for kind, some in sweeps.SWEEPS.items()}
+
+
+@catches("a sweep that stays where it begins", *WRONG[5]).at("validation.judging.kinds.sweeps.SWEEPS", STAYING)
+@catches("a track shorter than the contact", *WRONG[8]).at("validation.judging.kinds.sweeps.TRACK", 1)
+@catches("a bound for a closed form", *WRONG[-1]).at("validation.judging.kinds.sweeps.EXACT", None)
 @pytest.mark.parametrize(("kind", "function", "quantity", "expected"), WRONG)
 def test_where_a_model_breaks_is_found(kind, function, quantity, expected):
     assert [p.verdict for p in of(judged(kind, function, by=SWEEPS), quantity)] == expected
@@ -157,12 +164,20 @@ UNSCALED = [
 ]
 
 
+ONE = scaling.Powers(1, 1, 1)
+
+
+@catches("a rule of scaling by the tolerance of a user", *UNSCALED[0]).at("validation.judging.kinds.scaling.EXACT", 0.5)
+@catches("heights that never change", *UNSCALED[6]).at(
+    "validation.judging.kinds.scaling.RULES", {**scaling.RULES, "scaling with the height": ONE}
+)
 @pytest.mark.parametrize(("kind", "function", "what", "expected"), UNSCALED)
 def test_what_is_right_in_some_units_alone_is_found(kind, function, what, expected):
     """Whatever the tolerance of a user."""
     assert verdicts(judged(kind, function, tolerance=0.5, by=SCALING), f"scaling with the {what}") == expected
 
 
+@catches("a warning that is not heard").at("validation.judging.worker.Called.warned", property(lambda called: ""))
 def test_a_warning_stands_beside_the_number():
     def warns(load, side, modulus, roughness):
         if load > 50 * modulus * roughness.rms * side:
@@ -205,6 +220,9 @@ def test_seconds_are_of_the_slowest_call_that_was_answered(monkeypatch):
     assert own.costs_of(model, points)[0].seconds == 2.0
 
 
+@catches("another quantity on the chart of errors").at(
+    "validation.judging.kinds.own.MAIN", dict.fromkeys(own.MAIN, "contact filter of a long wave")
+)
 def test_errors_are_medians_of_the_quantity_of_their_kind():
     points = list(points_of(Called(offer("contact_filter", "mine", {}, divides)), 0.1))
     known = [abs(p.difference) for p in of(points, "contact filter")]
@@ -212,6 +230,9 @@ def test_errors_are_medians_of_the_quantity_of_their_kind():
     assert math.isnan(own.error_of("contact_law", points))
 
 
+@catches("a rule of scaling by ten times the interval of its draws").at(
+    "validation.judging.kinds.scaling.OF_SAMPLE", 20.0
+)
 def test_draws_that_scale_wrong_by_more_than_two_intervals_are_found():
     """Each draw has its own power of E*, whose mean is off one by 4 %; the interval of eight draws is some 1.5 %."""
 

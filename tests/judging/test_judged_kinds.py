@@ -10,6 +10,7 @@ import pytest
 
 import mdr
 from tests.judging.judged_points import judged, of, verdicts
+from tests.seeded import catches
 from validation.judging.kinds import filters, laws, profiles, rolling
 from validation.judging.kinds.from_report import Report
 from validation.judging.kinds.own import bed, ellipse, geike, half_space, in_1d, in_3d, line, trace
@@ -314,6 +315,7 @@ def test_a_law_without_roughness_is_told_that_its_wheel_stays_at_rest():
     assert {p.verdict for p in lost} == {"failed"} and "NaN" in lost[0].reason
 
 
+@catches("a path that is not rolled again").at("validation.judging.kinds.laws.NEAR", math.inf)
 def test_the_wheel_rolls_on_the_law_itself():
     """Hertz over one wave, which is not linear: each step of the motion has the force of the law at its approach."""
     scene = replace(load_wheel_scene("table_14_1"), springs=25, distance=0.05)
@@ -359,6 +361,9 @@ def hertz_on_a_track(period, factor=1.0, power=1.5):
     return law
 
 
+@catches("wheels on equal pieces of a track that count as many", period=10.0).at(
+    "validation.judging.kinds.laws.independent_records", lambda records: float(len(records))
+)
 @pytest.mark.parametrize("period", [0.05, 0.5, 2.0, 10.0])
 def test_a_right_law_is_nowhere_wrong_on_a_track_that_repeats_itself(period):
     points = judged("contact_law", hertz_on_a_track(period))
@@ -367,6 +372,9 @@ def test_a_right_law_is_nowhere_wrong_on_a_track_that_repeats_itself(period):
     assert peak.verdict == "agree" and "independent records: the track repeats itself" in peak.reason
 
 
+@catches("a peak of a single record that is left open", factor=0.5, power=1.5, tolerance=0.1, period=0.5).at(
+    "validation.judging.kinds.laws.PEAK", "another"
+)
 @pytest.mark.parametrize(("factor", "power", "tolerance"), [(0.5, 1.5, 0.1), (1.0, 1.0, 0.1), (1.1, 1.5, 0.01)])
 @pytest.mark.parametrize("period", [0.5, 10.0])
 def test_a_wrong_law_is_wrong_on_a_track_that_repeats_itself(factor, power, tolerance, period):
@@ -387,6 +395,7 @@ def test_of_few_records_a_peak_has_twice_the_scatter_of_the_reference_and_all_el
         assert laws._answer(row, row.value, 0.001, laws.FEWEST).half < 0.1
 
 
+@catches("wheels that are all as far apart").at("validation.judging.kinds.laws.BENDS", (0.0, 0.0))
 def test_wheels_start_on_no_equal_pieces_of_a_track():
     """Of any period: no two pairs of wheels are as far apart as each other."""
     scene = laws.table_14_1()

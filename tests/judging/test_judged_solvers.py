@@ -1,4 +1,4 @@
-"""Solvers of others: the right one is accepted, each planted fault is caught and named."""
+"""Solvers of others: the right one is accepted, each seeded fault is caught and named."""
 
 import math
 import runpy
@@ -11,6 +11,7 @@ import pytest
 import bem3d
 from bem3d import kernel
 from tests import oracles
+from tests.seeded import catches
 from validation import contact_solver
 from validation.benchmarks import discrete, peers
 from validation.benchmarks.discrete import STATED, ContactProblem, pressed
@@ -147,8 +148,11 @@ FAULTS = {
 }
 
 
+@catches("properties of nothing but a square", *FAULTS["cells of a rectangle in another order"]).at(
+    "validation.judging.solvers.judged._rectangle", lambda problem, shape, longer: problem
+)
 @pytest.mark.parametrize(("solve", "quantity", "reason"), FAULTS.values(), ids=FAULTS)
-def test_a_planted_fault_is_caught_and_named(solve, quantity, reason):
+def test_a_seeded_fault_is_caught_and_named(solve, quantity, reason):
     assert any(reason in finding.reason for finding in wrong_in(solve) if finding.quantity == quantity)
 
 
@@ -166,6 +170,9 @@ SOFTER = {
 }
 
 
+@catches("the approach of an answer for the one that is prescribed, in causes", fault="heights from their mean").at(
+    "validation.judging.solvers.factors._shift", lambda contact: 0.0
+)
 @pytest.mark.parametrize("fault", ["E for E*", "a factor 2 in the operator", "half a cell", "tension", *SOFTER])
 def test_a_fault_is_caught_by_approach_too(fault):
     solve, _, reason = (FAULTS | SOFTER)[fault]
@@ -208,6 +215,13 @@ def test_no_answer_is_a_finding_with_its_reason(answer, reason):
     assert {finding.quantity for finding in found} == {"answer", *PROPERTIES, "order of convergence"} - {"shift"}
 
 
+left = discrete.ContactProblem.left
+
+
+@catches("the approach of a contact for the one that is prescribed").at(
+    "validation.benchmarks.discrete.ContactProblem.left",
+    lambda problem, pressure, by_force, *operator: left(problem, pressure, True, *operator),
+)
 def test_a_condition_that_is_left_has_its_size():
     problem = STATED["sphere"].on(12)
     p = pressed(problem, 1e-11, force=problem.force).pressure
@@ -259,6 +273,12 @@ LARGE = {
 }
 
 
+timed = judged.timed
+
+
+@catches("answers that are timed and not judged", *LARGE["an even pressure"]).at(
+    "validation.judging.solvers.judged.timed", lambda asked: (([], times) for _, times in timed(asked))
+)
 @pytest.mark.parametrize(("way", "quantity"), LARGE.values(), ids=LARGE)
 def test_a_solver_that_is_right_on_small_grids_alone_is_wrong(way, quantity):
     """What is timed is judged, and its grid is named."""

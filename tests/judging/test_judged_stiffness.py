@@ -8,12 +8,15 @@ import pytest
 
 from tests.judging import judged_points
 from tests.judging.judged_points import of, verdicts
+from tests.seeded import catches
 from validation.judging.judgement import enough
 from validation.judging.kinds import stiffness, surfaces
+from validation.judging.kinds.judge import ModelAnswer
 from validation.judging.kinds.references import Reference, known
 from validation.judging.kinds.stiffness import AskedPunch
 from validation.judging.registry import offer
 from validation.judging.worker import Called
+from validation.simulation.rough_punch import PlateauSpectrum
 from validation.theory.closed_forms import SQUARE_PUNCH
 
 MEAN, DEVIATION = "mean stiffness", "deviation of the stiffness"
@@ -67,6 +70,16 @@ def test_with_e_for_e_star_a_law_is_nowhere_enough():
     assert verdicts(points, MEAN) == {"differ"}
 
 
+given = stiffness.AskedPunch.arguments.fget
+
+
+def under_twice_the_load(asked):
+    return {**given(asked), "load": 2 * given(asked)["load"]}
+
+
+@catches("a model asked under twice the load").at(
+    "validation.judging.kinds.stiffness.AskedPunch.arguments", property(under_twice_the_load)
+)
 def test_what_boundary_elements_have_agrees_and_what_is_twice_as_far_differs():
     points = judged(as_known)
     for quantity in (MEAN, DEVIATION, stiffness.ROLLED_OFF, stiffness.BY_BAND):
@@ -83,6 +96,13 @@ def test_what_boundary_elements_have_agrees_and_what_is_twice_as_far_differs():
     assert "agree" not in {p.verdict for p in points if p.quantity == DEVIATION and p.reference > 0.02}
 
 
+def without_the_error_of_the_sample(values, so_few, apart):
+    return stiffness.Stiffness(ModelAnswer(np.mean(values)), ModelAnswer(np.std(values) / np.mean(values)))
+
+
+@catches("realisations without the error of their sample").at(
+    "validation.judging.kinds.stiffness.sampled", without_the_error_of_the_sample
+)
 @pytest.mark.slow
 def test_realisations_have_their_mean_and_deviation_with_the_error_of_the_sample():
     def draws(load, side, modulus, roughness, rng):
@@ -149,6 +169,7 @@ def test_a_load_that_is_refused_is_a_row_with_the_words_of_the_model():
     assert {(p.verdict, p.reason.partition(",")[0]) for p in light} == {("refused", "raised ValueError: too light")}
 
 
+@catches("no load between those that are known", deep=0.3).at("validation.judging.kinds.stiffness.BETWEEN", 0)
 @pytest.mark.parametrize("deep", [0.7, 0.3])
 def test_a_stiffness_that_falls_between_loads_that_are_known_is_found(deep):
     """As it is at all of them, and less by that part between any two."""
@@ -163,6 +184,9 @@ def test_a_stiffness_that_falls_between_loads_that_are_known_is_found(deep):
     assert min(p.difference for p in of(points, RISE)) == pytest.approx(-deep, abs=0.1)
 
 
+@catches("the level of a power law for that of its plateau").at(
+    "validation.judging.kinds.stiffness.PlateauRoughness.c2d", PlateauSpectrum.c2d
+)
 def test_a_plateau_is_given_with_its_own_rms_height():
     rough = AskedPunch(0.7, 0.1, 64, 8).arguments["roughness"]
     q = np.geomspace(rough.q_min, rough.q_max, 200001)

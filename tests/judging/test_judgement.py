@@ -4,10 +4,20 @@ import math
 
 import pytest
 
+from tests.seeded import catches, module_with
 from validation.judging import judgement
 from validation.judging.judgement import DEVIATION, LEVEL, compared, enough, not_compared, shared, worst
 
+verdict_of = judgement.verdict_of
 
+
+def without_its_interval(apart, half, within):
+    return verdict_of(apart, 0.0, within)
+
+
+@catches("a verdict without its interval", value=1.05, half=0.06, verdict="undecided").at(
+    "validation.judging.judgement.verdict_of", without_its_interval
+)
 @pytest.mark.parametrize(
     ("value", "half", "verdict"),
     [
@@ -27,6 +37,9 @@ def test_the_whole_interval_lies_inside_or_outside_of_the_tolerance(value, half,
     assert point.error == pytest.approx(value * half)
 
 
+@catches("decibels of a power for those of an amplitude", apart=0.8, half=0.02, verdict="agree").at(
+    "validation.judging.judgement.math", module_with(math, log10=lambda x: math.log10(x) / 2)
+)
 @pytest.mark.parametrize(
     ("apart", "half", "verdict"), [(0.8, 0.02, "agree"), (0.8, 0.03, "undecided"), (-0.9, 0.07, "differ")]
 )

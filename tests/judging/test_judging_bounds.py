@@ -1,5 +1,6 @@
 """What a judged solver may be off by, and what is no agreement whatever the number."""
 
+import dataclasses
 import math
 from dataclasses import replace
 from types import SimpleNamespace
@@ -7,6 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from tests.seeded import Times, catches
 from validation.benchmarks import discrete, peers, timing
 from validation.benchmarks import solvers as comparison
 from validation.benchmarks.discrete import ContactProblem, pressed
@@ -41,6 +43,13 @@ def answers(*pressures):
     return solver(lambda **_: remaining.pop(0))
 
 
+checked = properties.checked
+
+
+@catches("no number agrees", value=float("nan"), reference=0.0, verdict="differ").at(
+    "validation.judging.solvers.properties.checked",
+    lambda *point: dataclasses.replace(checked(*point), verdict="agree", reason=""),
+)
 @pytest.mark.parametrize(
     ("value", "reference", "verdict"),
     [
@@ -55,6 +64,13 @@ def test_a_number_agrees_within_its_bound_and_no_number_never(value, reference, 
     assert (point.verdict, point.reason, point.decides) == (verdict, "why" if verdict == DIFFER else "", True)
 
 
+@catches(
+    "an approach that may be off by ten times as much",
+    quantity="approach",
+    load="force",
+    residuals=55,
+    verdict="differ",
+).at("validation.judging.solvers.properties.OF_ANSWER", Times(10.0))
 @pytest.mark.parametrize(("quantity", "load"), [("approach", "force"), ("force", "approach")])
 @pytest.mark.parametrize(("residuals", "verdict"), [(45, AGREE), (55, DIFFER), (-45, AGREE), (-55, DIFFER)])
 def test_an_answer_may_be_off_by_fifty_residuals(quantity, load, residuals, verdict):
@@ -81,6 +97,9 @@ def test_two_answers_that_must_be_one_may_be_off_by_both_their_errors(off, verdi
     assert [point.verdict for point in points] == [verdict]
 
 
+@catches("an order of convergence that may be off by 0.1 more", order=0.8, verdict="differ").at(
+    "validation.judging.solvers.judged.NEXT_TERM", 0.25
+)
 @pytest.mark.parametrize(
     ("order", "verdict"), [(1.0, AGREE), (0.87, AGREE), (1.13, AGREE), (0.8, DIFFER), (1.2, DIFFER)]
 )
@@ -96,6 +115,9 @@ def test_the_order_of_convergence_is_one_to_the_next_term(order, verdict):
         assert point.value == pytest.approx(order) and point.verdict == verdict
 
 
+@catches("a contact that may shrink under more load", lost=0.03, verdict="differ", step=1).at(
+    "validation.judging.solvers.properties.SINGLE_CELLS", float("inf")
+)
 @pytest.mark.parametrize("step", [0, 1])
 @pytest.mark.parametrize(("lost", "verdict"), [(0.0, AGREE), (0.015, AGREE), (0.03, DIFFER), (0.4, DIFFER)])
 def test_a_contact_that_shrinks_under_more_load_is_found(lost, verdict, step):
@@ -166,6 +188,9 @@ def test_an_answer_is_the_same_when_it_is_asked_for_again(change, verdict, said)
     assert (point.verdict, point.reason, point.quantity) == (verdict, said, "repeated call")
 
 
+@catches("an approach for a full periodic contact, which determines nothing").at(
+    "validation.benchmarks.discrete.ContactProblem.is_determined_by_approach", True
+)
 def test_a_full_periodic_contact_is_not_asked_by_approach():
     (full,) = (problem for problem in discrete.problems() if problem.name == "full contact, periodic")
     (part,) = (problem for problem in discrete.problems() if problem.name == "odd grid, periodic")
@@ -206,6 +231,7 @@ def test_a_solver_of_few_cells_is_not_raced_on_more(tmp_path):
         assert ("few" in {one.name for one in problem.solvers}) == there
 
 
+@catches("what is not served for a failure").at("validation.benchmarks.timing.NOT_SERVED", "failed")
 def test_what_a_solver_does_not_serve_is_a_status_of_its_own():
     assert timing._reason(NotImplementedError("square cells alone")) == "not served: square cells alone"
     assert timing._reason(RuntimeError("no")).startswith("failed: RuntimeError")

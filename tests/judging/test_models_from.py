@@ -11,6 +11,7 @@ import pytest
 
 import validation
 from tests.judging.test_own_models import FILE, PUNCH, ROUGH, answers, series, stored, written
+from tests.seeded import catches
 from validation.__main__ import main
 from validation.advice.calibration import SCATTER, MeasuredErrors
 from validation.advice.hierarchy import REFUSALS
@@ -187,6 +188,7 @@ def test_a_file_that_is_changed_while_its_models_are_compared_ends_the_command(h
     assert main(["compare", "rough_punch", "--models-from", str(path), "--models", "mine"]) == 2
 
 
+@catches("one measured surface without its scatter").at("validation.scenes.measured.MeasuredHeights.is_single", False)
 def test_a_claim_for_one_measured_surface_has_its_scatter_about_the_mean():
     height = np.random.default_rng(4).normal(size=(32, 32)) * 1e-6
     one = replace(ROUGH, ground=validation.MeasuredHeights(height=height, spacing=(ROUGH.size / 32,) * 2))
@@ -209,6 +211,9 @@ def test_a_claim_for_one_measured_surface_has_its_scatter_about_the_mean():
     assert left[1] - left[0] == pytest.approx(2 * SCATTER) and left[2] == pytest.approx(left[0])
 
 
+@catches("a file that is changed while it is compared").at(
+    "validation.judging.own_models.OwnModel.check_unchanged", lambda own: None
+)
 def test_a_file_that_is_changed_is_seen_before_it_is_called():
     tmp_path = Path(tempfile.mkdtemp())
     (tmp_path / "mine.py").write_text("1\n", encoding="utf-8")

@@ -5,6 +5,7 @@ import math
 import tempfile
 from collections.abc import Callable
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,19 +13,21 @@ import pytest
 
 import mdr
 import validation
+from tests.seeded import catches, module_with
 from validation.__main__ import main
 from validation.advice import calibration
 from validation.advice.calibrate import LEFT, SAME
 from validation.advice.calibration_scenes import OTHER_SEED, Answers, CalibrationScene, answers_in
 from validation.advice.models import boundary_elements_pressed
 from validation.engine.engine import Engine
-from validation.judging import own_models
+from validation.judging import files_read, own_models
 from validation.judging.own_kinds import result_of
 from validation.judging.own_models import OwnPart, calibrated, measure_own, models_in
 from validation.railway.models import rail
+from validation.railway.problems.rail_models import ContactFilter
 from validation.simulation.indentation import height_of
 from validation.simulation.method import distance
-from validation.simulation.model import Target, models_serving
+from validation.simulation.model import ErrorEstimate, Target, models_serving
 from validation.theory.closed_forms import rough_punch_stiffness
 
 PUNCH = ("punch", "stiffness")
@@ -73,6 +76,16 @@ def stored(*groups):
         yield Path(folder)
 
 
+scenes_of = Answers.scenes
+
+
+def next_scenes(answers, group):
+    return ((replace(point, number=point.number + 1), *rest) for point, *rest in scenes_of(answers, group))
+
+
+@catches("the error of the next scene of the calibration").at(
+    "validation.advice.calibration_scenes.Answers.scenes", next_scenes
+)
 def test_each_error_is_that_of_its_own_scene_and_no_less_than_the_answer_leaves():
     """So that a model that was fitted to the answers is not known to be nearer."""
     with stored((PUNCH, known := answers())):
@@ -95,6 +108,9 @@ def test_a_calibrated_function_is_chosen_like_any_other():
     assert found.models["springs"].status == "not asked"
 
 
+@catches("a claim that is a distance of logarithms", off=0.7).at(
+    "validation.judging.own_models.math", module_with(math, expm1=float)
+)
 @pytest.mark.parametrize("off", [1.3, 0.7])
 def test_a_law_that_is_wrong_by_thirty_per_cent_claims_that_and_is_not_chosen(off):
     """Of its own value: what is right lies inside."""
@@ -124,6 +140,9 @@ def test_no_model_and_one_twice_are_refused_before_any_is_measured(models, said,
         validation.compare(ROUGH, models=models)
 
 
+@catches("a model without references that is chosen").at(
+    "validation.judging.own_models.OwnModel._claim", lambda own, *_: ErrorEstimate(reason="none is known")
+)
 def test_without_references_an_error_is_unknown_and_nothing_is_chosen():
     with stored():
         found = validation.compare(ROUGH, models=series)
@@ -132,6 +151,9 @@ def test_without_references_an_error_is_unknown_and_nothing_is_chosen():
     assert "no answers of boundary elements are stored" in alone.reason and alone.answer.value[0] > 0
 
 
+@catches("a function without a file that is stored").at(
+    "validation.judging.own_models._digest_of_file", lambda offered: "a file"
+)
 def test_a_function_without_a_file_is_neither_calibrated_nor_stored():
     with stored((PUNCH, answers())) as folder:
         (own,) = own_models.of_functions([without_a_file()], ROUGH, "stiffness")
@@ -182,6 +204,19 @@ def written(folder, half=0.48, square=1.1523):
     return folder / "mine.py"
 
 
+def code_of(visitor):
+    return files_read.digest_of(path for path in visitor.sources if path.suffix == ".py")
+
+
+@catches("a key without the bytes of a module that the file loads").at(
+    "validation.judging.worker.Visitor.digest", property(lambda visitor: files_read.digest_of([visitor.path]))
+)
+@catches("a key without the bytes of data that the file reads").at(
+    "validation.judging.worker.Visitor.digest", property(code_of)
+)
+@catches("a key that is taken before a call loads a module").at(
+    "validation.judging.own_models._probe", lambda called: None
+)
 @pytest.mark.slow
 def test_the_key_has_the_bytes_of_modules_and_data_that_a_call_reads():
     with tempfile.TemporaryDirectory() as folder:
@@ -280,6 +315,7 @@ def test_springs_on_a_rule_are_those_of_the_package():
     assert abs(mine.mean() / theirs.mean() - 1) < 4 * mine.std() / mine.mean() / math.sqrt(100)
 
 
+@catches("surfaces of another seed than those of the reference").at("validation.judging.own_models.OTHER_SEED", 0)
 def test_surfaces_are_those_that_boundary_elements_have():
     """So that no scatter of the surfaces is left of an error."""
 
@@ -299,6 +335,13 @@ def test_surfaces_are_those_that_boundary_elements_have():
     assert (outcome["error"] == few.reference).all()
 
 
+def as_reference(name, a3):
+    return ContactFilter(name=name, closed=lambda quantity: a3, is_reference=True)
+
+
+@catches("a filter of somebody's own that is the reference").at(
+    ("validation.judging.own_kinds.filter_of", "validation.judging.own_models.filter_of"), as_reference
+)
 def test_a_filter_of_a_rail_claims_what_the_same_one_of_the_package_does():
     @validation.contact_filter("sinc")
     def sinc(k_x, a_x):

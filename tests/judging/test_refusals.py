@@ -6,6 +6,7 @@ import sys
 import pytest
 
 from tests.engine.toys import ENVIRONMENT, ROOT
+from tests.seeded import catches
 from validation import stiffness_model
 from validation.judging import replies as refusals
 from validation.judging.replies import is_own
@@ -143,6 +144,12 @@ def test_the_line_of_the_file_stands_with_an_error_of_a_library(tmp_path):
     assert reply.reason == f"raised LinAlgError: Singular matrix, line {HEAD.count(chr(10)) + 3} of bad.py"
 
 
+@catches("a refusal of whatever a line of the file comes to").at(
+    "validation.judging.replies._is_thrown_into", lambda *_: True
+)
+@catches("no refusal by a function without a file").at(
+    "validation.judging.replies.homes_of", lambda function, file=None: ()
+)
 def test_in_this_process_a_function_of_a_console_refuses_too():
     """Its code has a file that is none."""
     space = {"stiffness_model": stiffness_model}

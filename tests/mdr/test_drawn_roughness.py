@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 
 import bem3d
 import mdr
+from mdr import profile
+from tests.seeded import Times, catches
 from tests.strategies import hursts, scales
 
 seeds = st.integers(0, 2**63)
@@ -99,6 +101,18 @@ def waves_of_a_profile(c1d, length, points, generator, amplitudes):
     return height
 
 
+def half_a_circle(modes, own_mirror, amplitudes, rng):
+    return np.where(own_mirror, 1.0, np.exp(1j * np.pi * rng.random(modes)))
+
+
+resolved = profile._resolved
+
+
+# sqrt(2 pi / L) C_1D, which has the wrong unit
+@catches("(14.9) as printed", points=20, amplitudes="fixed").at(
+    "mdr.profile._resolved", lambda *given: resolved(*given) ** 2
+)
+@catches("phases on half of the circle", points=20, amplitudes="fixed").at("mdr.profile._random_waves", half_a_circle)
 @pytest.mark.parametrize("amplitudes", ["fixed", "gaussian"])
 @pytest.mark.parametrize("points", [2, 3, 8, 9, 20, 65])
 def test_a_profile_is_the_sum_of_its_waves_in_the_order_of_their_numbers(points, amplitudes):
@@ -148,6 +162,15 @@ def waves_of_a_surface(c2d, shape, spacing, generator, amplitudes):
     return height
 
 
+@catches("surface shifted by half a cell", shape=(6, 6), spacing=(1, 1), amplitudes="fixed").at(
+    "bem3d.surface._half_a_cell", lambda mode, points: np.ones(mode.shape)
+)
+@catches("spectrum of a surface without its mirror images", shape=(6, 6), spacing=(1, 1), amplitudes="fixed").at(
+    "bem3d.surface._hermitian", lambda wave, amplitudes: wave
+)
+@catches("one-sided spectrum taken for two-sided", shape=(6, 6), spacing=(1, 1), amplitudes="fixed").at(
+    "bem3d.rough_surface", Times(np.sqrt(2))
+)
 @pytest.mark.parametrize("amplitudes", ["fixed", "gaussian"])
 @pytest.mark.parametrize(
     ("shape", "spacing"),

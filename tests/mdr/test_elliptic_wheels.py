@@ -8,10 +8,15 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 import mdr
+from mdr import elliptic_wheel
 from mdr.elliptic_wheel import spring_wheel
+from tests.seeded import catches
 from validation.theory.half_space import elliptic_contact
 
 
+@catches("the radius along the track for that of the contact").at(
+    f"{__name__}.spring_wheel", lambda radius, modulus: (radius[0], modulus, 1.0)
+)
 @given(pair=st.tuples(st.floats(0.05, 5), st.floats(0.05, 5)), approach=st.floats(1e-7, 1e-4))
 @example(pair=(0.46, 0.3), approach=6e-5)
 def test_springs_have_the_load_curve_and_the_length_of_the_ellipse(pair, approach):
@@ -23,6 +28,10 @@ def test_springs_have_the_load_curve_and_the_length_of_the_ellipse(pair, approac
     assert 2 * modulus * smooth.along == pytest.approx(smooth.stiffness, rel=1e-9)
 
 
+@catches("springs of an ellipse as stiff as those of a sphere").at(
+    "mdr.rolling.spring_wheel",
+    lambda radius, modulus: elliptic_wheel.spring_wheel(radius, 1.0)._replace(modulus=modulus),
+)
 def test_the_smooth_wheel_rolls_at_the_approach_of_the_ellipse():
     smooth = elliptic_contact((0.46, 0.3), modulus=1.154e11, force=5e4)
     rolled = mdr.roll(np.zeros(4096), spacing=smooth.along / 400, radius=(0.46, 0.3), modulus=1.154e11, force=5e4)
@@ -42,6 +51,10 @@ def test_ridges_across_the_track_pass_with_the_filter_of_the_semi_axis_along(wav
     assert mode == pytest.approx(np.sinc(q * smooth.along / np.pi), abs=5e-3)
 
 
+@catches("an ensemble on the springs of a sphere").at(
+    "mdr.rolling_ensemble.spring_wheel",
+    lambda radius, modulus: elliptic_wheel.spring_wheel(radius, modulus)._replace(modulus=modulus),
+)
 def test_an_ensemble_rolls_as_its_wheels_one_by_one():
     """Under a force and at an approach, for two radii: to the rounding of the quantum."""
     tracks = 1e-7 * np.random.default_rng(2).standard_normal((512, 3))

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 import mdr
 from mdr.rolling_ensemble import BLOCK
 from tests.oracles import wheel_on_springs
+from tests.seeded import E_FOR_E_STAR, Times, catches, module_with
 
 HERTZ = 4 / 3
 """Of a wheel of radius 1 at an approach of 1 with E* = 1, whose contact has the radius 1."""
@@ -132,6 +133,19 @@ def test_force_is_the_sum_over_all_springs(data, track):
             assert found[i] >= 0
 
 
+def profile_half_a_cell_ahead(wheels, springs):
+    x = (np.arange(springs.start, springs.stop) + 0.5) * wheels.spacing
+    return np.rint((x**2 / wheels.radius)[:, np.newaxis] / wheels.quantum)
+
+
+@catches("x^2 / 2R under many wheels", springs=7.3, rms=0.1).at("mdr.RollingEnsemble._profile", Times(0.5))
+@catches("many wheels half a cell ahead", springs=7.3, rms=0.1).at(
+    "mdr.RollingEnsemble._profile", profile_half_a_cell_ahead
+)
+@catches("E for E* under many wheels", springs=7.3, rms=0.1).at("mdr.RollingEnsemble.force", Times(E_FOR_E_STAR))
+@catches("springs that pull under many wheels", springs=30.0, rms=0.1).at(
+    "mdr.rolling_ensemble.np", module_with(np, maximum=lambda values, least, out=None: values)
+)
 @pytest.mark.parametrize("springs", [1.0, 7.3, 30.0, 100.0])
 @pytest.mark.parametrize("rms", [0.0, 1e-3, 0.1])
 def test_force_to_1e_12_of_the_smooth_wheel(springs, rms):
@@ -155,6 +169,9 @@ def groups(order, cuts):
     return [list(order[first:last]) for first, last in itertools.pairwise(edges)]
 
 
+@catches("sums that round").at(
+    "mdr.rolling_ensemble.np", module_with(np, rint=lambda values: np.asarray(values, dtype=np.float64))
+)
 @pytest.mark.slow
 @given(data=st.data(), track=tracks(fewest=10.0, roughest=0.15, wheels=5), way=ways())
 def test_forces_are_independent_of_the_batch_to_the_last_bit(data, track, way):

@@ -9,6 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import mdr
+from mdr.rolling_surface import weights_across
+from tests.seeded import catches
 from validation.railway.theory.contact_filters import half_space_filter
 from validation.theory.half_space import elliptic_contact
 
@@ -37,6 +39,16 @@ def by_loops(height, position, d, *, spacing, radius, modulus):
     return force
 
 
+def even_across(half_widths, points, step):
+    """Equal weights over the contact, for those of the flat punch."""
+    y = np.abs(np.arange(points) + 0.5 - points / 2)[:, np.newaxis] * step
+    inside = (y <= np.maximum(half_widths, step)).astype(float)
+    return inside / inside.sum(axis=0)
+
+
+@catches("equal weights across the contact", radius=1.0, waves=(0, 3)).at(
+    "mdr.rolling_surface.weights_across", even_across
+)
 @pytest.mark.parametrize("radius", [1.0, (1.0, 0.3), (0.3, 1.0)])
 @pytest.mark.parametrize("waves", [(1, 0), (3, 2), (0, 3), (6, 1)])
 def test_low_waves_of_any_direction_have_the_filter_of_the_half_space(radius, waves):
@@ -64,6 +76,10 @@ def test_over_ridges_it_is_the_springs_of_a_line():
         np.testing.assert_array_equal(np.rint(ridges.stiffness / springs.stiffness), 1.0)
 
 
+@catches("one width across for all springs").at(
+    "mdr.rolling_surface.weights_across",
+    lambda widths, points, step: weights_across(np.full_like(widths, widths.max()), points, step),
+)
 def test_it_is_a_sum_over_springs_and_across():
     _, given_ = settings(1.0, cells=20)
     height = 0.5 * D * np.random.default_rng(6).standard_normal((80, 51))

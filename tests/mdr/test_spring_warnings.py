@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 import mdr
+from mdr.diagnostics import diagnose_linearity
+from tests.seeded import catches
 
 WHEEL = {"radius": 1.0, "modulus": 1.0, "approach": 1.0}
 
@@ -85,6 +87,8 @@ WARNED = {
 }
 
 
+@catches("springs that say nothing of short waves", what="short waves").at("mdr.profile.diagnose_waves", lambda *_: ())
+@catches("few springs that say nothing", what="4 springs").at("mdr.foundation.diagnose_load", lambda *_: ())
 @pytest.mark.parametrize("what", WARNED)
 def test_what_is_warned_of(what):
     call, words = WARNED[what]
@@ -95,6 +99,9 @@ def test_what_is_warned_of(what):
     assert all(sentence.startswith(words) for _, sentence, _ in found)
 
 
+@catches("a contact wider than its sphere that nobody asks about", modulus=1.0, approach=1.21, asked=1).at(
+    "mdr.sphere.diagnose_units", lambda **_: ()
+)
 @pytest.mark.parametrize(
     ("modulus", "approach", "asked"), [(2e9, 0.9, 0), (1.0, 1.0, 0), (1.0, 1.21, 1), (2e9, 1.21, 1)]
 )
@@ -176,6 +183,12 @@ OF_HEIGHTS = [
 ]  # fmt: skip
 
 
+@catches(
+    "heights in nm on a length in m that nobody asks about", call=curve, height=1e9 * PROFILE, settings={}, words=STEEP
+).at("mdr.foundation.diagnose_heights", lambda *_: ())
+@catches(
+    "a track in um that nobody asks about", call=by_roll, height=1e6 * (TRACK - TRACK.max()), settings={}, words=STEEP
+).at("mdr.rolling.diagnose_slope", lambda *_: ())
 @pytest.mark.parametrize(("call", "height", "settings", "words"), OF_HEIGHTS)
 def test_heights_in_another_unit_than_the_spacing(call, height, settings, words):
     """Where the modulus is the unit of pressure, heights may have one of their own."""
@@ -194,6 +207,10 @@ def rough(height, q_max=3.0):
     return mdr.rough_profile(band.c1d, length=400.0, points=400 * 32, rng=np.random.default_rng(3), rms=height)
 
 
+@catches("ends of a linear contact that move twice as far", contact="linear", force=None).at(
+    "mdr.rolling.diagnose_linearity",
+    lambda height, change, **contact: diagnose_linearity(height, change / 2, **contact),
+)
 @pytest.mark.parametrize("contact", ["linear", "full"])
 @pytest.mark.parametrize("force", [None, 4 / 3])
 def test_the_ends_of_a_linear_contact_move_as_warned(contact, force):

@@ -6,11 +6,19 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 import mdr
+from mdr import foundation
 from tests.oracles import spring_sum
+from tests.seeded import E_FOR_E_STAR, catches
 from tests.strategies import profiles, scales
 from validation.theory import closed_forms
 
+load_curve = foundation.load_curve
 
+
+@catches("E for E* in springs").at(
+    "mdr.load_curve",
+    lambda height, *, length, modulus: load_curve(height, length=length, modulus=E_FOR_E_STAR * modulus),
+)
 @given(height=profiles, approach=st.floats(-2, 3))
 @example(height=np.zeros(4), approach=0.0)
 @example(height=np.array([1.0, 1.0, 0.0]), approach=-1.0)
@@ -91,6 +99,9 @@ def test_profile_of_the_sphere():
     np.testing.assert_array_equal(mdr.sphere_profile([-6.0, 0.0, 3.0], radius=4.0), [9.0, 0.0, 2.25])
 
 
+@catches("x^2 / 2R in one dimension", offset=0.1).at(
+    "mdr.sphere_profile", lambda x, *, radius: np.asarray(x) ** 2 / (2 * radius)
+)
 @pytest.mark.parametrize("offset", [0.0, 0.1, 0.37, 0.5])
 def test_springs_under_a_parabola_tend_to_the_sphere_at_second_order(offset):
     """Midpoint rule: (dx/a)^2 / 8 inside, at most 3/8 from both ends, wherever the springs lie."""

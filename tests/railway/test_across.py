@@ -9,12 +9,14 @@ import pytest
 from scipy import special
 
 import bem3d
+from tests.seeded import catches
 from validation.analysis.evidence import number_with, numbers_with
 from validation.analysis.series import numbers_of
 from validation.analysis.statistics import POWER_DECIBEL
-from validation.railway.cases import across, filters
+from validation.railway.cases import across, filters, rolled_filters
 from validation.railway.cases.filters import GROUNDS, RailWheel, scene_of
 from validation.railway.cases.rolled_filters import OVER_BEM
+from validation.railway.problems import rail_across
 from validation.railway.problems.equivalent_displacement import transfer_of
 from validation.railway.problems.rail_across import roll_both_ways, wide_rail
 from validation.railway.problems.rail_strip import line_of, strip_bands
@@ -65,6 +67,13 @@ def by_double_sum(response, ground, wavelength):
     return 10 * math.log10(float((response(x, y) ** 2 * weight).sum() / weight.sum()))
 
 
+filter_of = filters.filter_of
+
+
+@catches("Remington's circle as long as the ellipse", model=filters.REMINGTON_THERE).at(
+    "validation.railway.cases.filters.filter_of",
+    lambda model, contact: filter_of(model, replace(contact, across=contact.along)),
+)
 @pytest.mark.slow
 @pytest.mark.parametrize("model", [*RESPONSES, filters.REMINGTON])
 def test_linear_filters_are_double_sums_over_the_waves_of_a_band(model):
@@ -81,6 +90,14 @@ def test_linear_filters_are_double_sums_over_the_waves_of_a_band(model):
             assert found[band] == pytest.approx(expected, abs=within), (ground, wavelength)
 
 
+def over_all_lines(model, contact):
+    """Springs read each line, and the mean of three lines is one."""
+    return filter_of("linear, on the line" if model.startswith("mean of") else model, contact)
+
+
+@catches("a bed that is narrower by 2/√3").at("validation.railway.cases.filters.WIDER", 3**0.5 / 2)
+@catches("three lines at the edges of the contact").at("validation.railway.cases.filters.NEAR", 1.0)
+@catches("one line for the mean of three").at("validation.railway.cases.filters.filter_of", over_all_lines)
 def test_a_wider_bed_and_three_lines_are_the_half_space_to_second_order():
     contact = scene_of(WHEEL).contact
     x, y = 0.02 / A_X, 0.03 / A_Y
@@ -90,6 +107,9 @@ def test_a_wider_bed_and_three_lines_are_the_half_space_to_second_order():
         assert 1 - float(transfer(np.array(x), np.array(y))) == pytest.approx(half_space, rel=1e-3)
 
 
+@catches("strips too narrow for oblique long waves", ground="alpha = 0.25").at(
+    "validation.railway.problems.rail_across.LINES", 0.05
+)
 @pytest.mark.parametrize("ground", ["alpha = 0.25", "alpha = 8", "isotropic ground"])
 def test_strips_are_so_wide_that_their_line_has_the_power_of_the_ground(ground):
     """Of each wave along, as over ridges: within 16 %, a half of a step across where waves are long."""
@@ -134,6 +154,21 @@ def rolled(beyond=0.0):
     return across.AcrossResult(case, found)
 
 
+left_by_grid = rolled_filters.RolledFiltersResult.left_by_grid
+
+
+def of_the_fine_cells(result, key, model, other):
+    """The change from coarse cells to fine ones for what is left behind them."""
+    coarse, fine = result.case.cells
+    return left_by_grid(result, key, model, other) * (fine - coarse) / coarse
+
+
+@catches("a change of the cells for what they leave, in contact filters").at(
+    "validation.railway.cases.rolled_filters.RolledFiltersResult.left_by_grid", of_the_fine_cells
+)
+@catches("bands that do not count, in contact filters").at(
+    "validation.railway.cases.across.counted", lambda a3: a3 < 1.0
+)
 def test_a_filter_over_boundary_elements_has_their_errors_in_the_bands_that_count():
     result = rolled(0.5)
     key = result.case.keys[2]
@@ -153,6 +188,13 @@ def test_a_filter_over_boundary_elements_has_their_errors_in_the_bands_that_coun
     assert (three.tolerance, three.value) == (3.0, number.value)
 
 
+beyond_linear = across.AcrossResult.beyond_linear
+
+
+@catches("contact that adds to one line and not to boundary elements").at(
+    "validation.railway.cases.across.AcrossResult.beyond_linear",
+    lambda result, key, sign=0: -beyond_linear(result, key, sign),
+)
 def test_the_border_of_one_line_is_where_linear_theory_passes_the_tolerance_less_what_contact_adds():
     """By bisection of its worst band; with boundary elements 0.5 dB louder it holds farther."""
     scene = scene_of(WHEEL)
@@ -191,6 +233,9 @@ def test_the_nearest_alpha_and_factor_are_those_by_which_the_reference_was_made(
     assert np.allclose(across.in_counted(scene, BED, 0.5, keep, larger), wider(1.3))
 
 
+@catches("forces that are not A-weighted").at(
+    "validation.railway.cases.filters.a_weighting", lambda frequency: 0 * frequency
+)
 def test_forces_in_decibel_a_are_beside_those_of_boundary_elements():
     """0.5 dB louder in all bands that strips have; IEC 61672 by its formula."""
     result = rolled(0.5)
@@ -208,6 +253,12 @@ def test_forces_in_decibel_a_are_beside_those_of_boundary_elements():
         assert found.half_width > 0
 
 
+roll_one_way = rail_across._roll
+
+
+@catches("strips rolled over one way alone").at(
+    "validation.railway.problems.rail_across._roll", lambda rail, sign: roll_one_way(rail, 1)
+)
 def test_both_ways_are_the_heights_and_the_opposite_ones():
     rail, seen = wide_rail(scene_of(WHEEL), "ridges", 6, 0, 1), []
     names = ("force", "approach", "area", "residual", "operator_applications", "converged")

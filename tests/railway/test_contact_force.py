@@ -1,6 +1,7 @@
 """The A-weighted contact force of a rail: k times the equivalent displacement, by the table of the standard."""
 
 import csv
+import dataclasses
 import io
 import json
 import math
@@ -11,9 +12,13 @@ import pytest
 
 import validation
 from tests.advice.planted_answers import Finding, compared, planted
+from tests.seeded import catches
+from validation.advice import compare
 from validation.advice.columns import bands_of
 from validation.advice.scene_model import Answer
 from validation.advice.summary import summary
+from validation.railway import exported
+from validation.railway.scenes import rail
 from validation.simulation.model import Cost
 
 RAIL = validation.load_scene("rail")
@@ -43,6 +48,17 @@ def filters(*shifts, speed=KILOHERTZ_AT_20_MM, error=0.5, known=35):
     return compared(*first, scene=replace(RAIL, speed=speed), quantity="contact-filter", solve_all=True)
 
 
+real_contact = rail.RailScene.contact.func
+
+
+def of_the_secant(scene):
+    contact = real_contact(scene)
+    return dataclasses.replace(contact, stiffness=contact.force / contact.approach)
+
+
+@catches("the force over the approach for the stiffness of Hertz").at(
+    "validation.railway.scenes.rail.RailScene.contact", property(of_the_secant)
+)
 def test_the_force_is_the_stiffness_of_hertz_times_the_equivalent_displacement():
     """At 1 kHz nothing is weighted; k = 3 F / (2 d), 50 kN and 65.6 um."""
     force = filters(0.0).force
@@ -60,6 +76,15 @@ def answering(found, which, **changes):
     return replace(found, selection=replace(found.selection, candidates=tuple(models)))
 
 
+real_weighting = exported.a_weighting
+
+
+@catches("A-weighting at the frequency of half a wave").at(
+    "validation.railway.exported.a_weighting", lambda frequency: real_weighting(2 * frequency)
+)
+@catches("a force at nominal frequencies").at(
+    "validation.analysis.spectra.NominalBands.wavelengths", property(lambda bands: bands.nominal)
+)
 def test_each_band_is_weighted_as_the_table_of_the_standard_has_its_frequency():
     """f = v / lambda of the exact wavelength of the band: a nominal one, as 160 for 158.5 mm, is off by 0.1 dB."""
     force = filters(0.0).force
@@ -67,6 +92,9 @@ def test_each_band_is_weighted_as_the_table_of_the_standard_has_its_frequency():
     np.testing.assert_allclose((force.levels[force.chosen] - unweighted)[:34], TABLE, atol=0.065)
 
 
+@catches("the mean error of bands as that of their sum").at(
+    "validation.advice.contact_force.ContactForce.error", property(lambda force: float(force.half_width.mean()))
+)
 def test_the_error_of_the_sum_counts_loud_bands_most():
     """All bands louder by their errors, over the sum as it is: a loud band of 3 dB among others that are known."""
     found = filters(0.0)
@@ -85,6 +113,15 @@ def test_another_filter_changes_the_sum_by_what_it_is_louder():
     assert force.change.endswith(" -1.5 to +0.8 dB(A)")
 
 
+def independent_bands(force):
+    level = force.levels[force.chosen]
+    share = 10 ** (level / 10) / np.sum(10 ** (level / 10))
+    return float(np.sqrt(np.sum((share * force.half_width) ** 2)))
+
+
+@catches("errors of bands taken as independent in their sum").at(
+    "validation.advice.contact_force.ContactForce.error", property(independent_bands)
+)
 def test_the_error_of_the_sum_is_that_of_its_bands_and_says_which_are_unknown():
     assert filters(0.0).force.error == pytest.approx(0.5)
     force = filters(0.0, known=20).force
@@ -94,6 +131,10 @@ def test_the_error_of_the_sum_is_that_of_its_bands_and_says_which_are_unknown():
     assert f"bands of unknown error, {100 * share:.2g} % of its energy" in force.sentences[0]
 
 
+@catches("sums over unlike bands beside each other").at(
+    "validation.advice.contact_force.ContactForce.over_chosen",
+    lambda force, model: force.total(model) - force.total("by 0 dB"),
+)
 def test_bands_without_an_answer_are_left_out_of_both_sums():
     """A filter is no quieter where it has no answer; its own sum is that of the bands that it has."""
     number, found = np.arange(35), filters(0.0, 2.0)
@@ -117,6 +158,9 @@ def test_the_closed_filters_stand_beside_the_chosen_one_unasked():
     assert "another filter changes the sum by +0.2 to +0.6 dB(A)" in " ".join(summary(found).split())
 
 
+@catches("the equivalent roughness filtered once more").at(
+    "validation.advice.compare.Comparison.a3_of", compare.Comparison.value_of
+)
 def test_text_json_and_csv_have_the_same_table():
     """L_eq = L_r + A3, whichever quantity is asked."""
     filters, keys = [], ("roughness_dB", "a3_dB", "equivalent_dB", "force_dBA")

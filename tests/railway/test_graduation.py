@@ -1,10 +1,13 @@
 """Smooth series through values that scatter: straight lines stay, lone values lose their weight, slopes have errors."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from tests.seeded import catches
+from validation.railway.scenes import isotropic_line
 from validation.railway.scenes.isotropic_line import FEWEST, graduated, scatter_of
 
 LINE = 12.0 - 1.7 * np.arange(35)
@@ -25,6 +28,9 @@ def test_a_straight_line_is_its_own_graduation():
     assert found.scatter == 1e-3
 
 
+@catches("lone values that keep their weight", first=10, count=3).at(
+    "validation.railway.scenes.isotropic_line.LONE", 1e3
+)
 @pytest.mark.parametrize(("first", "count"), [(0, 1), (17, 1), (10, 3), (15, 4), (34, 1)])
 def test_lone_values_lose_their_weight(first, count):
     series = LINE.copy()
@@ -32,6 +38,9 @@ def test_lone_values_lose_their_weight(first, count):
     np.testing.assert_allclose(graduated(series, EVEN, least=1.0).values, LINE, atol=1e-3)
 
 
+@catches("values that stand out weighed by Huber's rule").at(
+    "validation.railway.scenes.isotropic_line.REDESCENDING", -1
+)
 def test_a_value_weighs_by_tukeys_biweight_of_its_deviation():
     """The graduation solves its own normal equations, W (y - z) = 10 B' B z, w = w0 (1 - (deviation / 3 s)^2)^2."""
     rng = np.random.default_rng(2)
@@ -45,6 +54,7 @@ def test_a_value_weighs_by_tukeys_biweight_of_its_deviation():
     assert np.abs(deviation).max() > 2 and (biweight < 0.5 * weights).sum() >= 2
 
 
+@catches("one standard error of a slope").at("validation.railway.scenes.isotropic_line.Graduation.quantile", 1.0)
 def test_errors_of_slopes_cover_those_of_a_line_with_known_scatter():
     """95 % of all slopes, within three standard errors of as many independent stretches of seven values."""
     rng, inside, widths = np.random.default_rng(4), [], []
@@ -58,6 +68,17 @@ def test_errors_of_slopes_cover_those_of_a_line_with_known_scatter():
     assert np.median(widths) < 6
 
 
+def of_equal_weights(found):
+    return replace(found, of_values=np.ones(len(found.values)))
+
+
+slope_error = isotropic_line.Graduation.slope_error
+
+
+@catches("slopes whose errors have equal weights").at(
+    "validation.railway.scenes.isotropic_line.Graduation.slope_error",
+    lambda found, reach: slope_error(of_equal_weights(found), reach),
+)
 def test_errors_of_slopes_are_those_of_series_that_scatter_by_their_weights():
     """Of ten thousand series through the same hat, drawn with a hundred times the variance at one end."""
     rng, weights = np.random.default_rng(7), np.geomspace(0.03, 3.0, 35)

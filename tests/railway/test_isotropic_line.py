@@ -1,8 +1,12 @@
 """The line of isotropic ground nearest to levels: smooth levels stay, what stands out or rises too steeply is named."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from tests.seeded import catches
+from validation.railway.scenes import isotropic_line as graduation
 from validation.railway.scenes.isotropic_line import isotropic_line
 from validation.railway.scenes.level_files import RoughnessLevels, curve
 from validation.railway.theory.transverse_structure import has_isotropic_surface
@@ -22,6 +26,9 @@ def level_of(line):
     return 10 * np.log10(ISO.bands.powers_of_spectrum(line) / 1e-12)
 
 
+@catches("smooth levels that are smoothed", name="iso3095-2013").at(
+    "validation.railway.scenes.isotropic_line.WHOLE_DECIBELS", -1.0
+)
 @pytest.mark.parametrize("name", ["iso3095-2013", "cnossos-average"])
 def test_smooth_levels_stay_as_they_are_to_the_bit(name):
     one = curve(name)
@@ -41,6 +48,17 @@ def test_a_corrugation_stands_out_alone(waves):
     np.testing.assert_allclose(found.apart, 6.0 * found.stands_out, atol=0.02)
 
 
+graduated = graduation.graduated
+
+
+def of_equal_weights(found):
+    return replace(found, of_values=np.ones(len(found.values)))
+
+
+@catches("levels of few waves that stand out as those of many").at(
+    "validation.railway.scenes.isotropic_line.graduated",
+    lambda *args, least: of_equal_weights(graduated(*args, least=least)),
+)
 def test_a_level_of_few_waves_may_be_off_by_as_much_as_few_waves_scatter():
     """8 dB are eight deviations of a level of weight one, and less than two of one of weight 1/25."""
     off = levels(np.array(STRAIGHT.levels) + 8.0 * np.isin(NOMINAL, [31.5, 200]))
@@ -70,6 +88,10 @@ def test_levels_that_rise_too_steeply_are_named_and_the_ground_falls():
     assert found.stands_out[NOMINAL > 40].all() and not found.stands_out[NOMINAL < 16].any()
 
 
+@catches("few waves that weigh as much as many").at(
+    "validation.railway.scenes.isotropic_line.graduated",
+    lambda series, weights, *, least: graduated(series, np.ones(len(series)), least=least),
+)
 def test_levels_that_scatter_leave_their_scatter_and_waves_that_are_many_weigh_more():
     rng = np.random.default_rng(8)
     noise = rng.standard_normal(35)

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from tests.railway.test_line_outliers import POINTS, UM, X, fractal, levels, lines, rail
+from tests.seeded import catches
 from validation.analysis.spectra import NominalBands
+from validation.railway.scenes import line_edits, line_steps
 from validation.railway.scenes.line_edits import EditedLine, bursts_of, edited, left_by_bursts
 from validation.railway.scenes.line_steps import Outlier
 
@@ -46,6 +48,22 @@ def the_burst(height):
 BURSTS = [(colour, rms) for colour in ("white", "blue", "ground") for rms in (1.0, 5.0, 60.0)]
 
 
+right_bursts_of = line_edits.bursts_of
+
+
+def where_it_is_raised(line, measured, spacing, sensor):
+    return right_bursts_of(line, line, spacing, sensor)
+
+
+@catches("bursts of noise that nobody finds", colour="white", rms=5.0).at(
+    "validation.railway.scenes.line_edits.bursts_of", lambda *_: ()
+)
+@catches("no error of a burst that is named", colour="ground", rms=5.0).at(
+    "validation.railway.scenes.line_edits.EditedLine.of_bursts", lambda line, bands: np.zeros(len(bands))
+)
+@catches("a burst all of whose points are spikes", colour="white", rms=60.0).at(
+    "validation.railway.scenes.line_edits.bursts_of", where_it_is_raised
+)
 @pytest.mark.parametrize(("colour", "rms"), BURSTS)
 def test_a_burst_is_named_where_it_is_and_is_in_the_error(colour, rms):
     for seed in (21, 22):
@@ -69,6 +87,7 @@ def test_a_burst_on_other_lines_is_named(base):
     assert "burst" in kinds(noisy("white", 5.0, 4, line))
 
 
+@catches("long windows alone").at("validation.railway.scenes.line_edits.PARTS", (20,))
 def test_a_burst_over_an_eightieth_of_a_line_is_named():
     line = rail(6)
     line[7000:7150] += 1.5 * np.random.default_rng(6).standard_normal(150)
@@ -89,6 +108,9 @@ def parts(seed, factor):
     return rail(seed) * (1 + (factor - 1) / (1 + np.exp((abs(X - 5.0) - 1.5) / 0.1)))
 
 
+@catches("no part of a line may be rougher than the others", factor=2.0).at(
+    "validation.railway.scenes.line_edits.NATURAL", 1.0
+)
 @pytest.mark.parametrize("factor", [0.5, 2.0])
 def test_a_part_that_is_twice_as_rough_is_no_burst(factor):
     for seed in range(3):
@@ -99,6 +121,7 @@ def test_a_part_that_is_four_times_as_rough_is():
     assert "burst" in kinds(parts(21, 4.0))
 
 
+@catches("a corrugation taken for a burst").at("validation.railway.scenes.line_edits.NEIGHBOURS", 1)
 def test_a_corrugation_of_a_part_is_no_burst():
     """Of 20 dB, in a third octave and its neighbours."""
     for seed, wavelength in enumerate((0.02, 0.03, 0.05, 0.08)):
@@ -109,6 +132,10 @@ def test_a_corrugation_of_a_part_is_no_burst():
         assert kinds(line + (raised - line) / (1 + np.exp((abs(X - 5.0) - 1.0) / 0.1))) == []
 
 
+@catches("bands compared as if they had no scatter", spacing=2e-3).at(
+    "validation.railway.scenes.line_edits.Windows._over",
+    lambda windows, p: windows.powers > np.median(windows.powers, axis=0),
+)
 @pytest.mark.parametrize("spacing", [0.5e-3, 1e-3, 2e-3])
 def test_right_lines_of_any_length_have_no_burst(spacing):
     """Of chi^2 statistics alone: white noise, and a self-affine line, of 2 to 50 m."""
@@ -120,6 +147,9 @@ def test_right_lines_of_any_length_have_no_burst(spacing):
             assert bursts_of(UM * line, UM * line, spacing, 0.0) == ()
 
 
+@catches("what a burst adds over all windows, and not over those without it").at(
+    "validation.railway.scenes.line_edits.Windows.touched", lambda windows, bursts: np.arange(windows.starts.size) < 1
+)
 def test_what_a_burst_adds_is_that_of_its_part_of_a_white_line():
     """sin^4 of the place is the weight of a point in a spectrum through Hann's window; its mean is 3/8."""
     rng = np.random.default_rng(8)
@@ -135,6 +165,7 @@ def test_what_a_burst_adds_is_that_of_its_part_of_a_white_line():
     assert (half_width > 0).all() and half_width[-1] < 0.6
 
 
+@catches("a line of which half is a burst").at("validation.railway.scenes.line_edits.MOST_OF_LINE", 1.0)
 def test_a_line_with_a_burst_over_more_than_a_third_has_no_error():
     line = rail(21)
     line[2000:6500] += 5.0 * np.random.default_rng(1).standard_normal(4500)
@@ -157,6 +188,9 @@ def test_a_burst_that_is_kept_is_in_the_error_as_one_that_is_not():
 # Steps and pits that roughness hides
 
 
+@catches("steps that corrugation hides", flank=14).at(
+    "validation.railway.scenes.line_steps._hidden_step", lambda *_: None
+)
 @pytest.mark.parametrize("flank", [8, 10, 14])
 def test_a_step_with_a_flank_in_a_corrugated_line_is_named(flank):
     for seed in (1, 2, 3):
@@ -172,6 +206,9 @@ def test_a_step_with_a_flank_in_a_corrugated_line_is_named(flank):
         assert np.max(off - np.array(found.levels.errors)) < 0.5
 
 
+@catches("pits wider than 0.1 m that are not seen", wide=180).at(
+    "validation.railway.scenes.line_steps.DISTANCES", line_steps.DISTANCES[:10]
+)
 @pytest.mark.parametrize("wide", [50, 100, 180])
 def test_wide_shallow_pits_are_named(wide):
     for seed in (1, 2, 3):

@@ -1,19 +1,23 @@
 """Files of lines as people have them: dead lines, rows of positions, repeated places, times, units, other programs."""
 
 import zipfile
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from tests.railway.test_line_outliers import rail
 from tests.scenes.test_exported_tables import columns, in_memory, line_of, rail_with, refused, rows, told
+from tests.seeded import catches
 from validation.advice.compare import compare
 from validation.advice.exported import to_json
 from validation.advice.summary import summary
 from validation.analysis.spectra import NominalBands
 from validation.railway.problems.rail_models import rail_quantity, reason_of, what_would_state_the_ground
+from validation.railway.scenes import line_columns
 from validation.railway.scenes.line_columns import along_the_track
 from validation.railway.scenes.line_edits import edited
+from validation.scenes import table_files
 from validation.scenes.load import load_scene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_surface import measured
@@ -73,21 +77,39 @@ def lines_of(*values, header="", positions=None):
     return along_the_track(in_memory(columns(header, *values)), metre=1e-6, spacing=1e-3, positions=positions)
 
 
+positions_of = line_columns._positions_of
+
+
+def positions_without_the_last(numbers, given, rest, dead):
+    where, words = positions_of(numbers, given, rest, dead)
+    return (given[: len(rest)] if given else where), words
+
+
+@catches("positions of the first lines for those that are left").at(
+    "validation.railway.scenes.line_columns._positions_of", positions_without_the_last
+)
 def test_positions_of_dead_lines_go_with_them():
     found = lines_of(LINES[0], np.full(POINTS, 3.25), LINES[1], positions=[-0.01, 0.0, 0.01])
     assert list(found.positions) == [-0.01, 0.01] and found.height == pytest.approx(1e-6 * LINES[:2].T)
 
 
+@catches("noise of a sensor taken for roughness").at(
+    "validation.railway.scenes.line_columns.noise_among", lambda lines: []
+)
 def test_noise_beside_rough_lines_is_no_line():
     found = lines_of(LINES[0], DEAD["noise"][0], LINES[1], positions=[-0.01, 0.0, 0.01])
     assert found.height.shape == (POINTS, 2) and list(found.positions) == [-0.01, 0.01]
 
 
+@catches("a row of positions read as a point").at(
+    "validation.railway.scenes.line_columns._without_first_row", lambda numbers, given: (numbers, ())
+)
 def test_positions_in_a_first_row_are_no_point():
     found = lines_of(*np.concatenate([[[-10.0], [-5.0], [0.0]], LINES], axis=1), positions=[-0.01, -0.005, 0.0])
     assert found.height == pytest.approx(1e-6 * LINES.T)
 
 
+@catches("times taken for places").at("validation.railway.scenes.line_columns.EPOCH", (0.0, 0.0))
 def test_seconds_since_1970_are_no_places():
     assert any("has time stamps" in note for note in lines_of(1714730400000 + AT, Z).notes)
 
@@ -237,6 +259,17 @@ def test_a_column_is_named_as_the_file_has_it_or_without_its_unit(name):
         in_memory(text, columns=("Hoehe",))
 
 
+of_columns = table_files.heights_of_columns
+
+
+def in_the_unit_of_the_first(table, places, metre):
+    one = table.columns[places[0]]
+    return of_columns(replace(table, columns=(one,) * len(table.columns)), places, metre)
+
+
+@catches("all columns in the unit of the first").at(
+    ("validation.scenes.table_files.heights_of_columns", f"{__name__}.heights_of_columns"), in_the_unit_of_the_first
+)
 def test_each_column_has_its_own_unit():
     """All columns in the unit of the first are wrong by a factor of a thousand."""
     table = in_memory("a [um];b [mm];c [nm]\n1;2;3\n4;5;6\n7;8;9\n")
@@ -253,6 +286,7 @@ def test_lines_in_several_units_are_named(tmp_path):
     assert "its lines are in um and mm, each in its own" in told(scene)[0]
 
 
+@catches("a large height taken for no data").at("validation.scenes.number_table.LONELY", 0.0)
 def test_a_value_is_no_data_where_it_is_far_from_all_others_alone():
     """Three spans away, and not in a table whose values reach as far."""
     spread = np.linspace(-40.0, 60.0, 50)

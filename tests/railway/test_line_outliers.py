@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tests.seeded import catches
 from validation.analysis.spectra import NominalBands
 from validation.railway.problems.rail_quantity import RailQuantity
 from validation.railway.scenes import line_steps
@@ -63,6 +64,12 @@ CLEAN = {
 """What is roughness, however rough, in um."""
 
 
+@catches("roughness taken for spikes", kind="H = 0.5", rounded=0.0).at(
+    "validation.railway.scenes.line_steps.STANDS_OUT", 3.0
+)
+@catches("one scale of a line of two grounds", kind="corrugated in part", rounded=0.0).at(
+    "validation.railway.scenes.line_steps.STRETCH", 1e3
+)
 @pytest.mark.parametrize("rounded", [0.0, 0.1, 1.0])
 @pytest.mark.parametrize("kind", CLEAN)
 def test_clean_lines_have_no_outliers(kind, rounded):
@@ -151,6 +158,23 @@ def levels(height):
     return np.array(MeasuredLines(height=height, spacing=1e-3).levels.levels)
 
 
+change = EditedLine.change
+
+
+without_steps = line_steps.without_steps
+
+
+def steps_downwards(line, spacing, sensor):
+    clean, steps = without_steps(line, spacing, sensor)
+    return 2 * line - clean, steps
+
+
+@catches("the part behind a step moved the other way", name="step").at(
+    "validation.railway.scenes.line_edits.without_steps", steps_downwards
+)
+@catches("no error of what a straight line replaces", name="zeros").at(
+    "validation.railway.scenes.line_edits.EditedLine.change", lambda line, bands: 0 * change(line, bands)
+)
 @pytest.mark.parametrize("name", PLANTED)
 def test_levels_without_outliers_are_those_of_the_clean_line_within_the_error_that_is_left(name):
     """In 95 % of the bands, and nowhere by more than a few tenths of a decibel beyond it."""
@@ -172,6 +196,12 @@ def test_an_error_that_is_left_is_no_larger_than_what_is_gained(name):
     assert (errors > 0).all()
 
 
+kept = EditedLine.kept
+
+
+@catches("no error of outliers that are kept", name="spikes").at(
+    "validation.railway.scenes.line_edits.EditedLine.kept", lambda line, bands: 0 * kept(line, bands)
+)
 @pytest.mark.parametrize("name", PLANTED)
 def test_outliers_that_are_kept_are_in_the_error(name):
     height, _ = changed(PLANTED[name], 21)
@@ -182,6 +212,11 @@ def test_outliers_that_are_kept_are_in_the_error(name):
     assert kept.levels.levels == MeasuredLines(height=height, spacing=1e-3).levels.levels
 
 
+@catches("spikes that nobody finds", name="spikes").at("validation.railway.scenes.line_steps.STANDS_OUT", 100.0)
+@catches("pits wider than a few points that are not seen", name="wide pits").at(
+    "validation.railway.scenes.line_steps.DISTANCES", line_steps.DISTANCES[:4]
+)
+@catches("steps of a hundred scales alone", name="step down").at("validation.railway.scenes.line_steps.STEP", 100.0)
 @pytest.mark.parametrize("name", [name for name in PLANTED if name != "spikes of 10 um"])
 def test_all_that_is_planted_is_found_where_it_is(name):
     height, places = changed(PLANTED[name], 21)
@@ -271,6 +306,11 @@ CLIPPED = {
 }
 
 
+@catches("clipping at one end that is not seen", name="above").at(
+    "validation.railway.scenes.line_steps.CROWDED", np.inf
+)
+@catches("half of a line that is made up", name="a gap").at("validation.railway.scenes.line_edits.MOST_REPLACED", 1.0)
+@catches("clipping that is forgiven", name="below").at("validation.railway.scenes.line_edits.MOST_CLIPPED", 1.0)
 @pytest.mark.parametrize("name", CLIPPED)
 def test_lines_of_which_too_much_is_gone_have_no_error(name):
     height = UM * CLIPPED[name](rail(21))
@@ -328,6 +368,13 @@ def test_places_of_many_outliers_are_shortened():
 # The levels
 
 
+errors = LineEdits.errors
+
+
+@catches("the error of the worst line for that of the mean").at(
+    "validation.railway.scenes.line_edits.LineEdits.errors",
+    lambda edits, bands, powers: errors(edits, bands, powers / len(powers)),
+)
 def test_errors_of_several_lines_are_those_of_their_mean_energy():
     """One spiky line of two has half of the energy, and about half of its error."""
     spiky, _ = changed(spikes, 21)
@@ -338,6 +385,10 @@ def test_errors_of_several_lines_are_those_of_their_mean_energy():
     assert np.array(of_both) == pytest.approx(alone / 2, rel=0.15)
 
 
+@catches("errors of the wheel left out of the sum").at(
+    "validation.railway.scenes.level_files.RoughnessLevels._powers_of_errors",
+    property(lambda levels: 0 * levels.powers),
+)
 def test_errors_are_cut_and_added_with_their_levels():
     bands = NominalBands().within(0.1, 0.063)
     one = RoughnessLevels.of_powers(bands, [4e-12, 2e-12, 1e-12], source="a", errors=(1.0, 2.0, 3.0), fault="a is off")
@@ -351,6 +402,10 @@ def test_errors_are_cut_and_added_with_their_levels():
         RoughnessLevels.of_powers(bands, [1e-12] * 3, source="", errors=(1.0,))
 
 
+@catches("a filter without the error of its lines").at(
+    "validation.railway.problems.rail_quantity.RailQuantity.left_by_faults",
+    property(lambda asked: np.zeros(len(asked.bands))),
+)
 def test_no_filter_has_less_error_than_its_lines():
     """Which is added linearly to that of what lies across."""
     height, _ = changed(spikes, 21)

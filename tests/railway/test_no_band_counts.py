@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tests.seeded import catches
 from validation import compare, load_scene, summary, to_json
 from validation.advice.advice import what_would_help
 from validation.advice.cases.model_selection import EdgeTrial, true_error
@@ -35,6 +36,12 @@ def asked(model):
     raise AssertionError(f"{model.name} is solved")
 
 
+@catches("the bands of a wrong filter that count", across="isotropic", scene=QUIET, span="12.5 to 10 mm").at(
+    "validation.railway.problems.rail_quantity.RailQuantity.no_answer", ""
+)
+@catches("levels counted that no one hears", across="ridges", scene=SHORT, span="6.3 to 3.15 mm").at(
+    "validation.railway.problems.rail_quantity.COUNTED", -60.0
+)
 @pytest.mark.parametrize(("scene", "span"), [(SHORT, "6.3 to 3.15 mm"), (QUIET, "12.5 to 10 mm")])
 @pytest.mark.parametrize("across", ["ridges", "isotropic", 0.5, None])
 def test_no_model_is_enough_where_no_band_counts(scene, span, across):
@@ -49,6 +56,9 @@ def test_no_model_is_enough_where_no_band_counts(scene, span, across):
     assert json.loads(to_json(found))["met"] is False
 
 
+@catches("enough where no band counts").at(
+    "validation.railway.problems.rail_models.worst", lambda quantity, a3, error: 0.0
+)
 def test_a_solve_leaves_its_bands_and_no_error():
     """As with --all: what was found is told, and no error of it is known."""
     for model in models_serving(SHORT, "contact-filter"):

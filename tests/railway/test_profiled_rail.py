@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 from tests.railway.test_rail_files import written
+from tests.seeded import Times, catches
+from validation.railway.scenes import transverse_profile
 from validation.railway.scenes.rail import ProfiledRail
 from validation.railway.scenes.transverse_profile import TransverseProfile, both_together, fitted_radius
 from validation.scenes.description import describe
@@ -63,11 +65,20 @@ def radius_of(profile, load=5e4):
     return fitted_radius(profile, along=0.46, modulus=STEEL, load=load)
 
 
+@catches("y^2 / R for y^2 / (2 R) in the radius of a transverse profile", load=5e4).at(
+    "validation.railway.scenes.transverse_profile.TransverseProfile.radius_within", Times(2.0)
+)
 @pytest.mark.parametrize("load", [5e3, 5e4, 2e5])
 def test_a_parabola_has_its_radius_under_any_load(load):
     assert radius_of(profile_of(parabola(300.0)), load) == pytest.approx(0.3)
 
 
+right_both_together = transverse_profile.both_together
+
+
+@catches("the curvature of the other body taken off that of a profile").at(
+    f"{__name__}.both_together", lambda bodies, curvature: right_both_together(bodies, 0.0)
+)
 def test_a_hollow_wheel_and_a_crown_are_one_profile():
     """1 / 200 - 1 / 600 = 1 / 300 mm, of two profiles and of a profile and a radius."""
     crown, hollow = profile_of(parabola(200.0)), profile_of(-parabola(600.0) - 1e-6 * Y**4)
@@ -79,6 +90,13 @@ def test_a_hollow_wheel_and_a_crown_are_one_profile():
     assert hollow.radius_within(5e-3) == math.inf
 
 
+radius_of_parabola = TransverseProfile.radius_within
+
+
+@catches("a radius of more than the contact").at(
+    "validation.railway.scenes.transverse_profile.TransverseProfile.radius_within",
+    lambda profile, half: radius_of_parabola(profile, 2 * half),
+)
 def test_a_radius_is_fitted_over_the_contact_and_not_over_the_whole_head():
     light, heavy = (radius_of(profile_of(worn(Y)), load) for load in (1e3, 5e4))
     assert light == pytest.approx(0.3, rel=0.01)
@@ -237,12 +255,31 @@ def second_contact(gap, load):
     return ""
 
 
+check_alone = transverse_profile._check_alone
+
+
+@catches("a second contact that is not seen").at(
+    "validation.railway.scenes.transverse_profile._check_alone", lambda *arguments: None
+)
+@catches("surfaces that do not give way beside the contact").at(
+    "validation.railway.scenes.transverse_profile._check_alone", lambda *of: check_alone(*of[:3], 0.0)
+)
 def test_a_second_contact_is_refused_and_a_second_top_that_does_not_touch_is_none():
     """The approach is 66 um; 30 mm beside the contact the surfaces give way by F / (pi E* r) = 4.6 um."""
     assert second_contact(0.064, 5e4) == second_contact(0.058, 3e4) == ""
     assert re.search(r"one contact under the load, got a second one \+(29|30)\S* mm beside", second_contact(0.058, 5e4))
 
 
+moved = TransverseProfile.moved
+
+
+@catches("a wheel moved to the other side").at(
+    "validation.railway.scenes.transverse_profile.TransverseProfile.moved",
+    lambda profile, offset: moved(profile, -offset),
+)
+@catches("contact where the rail alone is highest").at(
+    f"{__name__}.both_together", lambda bodies, *other: right_both_together(bodies[:1], *other)
+)
 def test_two_bodies_touch_where_both_together_are_highest():
     """-(y^2 / 600 + (y - 6)^2 / 1200) at y = 2 mm; a crown of 300 mm is as steep as a cone of 1 in 100 at 3 mm."""
     rail, cone = profile_of(parabola(300.0)), profile_of(-Y / 100)

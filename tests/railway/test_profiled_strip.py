@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import bem3d
+from tests.seeded import catches
 from validation import compare, load_scene
 from validation.railway.problems import rail_models
 from validation.railway.problems.equivalent_displacement import (
@@ -44,6 +45,15 @@ def test_a_parabola_rolls_as_its_radius():
     np.testing.assert_allclose(found, expected, atol=1e-4 * np.abs(expected).max())
 
 
+def on_the_fitted_radius(strip, profile):
+    """The parabola that stands in for the profile."""
+    y = (np.arange(strip.shape[1]) - (strip.shape[1] - 1) / 2) * strip.spacing
+    return slice(None), -(y**2) / (2 * strip.radii[1])
+
+
+@catches("a fitted radius in place of the transverse profile").at(
+    "validation.railway.problems.equivalent_displacement.heights_across", on_the_fitted_radius
+)
 @pytest.mark.slow
 def test_a_worn_rail_rolls_as_its_profile_and_not_as_the_radius_of_its_contact():
     scene = profiled(worn(Y))

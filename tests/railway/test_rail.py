@@ -6,6 +6,8 @@ import re
 import numpy as np
 import pytest
 
+from tests.seeded import catches
+from validation.railway.scenes import rail
 from validation.railway.scenes.level_files import RoughnessLevels, curve
 from validation.railway.scenes.rail import RailScene
 
@@ -17,6 +19,12 @@ def scene(**other):
     return RailScene(**{**WHEEL, "roughness": curve("iso3095-2013"), **other})
 
 
+radii_of_rail = rail.RailScene.radii.fget
+
+
+@catches("radii across and along that changed places").at(
+    "validation.railway.scenes.rail.RailScene.radii", property(lambda scene: radii_of_rail(scene)[::-1])
+)
 def test_the_contact_of_the_field():
     """50 kN, 920 mm, crown 300 mm, steel: a_x = 5.68 mm along, a_y = 4.28 mm across, d = 65.6 um."""
     contact = scene().contact
@@ -25,6 +33,10 @@ def test_the_contact_of_the_field():
     assert contact.approach == pytest.approx(65.6e-6, abs=5e-8)
 
 
+@catches("the mean of both curvatures across for their sum").at(
+    "validation.railway.scenes.rail.RailScene.radii",
+    property(lambda scene: (scene.radius, 2 * radii_of_rail(scene)[1])),
+)
 def test_curvatures_across_add():
     assert scene(transverse_radius=0.6).radii == (0.46, pytest.approx(0.2))
     assert scene(transverse_radius=0.6, crown_radius=None).radii == (0.46, pytest.approx(0.6))
@@ -59,6 +71,13 @@ def test_bundled_curves_are_those_of_the_standards():
     assert len(iso.levels) == len(average.levels) == 35
 
 
+@catches("a level as 10 lg of the height", name="iso3095-2013").at(
+    "validation.railway.scenes.level_files.RoughnessLevels.powers",
+    property(lambda of: 1e-12 * 10 ** (np.array(of.levels) / 20)),
+)
+@catches("a spectrum of the powers of its bands, without what their slopes take", name="cnossos-average").at(
+    "validation.railway.scenes.level_files.STEPS", 1
+)
 @pytest.mark.parametrize("name", ["iso3095-2013", "cnossos-average"])
 def test_the_spectrum_has_the_power_of_each_band(name):
     levels = curve(name)
@@ -79,6 +98,13 @@ def test_levels_of_a_power_law_are_its_power_law():
     np.testing.assert_allclose(levels.c_line.densities, 1e-9 * places**-3, rtol=1e-9)
 
 
+within = RoughnessLevels.within
+
+
+@catches("levels of exact centres without their end bands").at(
+    "validation.railway.scenes.level_files.RoughnessLevels.within",
+    lambda of, *ends: within(of, ends[0] or of.wavelengths[0], ends[1] or of.wavelengths[-1]),
+)
 def test_exact_centres_keep_their_bands():
     """Both ends lie off their nominal wavelengths, 10^-0.4 m below 400 mm and 10^-2.5 m above 3.15 mm."""
     exact = tuple(10 ** (-n / 10) for n in range(4, 26))

@@ -10,10 +10,12 @@ import pytest
 from scipy import stats
 from scipy.optimize import brentq
 
+from tests.seeded import catches
 from validation import load_scene
 from validation.advice.scene_model import SceneModel
 from validation.railway.models.rail import BOUNDARY_ELEMENTS
 from validation.railway.problems import rail_models
+from validation.railway.problems.rail_models import ContactFilter
 from validation.railway.problems.rail_quantity import RailQuantity
 from validation.railway.problems.rail_strip import strip_bands
 from validation.simulation.method import Resolution
@@ -65,6 +67,17 @@ def found(scene=RAIL):
     )
 
 
+over_twin = ContactFilter.over_twin
+
+
+def without_sample_error(*args):
+    value, error = over_twin(*args)
+    return value, 0 * error
+
+
+@catches("boundary elements on a rail without their sample error").at(
+    "validation.railway.problems.rail_models.ContactFilter.over_twin", without_sample_error
+)
 def test_the_sample_leaves_students_interval_of_the_strips():
     """t s / sqrt(6) of the mean of six powers, in decibels."""
     with planted(POWERS):
@@ -85,6 +98,9 @@ def test_of_both_ends_of_what_lies_across_the_larger_error_counts():
         np.testing.assert_allclose(filters.sample[inside], alone[inside], rtol=1e-9)
 
 
+@catches("a_x / a_y in place of a_y / a_x", over=0.48, known=True).at(
+    "validation.railway.problems.rail_models.ASPECTS", (1 / 1.9, 1 / 0.45)
+)
 @pytest.mark.parametrize(("over", "known"), [(0.43, False), (0.48, True), (1.8, True), (2.0, False)])
 def test_contacts_longer_or_wider_than_those_on_strips_have_no_known_error(over, known):
     """Strips had a_y / a_x from 0.45 to 1.9, which is nearly (R_y / R_x)^(2/3)."""
@@ -103,6 +119,9 @@ def test_a_reason_names_the_worst_of_the_bands_that_count():
     assert rail_models.reason_of(quantity, a3, error).startswith("its error is largest at 40 mm: ")
 
 
+@catches("a tenth of the grid error of boundary elements on a rail").at(
+    "validation.railway.problems.rail_models.OF_FINE", 0.1 * rail_models.OF_FINE
+)
 def test_the_grid_leaves_what_second_order_makes_of_two_grids():
     """An error of order h^2 on 12 cells is 1 / ((12/8)^2 - 1) = 0.8 of the difference from 8."""
     with planted(np.ones(6), GRID):
@@ -112,6 +131,21 @@ def test_the_grid_leaves_what_second_order_makes_of_two_grids():
     assert not filters.grid[~inside].any() and filters.sample[inside].max() < 1e-6
 
 
+model_error = ContactFilter.model_error
+
+
+@catches("a bias on a rail added at a right angle").at(
+    "validation.advice.scene_model.Answer.error_in_bands",
+    property(lambda answer: np.sqrt(sum(part**2 for part in answer.band_errors.values()))),
+)
+@catches("a bias of the worst band on a rail added at a right angle").at(
+    "validation.advice.scene_model.Answer.error",
+    property(lambda answer: float(np.sqrt(answer.model**2 + answer.grid**2 + answer.sample**2))),
+)
+@catches("boundary elements that know what lies across a rail").at(
+    "validation.railway.problems.rail_models.ContactFilter.model_error",
+    lambda model, quantity, a3: model_error(model, quantity, a3) - quantity.left_by_ground,
+)
 def test_what_the_ground_leaves_adds_to_grid_and_sample_as_it_is():
     """A bias: half of the difference of ridges and isotropic ground, and the other two at a right angle beside it."""
     with planted(POWERS, GRID):

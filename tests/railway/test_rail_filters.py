@@ -6,10 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tests.seeded import Times, catches
 from validation import compare, load_scene
 from validation.advice.quantities import all_quantities
 from validation.advice.scene_model import SceneModel
-from validation.railway.problems import rail_models
+from validation.railway.problems import equivalent_displacement, rail_models
 from validation.railway.problems.equivalent_displacement import ONE_SIDED, RolledRail, linear_displacement, roll_rail
 from validation.railway.problems.rail_models import COARSE, FINE, RailModel
 from validation.railway.problems.rail_quantity import RAIL_QUANTITIES, RailQuantity
@@ -43,6 +44,9 @@ def closed(scene, across, *names):
     }
 
 
+@catches("long waves that do not pass under springs on the rolling spectrum", across="isotropic").at(
+    "validation.railway.problems.equivalent_displacement.rolling_input_filter", Times(1.1)
+)
 @pytest.mark.parametrize("across", ["ridges", "isotropic", 0.5, None])
 def test_long_waves_pass_under_every_model_but_springs_on_geikes_spectrum(across):
     quantity, filters = closed(RAIL, across)
@@ -60,6 +64,10 @@ def falling(exponent):
     return replace(RAIL, roughness=RoughnessLevels.of_powers(RAIL.levels.bands, powers, source="a power law"))
 
 
+@catches("the line trace taken for Geike's spectrum under springs on a rail", exponent=2.0).at(
+    "validation.railway.problems.equivalent_displacement.geike_over_line",
+    lambda wavenumber, ground: np.ones_like(wavenumber),
+)
 @pytest.mark.parametrize("exponent", [1.0, 2.0, 2.5])
 def test_long_waves_under_springs_on_geikes_spectrum_are_off_by_his_rule_over_the_line(exponent):
     """10 lg(pi q C_2D / C_line) of a power law: 0, 2.0 and 2.5 dB, however long the wave; others have 0 dB."""
@@ -70,6 +78,14 @@ def test_long_waves_under_springs_on_geikes_spectrum_are_off_by_his_rule_over_th
     assert (np.abs(filters[LINEAR][long] - off) > 1).all() == (exponent > 1)
 
 
+def surface_itself(along, across, *, semi_axes):
+    """The line, whose level is too high for short waves."""
+    return np.ones_like(along + across)
+
+
+@catches("the line taken for the rolling spectrum of a rail").at(
+    "validation.railway.problems.equivalent_displacement.rolling_input_filter", surface_itself
+)
 def test_short_waves_under_springs_on_the_rolling_spectrum_have_the_level_of_the_half_space():
     """On a circle, in the mean over bands, since zeros of springs do not fill; the line is (p + 1) / p too loud."""
     quantity, filters = closed(replace(falling(2.0), crown_radius=0.46), "isotropic", *LINES)
@@ -112,6 +128,13 @@ def test_contact_filters_are_models_of_a_rail_and_of_its_quantities_alone(name):
         assert len(found) == (11 if name == "rail" and quantity in RAIL_QUANTITIES else 0), quantity
 
 
+borne_by = equivalent_displacement.borne_by
+
+
+@catches("a bed of springs under another load", model=ONE_SIDED_BED).at(
+    "validation.railway.problems.equivalent_displacement.borne_by",
+    lambda levels, wanted: borne_by(levels, 1.5 * wanted),
+)
 @pytest.mark.slow
 @pytest.mark.parametrize("model", ONE_SIDED)
 def test_one_sided_models_follow_their_linear_twin_on_a_smoother_rail(model):
@@ -128,6 +151,15 @@ def test_one_sided_models_follow_their_linear_twin_on_a_smoother_rail(model):
         assert np.abs(linear_displacement(strip, LINEAR_ON_LINE) - twin).max() > 0.05 * np.abs(twin).max()
 
 
+def share_of_oblique_waves(along, across, *, semi_axes):
+    """sqrt(e(S)), which is not over e(k_x a_x): waves along the track are filtered twice."""
+    return 1 / np.sqrt(1 + (along * semi_axes[0]) ** 2 + (across * semi_axes[1]) ** 2)
+
+
+@catches("the rolling spectrum of a rail that filters ridges").at(
+    "validation.railway.problems.equivalent_displacement.rolling_input_filter", share_of_oblique_waves
+)
+@catches("20 lg of a ratio of powers").at("validation.railway.problems.rail_quantity.RailQuantity.filtered", Times(2.0))
 def test_over_ridges_models_are_sinc_squared_above_the_first_zero():
     """The band mean of (sin(k a_x) / (k a_x))^2 by a sum over many wavenumbers of the line's own power."""
     quantity, filters = closed(RAIL, "ridges")
@@ -155,6 +187,9 @@ def test_at_fixed_aspect_the_filter_over_wavelength_and_contact_does_not_depend_
             np.testing.assert_allclose(other[name][2:-bands], a3[2 + bands :], atol=0.02, err_msg=f"{name}, {across}")
 
 
+@catches("a ground that is not given taken for known").at(
+    "validation.railway.problems.rail_quantity.RailQuantity.half_width", property(lambda quantity: 0 * quantity.wave)
+)
 def test_ground_that_is_not_given_is_a_band_between_ridges_and_isotropic_ground():
     both = compare(replace(RAIL, across=None), "contact-filter", "3 dB")
     ends = [closed(RAIL, across)[1][LINEAR] for across in ("ridges", "isotropic")]
@@ -165,6 +200,9 @@ def test_ground_that_is_not_given_is_a_band_between_ridges_and_isotropic_ground(
     assert "across is not given" in linear.reason
 
 
+@catches("errors of contact filters claimed beyond where they were measured").at(
+    "validation.railway.problems.rail_models.MOST_LOST", 10.0
+)
 def test_beyond_what_was_measured_no_error_is_claimed():
     rough = replace(RAIL, roughness=RAIL.levels.raised(25.0))
     narrow = replace(RAIL, crown_radius=0.05)
@@ -175,6 +213,10 @@ def test_beyond_what_was_measured_no_error_is_claimed():
             assert claimed.in_range or word in claimed.reason
 
 
+@catches("the error of linear theory claimed by every contact filter").at(
+    "validation.railway.problems.rail_models.ContactFilter.model_error",
+    lambda model, quantity, a3: rail_models.linear_error(quantity),
+)
 def test_a_model_that_differs_from_linear_theory_says_by_how_much():
     quantity, filters = closed(RAIL, "isotropic")
     for name in (BED, LINEAR_ON_LINE, "Remington"):

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import mdr
+from tests.seeded import catches
+from validation.railway.problems import equivalent_displacement
 from validation.railway.problems.equivalent_displacement import geike_track, linear_displacement
 from validation.railway.problems.rail_sound import HeldWheel, roll_held_wheel, samples_of, sounding_strip
 from validation.railway.problems.rail_strip import line_of
@@ -43,6 +45,9 @@ def _without_shift(signals, *strips):
         yield np.fft.irfft(np.fft.rfft(signal) * np.exp(-1j * np.pi * f * one.spacing / RAIL.speed), SAMPLES)
 
 
+@catches("the line trace taken for Geike's spectrum").at(
+    f"{__name__}.geike_track", lambda strip: equivalent_displacement.linear_displacement(strip, LINE)
+)
 def test_geikes_track_has_his_spectrum_and_the_phases_of_the_line():
     """C_1D / C_line = pi k C_2D / C_line of the continuous ground; of a strip, sums over k_y are 5 % off at most."""
     one = strip()
@@ -58,6 +63,11 @@ def test_geikes_track_has_his_spectrum_and_the_phases_of_the_line():
     assert np.abs(track[k < 0.99 * one.ground.first]).max() < 1e-9 * np.abs(track).max()
 
 
+def springs_on_middle_line(height, *, spacing, **wheel):
+    return mdr.roll(height[:, height.shape[1] // 2], spacing=spacing[0], **wheel)
+
+
+@catches("springs that read one line of the surface").at("mdr.roll_surface", springs_on_middle_line)
 def test_springs_that_read_a_smoother_rail_are_linear_theory():
     """While all springs touch they differ by discretisation alone, 3 %."""
     one = strip(offset=-40.0)

@@ -5,6 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tests.seeded import catches
+from validation.railway.cases import filters
 from validation.railway.cases.rail_sound import RailSound, RailSoundResult, shipped_rail
 from validation.railway.cases.rail_sound_study import IN_BANDS, STUDY
 from validation.railway.problems.rail_sound import GEIKE
@@ -25,6 +27,12 @@ def result(**of_model):
     return RailSoundResult(CASE, {(model, cells): signals[model] for model in CASE.sounding for cells in CASE.cells})
 
 
+REAL_WEIGHTING = filters.a_weighting
+
+
+@catches("a weighting of amplitudes taken twice", frequency=100, weight=-19.1).at(
+    "validation.railway.cases.rail_sound.a_weighting", lambda f: 2 * REAL_WEIGHTING(f)
+)
 @pytest.mark.parametrize(("frequency", "weight"), [(100, -19.1), (1000, 0.0), (10000, -2.5)])
 def test_a_level_has_the_weight_of_the_standard(frequency, weight):
     """IEC 61672-1, table 3, to its digit; 1000 N of amplitude are 57 dB re 1 N."""

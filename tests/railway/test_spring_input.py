@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import mdr
+from tests.seeded import Times, catches
 from validation.railway.theory import contact_filters as spring_input
 from validation.railway.theory.transverse_structure import IsotropicGround, LineSpectrum
 
@@ -25,6 +26,16 @@ def filtered_line(q, axes):
     return 2 * np.trapezoid(passed, k)
 
 
+def circle_for_the_ellipse(along, across, *, semi_axes):
+    return ellipse_of_springs(along, across, semi_axes=(semi_axes[0], semi_axes[0]))
+
+
+ellipse_of_springs = spring_input.rolling_input_filter
+
+
+@catches("a circle for the ellipse in the rolling spectrum of a rail", wavenumber=700.0).at(
+    "validation.railway.theory.contact_filters.rolling_input_filter", circle_for_the_ellipse
+)
 @pytest.mark.parametrize("wavenumber", [120.0, 700.0, 5e3])
 def test_on_a_circle_it_is_the_rolling_spectrum_of_a_wheel(wavenumber):
     a = 2e-3
@@ -51,6 +62,9 @@ def test_short_waves_of_a_power_law_have_the_level_of_the_half_space(exponent, s
     np.testing.assert_allclose(passed, share, rtol=5e-3)
 
 
+@catches("Geike's rule over the line without pi", exponent=2.0).at(
+    "validation.railway.theory.contact_filters.geike_over_line", Times(1 / math.pi)
+)
 @pytest.mark.parametrize("exponent", [1.0, 2.0, 3.0, 3.4])
 def test_geikes_rule_over_the_line_of_a_power_law(exponent):
     """sqrt(pi) Gamma((p + 1) / 2) / Gamma(p / 2), 1, pi / 2 and 2 for p = 1, 2 and 3."""

@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 from scipy import integrate
 
+from tests.seeded import Times, catches
+from validation.railway.theory import transverse_structure
 from validation.railway.theory.contact_filters import half_space_filter, row_of_means_filter
 from validation.railway.theory.transverse_structure import (
     IsotropicGround,
@@ -49,6 +51,9 @@ def test_the_surface_of_a_power_law(s):
     assert float(SMOOTH.isotropic(s)) / (ratio * float(SMOOTH(s)) / s) == pytest.approx(1.0, rel=1e-11)
 
 
+@catches("half of Abel's inverse", q=50.0).at(
+    "validation.railway.theory.transverse_structure.LineSpectrum.isotropic", Times(0.5)
+)
 @pytest.mark.parametrize("q", [3.0, 50.0, 700.0, 2e4])
 def test_a_line_over_its_surface_is_that_line(q):
     """int C_2D dk by another quadrature, over t with k = q tan t, law by law."""
@@ -91,6 +96,10 @@ def test_lines_of_isotropic_surfaces_are_those_that_nowhere_rise_too_steeply():
         IsotropicGround(steep)
 
 
+@catches("ridges for isotropic ground", q=150.0).at(
+    "validation.railway.theory.transverse_structure.IsotropicGround.mean_square",
+    transverse_structure.Ridges.mean_square,
+)
 @pytest.mark.slow
 @pytest.mark.parametrize("q", [5.0, 150.0, 2500.0])
 def test_the_mean_over_isotropic_ground(q):
@@ -117,6 +126,9 @@ def test_a_filter_that_does_not_see_across_has_the_mean_of_ridges():
     )
 
 
+@catches("a line that keeps the waves which its surface has lost").at(
+    "validation.railway.theory.transverse_structure.IsotropicGround.line_power", lambda ground, q: ground.line(q)
+)
 def test_ground_without_its_shortest_waves_has_the_line_that_is_left():
     """A cut at q_max takes waves from the line below it too, and the mean is over what is left."""
     ground = IsotropicGround(RAIL, q_max=2e3)
@@ -165,6 +177,9 @@ WIDE = (0.08, 0.06)
 """Semi-axes at which waves of 1 mm have q a_x of 500."""
 
 
+@catches(
+    "a place for its period, where a contact is many waves wide", structure=transverse_structure.Ridges(), way=0
+).at("validation.railway.theory.transverse_structure._periods", lambda ends, period: transverse_structure.gauss(ends))
 @pytest.mark.parametrize("structure", [Ridges(), WaveBand(1.0), WaveBand(0.2), IsotropicGround(RAIL)])
 @pytest.mark.parametrize("way", [0, 1])
 def test_some_periods_stand_for_all(structure, way):
@@ -176,6 +191,9 @@ def test_some_periods_stand_for_all(structure, way):
     assert found[0] == pytest.approx(expected, abs=0.01)
 
 
+@catches("a work that grows with a contact that is many waves wide", structure=transverse_structure.WaveBand(1.0)).at(
+    "validation.railway.theory.transverse_structure.FAR", math.inf
+)
 @pytest.mark.parametrize("structure", [Ridges(), WaveBand(1.0), WaveBand(20.0), IsotropicGround(RAIL)])
 def test_work_ends_where_the_contact_is_many_waves_wide(structure):
     """It is counted: a filter tells how often it is evaluated. From there on a band costs the same."""
@@ -203,6 +221,20 @@ def power_law_line(p):
     return LineSpectrum.through(q, q**-p)
 
 
+periods = transverse_structure._periods
+
+
+panels_across = transverse_structure._panels_across
+
+
+@catches("far waves over half of a period", structure=transverse_structure.WaveBand(0.7)).at(
+    "validation.railway.theory.transverse_structure._periods",
+    lambda ends, period: periods(ends, np.asarray(period) / 2),
+)
+@catches("near waves counted among the far, too", structure=transverse_structure.WaveBand(0.7)).at(
+    "validation.railway.theory.transverse_structure._panels_across",
+    lambda q, end, period, begin=0.0: panels_across(q, end, period),
+)
 @pytest.mark.parametrize("structure", [WaveBand(0.7), WaveBand(3.0), IsotropicGround(power_law_line(2.0))])
 def test_far_waves_are_all_there_once_and_a_fast_filter_has_its_mean(structure):
     """Contacts of 300 and 2000 waves: a filter of one lets all pass, abs(sin k_y b)^2 one half."""

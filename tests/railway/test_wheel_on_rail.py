@@ -5,6 +5,7 @@ import pytest
 
 import mdr
 from tests.railway.power_law_ground import isotropic_strip
+from tests.seeded import catches
 from validation.railway.problems import wheel_on_rail
 from validation.railway.problems.wheel_on_rail import SurfaceSpringsLaw, WheelOnRail
 from validation.simulation.contact_laws import HertzLaw
@@ -39,6 +40,10 @@ def test_over_little_roughness_motion_lifts_as_linear_theory_does(model):
         assert off(outcome[name], outcome["linear"]) < 0.12
 
 
+@catches("a linear spring for Hertz in what lifts a wheel").at(
+    "validation.railway.problems.wheel_on_rail.lift",
+    lambda wheel, force, approach: wheel.approach + (force - wheel.load) / wheel.stiffness - approach,
+)
 def test_a_wheel_that_vibrates_on_a_smooth_rail_is_not_lifted():
     """The approach of Hertz under the force is the approach itself, however large the vibration is."""
     wheel = problem(SPRINGS).wheel
@@ -58,6 +63,15 @@ def test_the_sphere_in_place_of_the_ellipse_has_its_load_curve_and_its_stiffness
     assert wheel.contact_radius == pytest.approx(contact.along, rel=1e-9)
 
 
+def middle_line(half_widths, points, step):
+    weights = np.zeros((points, half_widths.size))
+    weights[points // 2] = 1.0
+    return weights
+
+
+@catches("springs in a time step that read one line").at(
+    "validation.railway.problems.wheel_on_rail.weights_across", middle_line
+)
 def test_springs_in_a_time_step_are_those_of_a_track():
     """At each place the law carries the load at the approach of `mdr.roll_surface`."""
     rough = problem(SPRINGS, rms=3e-6)

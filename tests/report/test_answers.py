@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 
 from tests.report.test_printed import html_of, number
+from tests.seeded import catches
+from validation.analysis import statistics
 from validation.analysis.evidence import Evidence, Role, Table, Verdict
 from validation.benchmarks.work_precision.case import POINTS
 from validation.benchmarks.work_precision.figure_cost import COST_OF_STEPS
@@ -22,7 +24,7 @@ from validation.cases.wheel.half_space import GEIKE, OVER_BEM
 from validation.railway.cases import across, rolled_filters
 from validation.railway.cases.filters import OFFSET
 from validation.railway.cases.rail_dynamic import BESIDE, RMS, SPRINGS_OVER_BEM
-from validation.report.answers import seconds
+from validation.report.answers import first_screen, seconds, strip
 from validation.report.answers.first_screen import answered_questions, from_to, plain
 from validation.report.answers.questions import QUESTIONS, in_decibels, per_cent, times
 from validation.report.answers.strip import Cell, span
@@ -87,6 +89,18 @@ def words_of(row):
     return [word for _, word in strip_of(row)]
 
 
+def enough_by_most(cell):
+    """A counterexample outvoted."""
+    return (
+        Verdict.AGREE
+        if 2 * sum(number.verdict is Verdict.AGREE for number in cell.numbers) > len(cell.numbers)
+        else Verdict.DIFFER
+    )
+
+
+@catches("a cell that says what most of its numbers say").at(
+    "validation.report.answers.strip.Cell.verdict", property(enough_by_most)
+)
 def test_one_counterexample_among_all_exponents_is_a_no():
     """At each place the worst of its numbers decides, and the sentence has the numbers that differ, no others."""
     values = ((0.4, 0.1), (0.7, 2.0), (1.0, 0.2), ("mean over H", 0.0))
@@ -152,6 +166,7 @@ def by_hurst():
     ]
 
 
+@catches("a strip that hides its Hurst exponent").at("validation.report.answers.strip.alone", lambda *_: "")
 def test_a_strip_and_its_sentence_name_the_hurst_exponents_on_which_a_verdict_depends():
     row = mean_stiffness(*by_hurst())
     assert [cell.alone for cell in row.strip] == ["", "H = 1 alone", "", "H = 0.4 alone", "", ""]
@@ -164,6 +179,9 @@ def test_a_strip_and_its_sentence_name_the_hurst_exponents_on_which_a_verdict_de
     assert "Fbar, 0.1 to 1: yes at H = 0.55 to 1; open at H = 0.4." in text
 
 
+@catches("neighbours that share a value").at(
+    f"{__name__}.plain", lambda rows: [{**row, "strip": []} for row in first_screen.plain(rows)]
+)
 def test_the_table_of_the_readme_names_them_and_its_ranges_share_no_value():
     (row,) = (row for row in plain([mean_stiffness(*by_hurst())]))
     _, answer, over, _ = runpy.run_path(str(ROOT / ".ci" / "readme.py"))["cells"](json.loads(json.dumps(row)))
@@ -316,6 +334,7 @@ def test_numbers_of_another_model_are_no_answer():
     assert row_of("rolling-spectrum", rolling(RMS_LEVEL, LINEAR_3D, 0.0)).word == "Not measured"
 
 
+@catches("cells that overlap").at("validation.report.answers.strip._apart", lambda found: dict(sorted(found.items())))
 def test_ranges_that_overlap_are_one_cell():
     """One H was measured less far than the other: both are numbers of the same cell."""
     numbers = [
@@ -326,6 +345,16 @@ def test_ranges_that_overlap_are_one_cell():
     assert [place for place, _ in strip_of(mean_stiffness(*numbers))] == ["< 0.1", "0.1 to 1", "1 to 10", "> 10"]
 
 
+apart = strip._apart
+
+
+def last_of_those_that_join(found):
+    return {place: numbers[-1:] for place, numbers in apart(found).items()}
+
+
+@catches("numbers dropped where ranges join", off=0).at(
+    "validation.report.answers.strip._apart", last_of_those_that_join
+)
 @pytest.mark.parametrize("off", range(4))
 def test_ranges_that_join_keep_all_of_their_numbers(off):
     """Of each range: whichever of the numbers differs, the joined place has its verdict and its size."""
@@ -387,6 +416,9 @@ def test_the_scatter_has_numbers_of_its_own():
 # --- words ---
 
 
+@catches("the power of a ratio printed for its amplitude").at(
+    "validation.report.answers.question.DECIBEL", statistics.POWER_DECIBEL
+)
 def test_decibels_are_printed_as_their_quantity():
     assert per_cent(TEN) == "+10 %"
     assert per_cent(-1e-9) == "+0 %"
@@ -402,6 +434,18 @@ AGREES, DIFFERS, UNDECIDED = (0.0, 0.0), (9.0, 0.0), (0.0, 9.0)
 YES, NO, OPEN = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
 
 
+def enough_unless_it_differs(cell):
+    """What is undecided taken for what agrees."""
+    right = verdict_of_a_cell(cell)
+    return Verdict.AGREE if right is Verdict.UNDECIDED and not cell.lacking else right
+
+
+verdict_of_a_cell = strip.Cell.verdict.fget
+
+
+@catches(
+    "a place with one number that is undecided under a yes", found=[AGREES, UNDECIDED], verdict=Verdict.UNDECIDED
+).at("validation.report.answers.strip.Cell.verdict", property(enough_unless_it_differs))
 @pytest.mark.parametrize(
     ("found", "verdict"),
     [

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from tests.advice.test_model_selection import outcome
 from tests.report.remade import REFERENCE, sections
+from tests.seeded import catches
 from validation.advice.cases import model_selection as ladder
 from validation.advice.cases import model_selection_study as calibration
 from validation.analysis.contents import csv_name
@@ -205,6 +206,17 @@ def test_what_stands_at_an_axis_is_what_the_table_holds(name):
         assert quantities
 
 
+right_draw = draw
+
+
+def with_exchanged_axes(chart, evidence):
+    figure = right_draw(chart, evidence)
+    for axis in figure.axes:
+        axis.set(xlabel=axis.get_ylabel(), ylabel=axis.get_xlabel())
+    return figure
+
+
+@catches("axes of the calibration chart exchanged").at(f"{__name__}.draw", with_exchanged_axes)
 def test_the_calibration_chart_has_estimated_errors_along_and_true_ones_up():
     """Four scenes with known errors and times: words, columns, scales and points."""
     scenes = [(0.02, 0.01, 1.0, 7.0), (0.05, 0.004, 2.0, 9.0), (0.08, 0.03, 4.0, 44.0)]

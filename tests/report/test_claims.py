@@ -6,9 +6,12 @@ from dataclasses import replace
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from markupsafe import Markup
 
 from tests.report.remade import sections
 from tests.report.test_printed import evidence_with, html_of, number
+from tests.seeded import catches
+from validation.analysis.claims import Claim
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Role, Verdict, Whose
 from validation.report import formats
 from validation.report.chapter import ENTRIES, ERRATA, REMARKS, ChapterEntry, ChapterTest, answers, chapter_results
@@ -61,6 +64,14 @@ WITHIN = {"limits": "below 1", "inside": numbers_with([AGREE])}
 # --- no green badge above a refutation ---
 
 
+@catches(
+    "a contradicted claim under a green badge",
+    verdicts=[Verdict.AGREE, Verdict.DIFFER],
+    changes={},
+    words="✗ contradicted",
+).at(
+    "validation.report.formats.format_status", lambda status, **_: Markup('<span class="verdict holds">✓ holds</span>')
+)
 @pytest.mark.parametrize(
     ("verdicts", "changes", "words"),
     [
@@ -182,6 +193,12 @@ def test_a_statement_has_the_status_of_its_numbers(verdicts):
     assert whole["answer"] == "Tested as “It is so.” It is 1 to 9."
 
 
+@catches("a statement of the book answered by numbers of another model", test={"quantity": "y0", "model": "m"}).at(
+    "validation.report.chapter.Claim", lambda model, **more: Claim(**more)
+)
+@catches(
+    "a statement of the book answered outside of its assumptions", test={"quantity": "y0", "where": {"h/d": 0.01}}
+).at("validation.report.chapter.Claim", lambda where, **more: Claim(**more))
 @pytest.mark.parametrize(
     "test",
     [

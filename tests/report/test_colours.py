@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.seeded import catches
 from validation import report
 
 TEMPLATES = Path(report.__file__).parent / "templates"
@@ -39,6 +40,23 @@ def painted(selector, text):
     return tuple(int(digits[i : i + 2], 16) / 255 for i in (0, 2, 4))
 
 
+SHEET = sheet()
+
+
+def exchanged(one, other):
+    """The style sheet with two classes in each other's place."""
+    return lambda: SHEET.replace(f".{one}", ".between").replace(f".{other}", f".{one}").replace(".between", f".{other}")
+
+
+@catches("yes in the colours of no", yes=".cell.yes", no=".cell.no", undecided=".cell.open").at(
+    f"{__name__}.sheet", exchanged("yes", "no")
+)
+@catches(
+    "what differs in the colours of what agrees",
+    yes=".verdict.agree",
+    no=".verdict.differ",
+    undecided=".verdict.undecided",
+).at(f"{__name__}.sheet", exchanged("agree", "differ"))
 @pytest.mark.parametrize(("yes", "no", "undecided"), list(zip(YES, NO, OPEN, strict=True)))
 def test_yes_is_green_no_is_red_and_undecided_is_neither(yes, no, undecided):
     text = sheet()

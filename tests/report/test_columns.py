@@ -6,6 +6,7 @@ import pytest
 
 from tests.report.remade import REFERENCE
 from tests.report.test_page import section_of
+from tests.seeded import catches
 from validation.analysis.contents import as_csv, from_csv
 from validation.analysis.evidence import Table
 from validation.report.columns import COLUMNS, columns_file, described
@@ -31,6 +32,7 @@ def test_a_column_that_nobody_explains_has_no_meaning():
     assert list(described("geike", Table("t", {"nobody knows [m]": [1.0]}))) == [("*", "nobody knows [m]", "m", "")]
 
 
+@catches("data without units").at("validation.report.columns.header_of", lambda table: list(table.columns))
 def test_values_have_the_unit_of_their_table():
     rows = list(described("rolling", Table("rms force, judged", {"h/d": [1.0], "value": [2.0], "low": [1.0]}, "dB")))
     of_rms = "square root of the ensemble mean of the variance, over that of boundary elements"
@@ -59,6 +61,9 @@ def test_a_unit_stands_in_the_header_and_comes_back(table, first):
     assert from_csv("t", text) == table
 
 
+@catches("a mean that is called nothing", *("fractal_punch", "mean stiffness, judged", "ensemble mean")).at(
+    "validation.report.columns._MEANINGS", {}
+)
 @pytest.mark.parametrize(
     ("case", "table", "words"),
     [

@@ -9,6 +9,7 @@ import pytest
 from tests.report.remade import remade
 from tests.report.test_claims import claim, section_of
 from tests.report.test_printed import html_of
+from tests.seeded import catches
 from validation.analysis.evidence import Table, Verdict, VerdictCell, Whose
 from validation.benchmarks.work_precision.case import POINTS
 from validation.benchmarks.work_precision.pareto import FASTER
@@ -78,6 +79,9 @@ def test_seconds_at_equal_error_stand_on_the_page():
     assert "3.50 ± 0.50 %, 120 µs" in text and "3 %, 120 ms" in text
 
 
+@catches("the end of an interval for the error", *("dB", 0.65, 0.85, 1.5, "inconclusive")).at(
+    "validation.report.answers.front_tables.ENOUGH", {"%": 0.0, "dB": -1.0}
+)
 @pytest.mark.parametrize(
     ("unit", "value", "half", "end", "verdict"),
     [

@@ -8,6 +8,7 @@ from types import SimpleNamespace
 import pytest
 
 from tests.report.test_command_line import SMALL
+from tests.seeded import catches
 from validation import __main__ as command
 from validation.report import provenance
 from validation.report import provenance as code_behind
@@ -61,6 +62,15 @@ def test_the_other_case_is_kept(tmp_path, monkeypatch):
     assert list(of(tmp_path, "results.json")["cases"]) == ["geike"]
 
 
+WITH_KEPT = provenance.with_kept
+
+
+def as_of_today(about, before, kept):
+    """A case that is kept passes for one of this run."""
+    return WITH_KEPT(about, {**before, "kept": {}, "commit": about["commit"]}, kept)
+
+
+@catches("a case that is kept has today's commit").at("validation.report.provenance.with_kept", as_of_today)
 def test_a_case_that_is_kept_twice_has_the_commit_that_made_it():
     about = {"commit": "today00", "seeds": {"ridges": 1}, "seconds": {"ridges": 1.0}, "kept": {}}
     before = {"commit": "before0", "seeds": {}, "seconds": {"hertz": 3.0}, "kept": {"geike": "first00"}}
@@ -85,6 +95,9 @@ def test_what_cannot_be_kept_is_refused(tmp_path, capsys):
     refused(capsys, "cannot keep hertz: 'title'", tmp_path, "--only", "geike", "--keep")
 
 
+@catches("a case that is kept, whatever code has made it", made_by={}, named="geike and hertz").at(
+    "validation.report.provenance.require_todays_code", lambda *of: None
+)
 @pytest.mark.parametrize(
     ("made_by", "named"),
     [({}, "geike and hertz"), ({"geike": "today", "hertz": "of another commit"}, "hertz"), (TODAY, "")],
@@ -107,6 +120,7 @@ def test_every_case_has_a_digest_of_its_own(monkeypatch):
     assert len({digest for some in found for digest in some.values()}) == 2 * len(CASES | TIMED)
 
 
+@catches("the code behind a case without its settings").at("validation.report.provenance.as_json", lambda value: b"")
 def test_the_code_behind_a_case_is_what_makes_its_numbers():
     """Settings and series; neither a study in a file of its own nor the page."""
     roots, case = [], CASES["wheel_distance"]

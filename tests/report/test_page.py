@@ -8,6 +8,7 @@ import pytest
 from tests.report.accessibility import faults
 from tests.report.test_command_line import SMALL
 from tests.report.test_printed import ABOUT, evidence_with, number
+from tests.seeded import catches
 from validation import __main__ as command
 from validation.analysis.contents import as_csv, from_csv
 from validation.analysis.evidence import JudgedClaim, Role, Table, Verdict, VerdictCell
@@ -15,6 +16,7 @@ from validation.report import page
 from validation.report.contents import CASES
 from validation.report.formats import format_field, map_of
 from validation.report.kept import redraw
+from validation.report.page import PageFigure
 from validation.report.section import Section
 from validation.report.style import picture
 
@@ -102,6 +104,13 @@ def test_a_table_with_few_verdicts_stays_as_it_is(columns):
     assert map_of(Table("t", columns)) is None
 
 
+CITATION = PageFigure.citation
+
+
+@catches("a figure of a case that is kept is cited with today's commit").at(
+    "validation.report.page.PageFigure.citation",
+    lambda figure, about, profile: CITATION(figure, {**about, "kept": {}}, profile),
+)
 def test_a_figure_is_numbered_on_the_page_and_cited_by_name_version_and_commit():
     text = html_of(section_of("hertz"), section_of("geike"))
     assert text.index('id="figure-hertz"') < text.index('id="figure-geike"')

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tests.seeded import catches
 from validation.analysis.contents import as_csv, as_written
 from validation.analysis.evidence import (
     Evidence,
@@ -69,6 +70,9 @@ def test_rows_of_the_file_and_of_the_results_are_the_numbers():
     assert [row["met"] for row in rows] == [True, False, None]
 
 
+@catches("two signs of verdicts exchanged").at(
+    "validation.report.formats.SYMBOL", {"agree": "≠", "differ": "✓", "undecided": "?"}
+)
 def test_every_verdict_has_its_word_and_sign():
     assert formats.SYMBOL == {"agree": "✓", "differ": "≠", "undecided": "?"} and set(formats.SYMBOL) == set(Verdict)
     assert drawing.SIGN == {"agree": "=", "differ": "≠", "undecided": "?"}

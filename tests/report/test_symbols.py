@@ -3,6 +3,7 @@
 import pytest
 
 from tests.report.test_page import pages_of, section_of
+from tests.seeded import catches
 from validation.report.columns import SYMBOLS, symbols_in
 
 
@@ -10,6 +11,9 @@ def names_in(text):
     return [symbol.name for symbol in symbols_in(text)]
 
 
+@catches("a symbol found inside of words", text="a wheel on E*", names=["E*"]).at(
+    "validation.report.columns.Symbol.stands_in", lambda symbol, text: symbol.name in text
+)
 @pytest.mark.parametrize(
     ("text", "names"),
     [

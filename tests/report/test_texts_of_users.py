@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 import validation.scenes.bundled
 from tests.advice.planted_answers import Finding, punch
+from tests.seeded import catches
 from validation.__main__ import main
 from validation.advice import figure as compared
 from validation.advice.compare import Comparison
@@ -31,6 +32,7 @@ def pixels(text, **how):
     return buffer.getvalue()
 
 
+@catches("texts of users as mathematics", name="$x^2$").at("validation.report.style.plain", lambda text: text)
 @pytest.mark.parametrize("name", [name for name in NAMES if not name.startswith("_")])
 def test_a_plain_text_is_drawn_as_it_is_written(name):
     assert pixels(style.plain(name)) == pixels(name, parse_math=False)
@@ -49,6 +51,12 @@ def test_every_form_of_a_figure_is_drawn_whatever_a_scene_is_called(name, form):
 BEGINNINGS = [name for name, of in style.MODELS.items() if of["marker"] == "none"]
 
 
+STYLES = style.styles_of
+
+
+@catches("a model of a user's in the style of one of the package", name="Persson").at(
+    "validation.report.style.styles_of", lambda n, users=(): STYLES(n)
+)
 @pytest.mark.parametrize("name", BEGINNINGS)
 def test_a_model_of_a_user_has_a_marker_however_its_name_begins(name):
     """As points it would be invisible, and two of them one line."""
@@ -71,6 +79,7 @@ def test_scenes_and_models_of_users_have_styles_of_their_own_in_the_figures_of_c
     assert names_of_users(found, list(settings)) == {"Hertz of mine"}
 
 
+@catches("texts of users on a page as they are").at("validation.report.formats.printable", lambda text, lines: text)
 def test_a_text_on_a_page_has_no_character_that_acts():
     page = templates().from_string("{{ text }}|{{ ours }}")
     said = page.render(text="a\x1b[31m<b>\u202e\nb", ours=Markup("<i>\x1b</i>"))

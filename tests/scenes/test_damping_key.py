@@ -2,12 +2,15 @@
 
 import math
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
 
 from tests.scenes.test_scene_files import TABLE, written
+from tests.seeded import catches
 from validation.advice.exported import assumed
+from validation.scenes import units
 from validation.scenes.bundled import path_of
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import load_wheel_scene
@@ -36,6 +39,9 @@ def test_a_ratio_is_read_in_per_cent_or_as_a_number(tmp_path, given, found):
     assert load_scene(rail(tmp_path, f'mass = "500 kg"\ndamping = {given}')).damping == found
 
 
+@catches("per cent of damping taken for the ratio").at(
+    "validation.scenes.units.UNITS", units.UNITS | {"share of critical": {"%": Fraction(1)}}
+)
 def test_per_cent_is_a_hundredth():
     assert [VALUES["damping"]("wheel.damping", text) for text in ("2 %", "2%", "0.7 %", 0.02)] == [
         0.02,

@@ -1,6 +1,7 @@
 """Tables as others export them: delimiter, decimal sign, header, units, encoding and places are recognised and told."""
 
 import io
+import math
 
 import numpy as np
 import pytest
@@ -8,9 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.railway.test_rail_files import CURVE, LEVELS, loaded
+from tests.seeded import catches
 from validation.railway.scenes import level_files
 from validation.railway.scenes.line_columns import along_the_track
 from validation.railway.scenes.measured_lines import MeasuredLines
+from validation.scenes import text_dialect
 from validation.scenes.column_names import Column, column_of, columns_of, unit_of_all
 from validation.scenes.description import description_lines
 from validation.scenes.measured import edited_lines
@@ -367,12 +370,18 @@ def test_the_place_along_the_track_is_no_line():
     assert lines.height.shape == (800, 1) and lines.height[:, 0] == pytest.approx(1e-6 * Z)
 
 
+@catches("wavenumbers in cycles taken for radians").at(
+    "validation.railway.scenes.level_files.WAVENUMBERS", {"1/m": 1 / (2 * math.pi), "1/cm": 1e2 / (2 * math.pi)}
+)
 def test_wavenumbers_are_cycles_over_a_metre():
     assert level_files._wavelengths(np.array([10.0, 16.0, 31.5]), "1/m")[0] == [0.1, 0.063, 0.0315]
     assert level_files._wavelengths(np.array([0.1, 0.16]), "1/cm")[0] == [0.1, 0.063]
     assert level_files._wavelengths(np.array([62.8, 100.5]), "rad/m")[0] == [0.1, 0.063]
 
 
+@catches("a line filled in with its mean").at(
+    "validation.scenes.measured._filled_line", lambda line: np.where(np.isnan(line), np.nanmean(line), line)
+)
 def test_holes_of_a_line_lie_between_their_neighbours():
     line = np.array([0.0, 1.0, np.nan, 3.0, 9.0] + 300 * [0.0])[:, np.newaxis]
     found, edits = edited_lines(line, fill=True, asked_by="")
@@ -425,6 +434,12 @@ def test_a_header_with_a_decimal_comma_is_no_pair_of_names_nor_a_mark_part_of_on
     assert in_memory("Weg 1,5 m\n3,25\n4,5\n1,25\n").values[:, 0].tolist() == [3.25, 4.5, 1.25]
 
 
+number = text_dialect.Dialect.number
+
+
+@catches("a point without data at zero", cell="BAD").at(
+    "validation.scenes.text_dialect.Dialect.number", lambda dialect, cell: np.nan_to_num(number(dialect, cell))
+)
 @pytest.mark.parametrize("cell", ["", "BAD", "***", "NaN", "n/a", "-", "#N/A", "7.5"])
 def test_cells_without_data_are_no_numbers(cell):
     values = in_memory(f"1;2\n3;{cell}\n4;5\n6;7\n", nodata=(7.5,)).values

@@ -7,6 +7,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from tests.seeded import catches
+from validation.scenes import measured as height_edits
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import load_scene
 from validation.scenes.measured import MeasuredHeights, central_square, filled_in
@@ -39,6 +41,12 @@ def test_a_hole_in_a_harmonic_surface_is_found_again():
     assert found == pytest.approx(saddle, abs=1e-10)
 
 
+right_filled_in = height_edits.filled_in
+
+
+@catches("cells taken for squares where points without data are filled in").at(
+    f"{__name__}.filled_in", lambda height, spacing: right_filled_in(height, (1.0, 1.0))
+)
 def test_holes_at_an_edge_against_repeated_means():
     """Of the neighbours that there are, about the plane of least squares through what is known."""
     holes = with_holes(ROUGH, (slice(0, 3), slice(4, 6)), (39, 0), (12, 31))
@@ -55,6 +63,10 @@ def test_holes_at_an_edge_against_repeated_means():
     assert filled_in(holes, (3.0, 1.0)) == pytest.approx(rest + level, abs=1e-12)
 
 
+@catches("the mean of all heights for points without data", hidden="nan").at(
+    "validation.scenes.measured_surface.filled_in",
+    lambda height, spacing: np.where(np.isnan(height), np.nanmean(height), height),
+)
 @pytest.mark.parametrize("hidden", ["nan", "mask"])
 def test_few_points_are_filled_in_where_it_is_asked_for_and_told(hidden):
     holes = with_holes(ROUGH, (3, slice(5, 9)), (30, 2))
@@ -130,6 +142,9 @@ def test_the_central_square_is_cut_out(shape, spacing, part):
     assert found.shape[0] * spacing[0] == pytest.approx(found.shape[1] * spacing[1], rel=1e-12)
 
 
+@catches("the first square for the central one").at(
+    "validation.scenes.measured_surface.central_square", lambda height, spacing: height[-32:, -32:]
+)
 def test_a_crop_is_told_and_its_points_alone_count():
     height = with_holes(ROUGH, (slice(0, 4), slice(0, 32)), (20, 20))
     found = measured(surface(height), crop=True, fill=True)

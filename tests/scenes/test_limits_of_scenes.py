@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 from tests.scenes.test_scene_files import written
+from tests.seeded import catches
 from validation.scenes.bundled import path_of
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import load_scene
@@ -64,6 +65,9 @@ def test_what_a_rail_is_made_of(old, new, value, tmp_path):
     assert {key: getattr(found, key) for key in value} == pytest.approx(value, rel=1e-14)
 
 
+@catches("E of one body for E / (1 - nu^2)").at(
+    "validation.scenes.material.Elastic.against_rigid", property(lambda body: body.youngs_modulus)
+)
 def test_two_bodies_yield_each_by_itself():
     """1 / E* = (1 - nu_1^2) / E_1 + (1 - nu_2^2) / E_2, by hand."""
     other = Elastic(youngs_modulus=70e9, poisson_ratio=0.25)

@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 import bem3d
+from tests.seeded import catches, catches_root_of_two
 from validation.__main__ import main
+from validation.scenes import roughness
 from validation.scenes.bundled import SCENES
 from validation.scenes.description import describe
 from validation.scenes.dynamic_wheel import load_wheel_scene
@@ -42,6 +44,9 @@ def written(folder, text, line=""):
 # E*
 
 
+@catches("the other body taken for a rigid one").at(
+    "validation.scenes.material.Material.modulus", property(lambda both: both._body.against_rigid)
+)
 def test_two_bodies_share_the_compliance():
     for first, other in ((210e9, 70e9), (1e6, 3e9)):
         body = steel(youngs_modulus=first, counterface=Elastic(youngs_modulus=other, poisson_ratio=0.33))
@@ -149,6 +154,14 @@ def test_what_contradicts_itself_is_refused_by_name(tmp_path, text, load, line, 
 # What was understood
 
 
+slope_in_one_direction = roughness.Roughness.slope_along.fget
+
+
+@catches_root_of_two("the gradient of a drawn surface", "validation.scenes.roughness.rms_gradient")
+@catches("the slope of the gradient for that along the track").at(
+    "validation.scenes.roughness.Roughness.slope_along",
+    property(lambda rough: math.sqrt(2) * slope_in_one_direction(rough)),
+)
 def test_slopes_are_those_of_the_spectrum():
     for hurst in (0.3, 0.7, 1.0, 1.2):
         rough = Roughness(rms=2e-6, hurst=hurst, longest=1e-3, shortest=1e-4)
@@ -156,6 +169,8 @@ def test_slopes_are_those_of_the_spectrum():
         assert rough.slope_along == pytest.approx(math.sqrt(np.pi * np.trapezoid(q**3 * rough.c2d(q), q)), rel=1e-5)
 
 
+@catches_root_of_two("h' of measured heights", "validation.scenes.measured.MeasuredHeights.slope_along")
+@catches_root_of_two("the gradient of measured heights", "validation.scenes.measured.MeasuredHeights.gradient")
 def test_slopes_are_those_of_heights():
     rough, n = Roughness(rms=1e-6, hurst=0.7, longest=2.5e-4, shortest=3.2e-5), 512
     height = bem3d.rough_surface(rough.c2d, shape=(n, n), spacing=1e-3 / n, rng=np.random.default_rng(1), rms=1e-6)

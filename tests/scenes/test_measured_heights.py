@@ -10,7 +10,9 @@ from scipy import stats
 
 import bem3d
 import mdr
+from tests.seeded import catches
 from validation.advice.quantities import models_of
+from validation.scenes import measured as measured_heights
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_surface import measured
@@ -49,6 +51,17 @@ def test_the_spectrum_is_found_in_the_heights():
     assert np.mean(ratios) == pytest.approx(1.0, abs=0.08)
 
 
+real_spectrum = measured_heights._spectrum
+
+
+def half_of_the_level(height, spacing):
+    edges, level = real_spectrum(height, spacing)
+    return edges, tuple(value / 2 for value in level)
+
+
+@catches("measured heights over half of their mean square").at(
+    "validation.scenes.measured._spectrum", half_of_the_level
+)
 def test_the_spectrum_has_the_height():
     found = heights(drawn())
     edges = np.array(found.edges)
@@ -84,6 +97,7 @@ def test_note_of_heights_that_are_not_gaussian():
     assert re.match(r"heights are not Gaussian, skewness -\d", doubt)
 
 
+@catches("plateaus taken for Gaussian heights").at("validation.scenes.measured.FLAT", 0.0)
 def test_note_of_plateaus_that_neither_skewness_nor_kurtosis_shows():
     """Ground on top and pitted as deep below: of honed faces at a light load springs were a factor of six too soft."""
     plateaus = np.clip(drawn(), -1.6e-7, 1.6e-7)
@@ -109,6 +123,9 @@ def refusal(question):
     return ""
 
 
+@catches("heights behind a mask").at(
+    "validation.scenes.measured_surface.real_numbers", lambda height: np.asarray(height, dtype=np.float64)
+)
 def test_points_without_data_are_refused():
     """A masked point is no height: what stands behind the mask entered as one, and gave a stiffness 8 % off."""
     height, gone = drawn(), np.zeros((N, N), dtype=bool)
@@ -123,6 +140,9 @@ def test_points_without_data_are_refused():
     assert (measured(surface(np.ma.masked_array(height))).height == heights(height).height).all()
 
 
+@catches("a surface in micrometres taken for one in metres", more={"unit": "um"}).at(
+    "validation.scenes.measured_surface._metres", lambda surface, given: 1.0
+)
 @pytest.mark.parametrize(
     "more", [{"unit": "um"}, {"unit": None, "info": {"unit": "µm"}}, {"unit": "um", "info": {"unit": "µm"}}]
 )

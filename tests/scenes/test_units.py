@@ -1,9 +1,13 @@
 """Quantities with units: the nearest float, the same number in any unit, and other forms refused by name."""
 
+from fractions import Fraction
+
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from tests.seeded import catches
+from validation.scenes import units
 from validation.scenes.printable import quoted
 from validation.scenes.units import UNITS, in_unit, quantity
 
@@ -16,6 +20,9 @@ TIMES |= {"N/m2": 1, "kN/m2": 1e3, "MN/m2": 1e6, "N/mm2": 1e6, "kN/mm2": 1e9, "c
 EVERY_UNIT = [(dimension, unit) for dimension, units in UNITS.items() for unit in units]
 
 
+@catches("a load in uN taken for one in mN", text="40 uN", dimension="force", value=4e-5).at(
+    "validation.scenes.units.UNITS", {**units.UNITS, "force": {**units.UNITS["force"], "uN": Fraction(1, 1000)}}
+)
 @pytest.mark.parametrize(
     ("text", "dimension", "value"),
     [

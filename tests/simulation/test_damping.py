@@ -8,11 +8,12 @@ import pytest
 
 from tests.cases.planted import LOW
 from tests.railway.power_law_ground import isotropic_strip
+from tests.seeded import Times, catches
 from tests.simulation.test_wheel_motion import strips
 from tests.simulation.wheels import SCHEMES, ULP, WHEEL, springs_law, track
 from validation.railway.problems import wheel_on_rail
 from validation.railway.problems.wheel_on_rail import WheelOnRail
-from validation.scenes.wheel_body import DampedWheel
+from validation.scenes.wheel_body import DampedWheel, Wheel
 from validation.simulation import wheel_on_springs
 from validation.simulation.contact_laws import BoundaryElementsLaw, HertzLaw, LinearLaw
 from validation.simulation.model_names import BEM
@@ -42,6 +43,8 @@ def test_without_damping_all_numbers_are_those_of_plain_velocity_verlet_to_the_b
     assert np.array_equal(linear(change, 0.0).steady_state(0.1), LinearLaw(WHEEL, change).steady_state(0.1))
 
 
+@catches("factor 2 in the constant of the dashpot").at("validation.simulation.motion.damping_rate", Times(2.0))
+@catches("a dashpot that drives the wheel").at("validation.simulation.motion.damping_rate", Times(-1.0))
 def test_free_vibration_decays_by_the_exact_law_of_a_dashpot_at_second_order():
     """y = A exp(-zeta t) (cos(w t) + zeta / w sin(w t)), w = sqrt(1 - zeta^2), released at rest."""
     errors, w = [], math.sqrt(1 - ZETA**2)
@@ -56,6 +59,9 @@ def test_free_vibration_decays_by_the_exact_law_of_a_dashpot_at_second_order():
     assert -np.diff(np.log2(errors)) == pytest.approx(2, abs=0.05)
 
 
+@catches("factor 2 in the dashpot of the steady state", frequency=0.5).at(
+    "validation.simulation.contact_laws.damping_rate", Times(2.0)
+)
 @pytest.mark.slow
 @pytest.mark.parametrize("frequency", [0.5, 1.0, 3.0])
 def test_a_sine_brings_the_wheel_into_its_steady_response(frequency):
@@ -133,6 +139,9 @@ def gain(omega, dt, wheel, zeta):
     return s**2 / np.abs(wheel.stiffness - wheel.mass * s**2 + 1j * c * np.sin(omega * dt) / dt)
 
 
+@catches("damping forgotten in a scene of springs", linear_contact=True).at(
+    "validation.scenes.dynamic_wheel.DampedWheel", lambda damping, **given: Wheel(**given)
+)
 @pytest.mark.slow
 @pytest.mark.parametrize("linear_contact", [True, False], ids=["linear", "springs"])
 def test_a_scene_with_damping_damps_its_wheels_on_springs(linear_contact):
@@ -169,6 +178,15 @@ def on_rail(model, zeta=ZETA, rms=1e-7):
     return WheelOnRail(strip=strip, mass=500.0, speed=22.0, model=model, tolerance=1e-6, damping=zeta)
 
 
+def without_a_dashpot(case):
+    """The wheel on a rail, whatever damping it is given."""
+    springs = wheel_on_rail.spring_wheel(case.strip.radii, case.strip.modulus)
+    return Wheel(radius=springs.radius, modulus=springs.modulus, mass=case.mass, load=case.strip.force)
+
+
+@catches("damping forgotten on a rail", model=SPRINGS).at(
+    "validation.railway.problems.wheel_on_rail.WheelOnRail.wheel", property(without_a_dashpot)
+)
 @pytest.mark.parametrize("model", [pytest.param(BEM, marks=pytest.mark.slow), SPRINGS])
 def test_a_wheel_on_a_rail_moves_by_its_equation_with_the_dashpot(model):
     case = on_rail(model)

@@ -1,6 +1,7 @@
 """A position that does not converge, in all that rolls on boundary elements: a flag and no number, or an exception."""
 
 import ast
+import types
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import pytest
 import bem3d
 from tests.advice.planted_answers import wheel
 from tests.railway.power_law_ground import isotropic_strip
+from tests.seeded import catches
 from validation.advice.models.boundary_elements_rolling import MODEL as ROLLING
 from validation.analysis.spectra import Bands
 from validation.benchmarks.work_precision import rolling as rolling_chart
@@ -113,6 +115,30 @@ def one_iteration_at(positions):
         yield
 
 
+def without_flag(solve):
+    """The outcome of a solve, without its flag."""
+    return lambda *given, **settings: {**solve(*given, **settings), "failed": np.array(0.0)}
+
+
+@catches("roll_strip without its flag", path="validation.simulation.rolling_strip:roll_strip").at(
+    f"{__name__}.roll_strip", without_flag(roll_strip)
+)
+@catches("roll_rail without its flag", path=ON_A_RAIL).at(f"{__name__}.roll_rail", without_flag(roll_rail))
+@catches("roll_held_wheel without its flag", path=ON_A_RAIL + ", at a constant height").at(
+    f"{__name__}.roll_held_wheel", without_flag(roll_held_wheel)
+)
+@catches("roll_and_move without its flag", path=ON_A_RAIL + ", before it moves").at(
+    f"{__name__}.roll_and_move", without_flag(roll_and_move)
+)
+@catches("roll_by_all without its flag", path="validation.simulation.reduced_models:boundary_elements").at(
+    f"{__name__}.roll_by_all", without_flag(roll_by_all)
+)
+@catches("roll_over without its flag", path="validation.simulation.ridges:_roll").at(
+    "validation.simulation.ridges.roll_over", without_flag(ridges.roll_over)
+)
+@catches("roll_loaded_strip without its flag", path="validation.simulation.rolling_strip:roll_loaded_strip").at(
+    "validation.simulation.rolling_strip.roll_loaded_strip", without_flag(rolling_strip.roll_loaded_strip)
+)
 @pytest.mark.parametrize("path", PATHS)
 def test_a_position_without_a_solution_is_flagged_and_is_no_number(path):
     """All that it changes is NaN. Where nothing can do without it, there is no outcome at all."""
@@ -152,6 +178,12 @@ def test_all_that_rolls_is_looked_at():
     assert {path for path in found if ".examples." not in path} == {path.partition(",")[0] for path in PATHS}
 
 
+@catches("a rolling contact that always says it has converged").at(
+    "bem3d.WheelContact.converged", property(lambda contact: True)
+)
+@catches("numbers of a rolling contact that has not converged").at(
+    "bem3d.rolling_contact.math", types.SimpleNamespace(nan=1.0)
+)
 def test_a_position_without_a_solution_has_no_number():
     """Of force, approach and area; residual and work are known."""
     track = bem3d.Track(height=STRIP.surface(), spacing=1 / 6, radius=1.0, modulus=1.0)

@@ -1,5 +1,6 @@
 """Light loads on few cells: the same stiffness as by transforms, on the same surface."""
 
+import dataclasses
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -7,8 +8,11 @@ import numpy as np
 import pytest
 
 import bem3d
+from bem3d import few_cells
 from tests.oracles import approach_by_least_squares, contact_by_least_squares, dense_operator
+from tests.seeded import catches
 from validation.simulation import rough_punch as light_punch
+from validation.simulation import surface
 from validation.simulation.rough_punch import PunchRoughness, Surface, press_lightly, press_surface
 from validation.simulation.surface import refined
 
@@ -17,6 +21,15 @@ SURFACE = Surface(roughness=ROUGHNESS, realisation=3, cells=64, forces=(0.001, 0
 COMMON = ("stiffness", "area", "approach")
 
 
+def half_a_fine_cell_aside(height, cells):
+    """The mean of neighbours: what it is between them, nearly."""
+    fine = surface.refined(height, cells)
+    return (fine + np.roll(fine, 1, axis=0)) / 2
+
+
+@catches("a finer grid half a cell aside", cells=128).at(
+    "validation.simulation.rough_punch.refined", half_a_fine_cell_aside
+)
 @pytest.mark.parametrize("cells", [32, 64, 128])
 def test_the_same_numbers_as_by_transforms(cells):
     surface = replace(SURFACE, cells=cells)
@@ -27,6 +40,11 @@ def test_the_same_numbers_as_by_transforms(cells):
     assert (light["residual"] < 1e-6).all()
 
 
+def half_of_a_light_force(half_space, gap, *, forces, **settings):
+    return few_cells.indent_few_cells(half_space, gap, forces=forces / 2, **settings)
+
+
+@catches("half of a light force").at("bem3d.indent_few_cells", half_of_a_light_force)
 def test_beside_the_dense_solution():
     """A bump raises the force, F = Fbar h; stiffness is that of the cells in contact."""
     surface = replace(SURFACE, cells=12, roughness=replace(ROUGHNESS, waves=(1, 3)), tolerance=1e-8)
@@ -42,6 +60,13 @@ def test_beside_the_dense_solution():
         assert found["area"][i] == pytest.approx(cells.size / 144)
 
 
+def heavier_loads_as_light_ones(surface):
+    return press_surface(dataclasses.replace(surface, forces=tuple(f / 2 for f in surface.forces)))
+
+
+@catches("light loads that are not carried on", limit="OVERLAPPING", times=1).at(
+    "validation.simulation.rough_punch.press_surface", heavier_loads_as_light_ones
+)
 @pytest.mark.parametrize(("limit", "times"), [("OVERLAPPING", 1), ("TOUCHING", 0.1)])
 def test_heavier_loads_go_on_by_transforms(limit, times):
     """Where more cells overlap than are worth a matrix, or will touch."""
@@ -54,6 +79,9 @@ def test_heavier_loads_go_on_by_transforms(limit, times):
         np.testing.assert_allclose(light[name], expected[name], rtol=1e-4)
 
 
+@catches("a load tried on a matrix whatever touches").at(
+    "validation.simulation.rough_punch._while_few", lambda contacts, forces, most: contacts
+)
 def test_a_load_that_will_have_many_cells_is_not_tried():
     """The contact before it tells: their number goes with the force."""
     tried = []

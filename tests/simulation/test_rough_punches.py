@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from tests.oracles import rms_scatter_of_gaussian_draws
+from tests.seeded import catches
 from validation.simulation.rough_punch import METHODS, Profiles, PunchRoughness, Surface, press_profiles, press_surface
 from validation.theory import closed_forms
 
@@ -22,6 +23,13 @@ def draws(roughness, method, count):
     return [roughness.surface(16, i) if method == "bem3d" else roughness.profile(64, i) for i in range(count)]
 
 
+@catches("rms of the ensemble for that of each", method="bem3d", hurst=1.0).at(
+    "validation.simulation.rough_punch.PunchRoughness._normalised", lambda roughness, height: height
+)
+@catches("rms of each for that of the ensemble", method="mdr", hurst=1.0).at(
+    "validation.simulation.rough_punch.PunchRoughness._normalised",
+    lambda roughness, height: height * roughness.height / height.std(),
+)
 @pytest.mark.slow
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("hurst", [0.4, 1.0])

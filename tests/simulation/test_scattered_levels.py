@@ -7,10 +7,13 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from tests.seeded import catches
 from validation import load_scene
 from validation.analysis.spectra import LONGEST, NominalBands
+from validation.railway.problems import rail_strip
 from validation.railway.problems.rail_quantity import RailQuantity
 from validation.railway.problems.rail_strip import lost_contact_number, strip_bands, strip_of
+from validation.railway.scenes import isotropic_line
 from validation.railway.scenes.isotropic_line import IsotropicLine
 from validation.railway.scenes.level_files import RoughnessLevels, curve
 from validation.railway.theory.transverse_structure import LineSpectrum
@@ -89,6 +92,25 @@ def by_what_the_ground_leaves(scene):
     return asked.linear.mean(axis=0), asked.left_by_ground
 
 
+def as_they_are(series, weights, *, least):
+    n = len(series)
+    return isotropic_line.Graduation(np.asarray(series), np.eye(n), least, np.ones(n))
+
+
+@catches("levels that scatter taken as they are", answer=by_linear_theory, files=6, wide=0, share=0.95).at(
+    "validation.railway.scenes.isotropic_line.graduated", as_they_are
+)
+@catches("no error of levels that scatter", answer=by_what_the_ground_leaves, files=12, wide=0, share=0.92).at(
+    "validation.railway.problems.rail_quantity.RailQuantity.smoothing_error",
+    property(lambda quantity: 0 * quantity.wave),
+)
+@catches(
+    "no error of a wide corrugation that is in part taken for ground",
+    answer=by_linear_theory,
+    files=24,
+    wide=5,
+    share=0.95,
+).at("validation.railway.problems.rail_quantity.OF_SMOOTHING", 0.0)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("answer", "files", "wide", "share"),
@@ -101,6 +123,13 @@ def test_the_smooth_ground_is_held(answer, files, wide, share):
     assert inside >= share and half <= (1.5 if answer is by_linear_theory else 1.0)
 
 
+smoothing_error = RailQuantity.smoothing_error.func
+
+
+@catches("half of what smoothing leaves").at(
+    "validation.railway.problems.rail_quantity.RailQuantity.smoothing_error",
+    property(lambda quantity: smoothing_error(quantity) / 2),
+)
 def test_what_smoothing_leaves_is_its_slope_error_and_three_times_what_more_smoothing_changes():
     """Of power laws, whose filters over isotropic ground are known: 10 dB a decade, 11.5 of the smoother line."""
     bands, none = RAIL.levels.bands, np.zeros(35)
@@ -124,6 +153,9 @@ def corrugated(across="isotropic", by=6.0, waves=(31.5, 25)):
     return replace(RAIL, across=across, roughness=replace(ISO, levels=tuple(scattered.tolist())))
 
 
+@catches("a corrugation taken for isotropic ground").at(
+    "validation.railway.problems.rail_quantity.RailQuantity.between", lambda quantity, ends: ends[-1:]
+)
 def test_a_corrugation_costs_its_own_bands_alone_and_they_lie_between_ridges_and_isotropic_ground():
     asked, smooth = (RailQuantity(one, "contact-filter") for one in (corrugated(), RAIL))
     ridges = RailQuantity(replace(RAIL, across="ridges"), "contact-filter").linear[0]
@@ -137,6 +169,13 @@ def test_a_corrugation_costs_its_own_bands_alone_and_they_lie_between_ridges_and
     assert (np.abs(value - smooth.linear[0]) <= half)[counted].all()
 
 
+stands_out = RailQuantity.stands_out.fget
+
+
+@catches("a corrugation at other waves").at(
+    "validation.railway.problems.rail_quantity.RailQuantity.stands_out",
+    property(lambda quantity: np.roll(stands_out(quantity), -3)),
+)
 def test_bands_that_stand_out_keep_their_names_under_longer_waves():
     """As of a table from 2000 mm on, by levels that begin at 400 mm."""
     levels = corrugated().levels.within(0.4, None)
@@ -144,6 +183,12 @@ def test_bands_that_stand_out_keep_their_names_under_longer_waves():
     assert (1000 * asked.bands.nominal)[asked.stands_out].tolist() == [31.5, 25.0]
 
 
+ground_of_strip = rail_strip.RailGround
+
+
+@catches("strips without a corrugation").at(
+    "validation.railway.problems.rail_strip.RailGround", lambda **waves: ground_of_strip(**{**waves, "whole": None})
+)
 def test_strips_have_the_power_of_what_stands_out():
     """As ridges over isotropic ground, all along both ends."""
     scene = corrugated()
@@ -156,6 +201,12 @@ def test_strips_have_the_power_of_what_stands_out():
         assert found / float(line(q)) == pytest.approx(1.0, rel=0.1)
 
 
+def by_smooth_levels(scene):
+    slope = rail_strip.strip_bands(scene).slope_of_spectrum(rail_strip.line_of(scene))
+    return slope * scene.contact.along / scene.contact.approach
+
+
+@catches("the loss of contact of smooth levels alone").at(f"{__name__}.lost_contact_number", by_smooth_levels)
 def test_loss_of_contact_is_that_of_the_levels_as_they_are():
     """h'^2 is the sum of (2 pi / lambda)^2 times the power of each band of a strip."""
     for by in (0.0, 15.0):

@@ -1,13 +1,16 @@
 """Time stepping: order, energy and limit of every scheme; the period of free vibration on a Hertz contact."""
 
+import dataclasses
 import math
 
 import numpy as np
 import pytest
 
 from tests.oracles import free_vibration_by_small_steps
+from tests.seeded import catches
 from tests.simulation.wheels import SCHEMES, SYMPLECTIC, WHEEL, Counted
 from validation.scenes.wheel_body import Wheel
+from validation.simulation import integrators
 from validation.simulation.contact_laws import HertzLaw
 from validation.simulation.motion import natural_periods, simulate
 from validation.theory import wheel as wheel_theory
@@ -25,6 +28,14 @@ def after(name, cells, turns):
     return np.array([motion.approach[0], motion.velocity[0]])
 
 
+def half_a_step(scheme):
+    """Forces at the right cells, steps of half their length."""
+    return dataclasses.replace(scheme, march=lambda f, y, v, dt: scheme.march(f, y, v, dt / 2))
+
+
+@catches("the step of a cell for that of two in Runge and Kutta", name="Runge-Kutta").at(
+    f"{__name__}.SCHEMES", {**SCHEMES, "Runge-Kutta": half_a_step(integrators.RUNGE_KUTTA)}
+)
 @pytest.mark.parametrize("name", SCHEMES)
 def test_order_of_a_scheme_on_a_free_vibration(name):
     """At a place that is no turning point, where symplectic Euler would be better than it is."""
@@ -45,6 +56,22 @@ def energies(name, turn, steps, highest):
     return state[:, 1] ** 2 / 2 + 2 / 3 * (0.4 * np.maximum(state[:, 0], 0) ** 2.5 - state[:, 0])
 
 
+def old_force_in_the_velocity(f, y, v, dt):
+    """Velocity Verlet whose velocity has the force of the beginning alone: d is of first order then."""
+    place = 0
+    while True:
+        a = f(place, y)
+        yield y, v, a
+        y, v, place = y + dt * v + dt**2 / 2 * a, v + dt * a, place + 1
+
+
+@catches("velocity Verlet with the force of the beginning alone", name="velocity Verlet", highest=1.5).at(
+    f"{__name__}.SCHEMES",
+    {
+        **SCHEMES,
+        "velocity Verlet": dataclasses.replace(integrators.VELOCITY_VERLET, march=old_force_in_the_velocity),
+    },
+)
 @pytest.mark.parametrize("name", SYMPLECTIC)
 @pytest.mark.parametrize("highest", [1.5, 2.5])
 def test_symplectic_schemes_keep_the_energy(name, highest):

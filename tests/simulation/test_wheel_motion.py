@@ -1,20 +1,32 @@
 """The wheel in motion: every law of contact against exact motions, balances and symmetries; lift-off."""
 
 import math
+import types
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests.seeded import E_FOR_E_STAR, Times, catches
 from tests.simulation.wheels import GRAVITY, SCHEMES, ULP, WHEEL, drift, laws, quantum, springs_law, track
 from validation.scenes.wheel_body import Wheel
+from validation.simulation import contact_laws, integrators, motion
 from validation.simulation.contact_laws import BoundaryElementsLaw, HertzLaw, LinearLaw, SpringsLaw
 from validation.simulation.motion import simulate
 
 # --- smooth tracks ----------------------------------------------------------------------------------------------------
 
 
+def without_load(wheel, law, **settings):
+    """M z'' = F."""
+    weightless = types.SimpleNamespace(load=0.0, mass=wheel.mass, eigenfrequency=wheel.eigenfrequency)
+    return motion.simulate(weightless, law, **settings)
+
+
+@catches("load forgotten in the equation of motion", law=contact_laws.HertzLaw(WHEEL, 2), each=4 * ULP).at(
+    f"{__name__}.simulate", without_load
+)
 @pytest.mark.parametrize(
     ("law", "each"),
     [
@@ -37,12 +49,17 @@ def test_on_a_smooth_track_a_wheel_stays_at_rest(law, each):
     assert (motion.highest == motion.path.max(axis=0)).all()
 
 
+@catches("E for E* in the force, not in the approach at rest").at("mdr.RollingEnsemble.force", Times(E_FOR_E_STAR))
 def test_at_rest_the_wheel_bears_its_load():
     for law in (HertzLaw(WHEEL, 2), LinearLaw(WHEEL, track(40, 2, 0.3)), springs_law(track(40, 2, 0.3), 12.5)):
         for place in (0, 3, 17):
             assert law.force(place, law.at_rest(place)) == pytest.approx(4 / 3, rel=4 * quantum(12.5))
 
 
+@catches("a jump that is not there", name="linear").at(
+    "validation.simulation.motion.Motion.jump",
+    property(lambda motion: motion.next_acceleration - motion.next_acceleration),
+)
 @pytest.mark.parametrize("name", ["springs", "linear", "Hertz"])
 def test_the_change_of_velocity_is_the_mean_acceleration(name):
     """Velocity Verlet adds (z_n'' + z_n+1'') / 2 dt: the mean of the record, and half of the jump over N."""
@@ -64,6 +81,14 @@ def test_the_change_of_velocity_of_eulers_schemes_is_the_sum_of_the_record(name)
     assert np.abs(motion.acceleration.sum(axis=0) * 0.01 + motion.velocity).max() <= 500 * 4 * ULP
 
 
+def by_another(march):
+    """What `simulate` does where no scheme is asked for."""
+    return {**motion.simulate.__kwdefaults__, "integrator": march}
+
+
+@catches("explicit Euler where nothing is asked for", rms=0.05, thrown=0.0).at(
+    "validation.simulation.motion.simulate.__kwdefaults__", by_another(integrators.EXPLICIT_EULER)
+)
 @pytest.mark.parametrize(("rms", "thrown"), [(0.0, 0.3), (0.05, 0.0), (0.3, 0.0), (0.2, 1.5)])
 def test_time_reversal(rms, thrown):
     """Back over the mirrored track with the velocity reversed: where it came from.
@@ -107,6 +132,9 @@ def test_units_do_not_matter(length, modulus, mass, seed):
 # --- the linear contact -----------------------------------------------------------------------------------------------
 
 
+@catches("symplectic Euler where nothing is asked for", turn=0.3).at(
+    "validation.simulation.motion.simulate.__kwdefaults__", by_another(integrators.SYMPLECTIC_EULER)
+)
 @pytest.mark.parametrize("turn", [0.01, 0.3, 1.0, 1.9, 1.999])
 def test_free_vibration_of_a_linear_contact_is_the_exact_one_of_leapfrog(turn):
     """d_n = d_N + A cos(n W), cos(W) = 1 - (omega dt)^2 / 2; rounding grows by 1 / sin(W) a step."""
@@ -126,6 +154,17 @@ def steady_by_a_dense_solve(change, time_step):
     return np.linalg.solve(matrix, -change), np.linalg.cond(matrix)
 
 
+def softer_steady(law, time_step):
+    """omega for the 2 sin(omega dt / 2) / dt of leapfrog."""
+    frequency = 2 * np.pi * np.fft.rfftfreq(len(law.change), time_step)[:, np.newaxis]
+    waves = np.fft.rfft(law.change, axis=0) / (law.wheel.stiffness - law.wheel.mass * frequency**2)
+    d = -np.fft.irfft(waves, len(law.change), axis=0)
+    return law.wheel.approach + d[0], (d[1] - d[-1]) / (2 * time_step)
+
+
+@catches("a steady motion in continuous time", points=50, time_step=0.1).at(
+    "validation.simulation.contact_laws.LinearLaw.steady_state", softer_steady
+)
 @pytest.mark.parametrize(("points", "time_step"), [(50, 0.1), (51, 0.7), (64, 1.7), (7, 0.3), (2, 0.3)])
 def test_the_steady_motion_is_that_of_a_dense_solve_and_repeats_itself(points, time_step):
     change = np.random.default_rng(points).normal(size=(points, 2))

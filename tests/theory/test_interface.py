@@ -1,11 +1,13 @@
 """Persson's stiffness of an interface beside the diffusion of pressures, marched in steps, and beside its limits."""
 
 import math
+import types
 
 import numpy as np
 import pytest
 from scipy import integrate, linalg, special
 
+from tests.seeded import catches
 from validation.theory import interface
 
 EDGES = (2.0, 3.0, 24.0)
@@ -25,6 +27,9 @@ def contact_fraction(pressure, gradient):
     return special.erf(math.sqrt(2) * pressure / gradient)
 
 
+@catches("pressures that diffuse half as fast").at(
+    f"{__name__}.contact_fraction", lambda pressure, gradient: math.erf(pressure / gradient)
+)
 def test_the_area_is_that_of_pressures_that_diffuse():
     """The pressure is p at first, diffuses by dW = W'' dV / 2 and is absorbed at zero: Crank and Nicolson, from a
     variance that all but misses zero to that of full contact, E*^2 g^2 / 4. Second order: 120 steps, 300 pressures."""
@@ -53,6 +58,20 @@ def gap(p, gamma):
     return float(np.sum(work / np.sqrt(pressures[1:] * pressures[:-1])))
 
 
+def slopes_in_one_direction(c2d, edges):
+    q, s = SLOPES(c2d, edges)
+    return q, s / math.sqrt(2)
+
+
+SLOPES = interface._slopes
+
+
+@catches("waves of an interface by their slope in one direction", gamma=0.45).at(
+    "validation.theory.interface._slopes", slopes_in_one_direction
+)
+@catches("the contact of an interface without the root of two", gamma=0.45).at(
+    "validation.theory.interface.special", types.SimpleNamespace(erf=lambda x: special.erf(x / math.sqrt(2)))
+)
 @pytest.mark.parametrize("gamma", [1.0, 0.45])
 def test_the_stiffness_is_the_slope_of_the_gap_that_the_energy_leaves(gamma):
     """-dp/du by a difference over 2 %: good to its square, and to that of the steps of 6 % in the work."""

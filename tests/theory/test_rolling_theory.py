@@ -11,8 +11,11 @@ from scipy import integrate
 
 import mdr
 from tests.oracles import moment_1d
+from tests.seeded import Times, catches, catches_root_of_two
 from tests.strategies import bumps
+from validation.analysis import spectra
 from validation.analysis.spectra import Bands, waves
+from validation.theory import rolling
 from validation.theory.rolling import (
     contact_lost,
     force_spectrum_1d,
@@ -35,6 +38,9 @@ def power_law(hurst, first=1.0, last=20.0):
     return spectrum, (first, last)
 
 
+@catches("factor 4 lost in the spectrum of the half-space", hurst=0.7, q=1.7).at(
+    "validation.theory.rolling.response", Times(0.5)
+)
 @pytest.mark.parametrize("hurst", HURSTS)
 @pytest.mark.parametrize("q", [0.0, 0.3, 1.0, 1.7, math.pi, 10.0, 19.0])
 def test_force_spectrum_by_adaptive_quadrature(hurst, q):
@@ -134,6 +140,7 @@ def test_the_response_is_that_of_the_flat_punch():
         assert line == pytest.approx(expected, abs=1e-12 * 2 * modulus * a)
 
 
+@catches("Geike for the line trace in rolling", hurst=0.7).at("mdr.SelfAffine.line", mdr.SelfAffine.c1d)
 @pytest.mark.parametrize("hurst", HURSTS)
 def test_sections_are_line_traces(hurst):
     spectrum, edges = power_law(hurst)
@@ -141,6 +148,9 @@ def test_sections_are_line_traces(hurst):
     assert section(q, spectrum.c2d, edges=edges) == pytest.approx(spectrum.line(q), rel=1e-9, abs=1e-18)
 
 
+@catches("springs that roll fed by the line trace", hurst=0.7).at(
+    "mdr.rolling_spectrum._across", lambda q, c2d, edges, flat: float(rolling.section(q, c2d, edges=edges))
+)
 @pytest.mark.parametrize("hurst", HURSTS)
 def test_large_wheels_are_fed_less_than_geike(hurst):
     """By the ratio of levels, for an unbounded power law: its band ends at 1000 q and leaves 1000^(-2H-3) out."""
@@ -183,6 +193,9 @@ def band_levels(values, q, bands):
     return np.array([values[band].sum() for band in inside])
 
 
+@catches("springs that roll fed by Geike", hurst=0.7, first=1.0).at(
+    "mdr.rolling_spectrum._across", lambda q, c2d, edges, flat: float(np.pi * q * c2d(np.array(q)))
+)
 @pytest.mark.slow
 @pytest.mark.parametrize("first", [1.0, 2 ** (1 / 6)])
 @pytest.mark.parametrize("hurst", HURSTS)
@@ -212,6 +225,12 @@ def test_springs_that_are_fed_for_rolling_have_the_level_of_the_half_space(hurst
     assert np.median(10 * np.log10(geike / surface)) > 3
 
 
+two_sided = spectra.Waves.spectrum.fget
+
+
+@catches("one-sided spectrum of a track").at(
+    "validation.analysis.spectra.Waves.spectrum", property(lambda waves: 2 * two_sided(waves))
+)
 def test_spectra_of_profiles_are_the_ones_they_are_drawn_from():
     """Two-sided, wave by wave, since the amplitudes are fixed."""
     spectrum = mdr.SelfAffine(hurst=0.7, q_min=5.0, q_max=60.0, rms=1.0)
@@ -220,6 +239,7 @@ def test_spectra_of_profiles_are_the_ones_they_are_drawn_from():
     assert found.spectrum == pytest.approx(spectrum.c1d(found.q), rel=1e-9, abs=1e-15)
 
 
+@catches_root_of_two("the gradient of lost contact", "validation.theory.rolling.rms_gradient", height=1.0)
 @pytest.mark.parametrize("height", [0.003, 0.05, 1.0, 1e6])
 def test_contact_that_linear_theory_loses_by_drawing_pressures(height):
     c2d, edges = (lambda q: np.where((q >= 1) & (q <= 8), height**2 * q**-3.4, 0.0)), (1.0, 8.0)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import mdr
+from tests.seeded import Times, catches
 from validation.analysis.spectra import band_means, waves
 from validation.theory.rolling import RollingWheel
 
@@ -24,6 +25,12 @@ def profiles():
     return np.array([mdr.rough_profile(BAND.c1d, rng=np.random.default_rng(i), **draw) for i in range(COUNT)])
 
 
+pairs_of = RollingWheel._pairs
+
+
+@catches("one end of the contact for both").at(
+    "validation.theory.rolling.RollingWheel._pairs", lambda wheel, *waves: pairs_of(wheel, *waves) / 4
+)
 def test_two_waves_have_the_force_of_their_sum_and_difference():
     """An even band so narrow that it is two waves, +k and -k: 2 k and 0 have the power of a square, slowly summed."""
     k, width = 20.0, 0.2
@@ -58,6 +65,13 @@ def test_the_motion_is_that_of_a_force_integrated_over_the_contact_and_of_a_driv
     assert abs(complex(FIXED.motion(q))) == 0.0
 
 
+@catches("half of the second-order force", wheel=FIXED).at(
+    "validation.theory.rolling.RollingWheel.force_spectrum", Times(0.25)
+)
+@catches("pairs of waves without the motion of the wheel", wheel=MOVING).at(
+    "validation.theory.rolling.RollingWheel._pairs",
+    lambda wheel, *waves: pairs_of(replace(wheel, mass=math.inf), *waves),
+)
 @pytest.mark.parametrize("wheel", [FIXED, MOVING], ids=["fixed", "moving"])
 def test_the_second_order_force_is_that_of_drawn_profiles(wheel):
     """(u^2 + v^2) / 4 of Gaussian heights below q_min, in bands of a twelfth of pi: each within five standard errors,
@@ -88,6 +102,13 @@ def test_springs_below_the_band_have_the_second_order_force():
     assert level.mean() == pytest.approx(exact, rel=0.05 + 4 * level.std(ddof=1) / math.sqrt(20) / level.mean())
 
 
+compliance_of = RollingWheel.compliance
+
+
+@catches("twice the dashpot at the resonance").at(
+    "validation.theory.rolling.RollingWheel.compliance",
+    lambda wheel, q: compliance_of(replace(wheel, damping=2 * wheel.damping), q),
+)
 def test_at_the_resonance_the_dashpot_alone_bears_the_force():
     """A = 2 pi C_F / v0 / (2 zeta M)^2; far above it the wheel is a free mass."""
     for omega, free in ((RESONANCE, 1 / (2 * 0.05)), (1000 * RESONANCE, 1.0)):

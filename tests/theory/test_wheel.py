@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from tests.seeded import catches
 from validation.theory import wheel
 
 OMEGA = np.array([0.3, 0.9, 1.0, 1.3, 7.0]) * 40.0
@@ -22,6 +23,14 @@ def test_the_dynamic_stiffness_is_that_of_the_equation_of_motion():
     assert -1 / found == pytest.approx(np.array([solved(w) for w in OMEGA]), rel=1e-12)
 
 
+def damped_wheel_alone(omega, **given):
+    """M^2 times what the acceleration has."""
+    return wheel.acceleration_over_force(omega, mass=1.0, **given)
+
+
+@catches("a dashpot without its own force on the wheel").at(
+    "validation.theory.wheel.contact_force_over_force", damped_wheel_alone
+)
 def test_acceleration_and_force_over_the_force_at_a_fixed_approach():
     d = np.array([solved(w) for w in OMEGA])
     given = {"eigenfrequency": 40.0, "damping": ZETA}

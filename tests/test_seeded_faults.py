@@ -1,34 +1,32 @@
-"""Negative controls: each fault is planted on purpose, and the named test must catch it."""
+"""Negative controls: each fault is seeded on purpose, and the test that `catches` it must fail by an assertion."""
 
 import functools
 import importlib
 import inspect
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import Phase, settings
 
-from tests.planted_faults.wrong import Fault
+from tests.seeded import FAULTS
 
-HELPERS = {"__init__", "test_planted_faults", "wrong"}
-NAMES = sorted({path.stem for path in Path(__file__).parent.glob("*.py")} - HELPERS)
-ROOMS = [importlib.import_module(f"tests.planted_faults.{name}") for name in NAMES]
-
-
-def planted(rows) -> Iterator[tuple[str, tuple[Fault, Callable]]]:
-    """Each fault by what is wrong, with the test above it."""
-    named_test = None
-    for row in rows:
-        if isinstance(row, Fault):
-            yield row.what, (row, named_test)
-        else:
-            named_test = row
+ROOT = Path(__file__).parents[1]
+for path in sorted((ROOT / "tests").rglob("test_*.py")):
+    if "from tests.seeded import" in path.read_text(encoding="utf-8"):
+        importlib.import_module(".".join(path.relative_to(ROOT).with_suffix("").parts))
 
 
-FAULTS = dict(row for room in ROOMS for row in planted(room.FAULTS))
+def test_each_fault_has_a_name_of_its_own():
+    names = [fault.what for fault in FAULTS]
+    assert sorted(names) == sorted(set(names))
+
+
+def test_targets_are_there():
+    for fault in FAULTS:
+        assert list(fault.places()), fault.what
 
 
 def parametrized(test) -> Iterator[tuple[list[str], list[tuple]]]:
@@ -47,11 +45,10 @@ def is_same(value, other):
     return value == other
 
 
-def is_in_the_suite(named_test):
-    """Whether pytest runs a named test, with these arguments and without a fault: there it must pass."""
-    test = getattr(named_test, "func", named_test)
-    given = inspect.signature(test).bind(*getattr(named_test, "args", ()), **getattr(named_test, "keywords", {}))
-    left = dict(given.arguments)
+def is_in_the_suite(fault):
+    """Whether pytest runs the test, with these arguments and without a fault: there it must pass."""
+    test = fault.test
+    left = dict(inspect.signature(test).bind(*fault.row, **fault.arguments).arguments)
     for names, rows in parametrized(test):
         values = tuple(left.pop(name) for name in names)
         if not any(all(map(is_same, values, row)) for row in rows):
@@ -59,8 +56,8 @@ def is_in_the_suite(named_test):
     return not left and getattr(sys.modules[test.__module__], test.__name__) is test
 
 
-def test_named_tests_are_those_of_the_suite():
-    assert [fault for fault, (_, named_test) in FAULTS.items() if not is_in_the_suite(named_test)] == []
+def test_tests_that_catch_faults_are_those_of_the_suite():
+    assert [fault.what for fault in FAULTS if not is_in_the_suite(fault)] == []
 
 
 def stop_at_the_first_failure(test, monkeypatch):
@@ -89,10 +86,9 @@ def forget():
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("nothing_remembered")
-@pytest.mark.parametrize("fault", FAULTS)
-def test_a_named_test_catches(fault, monkeypatch):
-    planted_fault, named_test = FAULTS[fault]
-    planted_fault.plant(monkeypatch)
-    stop_at_the_first_failure(getattr(named_test, "func", named_test), monkeypatch)
+@pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: fault.what)
+def test_the_decorated_test_catches(fault, monkeypatch):
+    fault.seed(monkeypatch)
+    stop_at_the_first_failure(fault.test, monkeypatch)
     with pytest.raises(AssertionError):
-        named_test()
+        fault.run()
