@@ -13,13 +13,14 @@ from tests.seeded import catches
 from validation.analysis.evidence import number_with, numbers_with
 from validation.analysis.series import numbers_of
 from validation.analysis.statistics import POWER_DECIBEL
-from validation.railway.cases import across, filters, rolled_filters
+from validation.railway.cases import across, across_study, filters, rolled_filters
 from validation.railway.cases.filters import GROUNDS, RailWheel, scene_of
-from validation.railway.cases.rolled_filters import OVER_BEM
+from validation.railway.cases.rolled_filters import A3, OVER_BEM
 from validation.railway.problems import rail_across
 from validation.railway.problems.equivalent_displacement import transfer_of
 from validation.railway.problems.rail_across import roll_both_ways, wide_rail
 from validation.railway.problems.rail_strip import line_of, strip_bands
+from validation.report.figures import drawing
 from validation.simulation.model_names import BED, BEM, LINEAR, LINEAR_ON_LINE
 
 WHEEL = RailWheel(50, 360)
@@ -142,9 +143,9 @@ def test_boundary_elements_both_ways_are_linear_theory_at_the_limit_of_the_stand
 
 
 @cache
-def rolled(beyond=0.0):
+def rolled(beyond=0.0, wheels=(WHEEL,), grounds=("ridges", "alpha = 0.25", "alpha = 0.5", "alpha = 8")):
     """Boundary elements over linear theory by so many dB, of other power on each strip; 0.2 dB more on few cells."""
-    case = across.Across(wheels=(WHEEL,), across=("ridges", "alpha = 0.25", "alpha = 0.5", "alpha = 8"), strips=3)
+    case = across.Across(wheels=wheels, across=grounds, strips=3)
     found = {}
     for key in case.keys:
         for cells, more in zip(case.cells, (0.2, 0.0), strict=True):
@@ -267,3 +268,21 @@ def test_both_ways_are_the_heights_and_the_opposite_ones():
         patch.setattr(bem3d, "roll", lambda surface, **_: seen.append(surface) or found)
         roll_both_ways(rail)
     assert np.array_equal(seen[0], -seen[1]) and seen[0].shape[1] == round(rail.width / rail.strip.spacing)
+
+
+HEAVY = (150.0, 1840.0)
+"""A wheel that the published table has not."""
+
+
+@pytest.mark.parametrize("wheels", [(WHEEL,), (HEAVY,), (HEAVY, WHEEL), (WHEEL, HEAVY)])
+def test_the_published_table_is_drawn_where_it_has_the_first_wheel(wheels):
+    """A table of another wheel is no overlay of the first; all wheels of the table stay in the data."""
+    evidence = across_study.CASE.evidence(rolled(0.0, wheels, ("ridges",)))
+    a3, *_ = drawing("across")(evidence).axes
+    crosses = [line for line in a3.lines if line.get_marker() == "x"]
+    assert len(crosses) == (wheels[0] == WHEEL)
+    in_data = set(evidence.table(A3).where(model=across.TABLE)["wheel"]) if WHEEL in wheels else set()
+    assert in_data == {WHEEL.label} & {RailWheel(*wheel).label for wheel in wheels}
+    if crosses:
+        published = filters.columns_of_table()[WHEEL]
+        assert dict(zip(*crosses[0].get_data(), strict=True)) == pytest.approx(published)

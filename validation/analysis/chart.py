@@ -20,11 +20,11 @@ class Curve:
 
     quantity: the table; model: one or several, all where empty; style: one of `STYLES`, over that of the model;
     label: by default the values, or the model, "_" for none; by: columns, a curve for each value of them, dark to light
-    in their order but for models; of: values that other columns have, "first" for the first; bars, band: whether
-    intervals are drawn; down: from curve to curve; apart: from marker to marker, of the diagonal of the panel, all
-    markers where zero; beside: x of a curve with bars over that of the last one, on a logarithmic axis; upright:
-    whether the values are places on the horizontal axis, drawn as lines across the panel, without a label by the names
-    of their models.
+    in their order but for models; of: values that other columns have, "first" for the first of its model, "first of
+    all" for that of the table; bars, band: whether intervals are drawn; down: from curve to curve; apart: from marker
+    to marker, of the diagonal of the panel, all markers where zero; beside: x of a curve with bars over that of the
+    last one, on a logarithmic axis; upright: whether the values are places on the horizontal axis, drawn as lines
+    across the panel, without a label by the names of their models.
     """
 
     quantity: str

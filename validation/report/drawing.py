@@ -114,7 +114,7 @@ FORMS: dict[str, Style] = {
     "interval": {},
 }
 """Of a curve, over the style of its model, or of its place among ordered values."""
-FIRST = "first"
+FIRST, FIRST_OF_ALL = "first", "first of all"
 FEW, FEWEST, LARGE = 15, 3, 1e5
 FEW_DECADES, ASIDE = 300, 1.2
 WORST = "worst of a range and its interval: = agree, ≠ differ, ? undecided"
@@ -278,11 +278,15 @@ def _rows(evidence: Evidence, curve: Curve, more: dict[str, object]) -> Table:
 
 
 def _chosen(table: Table, of: Mapping[str, object]) -> Table:
-    """Rows that have these values; "first" is the first of a column."""
+    """Rows that have these values, or none; "first" is that of the rows so far, "first of all" that of the table."""
+    whole = table
     for name, wanted in of.items():
-        if name in table.columns and wanted != ():
-            column = table[name]
-            values = (column[0],) if wanted == FIRST else wanted if isinstance(wanted, tuple) else (wanted,)
+        if name in table.columns and wanted != () and table[name].size:
+            column, firsts = table[name], {FIRST: table, FIRST_OF_ALL: whole}
+            if isinstance(wanted, str) and wanted in firsts:
+                values = (firsts[wanted][name][0],)
+            else:
+                values = wanted if isinstance(wanted, tuple) else (wanted,)
             table = table.rows(np.isin(column, np.asarray(values, dtype=column.dtype)))
     return table
 
