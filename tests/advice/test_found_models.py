@@ -4,13 +4,15 @@ import math
 import sys
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from tests.benchmarks.made_up import use_a_clock_of_its_own
 from validation.advice import models
 from validation.advice.compare import compare
-from validation.advice.models import rolling
+from validation.advice.models import boundary_elements_pressed, rolling
 from validation.advice.quantities import models_of
+from validation.advice.scene_model import SceneModel
 from validation.advice.summary import summary
 from validation.benchmarks import timing
 from validation.benchmarks.peers import all_methods
@@ -18,6 +20,9 @@ from validation.benchmarks.work_precision.errors import points
 from validation.benchmarks.work_precision.pressed import RoughPunchProblem
 from validation.benchmarks.work_precision.problem import Grids, measure
 from validation.benchmarks.work_precision.rolling import RollingProblem
+from validation.scenes.scene import STIFFNESS, SceneQuantity
+from validation.simulation.method import Resolution
+from validation.simulation.model import Target
 from validation.simulation.model_names import FILTER_3D
 from validation.simulation.rough_punch import PunchRoughness
 
@@ -89,3 +94,13 @@ def test_a_rolling_model_that_is_found_is_on_the_chart_of_its_quantity(monkeypat
     assert [point.status for point in chart if point.method == "found" and point.quantity == "spectrum"] == [
         "out of range: it does not have this quantity"
     ]
+
+
+@pytest.mark.parametrize(("itself", "mean"), [(True, 4.0), (False, math.sqrt(12.0))])
+def test_a_second_quantity_of_a_punch_says_how_its_realisations_are_averaged(monkeypatch, itself, mean):
+    """(2 + 6) / 2, or sqrt(2 * 6): no name of a quantity decides it."""
+    gap = SceneQuantity("mean-gap", "m", averaged_itself=itself)
+    monkeypatch.setattr(type(PUNCH), "quantities", property(lambda scene: (STIFFNESS, gap)))
+    gaps = SceneModel(boundary_elements_pressed.MODEL, Target(PUNCH, "mean-gap", 0.1, 0), Resolution())
+    found, half = gaps._mean(np.array([[2.0], [6.0]]))
+    assert found == pytest.approx([mean]) and half > 0

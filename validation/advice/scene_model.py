@@ -12,7 +12,6 @@ import numpy as np
 
 from bem3d.read_only import kept
 from validation.engine.engine import FloatArray
-from validation.scenes.scene import STIFFNESS
 from validation.simulation.method import STUDENT, Prepared, Resolution, Result, mean_error, realisations, too_few
 from validation.simulation.model import Cost, ErrorEstimate, GridModel, Model, Sampling, Target
 
@@ -236,10 +235,11 @@ class SceneModel:
         return np.concatenate([result.values[self.target.quantity].reshape(result.count, -1) for result in results])
 
     def _mean(self, rows: FloatArray) -> tuple[FloatArray, float]:
-        """Of a stiffness itself, of levels of their logarithms; and what the sample leaves of it."""
+        """Of values or of their logarithms, as the quantity is averaged; and what the sample leaves of it."""
         if len(rows) == 1:
             return rows[0], 0.0
-        if self.target.quantity == str(STIFFNESS):
+        quantity = next(one for one in self.target.scene.quantities if str(one) == self.target.quantity)
+        if quantity.averaged_itself:
             mean = rows.mean(axis=0)
             return mean, mean_error(rows / mean)
         return np.exp(np.log(rows).mean(axis=0)), mean_error(np.log(rows))

@@ -18,7 +18,8 @@ class SceneQuantity:
     key: in scripts, on the command line and in files; unit: of its amplitude; reference: of its decibels, in SI units;
     in_bands: whether it is a level in each one-third octave, else one number; of_motion: whether the wheel has to move;
     by_worst_band: whether a tolerance holds in each band that counts, else over the root mean square of all;
-    counted_above: level above which a band counts [dB].
+    counted_above: level above which a band counts [dB]; averaged_itself: whether realisations have the mean of their
+    values, else that of their logarithms.
     """
 
     key: str
@@ -28,12 +29,13 @@ class SceneQuantity:
     of_motion: bool = False
     by_worst_band: bool = False
     counted_above: float = -math.inf
+    averaged_itself: bool = False
 
     def __str__(self) -> str:
         return self.key
 
 
-STIFFNESS = SceneQuantity("stiffness", "N/m")
+STIFFNESS = SceneQuantity("stiffness", "N/m", averaged_itself=True)
 FORCE_RMS = SceneQuantity("force-rms", "N")
 FORCE_SPECTRUM = SceneQuantity("force-spectrum", "N", in_bands=True)
 ACCELERATION = SceneQuantity("acceleration", "m/s²", in_bands=True, of_motion=True)
