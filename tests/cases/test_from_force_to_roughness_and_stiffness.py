@@ -14,8 +14,7 @@ from validation.analysis.study import Outcomes
 from validation.cases.rolling import reduced_models as models
 from validation.cases.rolling import track_stiffness as stiffness
 from validation.cases.rolling.force_spectrum import ForceSpectrum
-from validation.simulation import rolling_levels as roughness_from_force
-from validation.simulation import rolling_strip
+from validation.simulation import rolling_strip, roughness_from_force
 from validation.simulation.reduced_models import COARSEST, JUDGE, LINEAR, MODELS, READ, bands_of, roll_by_all
 from validation.simulation.rolling_strip import HERTZ, RoughStrip, level_3d, over_bands
 from validation.simulation.track_spectrum import TrackSpectrum, self_affine
@@ -37,7 +36,7 @@ def off(found):
 
 
 @catches("factor 2 lost in the mean filter, read backwards").at(
-    "validation.simulation.rolling_levels.mean_force_spectrum_1d", Times(0.5)
+    "validation.simulation.roughness_from_force.mean_force_spectrum_1d", Times(0.5)
 )
 def test_the_mean_filter_finds_the_roughness_of_the_mean_force():
     """To the bend of the spectrum in a band."""
@@ -46,7 +45,7 @@ def test_the_mean_filter_finds_the_roughness_of_the_mean_force():
 
 
 @catches("half of the height in the filter of three dimensions, read backwards").at(
-    "validation.simulation.rolling_levels.level_3d", Times(0.5)
+    "validation.simulation.roughness_from_force.level_3d", Times(0.5)
 )
 def test_the_filter_in_three_dimensions_finds_isotropic_roughness():
     """And next to nothing below it, where the mean filter finds a twelfth of it."""

@@ -15,8 +15,8 @@ from validation.analysis.evidence import JudgedClaim, Role, Table, Verdict, Verd
 from validation.report import page
 from validation.report.contents import CASES
 from validation.report.formats import format_field, map_of
-from validation.report.kept import redraw
 from validation.report.page import PageFigure
+from validation.report.redraw import redraw
 from validation.report.section import Section
 from validation.report.style import picture
 

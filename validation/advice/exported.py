@@ -1,10 +1,8 @@
 """The result of `compare` for other programs: strict JSON, and one table of all models."""
 
 import math
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from pkgutil import resolve_name
 from typing import Any
 
 import numpy as np
@@ -180,39 +178,3 @@ def _numbers(values: Iterable[float]) -> list[float | None]:
 
 def _number(value: float) -> float | None:
     return float(value) if math.isfinite(value) else None
-
-
-@dataclass(frozen=True, kw_only=True)
-class Export:
-    """A file of one quantity for other programs, as an option of the command `compare`.
-
-    option: as "--name"; quantity: its key; of: what has that quantity, in words; help: what it writes; place: of the
-    function that makes the table of a comparison of that quantity, "module:function", imported when it is used.
-    """
-
-    option: str
-    quantity: str
-    of: str
-    help: str
-    place: str
-
-    @property
-    def name(self) -> str:
-        return self.option.strip("-").replace("-", "_")
-
-    def check(self, quantities: Iterable[str]) -> None:
-        """Raises ValueError where it is not among those that are asked."""
-        if self.quantity not in quantities:
-            raise ValueError(
-                f"{self.option} is for the quantity {self.quantity} of {self.of}, got {', '.join(quantities)}"
-            )
-
-    def written(self, comparisons: Iterable[Comparison]) -> bytes:
-        """The rows of all scenes, as CSV."""
-        table: Callable[[Comparison], Table] = resolve_name(self.place)
-        # imported where a file is asked for
-        from validation.analysis.contents import as_csv
-
-        tables = [table(one) for one in comparisons if one.quantity == self.quantity]
-        rows = {name: [value for one in tables for value in one.columns[name]] for name in tables[0].columns}
-        return as_csv(Table(self.quantity, rows))

@@ -1,6 +1,6 @@
 """Options of this house in commands of others."""
 
-from validation.advice.exported import Export
+from validation.advice.export import Export
 from validation.railway.scenes.rail import CONTACT_FILTER
 
 CNOSSOS = Export(

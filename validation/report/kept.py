@@ -3,11 +3,8 @@
 import json
 from collections.abc import Collection, Mapping
 from dataclasses import fields
-from os import PathLike
 from pathlib import Path
 from typing import Any
-
-from matplotlib.figure import Figure
 
 from validation.analysis.case import Profile
 from validation.analysis.contents import csv_name, from_csv
@@ -16,27 +13,8 @@ from validation.analysis.quantity import quantity_with
 from validation.analysis.sound import Sound, Sounds
 from validation.engine.files import name_in, place_in
 from validation.report.contents import CASES, TIMED
-from validation.report.figures import drawing, tables_of
 from validation.report.folder import RESULTS, SOUNDS
 from validation.report.section import WORDS, Section
-from validation.report.style import drawn
-
-
-def redraw(folder: str | PathLike[str], name: str) -> Figure:
-    """The figure `name` of the report in `folder`, drawn again from its data.
-
-    Raises ValueError for a name that no figure has, FileNotFoundError for a folder that is no report or has none of
-    its data.
-    """
-    data, case = Path(folder, "data"), name.partition("-")[0]
-    paths = {table: place_in(data, csv_name(case, table)) for table in tables_of(name)}
-    tables = tuple(from_csv(table, path.read_text("utf-8")) for table, path in paths.items() if path.exists())
-    profile = json.loads(Path(folder, RESULTS).read_text("utf-8"))["profile"]
-    if not tables:
-        raise FileNotFoundError(f"data of figure {name!r} must be in {data}, got none of {list(paths)}")
-    evidence = Evidence(title=name, method="", numbers=(), tables=tables, conclusions=(), captions={})
-    return drawn(drawing(name), evidence, profile)
-
 
 PROVENANCE = "provenance.json"
 DATA = "data"

@@ -4,14 +4,13 @@ import math
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import partial
 
 import numpy as np
-from scipy.optimize import nnls
 
 import bem3d
 import mdr
-from validation.analysis.spectra import Bands, levels, waves
+from validation.analysis.spectra import levels, waves
 from validation.engine.engine import FloatArray
 from validation.engine.random_numbers import random_generator
 from validation.scenes.measured import MeasuredHeights
@@ -19,12 +18,11 @@ from validation.scenes.rolling_quantity import RollingQuantity
 from validation.simulation.contact_laws import BoundaryElementsLaw, ContactLaw, LinearLaw, SpringsLaw
 from validation.simulation.method import too_few
 from validation.simulation.motion import simulate_from_linear_motion
-from validation.simulation.rolling_strip import HERTZ, level_3d, over_bands
 from validation.simulation.surface import draw_track, surface_on_grid
-from validation.simulation.track_spectrum import InputSpectrum, PiecewisePowerLaw
+from validation.simulation.track_spectrum import InputSpectrum
 from validation.simulation.wheel_on_half_space import crop_to_reach, linear_law_3d
 from validation.simulation.wheel_on_springs import linear_law_1d
-from validation.theory.rolling import linear_force, mean_force_spectrum_1d
+from validation.theory.rolling import linear_force
 
 TRACKS, STRIPS = 1, 2
 """The spawn keys under which each kind of roughness draws."""
@@ -203,35 +201,3 @@ def levels_of(
     if transfer is not None:
         harmonics = type(harmonics)(harmonics.q, harmonics.amplitude * transfer(harmonics.q))
     return np.asarray(np.sqrt(2 * levels(harmonics, quantity.bands)))
-
-
-ASSUMED = 3.0
-"""Exponent of C_2D within a one-third octave, which a measured force does not tell; the true one is 2 H + 2."""
-
-
-def by_mean_filter(bands: Bands, levels: FloatArray) -> FloatArray:
-    """(14.14): C_1D = q^2 C_F / (2 E*^2), by the mean of the filter over a band."""
-    passed = over_bands(lambda q: mean_force_spectrum_1d(q, flat, modulus=1.0), bands) / HERTZ**2
-    return np.asarray(levels * over_bands(flat, bands) / passed)
-
-
-def by_filter_3d(bands: Bands, levels: FloatArray) -> FloatArray:
-    """The heights of all bands, none negative, that have these levels, each met as well as all others, however small.
-
-    A wave s of the surface has a part of its force in each band below s.
-    """
-    return np.asarray(nnls(filter_3d(bands) / levels[:, np.newaxis], np.ones(levels.size))[0])
-
-
-def flat(q: FloatArray) -> FloatArray:
-    """C_1D = pi q C_2D within a band, times any constant."""
-    return np.asarray(q ** (1 - ASSUMED))
-
-
-@cache
-def filter_3d(bands: Bands) -> FloatArray:
-    """Level of the force in each band (rows) of int C_1D dq = 1 in each band (columns): zero above the waves' own."""
-    edges = zip(bands.edges, bands.edges[1:], strict=False)
-    # a piece of unit height has int C_1D dq = 1/2 over positive q
-    pieces = [PiecewisePowerLaw(edges=pair, exponents=(ASSUMED,)) for pair in edges]
-    return np.stack([2 * level_3d(piece, bands) for piece in pieces], axis=1)

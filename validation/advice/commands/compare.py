@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from validation.advice.compare import Comparison, SceneProblem, Swept, swept_values
-from validation.advice.exported import Export
+from validation.advice.export import Export
 from validation.advice.quantities import all_quantities, quantities_of
 from validation.advice.scene_model import SceneModel
 from validation.advice.several_scenes import compare_scenes

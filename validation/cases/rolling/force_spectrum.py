@@ -22,8 +22,8 @@ from validation.engine.engine import SERIAL, Engine
 from validation.simulation import rolling_strip
 from validation.simulation.model_names import FILTER_3D
 from validation.simulation.quantities import MEAN_FORCE, RMS_FORCE
-from validation.simulation.rolling_levels import by_filter_3d, by_mean_filter
 from validation.simulation.rolling_strip import HERTZ, RoughStrip, Tracks, level_1d, level_3d, over_bands, strip_levels
+from validation.simulation.roughness_from_force import by_filter_3d, by_mean_filter
 from validation.simulation.track_spectrum import (
     INPUT_NAMES,
     INPUT_SPECTRA,

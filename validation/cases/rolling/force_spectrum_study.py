@@ -34,7 +34,7 @@ from validation.cases.rolling.force_spectrum import (
 )
 from validation.simulation import model_needed
 from validation.simulation.quantities import MEAN_FORCE, RMS_FORCE
-from validation.simulation.rolling_levels import ASSUMED
+from validation.simulation.roughness_from_force import ASSUMED
 from validation.simulation.track_spectrum import INPUT_NAMES
 
 RMS = "rms of "
