@@ -30,7 +30,7 @@ class LimitName(NamedTuple):
 
 @dataclass(frozen=True)
 class Probe:
-    """run: of `simulation`; values: of its parameter; takes: settings of the case; settings: fixed ones; part: of errors."""
+    """run: of `simulation`; values: of its parameter; takes: settings of the case; settings: fixed; part: of errors."""
 
     run: Callable[..., Outcome]
     values: tuple[float, ...]
