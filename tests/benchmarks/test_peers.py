@@ -187,12 +187,12 @@ def test_a_solver_that_is_placed_first_does_not_become_ours():
         monkeypatch.setattr(SurfaceProblem, "configurations", lambda self: named)
         problem = dataclasses.replace(RUN.problem, cells=4)
         outcome = comparison.time_problem(dataclasses.replace(RUN, problem=problem))
-        finished = [comparison._finished(comparison.rows_of(outcome))]
+        finished = [comparison._finished_by_solver(comparison.rows_of(outcome))]
         # (3 - 1) / 1 of the pressure field
         assert outcome[PRESSURE].tolist() == [2.0, 0.0, 0.0]
-        (number,) = numbers_of(comparison._speed(finished))
+        (number,) = numbers_of(comparison._speed_series(finished))
         assert (number.model, number.source, number.value) == ("bem3d", "bem3d, Polonsky-Keer", 2 / 3)
-        assert {n.model for n in comparison._agreement(finished, FIRST)} == {"theirs", "bem3d, Polonsky-Keer"}
+        assert {n.model for n in comparison._difference_series(finished, FIRST)} == {"theirs", "bem3d, Polonsky-Keer"}
         assert peers.of_others() == FIRST[:1]
 
 
@@ -295,7 +295,7 @@ def test_on_large_grids_solvers_that_share_their_work_out_have_threads_too():
     rows = {row["solver"]: row for row in comparison.rows_of(outcome)}
     assert rows["bem3d, 2 threads"]["status"] == "finished" and rows["bem3d, 2 threads"][PRESSURE] == 0
     slower = {**rows, "bem3d": {**rows["bem3d"], "median [s]": 10.0, "low [s]": 9.0, "high [s]": 11.0}}
-    (number,) = numbers_of(comparison._speed([comparison._finished(list(slower.values()))]))
+    (number,) = numbers_of(comparison._speed_series([comparison._finished_by_solver(list(slower.values()))]))
     rival = min(row["median [s]"] for name, row in rows.items() if not is_ours(name) and row["status"] == "finished")
     assert number.value == pytest.approx(rows["bem3d, 2 threads"]["median [s]"] / rival)
 

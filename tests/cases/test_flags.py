@@ -15,7 +15,7 @@ from tests.seeded import catches
 from validation.advice.cases import model_selection
 from validation.analysis.study import Outcomes, Study
 from validation.benchmarks.timing import FAILED, FINISHED, OUT_OF_RANGE
-from validation.benchmarks.work_precision.case import lost
+from validation.benchmarks.work_precision.case import failure_messages
 from validation.benchmarks.work_precision.problem import BEM, LOOSE, MDR
 from validation.cases.limits import limits
 from validation.cases.punch import bandwidth, bandwidth_study, fractal_punch, interface
@@ -184,7 +184,7 @@ def test_a_method_that_fails_on_the_clock_is_not_converged_and_a_refusal_is_an_a
         for method, status in statuses.items()
         for _ in range(2)
     ]
-    assert lost(points) == (f"sphere: {BEM}, 8 cells: {failed}",)
+    assert failure_messages(points) == (f"sphere: {BEM}, 8 cells: {failed}",)
 
 
 # --- solves that are cut short ---

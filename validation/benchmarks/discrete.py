@@ -38,7 +38,7 @@ LIMITS = ("approach", "stiffness", "area")
 
 @lru_cache(maxsize=8)
 def _half_space(shape: tuple[int, int], spacing: tuple[float, float], modulus: float, periodic: bool) -> LoveHalfSpace:
-    """With its kernel, which is computed once for problems in turns."""
+    """Return the half-space with its kernel, which is computed once for problems that take turns."""
     return LoveHalfSpace(shape, spacing, modulus, periodic)
 
 
@@ -85,14 +85,14 @@ class ContactProblem:
         approach = float((pressure * separation).sum() / pressure.sum()) if by_force else self.approach
         w, overlap = separation - approach, approach - float(self.gap.min())
         scale = overlap if overlap > 0 else math.nan
-        found = {
+        residuals = {
             "tension": max(-float(pressure.min()), 0.0) / float(magnitude.max()),
             "complementarity": float((magnitude * np.abs(w)).sum() / abs(scale * pressure.sum())),
             "penetration": max(-float(w.min()), 0.0) / scale,
         }
         if by_force:
-            found["force balance"] = abs(self.force_of(pressure) / self.force - 1)
-        return found, approach
+            residuals["force balance"] = abs(self.force_of(pressure) / self.force - 1)
+        return residuals, approach
 
     def worst(self, pressure: FloatArray, by_force: bool, displacement: FloatArray | None = None) -> float:
         """The most that is left, NaN where one of them is."""
@@ -134,11 +134,12 @@ def problems() -> tuple[KnownContact, ...]:
     >>> [problem.name for problem in validation.problems()][:3]
     ['sphere', 'ellipse', 'flat']
     """
-    return _stored()
+    return _stored_problems()
 
 
 @cache
-def _stored() -> tuple[KnownContact, ...]:
+def _stored_problems() -> tuple[KnownContact, ...]:
+    """Read the table of problems and answers; its arrays become read-only."""
     with np.load(TABLE) as stored:
         of: dict[str, dict[str, Any]] = {}
         for key in stored:
@@ -165,7 +166,7 @@ def paraboloid(x: FloatArray, y: FloatArray, along: float = 1.0, across: float =
 
 
 def summits(x: FloatArray, y: FloatArray) -> FloatArray:
-    """Two equal ones."""
+    """The gap has two equal summits."""
     return np.minimum(((x - 0.25) ** 2 + (y - 0.5) ** 2) / 0.5, ((x - 0.75) ** 2 + (y - 0.5) ** 2) / 0.5)
 
 
@@ -270,30 +271,31 @@ def answered(problem: ContactProblem) -> dict[str, Any]:
     same = math.isclose(approach, contact.approach, rel_tol=1e-7, abs_tol=1e-9 * np.ptp(problem.gap))
     if not (worst <= EXACT and same):
         raise RuntimeError(f"the answer leaves a residual of {worst:.2g}, accepted: {EXACT:g}")
-    found = {"approach": contact.approach, "pressure": contact.pressure, "stiffness": contact.stiffness()}
-    return {**vars(problem), **found, "area": contact.area}
+    solution = {"approach": contact.approach, "pressure": contact.pressure, "stiffness": contact.stiffness()}
+    return {**vars(problem), **solution, "area": contact.area}
 
 
 def extrapolated(stated: Stated) -> dict[str, Any]:
     """The answer on the first of three grids, with its limits on cells of no size."""
     grids = [answered(stated.on(stated.cells[0] * 2**i)) for i in range(3)]
     coarse, middle, fine = (np.array([grid[what] for what in LIMITS]) for grid in grids)
-    limit, before = _limit(middle, fine), _limit(coarse, middle)
+    limit, before = _extrapolated_values(middle, fine), _extrapolated_values(coarse, middle)
     half = np.abs(np.subtract(limit, before, out=np.zeros_like(limit), where=limit != before))
     return {**grids[0], "limits": np.stack([limit, half], axis=1)}
 
 
-def _limit(coarse: FloatArray, fine: FloatArray) -> FloatArray:
-    """To first order; what is infinite on both grids, the stiffness of a full periodic contact, stays so."""
+def _extrapolated_values(coarse: FloatArray, fine: FloatArray) -> FloatArray:
+    """Extrapolate to first order; a value that is infinite on both grids, as the stiffness of full periodic contact,
+    stays so."""
     return fine + np.subtract(fine, coarse, out=np.zeros_like(fine), where=fine != coarse)
 
 
 def main() -> None:
-    found = {name: extrapolated(stated) for name, stated in STATED.items()}
-    arrays = {f"{name}: {what}": v for name, of in found.items() for what, v in of.items() if what != "name"}
-    whole = io.BytesIO()
-    np.savez_compressed(whole, **arrays)
-    write_whole(TABLE, whole.getvalue())
+    answers = {name: extrapolated(stated) for name, stated in STATED.items()}
+    arrays = {f"{name}: {what}": v for name, of in answers.items() for what, v in of.items() if what != "name"}
+    archive = io.BytesIO()
+    np.savez_compressed(archive, **arrays)
+    write_whole(TABLE, archive.getvalue())
 
 
 if __name__ == "__main__":

@@ -59,25 +59,26 @@ class PeerSolver:
 
 
 def sides(problem: ContactProblem) -> list[float]:
-    """Of the grid [m]."""
+    """Return the two side lengths of the grid [m]."""
     return [n * d for n, d in zip(problem.gap.shape, problem.spacing, strict=True)]
 
 
 def bem3d_fast(problem: ContactProblem, tolerance: float, threads: int = 1) -> ColdSolve:
     """Our solver, by force; its plans, coarser grids and windows are made beforehand, by a first solve."""
-    solve = _by_force(bem3d.solve, problem, tolerance, threads)
+    solve = _force_controlled_solve(bem3d.solve, problem, tolerance, threads)
     solve()
     return solve
 
 
 def bem3d_plain(problem: ContactProblem, tolerance: float) -> ColdSolve:
     """The iteration of Polonsky and Keer on our operator, by force."""
-    return _by_force(partial(bem3d.solve_polonsky_keer, max_iterations=5000), problem, tolerance)
+    return _force_controlled_solve(partial(bem3d.solve_polonsky_keer, max_iterations=5000), problem, tolerance)
 
 
-def _by_force(
+def _force_controlled_solve(
     solver: Callable[..., bem3d.Contact], problem: ContactProblem, tolerance: float, threads: int = 1
 ) -> ColdSolve:
+    """Return a solve under the problem's force; the operator and its transforms are prepared here."""
     n, m = problem.gap.shape
     half_space = bem3d.HalfSpace(
         shape=(n, m), spacing=problem.spacing, modulus=problem.modulus, periodic=problem.periodic, threads=threads
@@ -221,11 +222,12 @@ SOLVERS = (
 
 def with_threads(threads: int) -> tuple[PeerSolver, ...]:
     """Those that share their work out among threads, of so many; none for one thread."""
-    sharing = [one for one in SOLVERS if one.name in (OUR_SOLVER, "tamaas")] if threads > 1 else []
-    return tuple(_sharing(one, threads) for one in sharing)
+    sharing = [solver for solver in SOLVERS if solver.name in (OUR_SOLVER, "tamaas")] if threads > 1 else []
+    return tuple(_solver_on_threads(solver, threads) for solver in sharing)
 
 
-def _sharing(solver: PeerSolver, threads: int) -> PeerSolver:
+def _solver_on_threads(solver: PeerSolver, threads: int) -> PeerSolver:
+    """Return the solver with so many threads, under a name that states their number."""
     prepare: Callable[..., ColdSolve] = solver.prepare
     name = f"{solver.name}, {threads} threads"
     return replace(solver, name=name, prepare=partial(prepare, threads=threads), alone=solver.name)
@@ -248,7 +250,7 @@ def solvers_with(file: str) -> tuple[PeerSolver, ...]:
 
 
 def of_others() -> tuple[PeerSolver, ...]:
-    """Those of other packages."""
+    """Return the solvers of other packages."""
     return tuple(solver for solver in SOLVERS if solver.package != OURS)
 
 
@@ -270,8 +272,8 @@ def by_pressure(scene: Any, resolution: Resolution, solver: PeerSolver) -> Prepa
     discrete = scene.discrete()
     tolerance = find_tolerance(solver, discrete, resolution.residual)
 
-    def read(found: tuple[Field, float]) -> Result:
-        pressure, applications = found
+    def read(answer: tuple[Field, float]) -> Result:
+        pressure, applications = answer
         left = np.array(discrete.worst(pressure, solver.by_force))
         return Result({"pressure": pressure, "residual": left}, applications * pressure.size)
 

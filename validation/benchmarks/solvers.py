@@ -40,22 +40,25 @@ PRESSURE, FORCE, AREA = (f"{what} difference to ours" for what in ("pressure", "
 """Relative, of the pressure field in L2."""
 
 
-def time_problem(given: TimedProblem) -> Outcome:
+def time_problem(timed: TimedProblem) -> Outcome:
     """All solvers in processes of their own, with one thread, in turns: a row each."""
-    problem, configurations = given.problem, given.problem.configurations()
-    rows = {one.name: Timing(TOO_LONG if one.version else NOT_INSTALLED, math.nan) for one in problem.solvers}
-    rows |= zip((each.label for each in configurations), time_in_turns(configurations, given), strict=True)
+    problem, configurations = timed.problem, timed.problem.configurations()
+    rows = {solver.name: Timing(TOO_LONG if solver.version else NOT_INSTALLED, math.nan) for solver in problem.solvers}
+    rows |= zip((each.label for each in configurations), time_in_turns(configurations, timed), strict=True)
     ours = rows[OUR_SOLVER].results[0].values["pressure"] if rows[OUR_SOLVER].results else None
-    known = {"problem": problem.label, "surface": problem.surface, "half-space": problem.half_space}
-    known |= {"name": problem.name, "cells": problem.cells}
-    known |= {"area": math.nan if ours is None else np.count_nonzero(ours) / ours.size}
-    found = [
-        {**known, "solver": name, "status": row.status, **_row(row, problem.cells, ours)} for name, row in rows.items()
+    problem_columns = {"problem": problem.label, "surface": problem.surface, "half-space": problem.half_space}
+    problem_columns |= {"name": problem.name, "cells": problem.cells}
+    problem_columns |= {"area": math.nan if ours is None else np.count_nonzero(ours) / ours.size}
+    table = [
+        {**problem_columns, "solver": name, "status": row.status, **_timing_columns(row, problem.cells, ours)}
+        for name, row in rows.items()
     ]
-    return {name: np.array([row[name] for row in found]) for name in found[0]}
+    return {name: np.array([row[name] for row in table]) for name in table[0]}
 
 
-def _row(timing: Timing, cells: int, ours: FloatArray | None) -> dict[str, float]:
+def _timing_columns(timing: Timing, cells: int, ours: FloatArray | None) -> dict[str, float]:
+    """Return the columns that the clock fills: times [s], residual, work and differences, NaN where the solver has
+    none."""
     seconds, result = (timing.seconds, timing.results[0]) if timing.status == FINISHED else ([math.nan], None)
     low, high = interval_of_median(seconds)
     return {
@@ -74,6 +77,7 @@ def _row(timing: Timing, cells: int, ours: FloatArray | None) -> dict[str, float
 
 
 def _differences(pressure: FloatArray, ours: FloatArray) -> dict[str, float]:
+    """Return relative differences of pressure (L2), force and contact area to those of our solver."""
     cells = np.count_nonzero(pressure > 1e-9 * pressure.max()) / np.count_nonzero(ours > 1e-9 * ours.max())
     return {
         PRESSURE: float(np.sqrt(((pressure - ours) ** 2).sum() / (ours**2).sum())),
@@ -130,30 +134,34 @@ def run(case: SolverComparison, engine: Engine = SERIAL) -> Outcomes:
     # a run that was interrupted goes on; one that is over is timed anew the next time
     with engine.timed() as alone:
         for problem in case.problems():
-            given = TimedProblem(problem=replace(problem, left_out=too_slow(problem, rows)), **settings)
-            rows.extend(rows_of(outcome) for outcome in alone.map(time_problem, [given]))
+            timed = TimedProblem(problem=replace(problem, left_out=too_slow(problem, rows)), **settings)
+            rows.extend(rows_of(outcome) for outcome in alone.map(time_problem, [timed]))
     ours = [solver.name for solver in solvers_with("") if solver.package == OURS]
     lost = [row for each in rows for row in each if row["solver"] in ours and row["status"] not in (FINISHED, TOO_LONG)]
-    said = tuple(f"{row['problem']}: {row['solver']} {row['status']}" for row in lost)
-    return Outcomes(case, {"problems": rows}, said)
+    failures = tuple(f"{row['problem']}: {row['solver']} {row['status']}" for row in lost)
+    return Outcomes(case, {"problems": rows}, failures)
 
 
-def too_slow(problem: SurfaceProblem, before: "Rows") -> tuple[str, ...]:
+def too_slow(problem: SurfaceProblem, row_sets: "Rows") -> tuple[str, ...]:
     """Solvers of which a solve on the largest grid before, times the cells, takes longer than the patience."""
-    same = [row for rows in before for row in rows if row["name"] == problem.name and row["cells"] < problem.cells]
-    last = max((row["cells"] for row in same), default=0)
-    known = {row["solver"]: row for row in same if row["cells"] == last}
+    earlier = [row for rows in row_sets for row in rows if row["name"] == problem.name and row["cells"] < problem.cells]
+    last = max((row["cells"] for row in earlier), default=0)
+    rows_of_grid = {row["solver"]: row for row in earlier if row["cells"] == last}
     # with threads for the first time, it takes as long as without, at the most
-    rows = {one.name: known.get(one.name, known.get(one.alone)) for one in problem.solvers}
-    return tuple(name for name, row in rows.items() if row and _expected(row) * (problem.cells / last) ** 2 > PATIENCE)
+    rows = {solver.name: rows_of_grid.get(solver.name, rows_of_grid.get(solver.alone)) for solver in problem.solvers}
+    return tuple(
+        name for name, row in rows.items() if row and _expected_seconds(row) * (problem.cells / last) ** 2 > PATIENCE
+    )
 
 
-def _expected(row: "Row") -> float:
+def _expected_seconds(row: "Row") -> float:
+    """Return the median time of a solve [s]; infinite where the solver was left out as too slow, zero where it
+    failed."""
     return math.inf if row["status"] == TOO_LONG else float(row[MEDIAN]) if row["status"] == FINISHED else 0.0
 
 
 def rows_of(outcome: Outcome) -> list[Row]:
-    """A row a solver."""
+    """Return the table of an outcome as one row for each solver."""
     columns = (column.tolist() for column in outcome.values())
     return [dict(zip(outcome, row, strict=True)) for row in zip(*columns, strict=True)]
 
@@ -175,17 +183,17 @@ AGREEMENT = (
 
 def series(result: Outcomes) -> list[Series]:
     """Criteria for what must agree; times, none right or wrong."""
-    finished = [_finished(rows) for rows in result["problems"]]
-    return [*_agreement(finished, solvers_with(result.case.own)), *_speed(finished)]
+    finished = [_finished_by_solver(rows) for rows in result["problems"]]
+    return [*_difference_series(finished, solvers_with(result.case.own)), *_speed_series(finished)]
 
 
-def _finished(rows: Sequence[Row]) -> dict[str, Row]:
-    """By the name of the solver."""
+def _finished_by_solver(rows: Sequence[Row]) -> dict[str, Row]:
+    """Return the rows of solvers that have finished, by the solver's name."""
     return {row["solver"]: row for row in rows if row["status"] == FINISHED}
 
 
-def _agreement(finished: Sequence[Mapping[str, Row]], solvers: Sequence[PeerSolver]) -> Iterator[Series]:
-    """The largest difference to our answer over all runs that a solver has finished."""
+def _difference_series(finished: Sequence[Mapping[str, Row]], solvers: Sequence[PeerSolver]) -> Iterator[Series]:
+    """Yield the largest difference to our answer over all runs that a solver has finished."""
     source = "the same discrete problem has one solution"
     for name in (solver.name for solver in solvers if solver.name != OUR_SOLVER):
         done = [rows[name] for rows in finished if {name, OUR_SOLVER} <= rows.keys()]
@@ -195,13 +203,13 @@ def _agreement(finished: Sequence[Mapping[str, Row]], solvers: Sequence[PeerSolv
                 yield single(DIFFERENCE.format(what), name, value, tolerance, source, reason, where=at)
 
 
-def _speed(finished: Sequence[Mapping[str, Row]]) -> Iterator[Series]:
-    """Our time over that of the fastest other solver, each with threads where it has them, for each problem."""
+def _speed_series(finished: Sequence[Mapping[str, Row]]) -> Iterator[Series]:
+    """Yield our time over that of the fastest other solver for each problem, with threads where a solver has them."""
     for rows in finished:
-        mine = [row for name, row in rows.items() if is_ours(name)]
-        rivals = [row for name, row in rows.items() if not is_ours(name)]
-        if mine and rivals:
-            ours, rival = (min(some, key=lambda row: float(row[MEDIAN])) for some in (mine, rivals))
+        our_rows = [row for name, row in rows.items() if is_ours(name)]
+        rival_rows = [row for name, row in rows.items() if not is_ours(name)]
+        if our_rows and rival_rows:
+            ours, rival = (min(side, key=lambda row: float(row[MEDIAN])) for side in (our_rows, rival_rows))
             ratio = ours[MEDIAN] / rival[MEDIAN]
             half = max(ours["high [s]"] / rival["low [s]"] - ratio, ratio - ours["low [s]"] / rival["high [s]"])
             at, margin = {"problem": ours["name"], "cells": ours["cells"]}, replace(FASTER, source=rival["solver"])
@@ -219,18 +227,23 @@ def tables(result: Outcomes) -> tuple[Table, ...]:
     versions = [{"solver": s.name, "mode": s.mode, "version": s.version or NOT_INSTALLED} for s in solvers]
     return (
         table_of("heats", list(itertools.chain(*timed))),
-        _seconds(timed, list(dict.fromkeys(row["solver"] for row in itertools.chain(*timed)))),
+        _seconds_table(timed, list(dict.fromkeys(row["solver"] for row in itertools.chain(*timed)))),
         table_of(PEERS, versions),
     )
 
 
-def _seconds(solved: Rows, solvers: Sequence[str]) -> Table:
-    known = [{"problem": rows[0]["problem"], "area": f"{rows[0]['area']:.1%}"} for rows in solved]
-    said = [dict.fromkeys(solvers, NOT_ASKED) | {row["solver"]: _said(row) for row in rows} for rows in solved]
-    return table_of(SECONDS, [mine | theirs for mine, theirs in zip(known, said, strict=True)])
+def _seconds_table(solved: Rows, solvers: Sequence[str]) -> Table:
+    """Return a row for each problem and a column for each solver, whose cells are texts."""
+    problem_columns = [{"problem": rows[0]["problem"], "area": f"{rows[0]['area']:.1%}"} for rows in solved]
+    time_columns = [
+        dict.fromkeys(solvers, NOT_ASKED) | {row["solver"]: _time_text(row) for row in rows} for rows in solved
+    ]
+    return table_of(SECONDS, [problem | times for problem, times in zip(problem_columns, time_columns, strict=True)])
 
 
-def _said(row: Row) -> str:
+def _time_text(row: Row) -> str:
+    """Return the median, the range and the set-up time [s] of a row, or its status where the solver has not
+    finished."""
     if row["status"] != FINISHED:
         return str(row["status"])
     median, fastest, slowest, setup = (row[name] for name in (MEDIAN, "fastest [s]", "slowest [s]", "set-up [s]"))

@@ -137,9 +137,9 @@ def along(
     **settings: Any,
 ) -> tuple[Configuration, ...]:
     """A method along the sizes of its resolution; a formula has one, and no size."""
-    known = {"method": method, "scene": scene, "label": label or method.name, "parameter": parameter, **settings}
+    fields = {"method": method, "scene": scene, "label": label or method.name, "parameter": parameter, **settings}
     return tuple(
-        Configuration(resolution=Resolution(size=size, residual=residual), value=size, **known) for size in sizes
+        Configuration(resolution=Resolution(size=size, residual=residual), value=size, **fields) for size in sizes
     )
 
 
@@ -164,14 +164,14 @@ def configurations_of(problem: Any) -> tuple[Configuration, ...]:
     problem: also has a `scene`, None where no models are found, and `served`, what a model may have of it.
     """
     own = problem.configurations()
-    known, targets = {each.label for each in own}, [Target(problem.scene, quantity) for quantity in problem.served]
-    found = (
+    labels, targets = {each.label for each in own}, [Target(problem.scene, quantity) for quantity in problem.served]
+    model_configurations = (
         along(model, target, (1.0,), model.setting, paired=False)
         for model in all_models()
-        if model.charted and model.name not in known
-        for target in [one for one in targets if model.serves(one.scene, one.quantity)][:1]
+        if model.charted and model.name not in labels
+        for target in [candidate for candidate in targets if model.serves(candidate.scene, candidate.quantity)][:1]
     )
-    return (*itertools.chain(*found), *own)
+    return (*itertools.chain(*model_configurations), *own)
 
 
 def interval_of_median(times: Sequence[float]) -> tuple[float, float]:
@@ -204,30 +204,31 @@ class Timing:
         """Of each run, a realisation."""
         return [run / self.results[0].count if self.results else run for run in self.runs]
 
-    def needs_more_runs(self, realisations: int, given: TimedProblem) -> bool:
+    def needs_more_runs(self, realisations: int, problem: TimedProblem) -> bool:
         """Each realisation has one run; the same problem has runs until their median is settled."""
         done = len(self.runs)
         if self.status != FINISHED or realisations:
             return self.status == FINISHED and done < realisations
-        enough = done >= FEWEST_RUNS and sum(self.runs) >= given.enough
-        return not enough and done < MOST_RUNS and not (self.runs and self.runs[0] > given.slow)
+        enough = done >= FEWEST_RUNS and sum(self.runs) >= problem.enough
+        return not enough and done < MOST_RUNS and not (self.runs and self.runs[0] > problem.slow)
 
 
-def time_in_turns(configurations: Sequence[Configuration], given: TimedProblem) -> list[Timing]:
+def time_in_turns(configurations: Sequence[Configuration], problem: TimedProblem) -> list[Timing]:
     """Timings of all configurations. A failure, or the death of a process, is the status of its configuration."""
     with ExitStack() as stack:
         stack.enter_context(one_thread())
         names = dict.fromkeys(configuration.worker for configuration in configurations)
         workers = {name: stack.enter_context(isolated_process()) for name in names}
-        timings = [_prepared(workers[each.worker], i, each) for i, each in enumerate(configurations)]
+        timings = [_first_timing(workers[each.worker], i, each) for i, each in enumerate(configurations)]
         for _ in range(max(MOST_RUNS, *(each.realisations for each in configurations))):
             for i, (configuration, timing) in enumerate(zip(configurations, timings, strict=True)):
-                if timing.needs_more_runs(configuration.realisations, given):
+                if timing.needs_more_runs(configuration.realisations, problem):
                     _add_run(workers[configuration.worker], i, configuration, timing)
     return timings
 
 
-def _prepared(worker: ProcessPoolExecutor, i: int, configuration: Configuration) -> Timing:
+def _first_timing(worker: ProcessPoolExecutor, i: int, configuration: Configuration) -> Timing:
+    """Prepare a configuration in its worker; the timing has no runs yet, or the reason of a failure."""
     try:
         status, setup = worker.submit(_prepare, i, configuration).result()
         return Timing(status, setup, [] if status == FINISHED else [setup])
@@ -260,7 +261,7 @@ def _prepare(i: int, configuration: Configuration) -> tuple[str, float]:
     """In the worker: status, seconds of the set-up."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        (_ready[i], status), seconds = timed(lambda: _caught(configuration.prepare))
+        (_ready[i], status), seconds = timed(lambda: _result_or_reason(configuration.prepare))
     return status, seconds
 
 
@@ -268,20 +269,20 @@ def _run(i: int, realisation: int, read: bool) -> tuple[str, float, float, Resul
     """In the worker: status, seconds of the draw and of a solve, and its result where it is to be read."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        (solve, status), draw = timed(lambda: _caught(lambda: _ready[i](realisation)))
+        (solve, status), draw = timed(lambda: _result_or_reason(lambda: _ready[i](realisation)))
         if solve is None:
             return status, draw, draw, None
-        (found, status), seconds = timed(lambda: _caught(solve.run))
+        (answer, status), seconds = timed(lambda: _result_or_reason(solve.run))
         if status != FINISHED:
             return status, draw, seconds, None
         if solve.repeatable and seconds < SHORTEST:
             times = math.ceil(SHORTEST / seconds)
             seconds = timed(lambda: [solve.run() for _ in range(times)])[1] / times
-        return status, draw, seconds, solve.read(found) if read else None
+        return status, draw, seconds, solve.read(answer) if read else None
 
 
-def _caught(function: Callable[[], Any]) -> tuple[Any, str]:
-    """The result, or why there is none."""
+def _result_or_reason(function: Callable[[], Any]) -> tuple[Any, str]:
+    """Return the result and "finished", or None and the reason why the call has no result."""
     try:
         return function(), FINISHED
     except Exception as error:  # any failure is a row of the table
@@ -289,6 +290,7 @@ def _caught(function: Callable[[], Any]) -> tuple[Any, str]:
 
 
 def _reason(error: Exception) -> str:
+    """Return the status that an exception stands for: out of range, not served or failed."""
     if isinstance(error, ValueError):
         return f"{OUT_OF_RANGE}: {error}"
     if isinstance(error, NotImplementedError):

@@ -104,19 +104,19 @@ def run(case: Precision, engine: Engine = SERIAL) -> Outcomes:
         timed = [TimedProblem(problem=each, methods=all_methods(), **settings) for each in problems]
         outcomes = alone.map(measure, timed)
         cost = figure_cost(case.cost, alone)
-    found = [point for pair in zip(problems, outcomes, strict=True) for point in points(*pair)]
-    return Outcomes(case, {"charts": charts_of(found), "cost": cost}, unconverged=lost(found))
+    charted = [point for pair in zip(problems, outcomes, strict=True) for point in points(*pair)]
+    return Outcomes(case, {"charts": charts_of(charted), "cost": cost}, unconverged=failure_messages(charted))
 
 
-def charts_of(found: Sequence[Point]) -> list[list[Point]]:
-    """One a scene and quantity, in their order."""
-    return [pareto.monotone_envelope(list(mine)) for _, mine in groupby(found, key=lambda p: (p.scene, p.quantity))]
+def charts_of(charted: Sequence[Point]) -> list[list[Point]]:
+    """Group the points by scene and quantity, a chart each, in their order."""
+    return [pareto.monotone_envelope(list(chart)) for _, chart in groupby(charted, key=lambda p: (p.scene, p.quantity))]
 
 
-def lost(found: Sequence[Point]) -> tuple[str, ...]:
-    """Who should have finished and has not, once for all quantities."""
-    failed = (p for p in found if p.status.startswith(FAILED))
-    return tuple(dict.fromkeys(f"{p.scene}: {p.method}, {p.setting}: {p.status}" for p in failed))
+def failure_messages(charted: Sequence[Point]) -> tuple[str, ...]:
+    """Return a message for each configuration that failed, once for all its quantities."""
+    failures = (p for p in charted if p.status.startswith(FAILED))
+    return tuple(dict.fromkeys(f"{p.scene}: {p.method}, {p.setting}: {p.status}" for p in failures))
 
 
 COST = Quantity("time_of_Fig._14.4_on_one_core")
@@ -128,15 +128,15 @@ A_DAY = "a day on one core is not too costly"
 
 def series(result: Outcomes) -> list[Series]:
     """What is left of models; times, none right or wrong."""
-    found = [one for chart in result["charts"] for one in (*_models(chart), *times(chart))]
+    numbers = [series for chart in result["charts"] for series in (*_model_errors(chart), *times(chart))]
     hours, low, high = (float(result["cost"][name][1]) for name in HOURS)
     at, time = {"a/dx": float(result["cost"]["a/dx"][1])}, Interval(hours, max(high - hours, hours - low))
     cost = single(COST, FROM, time, 24.0, "no cost", A_DAY, 0.0, at, role=Role.FINDING, unit="h")
-    return [*found, cost]
+    return [*numbers, cost]
 
 
-def _models(chart: Sequence[Point]) -> Iterator[Series]:
-    """What is left of the error of each model at its finest setting, where there is no closed form."""
+def _model_errors(chart: Sequence[Point]) -> Iterator[Series]:
+    """Yield the error of each model at its finest setting, where the chart has no closed form."""
     if any(point.is_reference for point in chart):
         return
     margin = Margin(0.0, AGREEMENT, source="boundary elements, extrapolated")
@@ -154,32 +154,33 @@ def _models(chart: Sequence[Point]) -> Iterator[Series]:
 
 
 def times(chart: Sequence[Point]) -> Iterator[Series]:
-    """Of springs along their own front, and of boundary elements along what is left of the front beyond."""
-    known = [point for point in chart if point.finished and not point.is_reference]
-    springs = front([point for point in known if point.method in SPRINGS])
+    """Yield times of springs along their own front, and of boundary elements along the rest of the front."""
+    candidates = [point for point in chart if point.finished and not point.is_reference]
+    springs = front([point for point in candidates if point.method in SPRINGS])
     if springs:
-        rivals = [point for point in known if point.method not in SPRINGS]
-        yield _times(UP_TO, springs, [(point, cheapest_as_close(point, rivals)) for point in springs])
-        elements = [point for point in known if point.method in ELEMENTS]
-        beyond = [point for point in front(known) if point.rank < springs[-1].rank]
-        pairs = [(mine, point) for point in beyond if (mine := cheapest_as_close(point, elements))]
+        rivals = [point for point in candidates if point.method not in SPRINGS]
+        yield _time_series(UP_TO, springs, [(point, cheapest_as_close(point, rivals)) for point in springs])
+        elements = [point for point in candidates if point.method in ELEMENTS]
+        beyond = [point for point in front(candidates) if point.rank < springs[-1].rank]
+        pairs = [(element_point, point) for point in beyond if (element_point := cheapest_as_close(point, elements))]
         if pairs:
-            yield _times(FROM, [point for _, point in pairs], pairs)
+            yield _time_series(FROM, [point for _, point in pairs], pairs)
 
 
-def _times(model: str, at: Sequence[Point], pairs: Sequence[tuple[Point, Point | None]]) -> Series:
-    """Of one over that of the other, at errors that both reach: zero where there is no other."""
+def _time_series(model: str, at: Sequence[Point], pairs: Sequence[tuple[Point, Point | None]]) -> Series:
+    """Return ratios of times at errors that both methods reach; the ratio is zero where no other method does."""
     first, scale = at[0], 1.0 if at[0].unit == "dB" else 100.0
     along, errors = f"error [{first.unit}]", [scale * point.rank for point in at]
     where = {"scene": first.scene, "quantity": first.quantity}
-    one = Series(TIME, model, [_ratio(*p) for p in pairs], where=where, along=along, at=errors, margin=CHEAPEST)
-    (worst,) = one.numbers
+    ratios = Series(TIME, model, [_time_ratio(*p) for p in pairs], where=where, along=along, at=errors, margin=CHEAPEST)
+    (worst,) = ratios.numbers
     _, other = pairs[[place == worst.where["worst at"] for place in errors].index(True)]
-    return replace(one, margin=replace(CHEAPEST, source=other.method if other else "no other method is as close"))
+    return replace(ratios, margin=replace(CHEAPEST, source=other.method if other else "no other method is as close"))
 
 
-def _ratio(mine: Point, other: Point | None) -> Interval:
-    return time_over(mine, other) if other else Interval(0.0, 0.0)
+def _time_ratio(numerator: Point, denominator: Point | None) -> Interval:
+    """Return the ratio of median times, zero without a denominator."""
+    return time_over(numerator, denominator) if denominator else Interval(0.0, 0.0)
 
 
 POINTS = "points"
@@ -199,27 +200,31 @@ QUARTILES = ("lower quartile [s]", "median [s]", "upper quartile [s]")
 
 def tables(result: Outcomes) -> tuple[Table, ...]:
     charts = result["charts"]
-    found = table_of(POINTS, [row for chart in charts for row in _rows(chart)])
-    lost, by = found.rows(found["status"] != FINISHED), ("scene", "method", "setting", "status")
-    without = grouped(WITHOUT, lost, by, {"quantities": lambda mine: ", ".join(mine["quantity"])})
-    within = table_of(WITHIN, [_within(chart) for chart in charts])
-    return found, faster(charts), within, without, result["cost"]
+    point_table = table_of(POINTS, [row for chart in charts for row in _point_rows(chart)])
+    unfinished, by = point_table.rows(point_table["status"] != FINISHED), ("scene", "method", "setting", "status")
+    without = grouped(WITHOUT, unfinished, by, {"quantities": lambda group: ", ".join(group["quantity"])})
+    within = table_of(WITHIN, [_cheapest_row(chart) for chart in charts])
+    return point_table, faster(charts), within, without, result["cost"]
 
 
-def _rows(chart: Sequence[Point]) -> Iterator[dict[str, object]]:
+def _point_rows(chart: Sequence[Point]) -> Iterator[dict[str, object]]:
+    """Yield a row of the table for each point, with whether the point lies on the Pareto front."""
     by_time = front(chart)
     for p in chart:
-        row = {name: getattr(p, mine) for name, mine in COLUMNS.items()} | dict(zip(QUARTILES, p.seconds, strict=True))
+        row = {name: getattr(p, attribute) for name, attribute in COLUMNS.items()} | dict(
+            zip(QUARTILES, p.seconds, strict=True)
+        )
         yield row | {"front": p in by_time}
 
 
-def _within(chart: Sequence[Point]) -> dict[str, object]:
-    """A column a tolerance."""
+def _cheapest_row(chart: Sequence[Point]) -> dict[str, object]:
+    """Return the cheapest method of a chart within each tolerance, a column a tolerance."""
     cells = {f"within {100 * tolerance:g} %": _cheapest_within(chart, tolerance) for tolerance in pareto.TOLERANCES}
     return {"scene": chart[0].scene, "quantity": chart[0].quantity, **cells}
 
 
 def _cheapest_within(chart: Sequence[Point], tolerance: float) -> str:
+    """Return method, setting and time of the cheapest point as text, or why no point is within the tolerance."""
     best = cheapest(chart, tolerance)
     if not best:
         return pareto.reason_if_none(chart, tolerance)

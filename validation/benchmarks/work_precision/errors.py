@@ -38,14 +38,15 @@ class MethodValues:
 
     def log(self, quantity: ChartQuantity, rows: IntArray) -> FloatArray:
         """ln q of these realisations; extrapolated, ln q_f + (ln q_f - ln q_c) / (ratio^order - 1)."""
-        fine = quantity.log(_rows(self.fine, rows))
+        fine = quantity.log(_values_of_rows(self.fine, rows))
         if self.coarse is None:
             return fine
-        change = fine - quantity.log(_rows(self.coarse, rows))
+        change = fine - quantity.log(_values_of_rows(self.coarse, rows))
         return np.asarray(fine + change / (self.ratio**quantity.order - 1))
 
 
-def _rows(values: Values, rows: IntArray) -> Values:
+def _values_of_rows(values: Values, rows: IntArray) -> Values:
+    """Return the values of some realisations, which lie along the first axis."""
     return {name: value[rows] for name, value in values.items()}
 
 
@@ -59,32 +60,32 @@ class Error:
     over: float
 
 
-def error(quantity: ChartQuantity, mine: MethodValues, reference: MethodValues) -> Error:
+def error(quantity: ChartQuantity, answer: MethodValues, reference: MethodValues) -> Error:
     """How far an answer is from the reference; its interval by leaving out one realisation after the other.
 
     Paired, of both at once: what the realisation has of its own drops out. Otherwise of either by itself.
     """
-    rows = np.arange(mine.size)
-    theirs = rows if mine.paired and reference.size > 1 else np.arange(reference.size)
+    rows = np.arange(answer.size)
+    reference_rows = rows if answer.paired and reference.size > 1 else np.arange(reference.size)
 
-    def ratio(rows: IntArray, theirs: IntArray) -> FloatArray:
-        return mine.log(quantity, rows) - reference.log(quantity, theirs)
+    def ratio(rows: IntArray, reference_rows: IntArray) -> FloatArray:
+        return answer.log(quantity, rows) - reference.log(quantity, reference_rows)
 
-    def off(rows: IntArray, theirs: IntArray) -> float:
+    def off(rows: IntArray, reference_rows: IntArray) -> float:
         """With the sign of a single number: one that happens to lie on the reference scatters as much as any other."""
-        log_ratio = ratio(rows, theirs)
+        log_ratio = ratio(rows, reference_rows)
         return quantity.distance(log_ratio) * (math.copysign(1.0, log_ratio[0]) if log_ratio.size == 1 else 1.0)
 
-    without_mine = [np.delete(rows, i) for i in rows] if mine.size > 1 else []
-    if mine.paired:
-        half_width = _half_width([off(left, np.delete(theirs, i)) for i, left in enumerate(without_mine)])
+    jackknife_rows = [np.delete(rows, i) for i in rows] if answer.size > 1 else []
+    if answer.paired:
+        half_width = _half_width([off(left, np.delete(reference_rows, i)) for i, left in enumerate(jackknife_rows)])
     else:
-        without_theirs = [np.delete(theirs, i) for i in theirs] if reference.size > 1 else []
+        jackknife_references = [np.delete(reference_rows, i) for i in reference_rows] if reference.size > 1 else []
         half_width = math.hypot(
-            _half_width([off(left, theirs) for left in without_mine]),
-            _half_width([off(rows, left) for left in without_theirs]),
+            _half_width([off(left, reference_rows) for left in jackknife_rows]),
+            _half_width([off(rows, left) for left in jackknife_references]),
         )
-    log_ratio = ratio(rows, theirs)
+    log_ratio = ratio(rows, reference_rows)
     over = float(np.exp(log_ratio[0])) if log_ratio.size == 1 else math.nan
     return Error(quantity.distance(log_ratio), half_width, over)
 
@@ -98,7 +99,7 @@ def _half_width(without: list[float]) -> float:
 
 
 def reference_of(
-    problem: ChartProblem, found: Mapping[Configuration, Values]
+    problem: ChartProblem, values: Mapping[Configuration, Values]
 ) -> tuple[MethodValues, Callable[[ChartQuantity], float]]:
     """The reference, and its uncertainty for each quantity.
 
@@ -106,56 +107,59 @@ def reference_of(
     the finer of them is left open: enough for every order of convergence above 0.6.
     Raises NotConvergedError where one of these grids has not finished.
     """
-    given = problem.reference()
-    if not isinstance(given, tuple):
-        return MethodValues(given), lambda quantity: quantity.band
-    coarse, fine = given
-    if not (coarse in found and fine in found):
+    reference = problem.reference()
+    if not isinstance(reference, tuple):
+        return MethodValues(reference), lambda quantity: quantity.band
+    coarse, fine = reference
+    if not (coarse in values and fine in values):
         raise NotConvergedError(f"{problem.name}: the grids of the reference have not finished")
-    answer = MethodValues(found[fine], found[coarse], fine.value / coarse.value)
+    extrapolated = MethodValues(values[fine], values[coarse], fine.value / coarse.value)
 
     def band(quantity: ChartQuantity) -> float:
-        rows = np.arange(answer.size)
-        return quantity.distance(replace(answer, coarse=None).log(quantity, rows) - answer.log(quantity, rows))
+        rows = np.arange(extrapolated.size)
+        return quantity.distance(
+            replace(extrapolated, coarse=None).log(quantity, rows) - extrapolated.log(quantity, rows)
+        )
 
-    return answer, band
+    return extrapolated, band
 
 
 def points(problem: ChartProblem, outcome: Outcome) -> list[Point]:
     """Every configuration and every quantity, and every pair of grids extrapolated, its costs added."""
     configurations = configurations_of(problem)
-    timed = {each: _timed(each, outcome, i) for i, each in enumerate(configurations)}
-    found = {
+    timed = {each: _point_fields(each, outcome, i) for i, each in enumerate(configurations)}
+    values = {
         each: values_of(problem, each, outcome, i)
         for i, each in enumerate(configurations)
         if timed[each]["status"] == FINISHED
     }
-    reference, band = reference_of(problem, found)
+    reference, band = reference_of(problem, values)
     rows: list[Point] = []
     for quantity in problem.quantities:
         unit = "dB" if quantity.decibel else "%"
         chart: dict[str, Any] = {"scene": problem.name, "quantity": quantity.name, "unit": unit, "band": band(quantity)}
 
-        def beside(point: Point, mine: MethodValues, quantity: ChartQuantity = quantity) -> Point:
-            off = error(quantity, mine, reference)
+        def with_error(point: Point, answer: MethodValues, quantity: ChartQuantity = quantity) -> Point:
+            off = error(quantity, answer, reference)
             return replace(point, error=off.value, half_width=off.half_width, over=off.over)
 
         blank = {each: Point(**chart, **facts) for each, facts in timed.items()}
         for each, point in blank.items():
-            if each not in found:
+            if each not in values:
                 rows.append(point)
-            elif not set(quantity.needs) <= found[each].keys():
+            elif not set(quantity.needs) <= values[each].keys():
                 rows.append(replace(point, status=f"{OUT_OF_RANGE}: it does not have this quantity"))
             else:
-                rows.append(beside(point, MethodValues(found[each], paired=each.paired)))
+                rows.append(with_error(point, MethodValues(values[each], paired=each.paired)))
         for coarse, fine in problem.pairs():
-            if coarse in found and fine in found:
-                both = MethodValues(found[fine], found[coarse], fine.value / coarse.value)
-                rows.append(beside(_extrapolated(blank[coarse], blank[fine]), both))
+            if coarse in values and fine in values:
+                pair = MethodValues(values[fine], values[coarse], fine.value / coarse.value)
+                rows.append(with_error(_extrapolated_point(blank[coarse], blank[fine]), pair))
     return rows
 
 
-def _timed(configuration: Configuration, outcome: Outcome, i: int) -> dict[str, Any]:
+def _point_fields(configuration: Configuration, outcome: Outcome, i: int) -> dict[str, Any]:
+    """Return the fields of a point that do not depend on the quantity: method, setting, status and times."""
     seconds, same = outcome[f"seconds {i}"], ("parameter", "value", "is_reference")
     return {
         "method": configuration.label,
@@ -168,7 +172,8 @@ def _timed(configuration: Configuration, outcome: Outcome, i: int) -> dict[str, 
     }
 
 
-def _extrapolated(coarse: Point, fine: Point) -> Point:
+def _extrapolated_point(coarse: Point, fine: Point) -> Point:
+    """Return the point of a pair of grids: both solves are paid for, the fewest runs of the two count."""
     low, median, high = (x + y for x, y in zip(coarse.seconds, fine.seconds, strict=True))
     runs, setup = min(coarse.runs, fine.runs), coarse.setup + fine.setup
     return replace(fine, method=EXTRAPOLATED, seconds=(low, median, high), runs=runs, setup=setup)

@@ -42,21 +42,22 @@ class FigureCost:
 
 def on_springs(cost: FigureCost) -> Outcome:
     """Seconds of a step of one wheel, several times; wheels in a batch, each on a track of its own."""
-    return {"seconds": alone(_seconds, _batch_on_springs, cost) / (cost.steps * cost.wheels)}
+    return {"seconds": alone(_seconds_of_runs, _batch_on_springs, cost) / (cost.steps * cost.wheels)}
 
 
 def on_half_space(cost: FigureCost) -> Outcome:
     """Seconds of a step, several times; one wheel over the beginning of a strip."""
-    return {"seconds": alone(_seconds, _wheel_on_half_space, cost) / cost.steps}
+    return {"seconds": alone(_seconds_of_runs, _wheel_on_half_space, cost) / cost.steps}
 
 
-def _seconds(prepare: Callable[[FigureCost], Callable[[], object]], cost: FigureCost) -> FloatArray:
-    """Of each run; plans are made in one before."""
+def _seconds_of_runs(prepare: Callable[[FigureCost], Callable[[], object]], cost: FigureCost) -> FloatArray:
+    """Return the seconds of each run; a run before them makes the plans."""
     ride = prepare(cost)
     return np.array([timed(ride)[1] for _ in range(1 + RUNS)][1:])
 
 
 def _batch_on_springs(cost: FigureCost) -> Callable[[], object]:
+    """Return a ride of all wheels at once, each on a track of its own, which the clock times."""
     scene = cost.scene
     heights = WheelEnsemble(scene=scene, count=cost.wheels, seed=cost.seed).heights()
     law = SpringsLaw(scene.body, heights, scene.spacing)
@@ -64,6 +65,7 @@ def _batch_on_springs(cost: FigureCost) -> Callable[[], object]:
 
 
 def _wheel_on_half_space(cost: FigureCost) -> Callable[[], object]:
+    """Return a ride of one wheel over the beginning of a strip, which the clock times."""
     scene, own = cost.scene, {"realisation": 0, "natural_periods": 0, "width": 2, "seed": cost.seed}
     strip = WheelStrip(scene=scene, cells=cost.cells, shared=cost.cells, tolerance=cost.tolerance, **own)
     surface, spacing = strip.surface(), strip.spacing
@@ -77,10 +79,13 @@ def figure_cost(cost: FigureCost, engine: Engine) -> Table:
     """A row a method: median seconds of a step, of a metre, of a wheel; hours of the figure, with their interval."""
     (springs,), (elements,) = engine.map(on_springs, [cost]), engine.map(on_half_space, [cost])
     rows = ("springs", cost.scene.springs, springs), ("boundary elements", cost.cells, elements)
-    return table_of(COST_OF_STEPS, [_row(cost, method, n, outcome["seconds"].tolist()) for method, n, outcome in rows])
+    return table_of(
+        COST_OF_STEPS, [_cost_row(cost, method, n, outcome["seconds"].tolist()) for method, n, outcome in rows]
+    )
 
 
-def _row(cost: FigureCost, method: str, elements: int, seconds: list[float]) -> dict[str, object]:
+def _cost_row(cost: FigureCost, method: str, elements: int, seconds: list[float]) -> dict[str, object]:
+    """Return the row of a method: seconds of a step, a metre and a wheel, hours of the figure with their interval."""
     metre = elements / cost.scene.contact_radius
     wheel = metre * cost.scene.distance
     step, (low, high) = float(np.median(seconds)), interval_of_median(seconds)

@@ -62,12 +62,12 @@ class Point:
 def monotone_envelope(points: Sequence[Point]) -> list[Point]:
     """Each point with the largest upper bound of the error that its method has at finer settings, which come later."""
     worst: dict[str, float] = {}
-    found = []
+    envelope = []
     for point in reversed(points):
-        found.append(replace(point, finer=worst.get(point.method, 0.0)))
+        envelope.append(replace(point, finer=worst.get(point.method, 0.0)))
         if point.finished:
             worst[point.method] = max(worst.get(point.method, 0.0), point.rank)
-    return found[::-1]
+    return envelope[::-1]
 
 
 def seconds(point: Point) -> float:
@@ -80,12 +80,12 @@ def front(points: Sequence[Point]) -> list[Point]:
     Ranked by the upper ends of errors; what lies below the band of the reference is as good as its edge. The reference
     itself, and who has not finished, takes no part.
     """
-    known = [p for p in points if p.finished and not p.is_reference]
-    found: list[Point] = []
-    for point in sorted(known, key=lambda p: (seconds(p), p.rank)):
-        if not found or point.rank < found[-1].rank:
-            found.append(point)
-    return found
+    candidates = [p for p in points if p.finished and not p.is_reference]
+    best: list[Point] = []
+    for point in sorted(candidates, key=lambda p: (seconds(p), p.rank)):
+        if not best or point.rank < best[-1].rank:
+            best.append(point)
+    return best
 
 
 def in_unit_of_error(tolerance: float, unit: str) -> float:
@@ -100,8 +100,9 @@ def cheapest(points: Sequence[Point], tolerance: float) -> Point | None:
 
 
 def reason_if_none(points: Sequence[Point], tolerance: float) -> str:
-    wanted = in_unit_of_error(tolerance, points[0].unit)
-    return "the reference cannot tell" if points[0].band > wanted else "none"
+    """Return "none", or that the reference is less certain than the tolerance."""
+    limit = in_unit_of_error(tolerance, points[0].unit)
+    return "the reference cannot tell" if points[0].band > limit else "none"
 
 
 FASTER = Quantity("times_faster_than_boundary_elements_at_equal_error")
@@ -120,23 +121,24 @@ def faster(charts: Sequence[Sequence[Point]]) -> Table:
     the error is at most e: both are measured, nothing lies between grids. "error" and "error of boundary elements" are
     these upper ends, in the unit.
     """
-    rows = [row for chart in charts for row in _rows(chart)]
+    rows = [row for chart in charts for row in _speed_up_rows(chart)]
     return Table(FASTER, {name: [row[name] for row in rows] for name in (rows[0] if rows else ("scene",))})
 
 
-def _rows(chart: Sequence[Point]) -> Iterator[dict[str, object]]:
-    known = [point for point in chart if point.finished and not point.is_reference]
-    elements = [point for point in known if point.method in ELEMENTS]
+def _speed_up_rows(chart: Sequence[Point]) -> Iterator[dict[str, object]]:
+    """Yield a row for each reduced model whose least error boundary elements reach too."""
+    candidates = [point for point in chart if point.finished and not point.is_reference]
+    elements = [point for point in candidates if point.method in ELEMENTS]
     for method in REDUCED:
-        mine = front([point for point in known if point.method == method])
-        other = cheapest_as_close(mine[-1], elements) if mine else None
+        model_front = front([point for point in candidates if point.method == method])
+        other = cheapest_as_close(model_front[-1], elements) if model_front else None
         if other is None:
             continue
-        ratio, scale = time_over(other, mine[-1]), 1.0 if other.unit == "dB" else 100.0
+        ratio, scale = time_over(other, model_front[-1]), 1.0 if other.unit == "dB" else 100.0
         yield {
             **{"scene": other.scene, "quantity": other.quantity, "model": method, "unit": other.unit},
-            **{"error": scale * mine[-1].rank, "error of boundary elements": scale * other.rank},
-            **{"seconds": seconds(mine[-1]), "seconds of boundary elements": seconds(other)},
+            **{"error": scale * model_front[-1].rank, "error of boundary elements": scale * other.rank},
+            **{"seconds": seconds(model_front[-1]), "seconds of boundary elements": seconds(other)},
             **{
                 "times faster": ratio.value,
                 "from": ratio.value - ratio.half_width,
@@ -145,15 +147,19 @@ def _rows(chart: Sequence[Point]) -> Iterator[dict[str, object]]:
         }
 
 
-def cheapest_as_close(point: Point, others: Sequence[Point]) -> Point | None:
-    close = [other for other in others if other.rank <= point.rank]
+def cheapest_as_close(point: Point, candidates: Sequence[Point]) -> Point | None:
+    """Return the cheapest candidate whose upper end of the error is at most that of the point, None without one."""
+    close = [candidate for candidate in candidates if candidate.rank <= point.rank]
     return min(close, key=seconds, default=None)
 
 
-def time_over(mine: Point, other: Point) -> Interval:
+def time_over(numerator: Point, denominator: Point) -> Interval:
     """Ratio of the median times; the uncertainties of both are independent."""
-    ratio = seconds(mine) / seconds(other)
-    return Interval(ratio, 0.0 if other is mine else ratio * math.hypot(_uncertainty(mine), _uncertainty(other)))
+    ratio = seconds(numerator) / seconds(denominator)
+    return Interval(
+        ratio,
+        0.0 if denominator is numerator else ratio * math.hypot(_uncertainty(numerator), _uncertainty(denominator)),
+    )
 
 
 def _uncertainty(point: Point) -> float:

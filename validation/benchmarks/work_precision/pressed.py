@@ -60,7 +60,7 @@ class PressedProblem(ChartProblem):
 
 def closed_form(scene: "ExactProblem", resolution: Resolution) -> Prepared:
     """What is exact."""
-    return lambda _: Solve(scene.exact, lambda found: Result(found))
+    return lambda _: Solve(scene.exact, lambda values: Result(values))
 
 
 class ExactProblem(PressedProblem):

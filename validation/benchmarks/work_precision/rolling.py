@@ -124,8 +124,8 @@ def linear_spectrum(scene: RollingProblem, resolution: Resolution) -> Prepared:
         variance = rolling_theory.force_variance(c2d, **settings)
         return variance, dq * rolling_theory.force_spectrum_3d(q, c2d, **settings)
 
-    def read(found: tuple[float, FloatArray]) -> Result:
-        variance, level = found[0], scene.bands.sums(q, found[1]).real
+    def read(variance_and_spectrum: tuple[float, FloatArray]) -> Result:
+        variance, level = variance_and_spectrum[0], scene.bands.sums(q, variance_and_spectrum[1]).real
         return Result({"variance": np.array(variance / HERTZ**2), "level": level / HERTZ**2})
 
     return lambda _: Solve(solve, read)
@@ -139,8 +139,8 @@ def springs_along_tracks(scene: RollingProblem, resolution: Resolution, spectrum
     def draw(realisation: int) -> Solve:
         track = scene.rough_strip.track(spectrum, springs, realisation)
 
-        def read(found: mdr.RollingTrack) -> Result:
-            force = found.force / HERTZ
+        def read(rolled: mdr.RollingTrack) -> Result:
+            force = rolled.force / HERTZ
             level = levels(waves(force, spacing=1 / springs), scene.bands)
             return Result({"variance": np.array(force.var()), "level": level})
 
@@ -166,9 +166,9 @@ def force_along_strips(scene: RollingProblem, resolution: Resolution) -> Prepare
         q, power = linear_power(surface, 1 / cells)
         ahead = slice(1, (q.size - 1) // 2 + 1)
         mean = {"mean variance": np.array(power.sum()), "mean level": scene.bands.sums(q[ahead], power[ahead]).real}
-        known = {**variance_and_level(linear, "linear "), **mean}
+        linear_theory = {**variance_and_level(linear, "linear "), **mean}
         solve = _roll(surface, cells, resolution.residual)
-        return Solve(solve, lambda force: Result({**variance_and_level(force / HERTZ), **known}))
+        return Solve(solve, lambda force: Result({**variance_and_level(force / HERTZ), **linear_theory}))
 
     draw(0)
     return draw

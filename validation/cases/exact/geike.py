@@ -68,8 +68,8 @@ def series(result: Outcomes) -> list[Series]:
     spectra = {GEIKE: c1d(q), LINE: case.spectrum.line(q)}
     drawn = {kind: result[kind]["spectrum"][1:] for kind in (PROFILE, LINES)}
     shares = {
-        kind: [np.sum(q**n * found) * dq / np.trapezoid(fine**n * c1d(fine), fine) for n in MOMENTS]
-        for kind, found in drawn.items()
+        kind: [np.sum(q**n * density) * dq / np.trapezoid(fine**n * c1d(fine), fine) for n in MOMENTS]
+        for kind, density in drawn.items()
     }
     shares[DIRECTIONS] = [mean_power_of_cosine(n) for n in MOMENTS]
     moments, of_surface = (result[kind]["moments"] for kind in (PROFILE, LINES))

@@ -86,7 +86,11 @@ def run(case: Hertz, engine: Engine = SERIAL) -> Outcomes:
         "loads": [case.sphere(case.cells_per_radius[1], approach) for approach in case.approaches],
     }
     solves = ((BEM, contacts.press_sphere_by_bem), (MDR, contacts.press_sphere_by_springs))
-    found = {(model, group): one for model, solve in solves for group, one in engine.map_groups(solve, spheres).items()}
+    sphere_outcomes = {
+        (model, group): outcomes
+        for model, solve in solves
+        for group, outcomes in engine.map_groups(solve, spheres).items()
+    }
     punches = [FlatPunches(cells=n, tolerance=case.tolerance) for n in case.punch_cells]
     waves = {load: [case.wave(load, n) for n in case.wave_cells] for load in case.loads}
     ellipses = [PublishedContact(cells=n, tolerance=case.tolerance) for n in case.ellipse_cells]
@@ -97,7 +101,7 @@ def run(case: Hertz, engine: Engine = SERIAL) -> Outcomes:
         raise NotConvergedError("a grid of the ellipse has no contact", lost)
     of_punch = list(engine.map(contacts.press_flat_punches, punches))
     return Outcomes(
-        case, {**found, PUNCH: of_punch, **engine.map_groups(contacts.press_wave, waves), ELLIPSE: of_ellipse}
+        case, {**sphere_outcomes, PUNCH: of_punch, **engine.map_groups(contacts.press_wave, waves), ELLIPSE: of_ellipse}
     )
 
 
@@ -144,7 +148,7 @@ DIGITS = Margin(
 
 
 def series(result: Outcomes) -> list[Series]:
-    return [one for part in (_curves, _sphere, _punches, _waves, _ellipse) for one in part(result)]
+    return [number for part in (_curves, _sphere, _punches, _waves, _ellipse) for number in part(result)]
 
 
 def order(cells: Sequence[int], errors: ArrayLike) -> float:
@@ -158,7 +162,7 @@ def first_order_limit(values: NDArray[np.floating]) -> float:
 
 
 def _each(outcomes: Sequence[Outcome], name: str) -> NDArray[np.float64]:
-    return np.array([float(one[name]) for one in outcomes])
+    return np.array([float(outcome[name]) for outcome in outcomes])
 
 
 def _fall(
@@ -228,17 +232,17 @@ def _waves(result: Outcomes) -> Iterator[Series]:
     """Pressure and width on the finest grid at each load, and how the error of the pressure falls at half load."""
     case = result.case
     for load in case.loads:
-        wave, found = case.wave(load, case.wave_cells[-1]), result[load][-1]
-        here = partial(single, model=WAVE, of="Westergaard", where={LOAD: load})
-        by_place = partial(Series, WAVE_PRESSURE, where={LOAD: load}, along=PLACE, at=found["x"] / wave.wavelength)
-        yield by_place(BEM, found["pressure"] / wave.full_pressure)
-        yield by_place("Westergaard", found["exact_pressure"] / wave.full_pressure)
+        wave, finest = case.wave(load, case.wave_cells[-1]), result[load][-1]
+        at_load = partial(single, model=WAVE, of="Westergaard", where={LOAD: load})
+        by_place = partial(Series, WAVE_PRESSURE, where={LOAD: load}, along=PLACE, at=finest["x"] / wave.wavelength)
+        yield by_place(BEM, finest["pressure"] / wave.full_pressure)
+        yield by_place("Westergaard", finest["exact_pressure"] / wave.full_pressure)
         a = closed_forms.westergaard_half_width(**wave.scene)
         at_edge = closed_forms.westergaard_pressure(a - wave.spacing, **wave.scene)
-        near = float(at_edge * np.sqrt(2 / np.sum(found["exact_pressure"] ** 2)))
-        yield here(PRESSURE_ERROR, value=float(found["error"]), within=near, reason=EDGE)
-        width = float(found["half_width"]) / a
-        yield here(WIDTH, value=width, within=wave.spacing / a, reason="one cell at each edge", reference=1.0)
+        near = float(at_edge * np.sqrt(2 / np.sum(finest["exact_pressure"] ** 2)))
+        yield at_load(PRESSURE_ERROR, value=float(finest["error"]), within=near, reason=EDGE)
+        width = float(finest["half_width"]) / a
+        yield at_load(WIDTH, value=width, within=wave.spacing / a, reason="one cell at each edge", reference=1.0)
     yield from _fall(WAVE, case.wave_cells, _each(result[0.5], "error"), 1, 0.1, HALF_LOAD)
 
 
@@ -248,9 +252,9 @@ def _ellipse(result: Outcomes) -> Iterator[Series]:
     closed = {contacts.APPROACH: 1e3 * smooth.approach, contacts.PRESSURE: 1e-6 * smooth.pressure}
     coarse, fine = result[ELLIPSE][-2:]
     for quantity, (reference, unit) in CONTACT.items():
-        found = float(fine[quantity])
-        grid = abs(found - float(coarse[quantity])) / 3
-        for model, value, left in (("closed form", closed[quantity], 0.0), (BEM, found, grid)):
+        finest = float(fine[quantity])
+        grid = abs(finest - float(coarse[quantity])) / 3
+        for model, value, left in (("closed form", closed[quantity], 0.0), (BEM, finest, grid)):
             yield Series(quantity, model, (value,), reference=reference, grid=left, unit=unit, margin=DIGITS)
 
 

@@ -44,12 +44,12 @@ def run(case: Limits, engine: Engine = SERIAL) -> Outcomes:
     """Sweep through every limit."""
     problems = list(dict.fromkeys(limit.problem(case) for limit in LIMITS))
     swept = dict(zip(problems, engine.map(sweep, problems), strict=True))
-    found = {
+    outcomes = {
         "sweeps": [Sweep.of(limit, swept[limit.problem(case)]) for limit in LIMITS],
         "tracks": next(outcome for outcome in swept.values() if "imbalance" in outcome),
     }
     lost = (f"{p.probe.replace('_', ' ')}: {o['failed']:g}" for p, o in swept.items() if np.any(o.get("failed", 0.0)))
-    return Outcomes(case, found, tuple(lost))
+    return Outcomes(case, outcomes, tuple(lost))
 
 
 THRESHOLD = Quantity("observed_threshold_over_the_predicted_one")
@@ -73,7 +73,7 @@ def series(result: Outcomes) -> list[Series]:
         *map(threshold, result["sweeps"]),
         *map(warnings, result["sweeps"]),
         single(IMBALANCE, "springs", imbalance, 1e-10, source, reason, where=where, role=Role.IDENTITY),
-        *(one for sweep in result["sweeps"] for one in shown(sweep)),
+        *(panel_curve for sweep in result["sweeps"] for panel_curve in shown(sweep)),
     ]
 
 

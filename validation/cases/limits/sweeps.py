@@ -30,12 +30,12 @@ class LimitName(NamedTuple):
 
 @dataclass(frozen=True)
 class Probe:
-    """run: of `simulation`; values: of its parameter; takes: settings of the case; given: others; part: of errors."""
+    """run: of `simulation`; values: of its parameter; takes: settings of the case; settings: fixed; part: of errors."""
 
     run: Callable[..., Outcome]
     values: tuple[float, ...]
     takes: tuple[str, ...] = ()
-    given: tuple[tuple[str, str], ...] = ()
+    settings: tuple[tuple[str, str], ...] = ()
     part: int = 0
 
 
@@ -75,7 +75,7 @@ class Limit:
 
     def problem(self, case: Any) -> SweepProblem:
         """For the settings of a case. Limits that have the same problem are found by one solve."""
-        settings = (*((name, getattr(case, name)) for name in self.probe.takes), *self.probe.given)
+        settings = (*((name, getattr(case, name)) for name in self.probe.takes), *self.probe.settings)
         return SweepProblem(probe=self.probe.run.__name__, values=self.probe.values, settings=settings)
 
 
@@ -156,7 +156,7 @@ SPRINGS = (
     ),
     Limit(
         LimitName("velocity Verlet", "long time step", "ω_eigen dt"),
-        Probe(springs.time_steps, (1.5, 1.9, 1.99, 2.01, 2.1, 2.5, 3.0), given=VERLET),
+        Probe(springs.time_steps, (1.5, 1.9, 1.99, 2.01, 2.1, 2.5, 3.0), settings=VERLET),
         Failing("above", "growth in one step, less one", "the bounded motion", 1e-3),
         "|λ| = 1 up to ω dt = 2, exp(2 arccosh(ω dt / 2)) above",
         2.0,
@@ -164,7 +164,7 @@ SPRINGS = (
     ),
     Limit(
         LimitName("explicit Euler", "energy gained", "ω_eigen dt"),
-        Probe(springs.time_steps, (0.004, 0.006, 0.009, 0.013, 0.018, 0.03, 0.1, 0.5, 1.5, 2.1), given=EULER),
+        Probe(springs.time_steps, (0.004, 0.006, 0.009, 0.013, 0.018, 0.03, 0.1, 0.5, 1.5, 2.1), settings=EULER),
         Failing("above", "energy gained in one period", "the initial energy", 0.1),
         "ω dt = ln(1 + tolerance) / 2π: each step multiplies the energy by 1 + (ω dt)²",
         lambda tolerance, _: math.log1p(tolerance) / (2 * math.pi),
@@ -172,7 +172,7 @@ SPRINGS = (
     ),
     Limit(
         LimitName("Runge-Kutta", "energy lost", "ω_eigen dt"),
-        Probe(springs.time_steps, (0.3, 0.6, 0.9, 1.1, 1.4, 2.0, 2.6, 2.9), given=KUTTA),
+        Probe(springs.time_steps, (0.3, 0.6, 0.9, 1.1, 1.4, 2.0, 2.6, 2.9), settings=KUTTA),
         Failing("above", "energy lost in one period", "the initial energy", 0.1),
         "(ω dt)⁵ = -72 ln(1 - tolerance) / 2π: each step multiplies the energy by 1 - (ω dt)⁶ / 72",
         lambda tolerance, _: (-72 * math.log1p(-tolerance) / (2 * math.pi)) ** 0.2,
@@ -324,5 +324,5 @@ class Sweep:
     @property
     def first_message(self) -> str:
         """The message nearest to the threshold on its failing side, empty where there is none."""
-        given = [m for m, past in zip(self.messages, self.past_threshold, strict=True) if m and past]
-        return given[:: self.sign][0] if given else ""
+        past_messages = [m for m, past in zip(self.messages, self.past_threshold, strict=True) if m and past]
+        return past_messages[:: self.sign][0] if past_messages else ""

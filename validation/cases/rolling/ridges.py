@@ -61,10 +61,10 @@ def run(case: RollingOverRidges, engine: Engine = SERIAL) -> Outcomes:
             ridges=case.ridges,
             method=SOLVER if method == BEM else method,
             cells=n,
-            prescribed=given,
+            prescribed=prescribed,
             tolerance=case.tolerance,
         )
-        for method, n, given in keys
+        for method, n, prescribed in keys
     ]
     outcomes = engine.map(roll_over, tracks)
     unconverged = tuple(
@@ -106,36 +106,36 @@ def series(result: Outcomes) -> list[Series]:
     q = result.case.ridges.wavenumbers
     exact, envelope = response(q, contact_radius=1.0, modulus=1.0) / 2, np.minimum(1.0, 1 / q)
     along_q = partial(Series, along=Q, at=q)
-    found = [along_q(RESPONSE, EXACT, exact * q)]
+    numbers = [along_q(RESPONSE, EXACT, exact * q)]
     largest: dict[tuple[str, float], float] = {}
-    for method, n, given in result.found:
-        if given == "force":
+    for method, n, prescribed in result.found:
+        if prescribed == "force":
             continue
-        mine, where = result[method, n, given], {CELLS: n}
-        error, (bound, reason) = np.abs(mine - exact) / envelope, bound_of(method, n, q)
+        of_method, where = result[method, n, prescribed], {CELLS: n}
+        error, (bound, reason) = np.abs(of_method - exact) / envelope, bound_of(method, n, q)
         worst, largest[method, n] = int(np.argmax(error / bound)), float(error[q <= FAR].max())
         role = Role.IDENTITY if method == FILTER else Role.CRITERION  # the filter is (14.11) itself
         source = "(14.11), which is exact for ridges in 1D and in 3D"
         margin = Margin(float(bound[worst]), reason, source=source, role=role)
-        found += [
+        numbers += [
             Series(NEAREST, method, error[[worst]], where={**where, Q: float(q[worst])}, margin=margin),
             Series(LARGEST, method, (largest[method, n], error.max()), where=where, along=Q, at=(FAR, q[-1])),
         ]
         if method in (BEM, SPRINGS):
-            found += [
+            numbers += [
                 along_q(ERROR, method, error, where=where),
                 along_q(BOUND, method, bound, where=where),
-                along_q(RESPONSE, method, mine.real * q, where=where),
-                along_q(IMAGINARY, method, mine.imag * q, where=where),
+                along_q(RESPONSE, method, of_method.real * q, where=where),
+                along_q(IMAGINARY, method, of_method.imag * q, where=where),
             ]
     coarsest, finest = float(result.case.cells[0]), float(result.case.cells[-1])
     order = math.log(largest[BEM, coarsest] / largest[BEM, finest]) / math.log(finest / coarsest)
-    force, approach = (result[BEM, coarsest, given] for given in ("approach", "force"))
+    force, approach = (result[BEM, coarsest, prescribed] for prescribed in ("approach", "force"))
     # a prescribed force turns the response of the force into one of the approach, through the stiffness alone
     stiffness = -float(np.sum((force * approach.conj()).real) / np.sum(np.abs(approach) ** 2))
     left = float((np.abs(stiffness * approach + force) / envelope).max())
     return [
-        *found,
+        *numbers,
         Series(ORDER, BEM, (order,), where={Q: (float(q[0]), FAR)}, reference=1.0, margin=FIRST_ORDER),
         Series(STIFFNESS, BEM, (left,), where={CELLS: coarsest}, margin=SECOND_ORDER),
     ]

@@ -56,13 +56,13 @@ def run(case: WheelStability, engine: Engine = SERIAL) -> Outcomes:
     """Solve all problems, the longest first, and try what must be refused."""
     long = [free.LongRun(scheme=name, highest=case.highest, steps=case.long_steps) for name in COMPARED]
     linear = [free.Vibrations(scheme=name, steps=case.steps, natural_periods=case.turns) for name in SCHEMES]
-    found: dict[str, Any] = {
+    outcomes: dict[str, Any] = {
         "long": dict(zip(COMPARED, engine.map(free.long_run, long), strict=True)),
         "spacing": engine.map_groups(springs.coarsen, {height: coarser(case, height) for height in case.heights}),
         "linear": dict(zip(SCHEMES, engine.map(free.vibrate, linear), strict=True)),
         "refusals": springs.refusals(),
     }
-    return Outcomes(case, found)
+    return Outcomes(case, outcomes)
 
 
 def coarser(case: WheelStability, height: float) -> list[RoughTrack]:
@@ -95,36 +95,43 @@ THEORY = "linear theory"
 
 def series(result: Outcomes) -> list[Series]:
     """Schemes against what is known of them, energy of long runs, springs too far apart."""
-    case, taken = result.case, sum(not told for told in result["refusals"].values())
+    case, taken = result.case, sum(not message for message in result["refusals"].values())
     source = "an error for every call whose motion would grow without bound or whose track would be another one"
     return [
-        *(s for name, found in result["linear"].items() for s in linear_vibration(name, np.array(case.steps), found)),
+        *(
+            s
+            for name, vibration in result["linear"].items()
+            for s in linear_vibration(name, np.array(case.steps), vibration)
+        ),
         *long_runs(case, result["long"]),
         *coarse_springs(result["spacing"]),
         single(REFUSED, "", float(taken), 0.5, source, "half a call: every call counts"),
     ]
 
 
-def linear_vibration(name: str, x: FloatArray, found: Outcome) -> Iterator[Series]:
+def linear_vibration(name: str, x: FloatArray, vibration: Outcome) -> Iterator[Series]:
     """Growth of every step beside its eigenvalue; period and energy beside theory up to the limit."""
     exact, by_theory = free.amplification(name, x), free.first_period(name, np.minimum(x, 1.99))
     limited = x < (SCHEMES[name].limit or 2.0)
     # none where a step turns by no angle
-    period = np.abs(x / np.where(found["angle"], found["angle"], math.nan) - 1)
+    period = np.abs(x / np.where(vibration["angle"], vibration["angle"], math.nan) - 1)
     # rounding hides smaller differences
     of_theory = np.abs(x / np.angle(exact) - 1)
     for quantity, steps, theory, kept in (
         (PERIOD, period, np.where(of_theory > 1e-8, of_theory, math.nan), limited),
-        (CHANGE, found["change"], by_theory, limited & (x < 1.9)),
-        (STEP, found["growth"], np.abs(exact), x > 0),
+        (CHANGE, vibration["change"], by_theory, limited & (x < 1.9)),
+        (STEP, vibration["growth"], np.abs(exact), x > 0),
     ):
         yield Series(quantity, name, steps[kept], along=OMEGA_DT, at=x[kept])
         yield Series(quantity, f"theory of {name}", theory[kept], along=OMEGA_DT, at=x[kept])
-    growth, source = np.abs(np.log(found["growth"] / np.abs(exact))).max(), "eigenvalue of one step of y'' = -omega^2 y"
+    growth, source = (
+        np.abs(np.log(vibration["growth"] / np.abs(exact))).max(),
+        "eigenvalue of one step of y'' = -omega^2 y",
+    )
     yield single(GROWTH, name, growth, ROUNDING, source, "both are exact; rounding remains")
 
 
-def long_runs(case: WheelStability, found: Mapping[str, Outcome]) -> Iterator[Series]:
+def long_runs(case: WheelStability, runs: Mapping[str, Outcome]) -> Iterator[Series]:
     """Energy in tenths of the run, over that of the beginning; its drift by Verlet where contact stays.
 
     Each step rounds the approach by `uniform` last places, which does the work of the force on the way.
@@ -135,7 +142,7 @@ def long_runs(case: WheelStability, found: Mapping[str, Outcome]) -> Iterator[Se
     growth = np.expm1(at * math.log1p(x**2))
     yield Series(LONG, THEORY, growth, where={RELEASE: case.highest[0]}, along="steps", at=at)
     for i, highest in enumerate(case.highest):
-        kept, energy = found[VERLET]["kept"][:, i] - 1, found[EULER]["energy"][:, i] - 1
+        kept, energy = runs[VERLET]["kept"][:, i] - 1, runs[EULER]["energy"][:, i] - 1
         for name, change in ((VERLET, kept), (EULER, energy)):
             yield Series(LONG, name, np.abs(change), where={RELEASE: highest}, along="steps", at=at)
         if highest < LIFT_OFF:
@@ -149,13 +156,13 @@ def long_runs(case: WheelStability, found: Mapping[str, Outcome]) -> Iterator[Se
 def coarse_springs(spacing: Mapping[float, Sequence[Outcome]]) -> Iterator[Series]:
     """Means over the tracks; no level where the springs cannot carry the last band. Judged on the lowest roughness."""
     strides = np.array(STRIDES)
-    for height, found in spacing.items():
-        level, linear, spread = (np.mean([o[key] for o in found], axis=0) for key in ("level", "linear", "spread"))
+    for height, outcomes in spacing.items():
+        level, linear, spread = (np.mean([o[key] for o in outcomes], axis=0) for key in ("level", "linear", "spread"))
         carried = level > 0
         of = partial(Series, OCTAVE + " [dB]", where={HEIGHT: height}, along=WIDTH, at=2 * math.pi * strides / FINE)
         decibels, by_theory, left = (
             POWER_DECIBEL * np.log(np.where(carried, x, math.nan))
-            for x in (level, linear, 1 + spread / math.sqrt(len(found)))
+            for x in (level, linear, 1 + spread / math.sqrt(len(outcomes)))
         )
         left_open = [Estimate(*pair, CERTAIN) for pair in zip(decibels.tolist(), left.tolist(), strict=True)]
         yield of("springs", found=left_open)
@@ -164,7 +171,7 @@ def coarse_springs(spacing: Mapping[float, Sequence[Outcome]]) -> Iterator[Serie
             continue
         off = decibels - by_theory
         worst = int(np.nanargmax(np.abs(off) / left))
-        there, at_a_quarter = (
+        at_worst, at_a_quarter = (
             {"h/d": height, "dx over the shortest wave": strides[i] / FINE} for i in (worst, QUARTER)
         )
         source = "dx sin(q (m + 1/2) dx) / sin(q dx / 2) in place of 2 sin(q a) / q"
@@ -172,7 +179,7 @@ def coarse_springs(spacing: Mapping[float, Sequence[Outcome]]) -> Iterator[Serie
             "five standard deviations of the part of the waves that the moving ends of the contact make on a track; "
             "each spring there has the weight phi(gap / h_rms)"
         )
-        yield single(SUM, "springs", off[worst], 5 * left[worst], source, reason, where=there, unit="dB")
+        yield single(SUM, "springs", off[worst], 5 * left[worst], source, reason, where=at_worst, unit="dB")
         last, source, within = left_open[QUARTER], "the condition dx < lambda / 4", FIELD.tolerance
         reason = f"{FIELD.reason}; z / sin(z) with z = pi / 4 is 0.91 dB at the shortest wave alone"
         yield single(OCTAVE, "springs", last, within, source, reason, where=at_a_quarter, role=Role.FINDING, unit="dB")
