@@ -61,7 +61,7 @@ def test_springs_that_read_the_surface_are_there_by_name_alone(models, count):
     ],
 )
 def test_models_have_their_names_and_beginnings(scene, quantity, names, expected):
-    models = models_of(validation.load_scene(scene), quantity, 0.4, 0, every=True)
+    models = models_of(validation.load_scene(scene), quantity, 0.4, 0, include_by_name=True)
     assert [model.name for model in models_named(models, names, 0.4)] == expected
 
 

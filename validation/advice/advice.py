@@ -17,23 +17,23 @@ SOLVES_IT = "not solved (--models mdr solves it)"
 
 
 def springs_of(comparison: Comparison) -> Candidate | None:
-    """Those that are selected, or were solved and are enough, or else have the smallest error; None without springs."""
+    """The springs that are selected, or were solved and are enough, or else have the smallest error; None without."""
     best, tolerance = comparison.selection.best, comparison.tolerance.relative
 
-    def order(one: Candidate) -> tuple[bool, bool, float]:
-        enough = is_solved(comparison, one) and one.error <= tolerance
-        return one is not best, not enough, one.error
+    def order(candidate: Candidate) -> tuple[bool, bool, float]:
+        enough = is_solved(comparison, candidate) and candidate.error <= tolerance
+        return candidate is not best, not enough, candidate.error
 
-    return min((one for one in comparison.models if one.is_mdr), key=order, default=None)
+    return min((candidate for candidate in comparison.models if candidate.is_mdr), key=order, default=None)
 
 
 def is_solved(comparison: Comparison, springs: Candidate) -> bool:
-    """Whether they have an answer."""
-    return any(springs is one for one in comparison.selection.solved)
+    """Whether the springs have an answer."""
+    return any(springs is candidate for candidate in comparison.selection.solved)
 
 
 def verdict(comparison: Comparison, springs: Candidate) -> tuple[str, str]:
-    """Whether they are enough, in words that say where that is predicted alone, and why."""
+    """Whether the springs are enough, in words that say where that is predicted alone, and why."""
     shown, limit = comparison.tolerance.shown_beside(springs.error), comparison.tolerance.relative
     of = f" ({comparison.statistic})" if comparison.statistic else ""
     if comparison.beyond_elasticity:
@@ -52,7 +52,7 @@ def verdict(comparison: Comparison, springs: Candidate) -> tuple[str, str]:
 
 
 def in_short(comparison: Comparison) -> str:
-    """One sentence."""
+    """The verdict on MDR in one sentence."""
     springs = springs_of(comparison)
     if springs is None:
         return "MDR has no springs for this scene"
@@ -61,19 +61,23 @@ def in_short(comparison: Comparison) -> str:
 
 
 def in_full(comparison: Comparison) -> list[str]:
-    """A sentence a model of springs."""
-    springs = [one for one in comparison.models if one.is_mdr]
+    """The verdict on MDR, a sentence for each model of springs."""
+    springs = [candidate for candidate in comparison.models if candidate.is_mdr]
     if not springs:
         return ["MDR: no springs are among the models of this scene."]
-    return [f"MDR{f' ({one.name})' if len(springs) > 1 else ''}: {_of(comparison, one)}." for one in springs]
+    return [
+        f"MDR{f' ({candidate.name})' if len(springs) > 1 else ''}: {_sentence(comparison, candidate)}."
+        for candidate in springs
+    ]
 
 
-def _of(comparison: Comparison, springs: Candidate) -> str:
+def _sentence(comparison: Comparison, springs: Candidate) -> str:
+    """The verdict with the tolerance, and the model of the result where that is cheaper."""
     enough, why = verdict(comparison, springs)
     best = comparison.selection.best
     cheaper = enough.endswith("enough") and best is not None and best.model is not springs.model and comparison.met
-    others = f"; {best.name} is cheaper" if cheaper and best is not None and best.cost < springs.cost else ""
-    return f"{enough}: {why} ({comparison.tolerance} wanted){others}"
+    remark = f"; {best.name} is cheaper" if cheaper and best is not None and best.cost < springs.cost else ""
+    return f"{enough}: {why} ({comparison.tolerance} wanted){remark}"
 
 
 ROUND = 2
@@ -96,10 +100,14 @@ def would_help(comparison: Comparison) -> Iterator[str]:
     if comparison.beyond_elasticity:
         yield f"no answer: {comparison.beyond_elasticity}"
         return
-    others = [one for one in comparison.models if one.status == "not asked" and one.claimed <= tolerance.relative]
+    unasked = [
+        candidate
+        for candidate in comparison.models
+        if candidate.status == "not asked" and candidate.claimed <= tolerance.relative
+    ]
     other = (
-        others
-        and f"{others[0].name}, which was not asked, with a predicted error of {tolerance.shown(others[0].claimed)}"
+        unasked
+        and f"{unasked[0].name}, which was not asked, with a predicted error of {tolerance.shown(unasked[0].claimed)}"
     )
     if best is None or best.answer is None:
         if comparison.models:
@@ -117,28 +125,28 @@ def would_help(comparison: Comparison) -> Iterator[str]:
     met = "; or ".join(
         part for part in (other, more, f"a tolerance of {tolerance.shown(1.05 * best.answer.error)}") if part
     )
-    yield f"what would help: {met}; most of the error is {_cause(comparison.scene, best)}"
+    yield f"what would help: {met}; most of the error is {_main_cause(comparison.scene, best)}"
 
 
 def more_realisations(comparison: Comparison) -> str:
-    """How many would do, and how long they take; empty where no number does."""
-    for one in sorted(comparison.selection.known, key=lambda one: one.found.error):
-        count = wanted_realisations(one, comparison.tolerance.relative)
+    """How many realisations would do, and how long they take; empty where no number does."""
+    for candidate in sorted(comparison.selection.known, key=lambda candidate: candidate.found.error):
+        count = wanted_realisations(candidate, comparison.tolerance.relative)
         if count:
-            seconds = replace(one.model, realisations=count).cost().seconds
-            cost = f"about {format_seconds(seconds)} ({one.found.realisations} were solved)"
-            return f"{count} realisations by {one.name}, {cost}: --realisations {count}"
+            seconds = replace(candidate.model, realisations=count).cost().seconds
+            cost = f"about {format_seconds(seconds)} ({candidate.found.realisations} were solved)"
+            return f"{count} realisations by {candidate.name}, {cost}: --realisations {count}"
     return ""
 
 
-def wanted_realisations(one: Candidate, tolerance: float) -> int:
-    """So many leave the most of the tolerance; zero where that is not for want of them.
+def wanted_realisations(candidate: Candidate, tolerance: float) -> int:
+    """Number of realisations that leave most of the tolerance; zero where more of them do not help.
 
     N = (2 s / (0.9 (t - m)))^2, s of one realisation, t the tolerance, m what the model leaves. What is left by a grid
     is compared on more surfaces, too, where it is less than what the sample leaves.
     """
-    answer, left = one.found, tolerance - one.found.model
-    if not one.model.is_sampled or left <= 0 or answer.sample <= answer.grid or answer.realisations < 2:
+    answer, left = candidate.found, tolerance - candidate.found.model
+    if not candidate.model.is_sampled or left <= 0 or answer.sample <= answer.grid or answer.realisations < 2:
         return 0
     scatter = answer.sample * math.sqrt(answer.realisations) / student(answer.realisations - 1)
     count = realisations(scatter, SAMPLE_SHARE * left, least=answer.realisations + 1, most=MOST_REALISATIONS + 1)
@@ -147,26 +155,26 @@ def wanted_realisations(one: Candidate, tolerance: float) -> int:
     return rounded if rounded <= MOST_REALISATIONS else 0
 
 
-def _cause(scene: Scene, best: Candidate) -> str:
+def _main_cause(scene: Scene, best: Candidate) -> str:
     """What most of the error of a model is due to, and what has less of it."""
     answer = best.found
     causes = {
-        f"the model's{_lower(scene)}": answer.model,
-        f"left by the grid: {_coarser(scene)}": answer.grid,
+        f"the model's{_help_for_model(scene)}": answer.model,
+        f"left by the grid: {_help_for_grid(scene)}": answer.grid,
         "the sample's: the scatter of the surfaces that are drawn": answer.sample,
     }
     return max(causes, key=causes.__getitem__)
 
 
-def _lower(scene: Scene) -> str:
-    """Of a model; measured roughness is as it is."""
+def _help_for_model(scene: Scene) -> str:
+    """What lowers the error of a model: lower roughness, where that is drawn; measured roughness is as it is."""
     if scene.ground is None or scene.ground.is_single:
         return ""
     return ": lower roughness has less"
 
 
-def _coarser(scene: Scene) -> str:
-    """Of a grid."""
+def _help_for_grid(scene: Scene) -> str:
+    """What lowers the error of a grid, in words."""
     if not scene.roughness_key:
         return "cells of a strip"
     if scene.ground is not None and scene.ground.is_single:

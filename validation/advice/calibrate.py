@@ -65,9 +65,9 @@ class MeasuredAlone:
 
 
 def measure_alone(alone: MeasuredAlone) -> Outcome:
-    """As `measure_errors`, NaN for all other models."""
+    """The error of one model, as `measure_errors` computes it, NaN for all other models."""
     point, truth = alone.point, np.array(alone.truth)
-    errors = [_error(one, point.target(), truth) if one.name == alone.model else math.nan for one in point.cheap]
+    errors = [_error(model, point.target(), truth) if model.name == alone.model else math.nan for model in point.cheap]
     return {"error": np.array(errors), "reference": np.array(alone.reference), "failed": np.array(0.0)}
 
 
@@ -81,19 +81,21 @@ def measured_alone(name: str, engine: Engine = SERIAL, path: Path = TABLE) -> by
 
     Raises ValueError for a model that no calibrated scene has.
     """
-    every = [
+    stored = [
         MeasuredAlone(name, point, tuple(value.tolist()), float(reference))
         for group, answers in answers_in().items()
         for (point, value, _), reference in zip(answers.scenes(group), answers.reference, strict=True)
     ]
-    problems = [one for one in every if any(model.name == name for model in one.point.cheap)]
+    problems = [problem for problem in stored if any(model.name == name for model in problem.point.cheap)]
     if not problems:
-        known = dict.fromkeys(model.name for one in every for model in one.point.cheap)
-        names = ", ".join(known) or "none, since no answers of boundary elements are stored"
+        measured_names = dict.fromkeys(model.name for problem in stored for model in problem.point.cheap)
+        names = ", ".join(measured_names) or "none, since no answers of boundary elements are stored"
         raise ValueError(f"--model must be a Python file or one of {names}, got {printable(name)}")
     outcomes = engine.map(measure_alone, problems)
     measured = [
-        row for one, outcome in zip(problems, outcomes, strict=True) for row in rows_of_point(one.point, outcome)
+        row
+        for problem, outcome in zip(problems, outcomes, strict=True)
+        for row in rows_of_point(problem.point, outcome)
     ]
     rows = {_place(row): row for row in (*calibration.rows_of(path), *measured)}
     about = {**calibration.provenance(path), "measured alone": f"{name}, {today().isoformat()}"}
@@ -195,13 +197,15 @@ def calibration_age(path: Path = TABLE, target: Target | None = None) -> str:
         return "errors of models: no calibration"
     one_of_each = CalibrationRun(punches=1, spheres=1, rolling=1, wheels=1).points
     models = {
-        (calibration.kind_of(one), one.quantity, model.name): calibration.code_behind(model, one)
-        for one in ([target] if target else [point.target() for point in one_of_each])
-        for model in cheap_models(one)
+        (calibration.kind_of(target_of_kind), target_of_kind.quantity, model.name): calibration.code_behind(
+            model, target_of_kind
+        )
+        for target_of_kind in ([target] if target else [point.target() for point in one_of_each])
+        for model in cheap_models(target_of_kind)
     }
-    known = calibration.table(path)
-    without = [key for key in models if key not in known]
-    other = [key for key, code in models.items() if key in known and known[key].codes != {code}]
+    measured = calibration.table(path)
+    without = [key for key in models if key not in measured]
+    other = [key for key, code in models.items() if key in measured and measured[key].codes != {code}]
     missing = f"not in the table of the calibration: {_names(without, models, target)}" if without else ""
     if len(without) == len(models):
         return f"errors of models: {missing}"
@@ -213,12 +217,12 @@ def calibration_age(path: Path = TABLE, target: Target | None = None) -> str:
     return f"errors of models: {'; '.join(filter(None, (age, missing)))}"
 
 
-def _names(some: Sequence[Key], every: Iterable[Key], target: Target | None) -> str:
-    """Of models; without a target with the scene in front, or that alone where it is all of its models."""
+def _names(keys: Sequence[Key], all_keys: Iterable[Key], target: Target | None) -> str:
+    """Names of models; without a target with the scene in front, or that alone where it is all of its models."""
     if target:
-        return "; ".join(model for *_, model in some)
-    others = {key[:2] for key in every if key not in some}
-    names = (f"{kind} {of}, {model}" if (kind, of) in others else f"{kind} {of}" for kind, of, model in some)
+        return "; ".join(model for *_, model in keys)
+    partial = {key[:2] for key in all_keys if key not in keys}
+    names = (f"{kind} {of}, {model}" if (kind, of) in partial else f"{kind} {of}" for kind, of, model in keys)
     return "; ".join(dict.fromkeys(names))
 
 
@@ -247,7 +251,9 @@ def check_calibration(
     outcomes = engine.map(measure_errors, points)
     again = [rows_of_point(point, outcome) for point, outcome in zip(points, outcomes, strict=True)]
     differing = [
-        line for point, found in zip(points, again, strict=True) for line in _differences(of_point[point], found)
+        line
+        for point, rows_again in zip(points, again, strict=True)
+        for line in _differences(of_point[point], rows_again)
     ]
     solves = f"{len(points)} of {sum(map(len, groups.values()))} solves"
     if stamp and not differing:
@@ -267,11 +273,11 @@ def _spread(points: list[CalibrationScene], count: int) -> list[CalibrationScene
 
 
 def _differences(rows: list[Row], again: list[Row]) -> list[str]:
-    before, after = ({row["model"]: row for row in some} for some in (rows, again))
+    before, after = ({row["model"]: row for row in rows_of_model} for rows_of_model in (rows, again))
     name = f"{rows[0]['kind']} {rows[0]['number']}, {rows[0]['quantity']}"
     lines = [f"{name}, {model}: in the table or measured alone" for model in before.keys() ^ after.keys()]
     for model in before.keys() & after.keys():
-        first, second = (float(some[model]["error"]) for some in (before, after))
+        first, second = (float(rows_of_model[model]["error"]) for rows_of_model in (before, after))
         if abs(second - first) > max(SAME * first, LEFT):
             lines.append(f"{name}, {model}: an error of {first:g} in the table, of {second:g} today")
     return sorted(lines)
@@ -279,7 +285,7 @@ def _differences(rows: list[Row], again: list[Row]) -> list[str]:
 
 def _with_code_of_today(row: Row, seed: int) -> Row:
     point = _point(row, seed)
-    (model,) = (one for one in point.cheap if one.name == row["model"])
+    (model,) = (cheap for cheap in point.cheap if cheap.name == row["model"])
     return {**row, "code": calibration.code_behind(model, point.target())}
 
 
@@ -287,26 +293,26 @@ def check_installable(run: CalibrationRun, path: Path = TABLE) -> None:
     """Raises ValueError, before anything is measured, where a run has fewer scenes than the table that is there."""
     if not (os.access(path, os.W_OK) and os.access(path.parent, os.W_OK)):
         raise ValueError(f"--install must be allowed to write {printable(path)}, the table of the package")
-    there = {(row["kind"], row["quantity"], row["number"]) for row in calibration.rows_of(path)}
+    scenes = {(row["kind"], row["quantity"], row["number"]) for row in calibration.rows_of(path)}
     _refuse_fewer(
         Counter(f"{point.kind} {point.quantity}" for point in run.points),
-        Counter(f"{kind} {quantity}" for kind, quantity, _ in there),
+        Counter(f"{kind} {quantity}" for kind, quantity, _ in scenes),
     )
 
 
 def install(measured: Path, path: Path = TABLE) -> None:
     """Raises ValueError where a model has fewer scenes in the table that was measured than in the one that is there."""
-    mine, there = (
-        Counter(f"{row['kind']} {row['quantity']}, {row['model']}" for row in calibration.rows_of(one))
-        for one in (measured, path)
+    new_counts, old_counts = (
+        Counter(f"{row['kind']} {row['quantity']}, {row['model']}" for row in calibration.rows_of(table))
+        for table in (measured, path)
     )
-    _refuse_fewer(mine, there)
+    _refuse_fewer(new_counts, old_counts)
     write_given(path, measured.read_bytes())
     calibration.table.cache_clear()
 
 
-def _refuse_fewer(mine: Counter[str], there: Counter[str]) -> None:
-    for what, count in there.items():
-        if mine[what] < count:
-            wanted = f"as many scenes as the table of the package has, {count} of {what}"
-            raise ValueError(f"--install must leave {wanted}, got {mine[what]}")
+def _refuse_fewer(new_counts: Counter[str], old_counts: Counter[str]) -> None:
+    for what, count in old_counts.items():
+        if new_counts[what] < count:
+            condition = f"as many scenes as the table of the package has, {count} of {what}"
+            raise ValueError(f"--install must leave {condition}, got {new_counts[what]}")

@@ -46,22 +46,22 @@ class Swept:
 
 
 def swept_values(key: str, texts: Sequence[str], scene: str) -> list[Swept]:
-    """Of texts as in a scene file, all in the unit of the first; as texts where one of them is no number."""
-    found = [NUMBER.fullmatch(text) for text in texts]
-    numbers = [(float(match[1]), match[2]) for match in found if match]
+    """The values of texts as in a scene file, all in the unit of the first; texts where one of them is no number."""
+    matches = [NUMBER.fullmatch(text) for text in texts]
+    numbers = [(float(match[1]), match[2]) for match in matches if match]
     units = {unit for _, unit in numbers}
     if len(numbers) == len(texts) and len(units) == 1:
         return [Swept(key, number, unit, scene) for number, unit in numbers]
-    for dimension, known in UNITS.items():
-        if len(numbers) == len(texts) and units <= set(known):
+    for dimension, units_of_dimension in UNITS.items():
+        if len(numbers) == len(texts) and units <= set(units_of_dimension):
             unit = numbers[0][1]
-            one = quantity(key, f"1 {unit}", dimension)
-            return [Swept(key, float(f"{quantity(key, t, dimension) / one:.12g}"), unit, scene) for t in texts]
+            unit_size = quantity(key, f"1 {unit}", dimension)
+            return [Swept(key, float(f"{quantity(key, t, dimension) / unit_size:.12g}"), unit, scene) for t in texts]
     return [Swept(key, text, "", scene) for text in texts]
 
 
 def beyond_elasticity(scene: Scene) -> str:
-    """Why no answer of a half-space is one of the scene; empty where it may be.
+    """Why no answer of a half-space is an answer of the scene; empty where it may be.
 
     Strains are of the order of p / E*: from a tenth on, `HIGHEST_PRESSURE`, what linear elasticity leaves out is as
     large as the default tolerance, and no solid stays elastic. A modulus of exactly 1 is the unit of pressure.
@@ -156,24 +156,26 @@ class Comparison:
         return kept(np.full(max(1, self.wavenumbers.size), math.nan)) if best is None else self.value_of(best)
 
     def value_of(self, candidate: Candidate) -> FloatArray:
-        """Of a model that was solved, as value."""
-        assert candidate.answer is not None  # as said
+        """The value that a solved model gives, in the unit of ``value``."""
+        assert candidate.answer is not None  # the docstring asks for a solved model
         value = candidate.answer.value
         return kept(20 * np.log10(value / self.asked.reference) if self.is_level else value)
 
     def errors_of(self, candidate: Candidate) -> FloatArray:
-        """Half-widths of 95 % of a model that was solved, one a number, in dB for levels and else in ``unit``."""
+        """Half-widths of 95 % of a solved model, one for each number, in dB for levels and else in ``unit``."""
         answer = candidate.answer
-        known = answer is not None and answer.band_errors
-        return kept(answer.error_in_bands if answer and known else self._half_widths(candidate, candidate.error))
+        has_band_errors = answer is not None and answer.band_errors
+        return kept(
+            answer.error_in_bands if answer and has_band_errors else self._half_widths(candidate, candidate.error)
+        )
 
     def error_parts_of(self, candidate: Candidate) -> dict[str, FloatArray]:
         """What model, grid and sample leave of `errors_of`, by their names; none of a model that was not solved."""
         if (answer := candidate.answer) is None:
             return {}
         parts = {"model": answer.model, "grid": answer.grid, "sample": answer.sample}
-        found = answer.band_errors or {name: self._half_widths(candidate, part) for name, part in parts.items()}
-        return {name: kept(half) for name, half in found.items()}
+        half_widths = answer.band_errors or {name: self._half_widths(candidate, part) for name, part in parts.items()}
+        return {name: kept(half) for name, half in half_widths.items()}
 
     @property
     def roughness(self) -> FloatArray:
@@ -186,11 +188,11 @@ class Comparison:
         return kept(value - self.roughness) if self.quantity == "equivalent-roughness" else value
 
     def seconds_of(self, candidate: Candidate) -> float:
-        """That a model took; NaN where it was not solved, or not all models were asked."""
+        """Seconds that a model took; NaN where it was not solved, or not all models were asked."""
         return candidate.answer.seconds if self.timed and candidate.answer is not None else math.nan
 
     def _half_widths(self, candidate: Candidate, error: float) -> FloatArray:
-        """Of a relative error of all numbers together."""
+        """Half-widths of each number, from a relative error of all numbers together."""
         value = self.value_of(candidate)
         return np.full(value.shape, decibels(error)) if self.is_level else error * np.abs(value)
 
@@ -264,10 +266,10 @@ OneOrSeveral = Comparison | Sequence[Comparison]
 
 
 def listed(comparison: OneOrSeveral) -> list[Comparison]:
-    """All of them. Raises TypeError for anything else, ValueError for none."""
+    """The comparisons as a list. Raises TypeError for anything else, ValueError for an empty list."""
     if isinstance(comparison, Comparison):
         return [comparison]
-    if not isinstance(comparison, Sequence) or not all(isinstance(one, Comparison) for one in comparison):
+    if not isinstance(comparison, Sequence) or not all(isinstance(element, Comparison) for element in comparison):
         raise TypeError(f"comparison must be what compare returns, or a list of that, got {shortened(comparison)}")
     if not comparison:
         raise ValueError("comparison must be one or several, got an empty list")
@@ -330,10 +332,10 @@ def compare(
     """
     if not hasattr(scene, "quantities"):
         raise TypeError(f"scene must be what load_scene returns, got {type(scene).__name__}")
-    asked = quantity or quantities_of(scene)[0]
-    names, own = names_and_own(models, scene, asked)
+    key = quantity or quantities_of(scene)[0]
+    names, own = names_and_own(models, scene, key)
     settings = (tolerance, count("seed", seed, least=0), solve_all, names, own, realisations)
-    return SceneProblem(scene, (asked,), *settings).compared(callback)[asked]
+    return SceneProblem(scene, (key,), *settings).compared(callback)[key]
 
 
 @dataclass(frozen=True)
@@ -368,35 +370,35 @@ class SceneProblem:
     def offered(self, quantity: str, shared: Shared | None = None) -> tuple[list[SceneModel], list[SceneModel]]:
         """The models that are listed, the cheapest first, and those of them that may be solved. Raises ValueError."""
         tolerance = self.wanted.relative
-        every = models_of(
+        models = models_of(
             *(self.scene, quantity, tolerance, self.seed, shared),
-            every=bool(self.models),
+            include_by_name=bool(self.models),
             realisations=self.realisations,
         )
-        own = own_candidates(self.own, Target(self.scene, quantity, tolerance, self.seed), every)
-        every = sorted([*every, *own], key=lambda one: one.cost().seconds)
-        only = models_named(every, self.models, tolerance) if self.models else every
-        return [one for one in every if one.kind not in BY_NAME or any(one is named for named in only)], only
+        own = own_candidates(self.own, Target(self.scene, quantity, tolerance, self.seed), models)
+        models = sorted([*models, *own], key=lambda model: model.cost().seconds)
+        only = models_named(models, self.models, tolerance) if self.models else models
+        return [model for model in models if model.kind not in BY_NAME or any(model is named for named in only)], only
 
     def compared(self, callback: Callable[[SceneModel], None] = lambda _: None) -> dict[str, Comparison]:
         """Each quantity by its name; a filter and what it leaves share their solves."""
-        found, shared, tolerance = dict[str, Comparison](), Shared(), self.wanted.relative
-        for asked in self.quantities:
-            every, only = self.offered(asked, shared)
-            announced = found and self.scene.shares_solves
+        comparisons, shared, tolerance = dict[str, Comparison](), Shared(), self.wanted.relative
+        for key in self.quantities:
+            models, only = self.offered(key, shared)
+            announced = comparisons and self.scene.shares_solves
             selection = select_model(
-                every,
+                models,
                 tolerance,
                 callback=(lambda _: None) if announced else callback,
                 solve_all=self.solve_all or bool(self.models),
                 only=only,
-                also=lambda one: not self.models and any(one.kind == own.name for own in self.own),
+                also=lambda model: not self.models and any(model.kind == own.name for own in self.own),
                 beyond=_beyond,
             )
             if reason := beyond_elasticity(self.scene):
                 selection = rejected(selection, reason)
-            found[asked] = Comparison(self.scene, asked, selection, self.wanted.in_decibels, timed=self.solve_all)
-        return found
+            comparisons[key] = Comparison(self.scene, key, selection, self.wanted.in_decibels, timed=self.solve_all)
+        return comparisons
 
 
 def content_of(scene: Scene) -> str:

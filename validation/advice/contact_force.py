@@ -18,7 +18,7 @@ LEVELS = (
 
 @dataclass(frozen=True, eq=False)
 class ContactForce:
-    """Of a wheel that rolls at a constant height, by each filter: F = k times the equivalent displacement.
+    """Force of a wheel that rolls at a constant height, by each filter: F = k times the equivalent displacement.
 
     levels: A-weighted at f = v / lambda in each band, dB re 1 N, by model, the chosen first; half_width: of the chosen
     [dB]; stiffness: k = 3 F / (2 d) of the smooth contact [N/m]; speed: [m/s]; span: of the bands, in words.
@@ -35,15 +35,16 @@ class ContactForce:
         return next(iter(self.levels))
 
     def total(self, model: str) -> float:
-        """Sum over the bands that it has [dB(A) re 1 N]."""
+        """Sum over the bands in which a model has a level [dB(A) re 1 N]."""
         level = self.levels[model]
-        return energy_sum(level[known]) if (known := np.isfinite(level)).any() else math.nan
+        finite = np.isfinite(level)
+        return energy_sum(level[finite]) if finite.any() else math.nan
 
     def over_chosen(self, model: str) -> float:
         """The sum of another filter over that of the chosen, of bands that both have [dB]."""
-        mine, theirs = self.levels[model], self.levels[self.chosen]
-        both = np.isfinite(mine) & np.isfinite(theirs)
-        return energy_sum(mine[both]) - energy_sum(theirs[both]) if both.any() else math.nan
+        levels, chosen = self.levels[model], self.levels[self.chosen]
+        both = np.isfinite(levels) & np.isfinite(chosen)
+        return energy_sum(levels[both]) - energy_sum(chosen[both]) if both.any() else math.nan
 
     @property
     def error(self) -> float:
@@ -67,10 +68,10 @@ class ContactForce:
     @property
     def change(self) -> str:
         """What another filter changes, in words."""
-        known = [change for model in self.levels if math.isfinite(change := self.over_chosen(model))]
-        if not known[1:]:
+        changes = [change for model in self.levels if math.isfinite(change := self.over_chosen(model))]
+        if not changes[1:]:
             return "no other filter was solved"
-        ends = dict.fromkeys(signed(end, 1) for end in (min(known[1:]), max(known[1:])))
+        ends = dict.fromkeys(signed(end, 1) for end in (min(changes[1:]), max(changes[1:])))
         return f"another filter changes the sum by {' to '.join(ends)} dB(A)"
 
     @property
@@ -91,6 +92,6 @@ class ContactForce:
     @property
     def table(self) -> Columns:
         """A row a filter: its sum, and by how much that is over the chosen."""
-        others = [signed(self.over_chosen(model), 1) for model in self.levels if model != self.chosen]
+        changes = [signed(self.over_chosen(model), 1) for model in self.levels if model != self.chosen]
         sums = [f"{self.total(model):.1f}" for model in self.levels]
-        return {NAMES: list(self.levels), "sum [dB(A) re 1 N]": sums, "over the chosen [dB]": [NONE, *others]}
+        return {NAMES: list(self.levels), "sum [dB(A) re 1 N]": sums, "over the chosen [dB]": [NONE, *changes]}

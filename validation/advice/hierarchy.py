@@ -21,28 +21,30 @@ def bias(answer: Answer) -> tuple[float, float]:
     return answer.model, answer.error
 
 
-def contradict(one: Answer, other: Answer, tolerance: float) -> bool:
+def contradict(first: Answer, second: Answer, tolerance: float) -> bool:
     """Whether the 95 % intervals of two answers lie apart, and their values by more than the tolerance (relative).
 
     Of numbers with errors in each band in any band in which the tolerance counts, else by the root mean square of the
     logarithms. An unknown error contradicts nothing.
     """
-    apart = np.abs(np.log(one.value / other.value))
-    if one.band_errors and other.band_errors:
-        both = (one.error_in_bands + other.error_in_bands) * math.log(10) / 20
-        counts = np.array(one.counts or [True] * apart.size) & np.array(other.counts or [True] * apart.size)
+    difference = np.abs(np.log(first.value / second.value))
+    if first.band_errors and second.band_errors:
+        both = (first.error_in_bands + second.error_in_bands) * math.log(10) / 20
+        counts = np.array(first.counts or [True] * difference.size) & np.array(
+            second.counts or [True] * difference.size
+        )
     else:
-        apart = np.sqrt(np.mean(apart**2, keepdims=True))
-        both, counts = np.array([math.log1p(one.error) + math.log1p(other.error)]), np.array([True])
-    return bool((counts & (apart > both) & (apart > math.log1p(tolerance))).any())
+        difference = np.sqrt(np.mean(difference**2, keepdims=True))
+        both, counts = np.array([math.log1p(first.error) + math.log1p(second.error)]), np.array([True])
+    return bool((counts & (difference > both) & (difference > math.log1p(tolerance))).any())
 
 
-def distance_of(one: Answer, other: Answer) -> float:
-    """Relative, the largest of the bands in which the tolerance counts, else the root mean square."""
-    apart = np.abs(np.log(one.value / other.value))
-    if one.band_errors and other.band_errors and one.counts:
-        return math.expm1(float(apart[np.array(one.counts)].max(initial=0.0)))
-    return math.expm1(float(np.sqrt(np.mean(apart**2))))
+def distance_of(first: Answer, second: Answer) -> float:
+    """Relative difference, the largest of the bands in which the tolerance counts, else the root mean square."""
+    difference = np.abs(np.log(first.value / second.value))
+    if first.band_errors and second.band_errors and first.counts:
+        return math.expm1(float(difference[np.array(first.counts)].max(initial=0.0)))
+    return math.expm1(float(np.sqrt(np.mean(difference**2))))
 
 
 Status = Literal["accepted", "not accurate enough", "skipped", "not needed", "failed", "out of range", "not asked"]
@@ -80,7 +82,7 @@ class Candidate:
 
     @property
     def found(self) -> Answer:
-        """Of a model that was solved. Raises ValueError for another."""
+        """The answer of a model that was solved. Raises ValueError for another."""
         if self.answer is None:
             raise ValueError(f"{self.name} was not solved")
         return self.answer
@@ -115,22 +117,24 @@ class Selection:
         """
         accepted = [candidate for candidate in self.solved if candidate.status == "accepted"]
         alike = [candidate for candidate in self.known if candidate.error <= ALIKE * self.least_error]
-        return accepted[0] if accepted else min(alike, key=lambda one: bias(one.found), default=None)
+        return accepted[0] if accepted else min(alike, key=lambda candidate: bias(candidate.found), default=None)
 
     @property
     def known(self) -> tuple[Candidate, ...]:
         """The models that have an answer with an error."""
-        return tuple(one for one in self.solved if math.isfinite(one.error))
+        return tuple(candidate for candidate in self.solved if math.isfinite(candidate.error))
 
     @property
     def least_error(self) -> float:
-        """Of `known`; infinite of none."""
-        return min((one.error for one in self.known), default=math.inf)
+        """The smallest error of `known`; infinite where that is empty."""
+        return min((candidate.error for candidate in self.known), default=math.inf)
 
     @property
     def solved(self) -> tuple[Candidate, ...]:
         """The models that have an answer."""
-        return tuple(one for one in self.candidates if one.answer is not None and not one.answer.failed)
+        return tuple(
+            candidate for candidate in self.candidates if candidate.answer is not None and not candidate.answer.failed
+        )
 
     @property
     def spent(self) -> float:
@@ -152,66 +156,83 @@ def select_model(
 
     models: in the order of their cost; tolerance: relative, positive; callback: called with each model before its
     solve; solve_all: whether those that were not needed or skipped are solved, too, which selects another model only
-    where one of them contradicts the selected; only:
-    of these, None for all; also: which are solved like this in any case; beyond: which of those out of range are
-    solved, too, where all are: the errors of their answers stay unknown. A model without an estimate is out of range
-    and not solved; one that expects to miss the tolerance is skipped. Where all miss it, the skipped one with the
-    smallest estimate is solved, too, as long as that is below the errors of the others; where the scene alone leaves
-    more, the cheapest, and no other. A solve that raises one of `REFUSALS` has failed.
+    where one of them contradicts the selected; only: the models that may be solved, None for all; also: which are
+    solved like this in any case; beyond: which of those out of range are solved, too, where all are: the errors of
+    their answers stay unknown. A model without an estimate is out of range and not solved; one that expects to miss
+    the tolerance is skipped. Where all miss it, the skipped one with the smallest estimate is solved, too, as long as
+    that is below the errors of the others; where the scene alone leaves more, the cheapest, and no other. A solve that
+    raises one of `REFUSALS` has failed.
     """
-    found = Selection(tolerance, ())
+    selection = Selection(tolerance, ())
     for model in models:
-        one = _expected(model, found.met, only is None or any(model is asked for asked in only))
-        if one.status == "skipped" and one.claimed <= tolerance:
-            one = _solved(one, callback, tolerance)
-        found = Selection(tolerance, (*found.candidates, one))
-    # what one finds may be more than another claims
-    while not found.met and (least := _least_estimate(found)) is not None:
-        candidates = [_solved(one, callback, tolerance) if one is least else one for one in found.candidates]
-        found = Selection(tolerance, tuple(candidates))
+        candidate = _unsolved_candidate(model, selection.met, only is None or any(model is chosen for chosen in only))
+        if candidate.status == "skipped" and candidate.claimed <= tolerance:
+            candidate = _solve_candidate(candidate, callback, tolerance)
+        selection = Selection(tolerance, (*selection.candidates, candidate))
+    # the error of an answer may be more than another model claims
+    while not selection.met and (least := _least_estimate(selection)) is not None:
+        candidates = [
+            _solve_candidate(candidate, callback, tolerance) if candidate is least else candidate
+            for candidate in selection.candidates
+        ]
+        selection = Selection(tolerance, tuple(candidates))
 
-    def is_left(one: Candidate) -> bool:
-        return one.status in ("skipped", "not needed") or (one.status == "out of range" and beyond(one.model))
+    def is_left(candidate: Candidate) -> bool:
+        return candidate.status in ("skipped", "not needed") or (
+            candidate.status == "out of range" and beyond(candidate.model)
+        )
 
-    def beside(one: Candidate) -> bool:
-        return is_left(one) and (solve_all or also(one.model))
+    def is_shown(candidate: Candidate) -> bool:
+        return is_left(candidate) and (solve_all or also(candidate.model))
 
-    every = tuple(_solved(one, callback) if beside(one) else one for one in found.candidates)
-    return without_contradiction(Selection(tolerance, every))
-
-
-def rejected(found: Selection, reason: str) -> Selection:
-    """The same without a model that is accepted, for a reason that the scene has."""
-    rows = [
-        replace(one, status="not accurate enough", reason=f"{reason}; {one.reason}")
-        if one.status == "accepted"
-        else one
-        for one in found.candidates
+    candidates = [
+        _solve_candidate(candidate, callback) if is_shown(candidate) else candidate
+        for candidate in selection.candidates
     ]
-    return replace(found, candidates=tuple(rows))
+    return without_contradiction(Selection(tolerance, tuple(candidates)))
 
 
-def contradicting(found: Selection, one: Candidate) -> Candidate | None:
-    """The least biased of the solved models that are less biased than this one and contradict it; None where none."""
-    if not any(one is other for other in found.known):
+def rejected(selection: Selection, reason: str) -> Selection:
+    """The selection without an accepted model, for a reason that the scene has."""
+    rows = [
+        replace(candidate, status="not accurate enough", reason=f"{reason}; {candidate.reason}")
+        if candidate.status == "accepted"
+        else candidate
+        for candidate in selection.candidates
+    ]
+    return replace(selection, candidates=tuple(rows))
+
+
+def contradicting(selection: Selection, candidate: Candidate) -> Candidate | None:
+    """The least biased of the solved models that are less biased than this candidate and contradict it, or None."""
+    if not any(candidate is other for other in selection.known):
         return None
-    others = [other for other in found.known if other is not one and bias(other.found) < bias(one.found)]
-    against = [other for other in others if contradict(one.found, other.found, found.tolerance)]
+    less_biased = [
+        other for other in selection.known if other is not candidate and bias(other.found) < bias(candidate.found)
+    ]
+    against = [other for other in less_biased if contradict(candidate.found, other.found, selection.tolerance)]
     return min(against, key=lambda other: bias(other.found), default=None)
 
 
-def without_contradiction(found: Selection) -> Selection:
+def without_contradiction(selection: Selection) -> Selection:
     """No model is selected that another one contradicts which is less biased: that one is, where its error allows."""
-    while (best := found.best) is not None and best.status == "accepted":
-        if (better := contradicting(found, best)) is None:
-            return found
-        apart = distance_of(best.found, better.found)
-        reason = f"{better.name}, with less bias, is {100 * apart:.2g} % away, beyond the errors of both; {best.reason}"
-        accepted: Status = "accepted" if better.error <= found.tolerance else "not accurate enough"
+    while (best := selection.best) is not None and best.status == "accepted":
+        if (better := contradicting(selection, best)) is None:
+            return selection
+        distance = distance_of(best.found, better.found)
+        reason = (
+            f"{better.name}, with less bias, is {100 * distance:.2g} % away, beyond the errors of both; {best.reason}"
+        )
+        accepted: Status = "accepted" if better.error <= selection.tolerance else "not accurate enough"
         changed = {id(best): ("not accurate enough", reason), id(better): (accepted, better.reason)}
-        rows = [(one, changed.get(id(one), (one.status, one.reason))) for one in found.candidates]
-        found = replace(found, candidates=tuple(replace(one, status=row[0], reason=row[1]) for one, row in rows))
-    return found
+        rows = [
+            (candidate, changed.get(id(candidate), (candidate.status, candidate.reason)))
+            for candidate in selection.candidates
+        ]
+        selection = replace(
+            selection, candidates=tuple(replace(candidate, status=row[0], reason=row[1]) for candidate, row in rows)
+        )
+    return selection
 
 
 def needed(models: Sequence[SceneModel], tolerance: float) -> SceneModel | None:
@@ -231,30 +252,32 @@ def unsolved(model: SceneModel, problem: Exception) -> Answer:
     return Answer(value=np.array([np.nan]), cost=model.cost(), failed=str(problem) or type(problem).__name__)
 
 
-def _expected(model: SceneModel, met: bool, asked: bool) -> Candidate:
-    """Before a solve; met: whether a cheaper model is enough."""
+def _unsolved_candidate(model: SceneModel, met: bool, offered: bool) -> Candidate:
+    """A candidate before its solve. met: whether a cheaper model is enough; offered: whether it may be solved."""
     expected = model.estimate()
-    passed: dict[Status, bool] = {"not asked": not asked, "out of range": not expected.in_range, "not needed": met}
+    passed: dict[Status, bool] = {"not asked": not offered, "out of range": not expected.in_range, "not needed": met}
     status: Status = next((name for name, holds in passed.items() if holds), "skipped")
     return Candidate(model, status, expected.reason, expected)
 
 
-def _solved(one: Candidate, callback: Callable[[SceneModel], None], tolerance: float | None = None) -> Candidate:
-    """tolerance: None for one that is seen beside the others, and not selected."""
-    callback(one.model)
-    answer = try_to_solve(one.model)
+def _solve_candidate(
+    candidate: Candidate, callback: Callable[[SceneModel], None], tolerance: float | None = None
+) -> Candidate:
+    """A candidate with its answer. tolerance: None for a model that is shown with the others, and not selected."""
+    callback(candidate.model)
+    answer = try_to_solve(candidate.model)
     if answer.failed:
-        return replace(one, status="failed", reason=answer.failed, answer=answer)
+        return replace(candidate, status="failed", reason=answer.failed, answer=answer)
     if tolerance is None:
-        return replace(one, reason=answer.reason or one.reason, answer=answer)
+        return replace(candidate, reason=answer.reason or candidate.reason, answer=answer)
     status: Status = "accepted" if answer.error <= tolerance else "not accurate enough"
-    return replace(one, status=status, reason=answer.reason, answer=answer)
+    return replace(candidate, status=status, reason=answer.reason, answer=answer)
 
 
-def _least_estimate(found: Selection) -> Candidate | None:
-    """The one that may leave less than all that were solved; of equal estimates the dearest, with the finest grid."""
-    skipped = [one for one in reversed(found.candidates) if one.status == "skipped"]
-    if all(one.estimate.of_scene > found.tolerance for one in skipped):
-        skipped = skipped[-1:] if found.best is None else []
-    least = min(skipped, key=lambda one: one.claimed, default=None)
-    return least if least and least.claimed < found.least_error else None
+def _least_estimate(selection: Selection) -> Candidate | None:
+    """The skipped model that may leave less than all solved ones; of equal estimates the dearest (finest grid)."""
+    skipped = [candidate for candidate in reversed(selection.candidates) if candidate.status == "skipped"]
+    if all(candidate.estimate.of_scene > selection.tolerance for candidate in skipped):
+        skipped = skipped[-1:] if selection.best is None else []
+    least = min(skipped, key=lambda candidate: candidate.claimed, default=None)
+    return least if least and least.claimed < selection.least_error else None

@@ -17,15 +17,15 @@ T = TypeVar("T", SceneModel, Candidate)
 
 
 def named(items: Sequence[T], name: str) -> list[T]:
-    """Those that a name stands for: springs by MDR, all grids of a kind, or the ones whose name is or begins so."""
-    asked = _asked(name)
+    """The models that a name stands for: springs by MDR, all grids of a kind, or those whose name is or begins so."""
+    full_name = _full_name(name)
     rules: list[Callable[[T], bool]] = [
-        lambda one: one.name.lower() == asked,
-        lambda one: asked == "mdr" and one.is_mdr,
-        lambda one: one.kind.lower() == asked,
-        lambda one: asked != "" and one.name.lower().startswith(asked),
+        lambda model: model.name.lower() == full_name,
+        lambda model: full_name == "mdr" and model.is_mdr,
+        lambda model: model.kind.lower() == full_name,
+        lambda model: full_name != "" and model.name.lower().startswith(full_name),
     ]
-    return next((found for rule in rules if (found := [one for one in items if rule(one)])), [])
+    return next((matches for rule in rules if (matches := [model for model in items if rule(model)])), [])
 
 
 def models_named(models: Sequence[SceneModel], names: Sequence[str], tolerance: float) -> list[SceneModel]:
@@ -36,41 +36,43 @@ def models_named(models: Sequence[SceneModel], names: Sequence[str], tolerance: 
     """
     if isinstance(names, str):
         names = names_in(names, [model.name for model in models])
-    found = [model for name in names for model in _of_name(models, name, tolerance)]
-    return [model for model in models if any(model is one for one in found)]
+    chosen = [model for name in names for model in _models_of_name(models, name, tolerance)]
+    return [model for model in models if any(model is candidate for candidate in chosen)]
 
 
-def names_in(text: str, known: Sequence[str]) -> list[str]:
+def names_in(text: str, full_names: Sequence[str]) -> list[str]:
     """The names in a list with commas, some of which have commas themselves: "mdr, linear filter, 1D"."""
     parts, names = [part.strip() for part in text.split(",")], list[str]()
-    whole = {name.lower() for name in known}
+    lowered = {name.lower() for name in full_names}
     while parts:
-        ends = [end for end in range(len(parts), 0, -1) if ", ".join(parts[:end]).lower() in whole]
+        ends = [end for end in range(len(parts), 0, -1) if ", ".join(parts[:end]).lower() in lowered]
         end = ends[0] if ends else 1
         names.append(", ".join(parts[:end]))
         parts = parts[end:]
     return names
 
 
-def _of_name(models: Sequence[SceneModel], name: str, tolerance: float) -> list[SceneModel]:
+def _models_of_name(models: Sequence[SceneModel], name: str, tolerance: float) -> list[SceneModel]:
+    """The models that a name stands for, of several grids one. Raises ValueError for no model and for several kinds."""
     if not isinstance(name, str):
         raise TypeError(f"models must be names, got {quoted(name)}")
-    found, asked = named(models, name), _asked(name)
-    if not found:
-        known = ", ".join(quoted(model.name) for model in models)
-        raise ValueError(f"models must be mdr, bem or names of models of this scene, {known}, got {quoted(name)}")
-    if len(found) == 1 or asked == "mdr":
-        return found
-    if any(model.kind.lower() != asked for model in found):
-        several = ", ".join(quoted(model.name) for model in found)
-        raise ValueError(f"models: {quoted(name)} begins {len(found)} names, {several}")
-    claiming = [grid for grid in found if grid.estimate().error <= tolerance]
-    return claiming[:1] or found[-1:]
+    matches, full_name = named(models, name), _full_name(name)
+    if not matches:
+        names = ", ".join(quoted(model.name) for model in models)
+        raise ValueError(f"models must be mdr, bem or names of models of this scene, {names}, got {quoted(name)}")
+    if len(matches) == 1 or full_name == "mdr":
+        return matches
+    if any(model.kind.lower() != full_name for model in matches):
+        several = ", ".join(quoted(model.name) for model in matches)
+        raise ValueError(f"models: {quoted(name)} begins {len(matches)} names, {several}")
+    claiming = [grid for grid in matches if grid.estimate().error <= tolerance]
+    return claiming[:1] or matches[-1:]
 
 
-def _asked(name: str) -> str:
-    asked = name.strip().lower()
-    return SHORT.get(asked, asked)
+def _full_name(name: str) -> str:
+    """The name in lower case, that of the model where it is one of the abbreviations of `SHORT`."""
+    lowered = name.strip().lower()
+    return SHORT.get(lowered, lowered)
 
 
 class ComparedModels(tuple[Candidate, ...]):
@@ -86,11 +88,11 @@ class ComparedModels(tuple[Candidate, ...]):
         """Raises KeyError for a name that none has, or several."""
         if not isinstance(which, str):
             return super().__getitem__(which)
-        found = named(self, which)
-        if len(found) != 1:
-            known = ", ".join(quoted(one.name) for one in found or self)
-            raise KeyError(f"models must be named by one of {known}, got {quoted(which)}")
-        return found[0]
+        matches = named(self, which)
+        if len(matches) != 1:
+            names = ", ".join(quoted(candidate.name) for candidate in matches or self)
+            raise KeyError(f"models must be named by one of {names}, got {quoted(which)}")
+        return matches[0]
 
 
 @runtime_checkable
@@ -117,17 +119,19 @@ class Own(Protocol):
 def names_and_own(
     models: str | Decorated | Sequence[str | Decorated] | None, scene: Scene, quantity: str
 ) -> tuple[Sequence[str], tuple[Own, ...]]:
-    """Names of all that are asked, and functions as models; none for None.
+    """Names of all models that are chosen, and the functions among them as models; none for None.
 
     Raises ValueError for what is no list, or an empty one, and for a name that two functions have.
     """
     if models is None or isinstance(models, str):
         return () if models is None else models or ("",), ()
-    asked = [models] if isinstance(models, Decorated) else models
-    if not isinstance(asked, Collection) or len(asked) == 0:
-        raise ValueError(f"models must be names, functions with a decorator, or left out for all, got {quoted(asked)}")
-    functions = [one for one in asked if isinstance(one, Decorated)]
-    names = [one.name for one in functions]
+    choices = [models] if isinstance(models, Decorated) else models
+    if not isinstance(choices, Collection) or len(choices) == 0:
+        raise ValueError(
+            f"models must be names, functions with a decorator, or left out for all, got {quoted(choices)}"
+        )
+    functions = [choice for choice in choices if isinstance(choice, Decorated)]
+    names = [choice.name for choice in functions]
     if twice := next((name for name in names if names.count(name) > 1), ""):
         raise ValueError(f"two functions are offered as {twice!r}")
     own: tuple[Own, ...] = ()
@@ -135,16 +139,17 @@ def names_and_own(
         # not `brought`: what is stored of scenes without such models is not keyed by their code
         (place,) = places("models_of_functions")
         own = resolve_name(place)(functions, scene, quantity)
-    return tuple(one.name if isinstance(one, Decorated) else one for one in asked), own
+    return tuple(choice.name if isinstance(choice, Decorated) else choice for choice in choices), own
 
 
-def own_candidates(own: Sequence[Own], target: Target, others: Sequence[SceneModel]) -> list[SceneModel]:
-    """Those that serve the scene. ValueError where none does, and for a name that another model has."""
-    taken = {name.lower() for one in others for name in (one.name, one.kind)} | {"mdr", *SHORT}
-    if same := [one.name for one in own if one.name.lower() in taken]:
+def own_candidates(own: Sequence[Own], target: Target, packaged: Sequence[SceneModel]) -> list[SceneModel]:
+    """Own models that serve the scene. ValueError where none does, and for a name that a packaged model has."""
+    taken = {name.lower() for model in packaged for name in (model.name, model.kind)} | {"mdr", *SHORT}
+    if same := [function.name for function in own if function.name.lower() in taken]:
         raise ValueError(f"a model of your own must have a name that no other has, got {quoted(same[0])}")
-    found = [model for one in own if (model := one.model()).serves(target.scene, target.quantity)]
-    if own and not found:
-        served = "; ".join(one.serves for one in own)
+    own_models = [function.model() for function in own]
+    serving = [model for model in own_models if model.serves(target.scene, target.quantity)]
+    if own and not serving:
+        served = "; ".join(function.serves for function in own)
         raise ValueError(f"no model of your own has {target.quantity} of scene {target.scene.name!r}: {served}")
-    return [SceneModel(model, target, Resolution()) for model in found]
+    return [SceneModel(model, target, Resolution()) for model in serving]

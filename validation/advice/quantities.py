@@ -12,8 +12,9 @@ BY_NAME = (SPRINGS_THAT_READ,)
 
 
 def all_quantities() -> tuple[str, ...]:
-    """Of all scenes."""
-    return tuple(map(str, (*PRESSED, *ROLLING, *MOVING, *(one for more in brought("quantities") for one in more))))
+    """Keys of the quantities of all scenes."""
+    brought_by_houses = (quantity for quantities in brought("quantities") for quantity in quantities)
+    return tuple(map(str, (*PRESSED, *ROLLING, *MOVING, *brought_by_houses)))
 
 
 def quantities_of(scene: Scene) -> tuple[str, ...]:
@@ -22,10 +23,10 @@ def quantities_of(scene: Scene) -> tuple[str, ...]:
 
 
 def quantity_of(scene: Scene, key: str) -> SceneQuantity:
-    """By its key. Raises ValueError for a quantity that the scene has not."""
-    for one in scene.quantities:
-        if key == str(one):
-            return one
+    """The quantity with this key. Raises ValueError for a quantity that the scene has not."""
+    for quantity in scene.quantities:
+        if key == str(quantity):
+            return quantity
     raise ValueError(f"quantity must be one of {', '.join(quantities_of(scene))} for scene {scene.name!r}, got {key!r}")
 
 
@@ -36,30 +37,30 @@ def models_of(
     seed: int,
     shared: Shared | None = None,
     *,
-    every: bool = False,
+    include_by_name: bool = False,
     realisations: int | None = None,
 ) -> list[SceneModel]:
     """Models of a scene, the cheapest first. Raises ValueError for a quantity that the scene has not.
 
-    shared: what is solved for several quantities of one scene; every: whether those of `BY_NAME` are among them;
+    shared: solves for several quantities of one scene; include_by_name: whether those of `BY_NAME` are among them;
     realisations: as of `SceneModel`, for which a scene must have a model that draws surfaces.
     """
     quantity_of(scene, quantity)
     target, solved = Target(scene, quantity, tolerance, seed), Shared() if shared is None else shared
-    found = [
+    models = [
         SceneModel(model, target, resolution, solved, realisations)
         for model in models_serving(scene, quantity)
-        if every or model.name not in BY_NAME
+        if include_by_name or model.name not in BY_NAME
         for resolution in model.resolutions(target)
     ]
-    if realisations is not None and not any(one.is_sampled for one in found):
+    if realisations is not None and not any(scene_model.is_sampled for scene_model in models):
         raise ValueError(
             f"realisations must be left out for scene {scene.name!r}, got {realisations}: {scene.sample_note}"
         )
-    return sorted(found, key=lambda one: one.cost().seconds)
+    return sorted(models, key=lambda scene_model: scene_model.cost().seconds)
 
 
 def model_for(scene: Scene, quantity: SceneQuantity, tolerance: float) -> str:
     """The first model whose estimated error is within the tolerance, all grids one; empty where there is none."""
-    found = needed(models_of(scene, str(quantity), tolerance, 0), tolerance)
-    return "" if found is None else found.kind
+    model = needed(models_of(scene, str(quantity), tolerance, 0), tolerance)
+    return "" if model is None else model.kind

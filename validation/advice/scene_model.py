@@ -21,7 +21,7 @@ SAMPLE_SHARE = 0.9
 
 @dataclass(frozen=True, kw_only=True)
 class Answer:
-    """What a model has found.
+    """A value that a model computes, and its error.
 
     value: positive, one number, or one a band; model, grid, sample: relative half-widths of 95 % that are left open,
     of all numbers together, see `distance`; cost: of what was done, not of what was expected; reason: what the error
@@ -60,13 +60,13 @@ class Answer:
 
     @property
     def error_in_bands(self) -> FloatArray:
-        """The same in each band [dB]."""
+        """The error in each band [dB]."""
         return np.asarray(self.band_errors["model"] + np.hypot(self.band_errors["grid"], self.band_errors["sample"]))
 
 
 @dataclass(eq=False)
 class Realisations:
-    """Those of a model at one resolution, each solved once, whichever candidate needs it first.
+    """Realisations of a model at one resolution, each solved once, whichever candidate needs it first.
 
     seconds: of each by the clock, of the first with what was prepared for all.
     """
@@ -138,7 +138,7 @@ class SceneModel:
 
     @property
     def solves(self) -> int:
-        """So many are expected to leave the most of the tolerance."""
+        """Number of realisations that are expected to leave most of the tolerance."""
         plan = self.sampling
         if plan.fewest == plan.most or self._beyond_reach(self.estimate()):
             return plan.fewest
@@ -155,7 +155,7 @@ class SceneModel:
         return replace(expected, sample=STUDENT * self.sampling.scatter / math.sqrt(self.realisations))
 
     def cost(self) -> Cost:
-        """Of so many realisations, and of the first of them on other grids, if none is solved yet."""
+        """Cost of so many realisations, and of the first of them on other grids, if none is solved yet."""
         compared = min(self.solves, self.sampling.compared)
         return self._cost({self.resolution: self.solves, **dict.fromkeys(self.references, compared)})
 
@@ -169,7 +169,7 @@ class SceneModel:
         if self.model.answer is not None:
             answer: Answer = self.model.answer(self)
             return answer
-        expected, plan, before = self.estimate(), self.sampling, self._solved()
+        expected, plan, before = self.estimate(), self.sampling, self._solved_counts()
         most = plan.fewest if self._beyond_reach(expected) else plan.most
         count, compared, earlier = plan.fewest, plan.compared, math.inf
         while True:
@@ -191,16 +191,21 @@ class SceneModel:
         return self.realisations is None and expected.sample > self.target.tolerance
 
     def _answer(self, expected: ErrorEstimate, count: int, compared: int, before: dict[Resolution, int]) -> Answer:
-        """Of so many realisations, of which so many are compared with other grids; before: solved by others."""
-        found = self.first(self.resolution, count)
-        others = [self.first(resolution, compared) for resolution in self.references]
-        if failed := next((one.failed for one in itertools.chain(found, *others) if one.failed), ""):
+        """The answer of ``count`` realisations, of which ``compared`` are solved on other grids, too.
+
+        before: realisations that other candidates have solved, which this answer does not cost.
+        """
+        results = self.first(self.resolution, count)
+        reference_results = [self.first(resolution, compared) for resolution in self.references]
+        if failed := next(
+            (result.failed for result in itertools.chain(results, *reference_results) if result.failed), ""
+        ):
             return Answer(value=np.array([np.nan]), cost=self._spent(before), failed=failed)
-        values = self._rows(found)
+        values = self._rows(results)
         value, sample = self._mean(values)
         grid, reason = 0.0, expected.reason
         if isinstance(self.model, GridModel):
-            other = np.array([self._rows(one) for one in others])
+            other = np.array([self._rows(result) for result in reference_results])
             grid, reason = self.model.grid_error(self.target, self.resolution, values, other)
         unknown = "" if np.isfinite(grid) else f"{reason}; no less than the step before did: no error estimate"
         return Answer(
@@ -210,51 +215,58 @@ class SceneModel:
             grid=grid,
             sample=sample,
             reason=reason,
-            failed=self._too_few(found) or unknown,
+            failed=self._too_few(results) or unknown,
             seconds=self.seconds_of(count, compared),
             realisations=len(values),
         )
 
     def first(self, resolution: Resolution, count: int) -> list[Result]:
-        """So many realisations, solved once."""
+        """The first so many realisations, each solved once."""
         prepare = partial(self.model.prepare, self.target, resolution)
         return self.shared.setdefault((self.model, resolution), Realisations(prepare)).first(count)
 
-    def _solved(self) -> dict[Resolution, int]:
+    def _solved_counts(self) -> dict[Resolution, int]:
         """Realisations so far, of this resolution and of its references."""
-        shared = [(one, self.shared.get((self.model, one))) for one in (self.resolution, *self.references)]
-        return {one: len(found.solved) if found else 0 for one, found in shared}
+        shared = [
+            (resolution, self.shared.get((self.model, resolution)))
+            for resolution in (self.resolution, *self.references)
+        ]
+        return {resolution: len(sample.solved) if sample else 0 for resolution, sample in shared}
 
     def seconds_of(self, count: int, compared: int = 0) -> float:
-        """Of so many realisations, and of those on the grids that they are compared with."""
+        """Seconds of so many realisations, and of those on the grids that they are compared with."""
         counts = {self.resolution: count, **dict.fromkeys(self.references, compared)}
-        return sum(sum(self.shared[self.model, one].seconds[:some]) for one, some in counts.items())
+        return sum(sum(self.shared[self.model, resolution].seconds[:solves]) for resolution, solves in counts.items())
 
     def _rows(self, results: list[Result]) -> FloatArray:
-        """(realisations, numbers)."""
+        """The numbers of the quantity as an array (realisations, numbers)."""
         return np.concatenate([result.values[self.target.quantity].reshape(result.count, -1) for result in results])
 
     def _mean(self, rows: FloatArray) -> tuple[FloatArray, float]:
-        """Of values or of their logarithms, as the quantity is averaged; and what the sample leaves of it."""
+        """Mean of values or of their logarithms, as the quantity is averaged, and the error that the sample leaves."""
         if len(rows) == 1:
             return rows[0], 0.0
-        quantity = next(one for one in self.target.scene.quantities if str(one) == self.target.quantity)
+        quantity = next(entry for entry in self.target.scene.quantities if str(entry) == self.target.quantity)
         if quantity.averaged_itself:
             mean = rows.mean(axis=0)
             return mean, mean_error(rows / mean)
         return np.exp(np.log(rows).mean(axis=0)), mean_error(np.log(rows))
 
-    def _too_few(self, found: list[Result]) -> str:
-        counts = [result.values["in contact"] for result in found if "in contact" in result.values]
+    def _too_few(self, results: list[Result]) -> str:
+        """Why the median of the elements in contact are too few for an answer; empty where they are enough."""
+        counts = [result.values["in contact"] for result in results if "in contact" in result.values]
         return too_few(float(np.median(counts)), self.model.element) if counts else ""
 
     def _spent(self, before: dict[Resolution, int]) -> Cost:
-        """Of the realisations that were solved since."""
-        return self._cost({one: count - before[one] for one, count in self._solved().items()})
+        """Cost of the realisations that were solved since ``before``."""
+        return self._cost(
+            {resolution: count - before[resolution] for resolution, count in self._solved_counts().items()}
+        )
 
     def _cost(self, solves: Mapping[Resolution, int]) -> Cost:
+        """Cost of so many solves at each resolution."""
         costs = [(count, self.model.cost(self.target, resolution)) for resolution, count in solves.items()]
         return Cost(
-            work=sum(count * one.work for count, one in costs),
-            seconds=sum(count * one.seconds for count, one in costs),
+            work=sum(count * cost.work for count, cost in costs),
+            seconds=sum(count * cost.seconds for count, cost in costs),
         )

@@ -27,8 +27,8 @@ def compare_scenes(problems: Sequence[SceneProblem], engine: Engine) -> list[Com
 def compare_scene(problem: SceneProblem) -> Outcome:
     """What became of each model, as JSON in one array a quantity."""
     texts = {
-        name: json.dumps([_row(one) for one in found.models], default=np.ndarray.tolist).encode()
-        for name, found in problem.compared().items()
+        name: json.dumps([_row(candidate) for candidate in comparison.models], default=np.ndarray.tolist).encode()
+        for name, comparison in problem.compared().items()
     }
     return {name: np.frombuffer(text, dtype=np.uint8).astype(np.float64) for name, text in texts.items()}
 
@@ -41,12 +41,13 @@ def _comparison(problem: SceneProblem, quantity: str, outcome: Outcome) -> Compa
     return Comparison(problem.scene, quantity, selection, problem.wanted.in_decibels, timed=problem.solve_all)
 
 
-def _row(one: Candidate) -> tuple[object, ...]:
-    return one.status, one.reason, asdict(one.estimate), one.answer and asdict(one.answer)
+def _row(candidate: Candidate) -> tuple[object, ...]:
+    """Status, reason, estimate and answer of a candidate, in the order of the arguments of `_candidate`."""
+    return candidate.status, candidate.reason, asdict(candidate.estimate), candidate.answer and asdict(candidate.answer)
 
 
 def _candidate(model: SceneModel, status: Status, reason: str, estimate: Any, answer: Any) -> Candidate:
-    """Of what `_row` has made."""
+    """A candidate from its row, see `_row`."""
     if answer:
         bands = {name: np.array(half, dtype=np.float64) for name, half in answer["band_errors"].items()}
         value, cost = np.array(answer["value"], dtype=np.float64), Cost(**answer["cost"])

@@ -13,24 +13,24 @@ NONE = "—"
 
 
 def short(value: float) -> str:
-    """Two digits, without a power of ten where that can be."""
+    """A number with two digits, without a power of ten where that can be."""
     return f"{float(f'{value:.2g}'):g}"
 
 
 def half_width(error: float) -> str:
-    """As "± 1.2", or "± unknown"."""
+    """An error as "± 1.2", or "± unknown"."""
     return f"± {short(error)}" if math.isfinite(error) else "± unknown"
 
 
 def signed(value: float, digits: int) -> str:
-    """With its sign, but for a zero; a dash where there is no number."""
+    """A number with its sign, but for a zero; a dash where it is not finite."""
     if not math.isfinite(value):
         return NONE
     return f"{rounded:+.{digits}f}" if (rounded := round(value, digits)) else f"{0:.{digits}f}"
 
 
 def tenth(level: float) -> str:
-    """To a tenth, without the sign of a zero; a dash where there is no number."""
+    """A level to a tenth, without the sign of a zero; a dash where it is not finite."""
     return f"{round(float(level), 1) + 0.0:.1f}" if math.isfinite(level) else NONE
 
 
@@ -39,7 +39,7 @@ def two_digits(error: float) -> str:
 
 
 def scaled(value: float, error: float) -> str:
-    """With its error, over a power of ten where that is far from one: (5.49 ± 0.50)e7."""
+    """A number with its error, over a power of ten where that is far from one: (5.49 ± 0.50)e7."""
     power = math.floor(math.log10(value))
     if -3 < power < 4:
         return plus_minus(value, error)
@@ -48,7 +48,7 @@ def scaled(value: float, error: float) -> str:
 
 
 def format_seconds(seconds: float, least: str = "1 ms") -> str:
-    """In a unit that fits; least: of less than a millisecond."""
+    """A duration in a unit that fits. least: the text for less than a millisecond."""
     if not math.isfinite(seconds):
         return NONE
     units = (("h", 3600.0), ("min", 60.0), ("s", 1.0), ("ms", 1e-3))
@@ -61,12 +61,12 @@ LARGEST = 2.0
 
 
 def decibels(error: float) -> float:
-    """Of an amplitude, from its relative error."""
+    """Error of an amplitude [dB], from its relative error: 20 lg(1 + error)."""
     return 20 * math.log10(1 + error)
 
 
 def relative(level: float) -> float:
-    """Of an amplitude, from its error [dB]."""
+    """Relative error of an amplitude, from its error [dB]: 10^(level / 20) - 1."""
     return float(10 ** (level / 20) - 1)
 
 
@@ -82,7 +82,7 @@ class Tolerance:
         return "dB" if self.in_decibels else "%"
 
     def in_unit(self, error: float) -> float:
-        """A relative error."""
+        """A relative error in the unit of the tolerance, a number without it."""
         return decibels(error) if self.in_decibels else 100 * error
 
     def shown(self, error: float) -> str:
@@ -90,40 +90,41 @@ class Tolerance:
         return f"{short(self.in_unit(error))} {self.unit}" if math.isfinite(error) else "unknown"
 
     def shown_beside(self, error: float) -> str:
-        """With as many digits as it takes to differ from the tolerance: 1.04 dB beside 1 dB."""
+        """An error with as many digits as it takes to differ from the tolerance: 1.04 dB beside 1 dB."""
         text = self.shown(error)
         if text != str(self) or error <= self.relative:
             return text
-        wanted, found = self.in_unit(self.relative), self.in_unit(error)
-        digits = next((n for n in range(3, 16) if f"{found:.{n}g}" != f"{wanted:.{n}g}"), 16)
-        return f"{found:.{digits}g} {self.unit}"
+        limit, shown = self.in_unit(self.relative), self.in_unit(error)
+        digits = next((n for n in range(3, 16) if f"{shown:.{n}g}" != f"{limit:.{n}g}"), 16)
+        return f"{shown:.{digits}g} {self.unit}"
 
     def __str__(self) -> str:
         return self.shown(self.relative)
 
 
-def tolerance_of(given: float | str) -> Tolerance:
-    """A ratio, or a text: in per cent, a ratio, or decibels of an amplitude.
+def tolerance_of(tolerance: float | str) -> Tolerance:
+    """The tolerance of a ratio, or of a text: in per cent, a ratio, or decibels of an amplitude.
 
     Raises ValueError for any other text and a number that is no ratio, TypeError for what is neither.
     """
-    if not isinstance(given, str):
-        if positive("tolerance", given) > LARGEST:
-            raise ValueError(f"tolerance must be as {FORMS}, got {given:g}: {_meant(given)}?")
-        return Tolerance(given)
-    text, in_decibels = given.strip(), given.strip().lower().endswith("db")
+    if not isinstance(tolerance, str):
+        if positive("tolerance", tolerance) > LARGEST:
+            raise ValueError(f"tolerance must be as {FORMS}, got {tolerance:g}: {_percentages(tolerance)}?")
+        return Tolerance(tolerance)
+    text, in_decibels = tolerance.strip(), tolerance.strip().lower().endswith("db")
     number = text[:-2] if in_decibels else text.removesuffix("%")
     try:
         value = float(number) * (0.01 if text.endswith("%") else 1.0)
     except ValueError:
-        raise ValueError(f"tolerance must be as {FORMS}, got {given!r}") from None
+        raise ValueError(f"tolerance must be as {FORMS}, got {tolerance!r}") from None
     if text == number and LARGEST < value < math.inf:
-        raise ValueError(f"tolerance must be as {FORMS}, got {given!r}: {_meant(value)}?")
+        raise ValueError(f"tolerance must be as {FORMS}, got {tolerance!r}: {_percentages(value)}?")
     relative = math.expm1(min(value, 100.0) * math.log(10) / 20) if in_decibels else value
     if not 0 < relative <= 1:
-        raise ValueError(f"tolerance must be as {FORMS}, above zero and no more than 100 %, or 6 dB, got {given!r}")
+        raise ValueError(f"tolerance must be as {FORMS}, above zero and no more than 100 %, or 6 dB, got {tolerance!r}")
     return Tolerance(relative, in_decibels)
 
 
-def _meant(number: float) -> str:
+def _percentages(number: float) -> str:
+    """A number over 100 in the two ways in which it may be written, for a message: '0.05 or "5%"'."""
     return f'{number / 100:g} or "{number:g}%"'
