@@ -120,7 +120,7 @@ def test_a_distance_of_numbers_is_in_the_unit_of_the_tolerance():
 
 
 @catches("a distance from the reference where nothing is left to hear").at(
-    "validation.advice.side_by_side.counts", lambda comparison, one: np.full(comparison.value_of(one).size, True)
+    "validation.advice.side_by_side.counted_bands", lambda comparison, one: np.full(comparison.value_of(one).size, True)
 )
 @catches("decibels of a power as those of an amplitude").at(
     "validation.advice.side_by_side.decibels", lambda error: 10 * np.log10(1 + error)
@@ -165,7 +165,7 @@ def test_speed_and_accuracy_are_drawn_for_one_scene_whose_models_were_timed(tmp_
 def test_five_curves_at_the_most_are_told_apart_in_colour_and_in_grey():
     found = planted("rail", "contact-filter")
     axes = Figure().subplots()
-    figures._spectra(axes, figures._shown([found])[1])
+    figures._draw_spectra(axes, figures._title_and_rows([found])[1])
     lines = [line for line in axes.lines if line.get_label()[0] != "_"]
     assert len(found.selection.solved) > len(lines) == figures.MOST == len({line.get_color() for line in lines})
     assert len({(line.get_linestyle(), line.get_marker()) for line in lines}) == figures.MOST

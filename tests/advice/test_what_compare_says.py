@@ -11,7 +11,7 @@ import validation
 from tests.advice.planted_answers import Fake, Finding, compared, planted, wheel
 from tests.seeded import catches
 from validation.advice.advice import in_full
-from validation.advice.columns import BECAME, models_of_page, side_by_side
+from validation.advice.columns import STATUS_IN_WORDS, models_of_page, side_by_side
 from validation.advice.quantities import quantities_of
 from validation.advice.side_by_side import error_of_difference
 from validation.advice.summary import WIDTH, summary
@@ -19,7 +19,7 @@ from validation.advice.tolerance import Tolerance, tolerance_of
 from validation.scenes.load import bundled_for_compare
 from validation.scenes.rolling_quantity import RollingQuantity
 
-ENDS = tuple(end for words in BECAME.values() for end in (words, words.replace("not solved", "solved")))
+ENDS = tuple(end for words in STATUS_IN_WORDS.values() for end in (words, words.replace("not solved", "solved")))
 """Of the rows of models."""
 
 

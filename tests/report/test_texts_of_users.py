@@ -101,7 +101,7 @@ def test_curves_of_several_scenes_are_named_in_the_legend():
     columns |= {"frequency_hz": [np.nan] * 4, "unit": ["dB"] * 4, "selected": [True] * 4}
     table = Table("contact-filter", columns | {"scene": ["_one", "_one", "$two$", "$two$"]})
     figure = Figure()
-    compared._spectra(figure.subplots(), compared._selected(table))
+    compared._draw_spectra(figure.subplots(), compared._selected_rows(table))
     style.plain_figure(figure)
     assert [text.get_text() for text in figure.axes[0].get_legend().get_texts()] == [" _one", r"\$two\$"]
 

@@ -27,7 +27,7 @@ from validation.engine.engine import FloatArray
 
 ABREAST = 10
 """Models in a table, so that its lines fit."""
-BECAME: dict[Status, str] = {
+STATUS_IN_WORDS: dict[Status, str] = {
     "accepted": "enough, and the cheapest that is",
     "not accurate enough": "solved: not enough",
     "skipped": "not solved: its claim is too high",
@@ -53,35 +53,36 @@ BANDS: dict[str, tuple[str, Callable[[float], str]]] = {
 """Of a table of bands: head and cells, by the names that JSON and CSV have, in the order that is printed."""
 
 
-def levels_of(comparison: Comparison, one: Candidate | None, force: ContactForce | None) -> dict[str, FloatArray]:
+def levels_of(comparison: Comparison, candidate: Candidate | None, force: ContactForce | None) -> dict[str, FloatArray]:
     """All that a model that was solved has in each band, by the names of JSON and CSV; of none, NaN."""
-    found = {name: getattr(comparison, name) for name in ("wavelength_mm", "frequency_hz", "nominal_hz")}
-    if one is None:
-        return found | {"value": comparison.value, "error": np.full_like(comparison.value, math.nan)}
-    found |= {"value": comparison.value_of(one), "error": comparison.errors_of(one)}
+    columns = {name: getattr(comparison, name) for name in ("wavelength_mm", "frequency_hz", "nominal_hz")}
+    if candidate is None:
+        return columns | {"value": comparison.value, "error": np.full_like(comparison.value, math.nan)}
+    columns |= {"value": comparison.value_of(candidate), "error": comparison.errors_of(candidate)}
     if comparison.roughness.size:
-        roughness, a3 = comparison.roughness, comparison.a3_of(one)
-        found |= {"roughness_dB": roughness, "a3_dB": a3, "equivalent_dB": roughness + a3}
-    return found | ({"force_dBA": force.levels[one.name]} if force else {})
+        roughness, a3 = comparison.roughness, comparison.a3_of(candidate)
+        columns |= {"roughness_dB": roughness, "a3_dB": a3, "equivalent_dB": roughness + a3}
+    return columns | ({"force_dBA": force.levels[candidate.name]} if force else {})
 
 
-def bands_of(comparison: Comparison, one: Candidate) -> Columns:
+def bands_of(comparison: Comparison, candidate: Candidate) -> Columns:
     """A row a band: wavelength, frequency, q a, root mean square, levels and their error, as the scene has them."""
-    assert one.answer is not None  # of a model that was solved
-    found, contact = levels_of(comparison, one, comparison.force), comparison.scene.smooth_contact
+    assert candidate.answer is not None  # of a model that was solved
+    columns, contact = levels_of(comparison, candidate, comparison.force), comparison.scene.smooth_contact
     if comparison.roughness.size:
-        del found["value"]
+        del columns["value"]
     elif contact:
-        found |= {"q a": contact.along * comparison.wavenumbers, "amplitude": one.answer.value}
+        columns |= {"q a": contact.along * comparison.wavenumbers, "amplitude": candidate.answer.value}
     units = {"unit": comparison.unit, "amplitude": comparison.asked.unit}
-    return _cells(found, units)
+    return _cells_of_bands(columns, units)
 
 
-def _cells(found: Mapping[str, FloatArray], units: Mapping[str, str]) -> Columns:
+def _cells_of_bands(columns: Mapping[str, FloatArray], units: Mapping[str, str]) -> Columns:
+    """Printed cells of the columns that `BANDS` names and that have values. units: what heads are formatted with."""
     return {
-        head.format(**units): [cell(value) for value in found[name].tolist()]
+        head.format(**units): [cell(value) for value in columns[name].tolist()]
         for name, (head, cell) in BANDS.items()
-        if name in found and found[name].size
+        if name in columns and columns[name].size
     }
 
 
@@ -90,26 +91,26 @@ def models_of_page(comparison: Comparison) -> list[dict[str, str]]:
     tolerance, solved = comparison.tolerance, comparison.selection.solved
     return [
         {
-            "model": label(one),
-            "claims": tolerance.shown(one.claimed) if one.estimate.in_range else "out of range",
-            "found": NONE if one.answer is None else tolerance.shown_beside(one.error),
-            "apart": _apart(comparison, one) if one in solved else NONE,
-            "cost": format_seconds(one.cost if one.answer is None else one.answer.cost.seconds),
-            "took": format_seconds(comparison.seconds_of(one), least="< 1 ms"),
-            "became": _became(comparison, one),
-            "why": one.reason,
-            "selected": "selected" if one.name == comparison.model else "",
+            "model": label(candidate),
+            "claims": tolerance.shown(candidate.claimed) if candidate.estimate.in_range else "out of range",
+            "found": NONE if candidate.answer is None else tolerance.shown_beside(candidate.error),
+            "apart": _largest_difference(comparison, candidate) if candidate in solved else NONE,
+            "cost": format_seconds(candidate.cost if candidate.answer is None else candidate.answer.cost.seconds),
+            "took": format_seconds(comparison.seconds_of(candidate), least="< 1 ms"),
+            "became": _status_in_words(comparison, candidate),
+            "why": candidate.reason,
+            "selected": "selected" if candidate.name == comparison.model else "",
         }
-        for one in comparison.models
+        for candidate in comparison.models
     ]
 
 
-def _became(comparison: Comparison, one: Candidate) -> str:
-    """In words; beyond linear elasticity none is enough, and none is not needed for that."""
-    solved = "solved" if one.answer else "not solved"
-    if comparison.beyond_elasticity and one.status in ("accepted", "not accurate enough", "not needed"):
+def _status_in_words(comparison: Comparison, candidate: Candidate) -> str:
+    """The status of a model as the table prints it; beyond linear elasticity no status says enough or not needed."""
+    solved = "solved" if candidate.answer else "not solved"
+    if comparison.beyond_elasticity and candidate.status in ("accepted", "not accurate enough", "not needed"):
         return f"{solved}: no elastic half-space"
-    return BECAME[one.status].removeprefix("not " if one.answer else "")
+    return STATUS_IN_WORDS[candidate.status].removeprefix("not " if candidate.answer else "")
 
 
 def label(candidate: Candidate) -> str:
@@ -117,59 +118,67 @@ def label(candidate: Candidate) -> str:
     return f"{candidate.name} (MDR)" if candidate.is_mdr else candidate.name
 
 
-def _apart(comparison: Comparison, one: Candidate) -> str:
+def _largest_difference(comparison: Comparison, candidate: Candidate) -> str:
     """The largest difference from the model with the smallest error, in any band."""
     reference = reference_of(comparison)
-    if one is reference:
+    if candidate is reference:
         return NONE
-    off = differences(one, reference)
+    off = differences(candidate, reference)
     worst = abs(off).argmax()
-    largest, error = (float(of[worst]) for of in (off, error_of_difference(comparison, one)))
+    largest, error = float(off[worst]), float(error_of_difference(comparison, candidate)[worst])
     if comparison.is_level or comparison.in_decibels:
         return f"{'+' if largest > 0 else ''}{short(largest)} {half_width(error)} dB"
     return f"{per_cent(largest):+.2g} {half_width(per_cent(error))} %"
 
 
-def numbers_beside(comparison: Comparison) -> Columns:
+def numbers_of_models(comparison: Comparison) -> Columns:
     """A row a model that was solved: its number, its error, and how far it is from the reference, with the error."""
     reference, solved = reference_of(comparison), comparison.selection.solved
-    found = [[float(of(one)[0]) for of in (comparison.value_of, comparison.errors_of)] for one in solved]
+    numbers = [
+        (float(comparison.value_of(candidate)[0]), float(comparison.errors_of(candidate)[0])) for candidate in solved
+    ]
     columns = {
-        NAMES: [one.name for one in solved],
-        f"{comparison.quantity} [{comparison.unit}]": [f"{value:.4g}" for value, _ in found],
-        "±": [two_digits(half) for _, half in found],
+        NAMES: [candidate.name for candidate in solved],
+        f"{comparison.quantity} [{comparison.unit}]": [f"{value:.4g}" for value, _ in numbers],
+        "±": [two_digits(half) for _, half in numbers],
     }
-    off = [(float(differences(one, reference)[0]), float(error_of_difference(comparison, one)[0])) for one in solved]
-    for head, of, digits in (("difference [dB]", float, 2), ("[%]", per_cent, 1)):
-        cells = [f"{signed(of(apart), digits)} {half_width(of(error))}" for apart, error in off]
-        columns[head] = [NONE if one is reference else cell for one, cell in zip(solved, cells, strict=True)]
+    offsets = [
+        (float(differences(candidate, reference)[0]), float(error_of_difference(comparison, candidate)[0]))
+        for candidate in solved
+    ]
+    for head, convert, digits in (("difference [dB]", float, 2), ("[%]", per_cent, 1)):
+        cells = [f"{signed(convert(offset), digits)} {half_width(convert(error))}" for offset, error in offsets]
+        columns[head] = [
+            NONE if candidate is reference else cell for candidate, cell in zip(solved, cells, strict=True)
+        ]
     return columns
 
 
-def levels_beside(comparison: Comparison) -> tuple[dict[str, str], Columns]:
+def levels_of_models(comparison: Comparison) -> tuple[dict[str, str], Columns]:
     """A row a band: the level of the reference, and what is to be added to it for each other model.
 
     Returns the names of these models by their letters, with the error of the difference, and the columns.
     """
     reference = reference_of(comparison)
-    others = [one for one in comparison.selection.solved if one is not reference]
-    letters = dict(zip(string.ascii_uppercase, others, strict=False))
+    candidates = [candidate for candidate in comparison.selection.solved if candidate is not reference]
+    letters = dict(zip(string.ascii_uppercase, candidates, strict=False))
     axis = {"wavelength_mm": comparison.wavelength_mm, "nominal_hz": comparison.nominal_hz}
-    columns = _cells(axis, {}) | {"level": [tenth(level) for level in comparison.value_of(reference)]}
-    for letter, one in letters.items():
-        columns[letter] = [signed(off, 1) for off in differences(one, reference).tolist()]
+    columns = _cells_of_bands(axis, {}) | {"level": [tenth(level) for level in comparison.value_of(reference)]}
+    for letter, candidate in letters.items():
+        columns[letter] = [signed(off, 1) for off in differences(candidate, reference).tolist()]
     names = {
-        letter: f"{one.name}, {_range(one, error_of_difference(comparison, one))}" for letter, one in letters.items()
+        letter: f"{candidate.name}, {_error_in_words(candidate, error_of_difference(comparison, candidate))}"
+        for letter, candidate in letters.items()
     }
     return names, columns
 
 
-def _range(one: Candidate, errors: np.ndarray) -> str:
-    """± 1.2 dB, of the root mean square over bands; from the smallest to the largest where each band has its own."""
-    assert one.answer is not None  # as solved
+def _error_in_words(candidate: Candidate, errors: np.ndarray) -> str:
+    """As ± 1.2 dB: the error of the rms over bands, or the smallest and the largest where each band has its own."""
+    assert candidate.answer is not None  # as solved
     ends = dict.fromkeys(half_width(float(end)) for end in (errors.min(), errors.max()))
     shown = " to ".join(ends).replace("to ± ", "to ")
-    where = "each band" if one.answer.band_errors else "the rms over bands"
+    where = "each band" if candidate.answer.band_errors else "the rms over bands"
     return shown if "unknown" in shown else f"{shown} dB in {where}"
 
 
@@ -188,29 +197,29 @@ def side_by_side(comparison: Comparison) -> Iterator[str]:
         return
     reference = reference_of(comparison).name
     if not comparison.is_level:
-        lines = [f"  {line}" for line in columns_as_lines(numbers_beside(comparison))]
+        lines = [f"  {line}" for line in columns_as_lines(numbers_of_models(comparison))]
         yield from ("", f"side by side; differences from {reference}, ± {TOGETHER}", *lines, "")
         return
-    letters, columns = levels_beside(comparison)
+    letters, columns = levels_of_models(comparison)
     level = f"level by {reference} [{comparison.unit}]"
     yield from ("", f"side by side: {level}, and from there to the others, ± {TOGETHER}")
     yield from (f"  {letter}: {name}" for letter, name in letters.items())
     axis = {name: cells for name, cells in columns.items() if name not in letters}
-    others = list(letters)
-    for first in range(0, len(others), ABREAST):
-        yield from columns_as_lines(axis | {name: columns[name] for name in others[first : first + ABREAST]})
+    heads = list(letters)
+    for first in range(0, len(heads), ABREAST):
+        yield from columns_as_lines(axis | {name: columns[name] for name in heads[first : first + ABREAST]})
     yield ""
 
 
 def overview_of(comparisons: Sequence[Comparison]) -> Columns:
     """A row a scene: the model that is enough, its error, that of MDR, and the result, one number or the force."""
-    several = len({one.quantity for one in comparisons}) > 1
-    rows = [_row_of_scene(one, several) for one in comparisons]
+    several = len({comparison.quantity for comparison in comparisons}) > 1
+    rows = [_row_of_scene(comparison, several) for comparison in comparisons]
     return {name: [row[name] for row in rows] for name in rows[0]}
 
 
 def _row_of_scene(comparison: Comparison, several: bool) -> dict[str, str]:
-    """several: whether quantities are told apart."""
+    """The cells of one scene by their heads. several: whether the scene is named with its quantity."""
     best, shown, scene = comparison.selection.best, comparison.tolerance.shown, comparison.scene.name
     springs = springs_of(comparison)
     if best is None:
@@ -224,11 +233,11 @@ def _row_of_scene(comparison: Comparison, several: bool) -> dict[str, str]:
         "scene": f"{scene}: {comparison.quantity}" if several else scene,
         "model": label(best) if best and comparison.met else "none is enough",
         "error": shown(best.error) if best else "none",
-        "MDR": NONE if springs is None else f"{shown(springs.error)}{_how(comparison, springs)}",
+        "MDR": NONE if springs is None else f"{shown(springs.error)}{_prediction_note(comparison, springs)}",
         "result": result,
     }
 
 
-def _how(comparison: Comparison, springs: Candidate) -> str:
-    """Where an error is predicted alone."""
+def _prediction_note(comparison: Comparison, springs: Candidate) -> str:
+    """Text that marks the error of MDR as predicted; empty where MDR was solved or its error is unknown."""
     return "" if is_solved(comparison, springs) or not math.isfinite(springs.error) else ", predicted"

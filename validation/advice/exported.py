@@ -36,12 +36,12 @@ def to_json(comparison: OneOrSeveral) -> str:
     Examples
     --------
     >>> import json
-    >>> found = json.loads(validation.to_json(validation.compare(validation.load_scene("sphere"))))
-    >>> found["quantity"], found["unit"], found["model"], found["met"]
+    >>> result = json.loads(validation.to_json(validation.compare(validation.load_scene("sphere"))))
+    >>> result["quantity"], result["unit"], result["model"], result["met"]
     ('stiffness', 'N/m', 'closed form', True)
     """
-    found = [_found(one) for one in listed(comparison)]
-    return as_json(found[0] if isinstance(comparison, Comparison) else found).decode()
+    records = list(map(_record_of_comparison, listed(comparison)))
+    return as_json(records[0] if isinstance(comparison, Comparison) else records).decode()
 
 
 def to_json_of(comparisons: Sequence[Comparison]) -> str:
@@ -49,7 +49,8 @@ def to_json_of(comparisons: Sequence[Comparison]) -> str:
     return to_json(comparisons if len(comparisons) > 1 else comparisons[0])
 
 
-def _found(comparison: Comparison) -> dict[str, object]:
+def _record_of_comparison(comparison: Comparison) -> dict[str, object]:
+    """The object of one comparison that `SCHEMA_OF_JSON` describes, without infinities and NaN."""
     best, force = comparison.selection.best, comparison.force
     levels = levels_of(comparison, best, force)
     parts = comparison.error_parts_of(best) if best else {}
@@ -69,7 +70,7 @@ def _found(comparison: Comparison) -> dict[str, object]:
         **swept_of(comparison),
         "assumed": assumed(comparison.scene),
         "notes": list(comparison.scene.diagnose()),
-        "models": [_became(comparison, one, force) for one in comparison.models],
+        "models": [_record_of_model(comparison, candidate, force) for candidate in comparison.models],
     }
 
 
@@ -102,41 +103,47 @@ def table_of_several(comparisons: Sequence[Comparison]) -> Table:
     """The rows of all, one under another, behind the name of the scene, and of the quantity where these differ."""
     several, kinds = len(comparisons) > 1, len(by_quantity(comparisons)) > 1
     rows = list[dict[str, object]]()
-    for one in comparisons:
-        front = ({"scene": one.scene.name} if several else {}) | ({"quantity": one.quantity} if kinds else {})
-        rows += [front | row for row in _rows(one)]
+    for comparison in comparisons:
+        front = ({"scene": comparison.scene.name} if several else {}) | (
+            {"quantity": comparison.quantity} if kinds else {}
+        )
+        rows += [front | row for row in _rows(comparison)]
     names = dict.fromkeys(name for row in rows for name in row)
     return Table(comparisons[0].quantity, {name: [row.get(name, math.nan) for row in rows] for name in names})
 
 
 def by_quantity(comparisons: Sequence[Comparison]) -> dict[str, list[Comparison]]:
-    """In the order in which they were asked."""
-    return {name: [one for one in comparisons if one.quantity == name] for name in (o.quantity for o in comparisons)}
+    """Comparisons by their quantity, in the order in which quantities first stand."""
+    names = dict.fromkeys(comparison.quantity for comparison in comparisons)
+    return {name: [comparison for comparison in comparisons if comparison.quantity == name] for name in names}
 
 
 def _rows(comparison: Comparison) -> list[dict[str, object]]:
     """A row a number or a band, of each model that was solved; NaN where there is no number."""
     force, swept = comparison.force, swept_of(comparison) if comparison.swept else {}
-    found = [row for one in comparison.selection.solved for row in _rows_of_model(comparison, one, force)]
+    rows = [row for candidate in comparison.selection.solved for row in _rows_of_model(comparison, candidate, force)]
     none = dict.fromkeys((*AXES, "value", "low", "high"), math.nan)
-    return [row | swept for row in found or [{**none, "unit": comparison.unit, "model": "", "selected": False}]]
+    return [row | swept for row in rows or [{**none, "unit": comparison.unit, "model": "", "selected": False}]]
 
 
-def _rows_of_model(comparison: Comparison, one: Candidate, force: ContactForce | None) -> list[dict[str, object]]:
-    """Those of a rail, of its force and of a clock where there are such."""
-    levels = levels_of(comparison, one, force)
+def _rows_of_model(comparison: Comparison, candidate: Candidate, force: ContactForce | None) -> list[dict[str, object]]:
+    """Rows of one model, a band each; columns of a rail, its force and the clock where the comparison has them."""
+    levels = levels_of(comparison, candidate, force)
     value, half = levels["value"], levels["error"]
-    found: dict[str, Any] = {name: levels[name] if levels[name].size else math.nan for name in AXES}
-    found |= {"value": value, "low": value - half, "high": value + half}
-    found |= {"unit": comparison.unit, "model": one.name, "selected": one.name == comparison.model}
-    found |= {"statistic": comparison.statistic} if comparison.statistic else {}
-    found |= {name: levels[name] for name in OF_RAIL if name in levels}
+    columns: dict[str, Any] = {name: levels[name] if levels[name].size else math.nan for name in AXES}
+    columns |= {"value": value, "low": value - half, "high": value + half}
+    columns |= {"unit": comparison.unit, "model": candidate.name, "selected": candidate.name == comparison.model}
+    columns |= {"statistic": comparison.statistic} if comparison.statistic else {}
+    columns |= {name: levels[name] for name in OF_RAIL if name in levels}
     if force:
-        found |= {"force_sum_dBA": force.total(one.name), "force_over_selected_dB": force.over_chosen(one.name)}
+        columns |= {
+            "force_sum_dBA": force.total(candidate.name),
+            "force_over_selected_dB": force.over_chosen(candidate.name),
+        }
     if comparison.timed:
-        found["seconds"] = comparison.seconds_of(one)
-    columns = [np.broadcast_to(of, value.shape).tolist() for of in found.values()]
-    return [dict(zip(found, row, strict=True)) for row in zip(*columns, strict=True)]
+        columns["seconds"] = comparison.seconds_of(candidate)
+    cells = [np.broadcast_to(column, value.shape).tolist() for column in columns.values()]
+    return [dict(zip(columns, row, strict=True)) for row in zip(*cells, strict=True)]
 
 
 def swept_of(comparison: Comparison) -> dict[str, object]:
@@ -147,28 +154,29 @@ def swept_of(comparison: Comparison) -> dict[str, object]:
 
 def assumed(scene: Scene) -> dict[str, float]:
     """The contact of the smooth bodies, in SI units, and a damping ratio: a scene that was misread shows here."""
-    found = {"E_star_Pa": scene.modulus, "load_N": scene.load}
+    assumptions = {"E_star_Pa": scene.modulus, "load_N": scene.load}
     if scene.mass is not None:
-        found["damping_ratio"] = scene.damping
+        assumptions["damping_ratio"] = scene.damping
     if (contact := scene.smooth_contact) is None:
-        return found
+        return assumptions
     axes = {"a_x_m": contact.along, "a_y_m": contact.across, "approach_m": contact.approach}
-    return {**found, **axes, "largest_pressure_Pa": contact.largest_pressure}
+    return {**assumptions, **axes, "largest_pressure_Pa": contact.largest_pressure}
 
 
-def _became(comparison: Comparison, one: Candidate, force: ContactForce | None) -> dict[str, object]:
-    solved = one in comparison.selection.solved
+def _record_of_model(comparison: Comparison, candidate: Candidate, force: ContactForce | None) -> dict[str, object]:
+    """The entry of one model in the list "models" of a record; numbers that need a solve are None without one."""
+    solved = candidate in comparison.selection.solved
     return {
-        "model": one.name,
-        "is_mdr": one.is_mdr,
-        "status": one.status,
-        "claimed": _number(one.claimed),
-        "error": _number(one.error) if solved else None,
-        "cost_s": _number(one.cost),
-        "reason": one.reason,
-        "value": _numbers(comparison.value_of(one)) if solved else None,
-        "seconds": _number(comparison.seconds_of(one)),
-        "force_sum_dBA": _number(force.total(one.name)) if force and one.name in force.levels else None,
+        "model": candidate.name,
+        "is_mdr": candidate.is_mdr,
+        "status": candidate.status,
+        "claimed": _number(candidate.claimed),
+        "error": _number(candidate.error) if solved else None,
+        "cost_s": _number(candidate.cost),
+        "reason": candidate.reason,
+        "value": _numbers(comparison.value_of(candidate)) if solved else None,
+        "seconds": _number(comparison.seconds_of(candidate)),
+        "force_sum_dBA": _number(force.total(candidate.name)) if force and candidate.name in force.levels else None,
     }
 
 

@@ -18,25 +18,26 @@ TEMPLATES = Path(__file__).parent / "templates"
 PAGE, JSON, SCHEMA, CSV = "index.html", "comparison.json", "comparison.schema.json", "data/levels.csv"
 
 
-def files_of_comparison(found: Sequence[Comparison], about: dict[str, object]) -> dict[str, bytes]:
+def files_of_comparison(comparisons: Sequence[Comparison], about: dict[str, object]) -> dict[str, bytes]:
     """All that the folder holds, the page last. about: its provenance."""
     files = {
-        JSON: to_json_of(found).encode(),
-        CSV: as_csv(table_of_several(found)),
+        JSON: to_json_of(comparisons).encode(),
+        CSV: as_csv(table_of_several(comparisons)),
         SCHEMA: SCHEMA_OF_JSON.read_bytes(),
         "provenance.json": as_json(about),
     }
-    drawn = {f"scene-{i}": [one] for i, one in enumerate(found, 1) if one.selection.solved}
-    if len(found) > len(by_quantity(found)) and drawn:
-        drawn["all"] = list(found)
-    for name, of in drawn.items():
+    drawn = {f"scene-{i}": [comparison] for i, comparison in enumerate(comparisons, 1) if comparison.selection.solved}
+    if len(comparisons) > len(by_quantity(comparisons)) and drawn:
+        drawn["all"] = list(comparisons)
+    for name, group in drawn.items():
         for form in ("svg", "pdf"):
-            files[f"figures/{name}.{form}"] = to_figure(of, form=form)
-    files[PAGE] = _page(found, files, about)
+            files[f"figures/{name}.{form}"] = to_figure(group, form=form)
+    files[PAGE] = _rendered_page(comparisons, files, about)
     return files
 
 
-def _page(found: Sequence[Comparison], files: Mapping[str, bytes], about: dict[str, object]) -> bytes:
+def _rendered_page(comparisons: Sequence[Comparison], files: Mapping[str, bytes], about: dict[str, object]) -> bytes:
+    """The page as HTML, with the figures among the files inside it."""
     pictures = {
         Path(name).stem: "data:image/svg+xml;base64," + base64.b64encode(contents).decode()
         for name, contents in files.items()
@@ -44,9 +45,9 @@ def _page(found: Sequence[Comparison], files: Mapping[str, bytes], about: dict[s
     }
     page = templates(TEMPLATES).get_template("comparison.html")
     text = page.render(
-        title=_asked(found),
-        scenes=[_of_scene(f"scene-{i}", one) for i, one in enumerate(found, 1)],
-        overview=columns.overview_of(found) if len(found) > 1 else None,
+        title=_title(comparisons),
+        scenes=[_entries_of_scene(f"scene-{i}", comparison) for i, comparison in enumerate(comparisons, 1)],
+        overview=columns.overview_of(comparisons) if len(comparisons) > 1 else None,
         pictures=pictures,
         together=side_by_side.TOGETHER,
         about=about,
@@ -54,42 +55,43 @@ def _page(found: Sequence[Comparison], files: Mapping[str, bytes], about: dict[s
     return f"{text}\n".encode()
 
 
-def _of_scene(name: str, found: Comparison) -> dict[str, object]:
-    """What the template shows of a scene."""
-    best = found.selection.best
+def _entries_of_scene(name: str, comparison: Comparison) -> dict[str, object]:
+    """What the template shows of a scene, by the names that the template has."""
+    best = comparison.selection.best
     answer = best.answer if best else None
-    beside = len(found.selection.solved) > 1
-    letters, levels = columns.levels_beside(found) if beside and found.is_level else ({}, {})
+    several = len(comparison.selection.solved) > 1
+    letters, levels = columns.levels_of_models(comparison) if several and comparison.is_level else ({}, {})
     return {
         "name": name,
-        "asked": _asked([found]),
-        "found": found,
-        "answer": summary.result_of(found, answer) if answer else "No model has a result with a known error",
+        "title": _title([comparison]),
+        "comparison": comparison,
+        "answer": summary.result_of(comparison, answer) if answer else "No model has a result with a known error",
         "counted": answer.counted if answer else "",
-        "on_mdr": on_mdr.in_full(found),
-        "help": advice.what_would_help(found),
-        "notes": _notes(found),
-        "understood": (*describe(found.scene), ("assumed", summary.ASSUMED)),
-        "models": columns.models_of_page(found),
-        "bands": columns.bands_of(found, best) if best and found.is_level else None,
-        "levels": LEVELS if found.roughness.size else "",
-        "force": found.force,
-        "beside": levels or (columns.numbers_beside(found) if beside else None),
+        "on_mdr": on_mdr.in_full(comparison),
+        "help": advice.what_would_help(comparison),
+        "notes": _notes(comparison),
+        "understood": (*describe(comparison.scene), ("assumed", summary.ASSUMED)),
+        "models": columns.models_of_page(comparison),
+        "bands": columns.bands_of(comparison, best) if best and comparison.is_level else None,
+        "levels": LEVELS if comparison.roughness.size else "",
+        "force": comparison.force,
+        "differences": levels or (columns.numbers_of_models(comparison) if several else None),
         "letters": letters,
-        "reference": side_by_side.reference_of(found).name if beside else "",
-        "age": summary.age_of_errors(found),
-        "cost": summary.cost_of(found),
+        "reference": side_by_side.reference_of(comparison).name if several else "",
+        "age": summary.age_of_errors(comparison),
+        "cost": summary.cost_of(comparison),
     }
 
 
-def _asked(found: Sequence[Comparison]) -> str:
-    scenes = list(dict.fromkeys(one.scene.name for one in found))
+def _title(comparisons: Sequence[Comparison]) -> str:
+    """Title of a page or a section: scenes, quantities and tolerance."""
+    scenes = list(dict.fromkeys(comparison.scene.name for comparison in comparisons))
     of = scenes[0] if len(scenes) == 1 else f"{len(scenes)} scenes"
-    return f"{of}: {', '.join(by_quantity(found))} within {found[0].tolerance}"
+    return f"{of}: {', '.join(by_quantity(comparisons))} within {comparisons[0].tolerance}"
 
 
-def _notes(found: Comparison) -> list[str]:
+def _notes(comparison: Comparison) -> list[str]:
     """Why there is no steady answer, and what may be wrong about the scene."""
-    scene = found.scene
-    reason = scene.no_steady_answer() if found.asked.of_motion else ""
+    scene = comparison.scene
+    reason = scene.no_steady_answer() if comparison.asked.of_motion else ""
     return [*([f"no steady answer: {reason}"] if reason else []), *scene.diagnose()]

@@ -17,8 +17,8 @@ TOGETHER = "both errors together: of the models the sum, of grid and sample the 
 def reference_of(comparison: Comparison) -> Candidate:
     """The least biased of the solved models whose errors are alike the smallest, the dearest of several."""
     solved, least = comparison.selection.solved[::-1], comparison.selection.least_error
-    alike = [one for one in solved if one.error <= ALIKE * least]
-    return min(alike, key=lambda one: bias(one.found))
+    alike = [candidate for candidate in solved if candidate.error <= ALIKE * least]
+    return min(alike, key=lambda candidate: bias(candidate.found))
 
 
 def differences(candidate: Candidate, reference: Candidate) -> np.ndarray:
@@ -30,12 +30,15 @@ def differences(candidate: Candidate, reference: Candidate) -> np.ndarray:
 def error_of_difference(comparison: Comparison, candidate: Candidate) -> np.ndarray:
     """Half-widths of 95 % of `differences` from the reference [dB]: `TOGETHER`; infinite where one is unknown."""
     parts = [
-        {name: part / (1.0 if comparison.is_level else np.abs(comparison.value_of(one))) for name, part in of.items()}
-        for one in (candidate, reference_of(comparison))
-        for of in [comparison.error_parts_of(one)]
+        {
+            name: part / (1.0 if comparison.is_level else np.abs(comparison.value_of(model)))
+            for name, part in errors.items()
+        }
+        for model in (candidate, reference_of(comparison))
+        for errors in [comparison.error_parts_of(model)]
     ]
-    random = [of[name] for of in parts for name in ("grid", "sample")]
-    both = sum(of["model"] for of in parts) + np.sqrt(np.sum(np.square(random), axis=0))
+    random = [errors[name] for errors in parts for name in ("grid", "sample")]
+    both = sum(errors["model"] for errors in parts) + np.sqrt(np.sum(np.square(random), axis=0))
     return np.asarray(both if comparison.is_level else 20 * np.log10(1 + both))
 
 
@@ -44,9 +47,9 @@ def per_cent(level: float) -> float:
     return float(100 * (10 ** (level / 20) - 1))
 
 
-def counts(comparison: Comparison, one: Candidate) -> NDArray[np.bool_]:
-    """Where the tolerance counts: of a rail not in bands of which next to nothing is left."""
-    level = comparison.a3_of(one) if comparison.roughness.size else np.zeros(comparison.value_of(one).size)
+def counted_bands(comparison: Comparison, candidate: Candidate) -> NDArray[np.bool_]:
+    """Mask of the bands in which the tolerance counts: of a rail, those of which more than next to nothing is left."""
+    level = comparison.a3_of(candidate) if comparison.roughness.size else np.zeros(comparison.value_of(candidate).size)
     return np.asarray(level > comparison.asked.counted_above)
 
 
@@ -54,14 +57,16 @@ def shown_models(comparison: Comparison) -> list[str]:
     """Names of the solved models, in the order that a figure shows: selected, reference, MDR, the nearest others."""
     solved, reference = comparison.selection.solved, reference_of(comparison)
     chosen = comparison.selection.best or reference
-    springs = min((one for one in solved if one.is_mdr), key=lambda one: one.error, default=chosen)
+    springs = min(
+        (candidate for candidate in solved if candidate.is_mdr), key=lambda candidate: candidate.error, default=chosen
+    )
 
-    def apart(one: Candidate) -> float:
-        off = differences(one, chosen)[counts(comparison, chosen)]
+    def distance(candidate: Candidate) -> float:
+        off = differences(candidate, chosen)[counted_bands(comparison, chosen)]
         return float(np.sqrt(np.nanmean(off**2))) if np.isfinite(off).any() else math.inf
 
     first = [chosen.name, reference.name, springs.name]
-    return list(dict.fromkeys([*first, *(one.name for one in sorted(solved, key=apart))]))
+    return list(dict.fromkeys([*first, *(candidate.name for candidate in sorted(solved, key=distance))]))
 
 
 def speed_and_accuracy(comparison: Comparison) -> Table:
@@ -74,22 +79,24 @@ def speed_and_accuracy(comparison: Comparison) -> Table:
     reference, rows = reference_of(comparison), list[dict[str, object]]()
     unit = "dB" if comparison.is_level else comparison.tolerance.unit
     of_reference = decibels(reference.error) if unit == "dB" else 100 * reference.error
-    for one in comparison.selection.solved:
-        error, half = (of if unit == "dB" else per_cent(of) for of in _apart(comparison, one))
+    for candidate in comparison.selection.solved:
+        error, half = (
+            level if unit == "dB" else per_cent(level) for level in _distance_from_reference(comparison, candidate)
+        )
         low, high = (max(error - half, 0.0), error + half) if math.isfinite(half) else (math.nan, math.nan)
-        if here := one is reference:
+        if is_reference := candidate is reference:
             error, low, high = math.nan, math.nan, of_reference if math.isfinite(of_reference) else math.nan
-        named = {"model": one.name, "is_mdr": one.is_mdr, "selected": one.name == comparison.model}
-        timed = {"is_reference": here, "seconds": comparison.seconds_of(one)}
+        named = {"model": candidate.name, "is_mdr": candidate.is_mdr, "selected": candidate.name == comparison.model}
+        timed = {"is_reference": is_reference, "seconds": comparison.seconds_of(candidate)}
         rows.append({**named, **timed, "error": error, "low": low, "high": high, "unit": unit})
     return table_of(comparison.quantity, rows)
 
 
-def _apart(comparison: Comparison, one: Candidate) -> tuple[float, float]:
+def _distance_from_reference(comparison: Comparison, candidate: Candidate) -> tuple[float, float]:
     """Distance from the reference, and its half-width of 95 % [dB]."""
     reference = reference_of(comparison)
-    off, half = np.abs(differences(one, reference)), error_of_difference(comparison, one)
-    within = counts(comparison, reference) & np.isfinite(off)
+    off, half = np.abs(differences(candidate, reference)), error_of_difference(comparison, candidate)
+    within = counted_bands(comparison, reference) & np.isfinite(off)
     if not within.any():
         return math.nan, math.nan
     if comparison.asked.by_worst_band:

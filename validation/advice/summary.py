@@ -43,8 +43,8 @@ def summary(comparison: OneOrSeveral) -> str:
     Smooth sphere: stiffness within 10 %
     """
     if not isinstance(comparison, Comparison):
-        found = listed(comparison)
-        return "\n".join([*overview(found), *help_with(found)])
+        comparisons = listed(comparison)
+        return "\n".join([*overview(comparisons), *help_with(comparisons)])
     understood = heading(comparison.scene, [comparison.quantity], comparison.tolerance)
     return f"{understood}\n{findings([comparison], in_full)}"
 
@@ -56,13 +56,13 @@ def heading(scene: Scene, quantities: Sequence[str], tolerance: Tolerance) -> st
     return "\n".join(part for line in lines for part in wrapped([line], indent=22 if line[0] == " " else 4))
 
 
-def findings(comparisons: Sequence[Comparison], said: Callable[[Sequence[Comparison]], Iterator[str]]) -> str:
-    """What is said of quantities that have the same solves, as `in_full`; both quantities of a rail have one table."""
-    parts = [comparisons] if comparisons[0].roughness.size else [[one] for one in comparisons]
-    lines = [line for part in parts for line in said(part)]
+def findings(comparisons: Sequence[Comparison], lines_of: Callable[[Sequence[Comparison]], Iterator[str]]) -> str:
+    """Text of quantities that share their solves; both quantities of a rail have one table. lines_of: as `in_full`."""
+    parts = [comparisons] if comparisons[0].roughness.size else [[comparison] for comparison in comparisons]
+    lines = [line for part in parts for line in lines_of(part)]
     # no blank line below another
-    apart = [line for before, line in zip(["text", *lines], lines, strict=False) if line or before]
-    return "\n".join(wrapped(apart, indent=4))
+    single_spaced = [line for before, line in zip(["text", *lines], lines, strict=False) if line or before]
+    return "\n".join(wrapped(single_spaced, indent=4))
 
 
 def in_full(quantities: Sequence[Comparison]) -> Iterator[str]:
@@ -74,7 +74,7 @@ def in_full(quantities: Sequence[Comparison]) -> Iterator[str]:
         yield no_answer(comparison)
         yield from side_by_side(comparison)
     else:
-        yield from (result_of(one, best.answer) for one in quantities)
+        yield from (result_of(quantity, best.answer) for quantity in quantities)
         yield from (line for line in (best.answer.counted, LEVELS if comparison.roughness.size else "") if line)
         yield from columns_as_lines(bands_of(comparison, best)) if comparison.is_level else ()
         if force := comparison.force:
@@ -99,9 +99,9 @@ def no_answer(comparison: Comparison) -> str:
 def _reasons(comparison: Comparison) -> Iterator[str]:
     """What errors rest on, each clause once."""
     yield "why"
-    every = tuple(one.name for one in comparison.models)
-    for names, reason in grouped({one.name: one.reason for one in comparison.models}):
-        yield f"  {'all' if names == every and len(every) > 1 else '; '.join(names)}: {reason}"
+    all_names = tuple(candidate.name for candidate in comparison.models)
+    for names, reason in grouped({candidate.name: candidate.reason for candidate in comparison.models}):
+        yield f"  {'all' if names == all_names and len(all_names) > 1 else '; '.join(names)}: {reason}"
 
 
 def grouped(reasons: Mapping[str, str]) -> Iterator[tuple[tuple[str, ...], str]]:
@@ -132,11 +132,11 @@ def _clauses(reason: str, times: Mapping[str, int]) -> Iterator[str]:
 
 def overview(comparisons: Sequence[Comparison]) -> list[str]:
     """A line a scene, of the columns of `overview_of`; two lines a scene where names are long."""
-    scenes, *others = ([name, *column] for name, column in overview_of(comparisons).items())
-    model, error, mdr = (max(map(len, column)) for column in others[:3])
+    scenes, *columns = ([name, *column] for name, column in overview_of(comparisons).items())
+    model, error, mdr = (max(map(len, column)) for column in columns[:3])
     rests = [
         f"{row[0]:{model}s}  {row[1]:>{error}s}  {row[2]:>{mdr}s}   {row[3]}".rstrip()
-        for row in zip(*others, strict=True)
+        for row in zip(*columns, strict=True)
     ]
     width = max(map(len, scenes))
     if width + 2 + max(map(len, rests)) <= WIDTH:
@@ -147,7 +147,7 @@ def overview(comparisons: Sequence[Comparison]) -> list[str]:
 
 def help_with(comparisons: Sequence[Comparison]) -> list[str]:
     """What would help each scene whose tolerance is not met."""
-    lines = [f"{one.scene.name}: {line}" for one in comparisons for line in what_would_help(one)]
+    lines = [f"{comparison.scene.name}: {line}" for comparison in comparisons for line in what_would_help(comparison)]
     return list(wrapped(lines, indent=4))
 
 
@@ -184,7 +184,11 @@ def cost_of(comparison: Comparison) -> str:
     """What the solves cost, and what those would have cost that were not needed."""
     spent = format_seconds(comparison.selection.spent)
     text = f"cost of the solves: about {spent}, from counted operations, without program start"
-    saved = sum(one.cost for one in comparison.models if one.answer is None and one.status != "out of range")
+    saved = sum(
+        candidate.cost
+        for candidate in comparison.models
+        if candidate.answer is None and candidate.status != "out of range"
+    )
     return f"{text}; the models that were not solved would have cost {format_seconds(saved)}" if saved else text
 
 
@@ -193,12 +197,12 @@ def wrapped(lines: list[str], indent: int) -> Iterator[str]:
     for line in lines:
         own = line[: len(line) - len(line.lstrip())]
         more = " " * max(indent, len(own))
-        whole = len(line) <= WIDTH
-        yield from [line] if whole else textwrap.wrap(line.strip(), WIDTH, initial_indent=own, subsequent_indent=more)
+        fits = len(line) <= WIDTH
+        yield from [line] if fits else textwrap.wrap(line.strip(), WIDTH, initial_indent=own, subsequent_indent=more)
 
 
 def in_short(quantities: Sequence[Comparison]) -> Iterator[str]:
-    """Of quantities that have the same solves and errors."""
+    """Table of models, result, error and a sentence on MDR, of quantities that have the same solves and errors."""
     comparison = quantities[0]
     best = comparison.selection.best
     yield from models_as_lines(comparison)
@@ -212,11 +216,11 @@ def in_short(quantities: Sequence[Comparison]) -> Iterator[str]:
     if best is None or best.answer is None:
         yield no_answer(comparison)
     else:
-        yield from (_value(quantities, best.answer), _error(comparison, best.answer))
+        yield from (_value_sentence(quantities, best.answer), _error_sentence(comparison, best.answer))
     yield on_mdr.in_short(comparison)
 
 
-def _value(quantities: Sequence[Comparison], answer: Answer) -> str:
+def _value_sentence(quantities: Sequence[Comparison], answer: Answer) -> str:
     """One number with its error, or how many bands there are, of a rail with the force that they leave."""
     comparison = quantities[0]
     name = comparison.quantity if len(quantities) == 1 else "both"
@@ -229,11 +233,11 @@ def _value(quantities: Sequence[Comparison], answer: Answer) -> str:
     return f"{name} by {comparison.model}: {comparison.value.size} bands{of}{weighted}"
 
 
-def _error(comparison: Comparison, answer: Answer) -> str:
-    """Beside what was wanted, with its parts."""
+def _error_sentence(comparison: Comparison, answer: Answer) -> str:
+    """The error compared with the tolerance, and its parts: model, grid and sample."""
     tolerance = comparison.tolerance
     parts = {name: part for name in ("model", "grid", "sample") if (part := getattr(answer, name))}
-    found = error_of_levels(comparison, answer) if comparison.is_level else tolerance.shown_beside(answer.error)
-    of = ", ".join(f"{name} {tolerance.shown(part)}" for name, part in parts.items())
-    of = f": {of}" if len(parts) > 1 else "".join(f"; all of it is the {name}'s" for name in parts)
-    return f"error {found}, {'within' if comparison.met else 'not within'} {tolerance}{of}"
+    error = error_of_levels(comparison, answer) if comparison.is_level else tolerance.shown_beside(answer.error)
+    parts_text = ", ".join(f"{name} {tolerance.shown(part)}" for name, part in parts.items())
+    parts_text = f": {parts_text}" if len(parts) > 1 else "".join(f"; all of it is the {name}'s" for name in parts)
+    return f"error {error}, {'within' if comparison.met else 'not within'} {tolerance}{parts_text}"

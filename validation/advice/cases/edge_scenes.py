@@ -22,7 +22,7 @@ from validation.theory.closed_forms import hertz_force
 Generator = np.random.Generator
 
 PUNCH, SPHERE, ROLLING, WHEEL = "punch", "sphere", "rolling", "wheel"
-OF_HOUSES: dict[str, EdgeKind] = {one.name: one for one in brought("edge_scenes")}
+OF_HOUSES: dict[str, EdgeKind] = {kind.name: kind for kind in brought("edge_scenes")}
 """Kinds of scenes that other houses have at the edges."""
 MEASURED = "measured "
 """Before the name of a body: one surface of points, no two of the same texture after each other."""
@@ -46,7 +46,7 @@ RANGES = (
     "F / (E* h L) of punches 1e-6 to 100, one to 32 of the longest waves on a side, Hurst exponent 0.2 to 1.2, h/d to "
     "10 under spheres, to 2 under rolling and to 0.5 under dynamic wheels, the longest wave half to 20 contact radii, "
     "and measured heights: Gaussian, ridges, honed, log-normal, outliers, pits"
-    + "".join(f"; {one.ranges}" for one in OF_HOUSES.values())
+    + "".join(f"; {kind.ranges}" for kind in OF_HOUSES.values())
 )
 """In words."""
 
@@ -59,34 +59,34 @@ def edge_scene(kind: str, number: int, seed: int) -> tuple[Scene, str]:
         return house.scene(rng, name), house.quantity
     draw_face = TEXTURES[number % len(TEXTURES)] if kind.startswith(MEASURED) else None
     quantity = EDGE_QUANTITIES[body][number // 2 % len(EDGE_QUANTITIES[body])]
-    make = _punch if body == PUNCH else _round
+    make = _edge_punch if body == PUNCH else _edge_sphere_or_wheel
     return make(rng, body, name, draw_face), quantity
 
 
-def _punch(rng: Generator, body: str, name: str, draw_face: "Face | None") -> IndentationScene:
+def _edge_punch(rng: Generator, body: str, name: str, draw_face: "Face | None") -> IndentationScene:
     modulus, side = 10 ** rng.uniform(6, 11.5), 10 ** rng.uniform(-4, -1)
     first, height = int(rng.choice(WAVES_ON_A_SIDE)), side * 10 ** rng.uniform(-5, -3)
     # a measured face is pressed where more than a few of its points touch
     load = 10 ** rng.uniform(-3.0 if draw_face else LOADS[0], LOADS[1])
-    band = _band(rng, height, side / (min(first, 8) if draw_face else first))
+    band = _random_band(rng, height, side / (min(first, 8) if draw_face else first))
     points = int(rng.choice(POINTS))
-    ground = _measured(rng, draw_face, band, (points, points), side / points) if draw_face else band
+    ground = _measured_heights(rng, draw_face, band, (points, points), side / points) if draw_face else band
     return IndentationScene(
         name=name, shape="punch", size=side, load=load * modulus * ground.rms * side, modulus=modulus, ground=ground
     )
 
 
-def _round(rng: Generator, body: str, name: str, draw_face: "Face | None") -> Scene:
+def _edge_sphere_or_wheel(rng: Generator, body: str, name: str, draw_face: "Face | None") -> Scene:
     modulus, radius = 10 ** rng.uniform(6, 11.5), 10 ** rng.uniform(-3, 0)
     approach = radius * 10 ** rng.uniform(-5, -3.5)
     a = math.sqrt(radius * approach)
     longest = a * log_uniform(rng, LONGEST)
-    band = _band(rng, approach * 10 ** rng.uniform(*HEIGHTS[body]), longest)
+    band = _random_band(rng, approach * 10 ** rng.uniform(*HEIGHTS[body]), longest)
     settings: dict[str, Any] = {"name": name, "modulus": modulus, "ground": band}
     settings["load"] = hertz_force(radius=radius, modulus=modulus, approach=approach)
     if draw_face:
         points = (int(rng.choice(POINTS)),) * 2 if body == SPHERE else TRACK
-        settings["ground"] = _measured(rng, draw_face, band, points, a / int(rng.choice(TO_A_RADIUS)))
+        settings["ground"] = _measured_heights(rng, draw_face, band, points, a / int(rng.choice(TO_A_RADIUS)))
     if body == SPHERE:
         return IndentationScene(shape="sphere", size=radius, **settings)
     if body == WHEEL:
@@ -99,7 +99,7 @@ def _round(rng: Generator, body: str, name: str, draw_face: "Face | None") -> Sc
     return RollingScene(radius=radius, **settings)
 
 
-def _band(rng: Generator, height: float, longest: float) -> Roughness:
+def _random_band(rng: Generator, height: float, longest: float) -> Roughness:
     ratio = log_uniform(rng, BANDS)
     return Roughness(rms=height, hurst=rng.uniform(*HURSTS), longest=longest, shortest=longest / ratio)
 
@@ -110,7 +110,7 @@ Face = Callable[[FloatArray, Generator], FloatArray]
 """From Gaussian heights of unit rms to others."""
 
 
-def _measured(
+def _measured_heights(
     rng: Generator, draw_face: Face, band: Roughness, points: tuple[int, int], spacing: float
 ) -> MeasuredHeights:
     """Waves of the band that the points resolve, in a texture, with the height of the band."""
@@ -151,17 +151,17 @@ def log_normal(height: FloatArray, rng: Generator) -> FloatArray:
 
 def outliers(height: FloatArray, rng: Generator) -> FloatArray:
     """Single points that stand out by five to twenty heights, as dust or errors of a profilometer do."""
-    found = height.copy()
-    found.flat[rng.integers(0, height.size, 6)] += rng.uniform(5, 20, 6)
-    return found
+    surface = height.copy()
+    surface.flat[rng.integers(0, height.size, 6)] += rng.uniform(5, 20, 6)
+    return surface
 
 
 def pits(height: FloatArray, rng: Generator) -> FloatArray:
     """Of four points a side, five to twenty heights deep."""
-    found = height.copy()
+    surface = height.copy()
     for i, j in rng.integers(0, np.array(height.shape) - 4, (12, 2)).tolist():
-        found[i : i + 4, j : j + 4] -= rng.uniform(5, 20)
-    return found
+        surface[i : i + 4, j : j + 4] -= rng.uniform(5, 20)
+    return surface
 
 
 TEXTURES: tuple[Face, ...] = (gaussian_face, ridges, honed, log_normal, outliers, pits)

@@ -48,7 +48,9 @@ EDGE_SCENES = (
     *((kind, FEW) for kind in OF_HOUSES),
 )
 COARSE, FINE = "coarse boundary elements", "fine boundary elements"
-CHEAP = tuple(dict.fromkeys(one.name for one in all_models() if not isinstance(one, GridModel) and one.answer is None))
+CHEAP = tuple(
+    dict.fromkeys(model.name for model in all_models() if not isinstance(model, GridModel) and model.answer is None)
+)
 MODELS = (*CHEAP, COARSE, FINE)
 """What selection may end on: the models below boundary elements by their kind, and those on two kinds of grid."""
 
@@ -145,7 +147,7 @@ def calibrate(trial: CalibrationTrial) -> Outcome:
     # a reference whose grid leaves more than its tolerance ends after its first surfaces
     finished = reference.error <= REFERENCE_TOLERANCE
     slower = reference.cost.seconds / finest.cost().seconds if finished else 1.0
-    rows = np.array([_selected(trial, tolerance, reference.value, slower) for tolerance in trial.tolerances])
+    rows = np.array([_selection_row(trial, tolerance, reference.value, slower) for tolerance in trial.tolerances])
     return {
         "reference": np.array(math.nan if reference.failed else reference.error),
         **dict(zip(("model", "estimated", "true", "spent", "fine", "met"), rows.T, strict=True)),
@@ -153,8 +155,8 @@ def calibrate(trial: CalibrationTrial) -> Outcome:
     }
 
 
-def _selected(trial: CalibrationTrial, tolerance: float, truth: np.ndarray, slower: float) -> tuple[float, ...]:
-    """slower: time that the reference took over what it was expected to take."""
+def _selection_row(trial: CalibrationTrial, tolerance: float, truth: np.ndarray, slower: float) -> tuple[float, ...]:
+    """One value of each output of `calibrate`. slower: time of the reference over its expected time."""
     models = trial.models(tolerance)
     selection = select_model(models, tolerance)
     best, fine = selection.best, models[-1].cost().seconds * slower
@@ -220,17 +222,22 @@ def split(scene: Scene) -> IndentationScene:
 
 def edge_trials(scenes: Sequence[tuple[str, int]], tolerances: tuple[float, ...], seed: int) -> list[EdgeTrial]:
     """scenes: how many of each kind: of those drawn that have a reference, the ones where it costs least."""
-    return [trial for kind, count in scenes for trial in _cheapest(kind, count, _asked(kind, tolerances), seed)]
+    return [
+        trial
+        for kind, count in scenes
+        for trial in _cheapest_trials(kind, count, _tolerances_of_kind(kind, tolerances), seed)
+    ]
 
 
-def _asked(kind: str, tolerances: tuple[float, ...]) -> tuple[float, ...]:
+def _tolerances_of_kind(kind: str, tolerances: tuple[float, ...]) -> tuple[float, ...]:
+    """Tolerances at which scenes of a kind are tested: of `ROLLED` none below that of the reference."""
     coarse = tuple(tolerance for tolerance in tolerances if tolerance >= REFERENCE_TOLERANCE)
     return coarse if kind in ROLLED else tolerances
 
 
 @cache
-def _cheapest(kind: str, count: int, tolerances: tuple[float, ...], seed: int) -> tuple[EdgeTrial, ...]:
-    """Which they are takes seconds: kept."""
+def _cheapest_trials(kind: str, count: int, tolerances: tuple[float, ...], seed: int) -> tuple[EdgeTrial, ...]:
+    """The trials whose references cost least; cached, since their costs take seconds."""
     drawn = [EdgeTrial(kind=kind, number=i, tolerances=tolerances, seed=seed) for i in range(DRAWN * count)]
     costs = [(trial.reference.cost().seconds, trial) for trial in drawn if trial.reference.estimate().in_range]
     return tuple(trial for _, trial in sorted(costs, key=itemgetter(0))[:count])
@@ -249,7 +256,7 @@ def solve_edge(trial: EdgeTrial) -> Outcome:
     judge = replace(trial.reference, shared=solved) if trial.is_own_reference else trial.reference
     reference, refused = reference_at_edge(judge)
     truth = np.array([math.nan]) if reference.failed else reference.value
-    rows = np.array([_at_edge(trial, tolerance, solved, truth) for tolerance in trial.tolerances])
+    rows = np.array([_edge_row(trial, tolerance, solved, truth) for tolerance in trial.tolerances])
     return {
         **dict(zip(("estimated", "true", "met"), rows.T, strict=True)),
         "reference": np.array(math.nan if reference.failed else reference.error),
@@ -278,14 +285,15 @@ def true_error(trial: EdgeTrial, value: np.ndarray, truth: np.ndarray) -> float:
 
     NaN where none counts.
     """
-    asked = quantity_of(trial.scene, trial.quantity)
-    if not asked.by_worst_band:
+    quantity = quantity_of(trial.scene, trial.quantity)
+    if not quantity.by_worst_band:
         return distance(value, truth)
-    counted = 20 * np.log10(truth / asked.reference) > asked.counted_above
+    counted = 20 * np.log10(truth / quantity.reference) > quantity.counted_above
     return relative(float(np.abs(20 * np.log10(value / truth))[counted].max())) if counted.any() else math.nan
 
 
-def _at_edge(trial: EdgeTrial, tolerance: float, solved: Shared, truth: np.ndarray) -> tuple[float, float, float]:
+def _edge_row(trial: EdgeTrial, tolerance: float, solved: Shared, truth: np.ndarray) -> tuple[float, float, float]:
+    """The outputs estimated, true and met of `solve_edge` at one tolerance."""
     selection = select_model(trial.sharing(tolerance, solved), tolerance)
     best = selection.best
     if best is None or best.answer is None:

@@ -54,7 +54,7 @@ MARGINS: Mapping[str, Margin] = {
 }
 RESAMPLED, NONE = 400, "none"
 """Bootstrap samples of scenes; no model."""
-Some = slice | np.ndarray
+Rows = slice | np.ndarray
 ESTIMATED, TRUE, OF_REFERENCE = "estimated error", Quantity("true_error"), "error of the reference"
 SAVED = Quantity("fine_boundary_elements_over_the_selection")
 OF_FINE, SMALLEST = "error of fine boundary elements", 1e-4
@@ -64,7 +64,7 @@ OF_FINE, SMALLEST = "error of fine boundary elements", 1e-4
 def in_four_digits(table: Table) -> Table:
     """Of many points, which are drawn and read, and not computed with."""
     columns = {name: table[name].tolist() for name in table.columns}
-    rounded = {n: [float(f"{x:.4g}") if isinstance(x, float) else x for x in mine] for n, mine in columns.items()}
+    rounded = {n: [float(f"{x:.4g}") if isinstance(x, float) else x for x in cells] for n, cells in columns.items()}
     return Table(table.name, rounded)
 
 
@@ -119,14 +119,14 @@ def answerable(table: Table) -> np.ndarray:
     return np.asarray(table[OF_FINE] <= table["tolerance"])
 
 
-def part_of_time(table: Table, some: Some = slice(None)) -> float:
-    return float(table["selection [s]"][some].sum() / table["fine [s]"][some].sum())
+def part_of_time(table: Table, rows: Rows = slice(None)) -> float:
+    return float(table["selection [s]"][rows].sum() / table["fine [s]"][rows].sum())
 
 
 def clopper_pearson(inside: np.ndarray) -> tuple[float, float]:
     """95 % interval of a share."""
-    found = stats.binomtest(int(np.count_nonzero(inside)), inside.size).proportion_ci()
-    return float(found.low), float(found.high)
+    interval = stats.binomtest(int(np.count_nonzero(inside)), inside.size).proportion_ci()
+    return float(interval.low), float(interval.high)
 
 
 def share(inside: np.ndarray) -> Interval:
@@ -134,7 +134,7 @@ def share(inside: np.ndarray) -> Interval:
     return Interval(value, max(value - low, high - value))
 
 
-def resampled(table: Table, statistic: Callable[[Table, Some], float]) -> tuple[float, float]:
+def resampled(table: Table, statistic: Callable[[Table, Rows], float]) -> tuple[float, float]:
     """95 % interval, by scenes drawn again: of the numbers of the scenes drawn."""
     size = len(table["kind"])
     rng = random_generator(0, size)
@@ -146,60 +146,67 @@ def series(result: Outcomes) -> list[Series]:
     """Single numbers at each tolerance that has answers, of random scenes and at the edges; points of the figure."""
     scenes = tested(scenes_of(result))
     return [
-        *(one for at in np.unique(scenes["tolerance"]).tolist() for one in _at(at, scenes.where(tolerance=at))),
+        *(
+            curve
+            for tolerance in np.unique(scenes["tolerance"]).tolist()
+            for curve in _series_of_selection(tolerance, scenes.where(tolerance=tolerance))
+        ),
         *at_edges(edges_of(result.case.edge_trials, result["edges"])),
     ]
 
 
-def judged(quantity: str, found: Interval | float, tolerance: float, reference: float = 0.0) -> Series:
+def judged(quantity: str, value: Interval | float, tolerance: float, reference: float = 0.0) -> Series:
     where, margin = {"tolerance": tolerance}, MARGINS[quantity]
-    return Series(quantity, "", (found,), where=where, reference=reference, margin=margin, scale=100.0, unit="%")
+    return Series(quantity, "", (value,), where=where, reference=reference, margin=margin, scale=100.0, unit="%")
 
 
-def _at(tolerance: float, known: Table) -> Iterator[Series]:
+def _series_of_selection(tolerance: float, answers: Table) -> Iterator[Series]:
     """Of selected models: how many estimates hold, what they take, and each scene as a point."""
-    part, (_, high) = part_of_time(known), resampled(known, part_of_time)
-    yield judged(COVERAGE, share(over_estimate(known) <= 1), tolerance, reference=1.0)
+    part, (_, high) = part_of_time(answers), resampled(answers, part_of_time)
+    yield judged(COVERAGE, share(over_estimate(answers) <= 1), tolerance, reference=1.0)
     yield judged(SPENT, Interval(part, high - part), tolerance)
     ends = np.array([SMALLEST, 1.0])
     yield Series(TRUE, "true = estimated", ends, where={"tolerance": tolerance}, along=ESTIMATED, at=ends)
-    met = known.rows(known["met"] == 1)
+    met = answers.rows(answers["met"] == 1)
     for model in [model for model in MODELS if model in met["model"]]:
-        mine = met.where(model=model)
-        for quantity, found in ((TRUE, mine[TRUE]), (SAVED, mine["fine [s]"] / mine["selection [s]"])):
-            yield Series(quantity, model, found, where={"tolerance": tolerance}, along=ESTIMATED, at=mine[ESTIMATED])
+        points = met.where(model=model)
+        for quantity, values in ((TRUE, points[TRUE]), (SAVED, points["fine [s]"] / points["selection [s]"])):
+            yield Series(quantity, model, values, where={"tolerance": tolerance}, along=ESTIMATED, at=points[ESTIMATED])
 
 
 def at_edges(edges: Table) -> Iterator[Series]:
     """Where an answer was tested: those that hold, that are far off, and questions that are refused."""
     for tolerance in np.unique(tested(edges)["tolerance"]).tolist():
-        mine = edges.where(tolerance=tolerance)
-        known, asked = tested(mine), answerable(mine)
-        yield judged(HELD, share(over_estimate(known) <= 1), tolerance, reference=1.0)
-        if (met := over_estimate(known)[known["met"] == 1]).size:
+        rows = edges.where(tolerance=tolerance)
+        answers, possible = tested(rows), answerable(rows)
+        yield judged(HELD, share(over_estimate(answers) <= 1), tolerance, reference=1.0)
+        if (met := over_estimate(answers)[answers["met"] == 1]).size:
             yield judged(FAR_OFF, max(float(met.max()) - 1, 0.0), tolerance)
-        if asked.any():
-            yield judged(REFUSED, share(mine["met"][asked] == 0), tolerance)
+        if possible.any():
+            yield judged(REFUSED, share(rows["met"][possible] == 0), tolerance)
 
 
-def _chosen(table: Table) -> str:
+def _model_counts(table: Table) -> str:
+    """Selected models, each with the number of its rows."""
     counts = {name: int(np.count_nonzero(table["model"] == name)) for name in (*MODELS, NONE)}
     return ", ".join(f"{name} ({count})" for name, count in counts.items() if count)
 
 
-def _share(inside: np.ndarray) -> str:
+def _share_text(inside: np.ndarray) -> str:
+    """A share with its 95 % interval, in per cent; a dash without rows."""
     if not inside.size:
         return "–"
     low, high = clopper_pearson(inside)
     return f"{inside.mean():.0%} ({low:.0%} to {high:.0%})"
 
 
-def _saved(table: Table) -> str:
-    known = tested(table)
-    if not known["kind"].size:
+def _speed_up_text(table: Table) -> str:
+    """Time of fine BEM over that of the selection, with its 95 % interval; a dash without answers."""
+    answers = tested(table)
+    if not answers["kind"].size:
         return "–"
-    high, low = (1 / part for part in resampled(known, part_of_time))
-    return f"{1 / part_of_time(known):.3g} ({low:.2g} to {high:.2g})"
+    high, low = (1 / part for part in resampled(answers, part_of_time))
+    return f"{1 / part_of_time(answers):.3g} ({low:.2g} to {high:.2g})"
 
 
 BY_KIND = Quantity(
@@ -222,16 +229,16 @@ OF_EDGES: Columns = {
 def tables(result: Outcomes) -> tuple[Table, ...]:
     """Scenes one by one, and how they come out by kind and by tolerance."""
     scenes, edges = scenes_of(result), edges_of(result.case.edge_trials, result["edges"])
-    every = {name: [*mine, *mine] for name, mine in scenes.columns.items()}
-    every["kind"] = [*scenes.columns["kind"], *("all" for _ in scenes.columns["kind"])]
+    columns = {name: [*cells, *cells] for name, cells in scenes.columns.items()}
+    columns["kind"] = [*scenes.columns["kind"], *("all" for _ in scenes.columns["kind"])]
     of_kinds: Columns = {
         "scenes": lambda t: len(t["kind"]),
         "answers": lambda t: len(tested(t)["kind"]),
         "tolerance met": lambda t: int(t["met"].sum()),
-        "true error within the estimate": lambda t: _share(over_estimate(tested(t)) <= 1),
-        "within the tolerance": lambda t: _share(tested(t)[TRUE] <= tested(t)["tolerance"]),
-        "saved": _saved,
-        "selected models": _chosen,
+        "true error within the estimate": lambda t: _share_text(over_estimate(tested(t)) <= 1),
+        "within the tolerance": lambda t: _share_text(tested(t)[TRUE] <= tested(t)["tolerance"]),
+        "saved": _speed_up_text,
+        "selected models": _model_counts,
     }
     refused = [
         {"kind": trial.kind, "number": trial.number, "reason": str(outcome["refused"])}
@@ -240,7 +247,7 @@ def tables(result: Outcomes) -> tuple[Table, ...]:
     ]
     return (
         *map(in_four_digits, (scenes, edges)),
-        grouped(BY_KIND, Table("scenes", every), ("kind", "tolerance"), of_kinds),
+        grouped(BY_KIND, Table("scenes", columns), ("kind", "tolerance"), of_kinds),
         grouped(AT_EDGES, edges, ("kind",), OF_EDGES),
         *([table_of(UNTESTED, refused)] if refused else []),
     )

@@ -136,11 +136,11 @@ def _measure(arguments: argparse.Namespace) -> Exit:
         install(table)
     if arguments.install and made:
         write_whole(ANSWERS, merged(ANSWERS, made))
-    print("\n".join(_said(table, made, arguments)))
+    print("\n".join(_report_lines(table, made, arguments)))
     return Exit.MET
 
 
-def _said(table: Path, made: Mapping[Group, Answers], arguments: argparse.Namespace) -> list[str]:
+def _report_lines(table: Path, made: Mapping[Group, Answers], arguments: argparse.Namespace) -> list[str]:
     """What was measured, where it is, and whether `compare` goes by it."""
     if arguments.answers:
         lines = [

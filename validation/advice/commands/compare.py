@@ -54,7 +54,7 @@ def describe(comparing: argparse.ArgumentParser) -> None:
     )
     add_options(
         comparing,
-        *((one.option, "FILE", str, one.help) for one in brought("models_from")),
+        *((reader.option, "FILE", str, reader.help) for reader in brought("models_from")),
         ("--sweep", "KEY=A,B,C", _sweep, 'the scene with each value, as wheel.load="5 kN,10 kN"'),
         ("--seed", "S", at_least(0), "seed of the random roughness (default: 0)"),
         (
@@ -71,7 +71,7 @@ def describe(comparing: argparse.ArgumentParser) -> None:
             "write the result for other programs; `--report` adds a schema that describes its keys",
         ),
         ("--csv", "FILE", Path, "write a row a number or a band, of each model that was solved"),
-        *((one.option, "FILE", Path, one.help) for one in brought("exports")),
+        *((export.option, "FILE", Path, export.help) for export in brought("exports")),
         (
             "--figure",
             "FILE",
@@ -93,14 +93,18 @@ def compare(arguments: argparse.Namespace) -> Exit:
     scenes = [scene for name in arguments.scene for scene in _scenes_of(name, arguments)]
     problems = [_problem(scene, arguments) for scene, _ in scenes]
     _check_files(problems, arguments)
-    for own in _models_from(arguments):
-        problems = own.with_models(problems, arguments.models_from)
+    for reader in _model_readers(arguments):
+        problems = reader.with_models(problems, arguments.models_from)
     for problem in problems:
         for quantity in problem.quantities:
             problem.offered(quantity)  # or an error, before anything is measured, written or solved
-    swept = [of for (_, of), problem in zip(scenes, problems, strict=True) for _ in problem.quantities]
-    found = _reported(problems, swept, arguments) if arguments.report else _found(problems, swept, arguments)
-    return Exit.MET if all(one.met for one in found) else Exit.NOT_CONVERGED
+    swept = [sweep for (_, sweep), problem in zip(scenes, problems, strict=True) for _ in problem.quantities]
+    comparisons = (
+        _solve_and_report(problems, swept, arguments)
+        if arguments.report
+        else _solve_and_write(problems, swept, arguments)
+    )
+    return Exit.MET if all(comparison.met for comparison in comparisons) else Exit.NOT_CONVERGED
 
 
 def _scenes_of(name: str, arguments: argparse.Namespace) -> list[tuple[Scene, Swept | None]]:
@@ -115,22 +119,22 @@ def _scenes_of(name: str, arguments: argparse.Namespace) -> list[tuple[Scene, Sw
 
 
 def _problem(scene: Scene, arguments: argparse.Namespace) -> SceneProblem:
-    """What is asked of a scene."""
+    """The problem of a scene: quantities, tolerance, seed and models as the arguments have them."""
     quantities, seed = tuple(arguments.quantity or quantities_of(scene)[:1]), arguments.seed or 0
     names = () if arguments.models is None else arguments.models or ("",)
     timed = arguments.all or arguments.over is not None
     return SceneProblem(scene, quantities, arguments.tolerance, seed, timed, names, realisations=arguments.realisations)
 
 
-def _models_from(arguments: argparse.Namespace) -> list[Any]:
+def _model_readers(arguments: argparse.Namespace) -> list[Any]:
     """What reads the models of a file or of an installed package, where one is given."""
-    return [one for one in brought("models_from") if getattr(arguments, one.name) is not None]
+    return [reader for reader in brought("models_from") if getattr(arguments, reader.name) is not None]
 
 
 def _exports(arguments: argparse.Namespace) -> list[tuple[Export, Path]]:
     """Files of houses that are asked for."""
-    every: list[Export] = brought("exports")
-    return [(one, path) for one in every if (path := getattr(arguments, one.name)) is not None]
+    exports: list[Export] = brought("exports")
+    return [(export, path) for export in exports if (path := getattr(arguments, export.name)) is not None]
 
 
 def _store_of(arguments: argparse.Namespace) -> Path:
@@ -141,9 +145,9 @@ def _store_of(arguments: argparse.Namespace) -> Path:
 def _check_files(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> None:
     """Raises ValueError before anything is solved."""
     read = {file: "the scene reads" for name in arguments.scene for file in files_of(name)}
-    for own in _models_from(arguments):
-        own.check(arguments.models_from)
-        read[Path(arguments.models_from)] = f"is {own.option}"
+    for reader in _model_readers(arguments):
+        reader.check(arguments.models_from)
+        read[Path(arguments.models_from)] = f"is {reader.option}"
     check_places(arguments, read)
     quantities = list(dict.fromkeys(name for problem in problems for name in problem.quantities))
     if arguments.over is not None and (arguments.figure is None or not (arguments.all or arguments.models)):
@@ -154,21 +158,21 @@ def _check_files(problems: Sequence[SceneProblem], arguments: argparse.Namespace
         export.check(quantities)
 
 
-def _found(
+def _solve_and_write(
     problems: Sequence[SceneProblem], swept: Sequence[Swept | None], arguments: argparse.Namespace
 ) -> list[Comparison]:
     """Solve, print, and write the files that are asked for."""
-    for own in _models_from(arguments):
-        problems = own.measured(problems, arguments.models_from, _store_of(arguments))
-    solved = _solved(problems, arguments)
-    found = [replace(one, swept=of) for one, of in zip(solved, swept, strict=True)]
-    said = in_full if arguments.verbose else in_short
-    print(printable(findings(found, said) if len(problems) == 1 else summary(found), lines=True))
-    _write(found, arguments)
-    return found
+    for reader in _model_readers(arguments):
+        problems = reader.measured(problems, arguments.models_from, _store_of(arguments))
+    solved = _solve(problems, arguments)
+    comparisons = [replace(comparison, swept=sweep) for comparison, sweep in zip(solved, swept, strict=True)]
+    lines_of = in_full if arguments.verbose else in_short
+    print(printable(findings(comparisons, lines_of) if len(problems) == 1 else summary(comparisons), lines=True))
+    _write(comparisons, arguments)
+    return comparisons
 
 
-def _solved(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> list[Comparison]:
+def _solve(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> list[Comparison]:
     """What was understood of one scene is printed before it is solved."""
     if len(problems) == 1:
         (problem,) = problems
@@ -180,20 +184,20 @@ def _solved(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> 
         return compare_scenes(problems, engine)
 
 
-def _reported(
+def _solve_and_report(
     problems: Sequence[SceneProblem], swept: Sequence[Swept | None], arguments: argparse.Namespace
 ) -> list[Comparison]:
-    """The same, with a page in a folder of its own."""
+    """Solve, print and write as without --report, and write a page into a folder of its own."""
     from validation.advice.page import PAGE, files_of_comparison  # which takes half a second to import
     from validation.report.folder import COMPARISON, Folder
     from validation.report.provenance import machine, provenance
 
     with Folder(arguments.report, kind=COMPARISON, option="--report") as folder:
-        found = _found(problems, swept, arguments)
+        comparisons = _solve_and_write(problems, swept, arguments)
         about = provenance("compare", {"compare": problems[0].seed}, Engine(workers=arguments.workers), {}, machine())
-        folder.replace(files_of_comparison(found, about))
+        folder.replace(files_of_comparison(comparisons, about))
     print(printable(f"report: {arguments.report / PAGE}"))
-    return found
+    return comparisons
 
 
 def _announce(model: SceneModel) -> None:
@@ -206,10 +210,10 @@ def _announce(model: SceneModel) -> None:
         )
 
 
-def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
+def _write(comparisons: list[Comparison], arguments: argparse.Namespace) -> None:
     """The files that are asked for, each of them whole; of several scenes a list, and a column for the scene."""
     if arguments.json or arguments.csv or _exports(arguments):
-        _write_data(found, arguments)
+        _write_data(comparisons, arguments)
     if arguments.figure is not None:
         from validation.advice.figure import (
             figure_over_seconds,
@@ -217,21 +221,21 @@ def _write(found: list[Comparison], arguments: argparse.Namespace) -> None:
         )
 
         form = arguments.figure.suffix[1:]
-        picture = figure_over_seconds(found[0], form) if arguments.over else to_figure(found, form=form)
+        picture = figure_over_seconds(comparisons[0], form) if arguments.over else to_figure(comparisons, form=form)
         write_given(arguments.figure, picture)
 
 
-def _write_data(found: list[Comparison], arguments: argparse.Namespace) -> None:
+def _write_data(comparisons: list[Comparison], arguments: argparse.Namespace) -> None:
     # imported where a file is asked for
     from validation.advice.exported import table_of_several, to_json_of
     from validation.analysis.contents import as_csv
 
     if arguments.json:
-        write_given(arguments.json, to_json_of(found).encode())
+        write_given(arguments.json, to_json_of(comparisons).encode())
     if arguments.csv:
-        write_given(arguments.csv, as_csv(table_of_several(found)))
+        write_given(arguments.csv, as_csv(table_of_several(comparisons)))
     for export, path in _exports(arguments):
-        write_given(path, export.written(found))
+        write_given(path, export.written(comparisons))
 
 
 def _sweep(word: str) -> tuple[str, list[str]]:
