@@ -7,7 +7,7 @@ from tests.seeded import catches
 from validation.analysis.claims import Claim, alone
 from validation.analysis.evidence import Verdict
 
-AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
+AGREE, DIFFER, UNDECIDED = Verdict.WITHIN, Verdict.OUTSIDE, Verdict.INCONCLUSIVE
 HURSTS = (0.4, 0.7, 1.0)
 LETTERS = {"a": AGREE, "d": DIFFER, "u": UNDECIDED}
 

@@ -25,7 +25,7 @@ from validation.analysis.evidence import ClaimStatus, Role, Verdict
 from validation.analysis.series import Margin, Series
 from validation.analysis.study import Outcomes, Study
 
-AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
+AGREE, DIFFER, UNDECIDED = Verdict.WITHIN, Verdict.OUTSIDE, Verdict.INCONCLUSIVE
 VALUE = {AGREE: (0.2, 0.1), DIFFER: (3.0, 0.1), UNDECIDED: (1.0, 0.3)}
 """dB and half-width of a number with each verdict within 1 dB."""
 
@@ -45,7 +45,7 @@ CLAIM = Claim(says="It is so.", short="A model agrees with another", quantity="l
 @pytest.mark.parametrize(
     ("verdicts", "status", "limits", "headline"),
     [
-        ((AGREE, AGREE, AGREE), ClaimStatus.HOLDS, "", "A model agrees with another within 1 dB"),
+        ((AGREE, AGREE, AGREE), ClaimStatus.SUPPORTED, "", "A model agrees with another within 1 dB"),
         (
             (AGREE, AGREE, DIFFER),
             ClaimStatus.LIMITED,
@@ -55,19 +55,19 @@ CLAIM = Claim(says="It is so.", short="A model agrees with another", quantity="l
         # one tested point of a range is no range
         (
             (AGREE, UNDECIDED, AGREE),
-            ClaimStatus.OPEN,
+            ClaimStatus.INCONCLUSIVE,
             "",
             "It is not decided whether a model agrees with another within 1 dB: +1.00 ± 0.30 dB at h/d = 1",
         ),
         (
             (AGREE, DIFFER, DIFFER),
-            ClaimStatus.CONTRADICTED,
+            ClaimStatus.REFUTED,
             "",
             "A model differs from another: +3.00 ± 0.10 dB at h/d = 1",
         ),
         (
             (DIFFER, AGREE, AGREE),
-            ClaimStatus.CONTRADICTED,
+            ClaimStatus.REFUTED,
             "",
             "A model differs from another: +3.00 ± 0.10 dB at h/d = 0.1",
         ),
@@ -122,17 +122,17 @@ def test_limits_from_the_last_value_on_or_along_quantities(along, numbers, limit
 
 def test_limits_need_a_number_of_each_quantity():
     numbers = [*by_height(AGREE, DIFFER), *by_height(DIFFER, DIFFER, quantity="rms of level")[1:]]
-    assert Claim(says="It is so.", along="h/d").judged(numbers).status is ClaimStatus.CONTRADICTED
+    assert Claim(says="It is so.", along="h/d").judged(numbers).status is ClaimStatus.REFUTED
 
 
 def test_a_claim_that_things_differ_is_confirmed_by_that():
     claim = Claim(says="They differ.", short="They differ", differ=True)
     judged = claim.judged(by_height(DIFFER, DIFFER))
-    assert judged.status is ClaimStatus.HOLDS
+    assert judged.status is ClaimStatus.SUPPORTED
     assert claim.headline(judged) == "They differ: the nearest is +3.00 ± 0.10 dB at h/d = 0.1"
     alike = claim.judged(by_height(AGREE))
     assert claim.headline(alike) == "Not so that they differ: +0.20 ± 0.10 dB at h/d = 0.1"
-    assert claim.judged(by_height(AGREE, DIFFER)).status is ClaimStatus.CONTRADICTED
+    assert claim.judged(by_height(AGREE, DIFFER)).status is ClaimStatus.REFUTED
 
 
 def test_a_matrix_has_a_column_for_each_quantity_that_it_names():

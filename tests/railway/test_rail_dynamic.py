@@ -33,9 +33,9 @@ def planted(factor):
 @pytest.mark.parametrize(
     ("factor", "status", "only"),
     [
-        (lambda offset: 1.02, ClaimStatus.HOLDS, False),
-        (lambda offset: 1.5, ClaimStatus.CONTRADICTED, False),
-        (lambda offset: 1 + 0.05 * offset, ClaimStatus.CONTRADICTED, True),
+        (lambda offset: 1.02, ClaimStatus.SUPPORTED, False),
+        (lambda offset: 1.5, ClaimStatus.REFUTED, False),
+        (lambda offset: 1 + 0.05 * offset, ClaimStatus.REFUTED, True),
     ],
 )
 def test_the_claim_of_the_filter_follows_what_lifts_the_wheel_in_motion(factor, status, only):

@@ -92,9 +92,9 @@ def words_of(row):
 def enough_by_most(cell):
     """A counterexample outvoted."""
     return (
-        Verdict.AGREE
-        if 2 * sum(number.verdict is Verdict.AGREE for number in cell.numbers) > len(cell.numbers)
-        else Verdict.DIFFER
+        Verdict.WITHIN
+        if 2 * sum(number.verdict is Verdict.WITHIN for number in cell.numbers) > len(cell.numbers)
+        else Verdict.OUTSIDE
     )
 
 
@@ -431,20 +431,20 @@ def test_decibels_are_printed_as_their_quantity():
 
 AGREES, DIFFERS, UNDECIDED = (0.0, 0.0), (9.0, 0.0), (0.0, 9.0)
 """Value and half-width."""
-YES, NO, OPEN = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
+YES, NO, OPEN = Verdict.WITHIN, Verdict.OUTSIDE, Verdict.INCONCLUSIVE
 
 
 def enough_unless_it_differs(cell):
     """What is undecided taken for what agrees."""
     right = verdict_of_a_cell(cell)
-    return Verdict.AGREE if right is Verdict.UNDECIDED and not cell.lacking else right
+    return Verdict.WITHIN if right is Verdict.INCONCLUSIVE and not cell.lacking else right
 
 
 verdict_of_a_cell = strip.Cell.verdict.fget
 
 
 @catches(
-    "a place with one number that is undecided under a yes", found=[AGREES, UNDECIDED], verdict=Verdict.UNDECIDED
+    "a place with one number that is undecided under a yes", found=[AGREES, UNDECIDED], verdict=Verdict.INCONCLUSIVE
 ).at("validation.report.answers.strip.Cell.verdict", property(enough_unless_it_differs))
 @pytest.mark.parametrize(
     ("found", "verdict"),

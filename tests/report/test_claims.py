@@ -19,7 +19,7 @@ from validation.report.commands.run_cases import lines_of
 from validation.report.contents import CASES, TIMED
 from validation.report.section import Section, case_results, total_of
 
-AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
+AGREE, DIFFER, UNDECIDED = Verdict.WITHIN, Verdict.OUTSIDE, Verdict.INCONCLUSIVE
 OFF = {AGREE: (0.0, 0.0), DIFFER: (9.0, 0.0), UNDECIDED: (0.1, 1.0)}
 """Difference and half-width of a number with each verdict."""
 found = st.lists(st.sampled_from(Verdict), min_size=1, max_size=5)
@@ -66,7 +66,7 @@ WITHIN = {"limits": "below 1", "inside": numbers_with([AGREE])}
 
 @catches(
     "a contradicted claim under a green badge",
-    verdicts=[Verdict.AGREE, Verdict.DIFFER],
+    verdicts=[Verdict.WITHIN, Verdict.OUTSIDE],
     changes={},
     words="✗ contradicted",
 ).at(
@@ -186,7 +186,7 @@ def test_a_statement_has_the_status_of_its_numbers(verdicts):
     """One by one: of the first alone, which nothing else moves."""
     section = section_of(claim(verdicts))
     (answer,) = answers(entry(quantity="y0"), [section])
-    expected = {AGREE: ClaimStatus.HOLDS, DIFFER: ClaimStatus.CONTRADICTED, UNDECIDED: ClaimStatus.OPEN}
+    expected = {AGREE: ClaimStatus.SUPPORTED, DIFFER: ClaimStatus.REFUTED, UNDECIDED: ClaimStatus.INCONCLUSIVE}
     assert answer["status"] is expected[verdicts[0]]
     (whole,) = answers(entry(), [section])
     assert whole["status"] is section.claims[0].status

@@ -20,7 +20,7 @@ from validation.report.page import PageFigure
 from validation.report.section import Section
 from validation.report.style import picture
 
-FIELDS = [VerdictCell("+1 %", Verdict.AGREE), VerdictCell("+9 %", Verdict.DIFFER), "no value"]
+FIELDS = [VerdictCell("+1 %", Verdict.WITHIN), VerdictCell("+9 %", Verdict.OUTSIDE), "no value"]
 MATRIX = Table("Deviation", {"H": ["0.4", "0.7", "1"], "Fbar 1 to 10": FIELDS, "Fbar 10 to 100": FIELDS[::-1]})
 
 

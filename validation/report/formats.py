@@ -15,7 +15,7 @@ from validation.analysis.study import Settings
 from validation.report.columns import SYMBOLS, symbols_in
 
 SYMBOL = {"agree": "✓", "differ": "≠", "undecided": "?"}
-LETTER = {Verdict.AGREE: "A", Verdict.DIFFER: "D", Verdict.UNDECIDED: "?"}
+LETTER = {Verdict.WITHIN: "A", Verdict.OUTSIDE: "D", Verdict.INCONCLUSIVE: "?"}
 STATUS_SYMBOL = {"holds": "✓", "holds within limits": "(✓)", "contradicted": "✗", "open": "?"}
 """Each status also has a border of its own, so that it is known without colour."""
 PANEL = re.compile(r"^\([a-z]\)(, \([a-z]\))* ")

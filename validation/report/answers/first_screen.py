@@ -112,7 +112,7 @@ def _answered(question: Question, sections: Mapping[str, Section]) -> AnsweredQu
         ", ".join([*_measured(cells, source), *_of_scene(question, section)]),
         " ".join(dict.fromkeys(number.reason for number in numbers)),
         within,
-        tuple((text, cost, case * (case in evidence)) for text, cost, case in offered if verdicts != {Verdict.AGREE}),
+        tuple((text, cost, case * (case in evidence)) for text, cost, case in offered if verdicts != {Verdict.WITHIN}),
     )
 
 
@@ -161,7 +161,7 @@ def _offered(model: Alternative, question: Question, within: str, evidence: Mapp
     cells = model.source.cells(evidence[model.source.case]) if model.source.case in evidence else []
     margin = _margins(question, _numbers(cells))
     by = f", within {margin} {model.by}".rstrip() if model.by or margin != within else ""
-    where = _where(cells, Verdict.AGREE, model.source.over)
+    where = _where(cells, Verdict.WITHIN, model.source.over)
     return f"{model.name} {where}{by}" if where else ""
 
 
@@ -179,7 +179,7 @@ def _margins(question: Question, numbers: Sequence[Number]) -> str:
 
 def _word(verdicts: set[Verdict]) -> str:
     """The whole strip."""
-    if Verdict.AGREE in verdicts:
+    if Verdict.WITHIN in verdicts:
         return "Yes" if len(verdicts) == 1 else "In part"
     return WORDS[verdicts.pop()].capitalize() if len(verdicts) == 1 else "No or open"
 
@@ -226,7 +226,7 @@ def sentence(cells: Sequence[Cell], over: str, printed: Printed) -> str:
 
 def _found(verdict: Verdict, numbers: Sequence[Number], printed: Printed) -> str:
     mine = [number for number in numbers if number.verdict is verdict]
-    if verdict is Verdict.DIFFER:
+    if verdict is Verdict.OUTSIDE:
         return f"{'' if printed is times else 'off by '}{_by_quantity(mine, printed)}"
     if not mine:
         return "some numbers are missing"

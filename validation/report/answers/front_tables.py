@@ -41,7 +41,7 @@ def _found(row: Mapping[str, Any], evidence: Evidence) -> dict[str, Any]:
     errors = [tuple(scale * float(points[name][i]) for name in ("error", "± sample")) for i in timed]
     # of several that took as long, that whose interval ends there
     value, half = min(errors, key=lambda error: abs(sum(error) - end))
-    verdict = Verdict.AGREE if end <= enough else Verdict.DIFFER if value - half > enough else Verdict.UNDECIDED
+    verdict = Verdict.WITHIN if end <= enough else Verdict.OUTSIDE if value - half > enough else Verdict.INCONCLUSIVE
     return {"enough": TERMS[verdict], "value": value, "half": half}
 
 
@@ -61,7 +61,7 @@ def _place(row: Mapping[str, Any], section: Section) -> str:
 def times_faster_said(rows: Sequence[Mapping[str, Any]]) -> str:
     """Of springs over all quantities for which they are enough, the least and the most."""
     found = [
-        float(row["times faster"]) for row in rows if row["model"] in SPRINGS and row["enough"] == TERMS[Verdict.AGREE]
+        float(row["times faster"]) for row in rows if row["model"] in SPRINGS and row["enough"] == TERMS[Verdict.WITHIN]
     ]
     if not found:
         return ""

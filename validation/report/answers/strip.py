@@ -7,11 +7,11 @@ from validation.analysis.claims import Choice, alone, listed
 from validation.analysis.evidence import Evidence, Number, Place, Verdict, placed
 from validation.analysis.series import worst
 
-WORDS = {Verdict.AGREE: "yes", Verdict.DIFFER: "no", Verdict.UNDECIDED: "open"}
+WORDS = {Verdict.WITHIN: "yes", Verdict.OUTSIDE: "no", Verdict.INCONCLUSIVE: "open"}
 TERMS = {
-    Verdict.AGREE: "within tolerance",
-    Verdict.DIFFER: "outside tolerance",
-    Verdict.UNDECIDED: "inconclusive",
+    Verdict.WITHIN: "within tolerance",
+    Verdict.OUTSIDE: "outside tolerance",
+    Verdict.INCONCLUSIVE: "inconclusive",
 }
 """The same in sentences."""
 
@@ -32,7 +32,7 @@ class Cell:
     def verdict(self) -> Verdict:
         """One counterexample is enough for no; one that is undecided, and one that lacks, leaves it open."""
         found = worst(self.numbers).verdict
-        return Verdict.UNDECIDED if self.lacking and found is Verdict.AGREE else found
+        return Verdict.INCONCLUSIVE if self.lacking and found is Verdict.WITHIN else found
 
     @property
     def alone(self) -> str:
