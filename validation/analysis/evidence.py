@@ -203,6 +203,11 @@ class ClaimStatus(StrEnum):
     REFUTED = "refuted"
     INCONCLUSIVE = "inconclusive"
 
+    @classmethod
+    def _missing_(cls, value: object) -> "ClaimStatus | None":
+        """By its value in files of schema 1."""
+        return next((status for status, earlier in EARLIER_STATUSES.items() if earlier == value), None)
+
     @property
     def earlier(self) -> str:
         """Its value in files of schema 1, which schema 2 keeps for one release under the same key."""
@@ -234,8 +239,8 @@ class Whose(StrEnum):
 class JudgedClaim:
     """A claim, the numbers that test it, and the answer: one sentence with three numbers at most.
 
-    key: by which it is found in its case; confirmed_by: agree; or differ, where the claim says that two things are not
-    the same; limits: the conditions under which alone it is said to hold, as text; inside: the numbers under these.
+    key: by which it is found in its case; confirmed_by: within tolerance, or outside, where the claim says that two
+    things are not the same; limits: the conditions under which alone it is said to hold, as text; inside: the numbers under these.
     Raises ValueError without numbers, for an identity among them, and for limits without numbers inside.
     """
 
@@ -254,7 +259,9 @@ class JudgedClaim:
         if identities := [number.label for number in self.numbers if number.role is Role.IDENTITY]:
             raise ValueError(f"numbers of the claim {self.claim!r} must not be identities, got {identities}")
         if self.confirmed_by is Verdict.INCONCLUSIVE:
-            raise ValueError(f"confirmed_by of the claim {self.claim!r} must be agree or differ, got undecided")
+            raise ValueError(
+                f"confirmed_by of the claim {self.claim!r} must be within or outside tolerance, got inconclusive"
+            )
         known = {number.label for number in self.numbers}
         if bool(self.limits) != bool(self.inside) or any(number.label not in known for number in self.inside):
             raise ValueError(f"limits of the claim {self.claim!r} must come with numbers of its own inside them")
@@ -267,7 +274,9 @@ class JudgedClaim:
             return ClaimStatus.SUPPORTED
         if inside == {self.confirmed_by}:
             return ClaimStatus.LIMITED
-        return ClaimStatus.INCONCLUSIVE if verdicts <= {self.confirmed_by, Verdict.INCONCLUSIVE} else ClaimStatus.REFUTED
+        return (
+            ClaimStatus.INCONCLUSIVE if verdicts <= {self.confirmed_by, Verdict.INCONCLUSIVE} else ClaimStatus.REFUTED
+        )
 
     def count(self, verdict: Verdict) -> int:
         """Of the numbers that test it."""

@@ -14,8 +14,8 @@ ROUNDING = 1e-9
 class Verdict(StrEnum):
     """Of a number relative to its reference; the last two are of a model that has no number.
 
-    WITHIN, OUTSIDE: the whole 95 % interval lies within the tolerance, or outside; INCONCLUSIVE: it straddles the limit;
-    NOT_SERVED: the model rejects the scene; NO_RESULT: the model failed.
+    WITHIN, OUTSIDE: the whole 95 % interval lies within the tolerance, or outside; INCONCLUSIVE: it straddles the
+    limit; NOT_SERVED: the model rejects the scene; NO_RESULT: the model failed.
     """
 
     WITHIN = "within tolerance"
@@ -23,6 +23,11 @@ class Verdict(StrEnum):
     INCONCLUSIVE = "inconclusive"
     NOT_SERVED = "not served"
     NO_RESULT = "no result"
+
+    @classmethod
+    def _missing_(cls, value: object) -> "Verdict | None":
+        """By its value in files of schema 1."""
+        return next((verdict for verdict, earlier in EARLIER_VERDICTS.items() if earlier == value), None)
 
     @property
     def earlier(self) -> str:
@@ -36,7 +41,7 @@ class Verdict(StrEnum):
 
     @property
     def sign(self) -> str:
-        """One character, for strips and figures: = within tolerance, # outside, ? inconclusive, r, x without a number."""
+        """One character of a strip: = within tolerance, # outside, ? inconclusive, r not served, x no result."""
         return SIGNS[self]
 
 
@@ -47,6 +52,8 @@ EARLIER_VERDICTS = {
     Verdict.NOT_SERVED: "refused",
     Verdict.NO_RESULT: "failed",
 }
+OF_NUMBERS = (Verdict.WITHIN, Verdict.OUTSIDE, Verdict.INCONCLUSIVE)
+"""Verdicts that a number has."""
 SIGNS = dict(zip(Verdict, "=#?rx", strict=True))
 
 

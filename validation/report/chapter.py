@@ -120,9 +120,14 @@ def answers(entry: ChapterEntry, sections: Sequence[Section]) -> list[Answer]:
 def _answered(entry: ChapterEntry, test: ChapterTest, section: Section) -> Answer:
     judged = test.judged(entry.statement, section.evidence) if section.evidence else None
     if judged is None:
-        return {"case": section.name, "status": None, "answer": "This run has no number for it."}
+        return {"case": section.name, "status": None, "outcome": None, "answer": "This run has no number for it."}
     tested = "" if judged.claim == entry.statement else f"Tested as “{judged.claim}” "
-    return {"case": section.name, "status": judged.status, "answer": tested + judged.answer}
+    return {
+        "case": section.name,
+        "status": judged.status.earlier,
+        "outcome": judged.status,
+        "answer": tested + judged.answer,
+    }
 
 
 def book_figures(sections: Sequence[Section]) -> list[tuple[BookFigure, JudgedClaim | None, JudgedClaim | None]]:
