@@ -240,7 +240,8 @@ class JudgedClaim:
     """A claim, the numbers that test it, and the answer: one sentence with three numbers at most.
 
     key: by which it is found in its case; confirmed_by: within tolerance, or outside, where the claim says that two
-    things are not the same; limits: the conditions under which alone it is said to hold, as text; inside: the numbers under these.
+    things are not the same; limits: the conditions under which alone it is said to hold, as text; inside: the numbers
+    under these.
     Raises ValueError without numbers, for an identity among them, and for limits without numbers inside.
     """
 
