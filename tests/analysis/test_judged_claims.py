@@ -13,11 +13,12 @@ from validation.analysis import series, statistics
 from validation.analysis.evidence import ClaimStatus, Evidence, JudgedClaim, Number, Role, Verdict
 from validation.analysis.series import root_mean_square, worst
 from validation.analysis.statistics import Estimate, student
+from validation.analysis.verdict import OF_NUMBERS
 
 AGREE, DIFFER, UNDECIDED = Verdict.WITHIN, Verdict.OUTSIDE, Verdict.INCONCLUSIVE
 OFF = {AGREE: (0.0, 0.0), DIFFER: (5.0, 0.0), UNDECIDED: (1.0, 0.5)}
 """Difference and half-width of a number with each verdict, within a tolerance of one."""
-verdicts = st.lists(st.sampled_from(Verdict), min_size=1, max_size=6)
+verdicts = st.lists(st.sampled_from(OF_NUMBERS), min_size=1, max_size=6)
 
 
 def point(value, sample=0.0, at=1.0, **changes):

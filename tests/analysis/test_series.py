@@ -112,7 +112,12 @@ def test_ends_of_a_row_hold_sample_and_grid_and_ranges_have_a_table_of_their_own
     points, judged = tables_of([one])
     np.testing.assert_allclose(points["low"], [1 - 0.5 - 0.1 * student(4), -3 - 0.25 - 0.1 * student(4)])
     assert judged.name == "level, judged"
-    assert [judged[name].tolist() for name in ("from", "to", "value", "verdict")] == [[1.0], [2.0], [-3.0], ["differ"]]
+    assert [judged[name].tolist() for name in ("from", "to", "value", "verdict")] == [
+        [1.0],
+        [2.0],
+        [-3.0],
+        ["outside tolerance"],
+    ]
 
 
 def test_a_series_has_a_value_at_each_point():

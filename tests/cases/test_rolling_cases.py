@@ -159,7 +159,7 @@ def test_springs_have_the_curve_of_the_book_and_three_dimensions_do_not(rolled):
     """And half of their force does not have it."""
     evidence = CASE.evidence(rolled)
     curve, three_d, equivalent, *_ = evidence.claims
-    assert curve.status is ClaimStatus.SUPPORTED and curve.answer.startswith("Yes, within 1 dB")
+    assert curve.status is ClaimStatus.SUPPORTED and curve.answer.startswith("Supported, within 1 dB")
     assert three_d.answer.startswith("We get this curve, and three dimensions differ: +")
     assert equivalent.status is ClaimStatus.SUPPORTED
     # the line trace, of which no claim is made, has not the levels of three dimensions

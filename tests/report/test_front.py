@@ -132,7 +132,7 @@ def test_a_figure_of_the_book_has_the_status_of_its_claims():
         claim([Verdict.WITHIN]), key="peak-and-jump", claim="The peak of Fig. 14.4 is there.", whose=Whose.BOOK
     )
     ((row, computed, confirmed),) = book_figures([section_of(held, name="wheel")])
-    assert (row.place, computed.status, confirmed) == ("Fig. 14.4", "holds", None)
+    assert (row.place, computed.status, confirmed) == ("Fig. 14.4", "supported", None)
 
 
 def test_a_filter_is_right_where_it_agrees_over_all_grounds():

@@ -92,8 +92,8 @@ class Number:
     def sentence(self) -> str:
         """All of it in a line."""
         return (
-            f"{self.label} = {self.value:.6g}{self.behind} ± {self.uncertainty:.2g}{self.behind}, {self.verdict} with "
-            f"{self.reference:.6g}{self.behind} within {self.tolerance:.2g}{self.behind}"
+            f"{self.label} = {self.value:.6g}{self.behind} ± {self.uncertainty:.2g}{self.behind}, {self.verdict}: "
+            f"reference {self.reference:.6g}{self.behind}, tolerance {self.tolerance:.2g}{self.behind}"
         )
 
     @property

@@ -7,8 +7,6 @@ from itertools import groupby
 
 Place = str | float | tuple[float, float]
 """A region by its name, a parameter by its value, or a range of it by both ends."""
-ROUNDING = 1e-9
-"""Relative to the tolerance: an interval that ends at the tolerance to rounding lies within it."""
 
 
 class Verdict(StrEnum):
@@ -57,12 +55,13 @@ OF_NUMBERS = (Verdict.WITHIN, Verdict.OUTSIDE, Verdict.INCONCLUSIVE)
 SIGNS = dict(zip(Verdict, "=#?rx", strict=True))
 
 
-def verdict_of(difference: float, half_width: float, tolerance: float) -> Verdict:
+def verdict_of(difference: float, half_width: float, tolerance: float, rounding: float = 0.0) -> Verdict:
     """WITHIN where |difference| + half_width <= tolerance, OUTSIDE where |difference| - half_width > tolerance.
 
-    All three in one unit; half_width: of the 95 % interval. To rounding, see `ROUNDING`; else INCONCLUSIVE.
+    Else INCONCLUSIVE. All three in one unit; half_width: of the 95 % interval; rounding: relative to the tolerance, of
+    values that are computed from each other.
     """
-    limit = tolerance * (1 + ROUNDING)
+    limit = tolerance * (1 + rounding)
     if abs(difference) + half_width <= limit:
         return Verdict.WITHIN
     return Verdict.OUTSIDE if abs(difference) - half_width > limit else Verdict.INCONCLUSIVE

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from validation.analysis.claims import NO, Claim
+from validation.analysis.claims import REFUTED, Claim
 from validation.analysis.evidence import Evidence, JudgedClaim
 from validation.analysis.quantity import quantity_with
 from validation.analysis.statistics import POWER_DECIBEL
@@ -37,7 +37,7 @@ class ChapterTest:
     quantity: str = ""
     model: str = ""
     where: Mapping[str, str | float] = field(default_factory=dict)
-    no: str = NO
+    no: str = REFUTED
 
     def judged(self, statement: str, evidence: Evidence) -> JudgedClaim | None:
         """The claim of this evidence, or the statement with its numbers; None where it has none, or no such claim."""

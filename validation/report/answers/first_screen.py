@@ -192,7 +192,7 @@ def _margins(question: Question, numbers: Sequence[Number]) -> str:
 def _word(verdicts: set[Verdict]) -> str:
     """The whole strip."""
     if len(verdicts) == 1:
-        return verdicts.pop().capitalize()
+        return next(iter(verdicts)).capitalize()
     return "In part" if Verdict.WITHIN in verdicts else "Outside tolerance or inconclusive"
 
 

@@ -5,7 +5,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from validation.analysis.evidence import Evidence, Verdict, placed
-from validation.analysis.verdict import verdict_of
 from validation.benchmarks.work_precision.case import POINTS
 from validation.benchmarks.work_precision.pareto import FASTER
 from validation.benchmarks.work_precision.pressed import RoughPunchProblem
@@ -41,8 +40,7 @@ def _found(row: Mapping[str, Any], evidence: Evidence) -> dict[str, Any]:
     errors = [tuple(scale * float(points[name][i]) for name in ("error", "± sample")) for i in timed]
     # of several that took as long, that whose interval ends there
     value, half = min(errors, key=lambda error: abs(sum(error) - end))
-    # the end of the interval, as the table has it, decides; of which value and half are rounded
-    verdict = Verdict.WITHIN if end <= enough else verdict_of(value, half, enough)
+    verdict = Verdict.WITHIN if end <= enough else Verdict.OUTSIDE if value - half > enough else Verdict.INCONCLUSIVE
     return {"enough": verdict, "value": value, "half": half}
 
 
@@ -61,7 +59,7 @@ def _place(row: Mapping[str, Any], section: Section) -> str:
 
 def times_faster_said(rows: Sequence[Mapping[str, Any]]) -> str:
     """Of springs over all quantities for which they are enough, the least and the most."""
-    found = [float(row["times faster"]) for row in rows if row["model"] in SPRINGS and row["enough"] is Verdict.WITHIN]
+    found = [float(row["times faster"]) for row in rows if row["model"] in SPRINGS and row["enough"] == Verdict.WITHIN]
     if not found:
         return ""
     least, most = (f"{float(f'{times:.2g}'):g}" for times in (min(found), max(found)))
