@@ -184,8 +184,8 @@ def test_an_identity_tests_no_claim_and_stands_in_a_matrix():
         (
             (AGREE, UNDECIDED, UNDECIDED, DIFFER),
             {"along": "h/d"},
-            "Refuted: +3.00 ± 0.10 dB at h/d = 100, tolerance 1 dB; within tolerance only at h/d = 0.1; inconclusive at "
-            "h/d = 1 to 10.",
+            "Refuted: +3.00 ± 0.10 dB at h/d = 100, tolerance 1 dB; within tolerance only at h/d = 0.1; "
+            "inconclusive at h/d = 1 to 10.",
         ),
         (
             (AGREE, UNDECIDED),

@@ -163,7 +163,7 @@ def test_springs_have_the_curve_of_the_book_and_three_dimensions_do_not(rolled):
     assert three_d.answer.startswith("We get this curve, and three dimensions differ: +")
     assert equivalent.status is ClaimStatus.SUPPORTED
     # the line trace, of which no claim is made, has not the levels of three dimensions
-    assert any(n.model == rolling.INPUT_NAMES["line"] and n.verdict == "differ" for n in evidence.numbers)
+    assert any(n.model == rolling.INPUT_NAMES["line"] and n.verdict is Verdict.OUTSIDE for n in evidence.numbers)
     springs = rolled[rolling.SPRINGS, 0.01]
     halved = changed(rolled, {(rolling.SPRINGS, 0.01): springs | {"level": springs["level"] / 4}})
     assert CASE.evidence(halved).claims[0].status is ClaimStatus.REFUTED

@@ -16,7 +16,7 @@ OPEN = (
     ".cell.inconclusive",
     "table.map td.inconclusive",
     ".verdict.inconclusive",
-    ".inconclusive",
+    ".verdict.inconclusive",
 )
 NAMED = {"white": "#ffffff"}
 
@@ -62,7 +62,7 @@ def exchanged(one, other):
     yes=".verdict.agree",
     no=".verdict.differ",
     undecided=".verdict.undecided",
-).at(f"{__name__}.sheet", exchanged("agree", "differ"))
+).at(f"{__name__}.sheet", exchanged("within", "outside"))
 @pytest.mark.parametrize(("yes", "no", "undecided"), list(zip(YES, NO, OPEN, strict=True)))
 def test_yes_is_green_no_is_red_and_undecided_is_neither(yes, no, undecided):
     text = sheet()

@@ -73,7 +73,7 @@ def test_rows_of_the_file_and_of_the_results_are_the_numbers():
 
 
 @catches("two signs of verdicts exchanged").at(
-    "validation.report.formats.SYMBOL", {"agree": "≠", "differ": "✓", "undecided": "?"}
+    "validation.report.formats.SYMBOL", dict(zip(OF_NUMBERS, "≠✓?", strict=True))
 )
 def test_every_verdict_has_its_word_and_sign():
     assert dict(zip(OF_NUMBERS, "✓≠?", strict=True)) == formats.SYMBOL
