@@ -7,7 +7,7 @@ from tests.seeded import catches
 from validation.analysis.claims import Claim, alone
 from validation.analysis.evidence import Verdict
 
-AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
+AGREE, DIFFER, UNDECIDED = Verdict.WITHIN, Verdict.OUTSIDE, Verdict.INCONCLUSIVE
 HURSTS = (0.4, 0.7, 1.0)
 LETTERS = {"a": AGREE, "d": DIFFER, "u": UNDECIDED}
 
@@ -84,7 +84,7 @@ def claimed(*rows):
 
 
 def test_limits_of_a_claim_name_the_condition_on_which_they_depend():
-    assert "not decided at F = 3 (H = 0.4 alone); beyond that" in claimed("aaa", "aaa", "uaa", "ddd")
+    assert "inconclusive at F = 3 (H = 0.4 alone); beyond that" in claimed("aaa", "aaa", "uaa", "ddd")
     assert "H = 1, F = 3 (H = 1 alone)" in claimed("aaa", "aaa", "aad")
     assert "(" not in claimed("aaa", "aaa", "ddd")
     assert "(H = 0.4 and 0.7)" in claimed("ddu", "aaa")

@@ -25,7 +25,7 @@ from validation.analysis.evidence import ClaimStatus, Role, Verdict
 from validation.analysis.series import Margin, Series
 from validation.analysis.study import Outcomes, Study
 
-AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
+AGREE, DIFFER, UNDECIDED = Verdict.WITHIN, Verdict.OUTSIDE, Verdict.INCONCLUSIVE
 VALUE = {AGREE: (0.2, 0.1), DIFFER: (3.0, 0.1), UNDECIDED: (1.0, 0.3)}
 """dB and half-width of a number with each verdict within 1 dB."""
 
@@ -45,7 +45,7 @@ CLAIM = Claim(says="It is so.", short="A model agrees with another", quantity="l
 @pytest.mark.parametrize(
     ("verdicts", "status", "limits", "headline"),
     [
-        ((AGREE, AGREE, AGREE), ClaimStatus.HOLDS, "", "A model agrees with another within 1 dB"),
+        ((AGREE, AGREE, AGREE), ClaimStatus.SUPPORTED, "", "A model agrees with another within 1 dB"),
         (
             (AGREE, AGREE, DIFFER),
             ClaimStatus.LIMITED,
@@ -55,19 +55,19 @@ CLAIM = Claim(says="It is so.", short="A model agrees with another", quantity="l
         # one tested point of a range is no range
         (
             (AGREE, UNDECIDED, AGREE),
-            ClaimStatus.OPEN,
+            ClaimStatus.INCONCLUSIVE,
             "",
-            "It is not decided whether a model agrees with another within 1 dB: +1.00 ± 0.30 dB at h/d = 1",
+            "Inconclusive whether a model agrees with another within 1 dB: +1.00 ± 0.30 dB at h/d = 1",
         ),
         (
             (AGREE, DIFFER, DIFFER),
-            ClaimStatus.CONTRADICTED,
+            ClaimStatus.REFUTED,
             "",
             "A model differs from another: +3.00 ± 0.10 dB at h/d = 1",
         ),
         (
             (DIFFER, AGREE, AGREE),
-            ClaimStatus.CONTRADICTED,
+            ClaimStatus.REFUTED,
             "",
             "A model differs from another: +3.00 ± 0.10 dB at h/d = 0.1",
         ),
@@ -122,17 +122,17 @@ def test_limits_from_the_last_value_on_or_along_quantities(along, numbers, limit
 
 def test_limits_need_a_number_of_each_quantity():
     numbers = [*by_height(AGREE, DIFFER), *by_height(DIFFER, DIFFER, quantity="rms of level")[1:]]
-    assert Claim(says="It is so.", along="h/d").judged(numbers).status is ClaimStatus.CONTRADICTED
+    assert Claim(says="It is so.", along="h/d").judged(numbers).status is ClaimStatus.REFUTED
 
 
 def test_a_claim_that_things_differ_is_confirmed_by_that():
     claim = Claim(says="They differ.", short="They differ", differ=True)
     judged = claim.judged(by_height(DIFFER, DIFFER))
-    assert judged.status is ClaimStatus.HOLDS
+    assert judged.status is ClaimStatus.SUPPORTED
     assert claim.headline(judged) == "They differ: the nearest is +3.00 ± 0.10 dB at h/d = 0.1"
     alike = claim.judged(by_height(AGREE))
     assert claim.headline(alike) == "Not so that they differ: +0.20 ± 0.10 dB at h/d = 0.1"
-    assert claim.judged(by_height(AGREE, DIFFER)).status is ClaimStatus.CONTRADICTED
+    assert claim.judged(by_height(AGREE, DIFFER)).status is ClaimStatus.REFUTED
 
 
 def test_a_matrix_has_a_column_for_each_quantity_that_it_names():
@@ -163,44 +163,48 @@ def test_an_identity_tests_no_claim_and_stands_in_a_matrix():
     same = replace(number(AGREE, across="ridges"), role=Role.IDENTITY)
     claim, matrix = Claim(says="It is so."), Matrix(name="t", quantity="level", rows=("across",), columns="model")
     assert claim.judged([same, *by_height(DIFFER)]).numbers == tuple(by_height(DIFFER))
-    assert [str(cell) for cell in matrix.table([same]).columns["m"]] == ["+0.20 ± 0.10 dB: agree"]
+    assert [str(cell) for cell in matrix.table([same]).columns["m"]] == ["+0.20 ± 0.10 dB: within tolerance"]
 
 
 @pytest.mark.parametrize(
     ("verdicts", "changes", "answer"),
     [
-        ((AGREE, AGREE), {}, "Yes, within 1 dB: at worst +0.20 ± 0.10 dB at h/d = 0.1."),
-        ((AGREE,), {}, "Yes, within 1 dB: +0.20 ± 0.10 dB at h/d = 0.1."),
+        ((AGREE, AGREE), {}, "Supported, within 1 dB: at worst +0.20 ± 0.10 dB at h/d = 0.1."),
+        ((AGREE,), {}, "Supported, within 1 dB: +0.20 ± 0.10 dB at h/d = 0.1."),
         (
             (AGREE, AGREE, DIFFER),
             {"along": "h/d"},
-            "Yes up to h/d = 1, within 1 dB; beyond that +3.00 ± 0.10 dB at h/d = 10.",
+            "Supported up to h/d = 1, within 1 dB; beyond that +3.00 ± 0.10 dB at h/d = 10.",
         ),
         (
             (AGREE, AGREE, UNDECIDED, DIFFER),
             {"along": "h/d"},
-            "Yes up to h/d = 1, within 1 dB; not decided at h/d = 10; beyond that +3.00 ± 0.10 dB at h/d = 100.",
+            "Supported up to h/d = 1, within 1 dB; inconclusive at h/d = 10; beyond that +3.00 ± 0.10 dB at h/d = 100.",
         ),
         (
             (AGREE, UNDECIDED, UNDECIDED, DIFFER),
             {"along": "h/d"},
-            "No: +3.00 ± 0.10 dB at h/d = 100, where 1 dB is allowed; it agrees only at h/d = 0.1; not decided at "
-            "h/d = 1 to 10.",
+            "Refuted: +3.00 ± 0.10 dB at h/d = 100, tolerance 1 dB; within tolerance only at h/d = 0.1; "
+            "inconclusive at h/d = 1 to 10.",
         ),
         (
             (AGREE, UNDECIDED),
             {"along": "h/d"},
-            "Not decided within 1 dB: +1.00 ± 0.30 dB at h/d = 1; it agrees only at h/d = 0.1.",
+            "Inconclusive within 1 dB: +1.00 ± 0.30 dB at h/d = 1; within tolerance only at h/d = 0.1.",
         ),
-        ((UNDECIDED, DIFFER), {}, "No: +3.00 ± 0.10 dB at h/d = 1, where 1 dB is allowed."),
+        ((UNDECIDED, DIFFER), {}, "Refuted: +3.00 ± 0.10 dB at h/d = 1, tolerance 1 dB."),
         (
             (DIFFER,),
             {"no": NOT_THIS_CURVE},
-            "We do not get this curve: +3.00 ± 0.10 dB at h/d = 0.1, where 1 dB is allowed.",
+            "We do not get this curve: +3.00 ± 0.10 dB at h/d = 0.1, tolerance 1 dB.",
         ),
-        ((AGREE, UNDECIDED), {}, "Not decided within 1 dB: +1.00 ± 0.30 dB at h/d = 1."),
-        ((DIFFER, DIFFER), {"differ": True}, "Yes, by more than 1 dB: the nearest is +3.00 ± 0.10 dB at h/d = 0.1."),
-        ((DIFFER, AGREE), {"differ": True}, "No: +0.20 ± 0.10 dB at h/d = 1, within 1 dB."),
+        ((AGREE, UNDECIDED), {}, "Inconclusive within 1 dB: +1.00 ± 0.30 dB at h/d = 1."),
+        (
+            (DIFFER, DIFFER),
+            {"differ": True},
+            "Supported, by more than 1 dB: the nearest is +3.00 ± 0.10 dB at h/d = 0.1.",
+        ),
+        ((DIFFER, AGREE), {"differ": True}, "Refuted: +0.20 ± 0.10 dB at h/d = 1, within 1 dB."),
     ],
 )
 def test_the_answer_is_one_sentence_of_the_number_that_decides(verdicts, changes, answer):
@@ -212,8 +216,8 @@ def test_the_answer_is_one_sentence_of_the_number_that_decides(verdicts, changes
     ("numbers", "answer"),
     [
         # 0.3 of 0.1 is farther off than 3 dB of 2; among several margins none stands for all
-        ([(3.0, "a", 2.0), (0.3, "b", 0.1)], "No: +0.3 dB at q a = 1 (b), where 0.1 dB is allowed."),
-        ([(1.0, "a", 2.0), (0.09, "b", 0.1)], "Yes: at worst +0.09 dB at q a = 1 (b), within 0.1 dB."),
+        ([(3.0, "a", 2.0), (0.3, "b", 0.1)], "Refuted: +0.3 dB at q a = 1 (b), tolerance 0.1 dB."),
+        ([(1.0, "a", 2.0), (0.09, "b", 0.1)], "Supported: at worst +0.09 dB at q a = 1 (b), within 0.1 dB."),
     ],
 )
 def test_the_answer_has_the_margin_of_the_number_that_decides(numbers, answer):
@@ -223,7 +227,7 @@ def test_the_answer_has_the_margin_of_the_number_that_decides(numbers, answer):
 
 def test_the_rest_of_a_range_lies_below_beyond_or_elsewhere():
     below, elsewhere = (Claim(says="", along=a).judged(by_height(DIFFER, AGREE, AGREE)).answer for a in ("-h/d", "h/d"))
-    assert "; below that" in below and elsewhere.startswith("No")
+    assert "; below that" in below and elsewhere.startswith("Refuted")
     assert "; elsewhere" in Claim(says="", along="-quantity").judged(OF_QUANTITIES).answer
 
 
@@ -242,7 +246,7 @@ def test_among_those_that_agree_the_interval_counts_too():
 )
 def test_a_worst_point_is_at_its_place_and_names_follow_after_a_comma(where, said):
     answer = Claim(says="It is so.").judged([point(3.0, 0.1, quantity="level", model="m", where=where)]).answer
-    assert answer == f"No: +3.00 ± 0.10 dB{said}, where 1 dB is allowed."
+    assert answer == f"Refuted: +3.00 ± 0.10 dB{said}, tolerance 1 dB."
 
 
 @pytest.mark.parametrize(
@@ -277,8 +281,8 @@ def test_a_matrix_has_a_cell_for_each_number_with_its_verdict():
     numbers = [number(verdict, model=model, across=across) for model, verdict, across in places]
     table = Matrix(name="t", quantity="level", rows=("across",), columns="model").table(numbers)
     assert table.columns["across"] == ("ridges", "ground")
-    assert [str(cell) for cell in table.columns["a"]] == ["+0.20 ± 0.10 dB: agree"] * 2
-    assert [str(cell) for cell in table.columns["b"]] == ["+3.00 ± 0.10 dB: differ", "–"]
+    assert [str(cell) for cell in table.columns["a"]] == ["+0.20 ± 0.10 dB: within tolerance"] * 2
+    assert [str(cell) for cell in table.columns["b"]] == ["+3.00 ± 0.10 dB: outside tolerance", "–"]
 
 
 def test_a_claim_that_no_number_tests_is_told():

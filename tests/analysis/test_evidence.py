@@ -24,9 +24,9 @@ def test_verdicts_follow_from_the_interval(value, reference, tolerance, grid, sa
     n = number(value=value, reference=reference, tolerance=tolerance, grid=grid, sample=sample)
     ends = [abs(value - reference) + side * (grid + sample) for side in (-1, 1)]
     expected = {
-        Verdict.AGREE: ends[1] <= tolerance,
-        Verdict.DIFFER: ends[0] > tolerance,
-        Verdict.UNDECIDED: ends[0] <= tolerance < ends[1],
+        Verdict.WITHIN: ends[1] <= tolerance,
+        Verdict.OUTSIDE: ends[0] > tolerance,
+        Verdict.INCONCLUSIVE: ends[0] <= tolerance < ends[1],
     }
     assert expected[n.verdict]
     assert sum(expected.values()) == 1
@@ -61,10 +61,10 @@ def test_so_much_more_of_a_sample_would_decide(value, tolerance, grid, sample):
         factor = n.sample_needed * more
         if np.isfinite(factor) and factor > 0:
             other = number(value=value, reference=0.0, tolerance=tolerance, grid=grid, sample=sample / factor**0.5)
-            assert (other.verdict is Verdict.UNDECIDED) == (more < 1)
+            assert (other.verdict is Verdict.INCONCLUSIVE) == (more < 1)
     if np.isinf(n.sample_needed):
         other = number(value=value, reference=0.0, tolerance=tolerance, grid=grid, sample=1e-9 * sample)
-        assert other.verdict is Verdict.UNDECIDED
+        assert other.verdict is Verdict.INCONCLUSIVE
 
 
 @given(a=st.floats(0.01, 10), b=st.floats(0.01, 10), n=st.integers(3, 100), m=st.integers(3, 100))

@@ -13,11 +13,12 @@ from validation.analysis import series, statistics
 from validation.analysis.evidence import ClaimStatus, Evidence, JudgedClaim, Number, Role, Verdict
 from validation.analysis.series import root_mean_square, worst
 from validation.analysis.statistics import Estimate, student
+from validation.analysis.verdict import OF_NUMBERS
 
-AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
+AGREE, DIFFER, UNDECIDED = Verdict.WITHIN, Verdict.OUTSIDE, Verdict.INCONCLUSIVE
 OFF = {AGREE: (0.0, 0.0), DIFFER: (5.0, 0.0), UNDECIDED: (1.0, 0.5)}
 """Difference and half-width of a number with each verdict, within a tolerance of one."""
-verdicts = st.lists(st.sampled_from(Verdict), min_size=1, max_size=6)
+verdicts = st.lists(st.sampled_from(OF_NUMBERS), min_size=1, max_size=6)
 
 
 def point(value, sample=0.0, at=1.0, **changes):
@@ -42,7 +43,7 @@ def evidence(numbers, claims, **changes):
 
 def holds_unless_it_differs(claim):
     """A claim whose numbers are undecided taken for one that holds."""
-    return ClaimStatus.CONTRADICTED if claim.count(Verdict.DIFFER) else ClaimStatus.HOLDS
+    return ClaimStatus.REFUTED if claim.count(Verdict.OUTSIDE) else ClaimStatus.SUPPORTED
 
 
 @catches("an undecided number taken for one that confirms").at(
@@ -53,18 +54,18 @@ def test_one_counterexample_contradicts_and_nothing_undecided_holds(found):
     """Of a claim that things agree, and of one that they differ."""
     for confirmed, refuted in ((AGREE, DIFFER), (DIFFER, AGREE)):
         status = claim(points_with(found), confirmed_by=confirmed).status
-        assert (status is ClaimStatus.CONTRADICTED) == (refuted in found)
-        assert (status is ClaimStatus.HOLDS) == (set(found) == {confirmed})
+        assert (status is ClaimStatus.REFUTED) == (refuted in found)
+        assert (status is ClaimStatus.SUPPORTED) == (set(found) == {confirmed})
 
 
 claim_status = JudgedClaim.status.fget
 
 
-@catches("limits taken at their word", inside=Verdict.UNDECIDED, status=ClaimStatus.CONTRADICTED).at(
+@catches("limits taken at their word", inside=Verdict.INCONCLUSIVE, status=ClaimStatus.REFUTED).at(
     "validation.analysis.evidence.JudgedClaim.status",
     property(lambda claim: ClaimStatus.LIMITED if claim.inside else claim_status(claim)),
 )
-@pytest.mark.parametrize(("inside", "status"), [(AGREE, ClaimStatus.LIMITED), (UNDECIDED, ClaimStatus.CONTRADICTED)])
+@pytest.mark.parametrize(("inside", "status"), [(AGREE, ClaimStatus.LIMITED), (UNDECIDED, ClaimStatus.REFUTED)])
 def test_limits_hold_only_where_all_inside_agrees(inside, status):
     numbers = points_with([inside, DIFFER])
     assert claim(numbers, limits="below 1", inside=numbers[:1]).status is status
@@ -88,7 +89,7 @@ def test_a_claim_that_nothing_tests_is_refused(wrong):
 
 def test_a_case_claims_only_what_its_own_numbers_test():
     mine, other = point(0.0), point(0.0, at=2.0)
-    assert evidence([mine], [claim([mine])]).claims[0].status is ClaimStatus.HOLDS
+    assert evidence([mine], [claim([mine])]).claims[0].status is ClaimStatus.SUPPORTED
     with pytest.raises(ValueError, match="q a = 2"):
         evidence([mine], [claim([other])])
 

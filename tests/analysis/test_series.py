@@ -27,7 +27,7 @@ def series(*values, error=0.0, margin=NEAR, **changes):
 
 def test_a_range_is_judged_by_its_worst_point_and_by_the_rms():
     worst, rms = series(0.1, -3.0, 0.2).numbers
-    assert (worst.value, worst.where, worst.verdict) == (-3.0, {"q": (1.0, 4.0), "worst at": 2.0}, Verdict.DIFFER)
+    assert (worst.value, worst.where, worst.verdict) == (-3.0, {"q": (1.0, 4.0), "worst at": 2.0}, Verdict.OUTSIDE)
     assert rms.quantity == "rms of level" and rms.value == pytest.approx(math.sqrt((0.01 + 9 + 0.04) / 3))
     assert (rms.tolerance, rms.reason) == (0.5, "q")
 
@@ -50,7 +50,7 @@ def test_an_interval_of_its_own_is_the_sample_of_a_number():
 
 def test_each_range_is_judged_by_itself_and_named():
     found = series(0.1, 0.2, 3.0, ranges=spans(Q, (1, 2), (2, 4)), margin=Margin(tolerance=1.0, reason="r")).numbers
-    assert [(n.where["q"], n.verdict) for n in found] == [((1, 2), Verdict.AGREE), ((2, 4), Verdict.DIFFER)]
+    assert [(n.where["q"], n.verdict) for n in found] == [((1, 2), Verdict.WITHIN), ((2, 4), Verdict.OUTSIDE)]
 
 
 def test_points_without_a_value_are_left_out_and_the_range_ends_before_them():
@@ -85,7 +85,7 @@ def test_a_number_of_its_own_has_no_range():
     (number,) = Series(
         "x", "m", (2.0,), where={"h": 1.0}, reference=4.0, margin=Margin(tolerance=0.5, reason="r")
     ).numbers
-    assert (number.value, number.where, number.verdict) == (2.0, {"h": 1.0}, Verdict.DIFFER)
+    assert (number.value, number.where, number.verdict) == (2.0, {"h": 1.0}, Verdict.OUTSIDE)
 
 
 @catches("a relative tolerance in the unit").at(
@@ -112,7 +112,12 @@ def test_ends_of_a_row_hold_sample_and_grid_and_ranges_have_a_table_of_their_own
     points, judged = tables_of([one])
     np.testing.assert_allclose(points["low"], [1 - 0.5 - 0.1 * student(4), -3 - 0.25 - 0.1 * student(4)])
     assert judged.name == "level, judged"
-    assert [judged[name].tolist() for name in ("from", "to", "value", "verdict")] == [[1.0], [2.0], [-3.0], ["differ"]]
+    assert [judged[name].tolist() for name in ("from", "to", "value", "verdict")] == [
+        [1.0],
+        [2.0],
+        [-3.0],
+        ["outside tolerance"],
+    ]
 
 
 def test_a_series_has_a_value_at_each_point():
@@ -136,7 +141,7 @@ def test_what_is_masked_is_judged_nowhere_and_kept_elsewhere():
     kept = masked(values, np.array([False, True, True]))
     assert math.isnan(kept[0].value) and kept[1:] == list(values[1:])
     (found,) = Series("x", "m", kept, along="q", at=(1.0, 2.0, 4.0), margin=Margin(tolerance=1.0, reason="r")).numbers
-    assert found.where["q"] == (2.0, 4.0) and found.verdict is Verdict.AGREE
+    assert found.where["q"] == (2.0, 4.0) and found.verdict is Verdict.WITHIN
 
 
 def test_sums_and_ratios_of_estimates_are_taken_element_by_element():

@@ -119,7 +119,7 @@ BESIDE_SPRINGS = [
 @catches(
     "a time beside that of a method that is not as close",
     another=timed_point(FILTER_1D, 0.3, 1e-6),
-    status="holds",
+    status="supported",
     rivals=(BEM, BEM),
 ).at(
     "validation.benchmarks.work_precision.case.cheapest_as_close",
@@ -129,12 +129,12 @@ BESIDE_SPRINGS = [
     ("another", "status", "rivals"),
     [
         # cheaper, but not as close
-        (timed_point(FILTER_1D, 0.3, 1e-6), "holds", (BEM, BEM)),
+        (timed_point(FILTER_1D, 0.3, 1e-6), "supported", (BEM, BEM)),
         # as close as the closest springs, and cheaper than these alone
-        (timed_point(FILTER_1D, 0.1, 5e-5), "contradicted", (FILTER_1D, BEM)),
-        (timed_point(FILTER_3D, 0.05, 1e-3), "contradicted", (FILTER_3D, FILTER_3D)),
+        (timed_point(FILTER_1D, 0.1, 5e-5), "refuted", (FILTER_1D, BEM)),
+        (timed_point(FILTER_3D, 0.05, 1e-3), "refuted", (FILTER_3D, FILTER_3D)),
         # times whose intervals overlap
-        (timed_point(FILTER_1D, 0.1, 0.99e-4), "open", (FILTER_1D, BEM)),
+        (timed_point(FILTER_1D, 0.1, 0.99e-4), "inconclusive", (FILTER_1D, BEM)),
     ],
 )
 def test_the_cheapest_is_claimed_of_times(another, status, rivals):

@@ -157,10 +157,10 @@ def test_fastest_is_claimed_of_times(result):
         rows = [{"bem3d": took(x, n), "bem3d, Polonsky-Keer": took(1.0, n), **absent} for n, x in pairs]
         return CASE.evidence(with_rows(result, *rows)).claims[0]
 
-    assert claim(0.5, 0.1, 0.5, 0.5).status == "holds"
+    assert claim(0.5, 0.1, 0.5, 0.5).status == "supported"
     on_one = claim(0.5, 2.0, 0.5, 0.5)
-    assert on_one.status == "contradicted" and "; it agrees only at cells = 128" in on_one.answer
-    assert claim(0.5, 2.0, 0.5, 1.5).status == "contradicted"
+    assert on_one.status == "refuted" and "; within tolerance only at cells = 128" in on_one.answer
+    assert claim(0.5, 2.0, 0.5, 1.5).status == "refuted"
     # intervals that overlap decide nothing
     assert claim(0.5, 0.5, 0.98, 0.5).status == "open"
 

@@ -159,12 +159,12 @@ def test_springs_without_coupling_stand_beside():
 @pytest.mark.parametrize(
     ("planting", "status"),
     [
-        ({}, ClaimStatus.HOLDS),
-        ({"springs": (0.12, 0.15)}, ClaimStatus.CONTRADICTED),
-        ({"wide": 0.12}, ClaimStatus.CONTRADICTED),
-        ({"rolled": 2.0}, ClaimStatus.HOLDS),
-        ({"finer": 0.12}, ClaimStatus.HOLDS),
-        ({"wide": 0.11}, ClaimStatus.OPEN),
+        ({}, ClaimStatus.SUPPORTED),
+        ({"springs": (0.12, 0.15)}, ClaimStatus.REFUTED),
+        ({"wide": 0.12}, ClaimStatus.REFUTED),
+        ({"rolled": 2.0}, ClaimStatus.SUPPORTED),
+        ({"finer": 0.12}, ClaimStatus.SUPPORTED),
+        ({"wide": 0.11}, ClaimStatus.INCONCLUSIVE),
     ],
 )
 def test_the_claim_follows_a_planted_answer(planting, status):

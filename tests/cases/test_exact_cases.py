@@ -15,7 +15,7 @@ SMALL = hertz.Hertz(
 )
 CONTACTS = hertz.run(SMALL)
 DRAWN = geike.run(geike.Geike())
-HOLDS, CONTRADICTED = ClaimStatus.HOLDS, ClaimStatus.CONTRADICTED
+HOLDS, CONTRADICTED = ClaimStatus.SUPPORTED, ClaimStatus.REFUTED
 WIDE = [one | {"half_width": one["half_width"] + 2 * np.diff(one["x"])[0]} for one in CONTACTS[0.3]]
 OFF = {
     "sphere by boundary elements": (0, {(hertz.BEM, "grids"): times(CONTACTS[hertz.BEM, "grids"], 1.02, "force")}),
@@ -45,7 +45,7 @@ def test_a_contact_that_is_off_contradicts_its_claim(contact):
 
 def test_springs_as_long_as_the_side_are_softer_than_the_square_by_its_capacitance():
     (number,) = judged(hertz.CASE, CONTACTS, hertz.FULL, hertz.LENGTHS[0])
-    assert number.value == pytest.approx(100 * (1 / 1.1523 - 1), abs=0.01) and number.verdict is Verdict.DIFFER
+    assert number.value == pytest.approx(100 * (1 / 1.1523 - 1), abs=0.01) and number.verdict is Verdict.OUTSIDE
 
 
 @catches("a line trace with the moments of Geike's spectrum").at(
@@ -103,6 +103,6 @@ def test_a_case_has_the_order_of_its_errors(power):
     for model in (f"{hertz.SPHERE}, {hertz.BEM}", hertz.PUNCH):
         (number,) = judged(hertz.CASE, result, hertz.ORDER, model)
         assert number.value == pytest.approx(power, abs=1e-6)
-        assert number.verdict is (Verdict.AGREE if number.reference == power else Verdict.DIFFER)
+        assert number.verdict is (Verdict.WITHIN if number.reference == power else Verdict.OUTSIDE)
     errors = hertz.CASE.evidence(result).table(hertz.ERROR).where(model=f"{hertz.SPHERE}, {hertz.BEM}")
     np.testing.assert_allclose(errors["value"], 0.1 / cells**power)

@@ -205,24 +205,24 @@ def test_a_decade_is_judged_by_its_worst_force():
     """+20 % at one force and -20 % at the next: differ, though the mean is near zero; and no other decade."""
     evidence = synthetic(surfaces=4000, spread=0.01, at_forces=(1.2, 1 / 1.2, 1.0, 1.0, 1.0))
     low, high = numbers(evidence, MEAN)
-    assert (low.verdict, high.verdict) == (Verdict.DIFFER, Verdict.AGREE)
+    assert (low.verdict, high.verdict) == (Verdict.OUTSIDE, Verdict.WITHIN)
     assert abs(low.value) == pytest.approx(20 * np.log10(1.2), abs=0.01)
     assert low.where["worst at"] in (pytest.approx(0.1), pytest.approx(10**-0.5))
 
 
-@catches("a third of the interval", apart=1.25, surfaces=60, verdict=Verdict.UNDECIDED).at(
+@catches("a third of the interval", apart=1.25, surfaces=60, verdict=Verdict.INCONCLUSIVE).at(
     "validation.analysis.statistics.student", lambda freedom, confidence=0.95: 2 / 3
 )
 @pytest.mark.parametrize(
     ("apart", "surfaces", "verdict"),
     [
-        (1.0, 2000, Verdict.AGREE),
-        (1.25, 1000, Verdict.DIFFER),
-        (1.25, 10, Verdict.UNDECIDED),
-        (1.0, 10, Verdict.UNDECIDED),
-        (1.25, 60, Verdict.UNDECIDED),
-        (2.0, 60, Verdict.DIFFER),
-        (0.0, 1000, Verdict.DIFFER),
+        (1.0, 2000, Verdict.WITHIN),
+        (1.25, 1000, Verdict.OUTSIDE),
+        (1.25, 10, Verdict.INCONCLUSIVE),
+        (1.0, 10, Verdict.INCONCLUSIVE),
+        (1.25, 60, Verdict.INCONCLUSIVE),
+        (2.0, 60, Verdict.OUTSIDE),
+        (0.0, 1000, Verdict.OUTSIDE),
     ],
 )
 def test_verdicts_on_known_deviations(apart, surfaces, verdict):

@@ -21,7 +21,7 @@ from validation.simulation.track_spectrum import TrackSpectrum, self_affine
 from validation.theory.rolling import mean_force_spectrum_1d
 
 RNG = np.random.default_rng(0)
-HOLDS, LIMITED, CONTRADICTED = ClaimStatus.HOLDS, ClaimStatus.LIMITED, ClaimStatus.CONTRADICTED
+HOLDS, LIMITED, CONTRADICTED = ClaimStatus.SUPPORTED, ClaimStatus.LIMITED, ClaimStatus.REFUTED
 
 # --- roughness from force ---
 

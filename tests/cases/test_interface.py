@@ -59,11 +59,11 @@ def theory(ground, factor=1.0):
     return factor * persson_stiffness(CASE.pressures(ground), c2d=spectrum.c2d, edges=spectrum.edges, modulus=1.0)
 
 
-@catches("exponents of an interface over equal steps of the load", exponent=1.0, status=ClaimStatus.HOLDS).at(
+@catches("exponents of an interface over equal steps of the load", exponent=1.0, status=ClaimStatus.SUPPORTED).at(
     "validation.cases.punch.interface.Interface.slopes",
     lambda case, ground: lambda mean, _: np.diff(np.log(mean)) / np.log(3),
 )
-@pytest.mark.parametrize(("exponent", "status"), [(1.0, ClaimStatus.HOLDS), (0.9, ClaimStatus.CONTRADICTED)])
+@pytest.mark.parametrize(("exponent", "status"), [(1.0, ClaimStatus.SUPPORTED), (0.9, ClaimStatus.REFUTED)])
 def test_a_power_of_the_load_is_found_and_judged(exponent, status):
     found = evidence(power(exponent))
     numbers = numbers_with(found.numbers, EXPONENT)
@@ -84,7 +84,7 @@ def test_theory_is_put_over_boundary_elements_and_few_waves_do_not_judge_it():
     values = {(n.where[ROLL_OFF], n.where[CONTACT]): n for n in numbers_with(found.numbers, BESIDE_BEM, FITTED)}
     assert values[8, 1.0].value == pytest.approx(0.0, abs=1e-3)
     assert values[4, 1.0].value == pytest.approx(-20 * np.log10(1.25), abs=1e-3)
-    assert found.claims[1].status is ClaimStatus.HOLDS
+    assert found.claims[1].status is ClaimStatus.SUPPORTED
 
 
 @catches("sample and grid exchanged").at(
@@ -98,14 +98,14 @@ def test_what_finer_cells_change_is_extrapolated_and_half_of_it_left_open():
     assert two.grid - one.grid == pytest.approx(20 * np.log10(1.05), rel=1e-3)
 
 
-SERIES = 1.1523, Verdict.AGREE
+SERIES = 1.1523, Verdict.WITHIN
 
 
 @catches("an interface and a punch side by side", *SERIES).at(
     "validation.cases.punch.interface._over_series",
     lambda rows: np.log(rows.mean(axis=0)[0] / (rows.mean(axis=0)[1] + 1.1523)),
 )
-@pytest.mark.parametrize(("flat", "verdict"), [(1.1523, Verdict.AGREE), (0.8, Verdict.DIFFER)])
+@pytest.mark.parametrize(("flat", "verdict"), [(1.1523, Verdict.WITHIN), (0.8, Verdict.OUTSIDE)])
 def test_a_punch_is_put_beside_its_interface_in_series_with_the_flat_punch(flat, verdict):
     heaviest = numbers_with(evidence(theory, THREE, flat=flat).numbers, OF_SERIES)[-1]
     assert heaviest.verdict is verdict

@@ -65,22 +65,22 @@ def test_each_limit_fails_on_its_side(result, title):
     assert good.size and failed.size
     assert np.median(failed) > max(np.median(good), sweep.limit.fails.tolerance)
     if sweep.limit.judged.derived:
-        assert sweep.predicted and verdict(case.threshold(sweep)) is Verdict.AGREE
+        assert sweep.predicted and verdict(case.threshold(sweep)) is Verdict.WITHIN
         for shift in (2 * sweep.limit.judged.factor**2, 0.5 / sweep.limit.judged.factor**2):
             elsewhere = replace(sweep, predicted_threshold=shift * sweep.predicted_threshold)
-            assert verdict(case.threshold(elsewhere)) is Verdict.DIFFER
+            assert verdict(case.threshold(elsewhere)) is Verdict.OUTSIDE
     if sweep.limit.judged.warned:
-        assert verdict(case.warnings(sweep)) is Verdict.AGREE
+        assert verdict(case.warnings(sweep)) is Verdict.WITHIN
         for words in ("", "wolf"):
             wrong = replace(sweep, messages=(words,) * sweep.values.size)
-            assert verdict(case.warnings(wrong)) is Verdict.DIFFER
+            assert verdict(case.warnings(wrong)) is Verdict.OUTSIDE
 
 
 @pytest.mark.slow
 def test_an_outcome_elsewhere_changes_the_claims(result):
     elsewhere = [replace(sweep, predicted_threshold=100 * sweep.predicted_threshold) for sweep in result["sweeps"]]
     predicted, _ = case.CASE.evidence(changed(result, sweeps=elsewhere)).claims
-    assert (predicted.count(Verdict.AGREE), len(predicted.numbers)) == (0, 20)
+    assert (predicted.count(Verdict.WITHIN), len(predicted.numbers)) == (0, 20)
 
 
 @catches("a limit read on its good side", side="above").at(
@@ -147,7 +147,7 @@ def test_a_sweep_that_passes_no_threshold_decides_nothing(error, side, at):
     """Wherever it is predicted: it ended within the factor, and agreed without an error bar."""
     sweep = replace(planted(error, side), predicted_threshold=at * X[-1 if side == "above" else 0])
     (number,) = case.threshold(sweep).numbers
-    assert number.verdict is Verdict.UNDECIDED
+    assert number.verdict is Verdict.INCONCLUSIVE
     assert case.said(number) == "no threshold in the sweep"
 
 
@@ -155,10 +155,10 @@ def test_what_follows_from_theory_alone_must_hold_and_all_warnings_count():
     right = planted([1.0, 2.0, 8.0, 9.0], derived=True)
     assert case.threshold(right).numbers[0].role is Role.CRITERION
     (warned,) = case.warnings(right).numbers
-    assert (warned.value, warned.reference, warned.verdict) == (0.0, 0.0, Verdict.AGREE)
+    assert (warned.value, warned.reference, warned.verdict) == (0.0, 0.0, Verdict.WITHIN)
     assert warned.role is Role.CRITERION and warned.tolerance < 100 / max(len(one.probe.values) for one in LIMITS)
     (silent,) = case.warnings(replace(right, messages=("", "", "", "no"))).numbers
-    assert silent.value == pytest.approx(100 / 3) and silent.verdict is Verdict.DIFFER
+    assert silent.value == pytest.approx(100 / 3) and silent.verdict is Verdict.OUTSIDE
     assert case.warnings(planted([1.0, 2.0, 8.0, 9.0])).numbers[0].role is Role.FINDING
 
 

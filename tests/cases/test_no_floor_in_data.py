@@ -63,15 +63,15 @@ def test_the_ratio_of_two_deviations_is_that_of_the_deviations(apart, spread):
     ("apart", "spread", "verdict", "value"),
     [
         # both below 1 %: alike
-        (0.5, 0.005, Verdict.AGREE, 0.0),
-        (0.0, 0.005, Verdict.AGREE, 0.0),
+        (0.5, 0.005, Verdict.WITHIN, 0.0),
+        (0.0, 0.005, Verdict.WITHIN, 0.0),
         # 0.6 % beside 1.2 %: the value is what was found
-        (0.5, 0.012, Verdict.DIFFER, 20 * math.log10(0.5)),
+        (0.5, 0.012, Verdict.OUTSIDE, 20 * math.log10(0.5)),
         # 0.9 % beside 1.03 %: the rule alone makes them agree, 1 % beside 1.03 %
-        (0.87, 0.0103, Verdict.AGREE, 20 * math.log10(1 / 1.03)),
+        (0.87, 0.0103, Verdict.WITHIN, 20 * math.log10(1 / 1.03)),
         # nothing beside 10 %, which has no decibels: 1 % beside 10 %
-        (0.0, 0.1, Verdict.DIFFER, -20.0),
-        (0.97, 0.1, Verdict.AGREE, 20 * math.log10(0.97)),
+        (0.0, 0.1, Verdict.OUTSIDE, -20.0),
+        (0.97, 0.1, Verdict.WITHIN, 20 * math.log10(0.97)),
     ],
 )
 def test_below_one_per_cent_two_deviations_are_alike_in_verdicts_which_say_so(apart, spread, verdict, value):
@@ -79,7 +79,7 @@ def test_below_one_per_cent_two_deviations_are_alike_in_verdicts_which_say_so(ap
     evidence = synthetic(apart=apart, spread=spread, surfaces=4000)
     for number in numbers_with(evidence.numbers, DEVIATION, OVER):
         assert number.verdict is verdict and number.value == pytest.approx(value, abs=0.03)
-        by_rule = apart == 0 or (verdict is Verdict.AGREE and spread < 0.02)
+        by_rule = apart == 0 or (verdict is Verdict.WITHIN and spread < 0.02)
         assert (fractal_punch.RULE in number.reason) is by_rule
 
 
@@ -120,7 +120,7 @@ def test_the_data_of_a_limit_are_the_errors_of_its_sweep():
 def test_a_sweep_without_a_threshold_says_that_its_number_is_the_end():
     sweep = Sweep(STEEP, np.array([0.5, 1.0, 3.0, 4.0]), np.zeros(4), 2.0, ("",) * 4)
     (number,) = limits.threshold(sweep).numbers
-    assert number.value == math.log2(4.0 / 2.0) and number.verdict is Verdict.UNDECIDED
+    assert number.value == math.log2(4.0 / 2.0) and number.verdict is Verdict.INCONCLUSIVE
     assert "the value is the end of the sweep" in number.reason
     passed = replace(sweep, error=np.array([0.0, 1.0, 9.0, 9.0]))
     assert "end of the sweep" not in limits.threshold(passed).numbers[0].reason
@@ -204,7 +204,7 @@ def test_roughness_that_is_not_found_has_no_level_and_differs_by_a_rule(monkeypa
         expected = 30.0 if found == 0 else abs(10 * math.log10(found))
         assert number.value == pytest.approx(expected, abs=1e-6)
         # the verdict differs either way: only what has no level owes its value to the rule
-        assert number.verdict is (Verdict.DIFFER if found < 1 else Verdict.AGREE)
+        assert number.verdict is (Verdict.OUTSIDE if found < 1 else Verdict.WITHIN)
 
 
 def test_a_step_that_turns_by_no_angle_has_no_period():

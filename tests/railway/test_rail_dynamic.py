@@ -33,16 +33,16 @@ def planted(factor):
 @pytest.mark.parametrize(
     ("factor", "status", "only"),
     [
-        (lambda offset: 1.02, ClaimStatus.HOLDS, False),
-        (lambda offset: 1.5, ClaimStatus.CONTRADICTED, False),
-        (lambda offset: 1 + 0.05 * offset, ClaimStatus.CONTRADICTED, True),
+        (lambda offset: 1.02, ClaimStatus.SUPPORTED, False),
+        (lambda offset: 1.5, ClaimStatus.REFUTED, False),
+        (lambda offset: 1 + 0.05 * offset, ClaimStatus.REFUTED, True),
     ],
 )
 def test_the_claim_of_the_filter_follows_what_lifts_the_wheel_in_motion(factor, status, only):
     result = planted(factor)
     claim = STUDY.evidence(result).claims[0]
     assert claim.status is status
-    assert ("; it agrees only at 0 dB over ISO 3095" in claim.answer) is only
+    assert ("; within tolerance only at 0 dB over ISO 3095" in claim.answer) is only
     shares = {
         one.where["damping"]: [each.value for each in one.found] for one in series(result) if one.quantity == AIRBORNE
     }

@@ -92,9 +92,9 @@ def words_of(row):
 def enough_by_most(cell):
     """A counterexample outvoted."""
     return (
-        Verdict.AGREE
-        if 2 * sum(number.verdict is Verdict.AGREE for number in cell.numbers) > len(cell.numbers)
-        else Verdict.DIFFER
+        Verdict.WITHIN
+        if 2 * sum(number.verdict is Verdict.WITHIN for number in cell.numbers) > len(cell.numbers)
+        else Verdict.OUTSIDE
     )
 
 
@@ -105,13 +105,13 @@ def test_one_counterexample_among_all_exponents_is_a_no():
     """At each place the worst of its numbers decides, and the sentence has the numbers that differ, no others."""
     values = ((0.4, 0.1), (0.7, 2.0), (1.0, 0.2), ("mean over H", 0.0))
     row = mean_stiffness(*(at((0.1, 1.0), value, hurst=hurst) for hurst, value in values))
-    assert words_of(row)[1:-1] == ["no"]
+    assert words_of(row)[1:-1] == ["outside"]
     assert ": off by +26 %" in row.answer
 
 
 def test_a_place_without_all_of_its_numbers_is_no_yes():
     row = mean_stiffness(at((0.1, 1.0), 0.0, hurst=0.4), at((0.1, 1.0), 0.0), at((1.0, 10.0), 0.0))
-    assert words_of(row)[1:-1] == ["yes", "open"]
+    assert words_of(row)[1:-1] == ["within", "inconclusive"]
     assert "inconclusive for 1 ≤ Fbar ≤ 10: some numbers are missing" in row.answer
 
 
@@ -129,12 +129,15 @@ def test_a_sentence_has_a_clause_for_each_side_and_ends_where_it_was_measured():
     ):
         assert clause in row.answer
     places = ("< 0.01", "0.01 to 0.1", "0.1 to 1", "1 to 10", "> 10")
-    assert strip_of(row) == list(zip(places, ("not measured", "open", "yes", "no", "not measured"), strict=True))
+    assert strip_of(row) == list(
+        zip(places, ("not measured", "inconclusive", "within", "outside", "not measured"), strict=True)
+    )
     assert (row.measured, row.margin) == ("Fbar = 0.01 to 10, H = 0.7", "10 %: reason")
     (told,) = plain([row])
-    assert {name: told["strip"][2][name] for name in ("place", "enough", "ends")} == {
+    assert {name: told["strip"][2][name] for name in ("place", "enough", "verdict", "ends")} == {
         "place": "0.1 to 1",
         "enough": "yes",
+        "verdict": "within tolerance",
         "ends": (0.1, 1.0),
     }
     assert (told["case"], told["of"]) == ("fractal_punch", "ensemble mean")
@@ -170,13 +173,13 @@ def by_hurst():
 def test_a_strip_and_its_sentence_name_the_hurst_exponents_on_which_a_verdict_depends():
     row = mean_stiffness(*by_hurst())
     assert [cell.alone for cell in row.strip] == ["", "H = 1 alone", "", "H = 0.4 alone", "", ""]
-    assert [cell.by for cell in row.strip][1] == "yes at H = 0.4 to 0.7; no at H = 1"
+    assert [cell.by for cell in row.strip][1] == "within tolerance at H = 0.4 to 0.7; outside tolerance at H = 1"
     assert row.answer.startswith("Within tolerance for 0.01 ≤ Fbar < 0.1: ")
     assert "outside tolerance for 0.001 ≤ Fbar < 0.01 (H = 1 alone) and for 1 ≤ Fbar ≤ 10: " in row.answer
     assert "inconclusive for 0.1 ≤ Fbar < 1 (H = 0.4 alone): " in row.answer
     text = html_of(punch(*by_hurst()))
     assert text.count('<span class="alone">H = 1 alone</span>') == 1
-    assert "Fbar, 0.1 to 1: yes at H = 0.55 to 1; open at H = 0.4." in text
+    assert "Fbar, 0.1 to 1: within tolerance at H = 0.55 to 1; inconclusive at H = 0.4." in text
 
 
 @catches("neighbours that share a value").at(
@@ -239,7 +242,7 @@ def test_an_alternative_on_an_axis_of_its_own_says_which():
     where = {OFFSET: 0.0, "f [Hz]": (100.0, 900.0)}
     rail = section_of("rail_dynamic", [at((0.1, 1.0), 0.2, **moving | {"where": where})])
     row = row_of("dynamic-wheel", wheel, rail, timed())
-    assert words_of(row) == ["no"]
+    assert words_of(row) == ["outside"]
     assert row.measured == "h' a/d = 0.37"
     on_rail, in_time = row.instead
     assert on_rail[0].endswith("in the time loop at 0 dB over ISO 3095, within 1 dB rms over bands")
@@ -326,7 +329,7 @@ def rolling(quantity, model, value, half=0.1):
 @pytest.mark.parametrize(("name", "quantity"), [("rolling-rms", RMS_FORCE), ("rolling-spectrum", RMS_LEVEL)])
 def test_a_rolling_wheel_is_judged_over_its_slope(name, quantity):
     row = row_of(name, rolling(quantity, SPRINGS, -30.0))
-    assert strip_of(row)[1] == ("0.27", "no") and row.answer.startswith("Outside tolerance at h' a/d = 0.27")
+    assert strip_of(row)[1] == ("0.27", "outside") and row.answer.startswith("Outside tolerance at h' a/d = 0.27")
     assert row.measured.endswith("H = 0.7")
 
 
@@ -364,7 +367,7 @@ def test_ranges_that_join_keep_all_of_their_numbers(off):
         for i, (place, hurst) in enumerate(zip(places, (0.4, 0.55, 0.7, 1.0), strict=True))
     ]
     row = mean_stiffness(*numbers)
-    assert strip_of(row)[1:-1] == [("1 to 10", "no")] and ": off by +41 %." in row.answer
+    assert strip_of(row)[1:-1] == [("1 to 10", "outside")] and ": off by +41 %." in row.answer
     (cell,) = row.question.source.cells(punch(*numbers).evidence)
     assert sorted(number.where["H"] for number in cell.numbers) == [0.4, 0.55, 0.7, 1.0]
     assert cell.alone == f"H = {(0.4, 0.55, 0.7, 1.0)[off]:g} alone"
@@ -394,7 +397,7 @@ def test_a_rail_is_judged_by_what_lies_across_from_ridges_to_isotropic_ground():
 
     numbers = [off("ridges", 0.1), off("alpha = 1", 2.0), off("isotropic ground", 3.0), off("ridges", 9.0, offset=10.0)]
     row = row_of("contact-filter", section_of("across", numbers))
-    assert strip_of(row) == [("ridges", "yes"), ("alpha = 1", "no"), ("isotropic ground", "no")]
+    assert strip_of(row) == [("ridges", "within"), ("alpha = 1", "outside"), ("isotropic ground", "outside")]
 
 
 def test_area_and_gap_are_both_needed_and_told_apart():
@@ -405,12 +408,15 @@ def test_area_and_gap_are_both_needed_and_told_apart():
         return row_of("area-and-gap", section_of("interface", numbers))
 
     assert "contact fraction 10 times, mean gap 0.5 times" in row(20.0, -6.0).answer
-    assert row(0.0, -6.0).word == "No"
+    assert row(0.0, -6.0).word == "Outside tolerance"
 
 
 def test_the_scatter_has_numbers_of_its_own():
     found = punch(at((0.1, 1.0), 0.0), at((0.1, 1.0), -30.0, quantity=DEVIATION))
-    assert [row_of(name, found).word for name in ("scatter", "mean-stiffness")] == ["No", "Yes"]
+    assert [row_of(name, found).word for name in ("scatter", "mean-stiffness")] == [
+        "Outside tolerance",
+        "Within tolerance",
+    ]
 
 
 # --- words ---
@@ -431,20 +437,20 @@ def test_decibels_are_printed_as_their_quantity():
 
 AGREES, DIFFERS, UNDECIDED = (0.0, 0.0), (9.0, 0.0), (0.0, 9.0)
 """Value and half-width."""
-YES, NO, OPEN = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
+YES, NO, OPEN = Verdict.WITHIN, Verdict.OUTSIDE, Verdict.INCONCLUSIVE
 
 
 def enough_unless_it_differs(cell):
     """What is undecided taken for what agrees."""
     right = verdict_of_a_cell(cell)
-    return Verdict.AGREE if right is Verdict.UNDECIDED and not cell.lacking else right
+    return Verdict.WITHIN if right is Verdict.INCONCLUSIVE and not cell.lacking else right
 
 
 verdict_of_a_cell = strip.Cell.verdict.fget
 
 
 @catches(
-    "a place with one number that is undecided under a yes", found=[AGREES, UNDECIDED], verdict=Verdict.UNDECIDED
+    "a place with one number that is undecided under a yes", found=[AGREES, UNDECIDED], verdict=Verdict.INCONCLUSIVE
 ).at("validation.report.answers.strip.Cell.verdict", property(enough_unless_it_differs))
 @pytest.mark.parametrize(
     ("found", "verdict"),
@@ -461,10 +467,10 @@ def test_a_cell_says_yes_only_where_all_agree_and_nothing_lacks(found, verdict):
     assert Cell(0.1, tuple(numbers)).verdict is verdict
     assert Cell(0.1, tuple(numbers), lacking=1).verdict is (NO if verdict is NO else OPEN)
     row = mean_stiffness(*numbers)
-    assert row.word.lower() == words_of(row)[1] == {YES: "yes", NO: "no", OPEN: "open"}[verdict]
-    # beside a place that is open
+    assert row.word.lower() == verdict and words_of(row)[1] == verdict.removesuffix(" tolerance")
+    # beside a place that is inconclusive
     both = mean_stiffness(*numbers, *(at((1.0, 10.0), *UNDECIDED, hurst=i / 10) for i in range(len(found))))
-    assert both.word == {YES: "In part", NO: "No or open", OPEN: "Open"}[verdict]
+    assert both.word == {YES: "In part", NO: "Outside tolerance or inconclusive", OPEN: "Inconclusive"}[verdict]
 
 
 @pytest.mark.parametrize(

@@ -13,16 +13,17 @@ from tests.report.test_printed import evidence_with, html_of, number
 from tests.seeded import catches
 from validation.analysis.claims import Claim
 from validation.analysis.evidence import ClaimStatus, JudgedClaim, Role, Verdict, Whose
+from validation.analysis.verdict import OF_NUMBERS
 from validation.report import formats
 from validation.report.chapter import ENTRIES, ERRATA, REMARKS, ChapterEntry, ChapterTest, answers, chapter_results
 from validation.report.commands.run_cases import lines_of
 from validation.report.contents import CASES, TIMED
 from validation.report.section import Section, case_results, total_of
 
-AGREE, DIFFER, UNDECIDED = Verdict.AGREE, Verdict.DIFFER, Verdict.UNDECIDED
+AGREE, DIFFER, UNDECIDED = Verdict.WITHIN, Verdict.OUTSIDE, Verdict.INCONCLUSIVE
 OFF = {AGREE: (0.0, 0.0), DIFFER: (9.0, 0.0), UNDECIDED: (0.1, 1.0)}
 """Difference and half-width of a number with each verdict."""
-found = st.lists(st.sampled_from(Verdict), min_size=1, max_size=5)
+found = st.lists(st.sampled_from(OF_NUMBERS), min_size=1, max_size=5)
 
 
 def numbers_with(verdicts, **changes):
@@ -66,7 +67,7 @@ WITHIN = {"limits": "below 1", "inside": numbers_with([AGREE])}
 
 @catches(
     "a contradicted claim under a green badge",
-    verdicts=[Verdict.AGREE, Verdict.DIFFER],
+    verdicts=[Verdict.WITHIN, Verdict.OUTSIDE],
     changes={},
     words="✗ contradicted",
 ).at(
@@ -75,12 +76,12 @@ WITHIN = {"limits": "below 1", "inside": numbers_with([AGREE])}
 @pytest.mark.parametrize(
     ("verdicts", "changes", "words"),
     [
-        ([AGREE, AGREE], {}, "✓ holds"),
-        ([DIFFER], {"confirmed_by": DIFFER}, "✓ holds"),
-        ([AGREE, DIFFER], {}, "✗ contradicted"),
-        ([AGREE], {"confirmed_by": DIFFER}, "✗ contradicted"),
-        ([AGREE, UNDECIDED], {}, "? open"),
-        ([AGREE, DIFFER], WITHIN, "(✓) holds within limits"),
+        ([AGREE, AGREE], {}, "✓ supported"),
+        ([DIFFER], {"confirmed_by": DIFFER}, "✓ supported"),
+        ([AGREE, DIFFER], {}, "✗ refuted"),
+        ([AGREE], {"confirmed_by": DIFFER}, "✗ refuted"),
+        ([AGREE, UNDECIDED], {}, "? inconclusive"),
+        ([AGREE, DIFFER], WITHIN, "(✓) supported within limits"),
     ],
 )
 def test_a_status_has_its_word_and_sign(verdicts, changes, words):
@@ -118,9 +119,9 @@ def test_every_status_is_known_without_colour():
 def test_each_claim_of_a_case_has_a_row_of_its_own():
     other = replace(claim([DIFFER]), claim="It is otherwise.", numbers=numbers_with([DIFFER], model="m"))
     section = section_of(replace(claim([AGREE]), whose=Whose.BOOK), replace(other, whose=Whose.FIELD))
-    assert [name for name, _ in badges(listed(html_of(section)))] == ["holds", "contradicted"]
-    assert total_of([section, section]) == "claims: holds 2, contradicted 2"
-    assert "Claims: holds 1, contradicted 1," in html_of(section)
+    assert [name for name, _ in badges(listed(html_of(section)))] == ["supported", "refuted"]
+    assert total_of([section, section]) == "claims: supported 2, refuted 2"
+    assert "Claims: supported 1, refuted 1," in html_of(section)
 
 
 def test_results_hold_every_claim():
@@ -186,10 +187,10 @@ def test_a_statement_has_the_status_of_its_numbers(verdicts):
     """One by one: of the first alone, which nothing else moves."""
     section = section_of(claim(verdicts))
     (answer,) = answers(entry(quantity="y0"), [section])
-    expected = {AGREE: ClaimStatus.HOLDS, DIFFER: ClaimStatus.CONTRADICTED, UNDECIDED: ClaimStatus.OPEN}
-    assert answer["status"] is expected[verdicts[0]]
+    expected = {AGREE: ClaimStatus.SUPPORTED, DIFFER: ClaimStatus.REFUTED, UNDECIDED: ClaimStatus.INCONCLUSIVE}
+    assert answer["outcome"] is expected[verdicts[0]] and answer["status"] == expected[verdicts[0]].earlier
     (whole,) = answers(entry(), [section])
-    assert whole["status"] is section.claims[0].status
+    assert whole["outcome"] is section.claims[0].status
     assert whole["answer"] == "Tested as “It is so.” It is 1 to 9."
 
 
@@ -214,8 +215,8 @@ def test_a_key_that_no_number_has_leaves_no_status(test):
     identity = number(quantity="identity", role=Role.IDENTITY)
     section = Section("geike", CASES["geike"], "none", {}, evidence_with([*some.numbers, identity], claims=[some]))
     (answer,) = answers(entry(**test), [section])
-    assert answer == {"case": "geike", "status": None, "answer": "This run has no number for it."}
-    assert "no result" in formats.format_status(answer["status"])
+    assert answer == {"case": "geike", "status": None, "outcome": None, "answer": "This run has no number for it."}
+    assert "no result" in formats.format_status(answer["outcome"])
 
 
 def test_the_page_and_the_results_answer_the_book():

@@ -9,9 +9,15 @@ from tests.seeded import catches
 from validation import report
 
 TEMPLATES = Path(report.__file__).parent / "templates"
-YES = (".strip .yes", ".cell.yes", "table.map td.agree", ".verdict.agree", ".holds")
-NO = (".strip .no", ".cell.no", "table.map td.differ", ".verdict.differ", ".contradicted")
-OPEN = (".strip .open", ".cell.open", "table.map td.undecided", ".verdict.undecided", ".open")
+YES = (".strip .within", ".cell.within", "table.map td.within", ".verdict.within", ".supported")
+NO = (".strip .outside", ".cell.outside", "table.map td.outside", ".verdict.outside", ".refuted")
+OPEN = (
+    ".strip .inconclusive",
+    ".cell.inconclusive",
+    "table.map td.inconclusive",
+    ".verdict.inconclusive",
+    ".verdict.inconclusive",
+)
 NAMED = {"white": "#ffffff"}
 
 
@@ -56,7 +62,7 @@ def exchanged(one, other):
     yes=".verdict.agree",
     no=".verdict.differ",
     undecided=".verdict.undecided",
-).at(f"{__name__}.sheet", exchanged("agree", "differ"))
+).at(f"{__name__}.sheet", exchanged("within", "outside"))
 @pytest.mark.parametrize(("yes", "no", "undecided"), list(zip(YES, NO, OPEN, strict=True)))
 def test_yes_is_green_no_is_red_and_undecided_is_neither(yes, no, undecided):
     text = sheet()
@@ -72,6 +78,6 @@ def borders(*selectors):
 
 
 def test_what_is_not_yes_has_a_border_of_its_own():
-    assert all("double" in border for border in borders(".strip .no", ".verdict.differ"))
-    assert all("dashed" in border for border in borders(".strip .open", ".verdict.undecided"))
-    assert not any("double" in b or "dashed" in b for b in borders(".strip .yes", ".verdict.agree"))
+    assert all("double" in border for border in borders(".strip .outside", ".verdict.outside"))
+    assert all("dashed" in border for border in borders(".strip .inconclusive", ".verdict.inconclusive"))
+    assert not any("double" in b or "dashed" in b for b in borders(".strip .within", ".verdict.within"))

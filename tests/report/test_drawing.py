@@ -114,7 +114,7 @@ def test_what_has_no_room_on_a_logarithmic_axis_is_not_drawn():
 
 
 def test_verdicts_stand_over_their_ranges():
-    judged = {"from": [1.0], "to": [4.0], "value": [2.0], "low": [1.5], "high": [2.5], "verdict": ["differ"]}
+    judged = {"from": [1.0], "to": [4.0], "value": [2.0], "low": [1.5], "high": [2.5], "verdict": ["outside tolerance"]}
     tables = (TABLE, Table("level, judged", {"h/d": [0.1], "model": ["m"], **judged}))
     first, second = drawn(Curve("level", "bem", label="b"), tables=tables, judged="level", facet="h/d")
     assert [text.get_text() for text in first.texts] == ["≠"] and first.texts[0].get_position()[0] == 2.0

@@ -64,7 +64,7 @@ def timed(unit="%", value=3.5, half=0.5, end=4.0, scene="wheel"):
         "error": [0.9, value / scale, 0.9],
         "± sample": [0.9, half / scale, 0.9],
     }
-    section = section_of(claim([Verdict.AGREE]))
+    section = section_of(claim([Verdict.WITHIN]))
     settings = {
         "fractal": {"force": 0.1},
         "rolling": {"hurst": 0.7, "height": 0.1, "last": 10.0},
@@ -129,14 +129,14 @@ def test_a_figure_of_the_book_has_claims_and_a_figure_of_ours(figure):
 
 def test_a_figure_of_the_book_has_the_status_of_its_claims():
     held = replace(
-        claim([Verdict.AGREE]), key="peak-and-jump", claim="The peak of Fig. 14.4 is there.", whose=Whose.BOOK
+        claim([Verdict.WITHIN]), key="peak-and-jump", claim="The peak of Fig. 14.4 is there.", whose=Whose.BOOK
     )
     ((row, computed, confirmed),) = book_figures([section_of(held, name="wheel")])
-    assert (row.place, computed.status, confirmed) == ("Fig. 14.4", "holds", None)
+    assert (row.place, computed.status, confirmed) == ("Fig. 14.4", "supported", None)
 
 
 def test_a_filter_is_right_where_it_agrees_over_all_grounds():
-    agree, differ = VerdictCell("+0.1 dB", Verdict.AGREE), VerdictCell("+3 dB", Verdict.DIFFER)
+    agree, differ = VerdictCell("+0.1 dB", Verdict.WITHIN), VerdictCell("+3 dB", Verdict.OUTSIDE)
     worst = Table(
         f"{OF_A3}, a wheel",
         {
@@ -147,7 +147,7 @@ def test_a_filter_is_right_where_it_agrees_over_all_grounds():
         },
     )
     loud = Table(LOUDER, {"model": ["two", "one"], "ridges": ["2", "1"], "isotropic ground": ["4", "3"]})
-    section = section_of(claim([Verdict.AGREE]), name="across")
+    section = section_of(claim([Verdict.WITHIN]), name="across")
     table = rail_filters([replace(section, evidence=replace(section.evidence, page_tables=(worst, loud)))])
     assert right_filters(table) == "two"
     assert right_filters(Table("none", {"filter": ["one"], f"{WORST} ridges": ["-"]})) == ""
@@ -167,7 +167,7 @@ def test_boundary_elements_fail_where_their_limits_say():
         "error": ["stiffness above 0.05", "force above 0.001; reference: a wider grid", "force above 0.01"],
         "message of the software": ["none", "EdgeWarning: widen the grid", "none"],
     }
-    section = section_of(claim([Verdict.AGREE]))
+    section = section_of(claim([Verdict.WITHIN]))
     table = Table(SUMMARY, cells)
     edge, strip = failures([replace(section, name="limits", evidence=replace(section.evidence, tables=(table,)))])
     assert list(edge.values()) == ["edge of the grid", "side / 2 a < 1", "force above 0.001", "EdgeWarning"]

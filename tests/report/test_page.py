@@ -20,7 +20,7 @@ from validation.report.redraw import redraw
 from validation.report.section import Section
 from validation.report.style import picture
 
-FIELDS = [VerdictCell("+1 %", Verdict.AGREE), VerdictCell("+9 %", Verdict.DIFFER), "no value"]
+FIELDS = [VerdictCell("+1 %", Verdict.WITHIN), VerdictCell("+9 %", Verdict.OUTSIDE), "no value"]
 MATRIX = Table("Deviation", {"H": ["0.4", "0.7", "1"], "Fbar 1 to 10": FIELDS, "Fbar 10 to 100": FIELDS[::-1]})
 
 
@@ -89,13 +89,13 @@ def test_figures_claims_tables_and_numbers_have_an_address():
     assert signs == ["geike", "figure-geike", "claim-geike-It_is_so.", "table-geike-Deviation", "numbers-geike"]
 
 
-def test_a_table_of_verdicts_is_a_lettered_map_with_the_table_behind_it():
+def test_a_table_of_verdicts_is_a_map_of_symbols_with_the_table_behind_it():
     found = map_of(MATRIX)
     fields = {place: "".join(re.findall(">(.)<", "".join(map(format_field, cells)))) for place, cells in found.rows}
-    assert fields == {("0.4",): "A–", ("0.7",): "DD", ("1",): "–A"}
-    assert found.summary == "2 agree, 2 differ"
+    assert fields == {("0.4",): "✓–", ("0.7",): "≠≠", ("1",): "–✓"}
+    assert found.summary == "2 within tolerance, 2 outside tolerance"
     text = html_of(section_of("geike"))
-    assert text.count('<td class="differ" title="+9 %: differ">D</td>') == 2
+    assert text.count('<td class="outside" title="+9 %: outside tolerance">≠</td>') == 2
     assert text.index('class="map"') < text.index("Table behind it")
 
 
@@ -127,7 +127,7 @@ def test_of_a_scene_without_a_steady_answer_nothing_is_claimed_and_no_verdict_is
     text = html_of(shown)
     assert page.figures_of([shown])["geike"].finding == "A curve"
     assert shown.claims == () and shown.unconverged == ("no steady answer: it grows",)
-    assert "no steady answer: it grows" in text and 'class="verdict agree"' not in text and 'class="map"' not in text
+    assert "no steady answer: it grows" in text and 'class="verdict within"' not in text and 'class="map"' not in text
 
 
 def test_a_table_comes_back_from_its_file():

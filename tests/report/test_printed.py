@@ -17,6 +17,7 @@ from validation.analysis.evidence import (
     VerdictCell,
     plus_minus,
 )
+from validation.analysis.verdict import OF_NUMBERS
 from validation.report import drawing, formats, page
 from validation.report.contents import CASES
 from validation.report.section import Section, case_results, numbers_table
@@ -65,20 +66,21 @@ def test_rows_of_the_file_and_of_the_results_are_the_numbers():
     rows = case_results(Section("geike", CASES["geike"], "none", {}, evidence_with(numbers)))["numbers"]
     for name in ("verdict", "unit", "role", "value", "reference", "difference", "grid", "sample", "tolerance"):
         expected = [getattr(number, name) for number in numbers]
-        assert table[name].tolist() == [row[name] for row in rows] == expected
+        assert table[name].tolist() == [row["outcome" if name == "verdict" else name] for row in rows] == expected
     assert [row["verdict"] for row in rows] == ["agree", "differ", "undecided"]
+    assert [row["outcome"] for row in rows] == ["within tolerance", "outside tolerance", "inconclusive"]
     assert [row["met"] for row in rows] == [True, False, None]
 
 
 @catches("two signs of verdicts exchanged").at(
-    "validation.report.formats.SYMBOL", {"agree": "≠", "differ": "✓", "undecided": "?"}
+    "validation.report.formats.SYMBOL", dict(zip(OF_NUMBERS, "≠✓?", strict=True))
 )
 def test_every_verdict_has_its_word_and_sign():
-    assert formats.SYMBOL == {"agree": "✓", "differ": "≠", "undecided": "?"} and set(formats.SYMBOL) == set(Verdict)
-    assert drawing.SIGN == {"agree": "=", "differ": "≠", "undecided": "?"}
+    assert dict(zip(OF_NUMBERS, "✓≠?", strict=True)) == formats.SYMBOL
+    assert dict(zip(OF_NUMBERS, "=≠?", strict=True)) == drawing.SIGN
     for verdict, symbol in formats.SYMBOL.items():
         assert formats.format_cell(VerdictCell("+3 %", Verdict(verdict), "more")) == (
-            f'+3 %<br><span class="verdict {verdict}">{symbol} {verdict}</span>; more'
+            f'+3 %<br><span class="verdict {verdict.css}">{symbol} {verdict}</span>; more'
         )
     assert formats.format_cell("<a> & b") == "&lt;a&gt; &amp; b" and formats.format_cell(0.123456) == "0.1235"
 
@@ -111,5 +113,5 @@ def test_values_with_intervals_of_all_sizes(value, half, text):
 
 def test_a_number_in_a_sentence():
     n = number(1.25, reference=1.0, tolerance=0.5, grid=0.02, sample=0.03)
-    assert n.sentence == "x = 1.25 dB ± 0.05 dB, agree with 1 dB within 0.5 dB"
-    assert replace(n, unit="-").sentence == "x = 1.25 ± 0.05, agree with 1 within 0.5"
+    assert n.sentence == "x = 1.25 dB ± 0.05 dB, within tolerance: reference 1 dB, tolerance 0.5 dB"
+    assert replace(n, unit="-").sentence == "x = 1.25 ± 0.05, within tolerance: reference 1, tolerance 0.5"

@@ -9,14 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from validation.analysis.sound import Sounds
-
-
-class Verdict(StrEnum):
-    """What a number says about its reference."""
-
-    AGREE = "agree"
-    DIFFER = "differ"
-    UNDECIDED = "undecided"
+from validation.analysis.verdict import Place as Place
+from validation.analysis.verdict import Verdict as Verdict
+from validation.analysis.verdict import verdict_of
 
 
 class Role(StrEnum):
@@ -28,10 +23,6 @@ class Role(StrEnum):
     CRITERION = "criterion"
     FINDING = "finding"
     IDENTITY = "identity"
-
-
-Place = str | float | tuple[float, float]
-"""A region by its name, a parameter by its value, or a range of it by both ends."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,12 +78,8 @@ class Number:
 
     @property
     def verdict(self) -> Verdict:
-        """agree or differ where the whole interval lies inside or outside the tolerance, else undecided."""
-        if abs(self.difference) + self.uncertainty <= self.tolerance:
-            return Verdict.AGREE
-        if abs(self.difference) - self.uncertainty > self.tolerance:
-            return Verdict.DIFFER
-        return Verdict.UNDECIDED
+        """See `verdict_of`."""
+        return verdict_of(self.difference, self.uncertainty, self.tolerance)
 
     @property
     def sample_needed(self) -> float:
@@ -105,8 +92,8 @@ class Number:
     def sentence(self) -> str:
         """All of it in a line."""
         return (
-            f"{self.label} = {self.value:.6g}{self.behind} ± {self.uncertainty:.2g}{self.behind}, {self.verdict} with "
-            f"{self.reference:.6g}{self.behind} within {self.tolerance:.2g}{self.behind}"
+            f"{self.label} = {self.value:.6g}{self.behind} ± {self.uncertainty:.2g}{self.behind}, {self.verdict}: "
+            f"reference {self.reference:.6g}{self.behind}, tolerance {self.tolerance:.2g}{self.behind}"
         )
 
     @property
@@ -117,7 +104,7 @@ class Number:
     @property
     def met(self) -> bool:
         """False for a criterion or an identity that does not agree."""
-        return self.role is Role.FINDING or self.verdict is Verdict.AGREE
+        return self.role is Role.FINDING or self.verdict is Verdict.WITHIN
 
 
 def numbers_with(
@@ -211,10 +198,33 @@ def grouped(name: str, table: Table, by: tuple[str, ...], columns: Columns) -> T
 class ClaimStatus(StrEnum):
     """What the numbers say of a claim."""
 
-    HOLDS = "holds"
-    LIMITED = "holds within limits"
-    CONTRADICTED = "contradicted"
-    OPEN = "open"
+    SUPPORTED = "supported"
+    LIMITED = "supported within limits"
+    REFUTED = "refuted"
+    INCONCLUSIVE = "inconclusive"
+
+    @classmethod
+    def _missing_(cls, value: object) -> "ClaimStatus | None":
+        """By its value in files of schema 1."""
+        return next((status for status, earlier in EARLIER_STATUSES.items() if earlier == value), None)
+
+    @property
+    def earlier(self) -> str:
+        """Its value in files of schema 1, which schema 2 keeps for one release under the same key."""
+        return EARLIER_STATUSES[self]
+
+    @property
+    def css(self) -> str:
+        """A class of the style sheet: "supported", "supported-within-limits"."""
+        return self.replace(" ", "-")
+
+
+EARLIER_STATUSES = {
+    ClaimStatus.SUPPORTED: "holds",
+    ClaimStatus.LIMITED: "holds within limits",
+    ClaimStatus.REFUTED: "contradicted",
+    ClaimStatus.INCONCLUSIVE: "open",
+}
 
 
 class Whose(StrEnum):
@@ -229,15 +239,16 @@ class Whose(StrEnum):
 class JudgedClaim:
     """A claim, the numbers that test it, and the answer: one sentence with three numbers at most.
 
-    key: by which it is found in its case; confirmed_by: agree; or differ, where the claim says that two things are not
-    the same; limits: the conditions under which alone it is said to hold, as text; inside: the numbers under these.
+    key: by which it is found in its case; confirmed_by: within tolerance, or outside, where the claim says that two
+    things are not the same; limits: the conditions under which alone it is said to hold, as text; inside: the numbers
+    under these.
     Raises ValueError without numbers, for an identity among them, and for limits without numbers inside.
     """
 
     claim: str
     answer: str
     numbers: tuple[Number, ...]
-    confirmed_by: Verdict = Verdict.AGREE
+    confirmed_by: Verdict = Verdict.WITHIN
     limits: str = ""
     inside: tuple[Number, ...] = ()
     whose: Whose = Whose.FINDING
@@ -248,8 +259,10 @@ class JudgedClaim:
             raise ValueError(f"numbers must test the claim {self.claim!r}, got none")
         if identities := [number.label for number in self.numbers if number.role is Role.IDENTITY]:
             raise ValueError(f"numbers of the claim {self.claim!r} must not be identities, got {identities}")
-        if self.confirmed_by is Verdict.UNDECIDED:
-            raise ValueError(f"confirmed_by of the claim {self.claim!r} must be agree or differ, got undecided")
+        if self.confirmed_by is Verdict.INCONCLUSIVE:
+            raise ValueError(
+                f"confirmed_by of the claim {self.claim!r} must be within or outside tolerance, got inconclusive"
+            )
         known = {number.label for number in self.numbers}
         if bool(self.limits) != bool(self.inside) or any(number.label not in known for number in self.inside):
             raise ValueError(f"limits of the claim {self.claim!r} must come with numbers of its own inside them")
@@ -259,10 +272,12 @@ class JudgedClaim:
         """By the verdicts of all numbers, or of those inside the limits; one counterexample contradicts."""
         verdicts, inside = ({number.verdict for number in some} for some in (self.numbers, self.inside))
         if verdicts == {self.confirmed_by}:
-            return ClaimStatus.HOLDS
+            return ClaimStatus.SUPPORTED
         if inside == {self.confirmed_by}:
             return ClaimStatus.LIMITED
-        return ClaimStatus.OPEN if verdicts <= {self.confirmed_by, Verdict.UNDECIDED} else ClaimStatus.CONTRADICTED
+        return (
+            ClaimStatus.INCONCLUSIVE if verdicts <= {self.confirmed_by, Verdict.INCONCLUSIVE} else ClaimStatus.REFUTED
+        )
 
     def count(self, verdict: Verdict) -> int:
         """Of the numbers that test it."""

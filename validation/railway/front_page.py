@@ -55,7 +55,7 @@ def right_filters(table: Table) -> str:
 
 
 def _agrees(cell: object) -> bool:
-    return isinstance(cell, VerdictCell) and cell.verdict is Verdict.AGREE
+    return isinstance(cell, VerdictCell) and cell.verdict is Verdict.WITHIN
 
 
 def _evidence(name: str, sections: Sequence[Section]) -> Evidence | None:

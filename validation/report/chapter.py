@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from validation.analysis.claims import NO, Claim
+from validation.analysis.claims import REFUTED, Claim
 from validation.analysis.evidence import Evidence, JudgedClaim
 from validation.analysis.quantity import quantity_with
 from validation.analysis.statistics import POWER_DECIBEL
@@ -37,7 +37,7 @@ class ChapterTest:
     quantity: str = ""
     model: str = ""
     where: Mapping[str, str | float] = field(default_factory=dict)
-    no: str = NO
+    no: str = REFUTED
 
     def judged(self, statement: str, evidence: Evidence) -> JudgedClaim | None:
         """The claim of this evidence, or the statement with its numbers; None where it has none, or no such claim."""
@@ -120,9 +120,14 @@ def answers(entry: ChapterEntry, sections: Sequence[Section]) -> list[Answer]:
 def _answered(entry: ChapterEntry, test: ChapterTest, section: Section) -> Answer:
     judged = test.judged(entry.statement, section.evidence) if section.evidence else None
     if judged is None:
-        return {"case": section.name, "status": None, "answer": "This run has no number for it."}
+        return {"case": section.name, "status": None, "outcome": None, "answer": "This run has no number for it."}
     tested = "" if judged.claim == entry.statement else f"Tested as “{judged.claim}” "
-    return {"case": section.name, "status": judged.status, "answer": tested + judged.answer}
+    return {
+        "case": section.name,
+        "status": judged.status.earlier,
+        "outcome": judged.status,
+        "answer": tested + judged.answer,
+    }
 
 
 def book_figures(sections: Sequence[Section]) -> list[tuple[BookFigure, JudgedClaim | None, JudgedClaim | None]]:

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.evidence import Evidence, Table, placed
+from validation.analysis.evidence import Evidence, Table, Verdict, placed
 from validation.analysis.series import ENDS, JUDGED
 from validation.report.style import (
     BARS,
@@ -117,8 +117,8 @@ FORMS: dict[str, Style] = {
 FIRST, FIRST_OF_ALL = "first", "first of all"
 FEW, FEWEST, LARGE = 15, 3, 1e5
 FEW_DECADES, ASIDE = 300, 1.2
-WORST = "worst of a range and its interval: = agree, ≠ differ, ? undecided"
-SIGN = {"agree": "=", "differ": "≠", "undecided": "?"}
+WORST = "worst of a range and its interval: = within tolerance, ≠ outside, ? inconclusive"
+SIGN = {Verdict.WITHIN: "=", Verdict.OUTSIDE: "≠", Verdict.INCONCLUSIVE: "?"}
 
 
 def draw(chart: Chart, evidence: Evidence, users: Collection[str] = ()) -> Figure:
@@ -218,7 +218,8 @@ def _verdicts(axis: Axes, judged: Table) -> None:
             (x, to), [low] * 2, [high] * 2, facecolor="none", edgecolor="#000000", linewidth=0.6, label=WORST
         )
         axis.plot((x, to), [value] * 2, color="#000000", linewidth=2)
-        axis.text(math.sqrt(x * to), 0.97, SIGN[verdict], transform=axis.get_xaxis_transform(), ha="center", va="top")
+        sign = SIGN[Verdict(verdict)]
+        axis.text(math.sqrt(x * to), 0.97, sign, transform=axis.get_xaxis_transform(), ha="center", va="top")
 
 
 def _limits(axis: Axes, panel: Panel) -> None:

@@ -14,9 +14,13 @@ from validation.analysis.evidence import ClaimStatus, Table, Verdict, VerdictCel
 from validation.analysis.study import Settings
 from validation.report.columns import SYMBOLS, symbols_in
 
-SYMBOL = {"agree": "✓", "differ": "≠", "undecided": "?"}
-LETTER = {Verdict.AGREE: "A", Verdict.DIFFER: "D", Verdict.UNDECIDED: "?"}
-STATUS_SYMBOL = {"holds": "✓", "holds within limits": "(✓)", "contradicted": "✗", "open": "?"}
+SYMBOL = {Verdict.WITHIN: "✓", Verdict.OUTSIDE: "≠", Verdict.INCONCLUSIVE: "?"}
+STATUS_SYMBOL = {
+    ClaimStatus.SUPPORTED: "✓",
+    ClaimStatus.LIMITED: "(✓)",
+    ClaimStatus.REFUTED: "✗",
+    ClaimStatus.INCONCLUSIVE: "?",
+}
 """Each status also has a border of its own, so that it is known without colour."""
 PANEL = re.compile(r"^\([a-z]\)(, \([a-z]\))* ")
 SENTENCE_END = re.compile(r"(?<=[.;]) (?=[A-Z(])")
@@ -59,10 +63,9 @@ def in_seconds(value: float) -> str:
 
 def format_status(status: ClaimStatus | None) -> Markup:
     """The status of a claim with its symbol and colour."""
-    name = status or "no result"
-    return Markup('<span class="verdict {}">{} {}</span>').format(
-        name.replace(" ", "-"), STATUS_SYMBOL.get(name, "–"), name
-    )
+    if status is None:
+        return Markup('<span class="verdict no-result">– no result</span>')
+    return Markup('<span class="verdict {}">{} {}</span>').format(status.css, STATUS_SYMBOL[status], status)
 
 
 def in_four_digits(cell: object) -> str:
@@ -74,15 +77,16 @@ def format_cell(cell: object) -> Markup:
     """A cell of a table, with its verdict where it has one."""
     if not isinstance(cell, VerdictCell):
         return escape("–" if cell != cell else in_four_digits(cell))
-    badge = Markup('<span class="verdict {0}">{1} {0}</span>').format(cell.verdict, SYMBOL[cell.verdict])
+    verdict = cell.verdict
+    badge = Markup('<span class="verdict {}">{} {}</span>').format(verdict.css, SYMBOL[verdict], verdict)
     after = f"; {cell.after}" if cell.after else ""
     return Markup("{}<br>{}{}").format(cell.text, badge, after)
 
 
 def format_field(cell: object) -> Markup:
-    """A cell of a map: the letter of its verdict, a dash where it has none."""
-    letter, kind = (LETTER[cell.verdict], str(cell.verdict)) if isinstance(cell, VerdictCell) else ("–", "none")
-    return Markup('<td class="{}" title="{}">{}</td>').format(kind, str(cell), letter)
+    """A cell of a map: the symbol of its verdict, a dash where it has none."""
+    symbol, css = (SYMBOL[cell.verdict], cell.verdict.css) if isinstance(cell, VerdictCell) else ("–", "none")
+    return Markup('<td class="{}" title="{}">{}</td>').format(css, str(cell), symbol)
 
 
 class VerdictMap(NamedTuple):

@@ -14,14 +14,16 @@ from validation.analysis.evidence import (
     Number,
     Role,
     Table,
-    Verdict,
     VerdictCell,
     Whose,
 )
+from validation.analysis.verdict import OF_NUMBERS
 
 PREDICTED = "predicted before a solve, for a single surface and not for ensemble means"
 STATED = "stated by the case"
 """What the model is that a case needs, by the a-priori error estimates or by itself: no answer of the page."""
+SCHEMA = 2
+"""Of results.json: keys of schema 1 stay for one release."""
 FIRST_WORDS = 10
 """Of a claim without a key, by which it is found."""
 
@@ -111,7 +113,11 @@ def total_of(sections: Sequence[Section]) -> str:
 
 def results_of(sections: Sequence[Section], profile: Profile) -> dict[str, object]:
     """What results.json holds."""
-    return {"profile": profile, "cases": {section.name: case_results(section) for section in sections}}
+    return {
+        "schema_version": SCHEMA,
+        "profile": profile,
+        "cases": {section.name: case_results(section) for section in sections},
+    }
 
 
 def case_results(section: Section) -> dict[str, object]:
@@ -121,10 +127,13 @@ def case_results(section: Section) -> dict[str, object]:
         "claim": section.entry.claim,
         "claims": [
             {
-                **{name: getattr(claim, name) for name in ("key", "claim", "whose", "status", "answer", "limits")},
-                "verdicts": {verdict: claim.count(verdict) for verdict in Verdict},
+                **{name: getattr(claim, name) for name in ("key", "claim", "whose", "answer", "limits")},
+                "status": claim.status.earlier,
+                "outcome": claim.status,
+                "verdicts": {verdict.earlier: claim.count(verdict) for verdict in OF_NUMBERS},
                 "numbers": [number.label for number in claim.numbers],
-                "confirmed by": claim.confirmed_by,
+                "confirmed by": claim.confirmed_by.earlier,
+                "confirmed_by": claim.confirmed_by,
                 "inside": [number.label for number in claim.inside],
             }
             for claim in section.claims
@@ -138,7 +147,8 @@ def case_results(section: Section) -> dict[str, object]:
                 "label": number.label,
                 **asdict(number),
                 "difference": number.difference,
-                "verdict": number.verdict,
+                "verdict": number.verdict.earlier,
+                "outcome": number.verdict,
                 "met": None if number.role is Role.FINDING else number.met,
             }
             for number in section.numbers
@@ -173,5 +183,5 @@ def written_tables(evidence: Evidence) -> list[Table]:
 def _plain(cell: object) -> object:
     """A cell as strict JSON can hold it, printed the same."""
     if isinstance(cell, VerdictCell):
-        return asdict(cell)
+        return {**asdict(cell), "verdict": cell.verdict.earlier, "outcome": cell.verdict}
     return str(cell) if isinstance(cell, float) and not math.isfinite(cell) else cell

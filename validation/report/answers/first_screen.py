@@ -6,10 +6,11 @@ from itertools import groupby
 
 from validation.analysis.claims import listed
 from validation.analysis.evidence import Evidence, Number, Place, Verdict, placed
+from validation.analysis.verdict import OF_NUMBERS
 from validation.report.answers.question import Alternative, Printed, Question, per_cent, times
 from validation.report.answers.questions import QUESTIONS
 from validation.report.answers.seconds import TIMES
-from validation.report.answers.strip import TERMS, WORDS, Cell, Source, ends, interval, span
+from validation.report.answers.strip import EARLIER_WORDS, Cell, Source, ends, interval, span
 from validation.report.section import Section
 
 REGIONS = "the spectrum"
@@ -21,15 +22,25 @@ ENSEMBLE_MEAN = "ensemble mean"
 
 @dataclass(frozen=True)
 class StripCell:
-    """A place, its word, and the conditions that alone have it, empty where all have; ends: of a range; by: all
-    verdicts with their conditions.
+    """A place, its verdict, None where it was not measured, and the conditions that alone have it, empty where all
+    have; ends: of a range; by: all verdicts with their conditions.
     """
 
     place: str
-    word: str
+    verdict: Verdict | None
     alone: str = ""
     ends: tuple[float, float] | None = None
     by: str = ""
+
+    @property
+    def css(self) -> str:
+        """A class of the style sheet: of its verdict, or "unmeasured"."""
+        return self.verdict.css if self.verdict else "unmeasured"
+
+    @property
+    def word(self) -> str:
+        """As the cell has it: "within", "outside", "inconclusive", "not measured"."""
+        return self.verdict.css if self.verdict else NOT_MEASURED.lower()
 
 
 @dataclass(frozen=True)
@@ -71,7 +82,8 @@ def plain(rows: Sequence[AnsweredQuestion]) -> list[dict[str, object]]:
             "strip": [
                 {
                     "place": cell.place,
-                    "enough": cell.word,
+                    "enough": EARLIER_WORDS[cell.verdict] if cell.verdict else NOT_MEASURED.lower(),
+                    "verdict": cell.verdict,
                     "alone": cell.alone,
                     "by condition": cell.by,
                     "ends": cell.ends,
@@ -112,7 +124,7 @@ def _answered(question: Question, sections: Mapping[str, Section]) -> AnsweredQu
         ", ".join([*_measured(cells, source), *_of_scene(question, section)]),
         " ".join(dict.fromkeys(number.reason for number in numbers)),
         within,
-        tuple((text, cost, case * (case in evidence)) for text, cost, case in offered if verdicts != {Verdict.AGREE}),
+        tuple((text, cost, case * (case in evidence)) for text, cost, case in offered if verdicts != {Verdict.WITHIN}),
     )
 
 
@@ -126,12 +138,12 @@ def _strip(cells: Sequence[Cell]) -> list[StripCell]:
     if any(isinstance(place, str) for place in places):
         return inside
     below, above = f"< {ends(places[0])[0]:.2g}", f"> {ends(places[-1])[1]:.2g}"
-    return [StripCell(below, NOT_MEASURED.lower()), *inside, StripCell(above, NOT_MEASURED.lower())]
+    return [StripCell(below, None), *inside, StripCell(above, None)]
 
 
 def _strip_cell(cell: Cell) -> StripCell:
     both = cell.place if isinstance(cell.place, tuple) else None
-    return StripCell(span([cell.place]), WORDS[cell.verdict], cell.alone, both, cell.by_condition)
+    return StripCell(span([cell.place]), cell.verdict, cell.alone, both, cell.by_condition)
 
 
 def _measured(cells: Sequence[Cell], source: Source) -> list[str]:
@@ -161,7 +173,7 @@ def _offered(model: Alternative, question: Question, within: str, evidence: Mapp
     cells = model.source.cells(evidence[model.source.case]) if model.source.case in evidence else []
     margin = _margins(question, _numbers(cells))
     by = f", within {margin} {model.by}".rstrip() if model.by or margin != within else ""
-    where = _where(cells, Verdict.AGREE, model.source.over)
+    where = _where(cells, Verdict.WITHIN, model.source.over)
     return f"{model.name} {where}{by}" if where else ""
 
 
@@ -179,9 +191,9 @@ def _margins(question: Question, numbers: Sequence[Number]) -> str:
 
 def _word(verdicts: set[Verdict]) -> str:
     """The whole strip."""
-    if Verdict.AGREE in verdicts:
-        return "Yes" if len(verdicts) == 1 else "In part"
-    return WORDS[verdicts.pop()].capitalize() if len(verdicts) == 1 else "No or open"
+    if len(verdicts) == 1:
+        return next(iter(verdicts)).capitalize()
+    return "In part" if Verdict.WITHIN in verdicts else "Outside tolerance or inconclusive"
 
 
 def _where(cells: Sequence[Cell], verdict: Verdict, over: str) -> str:
@@ -216,17 +228,17 @@ def _alone(cell: Cell) -> str:
 def sentence(cells: Sequence[Cell], over: str, printed: Printed) -> str:
     """Where it is within tolerance, outside, inconclusive; each with the numbers that say so."""
     clauses = []
-    for verdict, word in TERMS.items():
+    for verdict in OF_NUMBERS:
         if where := _where(cells, verdict, over):
             numbers = _numbers(cell for cell in cells if cell.verdict is verdict)
-            clauses.append(f"{word} {where}: {_found(verdict, numbers, printed)}")
+            clauses.append(f"{verdict} {where}: {_found(verdict, numbers, printed)}")
     text = "; ".join(clauses)
     return f"{text[0].upper()}{text[1:]}."
 
 
 def _found(verdict: Verdict, numbers: Sequence[Number], printed: Printed) -> str:
     mine = [number for number in numbers if number.verdict is verdict]
-    if verdict is Verdict.DIFFER:
+    if verdict is Verdict.OUTSIDE:
         return f"{'' if printed is times else 'off by '}{_by_quantity(mine, printed)}"
     if not mine:
         return "some numbers are missing"

@@ -15,7 +15,6 @@ from validation.cases.punch.ensembles import FORCE
 from validation.cases.rolling.force_spectrum import SLOPE
 from validation.report.answers.question import BEM
 from validation.report.answers.seconds import ENOUGH, TIMES
-from validation.report.answers.strip import TERMS
 from validation.report.section import Section
 from validation.scenes.description import slope_ratio
 
@@ -41,8 +40,8 @@ def _found(row: Mapping[str, Any], evidence: Evidence) -> dict[str, Any]:
     errors = [tuple(scale * float(points[name][i]) for name in ("error", "± sample")) for i in timed]
     # of several that took as long, that whose interval ends there
     value, half = min(errors, key=lambda error: abs(sum(error) - end))
-    verdict = Verdict.AGREE if end <= enough else Verdict.DIFFER if value - half > enough else Verdict.UNDECIDED
-    return {"enough": TERMS[verdict], "value": value, "half": half}
+    verdict = Verdict.WITHIN if end <= enough else Verdict.OUTSIDE if value - half > enough else Verdict.INCONCLUSIVE
+    return {"enough": verdict, "value": value, "half": half}
 
 
 def _place(row: Mapping[str, Any], section: Section) -> str:
@@ -60,9 +59,7 @@ def _place(row: Mapping[str, Any], section: Section) -> str:
 
 def times_faster_said(rows: Sequence[Mapping[str, Any]]) -> str:
     """Of springs over all quantities for which they are enough, the least and the most."""
-    found = [
-        float(row["times faster"]) for row in rows if row["model"] in SPRINGS and row["enough"] == TERMS[Verdict.AGREE]
-    ]
+    found = [float(row["times faster"]) for row in rows if row["model"] in SPRINGS and row["enough"] == Verdict.WITHIN]
     if not found:
         return ""
     least, most = (f"{float(f'{times:.2g}'):g}" for times in (min(found), max(found)))

@@ -6,14 +6,10 @@ from dataclasses import dataclass
 from validation.analysis.claims import Choice, alone, listed
 from validation.analysis.evidence import Evidence, Number, Place, Verdict, placed
 from validation.analysis.series import worst
+from validation.analysis.verdict import OF_NUMBERS
 
-WORDS = {Verdict.AGREE: "yes", Verdict.DIFFER: "no", Verdict.UNDECIDED: "open"}
-TERMS = {
-    Verdict.AGREE: "within tolerance",
-    Verdict.DIFFER: "outside tolerance",
-    Verdict.UNDECIDED: "inconclusive",
-}
-"""The same in sentences."""
+EARLIER_WORDS = {Verdict.WITHIN: "yes", Verdict.OUTSIDE: "no", Verdict.INCONCLUSIVE: "open"}
+"""Of a place of a strip, in results.json of schema 1; schema 2 keeps them for one release."""
 
 
 @dataclass(frozen=True)
@@ -30,9 +26,9 @@ class Cell:
 
     @property
     def verdict(self) -> Verdict:
-        """One counterexample is enough for no; one that is undecided, and one that lacks, leaves it open."""
+        """Outside tolerance by one counterexample; inconclusive by one number that is so, and by one that lacks."""
         found = worst(self.numbers).verdict
-        return Verdict.UNDECIDED if self.lacking and found is Verdict.AGREE else found
+        return Verdict.INCONCLUSIVE if self.lacking and found is Verdict.WITHIN else found
 
     @property
     def alone(self) -> str:
@@ -41,9 +37,9 @@ class Cell:
 
     @property
     def by_condition(self) -> str:
-        """Each verdict with its conditions: "yes at H = 0.4 to 0.7; no at H = 1"; empty where all have one."""
-        said = [(WORDS[verdict], alone(self.numbers, verdict, (self.axis,))) for verdict in WORDS]
-        return "; ".join(f"{word} at {where.removesuffix(' alone')}" for word, where in said if where)
+        """Each verdict with its conditions: "within tolerance at H = 0.4 to 0.7"; empty where all have one."""
+        conditions = [(verdict, alone(self.numbers, verdict, (self.axis,))) for verdict in OF_NUMBERS]
+        return "; ".join(f"{verdict} at {where.removesuffix(' alone')}" for verdict, where in conditions if where)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,0 +1,114 @@
+"""The verdict of a number: one vocabulary, one rule, and ranges of equal verdict along a parameter."""
+
+from collections.abc import Hashable, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from itertools import groupby
+
+Place = str | float | tuple[float, float]
+"""A region by its name, a parameter by its value, or a range of it by both ends."""
+
+
+class Verdict(StrEnum):
+    """Of a number relative to its reference; the last two are of a model that has no number.
+
+    WITHIN, OUTSIDE: the whole 95 % interval lies within the tolerance, or outside; INCONCLUSIVE: it straddles the
+    limit; NOT_SERVED: the model rejects the scene; NO_RESULT: the model failed.
+    """
+
+    WITHIN = "within tolerance"
+    OUTSIDE = "outside tolerance"
+    INCONCLUSIVE = "inconclusive"
+    NOT_SERVED = "not served"
+    NO_RESULT = "no result"
+
+    @classmethod
+    def _missing_(cls, value: object) -> "Verdict | None":
+        """By its value in files of schema 1."""
+        return next((verdict for verdict, earlier in EARLIER_VERDICTS.items() if earlier == value), None)
+
+    @property
+    def earlier(self) -> str:
+        """Its value in files of schema 1, which schema 2 keeps for one release under the same key."""
+        return EARLIER_VERDICTS[self]
+
+    @property
+    def css(self) -> str:
+        """A class of the style sheet: "within", "outside", "inconclusive", "not-served", "no-result"."""
+        return self.removesuffix(" tolerance").replace(" ", "-")
+
+    @property
+    def sign(self) -> str:
+        """One character of a strip: = within tolerance, # outside, ? inconclusive, r not served, x no result."""
+        return SIGNS[self]
+
+
+EARLIER_VERDICTS = {
+    Verdict.WITHIN: "agree",
+    Verdict.OUTSIDE: "differ",
+    Verdict.INCONCLUSIVE: "undecided",
+    Verdict.NOT_SERVED: "refused",
+    Verdict.NO_RESULT: "failed",
+}
+OF_NUMBERS = (Verdict.WITHIN, Verdict.OUTSIDE, Verdict.INCONCLUSIVE)
+"""Verdicts that a number has."""
+SIGNS = dict(zip(Verdict, "=#?rx", strict=True))
+
+
+def verdict_of(difference: float, half_width: float, tolerance: float, rounding: float = 0.0) -> Verdict:
+    """WITHIN where |difference| + half_width <= tolerance, OUTSIDE where |difference| - half_width > tolerance.
+
+    Else INCONCLUSIVE. All three in one unit; half_width: of the 95 % interval; rounding: relative to the tolerance, of
+    values that are computed from each other.
+    """
+    limit = tolerance * (1 + rounding)
+    if abs(difference) + half_width <= limit:
+        return Verdict.WITHIN
+    return Verdict.OUTSIDE if abs(difference) - half_width > limit else Verdict.INCONCLUSIVE
+
+
+@dataclass(frozen=True)
+class VerdictRange:
+    """Neighbouring places of one verdict along a parameter.
+
+    places: in their order; first: position of the first of them among all; split: the value of what else keeps
+    neighbours apart, as a condition that alone has the verdict.
+    """
+
+    verdict: Verdict
+    places: tuple[Place, ...]
+    first: int
+    split: Hashable = None
+
+    @property
+    def start(self) -> float:
+        """Lower end of the first place. Raises TypeError for a region by its name."""
+        return ends_of(self.places[0])[0]
+
+    @property
+    def stop(self) -> float:
+        """Upper end of the last place. Raises TypeError for a region by its name."""
+        return ends_of(self.places[-1])[1]
+
+
+def ends_of(place: Place) -> tuple[float, float]:
+    """Both ends of a range; of a value, twice the value. Raises TypeError for a region by its name."""
+    if isinstance(place, str):
+        raise TypeError(f"place must be a value or a range, got {place!r}")
+    return place if isinstance(place, tuple) else (place, place)
+
+
+def verdict_ranges(
+    places: Sequence[Place], verdicts: Sequence[Verdict], split: Sequence[Hashable] | None = None
+) -> list[VerdictRange]:
+    """Ranges of equal verdict, in the order of the places.
+
+    split: a value each, by which neighbours of one verdict stay apart where it differs. Raises ValueError where the
+    lengths differ.
+    """
+    rows = list(zip(places, verdicts, split if split is not None else [None] * len(places), strict=True))
+    ranges: list[VerdictRange] = []
+    for (verdict, value), group in groupby(rows, lambda row: (row[1], row[2])):
+        first = ranges[-1].first + len(ranges[-1].places) if ranges else 0
+        ranges.append(VerdictRange(verdict, tuple(row[0] for row in group), first, value))
+    return ranges
