@@ -122,4 +122,4 @@ def own_rail(folder):
 def test_what_the_page_of_verdicts_shows_runs(capsys):
     (example,) = re.findall(r"```python\n(.*?)```", PAGES["verdicts"], flags=re.DOTALL)
     exec(compile(example, "verdicts", "exec"), {})
-    assert "undecided\n" in capsys.readouterr().out
+    assert "inconclusive\n" in capsys.readouterr().out
