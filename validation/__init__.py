@@ -12,6 +12,7 @@ MODULES = {
     "Comparison": "advice.compare",
     "IndentationScene": "scenes.indentation",
     "Material": "scenes.material",
+    "JudgedNumber": "judging.judgement",
     "Judgement": "judging.judge",
     "MeasuredHeights": "scenes.measured",
     "RailScene": "railway.scenes.rail",

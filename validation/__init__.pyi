@@ -9,6 +9,7 @@ from validation.advice.summary import summary as summary
 from validation.benchmarks.discrete import problems as problems
 from validation.judging.judge import Judgement as Judgement
 from validation.judging.judge import judge as judge
+from validation.judging.judgement import JudgedNumber as JudgedNumber
 from validation.judging.registry import contact_filter as contact_filter
 from validation.judging.registry import contact_law as contact_law
 from validation.judging.registry import contact_solver as contact_solver

@@ -30,7 +30,6 @@ from validation.cases.punch.interface import GAP, GAP_OVER_H, PUNCH
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.stability import wheel_stability
 from validation.cases.wheel.half_space import LOOSE, TIGHT, WheelLevels
-from validation.judging.judgement import AGREE
 from validation.railway.cases import across, across_study
 
 # --- the punch of Fig. 14.1 ---
@@ -56,7 +55,7 @@ def test_the_ratio_of_two_deviations_is_that_of_the_deviations(apart, spread):
     assert springs == pytest.approx(apart * spread * np.ones(springs.size), rel=0.01)
 
 
-@catches("a rule of judgement that nobody applies", *(0.5, 0.005, AGREE, 0.0)).at(
+@catches("a rule of judgement that nobody applies", *(0.5, 0.005, Verdict.WITHIN, 0.0)).at(
     "validation.cases.punch.fractal_punch.LEAST", -math.inf
 )
 @pytest.mark.parametrize(

@@ -5,11 +5,13 @@ from pkgutil import resolve_name
 from types import SimpleNamespace
 from unittest import mock
 
+from validation.analysis.verdict import Verdict
 from validation.judging.kinds import stiffness, surfaces
 from validation.judging.kinds.judge import JUDGES
 from validation.judging.registry import offer
 from validation.judging.worker import Called
 
+WITHIN, OUTSIDE, INCONCLUSIVE, NOT_SERVED, NO_RESULT = Verdict
 SWEEPS, SCALING = "sweeps:swept", "scaling:judged"
 
 

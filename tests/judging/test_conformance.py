@@ -73,7 +73,7 @@ def test_a_function_that_is_slow_has_fewer_examples_and_that_is_said(seconds, ex
 def test_what_is_right_passes_and_what_is_wrong_fails_with_the_smallest_example(tmp_path):
     run = conformance(tmp_path, OWN, "--mdr-mapping", "own.py:rule", "-k", "conditions or superposition or rule")
     assert run.returncode == 1 and "1 failed, 2 passed" in run.stdout
-    assert "force balance, 0.01 off: force not held" in run.stdout and "warnings summary" not in run.stdout
+    assert "force balance, deviation 0.01: force not held" in run.stdout and "warnings summary" not in run.stdout
     # of two rows it has two lines
     (gap,) = re.findall(r"gap = (np\.array\([^)]*\))", re.sub("^E ", "", run.stdout, flags=re.MULTILINE))[:1]
     assert eval(gap, {"np": np}).size == 4

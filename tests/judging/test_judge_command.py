@@ -11,10 +11,11 @@ from functools import partial
 import pytest
 
 import validation
+from tests.judging.judged_points import NO_RESULT, OUTSIDE, WITHIN
 from validation.__main__ import main
 from validation.judging import judge as judged
 from validation.judging.figure import figure_of
-from validation.judging.judgement import LEVEL, compared, not_compared
+from validation.judging.judgement import LEVEL, judged_number, missing_number
 from validation.judging.kinds.own import ErrorOfCall
 from validation.judging.kinds.sweeps import HEAVY, LIGHT
 from validation.judging.solvers.judged import SolverTime
@@ -48,17 +49,28 @@ def test_a_formula_is_judged_and_written(file, tmp_path, capsys):
     words = [word for pair in zip(("--json", "--csv", "--figure"), map(str, places), strict=True) for word in pair]
     assert main(["judge", str(file), "--out", str(tmp_path / "out"), *words]) == 0
     printed, found = capsys.readouterr().out, json.loads(places[0].read_text(encoding="utf-8"))
-    assert list(found) == ["model", "kind", "tolerance", "verdicts", "enough", "remarks", "seconds"]
+    assert list(found) == [
+        *("schema_version", "model", "kind", "tolerance", "verdicts", "ranges", "enough", "remarks", "seconds")
+    ]
+    assert found["schema_version"] == 2
     assert (found["model"], found["kind"], found["tolerance"]) == ("in series", "stiffness_model", 0.1)
     point = found["verdicts"][0]
-    assert {"quantity", "where", "value", "reference", "difference", "error", "verdict", "reason"} <= set(point)
+    assert {"quantity", "where", "value", "reference", "difference", "error", "outcome", "reason"} <= set(point)
+    assert point["conditions"] == {"hurst": point["where"]["H"], "normalised_load": point["where"]["Fbar"]}
     assert point["difference"] == pytest.approx(point["value"] / point["reference"] - 1)
     assert {"quantity", "where", "along", "from", "to", "verdict"} == set(found["enough"][0])
+    assert {"quantity", "conditions", "along", "from", "to", "outcome"} == set(found["ranges"][0])
+    ranges = [r for r in found["ranges"] if r["quantity"] == "mean stiffness" and r["conditions"] == {"hurst": 0.7}]
+    assert [(r["along"], r["outcome"]) for r in ranges] == [("normalised_load", OUTSIDE), ("normalised_load", WITHIN)]
     rows = list(csv.DictReader(places[1].read_text(encoding="utf-8").splitlines()))
     assert len(rows) == len(found["verdicts"])
-    assert [row["verdict"] for row in rows] == [p["verdict"] for p in found["verdicts"]]
+    assert [row["outcome"] for row in rows] == [p["outcome"] for p in found["verdicts"]]
+    assert [row["normalised_load"] for row in rows[:2]] == ["0.001", "0.002154435"] and "verdict" not in rows[0]
     assert places[2].read_bytes()[1:4] == b"PNG"
-    assert "H = 0.7                          ########=====  yes 0.464 to 10; no 0.001 to 0.215" in printed
+    strip = "H = 0.7                          ########=====  within tolerance from 0.464 to 10; "
+    assert f"{strip}outside tolerance from 0.001 to 0.215" in printed
+    legend = "= within tolerance, # outside tolerance, ? inconclusive, r not served, x no result"
+    assert f"strips: {legend}" in printed
     said = " ".join(printed.split())
     assert "compared with boundary elements, the references of mdr-validation" in said
     assert "A number is within 10 % where its whole 95 % interval is, by the errors of both." in said
@@ -79,7 +91,7 @@ def test_a_model_that_answers_nowhere_ends_with_three_unless_another_does(file, 
     assert main(["judge", str(file), "--only", "lost", "--json", str(tmp_path / "found.json")]) == 3
     assert "returned NaN or infinity" in capsys.readouterr().out
     last = json.loads((tmp_path / "found.json").read_text(encoding="utf-8"))["verdicts"][-1]
-    assert (last["quantity"], last["verdict"], last["value"]) == ("printing", "failed", None)
+    assert (last["quantity"], last["outcome"], last["value"]) == ("printing", NO_RESULT, None)
     assert last["reason"].startswith("printed 'lost at ")
     assert main(["judge", str(file), "--json", str(tmp_path / "found.json")]) == 0
     assert [one["model"] for one in json.loads((tmp_path / "found.json").read_text(encoding="utf-8"))] == [
@@ -111,7 +123,7 @@ def test_an_error_of_ours_is_a_row_and_takes_no_other_model_with_it(place, file,
     found = {one["model"]: one["verdicts"] for one in json.loads((tmp_path / "found.json").read_text(encoding="utf-8"))}
     reason = "mdr-validation could not go on, which is its own error: ZeroDivisionError: planted, line "
     rows = [row for rows in found.values() for row in rows if row["quantity"] == "judging"]
-    assert {row["verdict"] for row in rows} == {"failed"} and rows[0]["reason"].startswith(reason)
+    assert {row["outcome"] for row in rows} == {NO_RESULT} and rows[0]["reason"].startswith(reason)
     assert {row["reason"].partition(";")[0] for row in found["no force"] if row["reference"] != 1} >= {
         "at an approach of 0.032 m it bears less than the load"
     }
@@ -222,9 +234,9 @@ def solver(*points):
     return judged.Judgement("mine", "contact_solver", judged.tolerance_of(0.1), points, 1.0)
 
 
-RIGHT = replace(compared("approach", {"problem": "sphere"}, 1.0, 1.0, 0.0, 0.1), decides=True)
-BESIDE = compared("order of convergence", {"problem": "flat"}, 3.0, 1.0, 0.0, 0.1)
-LOST = not_compared("approach", {"problem": "rough"}, "failed", "raised MemoryError", decides=True)
+RIGHT = replace(judged_number("approach", {"problem": "sphere"}, 1.0, 1.0, 0.0, 0.1), decides=True)
+BESIDE = judged_number("order of convergence", {"problem": "flat"}, 3.0, 1.0, 0.0, 0.1)
+LOST = missing_number("approach", {"problem": "rough"}, NO_RESULT, "raised MemoryError", decides=True)
 
 
 @pytest.mark.parametrize(
@@ -242,8 +254,8 @@ def test_the_functions_take_what_is_decorated_and_a_file(file):
 
     found = validation.judge(flat, "1 dB")
     assert found.tolerance.relative == pytest.approx(10 ** (1 / 20) - 1)
-    assert {p.verdict for p in found.verdicts if p.where.get("Fbar") == 0.001} == {"differ"}
-    assert {p.verdict for p in found.verdicts if p.where.get("Fbar") == 10.0} == {"agree"}
+    assert {p.verdict for p in found.numbers if p.where.get("Fbar") == 0.001} == {OUTSIDE}
+    assert {p.verdict for p in found.numbers if p.where.get("Fbar") == 10.0} == {WITHIN}
     assert validation.judge(file).model == "in series"
     file.write_text(SERIES + NAN, encoding="utf-8")
     with pytest.raises(ValueError, match="model must be one, got 'in series', 'lost'"):
@@ -263,7 +275,7 @@ def test_a_figure_has_a_form():
 
 def test_a_paragraph_says_beside_what_how_near_and_over_which_conditions():
     """Of levels in decibels; of points apart how many are near."""
-    level = partial(compared, value=1.0, half_width=0.1, tolerance=0.1, unit=LEVEL)
+    level = partial(judged_number, value=1.0, half_width=0.1, tolerance=0.1, unit=LEVEL)
     places = [{"wheel": f"wheel {i}", "alpha": a} for i in range(13) for a in (0.0, 0.5)]
     filters = [level("contact filter", where, reference=1 + 4 * where["alpha"]) for where in places]
     regions = [level("level", {"region": f"region {i}"}, reference=1.1) for i in (1, 2)]
@@ -273,13 +285,14 @@ def test_a_paragraph_says_beside_what_how_near_and_over_which_conditions():
     )
     filter_ = "Its contact filter is within 0.83 dB for alpha = 0 at every wheel compared there"
     assert f"{filter_} (compared: 13 values of wheel; alpha = 0, 0.5)." in said
-    assert "Of 28 points 15 agree, 13 differ. The largest difference, of its contact filter, is -2 dB ± 0.1 dB" in said
+    assert "Of 28 points 15 are within tolerance, 13 outside tolerance. " in said
+    assert "The largest deviation, of its contact filter, is -2 dB ± 0.1 dB" in said
     assert "Its level is within 0.83 dB at 2 of 2 points (compared: region 1, region 2)." in said
 
 
 def pointed(values, **common):
     """Along Fbar, one where the number is 1."""
-    return [compared("k", {**common, "Fbar": 10.0**i}, value, 2.0, 0.0, 0.1) for i, value in enumerate(values)]
+    return [judged_number("k", {**common, "Fbar": 10.0**i}, value, 2.0, 0.0, 0.1) for i, value in enumerate(values)]
 
 
 @pytest.mark.parametrize(
@@ -303,12 +316,15 @@ def test_a_range_ends_where_a_reference_does_and_what_is_good_somewhere_is_said(
 
 def test_ends_at_which_a_model_agrees_are_not_where_it_breaks():
     """Not even where it differs in its own scenes."""
-    ends = [compared(HEAVY, {"Fbar": 30.0}, 1.0, 1.0, 0.0, 0.1), compared(LIGHT, {"Fbar": 1e-6}, 1.0, 1.0, 0.2, 0.1)]
+    ends = [
+        judged_number(HEAVY, {"Fbar": 30.0}, 1.0, 1.0, 0.0, 0.1),
+        judged_number(LIGHT, {"Fbar": 1e-6}, 1.0, 1.0, 0.2, 0.1),
+    ]
     for last, words in (
-        (2.0, "Beyond these scenes: agrees under a heavy load open under a light load"),
+        (2.0, "Beyond these scenes: under a heavy load: within tolerance under a light load: inconclusive"),
         (3.0, "breaks"),
     ):
-        broken = compared("scaling with the length", {"Fbar": 3.0}, last / 2, 1.0, 0.0, 1e-6)
+        broken = judged_number("scaling with the length", {"Fbar": 3.0}, last / 2, 1.0, 0.0, 1e-6)
         points = (*pointed([3, 3]), *ends, broken)
         found = judged.Judgement("mine", "stiffness_model", judged.tolerance_of(0.1), points, 1.0)
         assert ("closed form: scaling with the length." in paragraph(found)) == (last == 3.0)
@@ -316,7 +332,7 @@ def test_ends_at_which_a_model_agrees_are_not_where_it_breaks():
 
 
 def test_a_paragraph_on_a_model_that_answers_nowhere_says_that_alone():
-    lost = tuple(not_compared("k", {"Fbar": 10.0**i}, "failed", "no number", reference=1.1) for i in range(3))
+    lost = tuple(missing_number("k", {"Fbar": 10.0**i}, NO_RESULT, "no number", reference=1.1) for i in range(3))
     said = paragraph(judged.Judgement("mine", "stiffness_model", judged.tolerance_of(0.1), lost, 1.0))
     assert said.endswith("by the errors of both. It has no value at 3 of 3 points.")
 

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 import mdr
+from tests.judging.judged_points import INCONCLUSIVE
 from tests.judging.test_judged_stiffness import as_known, series
 from tests.seeded import catches
 from validation import judge, stiffness_model
-from validation.judging.judgement import AGAIN, UNTRUSTED, trusted
+from validation.judging.judgement import AGAIN, UNTRUSTED, trusted_numbers
 from validation.judging.kinds import filters, profiles, stiffness
 from validation.judging.kinds import judge as repeats
 from validation.judging.kinds.diagnosis import remarks
@@ -162,8 +163,8 @@ def test_verdicts_of_answers_that_change_are_undecided_in_summary_paragraph_and_
         return noisy(0.05, rng, load, side, modulus, roughness)
 
     found = judge(model)
-    assert {p.verdict for p in found.verdicts if p.quantity != AGAIN} == {"undecided"}
-    assert UNTRUSTED in {p.reason for p in found.verdicts if p.quantity == "mean stiffness"}
+    assert {p.verdict for p in found.numbers if p.quantity != AGAIN} == {INCONCLUSIVE}
+    assert UNTRUSTED in {p.reason for p in found.numbers if p.quantity == "mean stiffness"}
     first = found.summary().splitlines()[1]
     assert first.startswith("! No verdict can be trusted") and "random without rng" in found.summary()
     assert "No verdict can be trusted" in found.summary().partition("For a paper:")[2]
@@ -173,9 +174,11 @@ def test_verdicts_of_answers_that_change_are_undecided_in_summary_paragraph_and_
 def test_numbers_of_answers_that_change_stay_as_they_are():
     rng = np.random.default_rng(2)
     some = points("stiffness_model", partial_of(noisy, 0.05, rng))
-    assert [(p.value, p.difference, p.error) for p in trusted(some)] == [(p.value, p.difference, p.error) for p in some]
+    assert [(p.value, p.difference, p.error) for p in trusted_numbers(some)] == [
+        (p.value, p.difference, p.error) for p in some
+    ]
     right = points("stiffness_model", series)
-    assert trusted(right) == right
+    assert trusted_numbers(right) == right
 
 
 # --- draws ---
@@ -196,7 +199,7 @@ def drawn_from(count, rounding=0.0):
 @pytest.mark.parametrize("rounding", [0.0, 1e-9])
 def test_a_generator_that_is_not_used_leaves_the_mean_inconclusive(few, rounding):
     some = [p for p in points("stiffness_model", drawn_from(1, rounding)) if p.quantity.startswith("mean stiffness")]
-    assert {p.verdict for p in some} == {"undecided"} and all(math.isinf(p.error) for p in some)
+    assert {p.verdict for p in some} == {INCONCLUSIVE} and all(math.isinf(p.error) for p in some)
     assert all("rng is asked for and not used" in p.shown for p in some)
     assert "equal draws" in causes("stiffness_model", drawn_from(1, rounding))
 

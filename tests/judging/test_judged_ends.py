@@ -8,7 +8,18 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from tests.judging.judged_points import SCALING, SWEEPS, judged, of, verdicts
+from tests.judging.judged_points import (
+    INCONCLUSIVE,
+    NO_RESULT,
+    NOT_SERVED,
+    OUTSIDE,
+    SCALING,
+    SWEEPS,
+    WITHIN,
+    judged,
+    of,
+    verdicts,
+)
 from tests.seeded import catches
 from validation.judging import replies
 from validation.judging.kinds import own, scaling, sweeps
@@ -39,7 +50,7 @@ def under_load(line, radius, modulus, load):
 def test_the_grid_of_a_reference_is_added_linearly_to_the_samples_of_both():
     """What the cells leave goes one way in all surfaces: 0.05 + sqrt(0.03^2 + 0.04^2) = 0.1."""
     known = Reference({"H": 0.7}, 1.0, sample=0.03, grid=0.05, quantity="k")
-    for value, verdict in ((1.0, "agree"), (1.09, "undecided"), (1.25, "differ")):
+    for value, verdict in ((1.0, WITHIN), (1.09, INCONCLUSIVE), (1.25, OUTSIDE)):
         point = Finding(known, ModelAnswer(value, 0.04)).judged(0.101)
         assert point.verdict == verdict and point.error == pytest.approx(0.1 * value)
     level = Reference({"H": 0.7}, 3.0, sample=0.3, grid=0.5, unit="dB", quantity="k")
@@ -60,7 +71,7 @@ CASES = [(kind, function) for kind in RIGHT for function in RIGHT[kind]]
 def test_what_closed_forms_say_breaks_nowhere(kind, function):
     found = judged(kind, function, by=SWEEPS)
     assert len({point.quantity for point in found}) > (kind == "contact_filter")
-    assert {point.verdict for point in found} == {"agree"}
+    assert {point.verdict for point in found} == {WITHIN}
 
 
 def divides(k_x, a_x):
@@ -86,17 +97,17 @@ def upside_down(line, radius, modulus, approach):
 
 
 WRONG = [
-    ("stiffness_model", lambda load: 1e3 * load**0.5, sweeps.HEAVY, ["differ"] * 4),
-    ("stiffness_model", falls_below, sweeps.HEAVY, ["failed"] * 4),
-    ("stiffness_model", lambda load: 1 / load, sweeps.LIGHT, ["differ"] * 3),
-    ("stiffness_of_surface", lambda height, load: 2 * load, sweeps.FEW, ["differ"] * 5),
-    ("force_spectrum", twice, sweeps.LONG, ["differ"] * 3),
-    ("contact_filter", divides, sweeps.LONG, ["failed", "agree", "agree"]),
-    ("contact_filter", lambda k_x, a_x: 1 + (k_x * a_x) ** 2, sweeps.SHORT, ["differ"] * 3),
-    ("rolling_model", lambda line, approach: 0 * line + approach, sweeps.SMOOTH, ["differ"] * 5),
-    ("rolling_model", springs, sweeps.SMOOTH, ["differ", "agree", "agree", "agree", "agree"]),
-    ("rolling_model", upside_down, sweeps.LONG, ["differ"] * 2),
-    ("contact_filter", lambda k_x: 1.05 + 0 * k_x, sweeps.SHORT, ["differ"] * 3),
+    ("stiffness_model", lambda load: 1e3 * load**0.5, sweeps.HEAVY, [OUTSIDE] * 4),
+    ("stiffness_model", falls_below, sweeps.HEAVY, [NO_RESULT] * 4),
+    ("stiffness_model", lambda load: 1 / load, sweeps.LIGHT, [OUTSIDE] * 3),
+    ("stiffness_of_surface", lambda height, load: 2 * load, sweeps.FEW, [OUTSIDE] * 5),
+    ("force_spectrum", twice, sweeps.LONG, [OUTSIDE] * 3),
+    ("contact_filter", divides, sweeps.LONG, [NO_RESULT, WITHIN, WITHIN]),
+    ("contact_filter", lambda k_x, a_x: 1 + (k_x * a_x) ** 2, sweeps.SHORT, [OUTSIDE] * 3),
+    ("rolling_model", lambda line, approach: 0 * line + approach, sweeps.SMOOTH, [OUTSIDE] * 5),
+    ("rolling_model", springs, sweeps.SMOOTH, [OUTSIDE, WITHIN, WITHIN, WITHIN, WITHIN]),
+    ("rolling_model", upside_down, sweeps.LONG, [OUTSIDE] * 2),
+    ("contact_filter", lambda k_x: 1.05 + 0 * k_x, sweeps.SHORT, [OUTSIDE] * 3),
 ]
 
 
@@ -121,7 +132,7 @@ def rooted(height, spacing, modulus, load):
 )
 def test_what_closed_forms_say_scales(kind, function):
     found = judged(kind, function, tolerance=1e-9, by=SCALING)
-    assert {point.verdict for point in found} == (set() if kind == "contact_filter" else {"agree"})
+    assert {point.verdict for point in found} == (set() if kind == "contact_filter" else {WITHIN})
 
 
 def steel(modulus):
@@ -138,29 +149,29 @@ def unlike(load, side, modulus, rng):
 
 
 UNSCALED = [
-    ("stiffness_model", lambda side, modulus: modulus * side * steel(modulus), "modulus", {"differ"}),
-    ("stiffness_model", when_heavy, "modulus", {"agree", "differ"}),
-    ("stiffness_model", unlike, "modulus", {"differ"}),
-    ("stiffness_model", lambda side, modulus, rng: flat(0, side, modulus) * rng.normal(1, 0.3), "length", {"agree"}),
-    ("stiffness_model", lambda modulus, load: (modulus * load) ** 0.5, "length", {"agree"}),
-    ("stiffness_model", lambda side, modulus: modulus * side**1.1, "length", {"differ"}),
-    ("stiffness_model", lambda load, side: load / (1e-3 * side), "height", {"differ"}),
+    ("stiffness_model", lambda side, modulus: modulus * side * steel(modulus), "modulus", {OUTSIDE}),
+    ("stiffness_model", when_heavy, "modulus", {WITHIN, OUTSIDE}),
+    ("stiffness_model", unlike, "modulus", {OUTSIDE}),
+    ("stiffness_model", lambda side, modulus, rng: flat(0, side, modulus) * rng.normal(1, 0.3), "length", {WITHIN}),
+    ("stiffness_model", lambda modulus, load: (modulus * load) ** 0.5, "length", {WITHIN}),
+    ("stiffness_model", lambda side, modulus: modulus * side**1.1, "length", {OUTSIDE}),
+    ("stiffness_model", lambda load, side: load / (1e-3 * side), "height", {OUTSIDE}),
     (
         "stiffness_of_surface",
         lambda height, modulus, spacing: modulus * spacing * steel(modulus),
         "modulus",
-        {"differ"},
+        {OUTSIDE},
     ),
-    ("stiffness_of_surface", lambda height, modulus: modulus * 4e-5 * len(height), "length", {"differ"}),
-    ("force_spectrum", lambda q, modulus, roughness: in_3d(q, 2e-3, 1.15e11, roughness), "modulus", {"differ"}),
-    ("force_spectrum", lambda q, modulus, roughness: in_3d(q, 2e-3, modulus, roughness), "length", {"differ"}),
-    ("rolling_model", lambda line, radius, approach: smooth(line, radius, 1.15e11, approach), "modulus", {"differ"}),
-    ("rolling_model", lambda line, modulus, approach: smooth(line, 0.5, modulus, approach), "length", {"differ"}),
-    ("rolling_model", lambda line, radius, modulus, load: under_load(line, 0.5, modulus, load), "length", {"differ"}),
-    ("force_spectrum", lambda q: 1e300 + 0 * q, "length", {"differ"}),
-    ("force_spectrum", lambda q: 1e-300 + 0 * q, "length", {"differ"}),
-    ("rolling_model", lambda line, load: [][1], "length", {"failed"}),
-    ("stiffness_model", lambda side: -side, "height", {"failed"}),
+    ("stiffness_of_surface", lambda height, modulus: modulus * 4e-5 * len(height), "length", {OUTSIDE}),
+    ("force_spectrum", lambda q, modulus, roughness: in_3d(q, 2e-3, 1.15e11, roughness), "modulus", {OUTSIDE}),
+    ("force_spectrum", lambda q, modulus, roughness: in_3d(q, 2e-3, modulus, roughness), "length", {OUTSIDE}),
+    ("rolling_model", lambda line, radius, approach: smooth(line, radius, 1.15e11, approach), "modulus", {OUTSIDE}),
+    ("rolling_model", lambda line, modulus, approach: smooth(line, 0.5, modulus, approach), "length", {OUTSIDE}),
+    ("rolling_model", lambda line, radius, modulus, load: under_load(line, 0.5, modulus, load), "length", {OUTSIDE}),
+    ("force_spectrum", lambda q: 1e300 + 0 * q, "length", {OUTSIDE}),
+    ("force_spectrum", lambda q: 1e-300 + 0 * q, "length", {OUTSIDE}),
+    ("rolling_model", lambda line, load: [][1], "length", {NO_RESULT}),
+    ("stiffness_model", lambda side: -side, "height", {NO_RESULT}),
 ]
 
 
@@ -215,7 +226,7 @@ def test_seconds_are_of_the_slowest_call_that_was_answered(monkeypatch):
 
     model = Called(offer("contact_filter", "mine", {}, but_for_long_waves))
     points = list(points_of(model, 0.1))
-    assert {point.verdict for point in points} >= {"refused", "differ"}
+    assert {point.verdict for point in points} >= {NOT_SERVED, OUTSIDE}
     assert model.longest["k_x"].size > 100
     assert own.costs_of(model, points)[0].seconds == 2.0
 
@@ -240,5 +251,5 @@ def test_draws_that_scale_wrong_by_more_than_two_intervals_are_found():
         return flat(load, side, modulus) * (modulus / 1e9) ** rng.normal(0.04, 0.012)
 
     found = of(judged("stiffness_model", powers, by=SCALING), "scaling with the modulus")
-    assert {point.verdict for point in found} == {"differ"}
+    assert {point.verdict for point in found} == {OUTSIDE}
     assert all(0.02 < point.difference < 0.07 for point in found)

@@ -9,11 +9,12 @@ from dataclasses import replace
 import pytest
 
 import validation
+from tests.judging.judged_points import NO_RESULT, NOT_SERVED, OUTSIDE, WITHIN
 from tests.judging.test_judge_command import RIGHT, broken, pointed
 from validation.__main__ import main
 from validation.judging import judge as judged
 from validation.judging.figure import figure_of, left_out
-from validation.judging.judgement import compared, not_compared
+from validation.judging.judgement import judged_number, missing_number
 from validation.judging.kinds.own import ErrorOfCall
 from validation.judging.solvers.judged import SolverTime
 from validation.judging.worker import Called
@@ -48,9 +49,9 @@ def quick(monkeypatch):
             value = model.call(load=load, side=1.0, modulus=1.0, roughness=None)
             reason = getattr(value, "reason", "")
             if reason:
-                yield not_compared("k", {"Fbar": load}, "refused" if value.refused else "failed", reason)
+                yield missing_number("k", {"Fbar": load}, NOT_SERVED if value.refused else NO_RESULT, reason)
             else:
-                yield compared("k", {"Fbar": load}, float(value), 1.0, 0.0, tolerance)
+                yield judged_number("k", {"Fbar": load}, float(value), 1.0, 0.0, tolerance)
 
     monkeypatch.setattr(judged, "points_of", points)
     monkeypatch.setattr(judged, "costs_of", lambda model, points: [])
@@ -140,7 +141,9 @@ def test_a_fork_is_named_and_its_answers_are_left_out(quick, file, tmp_path, cap
     assert main(["judge", str(laws(file, ["forks"], body)), "--json", str(tmp_path / "a.json")]) == 0
     *points, last = json.loads((tmp_path / "a.json").read_text(encoding="utf-8"))["verdicts"]
     assert [point["value"] for point in points] == [1.1523] * 2
-    assert (last["quantity"], last["verdict"]) == ("forking", "failed") and "a process that it forked" in last["reason"]
+    assert (last["quantity"], last["outcome"]) == ("forking", NO_RESULT) and "a process that it forked" in last[
+        "reason"
+    ]
     assert capsys.readouterr().out.count("forks: stiffness model") == 1
 
 
@@ -158,7 +161,7 @@ def test_a_file_that_is_changed_while_it_is_judged_is_named(name, quick, file, t
         body = body.replace(text, "'# another'")
     assert main(["judge", str(laws(file, ["changes"], body)), "--json", str(tmp_path / "a.json")]) == 0
     last = json.loads((tmp_path / "a.json").read_text(encoding="utf-8"))["verdicts"][-1]
-    assert (last["quantity"], last["verdict"]) == ("file", "failed")
+    assert (last["quantity"], last["outcome"]) == ("file", NO_RESULT)
     assert last["reason"] == f"{name} was changed while it was judged: judge it again"
 
 
@@ -219,7 +222,8 @@ def axes_of(found, monkeypatch):
 
 def judgement_of(name, values):
     points = tuple(
-        compared("k", {"H": 0.7, "Fbar": 10.0**i}, value, 2.0, 0.05, 0.1, unit="-") for i, value in enumerate(values)
+        judged_number("k", {"H": 0.7, "Fbar": 10.0**i}, value, 2.0, 0.05, 0.1, unit="-")
+        for i, value in enumerate(values)
     )
     costs = (ErrorOfCall(name, abs(values[0] / 2 - 1), "-", 1e-3), ErrorOfCall("springs", 0.5, "-", 1e-2))
     return judged.Judgement(name, "stiffness_model", judged.tolerance_of(0.1), points, 1.0, costs=costs)
@@ -229,7 +233,9 @@ def test_a_model_that_is_far_off_leaves_the_scale_of_another_one(monkeypatch):
     figures = []
     monkeypatch.setattr("validation.judging.figure.picture", lambda figure, form: figures.append(figure))
     figure_of([judgement_of("good", [2.0, 2.2, 1.9]), judgement_of("bad", [2e3, 4e3, 2.0])], "svg")
-    good, bad = [axis.get_ylim() for axis in figures[0].axes if axis.get_ylabel().startswith("off") or axis.patches][:2]
+    good, bad = [
+        axis.get_ylim() for axis in figures[0].axes if axis.get_ylabel().startswith("relative") or axis.patches
+    ][:2]
     assert -20 < good[0] < -10 and 12 < good[1] < 20 and bad[1] > 1e5
 
 
@@ -241,8 +247,8 @@ def test_a_number_that_no_axis_has_room_for_is_no_fault(values):
 @pytest.mark.parametrize(
     ("unit", "values", "label", "shown", "within"),
     [
-        ("-", [2.0, 2.2, 1.0], "off the reference [%]", [0.0, 10.0, -50.0], 10.0),
-        ("dB", [2.0, 5.0, 1.0], "off the reference [dB]", [0.0, 3.0, -1.0], 20 * math.log10(1.1)),
+        ("-", [2.0, 2.2, 1.0], "relative deviation from the reference [%]", [0.0, 10.0, -50.0], 10.0),
+        ("dB", [2.0, 5.0, 1.0], "deviation from the reference [dB]", [0.0, 3.0, -1.0], 20 * math.log10(1.1)),
     ],
 )
 def test_a_figure_has_the_points_and_the_tolerance_on_the_axes_that_it_names(
@@ -250,7 +256,7 @@ def test_a_figure_has_the_points_and_the_tolerance_on_the_axes_that_it_names(
 ):
     places = [{"H": 0.7, "Fbar": x} for x in (1.0, 10.0, 99.0)]
     known = zip(places, values, strict=True)
-    points = tuple(compared("k", where, value, 2.0, 0.05, 0.1, unit=unit) for where, value in known)
+    points = tuple(judged_number("k", where, value, 2.0, 0.05, 0.1, unit=unit) for where, value in known)
     costs = (ErrorOfCall("mine", 0.25, unit, 1e-3), ErrorOfCall("springs", 0.5, unit, 1e-2))
     found = judged.Judgement("mine", "stiffness_model", judged.tolerance_of(0.1), points, 1.0, costs=costs)
     differences, seconds = axes_of(found, monkeypatch)
@@ -280,20 +286,48 @@ def test_a_figure_of_a_solver_has_seconds_over_cells_of_both(monkeypatch):
     assert "power 1, that of bem3d 0.79" in found.summary()
 
 
-def test_what_is_no_number_is_null_and_one_answer_is_enough():
-    lost = not_compared("k", {"Fbar": 1.0}, "failed", "no number")
-    point = compared("k", {"Fbar": 2.0}, 2.0, 2.0, 0.0, 0.1)
+def test_json_has_null_for_what_is_no_number_and_the_verdicts_of_both_schemas():
+    lost = missing_number("k", {"Fbar": 1.0}, NO_RESULT, "no number")
+    point = judged_number("k", {"Fbar": 2.0}, 2.0, 2.0, 0.0, 0.1)
     other = replace(point, where={"Fbar": 3.0})
     found = judged.Judgement("mine", "stiffness_model", judged.tolerance_of(0.1), (lost, point, other), 1.0)
     first, second, _ = found.as_dict()["verdicts"]
     assert first["value"] is first["difference"] is None and second["value"] == 2.0
-    assert found.answered and not replace(found, verdicts=(lost,)).answered
-    ranges = [(some["from"], some["to"], some["verdict"]) for some in found.as_dict()["enough"]]
-    assert ranges == [(1.0, 1.0, "failed"), (2.0, 3.0, "agree")]
+    assert found.answered and not replace(found, numbers=(lost,)).answered
+    assert [(row["verdict"], row["outcome"]) for row in (first, second)] == [("failed", NO_RESULT), ("agree", WITHIN)]
+    ranges = [(row["from"], row["to"], row["outcome"]) for row in found.as_dict()["ranges"]]
+    assert ranges == [(1.0, 1.0, NO_RESULT), (2.0, 3.0, WITHIN)]
+    earlier = [(row["from"], row["to"], row["verdict"]) for row in found.as_dict()["enough"]]
+    assert earlier == [(1.0, 1.0, "failed"), (2.0, 3.0, "agree")]
 
 
-@pytest.mark.parametrize("verdict", ["differ", "failed", "refused"])
+def test_keys_of_conditions_are_ascii_and_the_same_in_csv_and_json():
+    where = {"H": 0.7, "q_r L / 2π": 8.0, "wavelength [mm]": 16.0, "region": "q a < 1"}
+    found = judgement_of("mine", [2.0])
+    found = replace(found, numbers=(replace(found.numbers[0], where=where),))
+    (row,), keys = found.as_dict()["verdicts"], ["hurst", "q_r_L_2pi", "wavelength_mm", "region"]
+    assert list(row["conditions"]) == keys and row["where"] == where
+    assert list(row["conditions"].values()) == list(where.values())
+    assert found.files()["verdicts.csv"].decode().splitlines()[0].split(",")[:6] == ["model", "quantity", *keys]
+
+
+def test_names_of_the_last_release_work_and_name_the_new_ones():
+    found = judgement_of("mine", [2.0, 3.0])
+    with pytest.warns(FutureWarning, match=r"Judgement\.verdicts is Judgement\.numbers now, whose verdicts are within"):
+        earlier = found.verdicts
+    assert [number.verdict for number in earlier] == ["agree", "differ"]
+    assert [(a.value, a.where, a.shown) for a in earlier] == [(n.value, n.where, n.shown) for n in found.numbers]
+    with pytest.warns(FutureWarning, match=r"Judgement\.enough is Judgement\.ranges now"):
+        parts = found.enough
+    assert [(part.along, part.start, part.stop, part.verdict) for part in parts] == [
+        ("Fbar", 1.0, 1.0, "agree"),
+        ("Fbar", 10.0, 10.0, "differ"),
+    ]
+    assert [part.verdict for part in found.ranges] == [WITHIN, OUTSIDE]
+
+
+@pytest.mark.parametrize("verdict", [OUTSIDE, NO_RESULT, NOT_SERVED])
 def test_a_solver_is_wrong_by_whatever_decides_and_does_not_agree(verdict):
     point = replace(RIGHT, verdict=verdict)
     found = judged.Judgement("mine", "contact_solver", judged.tolerance_of(0.1), (RIGHT, point), 1.0)
-    assert found.wrong and not replace(found, verdicts=(RIGHT, replace(point, decides=False))).wrong
+    assert found.wrong and not replace(found, numbers=(RIGHT, replace(point, decides=False))).wrong

@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+from tests.judging.judged_points import NO_RESULT, OUTSIDE, WITHIN
 from validation.__main__ import main
 from validation.judging.solvers import judged as solvers
 
@@ -39,7 +40,7 @@ def test_a_solver_ends_with_what_it_is(tmp_path, capsys, monkeypatch, body, stat
     printed = capsys.readouterr().out
     assert said in printed and ("24²" in printed) == (status != 3)
     written = json.loads((out / "judgement.json").read_text(encoding="utf-8"))
-    assert {point["verdict"] for point in written["verdicts"]} <= {"agree", "differ", "failed"}
+    assert {point["outcome"] for point in written["verdicts"]} <= {WITHIN, OUTSIDE, NO_RESULT}
     assert [set(time) for time in written.get("times", [])] == [{"cells", "seconds", "bem3d"}] * (status != 3)
     times = out / "costs.csv"
     assert times.exists() == (status != 3) and (

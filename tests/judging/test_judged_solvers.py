@@ -11,11 +11,11 @@ import pytest
 import bem3d
 from bem3d import kernel
 from tests import oracles
+from tests.judging.judged_points import OUTSIDE, WITHIN
 from tests.seeded import catches
 from validation import contact_solver
 from validation.benchmarks import discrete, peers
 from validation.benchmarks.discrete import STATED, ContactProblem, pressed
-from validation.judging.judgement import AGREE
 from validation.judging.registry import KINDS, LOOSEST, Failed, Offered
 from validation.judging.solvers import judged
 from validation.judging.solvers.judged import findings
@@ -38,7 +38,7 @@ def asked(solve, load="force", **options):
 
 
 def wrong_in(solve, load="force", **options):
-    return [finding for finding in findings(asked(solve, load, **options)) if finding.verdict != AGREE]
+    return [finding for finding in findings(asked(solve, load, **options)) if finding.verdict != WITHIN]
 
 
 @pytest.mark.parametrize("load", ["force", "approach"])
@@ -50,13 +50,13 @@ def test_our_solver_is_right_on_every_problem(load):
     assert {"mirror", "shift", "superposition", "monotone stiffness", "repeated call"} < {
         finding.quantity for finding in found
     }
-    assert [finding for finding in found if finding.verdict != AGREE] == []
+    assert [finding for finding in found if finding.verdict != WITHIN] == []
 
 
 def test_a_solver_of_forty_lines_is_accepted_and_not_asked_what_it_does_not_serve():
     example = runpy.run_path(EXAMPLE)["solve"]
     found = list(findings(Asked(Called(example))))
-    assert all(finding.verdict == AGREE for finding in found)
+    assert all(finding.verdict == WITHIN for finding in found)
     assert not any("periodic" in finding.where["problem"] for finding in found)
     periodic = {one.where["problem"] for one in findings(asked(ours, free=False, periodic=True))}
     assert len(periodic) == 17 and all("periodic" in name for name in periodic)
@@ -75,7 +75,7 @@ def test_the_solvers_of_other_packages_are_right(package, solver, load):
 
     found = list(findings(asked(solve, load, periodic=True)))
     assert {finding.where["problem"] for finding in found} > set(STATED) - {"full contact, periodic"}
-    assert [finding for finding in found if finding.verdict != AGREE] == []
+    assert [finding for finding in found if finding.verdict != WITHIN] == []
 
 
 def test_a_solver_that_serves_both_loads_is_given_the_force_alone():
@@ -263,7 +263,7 @@ def test_a_solver_is_timed_beside_ours_until_it_takes_too_long(seconds, grids, m
     monkeypatch.setattr(judged, "clocked", lambda solve: (solve(), seconds))
     checks, times = zip(*judged.timed(asked(ours)), strict=True)
     assert list(times) == [[(cells, seconds, seconds)] for cells in grids]
-    assert {point.verdict for some in checks for point in some} == {AGREE}
+    assert {point.verdict for some in checks for point in some} == {WITHIN}
 
 
 LARGE = {
@@ -290,7 +290,7 @@ def test_a_solver_that_is_right_on_small_grids_alone_is_wrong(way, quantity):
     with pytest.MonkeyPatch.context() as monkeypatch:
         monkeypatch.setattr(judged, "GRIDS", (32, 64))
         points, times = judged.judged(asked(solve).solver)
-    wrong = {(point.quantity, point.where["problem"]) for point in points if point.verdict != AGREE}
+    wrong = {(point.quantity, point.where["problem"]) for point in points if point.verdict != WITHIN}
     assert (quantity, "rough, light load, 64 x 64 cells") in wrong
     assert {place for _, place in wrong} == {"rough, light load, 64 x 64 cells"}
     assert all(point.decides for point in points) and len(times) == (1 if quantity == "answer" else 2)
@@ -310,4 +310,4 @@ def test_a_factor_in_our_own_operator_makes_us_wrong(monkeypatch):
     assert any("the answer for 0.5 times the modulus" in finding.reason for finding in wrong_in(ours))
     monkeypatch.setattr(judged, "GRIDS", (24,))
     ((found, times),) = judged.timed(asked(ours))
-    assert len(times) == 1 and {point.verdict for point in found} == {AGREE, "differ"}
+    assert len(times) == 1 and {point.verdict for point in found} == {WITHIN, OUTSIDE}

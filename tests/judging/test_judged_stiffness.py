@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from tests.judging import judged_points
-from tests.judging.judged_points import of, verdicts
+from tests.judging.judged_points import INCONCLUSIVE, NO_RESULT, NOT_SERVED, OUTSIDE, WITHIN, of, verdicts
 from tests.seeded import catches
-from validation.judging.judgement import enough
+from validation.judging.judgement import ranges_of
 from validation.judging.kinds import stiffness, surfaces
 from validation.judging.kinds.judge import ModelAnswer
 from validation.judging.kinds.references import Reference, known
@@ -56,18 +56,18 @@ def as_known(load, side, modulus, roughness):
 def test_an_interface_in_series_is_enough_for_heavy_loads_alone():
     points = judged(series)
     for hurst in sorted({p.where["H"] for p in points if p.quantity == MEAN}):
-        ranges = [r for r in enough(points) if r.quantity == MEAN and r.where == {"H": hurst}]
-        assert (ranges[0].verdict, ranges[-1].verdict) == ("differ", "agree")
+        ranges = [r for r in ranges_of(points) if r.quantity == MEAN and r.where == {"H": hurst}]
+        assert (ranges[0].verdict, ranges[-1].verdict) == (OUTSIDE, WITHIN)
         assert ranges[0].start == 1e-3 and ranges[0].stop >= 0.1
         assert 0.2 < ranges[-1].start < 0.5 and ranges[-1].stop == 10
-    assert verdicts(points, RISE) == {"agree"}
+    assert verdicts(points, RISE) == {WITHIN}
     assert not verdicts(points, DEVIATION)
 
 
 def test_with_e_for_e_star_a_law_is_nowhere_enough():
     """The modulus of steel on steel, over which E* is 0.55."""
     points = judged(lambda load, side, modulus, roughness: as_known(load, side, 0.55 * modulus, roughness)[0])
-    assert verdicts(points, MEAN) == {"differ"}
+    assert verdicts(points, MEAN) == {OUTSIDE}
 
 
 given = stiffness.AskedPunch.arguments.fget
@@ -83,7 +83,7 @@ def under_twice_the_load(asked):
 def test_what_boundary_elements_have_agrees_and_what_is_twice_as_far_differs():
     points = judged(as_known)
     for quantity in (MEAN, DEVIATION, stiffness.ROLLED_OFF, stiffness.BY_BAND):
-        assert "differ" not in verdicts(points, quantity) and "agree" in verdicts(points, quantity)
+        assert OUTSIDE not in verdicts(points, quantity) and WITHIN in verdicts(points, quantity)
         assert all(p.difference == pytest.approx(0, abs=1e-6) for p in of(points, quantity))
 
     def twice(load, side, modulus, roughness):
@@ -92,8 +92,8 @@ def test_what_boundary_elements_have_agrees_and_what_is_twice_as_far_differs():
 
     points = judged(twice)
     assert verdicts(points, MEAN) == verdicts(judged(as_known), MEAN)
-    assert "agree" not in verdicts(points, stiffness.BY_BAND) and "differ" in verdicts(points, stiffness.BY_BAND)
-    assert "agree" not in {p.verdict for p in points if p.quantity == DEVIATION and p.reference > 0.02}
+    assert WITHIN not in verdicts(points, stiffness.BY_BAND) and OUTSIDE in verdicts(points, stiffness.BY_BAND)
+    assert WITHIN not in {p.verdict for p in points if p.quantity == DEVIATION and p.reference > 0.02}
 
 
 def without_the_error_of_the_sample(values, so_few, apart):
@@ -110,7 +110,7 @@ def test_realisations_have_their_mean_and_deviation_with_the_error_of_the_sample
         return rng.normal(mean, deviation)
 
     points = [p for p in judged(draws, 0.3) if p.quantity in (MEAN, DEVIATION)]
-    assert "differ" not in verdicts(points, MEAN) and "agree" in verdicts(points, MEAN)
+    assert OUTSIDE not in verdicts(points, MEAN) and WITHIN in verdicts(points, MEAN)
     assert np.mean([abs(p.difference) <= p.error for p in points]) > 0.85
     assert all(p.reason == "100 realisations" for p in of(points, MEAN))
 
@@ -121,7 +121,7 @@ def test_realisations_are_of_one_of_three_numbers_and_equal_ones_have_no_deviati
     for factor in (1, 3):
         monkeypatch.setattr(stiffness, "seconds_of", lambda model, punch, took=seconds * factor: took)
         points = judged(lambda load, side, modulus, roughness, rng: 1.5 * as_known(load, side, modulus, roughness)[0])
-        assert verdicts(points, MEAN) == {"undecided"} == verdicts(points, DEVIATION)
+        assert verdicts(points, MEAN) == {INCONCLUSIVE} == verdicts(points, DEVIATION)
         equal = f"{count} equal realisations{'' if count == 100 else ', since a call takes long'}"
         equal = f"{equal}: rng is asked for and not used"
         assert {p.reason for p in of(points, MEAN)} == {equal}
@@ -145,12 +145,12 @@ def test_the_fastest_call_is_counted(monkeypatch):
 @pytest.mark.parametrize(
     ("answer", "verdict", "reason"),
     [
-        (lambda load: float("nan"), "failed", "returned NaN or infinity"),
-        (lambda load: -1.0, "failed", "a stiffness of -1 N/m"),
-        (lambda load: (1.0, -1.0), "failed", "a deviation of -1 N/m"),
-        (lambda load: [][1], "failed", "raised IndexError: list index out of range"),
-        (lambda load, rng: float("nan"), "failed", "returned NaN or infinity"),
-        (lambda load, rng: (1.0, 0.1), "failed", "returned shape (2,), must be one number"),
+        (lambda load: float("nan"), NO_RESULT, "returned NaN or infinity"),
+        (lambda load: -1.0, NO_RESULT, "a stiffness of -1 N/m"),
+        (lambda load: (1.0, -1.0), NO_RESULT, "a deviation of -1 N/m"),
+        (lambda load: [][1], NO_RESULT, "raised IndexError: list index out of range"),
+        (lambda load, rng: float("nan"), NO_RESULT, "returned NaN or infinity"),
+        (lambda load, rng: (1.0, 0.1), NO_RESULT, "returned shape (2,), must be one number"),
     ],
 )
 def test_a_model_without_a_number_is_a_row_with_the_reason(answer, verdict, reason):
@@ -166,7 +166,7 @@ def test_a_load_that_is_refused_is_a_row_with_the_words_of_the_model():
         return series(load, side, modulus, roughness)
 
     light = [p for p in judged(heavy) if p.quantity == MEAN and p.where["Fbar"] < 0.09]
-    assert {(p.verdict, p.reason.partition(",")[0]) for p in light} == {("refused", "raised ValueError: too light")}
+    assert {(p.verdict, p.reason.partition(",")[0]) for p in light} == {(NOT_SERVED, "raised ValueError: too light")}
 
 
 @catches("no load between those that are known", deep=0.3).at("validation.judging.kinds.stiffness.BETWEEN", 0)
@@ -180,7 +180,7 @@ def test_a_stiffness_that_falls_between_loads_that_are_known_is_found(deep):
 
     points, right = judged(dips), judged(series)
     assert [p.verdict for p in of(points, MEAN)] == [p.verdict for p in of(right, MEAN)]
-    assert verdicts(right, RISE) == {"agree"} and verdicts(points, RISE) == {"differ"}
+    assert verdicts(right, RISE) == {WITHIN} and verdicts(points, RISE) == {OUTSIDE}
     assert min(p.difference for p in of(points, RISE)) == pytest.approx(-deep, abs=0.1)
 
 
@@ -222,14 +222,14 @@ def summits(monkeypatch):
 def test_surfaces_are_judged_one_by_one_and_in_their_mean_and_deviation(summits):
     points = judged_surfaces(by_the_summit)
     assert len(points) == 6 * 2 + 2 * 2
-    assert {p.verdict for p in points} == {"agree"}
+    assert {p.verdict for p in points} == {WITHIN}
     # both on the same surfaces: what they share leaves no error but that of the grid
     assert all(p.error == pytest.approx(0.01) for p in points)
     stiffer = judged_surfaces(
         lambda height, spacing, modulus, load: 1.3 * by_the_summit(height, spacing, modulus, load)
     )
-    assert verdicts(stiffer, surfaces.OF_SURFACE) == verdicts(stiffer, MEAN) == {"differ"}
-    assert verdicts(stiffer, DEVIATION) == {"agree"}
+    assert verdicts(stiffer, surfaces.OF_SURFACE) == verdicts(stiffer, MEAN) == {OUTSIDE}
+    assert verdicts(stiffer, DEVIATION) == {WITHIN}
 
 
 def test_a_law_without_the_surface_has_no_deviation(summits):
@@ -240,17 +240,17 @@ def test_a_law_without_the_surface_has_no_deviation(summits):
         return mean[min(mean, key=lambda one: abs(one / force - 1))] * stiffness.MODULUS * stiffness.SIDE
 
     points = judged_surfaces(blind)
-    assert "differ" not in verdicts(points, MEAN)
-    assert verdicts(points, DEVIATION) == {"differ"}
+    assert OUTSIDE not in verdicts(points, MEAN)
+    assert verdicts(points, DEVIATION) == {OUTSIDE}
 
 
 def test_a_surface_turned_upside_down_is_another_one(summits):
     points = judged_surfaces(lambda height, spacing, modulus, load: by_the_summit(-height, spacing, modulus, load))
-    assert "differ" in verdicts(points, surfaces.OF_SURFACE)
+    assert OUTSIDE in verdicts(points, surfaces.OF_SURFACE)
 
 
 def test_surfaces_that_there_is_no_time_for_are_left_open(summits, monkeypatch):
     monkeypatch.setattr(surfaces, "SECONDS", 0.0)
     points = judged_surfaces(by_the_summit)
-    reasons = [p.reason for p in points if p.quantity == surfaces.OF_SURFACE and p.verdict == "undecided"]
+    reasons = [p.reason for p in points if p.quantity == surfaces.OF_SURFACE and p.verdict == INCONCLUSIVE]
     assert reasons == ["not asked: 0 s are over"] * 12

@@ -8,12 +8,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from tests.judging.judged_points import NO_RESULT, OUTSIDE, WITHIN
 from tests.seeded import Times, catches
 from validation.benchmarks import discrete, peers, timing
 from validation.benchmarks import solvers as comparison
 from validation.benchmarks.discrete import ContactProblem, pressed
 from validation.benchmarks.surface_problem import SurfaceProblem
-from validation.judging.judgement import AGREE, DIFFER
 from validation.judging.registry import KINDS, Offered
 from validation.judging.solvers import judged, properties
 from validation.judging.solvers.properties import Asked, loaded, monotone
@@ -46,22 +46,22 @@ def answers(*pressures):
 checked = properties.checked
 
 
-@catches("no number agrees", value=float("nan"), reference=0.0, verdict="differ").at(
+@catches("no number agrees", value=float("nan"), reference=0.0, verdict=OUTSIDE).at(
     "validation.judging.solvers.properties.checked",
-    lambda *point: dataclasses.replace(checked(*point), verdict="agree", reason=""),
+    lambda *point: dataclasses.replace(checked(*point), verdict=WITHIN, reason=""),
 )
 @pytest.mark.parametrize(
     ("value", "reference", "verdict"),
     [
-        *((value, 0.0, DIFFER) for value in (math.nan, math.inf, 0.11, -0.11)),
-        *((value, 0.0, AGREE) for value in (0.0, 0.1, -0.1)),
-        *((value, 2.0, DIFFER) for value in (math.nan, 2.21, 1.79)),
-        *((value, 2.0, AGREE) for value in (2.19, 1.81)),
+        *((value, 0.0, OUTSIDE) for value in (math.nan, math.inf, 0.11, -0.11)),
+        *((value, 0.0, WITHIN) for value in (0.0, 0.1, -0.1)),
+        *((value, 2.0, OUTSIDE) for value in (math.nan, 2.21, 1.79)),
+        *((value, 2.0, WITHIN) for value in (2.19, 1.81)),
     ],
 )
 def test_a_number_agrees_within_its_bound_and_no_number_never(value, reference, verdict):
     point = properties.checked("approach", GRID, value, 0.1, "why", reference)
-    assert (point.verdict, point.reason, point.decides) == (verdict, "why" if verdict == DIFFER else "", True)
+    assert (point.verdict, point.reason, point.decides) == (verdict, "why" if verdict == OUTSIDE else "", True)
 
 
 @catches(
@@ -69,10 +69,10 @@ def test_a_number_agrees_within_its_bound_and_no_number_never(value, reference, 
     quantity="approach",
     load="force",
     residuals=55,
-    verdict="differ",
+    verdict=OUTSIDE,
 ).at("validation.judging.solvers.properties.OF_ANSWER", Times(10.0))
 @pytest.mark.parametrize(("quantity", "load"), [("approach", "force"), ("force", "approach")])
-@pytest.mark.parametrize(("residuals", "verdict"), [(45, AGREE), (55, DIFFER), (-45, AGREE), (-55, DIFFER)])
+@pytest.mark.parametrize(("residuals", "verdict"), [(45, WITHIN), (55, OUTSIDE), (-45, WITHIN), (-55, OUTSIDE)])
 def test_an_answer_may_be_off_by_fifty_residuals(quantity, load, residuals, verdict):
     """Of the overlap, or of the force; the known answer is moved, not the pressure."""
     asked = solver(ours, load, residual=1e-4)
@@ -80,28 +80,28 @@ def test_an_answer_may_be_off_by_fifty_residuals(quantity, load, residuals, verd
     if load == "approach":
         moved = replace(SMALL, force=SMALL.force * (1 + residuals * 1e-4))
     points = {point.quantity: point for point in judged.answer(asked, moved)}
-    assert points[quantity].verdict == verdict and points["pressure"].verdict == AGREE
+    assert points[quantity].verdict == verdict and points["pressure"].verdict == WITHIN
 
 
-@pytest.mark.parametrize(("off", "verdict"), [(0.9, AGREE), (1.1, DIFFER)])
+@pytest.mark.parametrize(("off", "verdict"), [(0.9, WITHIN), (1.1, OUTSIDE)])
 def test_a_pressure_may_be_off_by_fifty_residuals_in_l2(off, verdict):
     noise = SMALL.pressure * np.sign(np.random.default_rng(1).standard_normal(SMALL.pressure.shape))
     asked = answers(SMALL.pressure + off * 50 * 1e-4 * noise)
     assert {p.quantity: p.verdict for p in judged.answer(asked, SMALL)}["pressure"] == verdict
 
 
-@pytest.mark.parametrize(("off", "verdict"), [(1.9, AGREE), (2.1, DIFFER)])
+@pytest.mark.parametrize(("off", "verdict"), [(1.9, WITHIN), (2.1, OUTSIDE)])
 def test_two_answers_that_must_be_one_may_be_off_by_both_their_errors(off, verdict):
     p = np.random.default_rng(2).random(GRID.gap.shape)
     points = list(properties.PROPERTIES["mirror"](answers(np.flipud(p) * (1 + off * 50 * 1e-4), p), GRID))
     assert [point.verdict for point in points] == [verdict]
 
 
-@catches("an order of convergence that may be off by 0.1 more", order=0.8, verdict="differ").at(
+@catches("an order of convergence that may be off by 0.1 more", order=0.8, verdict=OUTSIDE).at(
     "validation.judging.solvers.judged.NEXT_TERM", 0.25
 )
 @pytest.mark.parametrize(
-    ("order", "verdict"), [(1.0, AGREE), (0.87, AGREE), (1.13, AGREE), (0.8, DIFFER), (1.2, DIFFER)]
+    ("order", "verdict"), [(1.0, WITHIN), (0.87, WITHIN), (1.13, WITHIN), (0.8, OUTSIDE), (1.2, OUTSIDE)]
 )
 def test_the_order_of_convergence_is_one_to_the_next_term(order, verdict):
     flat = next(problem for problem in discrete.problems() if problem.name == "flat")
@@ -115,11 +115,11 @@ def test_the_order_of_convergence_is_one_to_the_next_term(order, verdict):
         assert point.value == pytest.approx(order) and point.verdict == verdict
 
 
-@catches("a contact that may shrink under more load", lost=0.03, verdict="differ", step=1).at(
+@catches("a contact that may shrink under more load", lost=0.03, verdict=OUTSIDE, step=1).at(
     "validation.judging.solvers.properties.SINGLE_CELLS", float("inf")
 )
 @pytest.mark.parametrize("step", [0, 1])
-@pytest.mark.parametrize(("lost", "verdict"), [(0.0, AGREE), (0.015, AGREE), (0.03, DIFFER), (0.4, DIFFER)])
+@pytest.mark.parametrize(("lost", "verdict"), [(0.0, WITHIN), (0.015, WITHIN), (0.03, OUTSIDE), (0.4, OUTSIDE)])
 def test_a_contact_that_shrinks_under_more_load_is_found(lost, verdict, step):
     """At the first or the second step of the load, by the part of the force that lay on the cells that are lost."""
     before = np.zeros((4, 5))
@@ -130,7 +130,7 @@ def test_a_contact_that_shrinks_under_more_load_is_found(lost, verdict, step):
     points = {p.quantity: p for p in monotone(answers(*pressures), loaded(GRID, 1.0))}
     area = points["monotone area"]
     assert area.verdict == verdict and area.value == pytest.approx(lost)
-    assert (area.reason == "the contact shrinks under more load") == (verdict == DIFFER)
+    assert (area.reason == "the contact shrinks under more load") == (verdict == OUTSIDE)
 
 
 @pytest.mark.parametrize(("residual", "bound"), [(1e-6, 5e-5), (1e-4, 5e-3), (1e-9, 1e-5)])
@@ -144,7 +144,7 @@ def test_an_approach_that_falls_under_more_load_is_no_stiffness():
     cell[2, 2] = 1.0
     grown = {p.quantity: p for p in monotone(answers(0.3 * spread, 0.6 * spread, spread), GRID)}
     fallen = {p.quantity: p for p in monotone(answers(0.3 * spread, 0.6 * cell, spread), GRID)}
-    assert grown["monotone stiffness"].verdict == AGREE and fallen["monotone stiffness"].verdict == DIFFER
+    assert grown["monotone stiffness"].verdict == WITHIN and fallen["monotone stiffness"].verdict == OUTSIDE
     assert fallen["monotone stiffness"].value > 0.1
 
 
@@ -159,7 +159,7 @@ def test_the_worst_of_the_timed_runs_is_judged(monkeypatch):
     monkeypatch.setattr(judged, "GRIDS", (24,))
     ((points, times),) = judged.timed(solver(sometimes))
     assert len(calls) == judged.RUNS and len(times) == 1
-    assert DIFFER in {point.verdict for point in points}
+    assert OUTSIDE in {point.verdict for point in points}
 
 
 def test_a_grid_beyond_the_declared_cells_is_not_timed(monkeypatch):
@@ -170,9 +170,9 @@ def test_a_grid_beyond_the_declared_cells_is_not_timed(monkeypatch):
 @pytest.mark.parametrize(
     ("change", "verdict", "said"),
     [
-        (lambda calls, rng: 1.0, AGREE, ""),
-        (lambda calls, rng: 1 + 0.02 * calls, DIFFER, judged.STATE),
-        (lambda calls, rng: 1 + 0.05 * rng.standard_normal(SMALL.gap.shape), DIFFER, judged.RANDOM),
+        (lambda calls, rng: 1.0, WITHIN, ""),
+        (lambda calls, rng: 1 + 0.02 * calls, OUTSIDE, judged.STATE),
+        (lambda calls, rng: 1 + 0.05 * rng.standard_normal(SMALL.gap.shape), OUTSIDE, judged.RANDOM),
     ],
 )
 def test_an_answer_is_the_same_when_it_is_asked_for_again(change, verdict, said):
@@ -231,7 +231,7 @@ def test_a_solver_of_few_cells_is_not_raced_on_more(tmp_path):
         assert ("few" in {one.name for one in problem.solvers}) == there
 
 
-@catches("what is not served for a failure").at("validation.benchmarks.timing.NOT_SERVED", "failed")
+@catches("what is not served for a failure").at("validation.benchmarks.timing.NOT_SERVED", NO_RESULT)
 def test_what_a_solver_does_not_serve_is_a_status_of_its_own():
     assert timing._reason(NotImplementedError("square cells alone")) == "not served: square cells alone"
     assert timing._reason(RuntimeError("no")).startswith("failed: RuntimeError")

@@ -8,9 +8,9 @@ import pytest
 
 from tests.judging.foreign_solver import WRONG, free, pressed, pressed_to
 from tests.judging.foreign_solver import periodic as periodic_waves
+from tests.judging.judged_points import NOT_SERVED, WITHIN
 from validation.benchmarks import discrete
 from validation.benchmarks.discrete import STATED
-from validation.judging.judgement import AGREE, REFUSED
 from validation.judging.registry import KINDS, Offered
 from validation.judging.solvers import diagnosis, judged
 from validation.judging.solvers.causes import JudgedContact, causes
@@ -84,7 +84,7 @@ QUICK = (
 def test_a_wrong_solver_is_caught_and_its_cause_is_named_first(name, few_problems):
     function, cause = WRONG[name]
     points = findings(Asked(solver(on_free_space(function), **OPTIONS.get(name, {}))))
-    assert any(point.verdict != AGREE and point.decides for point in points)
+    assert any(point.verdict != WITHIN and point.decides for point in points)
     assert cause in said_first(points)
 
 
@@ -163,7 +163,7 @@ RIGHT = {
 def test_a_right_solver_is_right_on_all_that_it_serves(name):
     function, options = RIGHT[name]
     points = findings(Asked(solver(function, **options)))
-    assert [point for point in points if point.verdict != AGREE] == []
+    assert [point for point in points if point.verdict != WITHIN] == []
     asked = {"periodic" in point.where["problem"] for point in points}
     assert asked == {served for served, key in ((True, "periodic"), (False, "free")) if options.get(key, not served)}
 
@@ -172,7 +172,7 @@ def test_a_solver_of_both_loads_is_judged_by_both(few_problems):
     asks = ("gap", "spacing", "modulus", "periodic", "tolerance", "force", "approach")
     both = Called(Offered("contact_solver", "both", to_force_or_approach, asks, KINDS["contact_solver"].options))
     points, _ = judged.judged(both)
-    assert [point for point in points if point.verdict != AGREE] == []
+    assert [point for point in points if point.verdict != WITHIN] == []
     places = {str(point.where["problem"]) for point in points}
     assert {f"{name}, by approach" for name in FEW} < places and set(FEW) < places
 
@@ -181,14 +181,14 @@ def test_a_solver_of_both_loads_is_judged_by_both(few_problems):
         return to_force_or_approach(approach=approach, **given) * (1 if approach is None else 1.2)
 
     points, _ = judged.judged(Called(Offered("contact_solver", "both", wrong, asks, KINDS["contact_solver"].options)))
-    failed = {str(point.where["problem"]) for point in points if point.verdict != AGREE}
+    failed = {str(point.where["problem"]) for point in points if point.verdict != WITHIN}
     assert failed and all(name.endswith(", by approach") for name in failed)
 
 
 def test_what_a_solver_does_not_serve_is_counted_apart_and_never_wrong():
     points = findings(Asked(solver(on_free_space(square_cells_alone))))
-    unserved = [point for point in points if point.verdict == REFUSED]
-    assert {point.verdict for point in points} == {AGREE, REFUSED}
+    unserved = [point for point in points if point.verdict == NOT_SERVED]
+    assert {point.verdict for point in points} == {WITHIN, NOT_SERVED}
     assert {"cells of 1:4", "cells of 2:1"} < {point.where["problem"] for point in unserved}
     assert not any(point.decides for point in unserved)
     lines = list(solver_lines("foreign", points, (), 0.0))
@@ -208,9 +208,12 @@ def test_a_solver_is_not_asked_beyond_the_cells_that_it_declares():
         return pressed(gap, **given)
 
     points = findings(Asked(solver(on_free_space(counting), cells=900)))
-    assert max(asked) <= 900 and {point.verdict for point in points} == {AGREE, REFUSED}
-    assert {"mirror", "superposition", "order of convergence"} < {p.quantity for p in points if p.verdict == AGREE}
-    assert {point.where["problem"] for point in points if point.verdict == REFUSED} >= {"sphere", "rough, heavy load"}
+    assert max(asked) <= 900 and {point.verdict for point in points} == {WITHIN, NOT_SERVED}
+    assert {"mirror", "superposition", "order of convergence"} < {p.quantity for p in points if p.verdict == WITHIN}
+    assert {point.where["problem"] for point in points if point.verdict == NOT_SERVED} >= {
+        "sphere",
+        "rough, heavy load",
+    }
 
 
 def test_a_solver_that_serves_nothing_has_no_verdict():
@@ -218,7 +221,7 @@ def test_a_solver_that_serves_nothing_has_no_verdict():
         raise NotImplementedError("not yet")
 
     points = findings(Asked(solver(nothing)))
-    assert {point.verdict for point in points} == {REFUSED} and not any(point.decides for point in points)
+    assert {point.verdict for point in points} == {NOT_SERVED} and not any(point.decides for point in points)
     assert "without an answer" in next(iter(solver_lines("foreign", points, (), 0.0)))
 
 

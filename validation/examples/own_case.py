@@ -32,7 +32,7 @@ number = Number(
     sample=float(2 * share.std(ddof=1) / np.sqrt(share.size)),
 )
 print(number.sentence)
-assert number.verdict == "agree"
+assert number.verdict == "within tolerance"
 figure = Figure()
 axes = figure.subplots(subplot_kw={"xlabel": number.quantity, "ylabel": "profiles"})
 axes.hist(share, bins=20)

@@ -56,10 +56,10 @@ def solve(gap: FloatArray, spacing: tuple[float, float], modulus: float, force: 
 
 
 if __name__ == "__main__":  # `mdr-validation judge own_solver.py` does not come here
-    found = judge(solve)
-    print(found.summary())
+    judgement = judge(solve)
+    print(judgement.summary())
 
-    cells, mine, ours = np.array([(time.cells, time.seconds, time.bem3d) for time in found.times]).T
+    cells, mine, ours = np.array([(time.cells, time.seconds, time.bem3d) for time in judgement.times]).T
     figure = Figure(figsize=(5, 3.5), layout="constrained")
     axes = figure.subplots()
     axes.loglog(cells, mine, "o-", label="conjugate gradients")
@@ -68,4 +68,4 @@ if __name__ == "__main__":  # `mdr-validation judge own_solver.py` does not come
     axes.legend()
     figure.savefig("own_solver.png")
 
-    assert found.answered and not found.wrong
+    assert judgement.answered and not judgement.wrong

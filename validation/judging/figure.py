@@ -1,4 +1,4 @@
-"""The figure of judgements, declared: how far off a model is along the number that decides, a panel a quantity."""
+"""The chart of judgements: the deviation of a model along the parameter, a panel a quantity, and its seconds."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -10,7 +10,8 @@ import matplotlib
 from validation.advice.tolerance import decibels
 from validation.analysis.chart import Chart, Curve, Panel
 from validation.analysis.evidence import Evidence, Table, table_of
-from validation.judging.judgement import LEVEL, Conditions, JudgedCurve, curves_of, placed
+from validation.analysis.series import ENDS
+from validation.judging.judgement import LEVEL, Conditions, JudgedSeries, conditions_text, series_of
 from validation.judging.kinds.own import MAIN
 from validation.report.drawing import draw
 from validation.report.style import FORMATS, SETTINGS, in_two_lines, picture, plain_figure
@@ -18,28 +19,27 @@ from validation.report.style import FORMATS, SETTINGS, in_two_lines, picture, pl
 if TYPE_CHECKING:
     from validation.judging.judge import Judgement
 
-MOST, PANELS, TITLE = 6, 60, 25
+CURVES, PANELS, TITLE = 6, 60, 25
 """Curves of a panel, of more there are several; panels of a figure; characters of a line of a title."""
 MARGIN, LARGEST = 0.05, 1e100
 """Of a scale beyond its points; of a number that an axis has room for."""
 YOURS = " (this model)"
 """After a name that a model of the package has as well."""
-Drawn = tuple[Panel, Table]
+DrawnPanel = tuple[Panel, Table]
+"""A panel, and the table that it draws."""
 
 
 def figure_of(judgements: Sequence["Judgement"], form: str) -> bytes:
-    """A picture: of each judgement a panel a quantity and six curves, and one of seconds.
+    """A picture: of each judgement a panel a quantity and six curves, and a panel of seconds.
 
     Raises ValueError for another form than svg, png or pdf.
     """
     if form not in FORMATS:
         raise ValueError(f"a figure must be one of {', '.join(FORMATS)}, got {form!r}")
     shown = judgements[: len(judgements) - len(left_out(judgements))]
-    drawn = [panel for judgement in shown for panel in _differences(judgement)]
-    drawn += [panel for judgement in shown for panel in _seconds(judgement)]
-    panels = tuple(panel for panel, _ in drawn) or (Panel("", "nothing to draw", log=""),)
-    chart = Chart("judgement", panels=panels)
-    tables = tuple(table for _, table in drawn)
+    drawn = [panel for judgement in shown for panel in _deviation_panels(judgement)]
+    drawn += [panel for judgement in shown for panel in _cost_panels(judgement)]
+    chart, tables = chart_of(drawn)
     evidence = Evidence(title="", method="", numbers=(), tables=tables, conclusions=(), captions={})
     with matplotlib.rc_context(SETTINGS):
         figure = draw(chart, evidence, users=_names_of_users(judgements, tables))
@@ -49,100 +49,113 @@ def figure_of(judgements: Sequence["Judgement"], form: str) -> bytes:
     return picture(figure, form)
 
 
+def chart_of(drawn: Sequence[DrawnPanel]) -> tuple[Chart, tuple[Table, ...]]:
+    """The chart, and the tables that it draws; without a panel it says so."""
+    panels = tuple(panel for panel, _ in drawn) or (Panel("", "nothing to draw", log=""),)
+    return Chart("judgement", panels=panels), tuple(table for _, table in drawn)
+
+
 def left_out(judgements: Sequence["Judgement"]) -> list[str]:
-    """Models that a figure has no room for, by name: the last ones."""
-    counts = [len(list(_differences(one))) + len(list(_seconds(one))) for one in judgements]
-    return [one.model for i, one in enumerate(judgements) if i and sum(counts[: i + 1]) > PANELS]
+    """Names of the models that a figure has no room for: the last ones."""
+    counts = [len([*_deviation_panels(judgement), *_cost_panels(judgement)]) for judgement in judgements]
+    return [judgement.model for i, judgement in enumerate(judgements) if i and sum(counts[: i + 1]) > PANELS]
 
 
 def _names_of_users(judgements: Sequence["Judgement"], tables: Sequence[Table]) -> set[str]:
     """All names of curves but for those of the package's own models."""
     names = {str(name) for table in tables for name in table.columns.get("model", ())}
-    return names - {cost.model for one in judgements for cost in one.costs[1:]}
+    return names - {cost.model for judgement in judgements for cost in judgement.costs[1:]}
 
 
-def _differences(judgement: "Judgement") -> Iterator[Drawn]:
-    """Curves with a number; a solver is right or wrong by numbers that no figure needs."""
-    for some in curves_of(judgement.verdicts) if judgement.kind != "contact_solver" else ():
-        drawn = [one for one in some if one.along and len(one.points) > 1 and not one.is_rule]
-        curves = [one for one in drawn if any(math.isfinite(point.difference) for point in one.points)]
+def _deviation_panels(judgement: "Judgement") -> Iterator[DrawnPanel]:
+    """Of series with a number, but closed forms; none of a solver, which is right or wrong."""
+    for series in series_of(judgement.numbers) if judgement.kind != "contact_solver" else ():
+        drawn = [part for part in series if part.along and len(part.numbers) > 1 and not part.is_closed_form]
+        curves = [part for part in drawn if part.has_a_number]
         for common, group in groupby(curves, lambda curve: list(curve.where.items())[:-1]):
-            yield from _parts(judgement, dict(common), list(group))
+            yield from _panels_of_curves(judgement, dict(common), list(group))
 
 
-def _parts(judgement: "Judgement", common: Conditions, curves: Sequence[JudgedCurve]) -> Iterator[Drawn]:
+def _panels_of_curves(
+    judgement: "Judgement", common: Conditions, curves: Sequence[JudgedSeries]
+) -> Iterator[DrawnPanel]:
     """Panels of at most six curves, which have these conditions in common: their names have the last one alone."""
-    count = -(-len(curves) // MOST)
+    count = -(-len(curves) // CURVES)
     size = -(-len(curves) // count)
     for i in range(count):
-        about = filter(None, (placed(common), f"{i + 1} of {count}" if count > 1 else ""))
-        yield _difference(judgement, curves[size * i : size * (i + 1)], ", ".join(about))
+        subtitle = filter(None, (conditions_text(common), f"{i + 1} of {count}" if count > 1 else ""))
+        yield _deviation_panel(judgement, curves[size * i : size * (i + 1)], ", ".join(subtitle))
 
 
-def _seconds(judgement: "Judgement") -> Iterator[Drawn]:
-    """Of a solver and of ours, on the same grids; of a model and of those of its kind, beside the error."""
+def _cost_panels(judgement: "Judgement") -> Iterator[DrawnPanel]:
+    """Of a solver and of `bem3d`, on the same grids; of a model and of those of its kind, with the error."""
     if judgement.times:
-        yield _times(judgement)
+        yield _times_panel(judgement)
     if judgement.costs:
-        yield _costs(judgement)
+        yield _errors_panel(judgement)
 
 
-def _difference(judgement: "Judgement", curves: Sequence[JudgedCurve], about: str) -> Drawn:
+def _deviation_panel(judgement: "Judgement", curves: Sequence[JudgedSeries], subtitle: str) -> DrawnPanel:
+    """The deviation with its 95 % interval along the parameter, the tolerance as a shade."""
     first, tolerance = curves[0], judgement.tolerance.relative
-    levels = first.points[0].unit == LEVEL
-    unit, factor, within = ("dB", 1.0, decibels(tolerance)) if levels else ("%", 100.0, 100 * tolerance)
+    is_level = first.numbers[0].unit == LEVEL
+    factor, limit = (1.0, decibels(tolerance)) if is_level else (100.0, 100 * tolerance)
+    y = "deviation from the reference [dB]" if is_level else "relative deviation from the reference [%]"
     rows = [
         {
-            "model": placed(dict(list(curve.where.items())[-1:])),
+            "model": conditions_text(dict(list(curve.where.items())[-1:])),
             first.along: x,
-            **_with(factor * point.difference, factor * point.error),
+            **_ends(factor * number.difference, factor * number.error),
         }
         for curve in curves
-        for x, point in zip(curve.at, curve.points, strict=True)
+        for x, number in zip(curve.at, curve.numbers, strict=True)
     ]
     name, log = f"{judgement.model}: {first.quantity}", "x" if first.at[-1] > 20 * first.at[0] > 0 else ""
-    y, title = f"off the reference [{unit}]", "\n".join(in_two_lines(words, TITLE) for words in (name, about) if words)
-    name = f"{name}, {about}"
-    limits = _limits_of(judgement, first.quantity, factor, within)
-    panel = Panel(first.along, y, title=title, log=log, shade=(-within, within), ylim=limits)
-    return panel.of(Curve(name, by=("model",), bars=True)), table_of(name, rows)
+    title = "\n".join(in_two_lines(words, TITLE) for words in (name, subtitle) if words)
+    table = f"{name}, {subtitle}"
+    limits = _limits_of(judgement, first.quantity, factor, limit)
+    panel = Panel(first.along, y, title=title, log=log, shade=(-limit, limit), ylim=limits)
+    return panel.of(Curve(table, by=("model",), bars=True)), table_of(table, rows)
 
 
-def _limits_of(judgement: "Judgement", quantity: str, factor: float, within: float) -> tuple[float, float]:
-    """One scale of a quantity of one model: another one that is far off leaves it readable."""
-    shown = [
-        _with(factor * one.difference, factor * one.error) for one in judgement.verdicts if one.quantity == quantity
+def _limits_of(judgement: "Judgement", quantity: str, factor: float, limit: float) -> tuple[float, float]:
+    """Of the axis: one scale of a quantity of one model, so that a model that is far off leaves others readable."""
+    intervals = [
+        _ends(factor * number.difference, factor * number.error)
+        for number in judgement.numbers
+        if number.quantity == quantity
     ]
-    ends = [end for row in shown for end in row.values() if math.isfinite(end)]
-    low, high = min(ends, default=0.0), max(ends, default=0.0)
-    low, high = min(low, -within), max(high, within)
+    ends = [end for interval in intervals for end in interval.values() if math.isfinite(end)]
+    low, high = min(-limit, *ends, limit), max(-limit, *ends, limit)
     return low - MARGIN * (high - low), high + MARGIN * (high - low)
 
 
-def _times(judgement: "Judgement") -> Drawn:
+def _times_panel(judgement: "Judgement") -> DrawnPanel:
+    """Seconds of a solver and of `bem3d` by the cells on a side."""
     x, name = "cells on a side", f"{judgement.model}: seconds, one thread"
-    own = judgement.model + YOURS * (judgement.model == "bem3d")
-    rows = [{"model": own, x: time.cells, **_with(time.seconds)} for time in judgement.times]
-    rows += [{"model": "bem3d", x: time.cells, **_with(time.bem3d)} for time in judgement.times]
+    model = judgement.model + YOURS * (judgement.model == "bem3d")
+    rows = [{"model": model, x: time.cells, **_ends(time.seconds)} for time in judgement.times]
+    rows += [{"model": "bem3d", x: time.cells, **_ends(time.bem3d)} for time in judgement.times]
     panel = Panel(x, "seconds", title=in_two_lines(name, TITLE), log="xy", ticked=True)
     return panel.of(Curve(name, by=("model",))), table_of(name, rows)
 
 
-def _costs(judgement: "Judgement") -> Drawn:
-    """The chart of error against seconds."""
-    own, *others = judgement.costs
-    costs = [own._replace(model=own.model + YOURS * any(own.model == one.model for one in others)), *others]
-    unit, factor = ("dB", 1.0) if judgement.costs[0].unit == LEVEL else ("%", 100.0)
+def _errors_panel(judgement: "Judgement") -> DrawnPanel:
+    """The chart of error against seconds of a call."""
+    cost, *of_suite = judgement.costs
+    is_named_twice = any(cost.model == other.model for other in of_suite)
+    costs = [cost._replace(model=cost.model + YOURS * is_named_twice), *of_suite]
+    unit, factor = ("dB", 1.0) if cost.unit == LEVEL else ("%", 100.0)
     x, name = "seconds of a call", f"{judgement.model}: {MAIN[judgement.kind]}"
-    rows = [{"model": one.model, x: one.seconds, **_with(factor * one.error)} for one in costs]
-    errors = [factor * one.error for one in judgement.costs if 0 < factor * one.error < LARGEST]
+    rows = [{"model": cost.model, x: cost.seconds, **_ends(factor * cost.error)} for cost in costs]
+    errors = [factor * cost.error for cost in costs if 0 < factor * cost.error < LARGEST]
     # room for a tick, however near they are
     ylim = (min(errors) / 2, 2 * max(errors)) if errors else None
     panel = Panel(x, f"median error [{unit}]", title=in_two_lines(name, TITLE), log="xy", ylim=ylim)
     return panel.of(Curve(table := f"{name} and seconds", style="marks", by=("model",))), table_of(table, rows)
 
 
-def _with(value: float, half: float = 0.0) -> dict[str, float]:
-    """Its interval; what is too large for an axis is not drawn."""
-    ends = {"value": value, "low": value - half, "high": value + half}
+def _ends(value: float, half_width: float = 0.0) -> dict[str, float]:
+    """The value and its interval; NaN, which is not drawn, for an end that is too large for an axis."""
+    ends = dict(zip(ENDS, (value, value - half_width, value + half_width), strict=True))
     return {name: end if abs(end) < LARGEST else math.nan for name, end in ends.items()}

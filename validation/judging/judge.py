@@ -1,30 +1,31 @@
-"""Judge a model of somebody's own: `validation.judge`, and what it returns."""
+"""Judge a user's model: `validation.judge`, and what it returns."""
 
 import math
 import time
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+import warnings
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from pkgutil import resolve_name
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from validation.advice.tolerance import Tolerance, tolerance_of
-from validation.analysis.contents import as_csv, as_json
+from validation.analysis.contents import as_csv, as_json, plain_name
 from validation.analysis.evidence import Table, table_of
+from validation.analysis.verdict import Verdict
 from validation.judging.judgement import (
-    DIFFER,
-    FAILED,
-    REFUSED,
+    WITHOUT_NUMBER,
     Conditions,
-    Enough,
-    JudgedPoint,
-    enough,
-    not_compared,
-    trusted,
+    JudgedNumber,
+    JudgedRange,
+    missing_number,
+    ranges_of,
+    trusted_numbers,
 )
 from validation.judging.kinds.diagnosis import Remark, remarks
 from validation.judging.kinds.judge import JUDGES, points_of
 from validation.judging.kinds.own import ErrorOfCall, costs_of
+from validation.judging.kinds.stiffness import FORCE, H
 from validation.judging.replies import raised
 from validation.judging.words import solver_lines, summary_lines
 from validation.judging.worker import Called, visited
@@ -38,9 +39,14 @@ OF_SOLVER = "validation.judging.solvers.judged:judged"
 """Of a contact solver; it imports all solvers."""
 BROKEN = "mdr-validation could not go on, which is its own error"
 RETURNED = "a process that it forked came back from the function: its answers were left out"
-COLUMNS = ("value", "reference", "difference", "error", "unit", "verdict", "reason")
-NAMES = {"start": "from", "stop": "to"}
-"""Of a range in JSON: words that Python keeps for itself."""
+SCHEMA = 2
+"""Of the JSON; 1 had the verdicts agree, differ, undecided, refused and failed, and no key of its own."""
+VALUES = ("value", "reference", "difference", "error", "unit")
+"""Numbers of a row of CSV and JSON, and the unit of the difference."""
+CSV_COLUMNS = (*VALUES, "outcome", "reason")
+CONDITION_KEYS = {H: "hurst", FORCE: "normalised_load"}
+"""In CSV and JSON, of the conditions whose name is a symbol."""
+Row = TypeVar("Row", JudgedNumber, JudgedRange)
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,9 +58,9 @@ class Judgement:
     model, kind : str
         Name and decorator of the function.
     tolerance : Tolerance
-        How near is near.
-    verdicts : tuple
-        A point each: quantity, where, value, reference, difference, error, verdict, reason.
+        Of a ratio; levels have 20 lg(1 + ratio) dB.
+    numbers : tuple of JudgedNumber
+        A row a number: quantity, where, value, reference, difference, error, verdict, reason.
     seconds : float
         That the judgement took.
     times : tuple
@@ -67,55 +73,75 @@ class Judgement:
     >>> @validation.stiffness_model("flat punch")
     ... def flat(side, modulus):
     ...     return 1.1523 * modulus * side
-    >>> found = validation.judge(flat)
-    >>> found.verdicts[0].verdict
-    'differ'
+    >>> judgement = validation.judge(flat)
+    >>> print(judgement.numbers[0].verdict)
+    outside tolerance
     """
 
     model: str
     kind: str
     tolerance: Tolerance
-    verdicts: tuple[JudgedPoint, ...]
+    numbers: tuple[JudgedNumber, ...]
     seconds: float
     times: "tuple[SolverTime, ...]" = ()
     costs: tuple[ErrorOfCall, ...] = ()
 
     @property
-    def enough(self) -> list[Enough]:
-        """Ranges of one verdict, along the number that decides."""
-        return enough(self.verdicts)
+    def ranges(self) -> list[JudgedRange]:
+        """Ranges of equal verdict, each along the condition that has most values."""
+        return ranges_of(self.numbers)
+
+    @property
+    def verdicts(self) -> tuple[JudgedNumber, ...]:
+        """`numbers` with the verdicts of version 0.3 (agree, differ, ...). Goes after one release."""
+        _warn_of_earlier_name("verdicts", "numbers")
+        return tuple(_with_earlier_verdict(number) for number in self.numbers)
+
+    @property
+    def enough(self) -> list[JudgedRange]:
+        """`ranges` with the verdicts of version 0.3. Goes after one release."""
+        _warn_of_earlier_name("enough", "ranges")
+        return [_with_earlier_verdict(part) for part in self.ranges]
 
     @property
     def remarks(self) -> list[Remark]:
-        """What its points show of a reduced model as a whole, as a factor that is one everywhere."""
-        return remarks(self.verdicts) if self.kind in JUDGES else []
+        """Of a reduced model: errors that its numbers have in common, as a factor everywhere."""
+        return remarks(self.numbers) if self.kind in JUDGES else []
 
     @property
     def answered(self) -> bool:
-        """Whether there is any number to be judged."""
-        return any(math.isfinite(point.difference) for point in self.verdicts)
+        """Whether any row has a number."""
+        return any(math.isfinite(number.difference) for number in self.numbers)
 
     @property
     def wrong(self) -> bool:
-        """Of a solver: whether it differs or fails where that decides."""
-        return any(point.decides and point.verdict in (DIFFER, FAILED, REFUSED) for point in self.verdicts)
+        """Of a solver: whether a number that decides is outside of the tolerance, or missing."""
+        lost = (Verdict.OUTSIDE, *WITHOUT_NUMBER)
+        return any(number.decides and number.verdict in lost for number in self.numbers)
 
     def summary(self) -> str:
-        """Where it is enough, the worst points and what they share, and a paragraph for a paper."""
+        """Ranges of equal verdict, the largest deviations and their common condition, and a paragraph for a paper."""
         if self.kind == "contact_solver":
-            lines = solver_lines(self.model, self.verdicts, self.times, self.seconds)
+            lines = solver_lines(self.model, self.numbers, self.times, self.seconds)
         else:
             lines = summary_lines(self)
         return printable("\n".join(lines), lines=True)
 
     def as_dict(self) -> dict[str, object]:
-        """Of JSON: None for what is no number."""
+        """The contents of judgement.json, schema 2, where a number that is not finite is None.
+
+        Rows under "verdicts" have `outcome`, and `conditions` with snake_case names; for one release also `verdict` and
+        `where` as in schema 1. Ranges are under "ranges", and for one release as in schema 1 under "enough".
+        """
+        ranges = self.ranges
         return {
+            "schema_version": SCHEMA,
             "model": self.model,
             "kind": self.kind,
             "tolerance": self.tolerance.relative,
-            "verdicts": [_as_dict(point) for point in self.verdicts],
-            "enough": [_as_dict(some) for some in self.enough],
+            "verdicts": [_number_in_json(number) for number in self.numbers],
+            "ranges": [_range_in_json(part) for part in ranges],
+            "enough": [_range_in_schema_1(part) for part in ranges],
             "remarks": [remark._asdict() for remark in self.remarks],
             "seconds": round(self.seconds, 3),
             **({"times": [time._asdict() for time in self.times]} if self.times else {}),
@@ -125,37 +151,37 @@ class Judgement:
         """Write judgement.json, verdicts.csv, summary.txt and judgement.svg into a folder of its own, which is made.
 
         Seconds that the figure shows are in costs.csv: of calls with the error, of a solver by the cells on a side.
-        manifest.json lists the files, by which an earlier judgement is known and replaced.
+        manifest.json lists the files: an earlier judgement is recognised by it, and replaced.
 
         Raises
         ------
         TypeError
-            For what is no path.
+            For a folder that is no path.
         ValueError
             For a folder with other files, which are not replaced.
         """
         if not isinstance(folder, str | Path):
             raise TypeError(f"folder must be a path, got {folder!r}")
-        with Folder(Path(folder), kind=JUDGEMENT, option="folder") as place:
-            place.replace(self.files())
+        with Folder(Path(folder), kind=JUDGEMENT, option="folder") as target:
+            target.replace(self.files())
 
     def files(self) -> dict[str, bytes]:
-        """What `save` writes, by name."""
+        """The contents of what `save` writes, by name."""
         from validation.judging.figure import figure_of  # which takes half a second to import
 
         files = {
             "judgement.json": as_json(self.as_dict()),
-            "verdicts.csv": points_as_csv([self]),
+            "verdicts.csv": numbers_as_csv([self]),
             "summary.txt": f"{self.summary()}\n".encode(),
             "judgement.svg": figure_of([self], "svg"),
         }
-        if costs := [one._asdict() for one in self.costs or self.times]:
+        if costs := [cost._asdict() for cost in self.costs or self.times]:
             files["costs.csv"] = as_csv(table_of("costs", costs))
         return files
 
 
 def judge(model: object, tolerance: float | str = 0.1) -> Judgement:
-    """Judge a model: where it is enough, with error bars, beside references that come with this package.
+    """Judge a model: where it is accurate enough, with error bars, by references that come with this package.
 
     Parameters
     ----------
@@ -168,7 +194,7 @@ def judge(model: object, tolerance: float | str = 0.1) -> Judgement:
     Returns
     -------
     Judgement
-        Verdicts, ranges, and their summary.
+        Numbers with their verdicts, ranges of equal verdict, and their summary.
 
     Raises
     ------
@@ -181,55 +207,118 @@ def judge(model: object, tolerance: float | str = 0.1) -> Judgement:
     >>> @validation.stiffness_model("in series")
     ... def series(load, side, modulus, roughness):
     ...     return 1 / (0.49 * roughness.rms / load + 1 / (1.1523 * modulus * side))
-    >>> found = validation.judge(series, "10 %")
-    >>> [some.verdict for some in found.enough if some.where == {"H": 0.7} and some.stop == 10]
-    ['agree']
+    >>> judgement = validation.judge(series, "10 %")
+    >>> [str(part.verdict) for part in judgement.ranges if part.where == {"H": 0.7} and part.stop == 10]
+    ['within tolerance']
     """
     with visited(model) as callers:
         if len(callers) > 1:
-            raise ValueError(f"model must be one, got {', '.join(repr(one.name) for one in callers)}: judge them apart")
+            names = ", ".join(repr(caller.name) for caller in callers)
+            raise ValueError(f"model must be one, got {names}: judge them apart")
         return judged(callers[0], tolerance_of(tolerance))
 
 
 def judged(model: Called, tolerance: Tolerance) -> Judgement:
-    """Of one function, here or in another process."""
+    """The judgement of one function, of this process or of another one."""
     begin = time.perf_counter()
-    everywhere: Conditions = {} if model.kind in JUDGES else {"problem": "any"}
-    points: list[JudgedPoint] = []
+    where: Conditions = {} if model.kind in JUDGES else {"problem": "any"}
+    numbers: list[JudgedNumber] = []
     times: Sequence[SolverTime] = ()
     costs: Sequence[ErrorOfCall] = ()
+
+    def add_failure(quantity: str, reason: str, decides: bool = False) -> None:
+        numbers.append(missing_number(quantity, where, Verdict.NO_RESULT, reason, decides=decides))
+
     try:
         if model.kind in JUDGES:
-            for point in points_of(model, tolerance.relative):
-                points.append(point)
-            costs = costs_of(model, points)
+            for number in points_of(model, tolerance.relative):
+                numbers.append(number)
+            costs = costs_of(model, numbers)
         else:
-            points, times = resolve_name(OF_SOLVER)(model)
+            numbers, times = resolve_name(OF_SOLVER)(model)
     except Exception as error:
-        # one model of a file takes nothing from the others, nor from what was found of it
-        points.append(not_compared("judging", everywhere, FAILED, f"{BROKEN}: {raised(error)}"))
+        # one model of a file takes nothing from the others, nor from its own numbers so far
+        add_failure("judging", f"{BROKEN}: {raised(error)}")
     if model.printed:
-        points.append(not_compared("printing", everywhere, FAILED, f"printed {model.printed!r}"))
+        add_failure("printing", f"printed {model.printed!r}")
     if model.forked:
-        points.append(not_compared("forking", everywhere, FAILED, RETURNED))
+        add_failure("forking", RETURNED)
     if model.changed:
         reason = f"{model.changed} was changed while it was judged: judge it again"
-        points.append(not_compared("file", everywhere, FAILED, reason, decides=model.kind == "contact_solver"))
+        add_failure("file", reason, decides=model.kind == "contact_solver")
     seconds = time.perf_counter() - begin
-    return Judgement(model.name, model.kind, tolerance, tuple(trusted(points)), seconds, tuple(times), tuple(costs))
+    numbers = trusted_numbers(numbers)
+    return Judgement(model.name, model.kind, tolerance, tuple(numbers), seconds, tuple(times), tuple(costs))
 
 
-def points_as_csv(judgements: Sequence[Judgement]) -> bytes:
-    """A row a point of each; a condition that a point does not have is left empty."""
-    points = [(one.model, point) for one in judgements for point in one.verdicts]
-    places = dict.fromkeys(name for _, point in points for name in point.where)
-    columns: dict[str, list[object]] = {"model": [model for model, _ in points]}
-    columns |= {"quantity": [point.quantity for _, point in points]}
-    columns |= {name: [point.where.get(name, math.nan) for _, point in points] for name in places}
-    columns |= {name: [getattr(point, name) for _, point in points] for name in COLUMNS}
-    return as_csv(Table("verdicts", columns))
+def numbers_as_csv(judgements: Sequence[Judgement]) -> bytes:
+    """A row a number of each model; a condition that a number does not have is left empty."""
+    rows = [
+        {"model": judgement.model, "quantity": number.quantity, **_conditions(number.where)} | _cells(number)
+        for judgement in judgements
+        for number in judgement.numbers
+    ]
+    names = sorted(dict.fromkeys(name for row in rows for name in row), key=CSV_COLUMNS.__contains__)
+    return as_csv(Table("verdicts", {name: [row.get(name, math.nan) for row in rows] for name in names}))
 
 
-def _as_dict(part: JudgedPoint | Enough) -> dict[str, object]:
-    known = {name: None if isinstance(v, float) and not math.isfinite(v) else v for name, v in asdict(part).items()}
-    return {NAMES.get(name, name): value for name, value in known.items() if name != "decides"}
+def _cells(number: JudgedNumber) -> dict[str, object]:
+    """Of a row of CSV: value, reference and deviation, then the verdict with its reason."""
+    values = {name: getattr(number, name) for name in VALUES}
+    return {**values, "outcome": str(number.verdict), "reason": number.reason}
+
+
+def _number_in_json(number: JudgedNumber) -> dict[str, object]:
+    """A row of "verdicts", with the keys of schema 1 beside those of schema 2."""
+    return {
+        "quantity": number.quantity,
+        "where": dict(number.where),
+        "conditions": _conditions(number.where),
+        **{name: _finite(getattr(number, name)) for name in VALUES},
+        "verdict": number.verdict.earlier,
+        "outcome": str(number.verdict),
+        "reason": number.reason,
+    }
+
+
+def _range_in_json(part: JudgedRange) -> dict[str, object]:
+    return {
+        "quantity": part.quantity,
+        "conditions": _conditions(part.where),
+        "along": _key_of(part.along),
+        "from": _finite(part.start),
+        "to": _finite(part.stop),
+        "outcome": str(part.verdict),
+    }
+
+
+def _range_in_schema_1(part: JudgedRange) -> dict[str, object]:
+    earlier = {"where": dict(part.where), "along": part.along, "from": _finite(part.start), "to": _finite(part.stop)}
+    return {"quantity": part.quantity, **earlier, "verdict": part.verdict.earlier}
+
+
+def _conditions(where: Mapping[str, float | str]) -> dict[str, object]:
+    """With names that are keys."""
+    return {_key_of(name): value for name, value in where.items()}
+
+
+def _key_of(condition: str) -> str:
+    """ "wavelength [mm]" is wavelength_mm, "q_r L / 2π" is q_r_L_2pi."""
+    return CONDITION_KEYS.get(condition) or plain_name(condition.replace("π", "pi"))
+
+
+def _finite(value: float | str) -> float | str | None:
+    """JSON has neither NaN nor infinity."""
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _with_earlier_verdict(row: Row) -> Row:
+    """Scripts of version 0.3 compare the verdict with a text."""
+    earlier: Any = row.verdict.earlier
+    return replace(row, verdict=earlier)
+
+
+def _warn_of_earlier_name(earlier: str, name: str) -> None:
+    """To the line that has used the property."""
+    message = f"Judgement.{earlier} is Judgement.{name} now, whose verdicts are {', '.join(Verdict)}"
+    warnings.warn(message, FutureWarning, stacklevel=3)

@@ -1,4 +1,4 @@
-"""What is said of a model from elsewhere, point by point, and over which ranges it is enough."""
+"""Numbers of a model relative to their references, the verdict of each, and the ranges of equal verdict."""
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -6,26 +6,49 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 from operator import attrgetter
 
-AGREE, DIFFER, UNDECIDED, REFUSED, FAILED = "agree", "differ", "undecided", "refused", "failed"
-VERDICTS = (AGREE, DIFFER, UNDECIDED, REFUSED, FAILED)
+from validation.analysis.evidence import Number, Role
+from validation.analysis.verdict import Verdict, VerdictRange, verdict_of, verdict_ranges
+
 RATIO, LEVEL, DEVIATION = "-", "dB", "over the mean"
 """Units, by which a number is compared with its reference."""
 AGAIN = "the same problem again"
-"""Quantity of the point that says whether a model has one answer to one problem."""
-UNTRUSTED = "the answers to one problem differ"
+"""Quantity of the number that says whether a model has one answer to one problem."""
+UNTRUSTED = "one problem has more than one answer"
 SMALL = 0.01
-"""A deviation below it is judged by how far off it is in parts of it."""
+"""A reference deviation below it is judged by the absolute difference, in parts of it."""
+WITHOUT_NUMBER = (Verdict.NOT_SERVED, Verdict.NO_RESULT)
 Conditions = Mapping[str, float | str]
 
 
 @dataclass(frozen=True)
-class JudgedPoint:
+class JudgedNumber:
     """One number of a model beside its reference.
 
-    where: the conditions, by name; difference: value over reference less one, of levels value less reference [dB];
-    error: its 95 % half-width in the same unit, by sample and grid of the reference and the sample of the model;
-    verdict: one of `VERDICTS`; reason: why there is no number, or what it is judged by; decides: whether a solver is
-    wrong that differs or fails here.
+    Attributes
+    ----------
+    quantity : str
+        What was computed.
+    where : Mapping
+        The conditions, by name.
+    value, reference : float
+        Of the model and of the reference, in one unit; NaN where there is none.
+    difference : float
+        The relative deviation value / reference - 1; of levels value - reference [dB].
+    error : float
+        Half-width of the 95 % interval of the difference, in the same unit: by sample and grid of the reference and by
+        the sample of the model.
+    verdict : Verdict
+        By `verdict_of`; without a number NOT_SERVED or NO_RESULT.
+    reason : str
+        Why there is no number, or how it is judged.
+    unit : str
+        Of the difference: "-" for a ratio, "dB" for a level.
+    decides : bool
+        Whether a solver is wrong whose number is not within tolerance.
+    tolerance : float
+        In the unit of the difference; NaN where no tolerance has given the verdict.
+    grid : float
+        The part of the error that is the discretisation error, which is added linearly.
     """
 
     quantity: str
@@ -34,10 +57,12 @@ class JudgedPoint:
     reference: float
     difference: float
     error: float
-    verdict: str
+    verdict: Verdict
     reason: str = ""
-    unit: str = "-"
+    unit: str = RATIO
     decides: bool = False
+    tolerance: float = math.nan
+    grid: float = 0.0
 
     @property
     def shown(self) -> str:
@@ -45,21 +70,40 @@ class JudgedPoint:
         if not math.isfinite(self.difference):
             return self.reason
         if not math.isfinite(self.error):
-            return f"{in_unit(self.difference, self.unit, sign='+')}, of unknown error: {self.reason}"
-        return f"{in_unit(self.difference, self.unit, sign='+')} ± {in_unit(self.error, self.unit)}"
+            return f"{deviation_text(self.difference, self.unit, sign='+')}, of unknown error: {self.reason}"
+        return f"{deviation_text(self.difference, self.unit, sign='+')} ± {deviation_text(self.error, self.unit)}"
+
+    @property
+    def number(self) -> Number | None:
+        """The difference as a number of a report, whose reference is zero; None where a part of it is not finite."""
+        if not all(map(math.isfinite, (self.difference, self.error, self.tolerance, self.grid))):
+            return None
+        return Number(
+            quantity=self.quantity,
+            where=self.where,
+            value=self.difference,
+            reference=0.0,
+            source="reference of the judges",
+            tolerance=self.tolerance,
+            reason=self.reason or "tolerance of the judgement",
+            unit=self.unit,
+            grid=self.grid,
+            sample=max(self.error - self.grid, 0.0),
+            role=Role.CRITERION if self.decides else Role.FINDING,
+        )
 
 
-def in_unit(difference: float, unit: str, sign: str = "-") -> str:
+def deviation_text(difference: float, unit: str, sign: str = "-") -> str:
     """ "+12 %" or "-3.1 dB"."""
     return f"{difference:{sign}.2g} dB" if unit == LEVEL else f"{100 * difference:{sign}.3g} %"
 
 
-def placed(where: Conditions) -> str:
-    """ "H = 0.4, Fbar = 0.1"."""
+def conditions_text(where: Conditions) -> str:
+    """ "H = 0.4, Fbar = 0.1"; a name stands for itself."""
     return ", ".join(f"{name} = {value:g}" if isinstance(value, float) else str(value) for name, value in where.items())
 
 
-def compared(
+def judged_number(
     quantity: str,
     where: Conditions,
     value: float,
@@ -69,147 +113,186 @@ def compared(
     *,
     unit: str = RATIO,
     reason: str = "",
-) -> JudgedPoint:
+    grid: float = 0.0,
+) -> JudgedNumber:
     """By the ratio; by the difference of levels, of which a tolerance t is 20 lg(1 + t) dB; and deviations by the ratio
     from 1 % on, below by their absolute difference, as a part of 1 %.
 
-    half_width: 95 %, over the value, or in dB, of both together; agree or differ where the whole interval does.
+    half_width: of the 95 % interval, over the value, or in dB, of both together; grid: the part of it that the grid
+    leaves.
     """
-    apart, half = value / reference - 1, abs(value / reference) * half_width
+    difference, error_of_half_width = value / reference - 1, abs(value / reference)
     if unit == LEVEL:
-        apart, half, tolerance = value - reference, half_width, 20 * math.log10(1 + tolerance)
+        difference, error_of_half_width, tolerance = value - reference, 1.0, 20 * math.log10(1 + tolerance)
     elif unit == DEVIATION and reference < SMALL:
-        apart, half = (value - reference) / SMALL, max(value, reference) / SMALL * half_width
+        difference, error_of_half_width = (value - reference) / SMALL, max(value, reference) / SMALL
         reason = reason or "below 1 %: the absolute difference, in parts of 1 %"
-    verdict, shown_in = verdict_of(apart, half, tolerance), LEVEL if unit == LEVEL else RATIO
-    return JudgedPoint(quantity, where, value, reference, apart, half, verdict, reason, shown_in)
+    error = error_of_half_width * half_width
+    return JudgedNumber(
+        quantity,
+        where,
+        value,
+        reference,
+        difference,
+        error,
+        verdict_of(difference, error, tolerance),
+        reason,
+        LEVEL if unit == LEVEL else RATIO,
+        tolerance=tolerance,
+        grid=error_of_half_width * grid,
+    )
 
 
-def verdict_of(apart: float, half: float, within: float) -> str:
-    """Whether all of an interval is near, or far; what is equal to rounding is equal."""
-    near, far = abs(apart) + half <= within * (1 + 1e-9), abs(apart) - half > within * (1 + 1e-9)
-    return AGREE if near else DIFFER if far else UNDECIDED
-
-
-def not_compared(
+def missing_number(
     quantity: str,
     where: Conditions,
-    verdict: str,
+    verdict: Verdict,
     reason: str,
     *,
     reference: float = math.nan,
     unit: str = RATIO,
     decides: bool = False,
-) -> JudgedPoint:
-    """Without a number of the model."""
-    return JudgedPoint(quantity, where, math.nan, reference, math.nan, math.nan, verdict, reason, unit, decides)
+) -> JudgedNumber:
+    """A row without a number of the model. verdict: NOT_SERVED or NO_RESULT, else ValueError."""
+    if verdict not in WITHOUT_NUMBER:
+        raise ValueError(f"verdict of a row without a number must be {' or '.join(WITHOUT_NUMBER)}, got {verdict}")
+    return JudgedNumber(quantity, where, math.nan, reference, math.nan, math.nan, verdict, reason, unit, decides)
 
 
-def trusted(points: Sequence[JudgedPoint]) -> list[JudgedPoint]:
-    """The same numbers; undecided, where a model has more than one answer to one problem."""
-    if all(point.verdict == AGREE for point in points if point.quantity == AGAIN):
-        return list(points)
+def trusted_numbers(numbers: Sequence[JudgedNumber]) -> list[JudgedNumber]:
+    """The same numbers; INCONCLUSIVE, where a model has more than one answer to one problem."""
+    if all(number.verdict is Verdict.WITHIN for number in numbers if number.quantity == AGAIN):
+        return list(numbers)
     return [
-        replace(point, verdict=UNDECIDED, reason=UNTRUSTED)
-        if point.quantity != AGAIN and point.verdict in (AGREE, DIFFER)
-        else point
-        for point in points
+        replace(number, verdict=Verdict.INCONCLUSIVE, reason=UNTRUSTED, tolerance=math.nan)
+        if number.quantity != AGAIN and number.verdict in (Verdict.WITHIN, Verdict.OUTSIDE)
+        else number
+        for number in numbers
     ]
 
 
 @dataclass(frozen=True)
-class Enough:
-    """Neighbouring points of one verdict: where, along the number that decides, from start to stop."""
+class JudgedRange:
+    """Neighbouring numbers of one verdict.
+
+    Attributes
+    ----------
+    quantity, where :
+        What was computed, and its conditions but for the parameter.
+    along : str
+        The parameter, empty where there is none.
+    start, stop : float
+        Values of the parameter at the first and the last number.
+    verdict : Verdict
+        Of all of them.
+    """
 
     quantity: str
     where: Conditions
     along: str
     start: float
     stop: float
-    verdict: str
+    verdict: Verdict
 
 
 @dataclass(frozen=True)
-class JudgedCurve:
-    """Points of a quantity under equal conditions, ascending along the number that decides, which has most values."""
+class JudgedSeries:
+    """Numbers of a quantity under equal conditions, ascending along the condition that has most values."""
 
     quantity: str
     where: Conditions
     along: str
-    points: Sequence[JudgedPoint]
+    numbers: Sequence[JudgedNumber]
 
     @property
     def at(self) -> list[float]:
-        return [float(point.where.get(self.along, math.nan)) for point in self.points]
+        """Values of the parameter, NaN without one."""
+        return [float(number.where.get(self.along, math.nan)) for number in self.numbers]
 
     @property
-    def is_rule(self) -> bool:
+    def is_closed_form(self) -> bool:
         """Whether every model must follow it, as its references say, which are one; no result that a paper states."""
-        return all(point.reference == 1 for point in self.points)
+        return all(number.reference == 1 for number in self.numbers)
 
     @property
-    def runs(self) -> list[list[tuple[float, JudgedPoint]]]:
-        """Neighbouring points of one verdict, each with its place."""
-        pairs = zip(self.at, self.points, strict=True)
-        return [list(run) for _, run in groupby(pairs, lambda pair: pair[1].verdict)]
+    def has_a_number(self) -> bool:
+        """False where the model serves none of it, or fails everywhere."""
+        return any(math.isfinite(number.difference) for number in self.numbers)
 
     @property
-    def enough(self) -> list[Enough]:
-        ends = [(*run[0], run[-1][0]) for run in self.runs]
-        return [Enough(self.quantity, self.where, self.along, a, b, point.verdict) for a, point, b in ends]
+    def verdict_ranges(self) -> list[VerdictRange]:
+        """Neighbouring values of the parameter of one verdict."""
+        return verdict_ranges(self.at, [number.verdict for number in self.numbers])
+
+    @property
+    def ranges(self) -> list[JudgedRange]:
+        """The same with quantity and conditions."""
+        return [
+            JudgedRange(self.quantity, self.where, self.along, part.start, part.stop, part.verdict)
+            for part in self.verdict_ranges
+        ]
+
+    def numbers_in(self, part: VerdictRange) -> Sequence[JudgedNumber]:
+        """Of one of its ranges."""
+        return self.numbers[part.first : part.first + len(part.places)]
 
 
-def curves_of(points: Iterable[JudgedPoint]) -> list[list[JudgedCurve]]:
-    """Those of each quantity."""
-    of: dict[tuple[str, ...], list[JudgedPoint]] = {}
-    for point in points:
-        of.setdefault((point.quantity, *sorted(point.where)), []).append(point)
-    found = [curve for mine in of.values() for curve in _curves(mine)]
-    return [list(some) for _, some in groupby(found, attrgetter("quantity"))]
+def series_of(numbers: Iterable[JudgedNumber]) -> list[list[JudgedSeries]]:
+    """A list a quantity, in the order of the numbers."""
+    groups: dict[tuple[str, ...], list[JudgedNumber]] = {}
+    for number in numbers:
+        groups.setdefault((number.quantity, *sorted(number.where)), []).append(number)
+    series = [part for group in groups.values() for part in _series(group)]
+    return [list(of_quantity) for _, of_quantity in groupby(series, attrgetter("quantity"))]
 
 
-def _curves(points: Sequence[JudgedPoint]) -> Iterator[JudgedCurve]:
-    names = [name for name, value in points[0].where.items() if not isinstance(value, str)]
-    along = max(names, key=lambda name: len({point.where[name] for point in points}), default="")
-    curves: dict[str, list[JudgedPoint]] = {}
-    for point in points:
-        curves.setdefault(placed({n: v for n, v in point.where.items() if n != along}), []).append(point)
-    for curve in curves.values():
-        ordered = sorted(curve, key=lambda point: float(point.where.get(along, 0.0)))
+def _series(numbers: Sequence[JudgedNumber]) -> Iterator[JudgedSeries]:
+    """Numbers of one quantity with the same names of conditions: the one with most values is the parameter."""
+    names = [name for name, value in numbers[0].where.items() if not isinstance(value, str)]
+    along = max(names, key=lambda name: len({number.where[name] for number in numbers}), default="")
+    groups: dict[str, list[JudgedNumber]] = {}
+    for number in numbers:
+        key = conditions_text({name: value for name, value in number.where.items() if name != along})
+        groups.setdefault(key, []).append(number)
+    for group in groups.values():
+        ordered = sorted(group, key=lambda number: float(number.where.get(along, 0.0)))
         where = {name: value for name, value in ordered[0].where.items() if name != along}
-        yield JudgedCurve(points[0].quantity, where, along, ordered)
+        yield JudgedSeries(numbers[0].quantity, where, along, ordered)
 
 
-def enough(points: Iterable[JudgedPoint]) -> list[Enough]:
-    """Where a model agrees, differs, and where neither is known."""
-    return [some for curves in curves_of(points) for curve in curves for some in curve.enough]
+def ranges_of(numbers: Iterable[JudgedNumber]) -> list[JudgedRange]:
+    """Of all series of these numbers."""
+    return [part for of_quantity in series_of(numbers) for series in of_quantity for part in series.ranges]
 
 
-def worst(points: Iterable[JudgedPoint], count: int = 5) -> list[JudgedPoint]:
-    """Those that differ most, less their errors, in what each unit is worth; then those without a number."""
+def largest_deviations(numbers: Iterable[JudgedNumber], count: int = 5) -> list[JudgedNumber]:
+    """Numbers outside of the tolerance, the farthest first, then rows without a number.
 
-    def apart(point: JudgedPoint) -> float:
-        certain = math.copysign(max(abs(point.difference) - point.error, 0.0), point.difference)
-        factor = 10 ** (abs(certain) / 20) if point.unit == LEVEL else 1 + certain
+    By the logarithm of the ratio that the interval excludes least: |difference| - error, a level as 10^(L/20).
+    """
+
+    def distance(number: JudgedNumber) -> float:
+        certain = math.copysign(max(abs(number.difference) - number.error, 0.0), number.difference)
+        factor = 10 ** (abs(certain) / 20) if number.unit == LEVEL else 1 + certain
         return abs(math.log(max(factor, 1e-12)))
 
-    points = list(points)
-    known = sorted((point for point in points if point.verdict == DIFFER), key=apart, reverse=True)
-    return [*known, *(point for point in points if point.verdict in (REFUSED, FAILED))][:count]
+    numbers = list(numbers)
+    outside = sorted((number for number in numbers if number.verdict is Verdict.OUTSIDE), key=distance, reverse=True)
+    return [*outside, *(number for number in numbers if number.verdict in WITHOUT_NUMBER)][:count]
 
 
-def shared(some: Sequence[JudgedPoint], points: Sequence[JudgedPoint]) -> str:
-    """The condition that these have in common and not all have; nothing where there is none."""
-    found = []
-    for name in some[0].where if len(some) > 1 else ():
-        mine = [point.where.get(name) for point in some]
-        others = [point.where[name] for point in points if name in point.where]
-        if len(set(mine)) == 1 and len(set(others)) > 1:
-            found.append(placed({name: some[0].where[name]}))
-        elif all(isinstance(value, float) for value in (*mine, *others)):
-            numbers, middle = [float(value) for value in mine if value is not None], sorted(map(float, others))
-            if max(numbers) < middle[len(middle) // 2]:
-                found.append(f"{name} up to {max(numbers):g}")
-            elif min(numbers) > middle[len(middle) // 2]:
-                found.append(f"{name} from {min(numbers):g} on")
-    return ", ".join(found)
+def common_condition(part: Sequence[JudgedNumber], numbers: Sequence[JudgedNumber]) -> str:
+    """The condition that a part of the numbers has in common and not all have; empty where there is none."""
+    texts = []
+    for name in part[0].where if len(part) > 1 else ():
+        of_part = [number.where.get(name) for number in part]
+        of_all = [number.where[name] for number in numbers if name in number.where]
+        if len(set(of_part)) == 1 and len(set(of_all)) > 1:
+            texts.append(conditions_text({name: part[0].where[name]}))
+        elif all(isinstance(value, float) for value in (*of_part, *of_all)):
+            values, ordered = [float(value) for value in of_part if value is not None], sorted(map(float, of_all))
+            if max(values) < ordered[len(ordered) // 2]:
+                texts.append(f"{name} up to {max(values):g}")
+            elif min(values) > ordered[len(ordered) // 2]:
+                texts.append(f"{name} from {min(values):g} on")
+    return ", ".join(texts)

@@ -13,9 +13,10 @@ import pytest
 from hypothesis import HealthCheck, Phase, assume, given, note, settings
 from hypothesis import strategies as st
 
+from validation.analysis.verdict import Verdict
 from validation.benchmarks.discrete import STATED, ContactProblem, pressed
 from validation.judging import MAPPING, SOLVER
-from validation.judging.judgement import AGREE, JudgedPoint
+from validation.judging.judgement import JudgedNumber
 from validation.judging.kinds.profiles import properties_of_rule
 from validation.judging.own_models import named_in
 from validation.judging.registry import KINDS, FloatArray, offer
@@ -96,9 +97,9 @@ def contacts(draw: st.DrawFn, half_spaces: Sequence[bool], cells: float) -> Cont
 
 def points_by_each(
     solvers: Sequence[Asked], name: str, problem: ContactProblem, unserved: list[str]
-) -> list[JudgedPoint]:
+) -> list[JudgedNumber]:
     """Of a property, by each load; what the solver says that it does not serve goes to a list."""
-    points = list[JudgedPoint]()
+    points = list[JudgedNumber]()
     for solver in solvers:
         try:
             points += PROPERTIES[name](solver, problem)
@@ -119,7 +120,8 @@ def test_a_contact_solver_has_the_property(asked: list[Asked], name: str) -> Non
 
     def holds(problem: ContactProblem) -> None:
         for point in points_by_each(asked, name, problem, unserved):
-            assert point.verdict == AGREE, f"{point.quantity}, {point.difference:.3g} off: {point.reason}"
+            message = f"{point.quantity}, deviation {point.difference:.3g}: {point.reason}"
+            assert point.verdict is Verdict.WITHIN, message
             answers.append(point.quantity)
 
     one = STATED["sphere, periodic" if half_spaces[0] else "sphere"].on(int(min(8, solver.cells**0.5)))
@@ -153,7 +155,7 @@ def test_a_rule_has_the_properties(rule: Called) -> None:
     def holds(hurst: float, q_min: float, ratio: float, rms: float) -> None:
         for finding in properties_of_rule(rule, hurst, q_min, q_min * ratio, rms):
             found = finding.judged(OF_RULE)
-            assert found.verdict == AGREE, f"{found.quantity}: {found.shown}"
+            assert found.verdict is Verdict.WITHIN, f"{found.quantity}: {found.shown}"
 
     drawn = st.floats(0.1, 1.0), st.floats(1e2, 1e5), st.floats(2.0, 100.0), st.floats(1e-8, 1e-4)
     settings_for(lambda: list(properties_of_rule(rule, 0.7, 1e3, 1e5, 1e-6)))(given(*drawn)(holds))()

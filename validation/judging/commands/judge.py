@@ -1,4 +1,4 @@
-"""Judge models of somebody's own: where each is enough, or whether a solver is right."""
+"""Judge a user's models: where each is accurate enough, or whether a solver is right."""
 
 import argparse
 import os
@@ -11,7 +11,7 @@ from validation.advice.tolerance import tolerance_of
 from validation.analysis.contents import as_json, folder_names
 from validation.engine.files import write_given
 from validation.judging.files_read import GROUP, installed
-from validation.judging.judge import Judgement, judged, points_as_csv
+from validation.judging.judge import Judgement, judged, numbers_as_csv
 from validation.judging.worker import Called, visited
 from validation.report.commands.arguments import Exit, add_options, check_places
 from validation.report.folder import JUDGEMENT, Folder
@@ -36,7 +36,7 @@ def describe(judging: argparse.ArgumentParser) -> None:
         ("--out", "DIR", Path, "write summary, JSON, CSV and figure into this folder, of several models a folder each"),
         ("--json", "FILE", Path, "write all verdicts for other programs; of several models a list"),
         ("--csv", "FILE", Path, "write a row a verdict"),
-        ("--figure", "FILE", Path, "draw how far off each model is, in a .svg, .png or .pdf"),
+        ("--figure", "FILE", Path, "draw the relative deviation of each model, in a .svg, .png or .pdf"),
     )
     judging.epilog = (
         "Exit status: of a reduced model 0, whatever the verdicts; of a solver 0 right, 1 wrong; 2 no decorated "
@@ -48,7 +48,7 @@ def describe(judging: argparse.ArgumentParser) -> None:
 def judge(arguments: argparse.Namespace) -> Exit:
     """Judge what a file, or an installed package, offers."""
     if arguments.list and arguments.file is None:
-        lines = [f"{one.name}: {one.value}" for one in installed().values()]
+        lines = [f"{entry.name}: {entry.value}" for entry in installed().values()]
         print(printable("\n".join(lines) or f"no installed package has the entry points {GROUP}", lines=True))
         return Exit.MET
     if arguments.list:
@@ -59,35 +59,35 @@ def judge(arguments: argparse.Namespace) -> Exit:
         raise ValueError(f"FILE must be a Python file, or a name of judge --list, got {arguments.file!r}")
     tolerance = tolerance_of(arguments.tolerance)
     check_places(arguments, {Path(arguments.file): "is the model"})
-    _check_apart(arguments)
-    found: list[Judgement] = []
-    with visited(arguments.file) as callers, ExitStack() as folders:
+    _check_outside_of_folder(arguments)
+    judgements: list[Judgement] = []
+    with visited(arguments.file) as callers, ExitStack() as stack:
         chosen = [caller for caller in callers if arguments.only in (None, caller.name)]
         if not chosen:
             names = ", ".join(caller.name for caller in callers)
             raise ValueError(f"--only must be one of {names}, got {arguments.only}")
-        places = [folders.enter_context(folder) for folder in _folders(chosen, arguments.out)]
-        for caller, place in zip_longest(chosen, places):
-            found.append(judged(caller, tolerance))
-            if place:
-                place.replace(found[-1].files())
-            print(printable(found[-1].summary(), lines=True), end="\n\n", flush=True)
-    _write(found, arguments)
-    if not any(one.answered for one in found):
+        folders = [stack.enter_context(folder) for folder in _folders(chosen, arguments.out)]
+        for caller, folder in zip_longest(chosen, folders):
+            judgements.append(judged(caller, tolerance))
+            if folder:
+                folder.replace(judgements[-1].files())
+            print(printable(judgements[-1].summary(), lines=True), end="\n\n", flush=True)
+    _write(judgements, arguments)
+    if not any(judgement.answered for judgement in judgements):
         return Exit.NOT_CONVERGED
-    return Exit.CRITERION_FAILED if any(one.wrong for one in found) else Exit.MET
+    return Exit.CRITERION_FAILED if any(judgement.wrong for judgement in judgements) else Exit.MET
 
 
 def _folders(chosen: Sequence[Called], out: Path | None) -> list[Folder]:
-    """One of each model, of several below the one that is named; all of them before anything is judged."""
+    """A folder a model, of several below `out`; all are taken before anything is judged."""
     if out is None:
         return []
     names = folder_names([caller.name for caller in chosen]) if len(chosen) > 1 else [""]
     return [Folder(out / name, kind=JUDGEMENT) for name in names]
 
 
-def _check_apart(arguments: argparse.Namespace) -> None:
-    """Raises ValueError where a file that is named would be one of the folder's own, or of a model's in it."""
+def _check_outside_of_folder(arguments: argparse.Namespace) -> None:
+    """Raises ValueError for a file of another option in the folder of --out, or below it."""
     if arguments.out is None:
         return
     for option in ("json", "csv", "figure"):
@@ -96,15 +96,16 @@ def _check_apart(arguments: argparse.Namespace) -> None:
             raise ValueError(f"--{option} must be a file outside of --out, got {path} in {arguments.out}")
 
 
-def _write(found: list[Judgement], arguments: argparse.Namespace) -> None:
+def _write(judgements: list[Judgement], arguments: argparse.Namespace) -> None:
+    """The files of --json, --csv and --figure, each of all models."""
     if arguments.json:
-        objects = [one.as_dict() for one in found]
+        objects = [judgement.as_dict() for judgement in judgements]
         write_given(arguments.json, as_json(objects if len(objects) > 1 else objects[0]))
     if arguments.csv:
-        write_given(arguments.csv, points_as_csv(found))
+        write_given(arguments.csv, numbers_as_csv(judgements))
     if arguments.figure:
         from validation.judging.figure import figure_of, left_out  # which takes half a second to import
 
-        if names := left_out(found):
+        if names := left_out(judgements):
             print(printable(f"--figure does not show {', '.join(names)}: draw each with --only"))
-        write_given(arguments.figure, figure_of(found, arguments.figure.suffix[1:]))
+        write_given(arguments.figure, figure_of(judgements, arguments.figure.suffix[1:]))

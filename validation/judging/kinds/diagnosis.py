@@ -7,17 +7,15 @@ from typing import NamedTuple
 import numpy as np
 
 from validation.analysis.statistics import FloatArray
+from validation.analysis.verdict import Verdict
 from validation.judging.judgement import (
     AGAIN,
-    AGREE,
     DEVIATION,
-    DIFFER,
-    FAILED,
     LEVEL,
-    REFUSED,
+    WITHOUT_NUMBER,
     Conditions,
-    JudgedPoint,
-    placed,
+    JudgedNumber,
+    conditions_text,
 )
 from validation.judging.kinds.filters import ALPHA, FILTER, WAVE
 from validation.judging.kinds.held_out_solves import SUFFIX
@@ -139,14 +137,14 @@ class Remark(NamedTuple):
     decides: bool = False
 
 
-def remarks(points: Sequence[JudgedPoint]) -> list[Remark]:
+def remarks(points: Sequence[JudgedNumber]) -> list[Remark]:
     """Those that decide come first."""
     return [*_changing(points), *_draws(points), *_table(points), *_factor(points)]
 
 
-def _changing(points: Sequence[JudgedPoint]) -> Iterator[Remark]:
+def _changing(points: Sequence[JudgedNumber]) -> Iterator[Remark]:
     for point in points:
-        if point.quantity == AGAIN and point.verdict != AGREE:
+        if point.quantity == AGAIN and point.verdict is not Verdict.WITHIN:
             size = f" by {100 * point.difference:.2g} %" if math.isfinite(point.difference) else ""
             cause, _, detail = point.reason.partition(": ")
             yield Remark(
@@ -157,7 +155,7 @@ def _changing(points: Sequence[JudgedPoint]) -> Iterator[Remark]:
             )
 
 
-def _draws(points: Sequence[JudgedPoint]) -> Iterator[Remark]:
+def _draws(points: Sequence[JudgedNumber]) -> Iterator[Remark]:
     reasons = [point.reason for point in points if point.quantity != AGAIN]
     if equal := next((reason for reason in reasons if EQUAL_DRAWS in reason), ""):
         count = equal.split()[0]
@@ -172,15 +170,15 @@ def _draws(points: Sequence[JudgedPoint]) -> Iterator[Remark]:
 # --- right on the table alone ---
 
 
-def _table(points: Sequence[JudgedPoint]) -> Iterator[Remark]:
+def _table(points: Sequence[JudgedNumber]) -> Iterator[Remark]:
     """Scenes of held-out points where the model fails and the nearest points of the table agree."""
     failed: list[str] = []
     lost = expected = wrong = sure = 0
     for scene, some in _scenes(points).items():
         there = [point for point in some if _is_right_nearby(point, points)]
-        out = [point for point in there if point.verdict in (DIFFER, REFUSED, FAILED)]
+        out = [point for point in there if point.verdict in (Verdict.OUTSIDE, *WITHOUT_NUMBER)]
         expected, wrong = expected + len(there), wrong + len(out)
-        lost += sum(point.verdict != DIFFER for point in out)
+        lost += sum(point.verdict is not Verdict.OUTSIDE for point in out)
         if there and len(out) >= MOST * len(there):
             failed.append(f"{scene or 'all'} ({len(out)} of {len(there)})")
             sure += len(there) > 1 or there[0].quantity in UNSIGNED or there[0].reference == 1
@@ -195,26 +193,26 @@ def _table(points: Sequence[JudgedPoint]) -> Iterator[Remark]:
         )
 
 
-def _scenes(points: Sequence[JudgedPoint]) -> dict[str, list[JudgedPoint]]:
+def _scenes(points: Sequence[JudgedNumber]) -> dict[str, list[JudgedNumber]]:
     """Held-out points by their conditions but those along which a table goes."""
-    found: dict[str, list[JudgedPoint]] = {}
+    found: dict[str, list[JudgedNumber]] = {}
     for point in points:
         # a mean over a strip shows little of a model
         if point.quantity.endswith(SUFFIX) and point.quantity.removesuffix(SUFFIX) not in (MEAN, "mean approach"):
             where = {name: value for name, value in point.where.items() if name not in ALONG}
-            found.setdefault(placed(where), []).append(point)
+            found.setdefault(conditions_text(where), []).append(point)
     return found
 
 
-def _is_right_nearby(point: JudgedPoint, points: Sequence[JudgedPoint]) -> bool:
+def _is_right_nearby(point: JudgedNumber, points: Sequence[JudgedNumber]) -> bool:
     quantity = point.quantity.removesuffix(SUFFIX)
     table = [other for other in points if other.quantity == quantity]
     names = [name for name in ALONG if name in point.where and all(name in other.where for other in table)]
     if not table or not names:
-        return bool(table) and all(other.verdict == AGREE for other in table)
+        return bool(table) and all(other.verdict is Verdict.WITHIN for other in table)
     distance = np.array([_distance(point.where, other.where, names) for other in table])
     near = [other for other, far in zip(table, distance, strict=True) if far <= distance.min() + 1e-9]
-    return sum(other.verdict == AGREE for other in near) >= NEAREST * len(near)
+    return sum(other.verdict is Verdict.WITHIN for other in near) >= NEAREST * len(near)
 
 
 def _distance(one: Conditions, other: Conditions, names: Sequence[str]) -> float:
@@ -224,7 +222,7 @@ def _distance(one: Conditions, other: Conditions, names: Sequence[str]) -> float
 # --- a factor, or a shift ---
 
 
-def _factor(points: Sequence[JudgedPoint]) -> Iterator[Remark]:
+def _factor(points: Sequence[JudgedNumber]) -> Iterator[Remark]:
     """Of values, and of levels; else where linear theory holds, or where the punch is flat; of a rule its moments."""
     signed = [
         point
@@ -246,7 +244,7 @@ def _factor(points: Sequence[JudgedPoint]) -> Iterator[Remark]:
     yield from _of_moments(points)
 
 
-def _of_moments(points: Sequence[JudgedPoint]) -> Iterator[Remark]:
+def _of_moments(points: Sequence[JudgedNumber]) -> Iterator[Remark]:
     """Of a rule for the spectrum of a profile, beside those of the surface."""
     there = [p for p in points if p.quantity.removesuffix(SUFFIX) in MOMENTS.values() and math.isfinite(p.difference)]
     power = [2.0 if point.quantity.startswith("rms") else 1.0 for point in there]
@@ -258,11 +256,11 @@ def _of_moments(points: Sequence[JudgedPoint]) -> Iterator[Remark]:
         yield Remark("a factor everywhere", f"{sentence}: {cause}?" if cause else f"{sentence}.")
 
 
-def _columns(points: Sequence[JudgedPoint]) -> tuple[FloatArray, FloatArray]:
+def _columns(points: Sequence[JudgedNumber]) -> tuple[FloatArray, FloatArray]:
     return np.array([p.difference for p in points]), np.array([p.error for p in points])
 
 
-def _of_values(points: Sequence[JudgedPoint], where: str) -> Iterator[Remark]:
+def _of_values(points: Sequence[JudgedNumber], where: str) -> Iterator[Remark]:
     some = [point for point in points if point.difference > -1]
     difference, error = _columns(some)
     if len(some) == len(points) and (found := common_factor(1 + difference, error / (1 + difference))):
@@ -271,7 +269,7 @@ def _of_values(points: Sequence[JudgedPoint], where: str) -> Iterator[Remark]:
         yield Remark("a factor everywhere", f"{sentence}: {cause}?" if cause else f"{sentence}.")
 
 
-def _of_levels(points: Sequence[JudgedPoint], where: str) -> Iterator[Remark]:
+def _of_levels(points: Sequence[JudgedNumber], where: str) -> Iterator[Remark]:
     """A shift is a factor of powers; of filters, levels that are twice the references are those of a square."""
     difference, error = _columns(points)
     in_power = math.log(10) / 10
@@ -284,7 +282,7 @@ def _of_levels(points: Sequence[JudgedPoint], where: str) -> Iterator[Remark]:
     yield from _of_squares(points)
 
 
-def _of_squares(points: Sequence[JudgedPoint]) -> Iterator[Remark]:
+def _of_squares(points: Sequence[JudgedNumber]) -> Iterator[Remark]:
     """Of a filter over ridges, where a band has one wave along and none across, and not its zeros."""
     some = [p for p in points if p.quantity == FILTER and p.where.get(ALPHA) == 0.0 and p.reference > LOWEST]
     if len(some) < LEAST:
@@ -298,6 +296,6 @@ def _of_squares(points: Sequence[JudgedPoint]) -> Iterator[Remark]:
             yield Remark("levels of a power of the amplitude", f"{sentence}: {cause}?")
 
 
-def _of(kept: int, count: int, points: Sequence[JudgedPoint], where: str) -> str:
+def _of(kept: int, count: int, points: Sequence[JudgedNumber], where: str) -> str:
     quantities = " and ".join(dict.fromkeys(point.quantity.removesuffix(SUFFIX) for point in points))
     return f"{'All' if kept == count else f'{kept} of'} {count} points of its {quantities}{where} are"

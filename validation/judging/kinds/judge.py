@@ -12,7 +12,8 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 
 from validation.analysis.statistics import Estimate, FloatArray
-from validation.judging.judgement import AGAIN, FAILED, LEVEL, REFUSED, Conditions, JudgedPoint, compared, not_compared
+from validation.analysis.verdict import Verdict
+from validation.judging.judgement import AGAIN, LEVEL, RATIO, Conditions, JudgedNumber, judged_number, missing_number
 from validation.judging.kinds.references import Reference
 from validation.judging.registry import Caller, Failed, Offered
 
@@ -199,15 +200,30 @@ class Finding(NamedTuple):
     found: Found
     within: float | None = None
 
-    def judged(self, tolerance: float) -> JudgedPoint:
-        known, found = self.known, self.found
-        if isinstance(found, Failed):
-            verdict, unit = REFUSED if found.refused else FAILED, LEVEL if known.unit == LEVEL else "-"
-            return not_compared(known.quantity, known.where, verdict, found.reason, reference=known.value, unit=unit)
-        mine = found if isinstance(found, ModelAnswer) else ModelAnswer(float(found))
-        half, within = known.grid + math.hypot(known.sample, mine.half), self.within or tolerance
-        given = known.quantity, known.where, mine.value, known.value, half, within
-        return compared(*given, unit=known.unit, reason=mine.reason)
+    def judged(self, tolerance: float) -> JudgedNumber:
+        """The row: the grid of the reference is added to both samples, which are combined in quadrature."""
+        reference, answer = self.known, self.found
+        if isinstance(answer, Failed):
+            return missing_number(
+                reference.quantity,
+                reference.where,
+                Verdict.NOT_SERVED if answer.refused else Verdict.NO_RESULT,
+                answer.reason,
+                reference=reference.value,
+                unit=LEVEL if reference.unit == LEVEL else RATIO,
+            )
+        answer = answer if isinstance(answer, ModelAnswer) else ModelAnswer(float(answer))
+        return judged_number(
+            reference.quantity,
+            reference.where,
+            answer.value,
+            reference.value,
+            reference.grid + math.hypot(reference.sample, answer.half),
+            self.within or tolerance,
+            unit=reference.unit,
+            reason=answer.reason,
+            grid=reference.grid,
+        )
 
 
 def beside(known: Iterable[Reference], found: Iterable[Found | None] | Failed) -> Iterator[Finding]:
@@ -221,7 +237,7 @@ def rule(quantity: str, where: Conditions, found: Found, grid: float = 0.0, with
     return Finding(Reference(where, 1.0, grid=grid, quantity=quantity), found, within)
 
 
-def points_of(model: Caller, tolerance: float) -> Iterator[JudgedPoint]:
+def points_of(model: Caller, tolerance: float) -> Iterator[JudgedNumber]:
     """Of a reduced model: by its judge, at held-out points, by rules of scaling, past these scenes, and once again."""
     recorded = Recorded(model)
     for place in (JUDGES[model.kind], "held_out:judged", "scaling:judged", "sweeps:swept"):

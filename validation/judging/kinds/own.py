@@ -9,7 +9,7 @@ import numpy as np
 import mdr
 from validation.analysis.statistics import FloatArray
 from validation.judging import registry as offered
-from validation.judging.judgement import JudgedPoint
+from validation.judging.judgement import JudgedNumber
 from validation.judging.kinds.filters import FILTER
 from validation.judging.kinds.judge import points_of
 from validation.judging.kinds.references import Reference, known
@@ -75,7 +75,7 @@ class ErrorOfCall(NamedTuple):
     seconds: float
 
 
-def error_of(kind: str, points: Sequence[JudgedPoint]) -> float:
+def error_of(kind: str, points: Sequence[JudgedNumber]) -> float:
     """NaN where there is none."""
     known = [abs(p.difference) for p in points if p.quantity == MAIN.get(kind) and math.isfinite(p.difference)]
     return float(np.median(known)) if known else math.nan
@@ -87,7 +87,7 @@ def errors() -> Iterator[Reference]:
         yield Reference({"kind": one.kind, "model": one.name}, error_of(one.kind, list(points_of(Called(one), 0.1))))
 
 
-def costs_of(model: Called, points: Sequence[JudgedPoint]) -> list[ErrorOfCall]:
+def costs_of(model: Called, points: Sequence[JudgedNumber]) -> list[ErrorOfCall]:
     """The model, and those of its kind, timed by the same arguments: those that it took longest for."""
     mine = error_of(model.kind, points)
     if not math.isfinite(mine):

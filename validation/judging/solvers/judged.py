@@ -11,9 +11,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from validation.analysis.verdict import Verdict
 from validation.benchmarks.discrete import STATED, ContactProblem, KnownContact, pressed, problems
 from validation.benchmarks.timing import timed as clocked
-from validation.judging.judgement import AGREE, DIFFER, FAILED, REFUSED, JudgedPoint, not_compared
+from validation.judging.judgement import JudgedNumber, missing_number
 from validation.judging.registry import Caller, FloatArray
 from validation.judging.solvers.causes import JudgedContact
 from validation.judging.solvers.diagnosis import LOOSE, diagnosed
@@ -37,7 +38,7 @@ FLAT, NEXT_TERM = "flat", 0.15
 """Of the order: the next term, of order 1.5 at the edge, changes it on coarse grids."""
 COARSEST, FINEST = 12, (48, 24)
 """Cells on a side of a flat punch; the latter of a solver that serves fewer."""
-OFF, NO_CAUSE = "off by more than the residual that it names allows", "not the answer of any half-space"
+OFF, NO_CAUSE = "a deviation above what its residual allows", "not the answer of any half-space"
 MEASURED = ("monotone area", "monotone stiffness", "order of convergence")
 """Properties of several answers: their reasons are what is measured."""
 RANDOM, STATE = "each call gives another answer: random numbers", "the answer depends on earlier calls"
@@ -51,19 +52,19 @@ class SolverTime(NamedTuple):
     bem3d: float
 
 
-def judged(model: Caller) -> tuple[list[JudgedPoint], list[SolverTime]]:
+def judged(model: Caller) -> tuple[list[JudgedNumber], list[SolverTime]]:
     """Right or wrong by the residual that the solver names, whatever the tolerance; and its times.
 
     Both by force and by approach where it offers both; times are those of the first.
     """
-    points, times = list[JudgedPoint](), list[SolverTime]()
+    points, times = list[JudgedNumber](), list[SolverTime]()
     for load in loads_of(model):
         asked = Asked(model, by=load)
         points += findings(asked, [] if load != loads_of(model)[0] else times)
     return points, times
 
 
-def findings(asked: Asked, times: list[SolverTime] | None = None) -> list[JudgedPoint]:
+def findings(asked: Asked, times: list[SolverTime] | None = None) -> list[JudgedNumber]:
     """All of one load, each with its cause; what a solver does not serve is not asked, and that is said.
 
     times: to which seconds on growing grids are added; without a list none are taken.
@@ -80,7 +81,7 @@ def findings(asked: Asked, times: list[SolverTime] | None = None) -> list[Judged
     return points
 
 
-def _found_of(asked: Asked) -> Iterator[JudgedPoint]:
+def _found_of(asked: Asked) -> Iterator[JudgedNumber]:
     known = [problem for problem in problems() if asked.serves(problem)]
     for problem in problems():
         if problem.gap.size > asked.cells and asked.solver.options["periodic" if problem.periodic else "free"]:
@@ -97,17 +98,17 @@ def _found_of(asked: Asked) -> Iterator[JudgedPoint]:
             yield from _found("order of convergence", problem, partial(convergence, asked, problem))
 
 
-def _found(quantity: str, problem: ContactProblem, of: Callable[[], Iterator[JudgedPoint]]) -> Iterator[JudgedPoint]:
+def _found(quantity: str, problem: ContactProblem, of: Callable[[], Iterator[JudgedNumber]]) -> Iterator[JudgedNumber]:
     try:
         yield from of()
     except UnansweredError as error:
         yield unanswered(quantity, problem, error)
 
 
-def unanswered(quantity: str, problem: ContactProblem, error: UnansweredError) -> JudgedPoint:
+def unanswered(quantity: str, problem: ContactProblem, error: UnansweredError) -> JudgedNumber:
     """Without a number: wrong, but for what the solver says that it does not serve."""
-    verdict, decides = (REFUSED, False) if error.unserved else (FAILED, True)
-    return not_compared(quantity, {"problem": problem.name}, verdict, str(error), decides=decides)
+    verdict, decides = (Verdict.NOT_SERVED, False) if error.unserved else (Verdict.NO_RESULT, True)
+    return missing_number(quantity, {"problem": problem.name}, verdict, str(error), decides=decides)
 
 
 def _rectangle(problem: KnownContact, shape: tuple[int, int], longer: float) -> ContactProblem:
@@ -118,7 +119,7 @@ def _rectangle(problem: KnownContact, shape: tuple[int, int], longer: float) -> 
     return ContactProblem(name=name, gap=problem.gap[:n, :m], spacing=(dx, longer * dy), **whole)
 
 
-def answer(asked: Asked, problem: KnownContact) -> Iterator[JudgedPoint]:
+def answer(asked: Asked, problem: KnownContact) -> Iterator[JudgedNumber]:
     """Conditions of the contact by the operator that judges, then the known answer."""
     p = asked.pressure(problem)
     yield from conditions(asked, problem)
@@ -131,7 +132,7 @@ def answer(asked: Asked, problem: KnownContact) -> Iterator[JudgedPoint]:
     yield checked("pressure", problem, apart(p, problem.pressure), asked.of_answer, OFF)
 
 
-def repeated(asked: Asked) -> Iterator[JudgedPoint]:
+def repeated(asked: Asked) -> Iterator[JudgedNumber]:
     """The first problem that has an answer, asked again at the end: the pressure is the same."""
     if not asked.known:
         return
@@ -150,7 +151,7 @@ def repeated(asked: Asked) -> Iterator[JudgedPoint]:
     yield checked("repeated call", problem, off, 2 * asked.of_answer, RANDOM if random else STATE)
 
 
-def explained(asked: Asked, points: Sequence[JudgedPoint]) -> list[JudgedPoint]:
+def explained(asked: Asked, points: Sequence[JudgedNumber]) -> list[JudgedNumber]:
     """Each wrong point with the cause of its problem, where there is one."""
     contacts = dict[ContactProblem, JudgedContact]()
     for problem, pressure in asked.known.items():
@@ -167,11 +168,11 @@ def explained(asked: Asked, points: Sequence[JudgedPoint]) -> list[JudgedPoint]:
     commonest = Counter(causes.values()).most_common(1)
     # a call that is answered otherwise is a cause by itself
     state = next(
-        (point.reason for point in points if point.quantity == "repeated call" and point.verdict == DIFFER), ""
+        (point.reason for point in points if point.quantity == "repeated call" and point.verdict is Verdict.OUTSIDE), ""
     )
 
-    def with_cause(point: JudgedPoint) -> JudgedPoint:
-        if point.verdict != DIFFER or not commonest or point.quantity in MEASURED:
+    def with_cause(point: JudgedNumber) -> JudgedNumber:
+        if point.verdict is not Verdict.OUTSIDE or not commonest or point.quantity in MEASURED:
             return point
         name = str(point.where["problem"])
         cause = of.get((point.quantity, name)) or of.get(("", name), "")
@@ -182,7 +183,7 @@ def explained(asked: Asked, points: Sequence[JudgedPoint]) -> list[JudgedPoint]:
     return [with_cause(point) for point in points]
 
 
-def convergence(asked: Asked, flat: KnownContact) -> Iterator[JudgedPoint]:
+def convergence(asked: Asked, flat: KnownContact) -> Iterator[JudgedNumber]:
     """The approach of a flat punch, or its force, goes to its limit with the cell size, to first order."""
     limit, errors = flat.limits[0, 0], []
     finest = FINEST[0] if FINEST[0] ** 2 <= asked.cells else FINEST[1]
@@ -195,7 +196,7 @@ def convergence(asked: Asked, flat: KnownContact) -> Iterator[JudgedPoint]:
     yield checked("order of convergence", flat, order, NEXT_TERM, "the error does not fall with the cell size", 1.0)
 
 
-def timed(asked: Asked) -> Iterator[tuple[list[JudgedPoint], list[SolverTime]]]:
+def timed(asked: Asked) -> Iterator[tuple[list[JudgedNumber], list[SolverTime]]]:
     """Of a rough surface on grids that grow: conditions of what is timed, and seconds beside ours, one thread each, the
     same residual: medians."""
     served = [problem for problem in problems() if problem.name in ROUGH]
@@ -204,7 +205,7 @@ def timed(asked: Asked) -> Iterator[tuple[list[JudgedPoint], list[SolverTime]]]:
         name = f"{rough.name}, {cells} x {cells} cells"
         problem = replace(STATED[rough.name].on(cells), name=name, approach=rough.limits[0, 0])
         load = {"force": problem.force} if asked.by_force else {"approach": problem.approach}
-        found: list[list[JudgedPoint]] = []
+        found: list[list[JudgedNumber]] = []
         seconds: list[tuple[float, float]] = []
         while len(seconds) < RUNS and sum(mine for mine, _ in seconds) < LONGEST:
             again = replace(problem)
@@ -218,7 +219,7 @@ def timed(asked: Asked) -> Iterator[tuple[list[JudgedPoint], list[SolverTime]]]:
             seconds.append((mine, ours))
             found.append(list(conditions(asked, again)))
         mine, ours = np.median(seconds, axis=0).tolist()
-        worst = max(found, key=lambda run: sum(point.verdict != AGREE for point in run))
+        worst = max(found, key=lambda run: sum(point.verdict is not Verdict.WITHIN for point in run))
         yield worst, [SolverTime(float(cells), mine, ours)]
         if mine > LONGEST / 8:
             return

@@ -7,8 +7,9 @@ from itertools import pairwise
 
 import numpy as np
 
+from validation.analysis.verdict import Verdict, verdict_of
 from validation.benchmarks.discrete import ContactProblem
-from validation.judging.judgement import AGREE, DIFFER, JudgedPoint
+from validation.judging.judgement import JudgedNumber
 from validation.judging.registry import Caller, Failed, FloatArray
 
 OF_ANSWER, FLOOR = 50.0, 1e-5
@@ -100,11 +101,25 @@ def loads_of(model: Caller) -> list[str]:
 
 def checked(
     quantity: str, problem: ContactProblem, value: float, within: float, reason: str, reference: float = 0.0
-) -> JudgedPoint:
-    """One number of a solver, and whether it is near its reference; a reference of zero has no parts."""
-    apart = value / reference - 1 if reference else value
-    verdict, said = (AGREE, "") if abs(apart) <= within else (DIFFER, reason)  # NaN is not
-    return JudgedPoint(quantity, {"problem": problem.name}, value, reference, apart, 0.0, verdict, said, decides=True)
+) -> JudgedNumber:
+    """A number of a solver, which has no error: WITHIN or OUTSIDE, with the reason of the latter.
+
+    By the relative deviation, of a reference of zero by the value; NaN is outside.
+    """
+    difference = value / reference - 1 if reference else value
+    verdict = verdict_of(math.inf if math.isnan(difference) else difference, 0.0, within)
+    return JudgedNumber(
+        quantity,
+        {"problem": problem.name},
+        value,
+        reference,
+        difference,
+        0.0,
+        verdict,
+        "" if verdict is Verdict.WITHIN else reason,
+        decides=True,
+        tolerance=within,
+    )
 
 
 def apart(one: FloatArray, other: FloatArray) -> float:
@@ -117,12 +132,12 @@ LEFT = {"force balance": "force not held", "tension": "negative pressures: p >= 
 """What is said of a condition that is left."""
 
 
-def conditions(asked: Asked, problem: ContactProblem) -> Iterator[JudgedPoint]:
+def conditions(asked: Asked, problem: ContactProblem) -> Iterator[JudgedNumber]:
     """No tension, no pressure at a gap, no overlap, and a force that is held, by the operator that judges."""
     left, _ = problem.left(asked.pressure(problem), asked.by_force)
     asked.judged["", problem.name] = problem
     for name, value in left.items():
-        yield checked(name, problem, value, asked.residual, LEFT.get(name, "more than the residual that it names"))
+        yield checked(name, problem, value, asked.residual, LEFT.get(name, "above the residual that it names"))
 
 
 def told(problem: ContactProblem, *, modulus: float = 1.0, length: float = 1.0, height: float = 1.0) -> ContactProblem:
@@ -169,7 +184,7 @@ class Same:
     first: Callable[[ContactProblem], ContactProblem] = lambda problem: problem
     served: tuple[bool, ...] = (False, True)
 
-    def __call__(self, asked: Asked, problem: ContactProblem) -> Iterator[JudgedPoint]:
+    def __call__(self, asked: Asked, problem: ContactProblem) -> Iterator[JudgedNumber]:
         if problem.periodic in self.served:
             other = asked.judged[self.quantity, problem.name] = self.other(problem)
             off = apart(self.back(asked.pressure(other)), asked.pressure(self.first(problem)))
@@ -188,7 +203,7 @@ SAME = (
 )
 
 
-def monotone(asked: Asked, problem: ContactProblem) -> Iterator[JudgedPoint]:
+def monotone(asked: Asked, problem: ContactProblem) -> Iterator[JudgedNumber]:
     """Contact and stiffness grow with the load."""
     loads = [loaded(problem, part) for part in PARTS]
     found = [asked.pressure(one) for one in loads]
@@ -208,7 +223,7 @@ def served(has: "Property") -> tuple[bool, ...]:
     return has.served if isinstance(has, Same) else (False, True)
 
 
-Property = Callable[[Asked, ContactProblem], Iterator[JudgedPoint]]
+Property = Callable[[Asked, ContactProblem], Iterator[JudgedNumber]]
 PROPERTIES: Mapping[str, Property] = {
     "conditions": conditions,
     **{same.quantity: same for same in SAME},
