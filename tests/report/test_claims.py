@@ -66,10 +66,10 @@ WITHIN = {"limits": "below 1", "inside": numbers_with([AGREE])}
 
 
 @catches(
-    "a contradicted claim under a green badge",
+    "a refuted claim under a green badge",
     verdicts=[Verdict.WITHIN, Verdict.OUTSIDE],
     changes={},
-    words="✗ contradicted",
+    words="✗ refuted",
 ).at(
     "validation.report.formats.format_status", lambda status, **_: Markup('<span class="verdict holds">✓ holds</span>')
 )

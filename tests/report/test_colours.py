@@ -54,14 +54,14 @@ def exchanged(one, other):
     return lambda: SHEET.replace(f".{one}", ".between").replace(f".{other}", f".{one}").replace(".between", f".{other}")
 
 
-@catches("yes in the colours of no", yes=".cell.yes", no=".cell.no", undecided=".cell.open").at(
-    f"{__name__}.sheet", exchanged("yes", "no")
+@catches("yes in the colours of no", yes=".cell.within", no=".cell.outside", undecided=".cell.inconclusive").at(
+    f"{__name__}.sheet", exchanged("within", "outside")
 )
 @catches(
     "what differs in the colours of what agrees",
-    yes=".verdict.agree",
-    no=".verdict.differ",
-    undecided=".verdict.undecided",
+    yes=".verdict.within",
+    no=".verdict.outside",
+    undecided=".verdict.inconclusive",
 ).at(f"{__name__}.sheet", exchanged("within", "outside"))
 @pytest.mark.parametrize(("yes", "no", "undecided"), list(zip(YES, NO, OPEN, strict=True)))
 def test_yes_is_green_no_is_red_and_undecided_is_neither(yes, no, undecided):

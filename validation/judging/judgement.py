@@ -17,6 +17,8 @@ UNTRUSTED = "one problem has more than one answer"
 SMALL = 0.01
 """A reference deviation below it is judged by the absolute difference, in parts of it."""
 WITHOUT_NUMBER = (Verdict.NOT_SERVED, Verdict.NO_RESULT)
+ROUNDING = 1e-9
+"""Relative to the tolerance: a level that a closed form gives differs in its last digits."""
 Conditions = Mapping[str, float | str]
 
 
@@ -49,6 +51,15 @@ class JudgedNumber:
         In the unit of the difference; NaN where no tolerance has given the verdict.
     grid : float
         The part of the error that is the discretisation error, which is added linearly.
+
+    Examples
+    --------
+    >>> @validation.stiffness_model("flat punch")
+    ... def flat(side, modulus):
+    ...     return 1.1523 * modulus * side
+    >>> first = validation.judge(flat).numbers[0]
+    >>> first.quantity, str(first.verdict)
+    ('mean stiffness', 'outside tolerance')
     """
 
     quantity: str
@@ -135,7 +146,7 @@ def judged_number(
         reference,
         difference,
         error,
-        verdict_of(difference, error, tolerance),
+        verdict_of(difference, error, tolerance, rounding=ROUNDING),
         reason,
         LEVEL if unit == LEVEL else RATIO,
         tolerance=tolerance,

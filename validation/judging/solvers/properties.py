@@ -9,7 +9,7 @@ import numpy as np
 
 from validation.analysis.verdict import Verdict, verdict_of
 from validation.benchmarks.discrete import ContactProblem
-from validation.judging.judgement import JudgedNumber
+from validation.judging.judgement import ROUNDING, JudgedNumber
 from validation.judging.registry import Caller, Failed, FloatArray
 
 OF_ANSWER, FLOOR = 50.0, 1e-5
@@ -107,7 +107,7 @@ def checked(
     By the relative deviation, of a reference of zero by the value; NaN is outside.
     """
     difference = value / reference - 1 if reference else value
-    verdict = verdict_of(math.inf if math.isnan(difference) else difference, 0.0, within)
+    verdict = verdict_of(math.inf if math.isnan(difference) else difference, 0.0, within, rounding=ROUNDING)
     return JudgedNumber(
         quantity,
         {"problem": problem.name},
