@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from validation.engine.sources import modules_behind
 from validation.engine.street import HOUSES
 from validation.report import contents
 from validation.report.figures import drawing
@@ -56,7 +57,7 @@ def table():
 
 PAGE = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
 MAY_IMPORT = table()
-BESIDE = {"__main__", "conformance", "pytest_plugin"}
+BESIDE = {"__main__", "case", "conformance", "pytest_plugin"}
 ROOMS = set(MAY_IMPORT) - {"mdr", "bem3d", *BESIDE}
 LINES_OF_A_FILE, LINES_OF_A_FUNCTION, SCENES_BY_CLASS = 600, 60, 15
 FOLDERS = {"scenes", "problems", "theory", "models", "kinds", "solvers", "cases", "commands"}
@@ -127,6 +128,21 @@ def test_no_chapter_of_cases_imports_another():
         chapter = source.relative_to(ROOT / "validation" / "cases").parts[0]
         chapters = {name.split(".")[2] for name in modules_imported(source) if name.startswith("validation.cases.")}
         assert chapters <= {chapter}, source
+
+
+def solves_of(source):
+    """Functions of a file that it passes to an engine itself."""
+    functions = {node.name for node in nodes(source) if isinstance(node, ast.FunctionDef)}
+    calls = [node for node in nodes(source) if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute)]
+    passed = {ast.unparse(call.args[0]) for call in calls if call.func.attr in {"map", "map_groups"} and call.args}
+    return passed & functions
+
+
+def test_no_stored_solve_rests_on_the_names_of_a_declared_case():
+    """`validation.case` imports claims and charts, which are worded anew without a solve made stale."""
+    solving = [name_of(source) for source in sources("validation") if solves_of(source)]
+    assert {"validation.advice.cases.model_selection", "validation.benchmarks.work_precision.figure_cost"} <= {*solving}
+    assert [name for name in solving if "validation.case" in modules_behind(name)] == []
 
 
 def test_architecture_has_a_line_for_every_room():

@@ -16,14 +16,10 @@ from validation.advice.cases.model_selection import (
     EdgeTrial,
     run,
 )
-from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim
 from validation.analysis.evidence import Columns, Table, grouped, plus_minus, table_of
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import Margin, Series
+from validation.analysis.series import Margin
 from validation.analysis.statistics import Interval
-from validation.analysis.study import Outcomes, Study
+from validation.case import Case, Chapter, Chart, Claim, Curve, Outcomes, Panel, Quantity, Series, Study
 from validation.engine.engine import Outcome
 from validation.engine.random_numbers import random_generator
 

@@ -4,14 +4,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import groupby
 
-from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart
-from validation.analysis.claims import Claim, times_source
+from validation.analysis.claims import times_source
 from validation.analysis.evidence import Number, Role, Table, Whose, grouped, table_of
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import Margin, Series, single
+from validation.analysis.series import Margin, single
 from validation.analysis.statistics import Interval
-from validation.analysis.study import Outcomes, Settings, Study
+from validation.analysis.study import Settings
 from validation.benchmarks.peers import all_methods
 from validation.benchmarks.timing import FAILED, FINISHED, TimedProblem
 from validation.benchmarks.work_precision import pareto
@@ -36,7 +33,7 @@ from validation.benchmarks.work_precision.pressed import (
 )
 from validation.benchmarks.work_precision.problem import ELEMENTS, SPRINGS, ChartProblem, Grids, measure
 from validation.benchmarks.work_precision.rolling import RollingProblem
-from validation.engine.engine import SERIAL, Engine
+from validation.case import SERIAL, Case, Chapter, Chart, Claim, Engine, Outcomes, Quantity, Series, Study
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,14 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 import mdr
-from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim
 from validation.analysis.evidence import Role
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import Series, single
-from validation.analysis.study import Outcomes, Study
-from validation.engine.engine import SERIAL, Engine
+from validation.analysis.series import single
+from validation.case import SERIAL, Case, Chapter, Chart, Claim, Curve, Engine, Outcomes, Panel, Quantity, Series, Study
 from validation.simulation.surface import RoughnessDraw, measure_profile, measure_surface
 
 

@@ -8,15 +8,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import mdr
-from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, off_by
+from validation.analysis.claims import off_by
 from validation.analysis.evidence import Number, Role
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import Margin, Series, single
-from validation.analysis.study import Outcomes, Study
+from validation.analysis.series import Margin, single
+from validation.case import SERIAL, Case, Chapter, Chart, Claim, Curve, Engine, Outcomes, Panel, Quantity, Series, Study
 from validation.engine.convergence import NotConvergedError
-from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.engine.engine import Outcome
 from validation.simulation import exact_contacts as contacts
 from validation.simulation import model_needed
 from validation.simulation.exact_contacts import CosineWave, FlatPunches, PublishedContact, SmoothSphere

@@ -8,15 +8,10 @@ from functools import partial
 
 import numpy as np
 
-from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim
 from validation.analysis.evidence import Number, Role, Table, table_of
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import Series, Where, single
-from validation.analysis.study import Outcomes, Study
+from validation.analysis.series import Where, single
+from validation.case import SERIAL, Case, Chapter, Chart, Claim, Curve, Engine, Outcomes, Panel, Quantity, Series, Study
 from validation.cases.limits.sweeps import HALF_SPACE, LIMITS, SPRINGS, Limit, Sweep
-from validation.engine.engine import SERIAL, Engine
 from validation.simulation.limit_sweeps import sweep
 
 

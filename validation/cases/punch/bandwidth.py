@@ -20,9 +20,8 @@ from validation.analysis.statistics import (
     nearest,
     weighted_sum,
 )
-from validation.analysis.study import Outcomes
+from validation.case import SERIAL, Engine, Outcomes
 from validation.cases.punch.ensembles import PunchEnsembles, press
-from validation.engine.engine import SERIAL, Engine
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS as MDR
 from validation.simulation.rough_punch import (

@@ -4,14 +4,11 @@ import math
 from collections.abc import Iterator
 from functools import partial
 
-from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, Matrix, per_cent
+from validation.analysis.claims import Matrix, per_cent
 from validation.analysis.evidence import Place
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import Margin, Series
+from validation.analysis.series import Margin
 from validation.analysis.statistics import DECIBEL, combined
-from validation.analysis.study import Outcomes, Study
+from validation.case import Case, Chapter, Chart, Claim, Curve, Outcomes, Panel, Quantity, Series, Study
 from validation.cases.punch.bandwidth import AREA, ROLL_OFF, Band, Bandwidth, Deviations, run
 from validation.cases.punch.ensembles import DEVIATION, FORCE, OVER
 from validation.simulation.model_names import BEM

@@ -10,8 +10,7 @@ from operator import attrgetter
 import numpy as np
 
 from validation.analysis.evidence import Table
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import Series, masked, single
+from validation.analysis.series import masked, single
 from validation.analysis.statistics import (
     FloatArray,
     Linearised,
@@ -23,9 +22,9 @@ from validation.analysis.statistics import (
     on_finest,
     on_no_size,
 )
-from validation.analysis.study import Outcomes
+from validation.case import SERIAL, Engine, Outcomes, Quantity, Series
 from validation.cases.punch.ensembles import DEVIATION, FEW, FORCE, MEAN, PunchEnsembles, press, worked
-from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.engine.engine import Outcome
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS as MDR
 from validation.simulation.rough_punch import (

@@ -7,13 +7,11 @@ from functools import partial
 
 import numpy as np
 
-from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import THREE_D_DIFFER, Claim, Matrix, per_cent
+from validation.analysis.claims import THREE_D_DIFFER, Matrix, per_cent
 from validation.analysis.evidence import Number, Place, Role, Whose, numbers_with
-from validation.analysis.series import Counted, Margin, Series, spans
+from validation.analysis.series import Counted, Margin, spans
 from validation.analysis.statistics import DECIBEL, Linearised
-from validation.analysis.study import Outcomes, Study
+from validation.case import Case, Chapter, Chart, Claim, Curve, Outcomes, Panel, Series, Study
 from validation.cases.punch import fractal_punch as shown
 from validation.cases.punch.ensembles import DEVIATION, FEW, FORCE, MEAN, OVER
 from validation.simulation import model_needed

@@ -11,12 +11,11 @@ import numpy as np
 from scipy.special import erfinv
 
 from validation.analysis.evidence import Place
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import Estimates, Margin, Series, Where, masked, single
+from validation.analysis.series import Estimates, Margin, Where, masked, single
 from validation.analysis.statistics import DECIBEL, Estimate, FloatArray, Statistic, jackknifed, log_mean
-from validation.analysis.study import Outcomes
+from validation.case import SERIAL, Engine, Outcomes, Quantity, Series
 from validation.cases.punch.ensembles import OVER, change, of_rows, press
-from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.engine.engine import Outcome
 from validation.simulation.interface import press_interface
 from validation.simulation.model_names import BEM
 from validation.simulation.model_names import SPRINGS as MDR

@@ -2,12 +2,11 @@
 
 from functools import partial
 
-from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel, by_model
-from validation.analysis.claims import NOT_THIS_CURVE, Claim, Matrix, listed, per_cent, times
+from validation.analysis.chart import by_model
+from validation.analysis.claims import NOT_THIS_CURVE, Matrix, listed, per_cent, times
 from validation.analysis.evidence import Table, Whose, numbers_with
 from validation.analysis.series import numbers_of
-from validation.analysis.study import Outcomes, Study
+from validation.case import Case, Chapter, Chart, Claim, Curve, Outcomes, Panel, Study
 from validation.cases.punch.ensembles import worked
 from validation.cases.punch.interface import (
     AREA,

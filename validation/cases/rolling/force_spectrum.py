@@ -12,13 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from validation.analysis.evidence import Place, Role
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import REPEATABLE, Counted, Estimates, Margin, Series
+from validation.analysis.series import REPEATABLE, Counted, Estimates, Margin
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import DECIBEL, POWER_DECIBEL, FloatArray, jackknifed
-from validation.analysis.study import Outcomes
+from validation.case import SERIAL, Engine, Outcomes, Quantity, Series
 from validation.engine.convergence import require_realisations
-from validation.engine.engine import SERIAL, Engine
 from validation.simulation import rolling_strip
 from validation.simulation.model_names import FILTER_3D
 from validation.simulation.quantities import MEAN_FORCE, RMS_FORCE

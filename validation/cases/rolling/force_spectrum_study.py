@@ -2,11 +2,9 @@
 
 from functools import partial
 
-from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import THREE_D_DIFFER, Claim, Matrix, decibels, decibels_rms, per_cent
+from validation.analysis.claims import THREE_D_DIFFER, Matrix, decibels, decibels_rms, per_cent
 from validation.analysis.evidence import Whose
-from validation.analysis.study import Study
+from validation.case import Case, Chapter, Chart, Claim, Curve, Panel, Study
 from validation.cases.rolling.force_spectrum import (
     BEM,
     CURVE,

@@ -8,17 +8,13 @@ from itertools import product
 
 import numpy as np
 
-from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, Matrix, decibels_rms
+from validation.analysis.claims import Matrix, decibels_rms
 from validation.analysis.evidence import Place
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import REPEATABLE, Margin, Series
+from validation.analysis.series import REPEATABLE, Margin
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed, mean_estimate
-from validation.analysis.study import Outcomes, Study
+from validation.case import SERIAL, Case, Chapter, Chart, Claim, Curve, Engine, Outcomes, Panel, Quantity, Series, Study
 from validation.cases.rolling.force_spectrum import HEIGHT, SLOPE, SLOPE_COUNTS, Q
 from validation.engine.convergence import require_realisations
-from validation.engine.engine import SERIAL, Engine
 from validation.scenes.description import slope_ratio
 from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.simulation import reduced_models

@@ -6,14 +6,11 @@ from functools import partial
 
 import numpy as np
 
-from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, share
+from validation.analysis.claims import share
 from validation.analysis.evidence import Role, Whose
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import Margin, Series
-from validation.analysis.study import Outcomes, Study
-from validation.engine.engine import SERIAL, Engine, FloatArray
+from validation.analysis.series import Margin
+from validation.case import SERIAL, Case, Chapter, Chart, Claim, Curve, Engine, Outcomes, Panel, Quantity, Series, Study
+from validation.engine.engine import FloatArray
 from validation.simulation.model_names import BEM, FILTER_1D
 from validation.simulation.ridges import BEM as SOLVER
 from validation.simulation.ridges import FILTER, FULL, SPRINGS, RidgesTrack, SuperposedRidges, roll_over

@@ -6,16 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, Matrix
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import Margin, Series
+from validation.analysis.claims import Matrix
+from validation.analysis.series import Margin
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import Estimate, FloatArray, extrapolated, log_ratio_of_means
-from validation.analysis.study import Outcomes, Study
+from validation.case import SERIAL, Case, Chapter, Chart, Claim, Curve, Engine, Outcomes, Panel, Quantity, Series, Study
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
-from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.engine.engine import Outcome
 from validation.simulation import rolling_strip
 from validation.simulation.quantities import MEAN_STIFFNESS
 from validation.simulation.rolling_strip import HERTZ, RoughStrip, Strip, Tracks

@@ -8,15 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim
 from validation.analysis.evidence import Number, Role, Table
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import FIELD, Series, Where, single
+from validation.analysis.series import FIELD, Where, single
 from validation.analysis.statistics import POWER_DECIBEL, Estimate
-from validation.analysis.study import Outcomes, Study
-from validation.engine.engine import SERIAL, Engine, FloatArray, Outcome
+from validation.case import SERIAL, Case, Chapter, Chart, Claim, Curve, Engine, Outcomes, Panel, Quantity, Series, Study
+from validation.engine.engine import FloatArray, Outcome
 from validation.simulation import free_vibration as free
 from validation.simulation import spring_tracks as springs
 from validation.simulation.free_vibration import LIFT_OFF, SCHEMES, TENTHS, WHEEL

@@ -9,15 +9,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from validation.analysis.evidence import Place, Role
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import MARGINS, Estimates, Margin, Series
+from validation.analysis.series import MARGINS, Estimates, Margin
 from validation.analysis.spectra import band_levels, band_means, one_third_octaves
 from validation.analysis.statistics import Estimate, FloatArray, jackknifed, ratio_of_means
-from validation.analysis.study import Outcomes
+from validation.case import SERIAL, Engine, Outcomes, Quantity, Series
 from validation.cases.wheel import features
 from validation.cases.wheel.features import FIRST, FOURTH, PLATEAU, TABLE, decibels, density_of
 from validation.engine.convergence import NotConvergedError
-from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.engine.engine import Outcome
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.simulation.wheel_on_springs import TrackKind, WheelEnsemble, simulate_ensemble
 from validation.theory.rolling import RollingWheel

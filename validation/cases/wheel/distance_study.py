@@ -3,11 +3,10 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel, by_model
-from validation.analysis.claims import Claim, share
+from validation.analysis.chart import by_model
+from validation.analysis.claims import share
 from validation.analysis.evidence import Whose
-from validation.analysis.study import Outcomes, Study
+from validation.case import Case, Chapter, Chart, Claim, Curve, Outcomes, Panel, Study
 from validation.cases.wheel import distance
 from validation.cases.wheel.distance import BOOK, CUT, HANN, LINEAR, PERIODIC, SECOND_ORDER, SPRINGS
 from validation.cases.wheel.features import DENSITY, FIRST, FOURTH, OMEGA, PLATEAU, TABLE, regions_of

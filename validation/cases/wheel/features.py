@@ -8,10 +8,9 @@ from functools import partial
 import numpy as np
 
 from validation.analysis import spectra as regions
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import Series
 from validation.analysis.spectra import band_means
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed
+from validation.case import Quantity, Series
 from validation.engine.engine import Outcome
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.scenes.roughness import Roughness

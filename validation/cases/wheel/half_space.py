@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from validation.analysis.series import Estimates
 from validation.analysis.spectra import band_levels, one_third_octaves, record_spectra
 from validation.analysis.statistics import FloatArray
-from validation.analysis.study import Outcomes
+from validation.case import SERIAL, Engine, Outcomes
 from validation.cases.wheel.features import TABLE, accelerated_by, linear_force_3d
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
-from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.engine.engine import Outcome
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.simulation import model_names as named
 from validation.simulation.wheel_on_half_space import WheelStrip, simulate_strip

@@ -7,14 +7,12 @@ from functools import partial
 import numpy as np
 
 from validation.analysis import spectra as spectral_features
-from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel, by_model
-from validation.analysis.claims import THREE_D_DIFFER, Claim
+from validation.analysis.chart import by_model
+from validation.analysis.claims import THREE_D_DIFFER
 from validation.analysis.evidence import Table, Whose
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import MARGINS, Estimates, Series
+from validation.analysis.series import MARGINS, Estimates
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray, jackknifed
-from validation.analysis.study import Outcomes, Study
+from validation.case import Case, Chapter, Chart, Claim, Curve, Outcomes, Panel, Quantity, Series, Study
 from validation.cases.wheel import features
 from validation.cases.wheel import half_space as wheel
 from validation.cases.wheel.features import LEVEL, OMEGA, QUANTITIES, SLOPE, decibels

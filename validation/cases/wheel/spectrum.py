@@ -8,14 +8,13 @@ from functools import partial
 import numpy as np
 
 from validation.analysis.evidence import Role
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import MARGINS, Estimates, Margin, Series, Where
+from validation.analysis.series import MARGINS, Estimates, Margin, Where
 from validation.analysis.spectra import band_levels, band_means, one_third_octaves
-from validation.analysis.study import Outcomes
+from validation.case import SERIAL, Engine, Outcomes, Quantity, Series
 from validation.cases.wheel import features
 from validation.cases.wheel.features import TABLE, decibels
 from validation.engine.convergence import NotConvergedError
-from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.engine.engine import Outcome
 from validation.scenes.dynamic_wheel import WheelScene
 from validation.simulation import wheel_features
 from validation.simulation.wheel_on_springs import WheelEnsemble, simulate_ensemble

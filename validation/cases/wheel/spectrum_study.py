@@ -5,11 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel, by_model
-from validation.analysis.claims import NOT_THIS_CURVE, Claim, Matrix
+from validation.analysis.chart import by_model
+from validation.analysis.claims import NOT_THIS_CURVE, Matrix
 from validation.analysis.evidence import Table, Whose
-from validation.analysis.study import Outcomes, Study
+from validation.case import Case, Chapter, Chart, Claim, Curve, Outcomes, Panel, Study
 from validation.cases.wheel import features, spectrum
 from validation.cases.wheel.features import DENSITY, OMEGA, QUANTITIES, TABLE
 from validation.scenes.description import describe

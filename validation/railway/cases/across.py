@@ -9,10 +9,9 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import FIELD, THREE_DECIBELS, Estimates, Series, Where, masked, only
+from validation.analysis.series import FIELD, THREE_DECIBELS, Estimates, Where, masked, only
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray, Interval, jackknifed
-from validation.engine.engine import SERIAL, Engine
+from validation.case import SERIAL, Engine, Quantity, Series
 from validation.railway.cases import filters
 from validation.railway.cases.filters import GROUNDS, OFFSET, RailWheel, counted, decibel, linear_filter, on_strips
 from validation.railway.cases.rolled_filters import (

@@ -6,14 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, Matrix, decibels
+from validation.analysis.claims import Matrix, decibels
 from validation.analysis.evidence import Table, Whose, table_of
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import Series
 from validation.analysis.statistics import Interval
-from validation.analysis.study import Study
+from validation.case import Case, Chapter, Chart, Claim, Curve, Panel, Quantity, Series, Study
 from validation.railway.cases import across, filters
 from validation.railway.cases.across import GROUND, WHEEL, AcrossResult
 from validation.railway.cases.filters import COUNTED, GROUNDS, OFFSET, counted, linear_filter

@@ -8,17 +8,13 @@ from functools import cached_property, partial
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, Matrix, decibels_rms
+from validation.analysis.claims import Matrix, decibels_rms
 from validation.analysis.evidence import Whose
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import REPEATABLE, Estimates, Series, masked
+from validation.analysis.series import REPEATABLE, Estimates, masked
 from validation.analysis.spectra import NominalBands
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray, mean_estimate
-from validation.analysis.study import Outcomes, Study
+from validation.case import SERIAL, Case, Chapter, Chart, Claim, Curve, Engine, Outcomes, Panel, Quantity, Series, Study
 from validation.engine.convergence import NotConvergedError
-from validation.engine.engine import SERIAL, Engine
 from validation.railway.cases.filters import COUNTED, OFFSET, RailWheel, counted, linear_filter, scene_of
 from validation.railway.problems.rail_strip import RailGround, RailStrip, line_of
 from validation.railway.problems.wheel_on_rail import WheelOnRail, roll_and_move

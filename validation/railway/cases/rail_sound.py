@@ -15,9 +15,9 @@ from validation.analysis.evidence import Table, table_of
 from validation.analysis.sound import a_weighting, common_full_scale, filtered, powers_of_blocks
 from validation.analysis.spectra import KILOHERTZ, Bands, levels, waves
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed
-from validation.analysis.study import Outcomes
+from validation.case import SERIAL, Engine, Outcomes
 from validation.engine.convergence import NotConvergedError
-from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.engine.engine import Outcome
 from validation.railway.problems import rail_sound as sounds
 from validation.railway.problems.rail_sound import GEIKE, ISOTROPIC, HeldWheel
 from validation.railway.problems.rail_strip import RailStrip, StatedAcross, strip_bands, strip_of

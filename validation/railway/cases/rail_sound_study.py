@@ -4,12 +4,8 @@ import math
 
 import numpy as np
 
-from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import Series
 from validation.analysis.sound import Sound, Sounds
-from validation.analysis.study import Study
+from validation.case import Case, Chapter, Chart, Curve, Panel, Quantity, Series, Study
 from validation.railway.cases import rail_sound
 from validation.railway.cases.rail_sound import SOUNDING, RailSound, RailSoundResult
 from validation.railway.problems.rail_sound import GEIKE, ISOTROPIC

@@ -8,13 +8,12 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import Estimates, Series, Where
+from validation.analysis.series import Estimates, Where
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray
-from validation.analysis.study import Outcomes
+from validation.case import SERIAL, Engine, Outcomes, Quantity, Series
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
-from validation.engine.engine import SERIAL, Engine, Outcome
+from validation.engine.engine import Outcome
 from validation.railway.cases import filters
 from validation.railway.cases.filters import GROUNDS, REMINGTON, RailWheel
 from validation.railway.problems import equivalent_displacement as tracks

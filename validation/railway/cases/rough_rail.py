@@ -7,13 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from validation.analysis.case import Case, Chapter
-from validation.analysis.chart import Chart, Curve, Panel
-from validation.analysis.claims import Claim, Matrix, decibels
+from validation.analysis.claims import Matrix, decibels
 from validation.analysis.evidence import Role, Table
-from validation.analysis.quantity import Quantity
-from validation.analysis.series import FIELD, Estimates, Series, masked, only
-from validation.analysis.study import Study
+from validation.analysis.series import FIELD, Estimates, masked, only
+from validation.case import Case, Chapter, Chart, Claim, Curve, Panel, Quantity, Series, Study
 from validation.railway.cases import filters
 from validation.railway.cases import rolled_filters as rolled
 from validation.railway.cases.filters import COUNTED, OFFSET, counted, millimetres
