@@ -177,7 +177,7 @@ def test_the_first_screen_finds_the_numbers_of_rolling(rolled):
     for name in ("rolling-rms", "rolling-spectrum"):
         assert rows[name].strip[1].place == f"{0.01 * SMALL.spectrum.slope_along:.2g}"
         assert rows[name].measured.endswith("H = 0.7")
-    assert rows["rolling-spectrum"].word == "No"
+    assert rows["rolling-spectrum"].word == "Outside tolerance"
 
 
 @pytest.mark.slow

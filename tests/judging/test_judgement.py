@@ -20,7 +20,7 @@ from validation.judging.judgement import (
 verdict_of = judgement.verdict_of
 
 
-def without_its_interval(apart, half, within):
+def without_its_interval(apart, half, within, **_):
     return verdict_of(apart, 0.0, within)
 
 

@@ -99,12 +99,12 @@ def rows_of(case, quantity):
 
 def chosen(case, curve, facet):
     """Rows that a curve draws."""
-    rows = rows_of(case, curve.quantity)
+    rows = every = rows_of(case, curve.quantity)
     wanted = {"model": curve.model, **curve.of, **facet} if rows else {}
     for name, value in wanted.items():
         if rows and name in rows[0] and value != ():
-            first = (rows[0][name],)
-            values = first if value == "first" else value if isinstance(value, tuple) else (value,)
+            firsts = {"first": (rows[0][name],), "first of all": (every[0][name],)}
+            values = value if isinstance(value, tuple) else firsts.get(value, (value,))
             rows = [row for row in rows if not values or any(same(row[name], one) for one in values) or value == ""]
     return rows
 

@@ -154,7 +154,9 @@ def read_back_whole(folder):
     """A case that is kept by a later report says all that it said."""
     kept = kept_sections(folder, "quick", anew=())
     said = json.loads((folder / "results.json").read_text(encoding="utf-8"))
-    assert json.loads(as_json(results_of(kept, "quick"))) == {name: said[name] for name in ("profile", "cases")}
+    assert json.loads(as_json(results_of(kept, "quick"))) == {
+        name: said[name] for name in ("schema_version", "profile", "cases")
+    }
     (section,) = kept
     assert section.files == contents(folder, f"data/{section.name}-*.csv", "sounds/*.wav")
     tables = [*section.evidence.tables, numbers_table(section.numbers)]
