@@ -7,6 +7,7 @@ and a dictionary `BRINGS`, by its use the place of what others find in it, "modu
 from collections.abc import Iterator
 from functools import cache
 from importlib.util import find_spec
+from pathlib import Path
 from pkgutil import iter_modules, resolve_name
 from types import ModuleType
 from typing import Any
@@ -31,6 +32,12 @@ def places(use: str) -> tuple[str, ...]:
 def brought(use: str) -> list[Any]:
     """What houses bring for a use, in the order of the street; imported now."""
     return [resolve_name(place) for place in places(use)]
+
+
+def files_of_houses(name: str) -> Iterator[Path]:
+    """The file of a name that houses may have in their package, in the order of the street."""
+    packages = (Path(str(resolve_name(f"{ROOT}.{house}").__file__)).parent for house in houses())
+    return (package / name for package in packages if (package / name).exists())
 
 
 def commands() -> dict[str, tuple[str, str]]:

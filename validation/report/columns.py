@@ -11,6 +11,7 @@ from pathlib import Path
 from validation.analysis.contents import as_csv, csv_name, header_of, plain_name
 from validation.analysis.evidence import Table
 from validation.analysis.series import JUDGED, UNIT
+from validation.engine.street import files_of_houses
 from validation.report.section import Section, numbers_table, written_tables
 
 
@@ -51,7 +52,11 @@ def symbols_in(text: str) -> list[Symbol]:
 COLUMNS = "columns.csv"
 EVERY, NO_UNIT, WORST = "*", "-", ", the worst point of the range"
 """For a file: all that have such a column."""
-_MEANINGS: Mapping[str, str] = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+_MEANINGS: Mapping[str, str] = {
+    pattern: meaning
+    for path in (Path(__file__).with_suffix(".toml"), *files_of_houses("columns.toml"))
+    for pattern, meaning in tomllib.loads(path.read_text(encoding="utf-8")).items()
+}
 _SYMBOLS = {symbol.name: symbol.says for symbol in SYMBOLS}
 
 
