@@ -165,7 +165,9 @@ def test_a_function_without_a_file_is_neither_calibrated_nor_stored():
 
 def test_the_table_of_the_package_was_measured_beside_the_stored_answers():
     """The error of a closed form is how far it is from the answer, but for what the residuals of two solves leave."""
-    for group, found in answers_in().items():
+    stored = answers_in()
+    assert {kind for kind, _ in stored} == {"punch", "sphere", "wheel", "rolling"}
+    for group, found in stored.items():
         name = {"punch": "fit", "sphere": "closed form"}.get(group[0])
         rows = {int(row["number"]): row for row in calibration.rows_of(calibration.TABLE) if row["model"] == name}
         for point, value, each in found.scenes(group) if name else ():

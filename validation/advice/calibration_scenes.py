@@ -144,7 +144,7 @@ def reference_answer(point: CalibrationScene) -> Outcome:
     }
 
 
-ANSWERS = Path(__file__).with_suffix(".npz")
+ANSWERS = Path(__file__).with_name("calibration_answers.npz")
 ABOUT = "about"
 Group = tuple[str, str]
 """Kind of scene, quantity."""

@@ -93,7 +93,7 @@ class Judgement:
 
     @property
     def verdicts(self) -> tuple[JudgedNumber, ...]:
-        """`numbers` with the verdicts of version 0.3 (agree, differ, ...). Goes after one release."""
+        """The column of numbers with the verdicts of version 0.3 (agree, differ, ...). Goes after one release."""
         _warn_of_earlier_name("verdicts", "numbers")
         return tuple(_with_earlier_verdict(number) for number in self.numbers)
 
