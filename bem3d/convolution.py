@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem3d.checks import FloatArray, IndexArray
+from bem3d.fftw import import_pyfftw
 
 Planning = Literal["estimate", "measure"]
 Shape = tuple[int, int]
@@ -116,8 +117,7 @@ def planned(
     there: FloatArray | ComplexArray, back: FloatArray | ComplexArray, axes: tuple[int, ...], planning: Planning
 ) -> tuple[Callable[[], None], Callable[[], None]]:
     """The transforms from one array to the other and back; the way back may destroy its input."""
-    import pyfftw
-
+    pyfftw = import_pyfftw()
     flags = (f"FFTW_{planning.upper()}",)
     with PLANNER:
         # what is measured here would change the estimates of others in this process
@@ -133,9 +133,7 @@ def planned(
 
 def aligned(shape: Shape, dtype: type[np.float64] | type[np.complex128]) -> NDArray[Any]:
     """Numbers where FFTW is fastest. Its package is imported here alone: that takes longer than all others."""
-    import pyfftw
-
-    return np.asarray(pyfftw.empty_aligned(shape, dtype=dtype))
+    return np.asarray(import_pyfftw().empty_aligned(shape, dtype=dtype))
 
 
 def _halfplane(quadrant: FloatArray, padded: Shape) -> FloatArray:

@@ -124,6 +124,19 @@ def test_imports_are_few():
     assert done.stdout == "[]\n"
 
 
+def test_a_solve_imports_of_fftw_what_it_uses_and_the_rest_is_there_for_others():
+    command = """
+import sys, numpy, bem3d
+half_space = bem3d.HalfSpace(shape=(8, 8), spacing=1.0, modulus=1.0, periodic=True)
+bem3d.solve(half_space, numpy.indices((8, 8))[0] * 0.1, force=1.0)
+print([name for name in ("pyfftw.interfaces.scipy_fftpack", "scipy.fftpack", "dask") if name in sys.modules])
+import pyfftw.interfaces.numpy_fft
+print(pyfftw.interfaces.numpy_fft.fft([1.0, 0.0]).real.tolist(), "scipy.fftpack" in sys.modules)
+"""
+    done = subprocess.run([sys.executable, "-c", command], capture_output=True, encoding="utf-8", check=True)
+    assert done.stdout == "[]\n[1.0, 1.0] True\n"
+
+
 def test_numbers_of_a_line():
     assert formatting.span(np.empty(0), "m") == "none"
     assert formatting.span(np.array([1.0, 1.0001]), "m") == "1 m"

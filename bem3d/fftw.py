@@ -1,0 +1,35 @@
+"""FFTW, by its package without the parts that are not needed here."""
+
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+from importlib.abc import MetaPathFinder
+from importlib.machinery import ModuleSpec, PathFinder
+from importlib.util import LazyLoader
+from types import ModuleType
+
+UNUSED = "pyfftw.interfaces"
+"""Imports scipy.fftpack and, where it is installed, dask.array: four fifths of the time of `import pyfftw`."""
+
+
+class _OnFirstUse(MetaPathFinder):
+    """Finds the unused part as a module that is executed when somebody first uses it."""
+
+    @staticmethod
+    def find_spec(fullname: str, path: Sequence[str] | None, target: ModuleType | None = None) -> ModuleSpec | None:
+        spec = PathFinder.find_spec(fullname, path, target) if fullname == UNUSED else None
+        if spec is not None and spec.loader is not None:
+            spec.loader = LazyLoader(spec.loader)
+        return spec
+
+
+def import_pyfftw() -> ModuleType:
+    """The package `pyfftw`; whoever uses `pyfftw.interfaces` later finds it as usual."""
+    if "pyfftw" in sys.modules:
+        return import_module("pyfftw")  # waits where another thread is importing it
+    finder = _OnFirstUse()
+    sys.meta_path.insert(0, finder)
+    try:
+        return import_module("pyfftw")
+    finally:
+        sys.meta_path.remove(finder)
