@@ -1,8 +1,8 @@
 """FFTW, by its package without the parts that are not needed here."""
 
 import sys
-from collections.abc import Sequence
-from importlib import import_module
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, nullcontext
 from importlib.abc import MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder
 from importlib.util import LazyLoader
@@ -23,13 +23,18 @@ class _OnFirstUse(MetaPathFinder):
         return spec
 
 
-def import_pyfftw() -> ModuleType:
-    """The package `pyfftw`; whoever uses `pyfftw.interfaces` later finds it as usual."""
-    if "pyfftw" in sys.modules:
-        return import_module("pyfftw")  # waits where another thread is importing it
+@contextmanager
+def _unused_part_later() -> Iterator[None]:
     finder = _OnFirstUse()
     sys.meta_path.insert(0, finder)
     try:
-        return import_module("pyfftw")
+        yield
     finally:
         sys.meta_path.remove(finder)
+
+
+def import_pyfftw() -> ModuleType:
+    """The package `pyfftw`; whoever uses `pyfftw.interfaces` later finds it as usual."""
+    with nullcontext() if "pyfftw" in sys.modules else _unused_part_later():
+        import pyfftw  # noqa: F401
+    return sys.modules["pyfftw"]

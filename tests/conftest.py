@@ -3,7 +3,6 @@ import functools
 import os
 import random
 from itertools import groupby
-from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, Phase, settings
@@ -92,23 +91,15 @@ def texts_of_sources_are_read_once():
     # as below: not before coverage is measured
     from validation.engine import sources
 
-    def by_text(of, path_of, known):
-        @functools.wraps(of)
-        def remembered(argument):
-            path = path_of(argument)
-            key = argument if of is named else argument.suffix, path and sources._source(path)
-            if key not in known:
-                known[key] = of(argument)
-            return known[key]
+    read, remembered = sources._code.__wrapped__, {}
 
-        return remembered
+    @functools.wraps(read)
+    def code(path):
+        text = sources._source(path)
+        if text not in remembered:
+            remembered[text] = read(path)
+        return remembered[text]
 
-    named = sources._named
     with pytest.MonkeyPatch.context() as patch:
-        for of, path_of in (
-            (named, sources._path),
-            (sources._meaning.__wrapped__, Path),
-            (sources._words.__wrapped__, Path),
-        ):
-            patch.setattr(sources, of.__name__, by_text(of, path_of, {}))
+        patch.setattr(sources, "_code", code)
         yield

@@ -22,13 +22,13 @@ def edited(monkeypatch):
         monkeypatch.setattr(
             sources, "_source", lambda p: p.read_bytes().replace(old, new) if p == path else p.read_bytes()
         )
-        for name in ("_tree", "_meaning", "_words"):
+        for name in ("_code", "_meaning"):
             monkeypatch.setattr(sources, name, anew(getattr(sources, name), path))
         for name in ("version_of", "modules_behind"):
             monkeypatch.setattr(sources, name, cache(getattr(sources, name).__wrapped__))
 
     def anew(known, path):
-        return lambda p: (known.__wrapped__ if p == path else known)(p)
+        return lambda p: (getattr(known, "__wrapped__", known) if p == path else known)(p)
 
     return edit
 

@@ -7,7 +7,7 @@ import importlib.util
 import sys
 import threading
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import fields, is_dataclass
+from dataclasses import dataclass, fields, is_dataclass
 from functools import cache
 from pathlib import Path
 
@@ -82,14 +82,14 @@ def modules_behind(module: str, without: frozenset[str] = frozenset()) -> frozen
 
     All of it where a module imports by name. The engine and the modules without are left out, and what these import.
     """
-    found, left = set[str](), {module}
-    while left:
-        name = left.pop()
-        found.add(name)
+    behind, ahead = set[str](), {module}
+    while ahead:
+        name = ahead.pop()
+        behind.add(name)
         if _imports_by_name(name):
-            return frozenset(found | set(modules())) - {ENGINE, *without}
-        left |= (_imported(name) & set(modules())) - found - {ENGINE, *without}
-    return frozenset(found)
+            return frozenset(behind | set(modules())) - {ENGINE, *without}
+        ahead |= _next(name, _path(name)) - behind - {ENGINE, *without}
+    return frozenset(behind)
 
 
 def _digest(sources: Iterable[bytes]) -> str:
@@ -120,14 +120,18 @@ def _path(module: str) -> Path | None:
     return Path(loaded)
 
 
-def _files_of(module: str) -> list[Path]:
+def _files_of(module: str) -> tuple[Path, ...]:
     """Its source, and the data beside it where it asks for its own place."""
     path = _path(module)
-    if path is None:
-        return []
-    asks = "__file__" in _words(path) or "importlib.resources" in _imported(module)
-    data = (file for file in path.parent.rglob("*") if file.is_file() and file.suffix not in (".py", ".pyc"))
-    return [path, *sorted(data if asks else ())]
+    return () if path is None else (path, *_data_beside(module, path))
+
+
+@cache
+def _data_beside(module: str, path: Path) -> tuple[Path, ...]:
+    if "__file__" not in _code(path).words and "importlib.resources" not in _imported(module, path):
+        return ()
+    files = (file for file in path.parent.rglob("*") if file.is_file() and file.suffix not in (".py", ".pyc"))
+    return tuple(sorted(files))
 
 
 @cache
@@ -135,22 +139,40 @@ def _source(path: Path) -> bytes:
     return path.read_bytes()
 
 
+@dataclass(frozen=True, eq=False)
+class Code:
+    """Of a file, by one pass over its tree, which is not kept.
+
+    digest: of the tree without comments, and without docstrings, which are constants by themselves; words: all names
+    and attributes; imports: level, module and names of each import statement; hooks: texts that `brought` and
+    `modules_in` are called with.
+    """
+
+    digest: bytes
+    words: frozenset[str]
+    imports: tuple[tuple[int, str, tuple[str, ...]], ...]
+    hooks: frozenset[tuple[str, str]]
+
+
 @cache
-def _tree(path: Path) -> ast.Module:
+def _code(path: Path) -> Code:
     # Python 3.11 counts the depth of trees for all threads together
     with PARSING:
-        return ast.parse(_source(path))
-
-
-@cache
-def _meaning(path: Path) -> bytes:
-    """Of code: without its comments and docstrings, which are constants by themselves. Of data: the file."""
-    if path.suffix != ".py":
-        return _source(path)
-    # another tree, which is changed; a copy of the first takes ten times as long
-    with PARSING:
         tree = ast.parse(_source(path))
-    return ast.dump(_WithoutDocstrings().visit(tree)).encode()
+    words, hooks = set[str](), set[tuple[str, str]]()
+    imports: list[tuple[int, str, tuple[str, ...]]] = []
+    for node in ast.walk(tree):
+        match node:
+            case ast.Name(id=word) | ast.Attribute(attr=word):
+                words.add(word)
+            case ast.Import(names=names):
+                imports += [(0, alias.name, ()) for alias in names]
+            case ast.ImportFrom(module=module, names=names, level=level):
+                imports.append((level, module or "", tuple(alias.name for alias in names)))
+            case ast.Call(func=ast.Name(id=hook), args=[ast.Constant(value=str(text))]) if hook in (BROUGHT, FOLDERS):
+                hooks.add((hook, text))
+    digest = hashlib.sha256(ast.dump(_WithoutDocstrings().visit(tree)).encode()).digest()
+    return Code(digest, frozenset(words), tuple(imports), frozenset(hooks))
 
 
 class _WithoutDocstrings(ast.NodeTransformer):
@@ -159,59 +181,55 @@ class _WithoutDocstrings(ast.NodeTransformer):
 
 
 @cache
-def _words(path: Path) -> frozenset[str]:
-    """All names and attributes that its code uses."""
-    nodes = list(ast.walk(_tree(path)))
-    names = {node.id for node in nodes if isinstance(node, ast.Name)}
-    return frozenset(names | {node.attr for node in nodes if isinstance(node, ast.Attribute)})
+def _meaning(path: Path) -> bytes:
+    """Of code and of data: what changes with it."""
+    return _code(path).digest if path.suffix == ".py" else hashlib.sha256(_source(path)).digest()
 
 
 def _imports_by_name(module: str) -> bool:
     path = _path(module)
     if path is None or module == FACE:
         return False
-    return FACE in _named(module) or (bool(_words(path) & BY_NAME) and LISTS not in _words(path))
+    words = _code(path).words
+    return FACE in _named(module, path) or (bool(words & BY_NAME) and LISTS not in words)
 
 
-def _imported(module: str) -> set[str]:
+@cache
+def _next(module: str, path: Path | None) -> frozenset[str]:
+    """Modules of the project that it imports."""
+    return _imported(module, path) & modules().keys()
+
+
+@cache
+def _imported(module: str, path: Path | None) -> frozenset[str]:
     """Names that may be modules, and the packages around them."""
-    parts = [name.split(".") for name in _named(module) | {module}]
-    return {".".join(part[:length]) for part in parts for length in range(1, len(part) + 1)}
-
-
-def _named(module: str) -> frozenset[str]:
-    """What its import statements name, and the modules of packages that it lists."""
-    return _named_in(module, _path(module))
+    parts = [name.split(".") for name in _named(module, path) | {module}]
+    return frozenset(".".join(part[:length]) for part in parts for length in range(1, len(part) + 1))
 
 
 @cache
-def _named_in(module: str, path: Path | None) -> frozenset[str]:
-    found = set[str]()
-    for node in ast.walk(_tree(path)) if path else ():
-        if isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom):
-            above = module.rsplit(".", node.level)[0] + "." if node.level else ""
-            start = (above + (node.module or "")).rstrip(".")
-            found |= {start, *(f"{start}.{alias.name}" for alias in node.names)}
-    found |= _of_houses(path)
-    if path and LISTS in _words(path):
-        listed = found - {module.rpartition(".")[0]}
-        found |= {name for name in modules() if name.rpartition(".")[0] in listed}
-    return frozenset(found)
+def _named(module: str, path: Path | None) -> frozenset[str]:
+    """What its import statements name, the modules of packages that it lists, and those of houses."""
+    if path is None:
+        return frozenset()
+    names = set[str]()
+    for level, start, members in _code(path).imports:
+        above = module.rsplit(".", level)[0] + "." if level else ""
+        package = (above + start).rstrip(".")
+        names |= {package, *(f"{package}.{member}" for member in members)}
+    names |= _of_houses(path)
+    if LISTS in _code(path).words:
+        listed = names - {module.rpartition(".")[0]}
+        names |= {name for name in modules() if name.rpartition(".")[0] in listed}
+    return frozenset(names)
 
 
-@cache
-def _of_houses(path: Path | None) -> frozenset[str]:
+def _of_houses(path: Path) -> frozenset[str]:
     """Modules of the houses that `brought` and `modules_in` find for it, by the texts that it gives them."""
-    asked: dict[str, set[str]] = {BROUGHT: set(), FOLDERS: set()}
-    for node in ast.walk(_tree(path)) if path else ():
-        match node:
-            case ast.Call(func=ast.Name(id=name), args=[ast.Constant(value=str(text))]) if name in asked:
-                asked[name].add(text)
-    found = {place.partition(":")[0] for use in asked[BROUGHT] for place in places(use)}
-    folders = {f"{ROOT}.{house}.{folder}" for folder in asked[FOLDERS] for house in houses()}
-    return frozenset(found | {name for name in modules() if name.rpartition(".")[0] in folders})
+    hooks = _code(path).hooks
+    names = {place.partition(":")[0] for hook, use in hooks if hook == BROUGHT for place in places(use)}
+    folders = {f"{ROOT}.{house}.{folder}" for hook, folder in hooks if hook == FOLDERS for house in houses()}
+    return frozenset(names | {name for name in modules() if name.rpartition(".")[0] in folders})
 
 
 # read when the code is loaded: an edit during a run does not make old results new
