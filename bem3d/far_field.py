@@ -33,14 +33,19 @@ class FarField:
         row, column = np.divmod(cells, ny)
         self._block = row * mx // nx * my + column * my // ny
         self._free = np.zeros(cells.size, dtype=np.bool_)
+        # no cell is free yet, so that the first call takes the springs
         self._springs = np.zeros(cells.size)
 
     def __call__(self, displacement: FloatArray, free: BoolArray) -> FloatArray:
         """Nearly the pressure that makes this displacement on the free cells, and none elsewhere."""
+        # 1. springs S 1: an application of S, which is spared while the contact is nearly the same. Their error
+        # costs iterations alone: steps are made conjugate by their images, whatever the preconditioner
         if np.count_nonzero(free != self._free) > CHANGED * np.count_nonzero(free):
             self._free, self._springs = free, np.maximum(self._near(free.astype(np.float64)), 0.0)
         springs = self._springs * free
+        # 2. what the far field leaves on the blocks
         y = self._settled(self._sums(springs * displacement), self._sums(springs))
+        # 3. near pressure without that which the far field takes over
         return np.asarray(self._near(displacement) - springs * y.ravel()[self._block])
 
     def _sums(self, vector: FloatArray) -> FloatArray:
@@ -51,11 +56,13 @@ class FarField:
 
     def _settled(self, pressed: FloatArray, stiffness: FloatArray) -> FloatArray:
         """y of (C^-1 + D) y = b: y = C g, where (1 + sqrt(D) C sqrt(D)) h = b / sqrt(D) and g = sqrt(D) h."""
+        # the form with the roots is symmetric, needs no inverse of C, and drops blocks without a free cell
         root = np.sqrt(stiffness)
         left = np.divide(pressed, root, out=np.zeros_like(root), where=root > 0)
         found, direction = np.zeros_like(left), left
         square = first = float((left**2).sum())
         for _ in range(MOST_STEPS):
+            # not "<=": NaN, and nothing to solve, end it too
             if not square > ACCURACY**2 * first:
                 break
             image = direction + root * self._far(root * direction)

@@ -175,13 +175,16 @@ class _Summits:
     @classmethod
     def of(cls, half_space: HalfSpace, gap: FloatArray, most: int) -> _Summits:
         flat = gap.ravel()
+        # the whole grid is partitioned and not sorted: few of its cells ever overlap
         if flat.size > most + 1:
             lowest = np.argpartition(flat, most)[: most + 1]
             lowest = lowest[np.argsort(flat[lowest], kind="stable")]
         else:
             lowest = np.argsort(flat, kind="stable")
+        # from the first touch: a gap far from zero would cost digits
         ascending = flat[lowest] - flat[lowest[0]]
         row, column = np.divmod(lowest[:most].astype(np.int32), gap.shape[1])
+        # the gap of the next cell tells a contact that ends among the known ones from one that may go on
         return cls(row, column, np.append(ascending, np.inf)[: row.size + 1], _influence(half_space))
 
     def below(self, overlap: float) -> int:
@@ -190,6 +193,7 @@ class _Summits:
 
     def matrix(self, to: IndexArray, of: IndexArray) -> FloatArray:
         """K_ij of the displacement of cells by the pressure of others."""
+        # K_ij depends on the distance alone; indices of 32 bits are half as large as the matrix
         away = np.abs(self.row[to, np.newaxis] - self.row[of]) * np.int32(self.table.shape[1])
         away += np.abs(self.column[to, np.newaxis] - self.column[of])
         return np.asarray(self.table.ravel().take(away))
@@ -210,6 +214,7 @@ class _Dense:
         return dots(self.matrix, pressure)
 
     def inverse(self, displacement: FloatArray, free: BoolArray) -> FloatArray:
+        # cells far apart are moved mostly by their own pressure, so that the diagonal is near enough
         return self.stiffness * displacement
 
 
@@ -238,16 +243,21 @@ def _path(
     looked_at = BEGIN
     for i, force in enumerate(forces):
         load, state = Load(total=force / half_space.cell_area), _Search(pressure)
+        # 1. solve on the lowest cells alone, as many as are looked at
         while looked_at > state.pressure.size:
             looked_at = min(looked_at, summits.row.size)
             state.pressure = load.scaled(np.append(state.pressure, np.zeros(looked_at - state.pressure.size)))
             converged = _press(summits, load, state, tolerance, max_iterations)
+            # 2. fewer cells are pressed deeper by the same force: what lies above this overlap cannot touch,
+            # and once it holds no more than are looked at, the contact is that of the whole grid
             overlapping = summits.below(state.overlap)
             if overlapping > looked_at == summits.row.size:
                 raise TooManyCellsError(
                     f"forces[{i}] = {force:g} N overlaps on more cells than max_cells = {max_cells}"
                 )
+            # 3. otherwise look farther, step by step
             looked_at = min(overlapping, GROWTH * looked_at)
+        # made before an error is raised, which carries how far it has come
         contact = _contact(half_space, summits, state, force, float(gap.min()))
         if not converged:
             raise ConvergenceError(
@@ -265,9 +275,11 @@ def _path(
 def _press(summits: _Summits, load: Load, state: _Search, tolerance: float, max_iterations: int) -> bool:
     """Iterate on cells that may touch until a residual taken anew on all that are looked at confirms it."""
     everywhere = np.arange(state.pressure.size)
+    # cells are only added: what comes and goes from check to check would never settle
     marked = np.zeros(everywhere.size, dtype=np.bool_)
     for _ in range(CHECKS):
         pressed = np.flatnonzero(state.pressure)
+        # afresh, on all cells: the image that the iteration sums up has rounding, and knows no unmarked cell
         separation = summits.gap[everywhere] + dots(summits.matrix(everywhere, pressed), state.pressure[pressed])
         state.products += everywhere.size * pressed.size
         state.overlap = load.overlap_of(state.pressure, separation)
@@ -291,6 +303,7 @@ def _iterate(
 ) -> FloatArray:
     """The pressure at which the running residual is small enough, or nothing more is gained."""
     for state in islice(projected_cg(operator, pressure, separation, load), max_iterations):
+        # half is left to what the fresh residual adds
         if state.residual <= tolerance / 2:
             break
     return state.pressure
@@ -300,6 +313,7 @@ def _contact(
     half_space: HalfSpace, summits: _Summits, state: _Search, force: float, first_touch: float
 ) -> FewCellsContact:
     """The cells that touch, and their stiffness."""
+    # at a constant area each of these cells follows the approach one to one: K x = 1 on them
     touching = np.flatnonzero(state.pressure)
     operator = _Dense(summits.matrix(touching, touching))
     return FewCellsContact(
@@ -325,6 +339,7 @@ def _sum_of_unit_pressure(operator: _Dense) -> float:
     left, found = np.ones(cells), 0.0
     direction, square = left, float(cells)
     for _ in range(MOST_STEPS * cells):
+        # the first residual is one on each cell, so that the number of cells is its square
         if square <= STIFFNESS_TOLERANCE**2 * cells:
             return found
         displacement = operator.displacement(direction)

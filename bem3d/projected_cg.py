@@ -38,6 +38,7 @@ class Load:
         """A direction that keeps the prescribed total."""
         if self.total is None:
             return direction
+        # in proportion to the pressure, so that no cell outside of the contact is pulled on
         return direction - float(direction.sum()) / float(pressure.sum()) * pressure
 
     def nearest(self, aim: FloatArray, free: BoolArray) -> FloatArray:
@@ -47,6 +48,7 @@ class Load:
         """
         if self.total is None:
             return np.where(free, np.maximum(aim, 0.0), 0.0)
+        # the level if so many of the highest stay: right for the last that still reaches its own
         falling = np.sort(aim[free])[::-1]
         surplus = (np.cumsum(falling) - self.total) / np.arange(1, falling.size + 1)
         level = surplus[np.flatnonzero(falling >= surplus)[-1]]
@@ -81,6 +83,7 @@ class Memory:
 
     def add(self, step: FloatArray, image: FloatArray) -> None:
         """Remember a step, in units of its largest pressure, in the place of the oldest."""
+        # steps shrink by decades during a solve: in units of their own the small system is well scaled
         scale = float(np.abs(step).max())
         steps, images = self._rows
         np.divide(step, scale, out=steps[self._next])
@@ -97,6 +100,7 @@ class Memory:
             return direction
         known = slice(0, self._count)
         steps, images = self._rows[:, known]
+        # one system does both: a step that was cut short leaves energy to gain along itself
         wanted = dots(steps, downhill) - dots(images, direction)
         weights = solved(self._gram[known, known].tolist(), wanted.tolist())
         return np.asarray(direction + np.einsum("i,ij->j", weights, steps))
@@ -107,6 +111,7 @@ def solved(gram: list[list[float]], wanted: list[float]) -> list[float]:
     count = len(wanted)
     left = [gram[i][i] for i in range(count)]
     for k in range(count):
+        # the pivot of a step that the others contain is rounding alone: it must not blow up the rest
         if not gram[k][k] > 1e-10 * left[k]:
             for i in range(count):
                 gram[i][k] = gram[k][i] = 0.0
@@ -163,19 +168,24 @@ def projected_cg(
     """
     memory = Memory(pressure.size)
     while True:
+        # 1. residual: before the step, so that the caller may stop without another application
         s = load.overlap_of(pressure, separation)
         w = separation - s
         yield State(pressure, separation, s, residual(pressure, w, s))
+        # 2. direction, cut at p = 0 before the operator is applied: its image is then exact, whatever was cut
         step = _downhill(cells, pressure, w, load, memory, length)
         if step is None:
             return
         image = cells.displacement(step.change)
         curvature = dot(step.change, image)
+        # K is positive: a step without curvature, or NaN, is rounding, and nothing more is gained
         if not curvature > 0:
             return
         best = step.gain / curvature
+        # 3. length, by the one image that there is
         taken, length = _taken(step, best, pressure, length)
         pressure = _left_over(pressure, taken * step.change)
+        # summed up, which spares an application; the caller confirms it with a fresh one
         separation = separation + taken * image
         memory.add(step.change, image)
 
@@ -184,10 +194,12 @@ def _downhill(
     cells: Operator, pressure: FloatArray, w: FloatArray, load: Load, memory: Memory, length: float
 ) -> IterationStep | None:
     """The first of three steps that gains energy: conjugate, preconditioned, plain. None if none does."""
+    # a cell out of contact that does not overlap has nothing to gain by pressure
     free = (pressure > 0) | (w < 0)
     downhill = -w * free
     preconditioned = length * load.balanced(cells.inverse(downhill, free) * free, pressure)
     step = _step(memory.improve(preconditioned, downhill), pressure, w, free, load)
+    # cut off at p = 0, even a conjugate direction may lead up: the memory is of another contact then
     if not step.gain > 0:
         memory.forget()
         step = _step(preconditioned, pressure, w, free, load)
@@ -201,6 +213,7 @@ def _downhill(
 def _step(direction: FloatArray, pressure: FloatArray, w: FloatArray, free: BoolArray, load: Load) -> IterationStep:
     """From the pressure to the projection of pressure + direction."""
     aim = (pressure + direction) * free
+    # the cut adds pressure, so that a prescribed total is restored before the step is measured
     change = load.scaled(np.maximum(aim, 0.0)) - pressure
     return IterationStep(change, -dot(w, change), bool(aim.min() < 0))
 
@@ -208,11 +221,15 @@ def _step(direction: FloatArray, pressure: FloatArray, w: FloatArray, free: Bool
 def _taken(step: IterationStep, best: float, pressure: FloatArray, length: float) -> tuple[float, float]:
     """How much of the step to take, and the length to estimate next."""
     if not step.cut:
+        # nothing was cut, so that the best length may lie beyond p = 0: it ends where a cell would be pulled on
         with np.errstate(divide="ignore", invalid="ignore"):
             to_the_bound = float(np.min(np.where(step.change < 0, -pressure / step.change, np.inf)))
+        # the estimate follows by a factor of two at most, since one step is no measure of the next
         return min(best, to_the_bound), length * min(max(best, 0.5), 2.0)
     if best >= WHOLE_STEP:
+        # the energy gained goes as best t - t^2 / 2 along the step: a whole one gains from best = 1/2 on
         return 1.0, max(length, min(FIRST_STEP, 2 * length))
+    # a part of a cut step stays in bounds, between two pressures that are
     return best, length * max(best, 0.5)
 
 

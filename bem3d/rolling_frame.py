@@ -140,6 +140,7 @@ class Track(ReadOnly):
     def smooth_contact(self, approach: float) -> Spans:
         """Of the cells under the smooth wheel, one at least, as far as the strip has them."""
         ny, (dx, dy), (a, b) = self.height.shape[1], self.steps, self.smooth.semi_axes(approach)
+        # one column more: of an even number of them the middle lies between two
         ahead, across = int(a / dx), min(int(b / dy) + 1, ny // 2)
         middle = (ny - 1) / 2 if self.transverse_profile is None else top_column(self.transverse_profile)
         first, last = max(math.ceil(middle) - across, 0), min(math.floor(middle) + 1 + across, ny)
@@ -165,8 +166,10 @@ class Track(ReadOnly):
 
     def widened(self, spans: Spans, margin: int) -> Spans:
         """Spans that hold these and a margin, of sides that transform fast; columns as far as the strip has them."""
+        # the strip is periodic along the track: rows have no end
         rows, ny = _widened(spans[0], margin, sys.maxsize), self.height.shape[1]
         first, last = _widened(spans[1], margin, ny)
+        # moved inward at an edge, not shortened: the length is one that transforms fast
         start = min(max(first, 0), ny - (last - first))
         return rows, (start, start + last - first)
 
@@ -230,19 +233,24 @@ class Frame:
         u >= F / (pi E* sqrt(|r - c|^2 + s^2)), whatever its distribution: the mean of 1/X is at least 1 over the mean
         of X, and that at least 1 over the root mean square. Where g + u > d even so, there is no contact.
         """
+        # 1. the cells outside that overlap geometrically: others cannot touch, since u >= 0 for p >= 0
         if approach > self._limit:
             self._survey(approach)
         if not self._rim_wheel.size:
             return None
         track = self.track
+        # 2. the least displacement there, from three moments of the pressure
         force, centre, variance = self._moments(pressure)
         distance = np.sqrt((self._rim_x - centre[0]) ** 2 + (self._rim_y - centre[1]) ** 2 + variance)
         least = force / (np.pi * track.modulus) / distance
+        # flat indices wrap by whole rows: columns stay, and the track begins anew
         height = track.height.ravel().take(self._rim + position * track.height.shape[1], mode="wrap")
+        # 3. what would touch in spite of it: none is the proof that the frame has the whole contact
         touching = np.flatnonzero(self._rim_wheel - height + least < approach)
         if not touching.size:
             return None
         ny = track.height.shape[1]
+        # floored: rows behind the wheel are negative
         ahead, across = self._rim[touching] // ny, self._rim[touching] % ny
         found = (int(ahead.min()), int(ahead.max()) + 1), (int(across.min()), int(across.max()) + 1)
         return joined((self.rows, self.columns), found)
@@ -250,12 +258,14 @@ class Frame:
     def _survey(self, approach: float) -> None:
         """List the cells outside that overlap somewhere along the track, up to a little more than this approach."""
         track, ny = self.track, self.track.height.shape[1]
+        # a little farther, so that approaches that rise slowly need no survey at each position
         self._limit = approach + 0.05 * abs(approach)
         most = track.reach(self._limit)
         ahead = np.arange(-most, most + 1)[:, np.newaxis]
         across = np.arange(ny)
         inside = (ahead >= self.rows[0]) & (ahead < self.rows[1])
         inside = inside & (across >= self.columns[0]) & (across < self.columns[1])
+        # by the highest point of the track: the list holds at every position
         rim = np.nonzero(~inside & (track.wheel(ahead, across) < self._limit + track.highest))
         rows, columns = rim[0] - most, rim[1]
         self._rim = rows * ny + columns
@@ -268,6 +278,7 @@ class Frame:
         if total == 0:
             return 0.0, (0.0, 0.0), 1.0
         dx, dy = self.track.steps
+        # a cell's own spread: points in their places would be nearer together, and the bound too high
         centre, variance = [], (dx**2 + dy**2) / 12
         for axis, places in ((1, self.track.along(self._ahead)), (0, self.track.across(self._across))):
             share = pressure.sum(axis=axis) / total

@@ -27,12 +27,40 @@ class Chapter(StrEnum):
 
 @dataclass(frozen=True, kw_only=True)
 class Case:
-    """What the report says about one claim. A module of `validation` that holds one as `CASE` is found by it.
+    """One claim of the report: its settings in two sizes, its solves and its study.
 
-    name: on the command line, of its figures and of its data; chapter, place: where it stands, cases of a chapter in
-    the order of their places; answers: which figure or question; quick, full: its settings, frozen dataclasses, in both
-    sizes; run: result of settings and an engine; study: what the result shows, whose first claim is that of the case;
-    needs: which model it takes, a text or a function of the settings; timed: whether it is run last and alone.
+    A module in a folder ``cases`` that holds one as ``CASE`` is found by it.
+
+    Attributes
+    ----------
+    name : str
+        On the command line, of its figures and of its data.
+    chapter : Chapter
+        Where it stands.
+    place : int
+        Position in the chapter: cases stand in ascending order.
+    answers : str
+        Which figure or question of the book it answers.
+    quick, full : object
+        Settings in both sizes, frozen dataclasses of one type.
+    run : callable
+        From settings and an `Engine` to a result.
+    needs : str or callable
+        The cheapest sufficient model: a text, or a function of the settings.
+    study : Study
+        What the result shows.
+    timed : bool
+        Whether it measures times, and so runs last and alone.
+
+    Examples
+    --------
+    >>> from validation.case import SERIAL
+    >>> case = validation.CASES["geike"]
+    >>> case.chapter.value, case.model_needed(case.quick)
+    ('What is known exactly', 'closed form: spectra alone')
+    >>> result = case.run(case.settings("quick", seed=7), SERIAL)
+    >>> print(case.evidence(result).claims[0].status)
+    supported
     """
 
     name: str

@@ -16,15 +16,47 @@ STYLES = (
 
 @dataclass(frozen=True)
 class Curve:
-    """Rows of a table as a curve.
+    """Rows of a table as a curve, or as a family of curves.
 
-    quantity: the table; model: one or several, all where empty; style: one of `STYLES`, over that of the model;
-    label: by default the values, or the model, "_" for none; by: columns, a curve for each value of them, dark to light
-    in their order but for models; of: values that other columns have, "first" for the first of its model, "first of
-    all" for that of the table; bars, band: whether intervals are drawn; down: from curve to curve; apart: from marker
-    to marker, of the diagonal of the panel, all markers where zero; beside: x of a curve with bars over that of the
-    last one, on a logarithmic axis; upright: whether the values are places on the horizontal axis, drawn as lines
-    across the panel, without a label by the names of their models.
+    Attributes
+    ----------
+    quantity : str
+        Name of the table. A run that has no such table leaves the curve out.
+    model : str or tuple of str
+        Rows of these models; all where empty.
+    style : str
+        One of `STYLES`, over the style of the model.
+    label : str
+        In the legend; by default the values of ``by``, or the model; "_" for none.
+    by : tuple of str
+        Columns: a curve for each combination of their values. Colours go from dark to light in the order of the rows;
+        by "model" alone each has its own.
+    of : mapping of str to object
+        Values of other columns that rows must have, one or a tuple; "first" for the first value of the rows that are
+        left, "first of all" for that of the table.
+    bars, band : bool
+        Whether 95 % intervals are drawn, as bars or as a band.
+    down : float
+        How much each curve of a family is drawn below the one before, in the unit of the vertical axis.
+    apart : float
+        From marker to marker, as a fraction of the diagonal of the panel; 0 for a marker at each point, at 15 of many.
+    beside : float
+        Factor by which each curve with bars is moved along a logarithmic axis from the one before.
+    upright : bool
+        Whether the values are places on the horizontal axis, drawn as vertical lines across the panel, named by
+        ``label`` in the legend or else at the lines by their models.
+
+    Raises
+    ------
+    ValueError
+        If the style is none of `STYLES`.
+
+    Examples
+    --------
+    >>> from validation.analysis.chart import Curve
+    >>> curve = Curve("level", "MDR", "dashed", by=("h/d",), of={"lateral structure": "uniform"}, bars=True)
+    >>> curve.quantity, curve.label, curve.band
+    ('level', '', False)
     """
 
     quantity: str
@@ -54,12 +86,47 @@ def by_model(quantity: str, styles: Mapping[str, str], *, bars: bool = False) ->
 
 @dataclass(frozen=True)
 class Panel:
-    """Curves on one axis.
+    """Curves on one pair of axes, or on several that differ by a column.
 
-    facet: a column, or several, a panel for each of their values; log: the axes that are logarithmic; decades: of y
-    below the largest value, or its units where y is linear; judged: the quantity whose verdicts are drawn; shade:
-    of y, the margin; lines: of y; at: of x, dotted, where the panel reaches it; downward: from the largest x on;
-    ticked: at the values of x alone; least: of x and of y, where smaller values are drawn, which their table has.
+    Attributes
+    ----------
+    x : str
+        Column of the horizontal axis, which is its name too, unit included.
+    y : str
+        Name of the vertical axis, unit included; curves have the columns value, low and high.
+    curves : tuple of Curve
+        From the first drawn to the last.
+    title : str
+        Above the panel; by default the values of ``facet``.
+    facet : str or tuple of str
+        Columns: a panel for each combination of their values; one panel where empty.
+    log : {"", "x", "y", "xy"}
+        Axes that are logarithmic.
+    xlim, ylim : tuple of float or None, or None
+        Ends of the axes; None where the data have them.
+    decades : float
+        Decades of y below its largest value, or units where y is linear; 0 for all.
+    judged : str
+        Quantity whose ranges are drawn with their worst points and verdicts; none where empty.
+    shade : tuple of float, or None
+        Band of y within tolerance.
+    lines : tuple of float
+        Values of y with a horizontal line.
+    at : tuple of float
+        Values of x with a dotted line, where the panel reaches them.
+    downward : bool
+        Whether x falls to the right.
+    ticked : bool
+        Whether x has ticks at the values of the curves alone.
+    least : tuple of float
+        Least x and y: smaller values are drawn there, and stay as they are in their table.
+
+    Examples
+    --------
+    >>> from validation.case import Curve, Panel
+    >>> panel = Panel("h/d", "level [dB]", judged="level", shade=(-1.0, 1.0)).of(Curve("level", "MDR"))
+    >>> [curve.model for curve in panel.curves]
+    ['MDR']
     """
 
     x: str
@@ -87,8 +154,25 @@ class Panel:
 
 @dataclass(frozen=True)
 class Chart:
-    """A figure. name: "case" or "case-part"; panels: none where `report/figures` has a function that draws it; claims:
-    numbers of those that its headline states.
+    """A figure as data, drawn from tables alone.
+
+    Attributes
+    ----------
+    name : str
+        Of its file: the name of the case, or that with a part, "case-part".
+    caption : str
+        Whole sentences; in a study it may have settings in braces.
+    panels : tuple of Panel
+        In reading order; empty where ``report/figures`` has a function that draws it.
+    claims : tuple of int
+        Positions, in the study, of the claims that its headline states.
+
+    Examples
+    --------
+    >>> from validation.case import Chart, Curve, Panel
+    >>> panel = Panel("h/d", "level [dB]", judged="level").of(Curve("level"))
+    >>> Chart("rolling").of("Level of the force.", panel).tables
+    ('level', 'level, judged')
     """
 
     name: str

@@ -325,9 +325,12 @@ def moments(values: FloatArray, used: NDArray[np.bool_]) -> Moments:
     mine = values[used]
     n = mine.size
     left = mine - mine.mean()
+    # equal values differ by rounding, which must not pass for a variance
     if np.abs(left).max() < ROUNDING * abs(mine.mean()):
         left = np.zeros(n)
     variance = float((left**2).sum()) / (n - 1)
+    # a place for every realisation, zero where it is not used: in sums over grids the influences of one
+    # realisation add up before they are squared, and with them the covariance of nested samples
     to_mean, to_variance = np.zeros((2, values.size))
     # sum of squares: s^2 / n, and the variance of s^2 to the order 1 / n^2
     to_mean[used] = left / math.sqrt(n * (n - 1))
@@ -343,8 +346,11 @@ def multilevel_moments(grids: Sequence[FloatArray]) -> list[Moments]:
     found: list[Moments] = []
     for i, fine in enumerate(grids):
         if i == 0:
+            # the coarsest grid is the cheapest: its large sample averages most of the scatter out
             found.append(moments(fine, np.isfinite(fine)))
         else:
+            # the step to a finer grid on the realisations of both: what they share drops out, so that few will do.
+            # All rows of the coarser one would be more of a sample, and would not cancel
             both = np.isfinite(fine) & np.isfinite(grids[i - 1])
             found.append(found[-1].with_step(moments(fine, both), moments(grids[i - 1], both)))
     return found

@@ -38,12 +38,54 @@ def nothing(*_: Any) -> tuple[()]:
 
 @dataclass(frozen=True, kw_only=True)
 class Study:
-    """What a case declares beside its settings and solves.
+    """What a case declares in addition to its settings and solves.
 
-    title, method: with settings in braces; series: of a result, all that it shows; claims: with settings too, the first
-    is that of the case, none of a case that is played alone; charts; matrices: verdicts on the page; printed: names of
-    tables on the page; tables: that are no series; once_more: numbers that are judged by another margin too; notes:
-    sentences that no pattern has; sounds: played on the page.
+    Texts may have settings in braces, as ``{c.hurst:g}``; ``:SI`` prints a prefix.
+
+    Attributes
+    ----------
+    title, method : str
+        Heading of the case, and how its numbers were found.
+    series : callable
+        From a result to the series that it shows. A result has ``case``, its settings, and ``unconverged``, names of
+        failed solves, as `Outcomes` does.
+    claims : sequence of Claim
+        The first is that of the case; none where a case is only played. A claim without numbers is named as untested.
+    charts : sequence of Chart
+        Figures, drawn from the tables alone.
+    matrices : sequence of Matrix
+        Tables of verdicts on the page.
+    printed : sequence of str
+        Names of tables that are on the page as they stand.
+    tables : callable
+        From a result to tables that no series makes.
+    once_more : callable
+        From a result and its numbers to numbers that are judged by another margin in addition.
+    notes : callable
+        From a result to sentences that no pattern has.
+    sounds : callable
+        From a result to what the page plays, or None.
+
+    Raises
+    ------
+    ValueError
+        If two claims have one key.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> from validation.analysis.series import single
+    >>> from validation.case import Claim, Outcomes, Study
+    >>> claim = Claim(quantity="k").saying("{c.body} has 2 E* a.", short="The stiffness agrees with 2 E* a", key="k")
+    >>> study = Study(
+    ...     title="Hertz",
+    ...     method="One load.",
+    ...     series=lambda result: [single("k", "BEM", result["k"], 0.01, "2 E* a", "1 % of it", 1.0)],
+    ...     claims=[claim],
+    ... )
+    >>> evidence = study.evidence(Outcomes(SimpleNamespace(body="A sphere"), {"k": 1.002}))
+    >>> evidence.claims[0].claim, evidence.finding
+    ('A sphere has 2 E* a.', 'The stiffness agrees with 2 E* a within 0.01.')
     """
 
     title: str

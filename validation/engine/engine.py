@@ -32,15 +32,46 @@ TIMEOUT = 10
 class Engine:
     """Runs independent solves on worker processes and stores their results.
 
-    workers: processes on this machine; store: folder for finished results, None stores nothing; progress: the part of
-    a run that is told of each solve; executor: "local", or "dask://HOST:PORT", a running scheduler whose workers are
-    used in place of local ones; shared: the processes, where several engines have the same ones.
-    A stored result is used again only if the solve, its problem, the code that the two import and the libraries are
-    the same; damaged or foreign files are computed anew. Each worker writes its result to disk as soon as it is
-    computed; results of other machines are written here as they come in. No interruption loses a finished result.
-    Raises ValueError for any other executor, fewer workers than one, a file in the store that is none of its own, and
-    a scheduler that does not answer or has no workers; ConnectionError where the connection to it ends;
-    WorkerLostError where a worker is killed; OSError, which names the file, where a result cannot be stored.
+    Parameters
+    ----------
+    workers : int, optional
+        Processes on this machine, at least 1.
+    store : Path or None, optional
+        Folder of finished results; None stores nothing.
+    progress : Part or None, optional
+        Part of a run that is told of each solve.
+    executor : str, optional
+        "local", or "dask://HOST:PORT": a running scheduler, whose workers take the place of local ones.
+    shared : Workers or None, optional
+        Processes that several engines share; None for processes of its own in each call.
+    timed_results : dict of Path to str, or None, optional
+        Places and keys of a timed run, see `timed`.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of range. When problems are solved: if a file in the store is none of its own, or a
+        scheduler does not answer or has no workers.
+    ConnectionError, WorkerLostError, OSError
+        When problems are solved: if the connection to a scheduler ends, a worker is killed, or a result cannot be
+        stored; the message names its file.
+
+    Notes
+    -----
+    A stored result is used again only if the solve, its problem, the code that both import and the libraries are the
+    same; damaged and foreign files are computed anew. Each worker writes its result to disk as soon as it is computed;
+    results of other machines are written here as they arrive. An interruption loses no finished result.
+
+    Examples
+    --------
+    >>> import math
+    >>> from validation.engine.engine import Engine
+    >>> from validation.simulation.surface import RoughnessDraw, measure_profile
+    >>> spectrum = mdr.SelfAffine(hurst=0.7, q_min=20 * np.pi, q_max=200 * np.pi, rms=1e-3)
+    >>> draws = [RoughnessDraw(spectrum=spectrum, length=1.0, cells=512, seed=seed) for seed in range(3)]
+    >>> outcomes = Engine(workers=1).map(measure_profile, draws)
+    >>> [f"{math.sqrt(outcome['moments'][0]):.2g} m" for outcome in outcomes]
+    ['0.001 m', '0.001 m', '0.001 m']
     """
 
     workers: int = 1

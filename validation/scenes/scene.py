@@ -70,11 +70,51 @@ class ContactEllipse(NamedTuple):
 
 
 class Scene(Protocol):
-    """A loaded body on an elastic half-space, rough or smooth.
+    """A loaded body on an elastic half-space, rough or smooth: what each kind of scene says of itself.
 
-    kind: "sphere", "punch", "wheel", "rail"; load: F [N]; modulus: E* [Pa]; speed, mass: of a wheel [m/s], [kg], None
-    where it has none; damping: ratio, of critical; ground: what is rough, as a surface; None where smooth, and where
-    lines alone are known.
+    Attributes
+    ----------
+    name : str
+        One line of text.
+    kind : {"sphere", "punch", "wheel", "rail"}
+        Body.
+    load : float
+        Normal force F, positive [N].
+    modulus : float
+        Contact modulus E*, positive [Pa].
+    material : Material or None
+        What E* is made of, None where only ``modulus`` is known.
+    speed, mass : float or None
+        Of a wheel, positive [m/s], [kg]; None where it has none.
+    damping : float
+        Ratio to critical damping, zero or positive [-].
+    ground : RoughSurface or None
+        Roughness as a surface; None where smooth, and where lines alone are known.
+    quantities : tuple of SceneQuantity
+        That it has; the first is the default.
+    smooth_contact : ContactEllipse or None
+        Without roughness; None under a flat punch.
+    mean_pressure : float
+        Of the smooth contact [Pa].
+    size_key, roughness_key : str
+        Keys of a scene file: of the size, as "wheel.radius", and of generated roughness, empty where there may be none.
+    roughness_levels : ndarray, shape (bands,)
+        L_r in each band [dB re 1 µm]; empty where roughness is no line.
+    statistic : {"ensemble mean", "single surface", ""}
+        What a value is of; empty of smooth bodies.
+    sample_note : str
+        Why nobody may ask for a number of realisations, where no model of the scene generates as many as are asked.
+    error_source : str
+        What errors of models rest on; empty where that is the table of the calibration.
+    shares_solves : bool
+        Whether one solve has all of its quantities.
+
+    Examples
+    --------
+    >>> from validation.scenes.scene import Scene
+    >>> scene: Scene = validation.load_scene("rolling_wheel")
+    >>> scene.kind, [str(quantity) for quantity in scene.quantities], scene.bands("force-spectrum").shape
+    ('wheel', ['force-rms', 'force-spectrum'], (9,))
     """
 
     @property

@@ -66,7 +66,10 @@ class WheelEnsemble:
         """Cells of the track."""
         if self.track == "open":
             longest = max((r.longest for r in (self.scene.rail, self.scene.wheel) if r), default=0.0)
+            # longer than the record, since a generated track is periodic: its end would correlate with its beginning
             return int(next_fast_len(self.steps + math.ceil(WAVES_APART * longest / self.scene.spacing)))
+        # after a whole number of natural periods any free vibration would be periodic as well:
+        # the half is farthest from that
         period = 2 * math.pi / (self.scene.eigenfrequency * self.scene.time_step)
         rolled = self.scene.points * (2 if self.track == "part" else 1)
         return round((math.floor(rolled / period) + 0.5) * period)
@@ -79,6 +82,7 @@ class WheelEnsemble:
             if scene.rail:
                 height[:, i] += self._draw_track(scene.rail, self.places, RAIL, number)
             if scene.wheel:
+                # the wheel meets its own roughness again after each revolution
                 around = self._draw_track(scene.wheel, self._circumference, WHEEL, number)
                 height[:, i] += around[self._rolled_cells % self._circumference]
         return height
@@ -104,6 +108,7 @@ class WheelEnsemble:
             rms=roughness.rms,
             length=points * self.scene.spacing,
             points=points,
+            # by its address, so that a track does not depend on the ensemble in which it is simulated
             rng=random_generator(self.seed, kind, number),
         )
 
@@ -121,11 +126,13 @@ def simulate_ensemble(ensemble: WheelEnsemble) -> Outcome:
     except ArithmeticError:
         # a wheel flew so high that sums would be rounded: the whole ensemble is lost
         return {"failed": np.array(float(ensemble.count))}
+    # both windows on the same record: what they differ by is leakage, and no scatter
     plain, hann = (record_spectra(motion.acceleration, time_step=motion.time_step, window=w) for w in ("none", "hann"))
     scene, groups = ensemble.scene, np.arange(ensemble.count).reshape(ensemble.groups, -1)
     bands = band_edges(plain.omega)
     return {
         "omega": plain.omega,
+        # a mean of each group: the scatter of groups is the error of the mean of all
         "plain": np.stack([plain.density[:, g].mean(axis=1) for g in groups]),
         "hann": np.stack([hann.density[:, g].mean(axis=1) for g in groups]),
         "bands": bands,
@@ -149,6 +156,7 @@ def _motion(ensemble: WheelEnsemble) -> tuple[Motion, FloatArray]:
     law: ContactLaw = (linear_law_1d if ensemble.linear else SpringsLaw)(wheel, height, scene.spacing)
     approach, velocity = law.at_rest(0), np.zeros(ensemble.count)
     residual = np.zeros(ensemble.count)
+    # a filter has its steady state in closed form; springs that lose contact need shooting
     if ensemble.track != "open" and isinstance(law, LinearLaw):
         approach, velocity = law.steady_state(scene.time_step)
     elif ensemble.track != "open":
@@ -165,6 +173,7 @@ def _motion(ensemble: WheelEnsemble) -> tuple[Motion, FloatArray]:
 
 def linear_law_1d(wheel: Wheel, height: FloatArray, spacing: float) -> LinearLaw:
     """The linear contact of wheels on tracks: dF = sum over q of 2 E* sin(q a) / q h(q) exp(i q x), (14.11)."""
+    # the whole track at once: (14.11) does not depend on the place, and its transform is periodic as the track
     q = 2 * np.pi * np.fft.rfftfreq(len(height), spacing)[:, np.newaxis]
     factor = response(q, contact_radius=wheel.contact_radius, modulus=wheel.modulus)
     return LinearLaw(wheel, np.fft.irfft(factor * np.fft.rfft(height, axis=0), len(height), axis=0))
@@ -182,6 +191,7 @@ def balance(motion: Motion) -> FloatArray:
 
 def band_edges(omega: FloatArray) -> FloatArray:
     """Edges of twelfths of an octave that hold a line or more, and of single lines below."""
+    # below this line of the spectrum a twelfth of an octave is narrower than the distance of lines
     single = math.ceil(1 / (2 ** (1 / BANDS_PER_OCTAVE) - 1))
     lines = omega[0] * (np.arange(single) + 0.5)
     above = np.arange(0, BANDS_PER_OCTAVE * math.log2(len(omega) / (single + 0.5))) / BANDS_PER_OCTAVE

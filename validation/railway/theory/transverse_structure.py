@@ -68,12 +68,14 @@ class LineSpectrum:
     @cached_property
     def exponents(self) -> FloatArray:
         """p_i, between the points and beyond the last."""
+        # bounded beyond the last point alone: measured levels may rise or fall by more between two bands
         between = -np.diff(np.log(self.densities)) / np.diff(np.log(self.wavenumbers))
         return np.append(between, np.clip(between[-1], LEAST_FALL, MOST_FALL))
 
     def __call__(self, q: ArrayLike) -> FloatArray:
         """C_line of wavenumbers q of any sign [m^3]."""
         k = np.abs(np.asarray(q, dtype=np.float64))
+        # before the first point its law goes on
         law = np.clip(np.searchsorted(self.wavenumbers, k, side="right") - 1, 0, None)
         start, density = np.array(self.wavenumbers)[law], np.array(self.densities)[law]
         return np.asarray(density * (k / start) ** -self.exponents[law])
@@ -92,10 +94,12 @@ class LineSpectrum:
     def _of_piece(self, s: FloatArray, law: int) -> FloatArray:
         """p c int q^(-p-2) dk over one of the laws; the first begins at s."""
         low, high = self.wavenumbers[law : law + 2]
+        # lines show a wave of the surface at q <= s: a law that ends below s adds nothing
         reached = s < high
         start = s[reached] if law == 0 else np.maximum(low, s[reached])
         panels = 1 + math.ceil(math.log(high / min(float(start.min(initial=high)), low)) / math.log(WIDEST))
         ends = np.geomspace(start, high, panels + 1)
+        # panels by the ratio of q, where the law is smooth, nodes in k, where the end point is; q = s may round below
         k = np.sqrt(np.maximum(ends**2 - s[reached] ** 2, 0.0))
         node, weight = gauss_legendre(LINE_NODES)
         half = np.diff(k, axis=0)[:, np.newaxis] / 2
@@ -108,6 +112,7 @@ class LineSpectrum:
         """p c int_{max(s, q_n)}^inf q^(-p-1) / sqrt(q^2 - s^2) dq = p c s^(-p-1) B((p+1)/2, 1/2; s^2/q^2) / 2."""
         last = len(self.wavenumbers) - 1
         p = float(self.exponents[-1])
+        # u = 1 from the last point on, where the integral begins at s itself
         u = np.minimum(s / self.wavenumbers[last], 1.0) ** 2
         beta = special.beta((p + 1) / 2, 0.5) * special.betainc((p + 1) / 2, 0.5, u)
         return np.asarray(self._falling(last, s) * beta / 2)
@@ -168,6 +173,7 @@ class TransverseStructure(ABC):
     ) -> float:
         q, dq = _along(first, last, semi_axes[0])
         power = line(q) * dq
+        # over the sum of the same nodes: an error of the quadrature of C_line cancels
         return float(power @ self.mean_square(q, transfer, semi_axis=semi_axes[1]) / power.sum())
 
 
@@ -202,6 +208,7 @@ class WaveBand(TransverseStructure):
 
     def _slopes(self, wave: FloatArray, semi_axis: float) -> tuple[FloatArray, FloatArray]:
         """k_y / k_x and its weights; a period of the filter is another for each wave."""
+        # power and filter are even in t = k_y / k_x: half of the range is enough
         longest = float(wave.max(initial=0.0)) * self.alpha * semi_axis
         if min(self.alpha, 1.0) * float(wave.min(initial=np.inf)) * semi_axis > FAR:
             return _far_across(LEAST_SLOPE, self.alpha, math.pi / (wave * semi_axis))
@@ -238,7 +245,9 @@ class IsotropicGround(TransverseStructure):
         """C_2D(s) from a table, to 1e-3, zero beyond q_max; s > 0, any shape [m^4]."""
         q = np.asarray(s, dtype=np.float64)
         table_q, table_c = _tabulated(self.line)
+        # between points C_2D is nearly a power of q, a line of logarithms; constant below the first of the table
         found = np.exp(np.interp(np.log(q), np.log(table_q), np.log(table_c)))
+        # behind the last point by the law of the line, one power steeper in two dimensions
         beyond = np.maximum(q / table_q[-1], 1.0) ** -(self.line.exponents[-1] + 1)
         return np.asarray(np.where(q <= self.q_max, found * beyond, 0.0))
 
@@ -255,6 +264,7 @@ class IsotropicGround(TransverseStructure):
 
     def _across(self, along: FloatArray, semi_axis: float) -> tuple[FloatArray, FloatArray]:
         """k_y and its weights."""
+        # one set of nodes for all waves of a band: the longest has the sharpest C_2D, the shortest the farthest end
         least, largest, period = float(along.min()), float(along.max()), math.pi / semi_axis
         end = FARTHEST * max(largest, 1 / semi_axis)
         if least * semi_axis > FAR:
@@ -270,6 +280,7 @@ class IsotropicGround(TransverseStructure):
 
     def _cut_line(self, q: float) -> float:
         """int C_2D dk over waves up to q_max."""
+        # no filter, and so no period
         k, dk = gauss(_panels_across(q, math.sqrt(max(self.q_max**2 - q**2, 0.0)), math.inf))
         return 2 * float(dk @ self.c2d(np.hypot(q, k)))
 
@@ -282,6 +293,7 @@ def has_isotropic_surface(line: LineSpectrum) -> bool:
 def _along(first: float, last: float, semi_axis: float) -> tuple[FloatArray, FloatArray]:
     """Wavenumbers along in a band, and their weights."""
     if first * semi_axis > FAR_ALONG:
+        # of a filter with many periods in the band a few stand for all
         panels = 1 + math.ceil(math.log(last / first) / GROWTH)
         return _periods(np.geomspace(first, last, panels + 1), math.pi / semi_axis)
     return gauss(np.linspace(first, last, 2 + math.floor((last - first) * semi_axis / math.pi)))
@@ -289,6 +301,7 @@ def _along(first: float, last: float, semi_axis: float) -> tuple[FloatArray, Flo
 
 def _far_across(q: float, end: float, period: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Nodes and weights from zero on, of all periods of a filter up to ``FAR``, and then of some of them."""
+    # all periods near k_y = 0, where the filter is largest; of an array by the shortest, so that all have these nodes
     least = float(period.min())
     near = FAR / math.pi * least
     k, dk = gauss(_panels_across(q, near, least))
@@ -309,6 +322,7 @@ def _tabulated(line: LineSpectrum) -> tuple[FloatArray, FloatArray]:
     """Wavenumbers from a tenth of the first to the last of the line, and C_2D there."""
     first, last = line.wavenumbers[0] / 10, line.wavenumbers[-1]
     between = np.geomspace(first, last, 1 + math.ceil(10 * POINTS * math.log10(last / first)))
+    # the line's own points too: C_2D has kinks there
     q = np.unique([*between, *line.wavenumbers])
     return q, line.isotropic(q)
 
