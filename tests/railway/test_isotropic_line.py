@@ -40,12 +40,12 @@ def test_smooth_levels_stay_as_they_are_to_the_bit(name):
 @pytest.mark.parametrize("waves", [(31.5,), (63,), (25, 20, 16), (50, 40, 31.5, 25)])
 def test_a_corrugation_stands_out_alone(waves):
     one = levels(np.array(STRAIGHT.levels) + 6.0 * np.isin(NOMINAL, waves))
-    assert not has_isotropic_surface(isotropic_line(one, EVEN).whole)
+    assert not has_isotropic_surface(isotropic_line(one, EVEN).with_peaks)
     found = isotropic_line(one, EVEN)
     assert NOMINAL[found.stands_out].tolist() == list(waves)
     np.testing.assert_allclose(level_of(found.line), STRAIGHT.levels, atol=0.02)
-    np.testing.assert_allclose(level_of(found.whole), one.levels, atol=0.02)
-    np.testing.assert_allclose(found.apart, 6.0 * found.stands_out, atol=0.02)
+    np.testing.assert_allclose(level_of(found.with_peaks), one.levels, atol=0.02)
+    np.testing.assert_allclose(found.deviation, 6.0 * found.stands_out, atol=0.02)
 
 
 graduated = graduation.graduated
@@ -70,7 +70,7 @@ def test_a_level_below_its_neighbours_is_named_and_the_ground_keeps_theirs():
     """Ground without these waves would be smoother than its neighbours say; with a level above it has them."""
     found = isotropic_line(levels(np.array(STRAIGHT.levels) - 9.0 * (NOMINAL == 31.5)), EVEN)
     assert NOMINAL[found.stands_out].tolist() == [31.5]
-    np.testing.assert_allclose(level_of(found.whole), STRAIGHT.levels, atol=0.02)
+    np.testing.assert_allclose(level_of(found.with_peaks), STRAIGHT.levels, atol=0.02)
 
 
 def test_lines_that_roll_off_cost_their_long_waves_alone():

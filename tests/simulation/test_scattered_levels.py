@@ -134,8 +134,8 @@ def test_what_smoothing_leaves_is_its_slope_error_and_three_times_what_more_smoo
     """Of power laws, whose filters over isotropic ground are known: 10 dB a decade, 11.5 of the smoother line."""
     bands, none = RAIL.levels.bands, np.zeros(35)
     q = bands.edges[[0, -1]]
-    line, whole, smoother = (LineSpectrum.through(q, q ** -(1 + slope / 10)) for slope in (10.0, 10.0, 11.5))
-    isotropic = IsotropicLine(line, whole, smoother, none + 0.2, 0.5, none, none > 0)
+    line, with_peaks, smoother = (LineSpectrum.through(q, q ** -(1 + slope / 10)) for slope in (10.0, 10.0, 11.5))
+    isotropic = IsotropicLine(line, with_peaks, smoother, none + 0.2, 0.5, none, none > 0)
     scene = replace(RAIL, across="isotropic")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(type(scene), "isotropic", isotropic)
@@ -187,12 +187,13 @@ ground_of_strip = rail_strip.RailGround
 
 
 @catches("strips without a corrugation").at(
-    "validation.railway.problems.rail_strip.RailGround", lambda **waves: ground_of_strip(**{**waves, "whole": None})
+    "validation.railway.problems.rail_strip.RailGround",
+    lambda **waves: ground_of_strip(**{**waves, "with_peaks": None}),
 )
 def test_strips_have_the_power_of_what_stands_out():
     """As ridges over isotropic ground, all along both ends."""
     scene = corrugated()
-    line, q = scene.isotropic.whole, 2 * np.pi / 0.0284
+    line, q = scene.isotropic.with_peaks, 2 * np.pi / 0.0284
     for across in ("ridges", "isotropic"):
         strip = strip_of(scene, across, 6, 0, 1)
         k = 2 * np.pi * np.fft.fftfreq(strip.shape[0], strip.spacing)

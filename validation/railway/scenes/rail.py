@@ -122,8 +122,8 @@ class RailScene(SceneDefaults):
                 "rail.crown_radius or wheel.transverse_radius must be given, got none: the contact is no ellipse"
             )
         if not isinstance(self.roughness, RoughnessLevels | MeasuredLines | MeasuredHeights):
-            given = type(self.roughness).__name__
-            raise TypeError(f"roughness must be RoughnessLevels, MeasuredLines or MeasuredHeights, got {given}")
+            kind = type(self.roughness).__name__
+            raise TypeError(f"roughness must be RoughnessLevels, MeasuredLines or MeasuredHeights, got {kind}")
         if self.across not in ("ridges", "isotropic", None):
             _check_alpha(self.across)
         _check_contact(self)
@@ -293,9 +293,9 @@ class RailScene(SceneDefaults):
                 f"the contact is wider than the crown: {width} across, the head of a rail has {head}; are the units of "
                 "rail.crown_radius and wheel.load right?"
             )
-        if (known := self.levels.bands) != NominalBands():
+        if (bands := self.levels.bands) != NominalBands():
             yield (
-                f"roughness is known in bands of {known.span}: the others of {NominalBands().span} are missing, and "
+                f"roughness is known in bands of {bands.span}: the others of {NominalBands().span} are missing, and "
                 "have no answer."
             )
         yield from self._scatter()
