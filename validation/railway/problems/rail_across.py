@@ -66,9 +66,9 @@ def roll_both_ways(problem: WideRail) -> Outcome:
     rolled = [_roll(problem, sign) for sign in (1, -1)]
     return {
         LINEAR: _powers(problem, [linear_displacement(strip, LINEAR)]),
-        BEM: _powers(problem, [lifted(one.approach) for one in rolled]),
-        APPLICATIONS: np.array(float(sum(np.sum(one.operator_applications) for one in rolled))),
-        "failed": np.array(float(sum(np.count_nonzero(~one.converged) for one in rolled))),
+        BEM: _powers(problem, [lifted(rolling.approach) for rolling in rolled]),
+        APPLICATIONS: np.array(float(sum(np.sum(rolling.operator_applications) for rolling in rolled))),
+        "failed": np.array(float(sum(np.count_nonzero(~rolling.converged) for rolling in rolled))),
     }
 
 
@@ -88,5 +88,5 @@ def _roll(problem: WideRail, sign: int) -> bem3d.Rolling:
 
 
 def _powers(problem: WideRail, tracks: Sequence[FloatArray]) -> FloatArray:
-    found = [levels(waves(track, spacing=problem.strip.spacing), problem.bands) for track in tracks]
-    return np.asarray(np.mean(found, axis=0))
+    powers = [levels(waves(track, spacing=problem.strip.spacing), problem.bands) for track in tracks]
+    return np.asarray(np.mean(powers, axis=0))
