@@ -76,9 +76,9 @@ def _stands(result: AcrossResult) -> Table:
                 GROUND: ground,
                 "DPRS, 1 dB down to [mm]": float(np.max(reach[BED, ground])),
                 "wider by 2/√3, 1 dB down to [mm]": float(np.max(reach[filters.BED_WIDER, ground])),
-                "nearest factor": _ends(nearest[across.FACTOR_OF, ground], ".2f"),
-                "nearest alpha of Remington": _ends(nearest[across.ALPHA_OF, ground], ".1f"),
-                "which leaves [dB]": _ends(left[across.ALPHA_OF, ground], ".1f"),
+                "nearest factor": _printed_range(nearest[across.FACTOR_OF, ground], ".2f"),
+                "nearest alpha of Remington": _printed_range(nearest[across.ALPHA_OF, ground], ".1f"),
+                "which leaves [dB]": _printed_range(left[across.ALPHA_OF, ground], ".1f"),
             }
             for ground in result.case.across
         ],
@@ -92,7 +92,7 @@ def _of_wheels(result: AcrossResult, quantity: str) -> ByModelAndGround:
     return values
 
 
-def _ends(values: Sequence[float], digits: str) -> str:
+def _printed_range(values: Sequence[float], digits: str) -> str:
     return f"{min(values):{digits}} to {max(values):{digits}}"
 
 

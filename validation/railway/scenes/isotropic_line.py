@@ -132,7 +132,7 @@ def isotropic_line(levels: RoughnessLevels, weights: ArrayLike) -> IsotropicLine
 
     smooth = graduated(level, weights, least=LEAST_SCATTER)
     line, smoother = (
-        _falling(spectrum_of(values)) for values in (smooth.values, smooth.hat @ smooth.hat @ smooth.values)
+        _nowhere_rising(spectrum_of(values)) for values in (smooth.values, smooth.hat @ smooth.hat @ smooth.values)
     )
     ground = 10 * np.log10(bands.powers_of_spectrum(line) / MICROMETRE**2)
     deviation, scatter = level - ground, smooth.scatter / np.sqrt(smooth.of_values)
@@ -143,7 +143,7 @@ def isotropic_line(levels: RoughnessLevels, weights: ArrayLike) -> IsotropicLine
     return IsotropicLine(line, with_peaks, smoother, smooth.slope_error(REACH), rms, deviation, out)
 
 
-def _falling(line: LineSpectrum) -> LineSpectrum:
+def _nowhere_rising(line: LineSpectrum) -> LineSpectrum:
     """The line itself where isotropic ground has it, else one that nowhere rises: at its top to longer waves."""
     if has_isotropic_surface(line):
         return line

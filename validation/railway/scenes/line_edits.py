@@ -423,9 +423,9 @@ class LineEdits:
 
     def notes(self, positions: Sequence[float]) -> tuple[str, ...]:
         """In sentences. positions: of the lines across the rail [m]."""
-        return tuple(sentence for i, line in self.lines for sentence in self._of_line(_name(positions, i), line))
+        return tuple(sentence for i, line in self.lines for sentence in self._sentences(_line_name(positions, i), line))
 
-    def _of_line(self, name: str, line: EditedLine) -> Iterator[str]:
+    def _sentences(self, name: str, line: EditedLine) -> Iterator[str]:
         for kind, (singular, plural) in KINDS.items():
             those = line.of_kind(kind)
             if not those:
@@ -467,7 +467,7 @@ def _sizes(kind: str, those: list[Outlier], spacing: float) -> str:
     return f" of {of}" if kind == "step" else f" of {of}, up to {wide} wide,"
 
 
-def _name(positions: Sequence[float], i: int) -> str:
+def _line_name(positions: Sequence[float], i: int) -> str:
     return "the line" if len(positions) == 1 else f"the line at {1e3 * positions[i]:g} mm"
 
 
