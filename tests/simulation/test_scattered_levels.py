@@ -134,8 +134,8 @@ def test_what_smoothing_leaves_is_its_slope_error_and_three_times_what_more_smoo
     """Of power laws, whose filters over isotropic ground are known: 10 dB a decade, 11.5 of the smoother line."""
     bands, none = RAIL.levels.bands, np.zeros(35)
     q = bands.edges[[0, -1]]
-    line, with_peaks, smoother = (LineSpectrum.through(q, q ** -(1 + slope / 10)) for slope in (10.0, 10.0, 11.5))
-    isotropic = IsotropicLine(line, with_peaks, smoother, none + 0.2, 0.5, none, none > 0)
+    line, whole, smoother = (LineSpectrum.through(q, q ** -(1 + slope / 10)) for slope in (10.0, 10.0, 11.5))
+    isotropic = IsotropicLine(line, whole, smoother, none + 0.2, 0.5, none, none > 0)
     scene = replace(RAIL, across="isotropic")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(type(scene), "isotropic", isotropic)

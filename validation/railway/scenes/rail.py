@@ -122,8 +122,8 @@ class RailScene(SceneDefaults):
                 "rail.crown_radius or wheel.transverse_radius must be given, got none: the contact is no ellipse"
             )
         if not isinstance(self.roughness, RoughnessLevels | MeasuredLines | MeasuredHeights):
-            kind = type(self.roughness).__name__
-            raise TypeError(f"roughness must be RoughnessLevels, MeasuredLines or MeasuredHeights, got {kind}")
+            given = type(self.roughness).__name__
+            raise TypeError(f"roughness must be RoughnessLevels, MeasuredLines or MeasuredHeights, got {given}")
         if self.across not in ("ridges", "isotropic", None):
             _check_alpha(self.across)
         _check_contact(self)
