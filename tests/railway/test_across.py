@@ -81,14 +81,14 @@ def test_linear_filters_are_double_sums_over_the_waves_of_a_band(model):
     """To 0.01 dB, over isotropic ground 0.05: one wave stands for the steepest, which lines let pass."""
     bands = SOME_BANDS.levels.bands
     for ground, within in ((0.25, 0.01), (8.0, 0.01), ("isotropic", 0.05)):
-        found = filters.linear_filter(SOME_BANDS, model, ground)
+        a3 = filters.linear_filter(SOME_BANDS, model, ground)
         for wavelength in (0.05, 0.0125):
             band = int(np.argmin(np.abs(bands.nominal - wavelength)))
             response, sees = RESPONSES.get(model), ground
             if model == filters.REMINGTON:
                 response, sees = RESPONSES[filters.REMINGTON_THERE], 1.0
             expected = by_double_sum(response, sees, bands.wavelengths[band])
-            assert found[band] == pytest.approx(expected, abs=within), (ground, wavelength)
+            assert a3[band] == pytest.approx(expected, abs=within), (ground, wavelength)
 
 
 def over_all_lines(model, contact):
@@ -123,8 +123,8 @@ def test_strips_are_so_wide_that_their_line_has_the_power_of_the_ground(ground):
         inside = (along >= rail.strip.ground.first) & (along < 2 * rail.strip.ground.first)
         return rail.strip.variance.sum(axis=1)[inside]
 
-    found = power(GROUNDS[ground]) / power("ridges")
-    assert found.size > 5 and found == pytest.approx(np.ones(found.size), abs=0.16)
+    ratio = power(GROUNDS[ground]) / power("ridges")
+    assert ratio.size > 5 and ratio == pytest.approx(np.ones(ratio.size), abs=0.16)
 
 
 @pytest.mark.slow
@@ -132,10 +132,10 @@ def test_strips_are_so_wide_that_their_line_has_the_power_of_the_ground(ground):
 def test_boundary_elements_both_ways_are_linear_theory_at_the_limit_of_the_standard(ground):
     """One strip on six cells: 0.05 dB where waves are long, as no single way is; 0.5 dB in the bands that count."""
     scene = scene_of(RailWheel(50, 920))
-    found = roll_both_ways(wide_rail(scene, GROUNDS[ground], 6, 0, 34))
-    over = 10 * np.log10(found[BEM] / found[LINEAR])
+    powers = roll_both_ways(wide_rail(scene, GROUNDS[ground], 6, 0, 34))
+    over = 10 * np.log10(powers[BEM] / powers[LINEAR])
     keep = filters.counted(filters.on_strips(scene, filters.linear_filter(scene, LINEAR, GROUNDS[ground])))
-    assert not found["failed"]
+    assert not powers["failed"]
     assert np.abs(over[:2]).max() < 0.05 and np.abs(over[keep]).max() < 0.5
 
 
@@ -146,13 +146,13 @@ def test_boundary_elements_both_ways_are_linear_theory_at_the_limit_of_the_stand
 def rolled(beyond=0.0, wheels=(WHEEL,), grounds=("ridges", "alpha = 0.25", "alpha = 0.5", "alpha = 8")):
     """Boundary elements over linear theory by so many dB, of other power on each strip; 0.2 dB more on few cells."""
     case = across.Across(wheels=wheels, across=grounds, strips=3)
-    found = {}
+    outcomes = {}
     for key in case.keys:
         for cells, more in zip(case.cells, (0.2, 0.0), strict=True):
             linear = np.ones(len(strip_bands(case.scene(key))))
             gains = [10 ** ((beyond + more + scatter) / 10) for scatter in (-0.03, 0.0, 0.03)]
-            found[key, cells] = [{LINEAR: linear, BEM: gain * linear, "failed": np.array(0.0)} for gain in gains]
-    return across.AcrossResult(case, found)
+            outcomes[key, cells] = [{LINEAR: linear, BEM: gain * linear, "failed": np.array(0.0)} for gain in gains]
+    return across.AcrossResult(case, outcomes)
 
 
 left_by_grid = rolled_filters.RolledFiltersResult.left_by_grid
@@ -210,8 +210,12 @@ def test_the_border_of_one_line_is_where_linear_theory_passes_the_tolerance_less
         while high - low > 1e-4:
             middle = (low + high) / 2
             low, high = (middle, high) if off(middle) < 1.0 + beyond else (low, middle)
-        found = {one.model: one for one in across._of_wheel(rolled(beyond), WHEEL) if one.quantity == across.BORDER}
-        (alpha, *_) = found[across.WAYS[0]].found
+        borders = {
+            series.model: series
+            for series in across._of_wheel(rolled(beyond), WHEEL)
+            if series.quantity == across.BORDER
+        }
+        (alpha, *_) = borders[across.WAYS[0]].found
         assert alpha.value == pytest.approx(low, rel=0.01)
         # 0.4 dB of the grid and 0.07 of the sample
         assert 0.05 < alpha.half_width < 0.2
@@ -244,14 +248,14 @@ def test_forces_in_decibel_a_are_beside_those_of_boundary_elements():
     scene = result.case.scene(key)
     bands, a3 = scene.levels.bands, filters.linear_filter(scene, LINEAR, "ridges")
     louder = 0.5 * np.isin(bands.numbers, strip_bands(scene).numbers)
-    (linear,) = (one for one in across._weighted(result, key) if one.model == LINEAR)
-    for speed, found in zip((80, 200), linear.found, strict=True):
+    (linear,) = (series for series in across._weighted(result, key) if series.model == LINEAR)
+    for speed, interval in zip((80, 200), linear.found, strict=True):
         f = speed / 3.6 / bands.wavelengths
         gain = 12194**2 * f**4 / ((f**2 + 20.6**2) * (f**2 + 12194**2))
         gain /= np.sqrt((f**2 + 107.7**2) * (f**2 + 737.9**2))
         powers = gain**2 * 10 ** ((np.array(scene.levels.levels) + a3) / 10)
-        assert found.value == pytest.approx(10 * np.log10(powers.sum() / (powers @ 10 ** (louder / 10))), abs=2e-3)
-        assert found.half_width > 0
+        assert interval.value == pytest.approx(10 * np.log10(powers.sum() / (powers @ 10 ** (louder / 10))), abs=2e-3)
+        assert interval.half_width > 0
 
 
 roll_one_way = rail_across._roll
@@ -263,9 +267,9 @@ roll_one_way = rail_across._roll
 def test_both_ways_are_the_heights_and_the_opposite_ones():
     rail, seen = wide_rail(scene_of(WHEEL), "ridges", 6, 0, 1), []
     names = ("force", "approach", "area", "residual", "operator_applications", "converged")
-    found = bem3d.Rolling(**dict.fromkeys(names, np.ones(rail.strip.shape[0], dtype=bool)))
+    rolling = bem3d.Rolling(**dict.fromkeys(names, np.ones(rail.strip.shape[0], dtype=bool)))
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(bem3d, "roll", lambda surface, **_: seen.append(surface) or found)
+        patch.setattr(bem3d, "roll", lambda surface, **_: seen.append(surface) or rolling)
         roll_both_ways(rail)
     assert np.array_equal(seen[0], -seen[1]) and seen[0].shape[1] == round(rail.width / rail.strip.spacing)
 

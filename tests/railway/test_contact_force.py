@@ -39,10 +39,10 @@ class Filter(Finding):
         return Answer(value=value, cost=cost, model=0.01, band_errors=bands)
 
 
-def filters(*shifts, speed=KILOHERTZ_AT_20_MM, error=0.5, known=35):
+def filters(*shifts, speed=KILOHERTZ_AT_20_MM, error=0.5, count=35):
     """A3 falls by a third of a decibel a band; others lie above it."""
     first = [
-        Filter(name=f"by {shift:g} dB", value=tuple(shift - np.arange(35) / 3), parts=(error, known))
+        Filter(name=f"by {shift:g} dB", value=tuple(shift - np.arange(35) / 3), parts=(error, count))
         for shift in shifts
     ]
     return compared(*first, scene=replace(RAIL, speed=speed), quantity="contact-filter", solve_all=True)
@@ -69,11 +69,11 @@ def test_the_force_is_the_stiffness_of_hertz_times_the_equivalent_displacement()
     assert force.stiffness == pytest.approx(1.5 * 50e3 / 65.6e-6, rel=1e-3)
 
 
-def answering(found, which, **changes):
+def answering(comparison, which, **changes):
     """The same comparison with another answer of one model."""
-    models = list(found.models)
+    models = list(comparison.models)
     models[which] = replace(models[which], answer=replace(models[which].answer, **changes))
-    return replace(found, selection=replace(found.selection, candidates=tuple(models)))
+    return replace(comparison, selection=replace(comparison.selection, candidates=tuple(models)))
 
 
 real_weighting = exported.a_weighting
@@ -97,10 +97,10 @@ def test_each_band_is_weighted_as_the_table_of_the_standard_has_its_frequency():
 )
 def test_the_error_of_the_sum_counts_loud_bands_most():
     """All bands louder by their errors, over the sum as it is: a loud band of 3 dB among others that are known."""
-    found = filters(0.0)
-    loud = int(np.argmax(found.force.levels["by 0 dB"]))
-    errors = found.models[0].answer.band_errors
-    force = answering(found, 0, band_errors={**errors, "model": np.where(np.arange(35) == loud, 3.0, 0.0)}).force
+    comparison = filters(0.0)
+    loud = int(np.argmax(comparison.force.levels["by 0 dB"]))
+    errors = comparison.models[0].answer.band_errors
+    force = answering(comparison, 0, band_errors={**errors, "model": np.where(np.arange(35) == loud, 3.0, 0.0)}).force
     powers = [10 ** (level / 10) for level in force.levels["by 0 dB"]]
     louder = sum(powers) + powers[loud] * (10**0.3 - 1)
     assert force.error == pytest.approx(10 * math.log10(louder / sum(powers)))
@@ -124,7 +124,7 @@ def independent_bands(force):
 )
 def test_the_error_of_the_sum_is_that_of_its_bands_and_says_which_are_unknown():
     assert filters(0.0).force.error == pytest.approx(0.5)
-    force = filters(0.0, known=20).force
+    force = filters(0.0, count=20).force
     level = force.levels[force.chosen]
     share = (10 ** (level[20:] / 10)).sum() / (10 ** (level / 10)).sum()
     assert (force.error, force.unsure) == (pytest.approx(0.5), pytest.approx(share))
@@ -137,25 +137,25 @@ def test_the_error_of_the_sum_is_that_of_its_bands_and_says_which_are_unknown():
 )
 def test_bands_without_an_answer_are_left_out_of_both_sums():
     """A filter is no quieter where it has no answer; its own sum is that of the bands that it has."""
-    number, found = np.arange(35), filters(0.0, 2.0)
-    value = found.models[1].answer.value
-    force = answering(found, 1, value=np.where((number >= 15) & (number < 25), np.nan, value)).force
+    number, comparison = np.arange(35), filters(0.0, 2.0)
+    value = comparison.models[1].answer.value
+    force = answering(comparison, 1, value=np.where((number >= 15) & (number < 25), np.nan, value)).force
     assert force.over_chosen("by 2 dB") == pytest.approx(2.0)
     assert force.total("by 2 dB") < force.total("by 0 dB")
-    value = found.models[0].answer.value
-    force = answering(found, 0, value=np.where(number < 15, np.nan, value)).force
+    value = comparison.models[0].answer.value
+    force = answering(comparison, 0, value=np.where(number < 15, np.nan, value)).force
     assert force.over_chosen("by 2 dB") == pytest.approx(2.0)
     assert "summed over bands of 2000 to 0.8 mm, but for 15 without an answer" in force.sentences[1]
     assert math.isfinite(force.error) and math.isfinite(force.unsure)
-    assert answering(found, 0, value=value + np.nan).force is None
+    assert answering(comparison, 0, value=value + np.nan).force is None
 
 
 def test_the_closed_filters_stand_beside_the_chosen_one_unasked():
-    found = validation.compare(RAIL, "contact-filter", "1 dB")
-    assert [one.name for one in found.selection.solved] == ["linear, ellipse"]
+    comparison = validation.compare(RAIL, "contact-filter", "1 dB")
+    assert [candidate.name for candidate in comparison.selection.solved] == ["linear, ellipse"]
     names = ["linear, ellipse", "linear, on the line", "Remington", "spring bed (DPRS), linear"]
-    assert list(found.force.levels) == names
-    assert "another filter changes the sum by +0.2 to +0.6 dB(A)" in " ".join(summary(found).split())
+    assert list(comparison.force.levels) == names
+    assert "another filter changes the sum by +0.2 to +0.6 dB(A)" in " ".join(summary(comparison).split())
 
 
 @catches("the equivalent roughness filtered once more").at(
@@ -165,18 +165,18 @@ def test_text_json_and_csv_have_the_same_table():
     """L_eq = L_r + A3, whichever quantity is asked."""
     filters, keys = [], ("roughness_dB", "a3_dB", "equivalent_dB", "force_dBA")
     for quantity in ("contact-filter", "equivalent-roughness"):
-        found = validation.compare(RAIL, quantity, "1 dB", models=["linear, ellipse", "Remington"])
-        written = json.loads(validation.to_json(found))
+        comparison = validation.compare(RAIL, quantity, "1 dB", models=["linear, ellipse", "Remington"])
+        written = json.loads(validation.to_json(comparison))
         lists = [np.array(written[key]) for key in keys]
         assert lists[0].tolist() == list(RAIL.levels.levels)
         assert lists[2] == pytest.approx(lists[0] + lists[1])
         filters.append(written["a3_dB"])
-        rows = [row for row in csv.DictReader(io.StringIO(validation.to_csv(found))) if row["selected"] == "True"]
-        shown = bands_of(found, found.selection.best)
+        rows = [row for row in csv.DictReader(io.StringIO(validation.to_csv(comparison))) if row["selected"] == "True"]
+        shown = bands_of(comparison, comparison.selection.best)
         for key, name, values in zip(keys, ("L_r", "A3", "L_eq", "L_FA"), lists, strict=True):
             assert [float(row[key]) for row in rows] == pytest.approx(values.tolist(), abs=1e-8)
             assert [float(cell) for cell in shown[name]] == pytest.approx(values, abs=0.0501)
-        sums = {one["model"]: one["force_sum_dBA"] for one in written["models"]}
+        sums = {row["model"]: row["force_sum_dBA"] for row in written["models"]}
         assert sums["linear, ellipse"] == pytest.approx(10 * np.log10((10 ** (lists[3] / 10)).sum()))
         assert sums["boundary elements"] is None
     assert filters[0] == pytest.approx(filters[1], abs=1e-9)
@@ -188,6 +188,8 @@ def test_without_a_speed_a_rail_or_an_answer_there_is_no_force():
         validation.compare(scene, tolerance="1 dB")
         for scene in (replace(RAIL, speed=None), validation.load_scene("sphere"))
     )
-    for found in (failed, slow, sphere):
-        assert found.force is None and "dB(A)" not in summary(found)
-        assert json.loads(validation.to_json(found))["force_dBA"] == [] and "force_dBA" not in validation.to_csv(found)
+    for comparison in (failed, slow, sphere):
+        assert comparison.force is None and "dB(A)" not in summary(comparison)
+        assert json.loads(validation.to_json(comparison))["force_dBA"] == [] and "force_dBA" not in validation.to_csv(
+            comparison
+        )

@@ -22,10 +22,10 @@ def slopes(values, reach):
 
 
 def test_a_straight_line_is_its_own_graduation():
-    found = graduated(LINE, np.linspace(0.1, 5, 35), least=1e-3)
-    np.testing.assert_allclose(found.values, LINE, atol=1e-8)
-    np.testing.assert_allclose(found.hat @ LINE, LINE, atol=1e-8)
-    assert found.scatter == 1e-3
+    smooth = graduated(LINE, np.linspace(0.1, 5, 35), least=1e-3)
+    np.testing.assert_allclose(smooth.values, LINE, atol=1e-8)
+    np.testing.assert_allclose(smooth.hat @ LINE, LINE, atol=1e-8)
+    assert smooth.scatter == 1e-3
 
 
 @catches("lone values that keep their weight", first=10, count=3).at(
@@ -46,11 +46,11 @@ def test_a_value_weighs_by_tukeys_biweight_of_its_deviation():
     rng = np.random.default_rng(2)
     series, weights = LINE + rng.standard_normal(35), rng.uniform(0.5, 2, 35)
     series[12] += 4.0
-    found = graduated(series, weights, least=0.1)
-    deviation = np.sqrt(weights) * (series - found.values) / found.scatter
+    smooth = graduated(series, weights, least=0.1)
+    deviation = np.sqrt(weights) * (series - smooth.values) / smooth.scatter
     biweight = weights * np.clip(1 - (deviation / 3) ** 2, 0, None) ** 2
-    bends = np.convolve(np.diff(found.values, 2), [1, -2, 1])
-    np.testing.assert_allclose(biweight * (series - found.values), 10 * bends, atol=1e-5)
+    bends = np.convolve(np.diff(smooth.values, 2), [1, -2, 1])
+    np.testing.assert_allclose(biweight * (series - smooth.values), 10 * bends, atol=1e-5)
     assert np.abs(deviation).max() > 2 and (biweight < 0.5 * weights).sum() >= 2
 
 
@@ -60,16 +60,16 @@ def test_errors_of_slopes_cover_those_of_a_line_with_known_scatter():
     rng, inside, widths = np.random.default_rng(4), [], []
     weights = np.linspace(0.5, 2.0, 35)
     for _ in range(60):
-        found = graduated(LINE + 2.0 * rng.standard_normal(35) / np.sqrt(weights), weights, least=0.1)
-        off = np.abs(slopes(found.values, 5) + 1.7)
-        inside.append(np.mean(off <= found.slope_error(5)))
-        widths.append(np.median(found.slope_error(5) / off))
+        smooth = graduated(LINE + 2.0 * rng.standard_normal(35) / np.sqrt(weights), weights, least=0.1)
+        off = np.abs(slopes(smooth.values, 5) + 1.7)
+        inside.append(np.mean(off <= smooth.slope_error(5)))
+        widths.append(np.median(smooth.slope_error(5) / off))
     assert abs(np.mean(inside) - 0.95) <= 3 * math.sqrt(0.95 * 0.05 / (60 * 5))
     assert np.median(widths) < 6
 
 
-def of_equal_weights(found):
-    return replace(found, of_values=np.ones(len(found.values)))
+def of_equal_weights(smooth):
+    return replace(smooth, of_values=np.ones(len(smooth.values)))
 
 
 slope_error = isotropic_line.Graduation.slope_error
@@ -77,25 +77,25 @@ slope_error = isotropic_line.Graduation.slope_error
 
 @catches("slopes whose errors have equal weights").at(
     "validation.railway.scenes.isotropic_line.Graduation.slope_error",
-    lambda found, reach: slope_error(of_equal_weights(found), reach),
+    lambda smooth, reach: slope_error(of_equal_weights(smooth), reach),
 )
 def test_errors_of_slopes_are_those_of_series_that_scatter_by_their_weights():
     """Of ten thousand series through the same hat, drawn with a hundred times the variance at one end."""
     rng, weights = np.random.default_rng(7), np.geomspace(0.03, 3.0, 35)
-    found = graduated(LINE, weights, least=1.0)
-    drawn = (rng.standard_normal((10_000, 35)) / np.sqrt(weights)) @ found.hat.T
+    smooth = graduated(LINE, weights, least=1.0)
+    drawn = (rng.standard_normal((10_000, 35)) / np.sqrt(weights)) @ smooth.hat.T
     spread = slopes(drawn.T, 5).std(axis=1)
     # a standard deviation of so many is known to 0.7 %
-    np.testing.assert_allclose(found.slope_error(5) / (found.quantile * found.scatter), spread, rtol=0.03)
+    np.testing.assert_allclose(smooth.slope_error(5) / (smooth.quantile * smooth.scatter), spread, rtol=0.03)
     assert spread[0] > 2 * spread[-6]
 
 
 def test_few_values_are_left_as_they_are():
     for count in range(1, FEWEST):
         series = np.array([3.0, -1.0, 4.0, 1.0, 5.0])[:count]
-        found = graduated(series, np.ones(count), least=1.0)
-        assert found.values.tolist() == series.tolist() and found.scatter == 0.0
-        assert not found.slope_error(5).any()
+        smooth = graduated(series, np.ones(count), least=1.0)
+        assert smooth.values.tolist() == series.tolist() and smooth.scatter == 0.0
+        assert not smooth.slope_error(5).any()
 
 
 def test_scatter_is_that_of_second_differences():

@@ -30,13 +30,13 @@ def noise(colour, seed):
 
 
 def noisy(colour, rms, seed, line=None):
-    found = rail(seed) if line is None else line.copy()
-    found[FIRST:LAST] += rms * noise(colour, seed + 100)
-    return found
+    height = rail(seed) if line is None else line.copy()
+    height[FIRST:LAST] += rms * noise(colour, seed + 100)
+    return height
 
 
 def kinds(line, spacing=1e-3):
-    return [one.kind for one in EditedLine.of(UM * line, spacing).outliers]
+    return [outlier.kind for outlier in EditedLine.of(UM * line, spacing).outliers]
 
 
 def the_burst(height):
@@ -68,13 +68,13 @@ def where_it_is_raised(line, measured, spacing, sensor):
 def test_a_burst_is_named_where_it_is_and_is_in_the_error(colour, rms):
     for seed in (21, 22):
         height = UM * noisy(colour, rms, seed)
-        found = lines(height)
+        measured = lines(height)
         burst = the_burst(height)
         # windows are a twentieth of the line
         assert abs(burst.first - FIRST) < 620 and abs(burst.last - LAST) < 620
         assert burst.size == pytest.approx(UM * rms, rel=0.5)
-        off = np.array(found.levels.levels) - levels(UM * rail(seed))
-        errors = np.array(found.levels.errors)
+        off = np.array(measured.levels.levels) - levels(UM * rail(seed))
+        errors = np.array(measured.levels.errors)
         assert off.max() > 3
         assert np.mean(np.abs(off) <= errors + 0.01) >= 0.95 and np.max(np.abs(off) - errors) < 1
         # it says how much, and not that nothing is known: long waves are known
@@ -98,9 +98,11 @@ def test_a_burst_over_an_eightieth_of_a_line_is_named():
 def test_spikes_of_a_burst_are_part_of_it_and_others_are_not():
     line = noisy("white", 60.0, 21)
     line[9000] += 80.0
-    found = EditedLine.of(UM * line, 1e-3)
-    assert [one.kind for one in found.outliers] == ["burst", "spike"] and found.outliers[1].first == 9000
-    assert (found.clean[FIRST:LAST] == UM * line[FIRST:LAST]).all()
+    edited_line = EditedLine.of(UM * line, 1e-3)
+    assert [outlier.kind for outlier in edited_line.outliers] == ["burst", "spike"] and edited_line.outliers[
+        1
+    ].first == 9000
+    assert (edited_line.clean[FIRST:LAST] == UM * line[FIRST:LAST]).all()
 
 
 def parts(seed, factor):
@@ -169,13 +171,13 @@ def test_what_a_burst_adds_is_that_of_its_part_of_a_white_line():
 def test_a_line_with_a_burst_over_more_than_a_third_has_no_error():
     line = rail(21)
     line[2000:6500] += 5.0 * np.random.default_rng(1).standard_normal(4500)
-    found = lines(UM * line)
-    assert set(found.levels.errors) == {math.inf} and "noisy in" in found.levels.fault
+    measured = lines(UM * line)
+    assert set(measured.levels.errors) == {math.inf} and "noisy in" in measured.levels.fault
 
 
 def test_a_note_on_a_burst_has_its_size_length_and_place_and_says_what_to_do():
-    found = edited(UM * noisy("white", 5.0, 21)[:, np.newaxis], 1e-3)
-    (note,) = found.notes([0.0])
+    edits = edited(UM * noisy("white", 5.0, 21)[:, np.newaxis], 1e-3)
+    (note,) = edits.notes([0.0])
     assert note.startswith("the line has 1 burst of noise of ") and "rms in short waves, up to " in note
     assert " long, at 2" in note and "measure it again, or cut it out" in note
 
@@ -196,14 +198,14 @@ def test_a_step_with_a_flank_in_a_corrugated_line_is_named(flank):
     for seed in (1, 2, 3):
         clean = rail(seed) + 20.0 * np.sin(2 * np.pi * X / 0.06 + seed)
         line = clean + 150.0 * np.interp(np.arange(POINTS), [6000, 6000 + flank], [0.0, 1.0])
-        found = lines(UM * line)
+        measured = lines(UM * line)
         steps = EditedLine.of(UM * line, 1e-3).of_kind("step")
         assert steps
-        assert min(one.first for one in steps) <= 6000 + flank // 2 <= max(one.last for one in steps)
-        assert all(5970 < one.first < one.last < 6050 for one in steps)
-        assert sum(one.size for one in steps) == pytest.approx(150e-6, rel=0.2)
-        off = np.abs(np.array(found.levels.levels) - levels(UM * clean))
-        assert np.max(off - np.array(found.levels.errors)) < 0.5
+        assert min(step.first for step in steps) <= 6000 + flank // 2 <= max(step.last for step in steps)
+        assert all(5970 < step.first < step.last < 6050 for step in steps)
+        assert sum(step.size for step in steps) == pytest.approx(150e-6, rel=0.2)
+        off = np.abs(np.array(measured.levels.levels) - levels(UM * clean))
+        assert np.max(off - np.array(measured.levels.errors)) < 0.5
 
 
 @catches("pits wider than 0.1 m that are not seen", wide=180).at(
@@ -216,7 +218,7 @@ def test_wide_shallow_pits_are_named(wide):
         line = clean.copy()
         for middle in (2000, 5000, 9000):
             line[middle - wide // 2 : middle - wide // 2 + wide] -= 50.0 * np.hanning(wide)
-        found = lines(UM * line)
+        measured = lines(UM * line)
         assert kinds(line) == ["pit"] * 3
-        off = np.abs(np.array(found.levels.levels) - levels(UM * clean))
-        assert np.max(off - np.array(found.levels.errors)) < 0.5
+        off = np.abs(np.array(measured.levels.levels) - levels(UM * clean))
+        assert np.max(off - np.array(measured.levels.errors)) < 0.5

@@ -43,8 +43,8 @@ def test_linear_theory_of_the_ellipse_over_isotropic_ground_is_the_published_tab
     for wheel, column in filters.columns_of_table().items():
         table = np.array(list(column.values()))
         keep = (table >= -13) & (table <= -0.1) & ~((wheel == WHEEL) & (np.array(list(column)) == 40))
-        found = filters.linear_filter(filters.scene_of(wheel), LINEAR, "isotropic") - table
-        assert np.sqrt(np.mean(found[keep] ** 2)) < 1.0, wheel
+        deviation = filters.linear_filter(filters.scene_of(wheel), LINEAR, "isotropic") - table
+        assert np.sqrt(np.mean(deviation[keep] ** 2)) < 1.0, wheel
 
 
 @catches("a wheel that bumps let down").at(
@@ -73,18 +73,18 @@ def test_line_of_a_drawn_strip_has_the_rms_of_its_ground():
 def test_mean_of_heights_over_ridges_is_one_line_and_over_isotropic_ground_less():
     """Of three lines 10 mm apart, at 16 mm, by the mean of cos(k_y y) over isotropic waves: a plain sum over k_y."""
     case = rough_rail.RoughRail()
-    found = {tuple(one.where.values()): one for one in rough_rail.means_of_lines(case) if one.where}
-    np.testing.assert_allclose(found[rough_rail.RIDGES, 10.0].found, 0.0, atol=1e-9)
-    mine, scene = found[rough_rail.GROUND, 10.0], case.scene(case.keys[0])
+    by_place = {tuple(series.where.values()): series for series in rough_rail.means_of_lines(case) if series.where}
+    np.testing.assert_allclose(by_place[rough_rail.RIDGES, 10.0].found, 0.0, atol=1e-9)
+    over_isotropic, scene = by_place[rough_rail.GROUND, 10.0], case.scene(case.keys[0])
     c2d = IsotropicGround(line_of(scene)).c2d
-    at = mine.at.tolist().index(16.0)
+    at = over_isotropic.at.tolist().index(16.0)
     edges = 2 * math.pi / 0.016 * 10 ** np.array([-0.05, 0.05])
     k_x = np.linspace(*edges, 40)[:, np.newaxis]
     k_y = np.linspace(0, 40, 8001)[1:] * k_x
     density = c2d(np.hypot(k_x, k_y)) * k_x
     mean = (1 + 2 * np.cos(0.01 * k_y)) / 3
     expected = 10 * np.log10(np.sum(density * mean**2) / np.sum(density))
-    assert mine.found[at] == pytest.approx(expected, abs=0.1)
+    assert over_isotropic.found[at] == pytest.approx(expected, abs=0.1)
     assert expected < -3
 
 
@@ -97,8 +97,8 @@ def test_springs_on_few_cells_have_the_filter_near_its_zero_of_many():
     bands, at = Bands(tuple(strip_bands(scene).edges.tolist())), strip_bands(scene).nominal.tolist().index(0.0125)
 
     def over_twin(cells):
-        problems = [replace(one, models=(SPRINGS_THAT_READ,)) for one in case.problems(key, cells)]
-        found = [displacement.roll_rail(one) for one in problems]
-        return displacement.log_over(SPRINGS_THAT_READ, LINEAR, found, problems[0].strip.spacing, bands)[at].value
+        problems = [replace(problem, models=(SPRINGS_THAT_READ,)) for problem in case.problems(key, cells)]
+        outcomes = [displacement.roll_rail(problem) for problem in problems]
+        return displacement.log_over(SPRINGS_THAT_READ, LINEAR, outcomes, problems[0].strip.spacing, bands)[at].value
 
     assert POWER_DECIBEL * abs(over_twin(8) - over_twin(12)) < 0.1

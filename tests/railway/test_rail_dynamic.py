@@ -44,7 +44,9 @@ def test_the_claim_of_the_filter_follows_what_lifts_the_wheel_in_motion(factor, 
     assert claim.status is status
     assert ("; within tolerance only at 0 dB over ISO 3095" in claim.answer) is only
     shares = {
-        one.where["damping"]: [each.value for each in one.found] for one in series(result) if one.quantity == AIRBORNE
+        airborne.where["damping"]: [each.value for each in airborne.found]
+        for airborne in series(result)
+        if airborne.quantity == AIRBORNE
     }
     assert shares == {"none": pytest.approx([30]), "2 %": pytest.approx([10, 10])}
 
@@ -57,8 +59,8 @@ def test_the_lift_is_read_from_the_force_of_a_linear_contact(damping):
     start = dict(zip(("approach", "velocity"), law.steady_state(dt), strict=True))
     motion = simulate(problem.wheel, law, time_step=dt, steps=steps, path=True, **start)
     lift = law.change[:, 0] / problem.wheel.stiffness
-    found = over_dynamic_stiffness(problem, motion.force[:, 0] - problem.wheel.load)
-    assert np.abs(found - (lift - lift.mean())).max() < 1e-6 * np.abs(lift).max()
+    inferred = over_dynamic_stiffness(problem, motion.force[:, 0] - problem.wheel.load)
+    assert np.abs(inferred - (lift - lift.mean())).max() < 1e-6 * np.abs(lift).max()
 
 
 def test_a_strip_ends_half_a_natural_period_after_whole_ones():

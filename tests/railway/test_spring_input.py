@@ -68,9 +68,9 @@ def test_short_waves_of_a_power_law_have_the_level_of_the_half_space(exponent, s
 @pytest.mark.parametrize("exponent", [1.0, 2.0, 3.0, 3.4])
 def test_geikes_rule_over_the_line_of_a_power_law(exponent):
     """sqrt(pi) Gamma((p + 1) / 2) / Gamma(p / 2), 1, pi / 2 and 2 for p = 1, 2 and 3."""
-    found = spring_input.geike_over_line([2.0, 5.0, -5.0], IsotropicGround(power_law(exponent)))
+    ratio = spring_input.geike_over_line([2.0, 5.0, -5.0], IsotropicGround(power_law(exponent)))
     expected = math.sqrt(math.pi) * math.gamma((exponent + 1) / 2) / math.gamma(exponent / 2)
-    np.testing.assert_allclose(found, expected, rtol=2e-3)
+    np.testing.assert_allclose(ratio, expected, rtol=2e-3)
 
 
 def test_bad_arguments_are_refused():

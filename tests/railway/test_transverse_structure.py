@@ -58,7 +58,7 @@ def test_the_surface_of_a_power_law(s):
 def test_a_line_over_its_surface_is_that_line(q):
     """int C_2D dk by another quadrature, over t with k = q tan t, law by law."""
     bends = [math.acos(q / node) for node in RAIL.wavenumbers if node > q]
-    found = integrate.quad(
+    integral = integrate.quad(
         lambda t: float(RAIL.isotropic(q / math.cos(t))) * q / math.cos(t) ** 2,
         *(0, math.pi / 2),
         points=bends or None,
@@ -66,7 +66,7 @@ def test_a_line_over_its_surface_is_that_line(q):
         epsabs=0,
         epsrel=1e-9,
     )[0]
-    assert 2 * found / float(RAIL(q)) == pytest.approx(1.0, rel=1e-7)
+    assert 2 * integral / float(RAIL(q)) == pytest.approx(1.0, rel=1e-7)
 
 
 @pytest.mark.parametrize("last", [1e-19, 1e-27, 1e-35])
@@ -112,18 +112,16 @@ def test_the_mean_over_isotropic_ground(q):
         ]
         for a, b in pairwise(ends)
     )
-    found = IsotropicGround(RAIL).mean_square(q, transfer, semi_axis=AXES[1])
-    assert float(found) == pytest.approx(2 * passed / float(RAIL(q)), rel=3e-3)
+    mean = IsotropicGround(RAIL).mean_square(q, transfer, semi_axis=AXES[1])
+    assert float(mean) == pytest.approx(2 * passed / float(RAIL(q)), rel=3e-3)
 
 
 def test_a_filter_that_does_not_see_across_has_the_mean_of_ridges():
     """Also where much of the power lies far across: C_line ~ 1/q has a level of its own in each octave."""
     flat = LineSpectrum((1.0, 1e4), (1.0, 1e-4))
     q = np.array([5.0, 50.0, 1000.0])
-    found = IsotropicGround(flat).mean_square(q, lambda along, across: np.cos(along) + 0 * across, semi_axis=4e-3)
-    assert found == pytest.approx(
-        Ridges().mean_square(q, lambda along, across: np.cos(along), semi_axis=4e-3), rel=2e-3
-    )
+    mean = IsotropicGround(flat).mean_square(q, lambda along, across: np.cos(along) + 0 * across, semi_axis=4e-3)
+    assert mean == pytest.approx(Ridges().mean_square(q, lambda along, across: np.cos(along), semi_axis=4e-3), rel=2e-3)
 
 
 @catches("a line that keeps the waves which its surface has lost").at(
@@ -158,11 +156,11 @@ def test_a_narrow_band_is_ridges_and_its_density_has_the_line():
 def test_bands_of_long_waves_pass_and_powers_of_bands_are_integrals(structure):
     transfer = partial(half_space_filter, semi_axes=AXES)
     edges = [5.0, 6.0, 600.0, 700.0]
-    found = structure.band_power(RAIL, transfer, edges=edges, semi_axes=AXES)
-    assert found[0] == pytest.approx(1.0, abs=5e-3)
+    powers = structure.band_power(RAIL, transfer, edges=edges, semi_axes=AXES)
+    assert powers[0] == pytest.approx(1.0, abs=5e-3)
     q = np.linspace(600, 700, 4001)
     power = structure.mean_square(q, transfer, semi_axis=AXES[1]) * RAIL(q)
-    assert found[2] == pytest.approx(integrate.trapezoid(power, q) / integrate.trapezoid(RAIL(q), q), rel=1e-4)
+    assert powers[2] == pytest.approx(integrate.trapezoid(power, q) / integrate.trapezoid(RAIL(q), q), rel=1e-4)
 
 
 def test_the_row_of_means_is_a_uniform_mean_over_a_rectangle():
@@ -186,9 +184,9 @@ def test_some_periods_stand_for_all(structure, way):
     """Of a filter that oscillates along or across with the contact, whose mean is one half."""
     edges = 2 * np.pi / 1e-3 * np.array([10**-0.05, 10**0.05])
     seen = lambda *waves: np.sin(waves[way] * WIDE[way]) + 0 * sum(waves)  # noqa: E731
-    found = structure.band_power(RAIL, seen, edges=edges, semi_axes=WIDE)
+    powers = structure.band_power(RAIL, seen, edges=edges, semi_axes=WIDE)
     expected = 0.0 if way and structure == Ridges() else 0.5
-    assert found[0] == pytest.approx(expected, abs=0.01)
+    assert powers[0] == pytest.approx(expected, abs=0.01)
 
 
 @catches("a work that grows with a contact that is many waves wide", structure=transverse_structure.WaveBand(1.0)).at(
@@ -248,8 +246,8 @@ def test_far_waves_are_all_there_once_and_a_fast_filter_has_its_mean(structure):
 def test_waves_beyond_the_last_pass_as_the_most_oblique_ones():
     """Of C_line ~ q^-1.2, whose oblique waves are many: the mean of exp(-t^2) with the weight (1 + t^2)^-1.1."""
     ground = IsotropicGround(power_law_line(1.2))
-    found = ground.mean_square(np.array([10.0]), lambda x, y: np.exp(-((y / x) ** 2) / 2), semi_axis=0.01)
+    mean = ground.mean_square(np.array([10.0]), lambda x, y: np.exp(-((y / x) ** 2) / 2), semi_axis=0.01)
     passed, every = (
         integrate.quad(lambda t, on=on: (1 + t * t) ** -1.1 * math.exp(-on * t * t), 0, np.inf)[0] for on in (1, 0)
     )
-    assert found[0] == pytest.approx(passed / every, rel=2e-3)
+    assert mean[0] == pytest.approx(passed / every, rel=2e-3)

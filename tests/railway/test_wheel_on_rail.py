@@ -22,7 +22,7 @@ def problem(model, rms=1e-7):
     return WheelOnRail(strip=strip, mass=500.0, speed=22.0, model=model, tolerance=1e-6)
 
 
-def found(model, rms=1e-7):
+def outcome_of(model, rms=1e-7):
     return wheel_on_rail.roll_and_move(problem(model, rms))
 
 
@@ -35,7 +35,7 @@ def off(track, other):
 @pytest.mark.parametrize("model", [BEM, SPRINGS])
 def test_over_little_roughness_motion_lifts_as_linear_theory_does(model):
     """At constant load and in motion, with six cells to a semi-axis: the resonance does not show in the lift."""
-    outcome = found(model)
+    outcome = outcome_of(model)
     for name in ("constant", "moving"):
         assert off(outcome[name], outcome["linear"]) < 0.12
 

@@ -187,12 +187,13 @@ ground_of_strip = rail_strip.RailGround
 
 
 @catches("strips without a corrugation").at(
-    "validation.railway.problems.rail_strip.RailGround", lambda **waves: ground_of_strip(**{**waves, "whole": None})
+    "validation.railway.problems.rail_strip.RailGround",
+    lambda **waves: ground_of_strip(**{**waves, "with_peaks": None}),
 )
 def test_strips_have_the_power_of_what_stands_out():
     """As ridges over isotropic ground, all along both ends."""
     scene = corrugated()
-    line, q = scene.isotropic.whole, 2 * np.pi / 0.0284
+    line, q = scene.isotropic.with_peaks, 2 * np.pi / 0.0284
     for across in ("ridges", "isotropic"):
         strip = strip_of(scene, across, 6, 0, 1)
         k = 2 * np.pi * np.fft.fftfreq(strip.shape[0], strip.spacing)

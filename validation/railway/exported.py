@@ -26,7 +26,7 @@ def contact_force(scene: RailScene, comparison: Comparison) -> ContactForce | No
     bands, stiffness = scene.levels.bands, scene.contact.stiffness
     of_force = comparison.roughness + 20 * math.log10(stiffness * MICROMETRE)
     of_force = of_force + a_weighting(scene.speed / bands.wavelengths)
-    filters = {one.name: _a3(comparison, one) for one in (chosen, *comparison.models)}
+    filters = {candidate.name: _a3(comparison, candidate) for candidate in (chosen, *comparison.models)}
     if not np.isfinite(comparison.a3_of(chosen)).any():
         return None
     return ContactForce(
@@ -38,16 +38,16 @@ def contact_force(scene: RailScene, comparison: Comparison) -> ContactForce | No
     )
 
 
-def _a3(comparison: Comparison, one: Candidate) -> FloatArray | None:
+def _a3(comparison: Comparison, candidate: Candidate) -> FloatArray | None:
     """Of a model that was solved, or has a closed form on this ground."""
-    if one in comparison.selection.solved:
-        return comparison.a3_of(one)
-    if not isinstance(one.model.model, RailModel):
+    if candidate in comparison.selection.solved:
+        return comparison.a3_of(candidate)
+    if not isinstance(candidate.model.model, RailModel):
         return None
-    closed_form = one.model.model.filter
-    if closed_form.on_strips or not one.estimate.in_range:
+    closed_form = candidate.model.model.filter
+    if closed_form.on_strips or not candidate.estimate.in_range:
         return None
-    return np.asarray(closed_form.closed(rail_quantity(one.model.target)).mean(axis=0))
+    return np.asarray(closed_form.closed(rail_quantity(candidate.model.target)).mean(axis=0))
 
 
 def filter_table(comparison: Comparison) -> Table:
@@ -81,5 +81,5 @@ def filter_table(comparison: Comparison) -> Table:
 
 def of_longer_waves(model: RailModel, target: Target) -> FloatArray:
     """A3 of the linear filter in all bands from 2000 mm to the last of the roughness [dB]."""
-    asked = replace(rail_quantity(target), longest=LONGEST)
-    return np.asarray(model.filter.closed(asked).mean(axis=0))
+    quantity = replace(rail_quantity(target), longest=LONGEST)
+    return np.asarray(model.filter.closed(quantity).mean(axis=0))

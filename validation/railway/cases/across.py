@@ -96,17 +96,17 @@ class AcrossResult(RolledFiltersResult):
         """ln of the power of boundary elements over that of linear theory; linear models have no strips."""
         if model == other:
             return super().over(key, model, other)
-        found = [one for one in self[key, cells or self.case.cells[1]] if not one["failed"]]
-        rows = np.array([[one[model], one[other]] for one in found])
-        return Estimates(jackknifed(lambda some: np.log(np.divide(*some.sum(axis=0))), rows))
+        converged = [outcome for outcome in self[key, cells or self.case.cells[1]] if not outcome["failed"]]
+        rows = np.array([[outcome[model], outcome[other]] for outcome in converged])
+        return Estimates(jackknifed(lambda powers: np.log(np.divide(*powers.sum(axis=0))), rows))
 
     def beyond_linear(self, key: Key, sign: int = 0) -> FloatArray:
         """Of boundary elements over linear theory, or an end of its interval; zero where strips have no waves [dB]."""
         scene, over = self.case.scene(key), self.over_twin(key, BEM)
-        half = np.array([one.half_width for one in over]) + self.left_by_grid(key, BEM, LINEAR)
-        found = np.zeros(len(scene.levels.bands))
-        on_strips(scene, found)[:] = POWER_DECIBEL * (over.values + sign * half)
-        return found
+        half = np.array([estimate.half_width for estimate in over]) + self.left_by_grid(key, BEM, LINEAR)
+        excess = np.zeros(len(scene.levels.bands))
+        on_strips(scene, excess)[:] = POWER_DECIBEL * (over.values + sign * half)
+        return excess
 
     def a3(self, key: Key, sign: int = 0) -> FloatArray:
         """Of boundary elements in all bands, with linear theory where strips have no waves [dB]."""
@@ -124,12 +124,12 @@ def run(case: Across, engine: Engine = SERIAL) -> AcrossResult:
 
 def _series(result: AcrossResult) -> list[Series]:
     case = result.case
-    by_key = [one for key in case.keys for one in (*_filters(result, key), *_over_bem(result, key))]
+    by_key = [series for key in case.keys for series in (*_filters(result, key), *_over_bem(result, key))]
     wheels = dict.fromkeys(key[0] for key in case.smooth)
     return [
         *by_key,
-        *(one for key in case.smooth for one in (*_weighted(result, key), *_nearest(result, key))),
-        *(one for wheel in wheels for one in _of_wheel(result, wheel)),
+        *(series for key in case.smooth for series in (*_weighted(result, key), *_nearest(result, key))),
+        *(series for wheel in wheels for series in _of_wheel(result, wheel)),
     ]
 
 
@@ -143,8 +143,8 @@ def _filters(result: AcrossResult, key: Key) -> Iterator[Series]:
     at = filters.millimetres(scene.levels.bands)
     linear = linear_filter(scene, LINEAR, GROUNDS[key[2]])
     yield Series(A3, LINEAR, linear, where=where_of(key), along=WAVE, at=at, unit="dB")
-    found = Estimates.exact(result.linear(key) / POWER_DECIBEL) + result.over_linear(key, BEM)
-    yield in_strips(A3, BEM, found, grid=result.left_by_grid(key, BEM, LINEAR))
+    a3 = Estimates.exact(result.linear(key) / POWER_DECIBEL) + result.over_linear(key, BEM)
+    yield in_strips(A3, BEM, a3, grid=result.left_by_grid(key, BEM, LINEAR))
 
 
 def _over_bem(result: AcrossResult, key: Key) -> Iterator[Series]:
@@ -170,10 +170,10 @@ def _weighted(result: AcrossResult, key: Key) -> Iterator[Series]:
     """The A-weighted force of a spring of constant stiffness that follows the equivalent roughness."""
     scene, ground = result.case.scene(key), GROUNDS[key[2]]
     for model in MODELS:
-        mine = linear_filter(scene, model, ground)
-        ends = [filters.over_in_decibel_a(scene, mine, result.a3(key, sign), SPEEDS) for sign in (0, 1, -1)]
-        found = [Interval(value, (most - least) / 2) for value, least, most in zip(*ends, strict=True)]
-        yield Series(WEIGHTED, model, found, where=where_of(key), along=SPEED, at=SPEEDS, unit="dB(A)")
+        a3 = linear_filter(scene, model, ground)
+        ends = [filters.over_in_decibel_a(scene, a3, result.a3(key, sign), SPEEDS) for sign in (0, 1, -1)]
+        intervals = [Interval(value, (most - least) / 2) for value, least, most in zip(*ends, strict=True)]
+        yield Series(WEIGHTED, model, intervals, where=where_of(key), along=SPEED, at=SPEEDS, unit="dB(A)")
 
 
 def _nearest(result: AcrossResult, key: Key) -> Iterator[Series]:
@@ -193,8 +193,8 @@ def _nearest(result: AcrossResult, key: Key) -> Iterator[Series]:
         of[ALIKE] = with_alpha(LINEAR)
     for name, filtered in of.items():
         middle, *ends = (_least_off(filtered, result.a3(key, sign)[keep]) for sign in (0, 1, -1))
-        found = Interval(middle[0], max(abs(end[0] - middle[0]) for end in ends))
-        yield Series(NEAREST, name, (found,), where=where_of(key))
+        interval = Interval(middle[0], max(abs(end[0] - middle[0]) for end in ends))
+        yield Series(NEAREST, name, (interval,), where=where_of(key))
         yield Series(LEFT, name, (middle[1],), where=where_of(key), unit="dB")
 
 
@@ -207,17 +207,17 @@ def in_counted(
     return decibel(structure_of(ground, line).band_power(line, transfer, edges=edges, semi_axes=axes))
 
 
-def _least_off(filtered: Callable[[float], FloatArray], wanted: FloatArray) -> tuple[float, float]:
+def _least_off(filtered: Callable[[float], FloatArray], reference: FloatArray) -> tuple[float, float]:
     """The parameter, from a twentieth to twenty, whose worst band is nearest, and that [dB]."""
 
     def worst(log: float) -> float:
-        return float(np.abs(filtered(float(np.exp(log))) - wanted).max())
+        return float(np.abs(filtered(float(np.exp(log))) - reference).max())
 
     grid = np.linspace(np.log(0.05), np.log(20), 13)
-    best = int(np.argmin([worst(one) for one in grid]))
+    best = int(np.argmin([worst(log) for log in grid]))
     ends = grid[max(best - 1, 0)], grid[min(best + 1, grid.size - 1)]
-    found = scipy.optimize.minimize_scalar(worst, bounds=ends, method="bounded", options={"xatol": 3e-3})
-    return float(np.exp(found.x)), float(found.fun)
+    minimum = scipy.optimize.minimize_scalar(worst, bounds=ends, method="bounded", options={"xatol": 3e-3})
+    return float(np.exp(minimum.x)), float(minimum.fun)
 
 
 def _of_wheel(result: AcrossResult, wheel: RailWheel) -> Iterator[Series]:
@@ -231,11 +231,11 @@ def _of_wheel(result: AcrossResult, wheel: RailWheel) -> Iterator[Series]:
     off, *ends = (_one_line_off(result, keys, sign) for sign in (0, 1, -1))
     for i, name in enumerate(WAYS):
         near, far = (np.abs(end - off)[:, i] for end in ends)
-        found = [Interval(*one) for one in zip(off[:, i].tolist(), np.maximum(near, far).tolist(), strict=True)]
-        yield Series(OFF, name, found, where=where, along="alpha", at=FINE_ALPHAS, unit="dB")
-        borders = [[_crossing(one[:, i], tolerance) for one in (off, *ends)] for tolerance in TOLERANCES]
-        found = [Interval(middle, max(abs(one - middle) for one in both)) for middle, *both in borders]
-        yield Series(BORDER, name, found, where=where, along=WITHIN, at=TOLERANCES)
+        intervals = [Interval(*pair) for pair in zip(off[:, i].tolist(), np.maximum(near, far).tolist(), strict=True)]
+        yield Series(OFF, name, intervals, where=where, along="alpha", at=FINE_ALPHAS, unit="dB")
+        borders = [[_crossing(levels[:, i], tolerance) for levels in (off, *ends)] for tolerance in TOLERANCES]
+        intervals = [Interval(middle, max(abs(end - middle) for end in both)) for middle, *both in borders]
+        yield Series(BORDER, name, intervals, where=where, along=WITHIN, at=TOLERANCES)
 
 
 def _one_line_off(result: AcrossResult, keys: Sequence[Key], sign: int) -> FloatArray:

@@ -17,7 +17,7 @@ from validation.railway.cases.rolled_filters import A3, OVER_BEM, WAVE
 from validation.railway.problems.rail_strip import SHORTEST
 from validation.simulation.model_names import BED, BEM, LINEAR, LINEAR_ON_LINE
 
-Found = dict[tuple[str, str], list[float]]
+ByModelAndGround = dict[tuple[str, str], list[float]]
 LACKING = Quantity("what_to_add_to_A3_of_one_line_dB", "what to add to A3 of one line [dB]")
 STANDS = Quantity("what_stands_for_what_lies_across")
 BORDERS = Quantity("up_to_which_alpha_one_line_is_enough")
@@ -31,28 +31,28 @@ def tables(result: AcrossResult) -> tuple[Table, ...]:
     """For the first wheel the sums in dB(A) and what one line lacks; for all wheels borders, and what mends springs."""
     wheel = result.case.smooth[0][0].label
     rows: dict[str, dict[str, object]] = {}
-    for one in _smooth(result, across.WEIGHTED):
-        if one.where[WHEEL] == wheel:
-            rows.setdefault(one.model, {"model": one.model})[str(one.where[GROUND])] = " / ".join(
-                f"{round(_value(found), 1) + 0.0:+.1f}" for found in one.found
+    for series in _smooth(result, across.WEIGHTED):
+        if series.where[WHEEL] == wheel:
+            rows.setdefault(series.model, {"model": series.model})[str(series.where[GROUND])] = " / ".join(
+                f"{round(_central(value), 1) + 0.0:+.1f}" for value in series.found
             )
     return table_of(LOUDER, list(rows.values())), *_borders(result), _stands(result), _lacking(result)
 
 
 def _smooth(result: AcrossResult, quantity: str) -> Iterator[Series]:
-    return (one for one in result.series if one.quantity == quantity and one.where.get(OFFSET, 0.0) == 0.0)
+    return (series for series in result.series if series.quantity == quantity and series.where.get(OFFSET, 0.0) == 0.0)
 
 
-def _value(found: object) -> float:
-    return found.value if isinstance(found, Interval) else float(found)  # type: ignore[arg-type]
+def _central(value: object) -> float:
+    return value.value if isinstance(value, Interval) else float(value)  # type: ignore[arg-type]
 
 
 def _borders(result: AcrossResult) -> Iterator[Table]:
     rows: dict[object, dict[str, object]] = {}
-    for one in _smooth(result, across.BORDER):
-        row = rows.setdefault(one.where[WHEEL], {WHEEL: one.where[WHEEL]})
-        of_ways = zip(one.at, one.found, strict=True)
-        row.update({f"{tolerance:g} dB {one.model}": _border(alpha) for tolerance, alpha in of_ways})
+    for series in _smooth(result, across.BORDER):
+        row = rows.setdefault(series.where[WHEEL], {WHEEL: series.where[WHEEL]})
+        of_ways = zip(series.at, series.found, strict=True)
+        row.update({f"{tolerance:g} dB {series.model}": _border(alpha) for tolerance, alpha in of_ways})
     if rows:
         yield table_of(BORDERS, list(rows.values()))
 
@@ -76,23 +76,23 @@ def _stands(result: AcrossResult) -> Table:
                 GROUND: ground,
                 "DPRS, 1 dB down to [mm]": float(np.max(reach[BED, ground])),
                 "wider by 2/√3, 1 dB down to [mm]": float(np.max(reach[filters.BED_WIDER, ground])),
-                "nearest factor": _ends(nearest[across.FACTOR_OF, ground], ".2f"),
-                "nearest alpha of Remington": _ends(nearest[across.ALPHA_OF, ground], ".1f"),
-                "which leaves [dB]": _ends(left[across.ALPHA_OF, ground], ".1f"),
+                "nearest factor": _printed_range(nearest[across.FACTOR_OF, ground], ".2f"),
+                "nearest alpha of Remington": _printed_range(nearest[across.ALPHA_OF, ground], ".1f"),
+                "which leaves [dB]": _printed_range(left[across.ALPHA_OF, ground], ".1f"),
             }
             for ground in result.case.across
         ],
     )
 
 
-def _of_wheels(result: AcrossResult, quantity: str) -> Found:
-    found: Found = {}
-    for one in _smooth(result, quantity):
-        found.setdefault((one.model, str(one.where[GROUND])), []).append(_value(one.found[0]))
-    return found
+def _of_wheels(result: AcrossResult, quantity: str) -> ByModelAndGround:
+    values: ByModelAndGround = {}
+    for series in _smooth(result, quantity):
+        values.setdefault((series.model, str(series.where[GROUND])), []).append(_central(series.found[0]))
+    return values
 
 
-def _ends(values: Sequence[float], digits: str) -> str:
+def _printed_range(values: Sequence[float], digits: str) -> str:
     return f"{min(values):{digits}} to {max(values):{digits}}"
 
 
@@ -110,18 +110,20 @@ def _lacking(result: AcrossResult) -> Table:
 
 def notes(result: AcrossResult) -> list[str]:
     """Borders over all wheels, and what isotropic ground is alike."""
-    said = []
+    sentences = []
     for way in across.WAYS:
-        if mine := [one for one in _smooth(result, across.BORDER) if one.model == way]:
-            near, far = (_by_wheel([one.found[i] for one in mine]) for i in (0, 1))
-            said.append(f"One line is within 1 dB {way} up to alpha = {near}; within 2 dB up to {far}.")
-    if alike := [one.found[0] for one in _smooth(result, across.NEAREST) if one.model == across.ALIKE]:
-        said.append(f"The alpha whose contact filter is nearest to that of isotropic ground is {_by_wheel(alike)}.")
-    return said
+        if borders := [series for series in _smooth(result, across.BORDER) if series.model == way]:
+            near, far = (_by_wheel([series.found[i] for series in borders]) for i in (0, 1))
+            sentences.append(f"One line is within 1 dB {way} up to alpha = {near}; within 2 dB up to {far}.")
+    if alike := [series.found[0] for series in _smooth(result, across.NEAREST) if series.model == across.ALIKE]:
+        sentences.append(
+            f"The alpha whose contact filter is nearest to that of isotropic ground is {_by_wheel(alike)}."
+        )
+    return sentences
 
 
-def _by_wheel(found: Sequence[object]) -> str:
-    least, most = (of(found, key=_value) for of in (min, max))
+def _by_wheel(alphas: Sequence[object]) -> str:
+    least, most = (of(alphas, key=_central) for of in (min, max))
     return _border(least) if least is most else f"{_border(least)} to {_border(most)}, by wheel"
 
 

@@ -23,7 +23,7 @@ def edge_rail(rng: Generator, name: str) -> RailScene:
     stated: tuple[Across, ...] = ("ridges", "isotropic", log_uniform(rng, ALPHAS), None)
     across = stated[int(rng.integers(len(stated)))]
     # isotropic ground has no corrugation along one line alone
-    levels = _levels(rng, bent=across not in ("isotropic", None))
+    levels = _random_levels(rng, bent=across not in ("isotropic", None))
     return RailScene(
         name=name,
         radius=radius,
@@ -35,7 +35,7 @@ def edge_rail(rng: Generator, name: str) -> RailScene:
     )
 
 
-def _levels(rng: Generator, bent: bool) -> RoughnessLevels:
+def _random_levels(rng: Generator, bent: bool) -> RoughnessLevels:
     """bent: whether the levels are tilted and have a corrugation, its neighbouring bands by half."""
     limit = curve("iso3095-2013")
     numbers = np.array(limit.bands.numbers)

@@ -73,10 +73,10 @@ class RailWheel(NamedTuple):
 @cache
 def columns_of_table() -> dict[RailWheel, dict[float, float]]:
     """A3 [dB] by wheel and nominal wavelength [mm]."""
-    found: dict[RailWheel, dict[float, float]] = {}
+    columns: dict[RailWheel, dict[float, float]] = {}
     for load, diameter, wavelength, a3 in np.loadtxt(TABLE, delimiter=",", skiprows=HEADER, encoding="utf-8").tolist():
-        found.setdefault(RailWheel(load, diameter), {})[wavelength] = a3
-    return found
+        columns.setdefault(RailWheel(load, diameter), {})[wavelength] = a3
+    return columns
 
 
 def scene_of(wheel: RailWheel, *, crown: float = 0.3, offset: float = 0.0, levels: str = "iso3095-2013") -> RailScene:
@@ -157,6 +157,6 @@ def weighted_level(scene: RailScene, a3: FloatArray, speed: float) -> float:
 
 
 def over_in_decibel_a(
-    scene: RailScene, mine: FloatArray, reference: FloatArray, speeds: Iterable[float] = SPEEDS
+    scene: RailScene, a3: FloatArray, reference: FloatArray, speeds: Iterable[float] = SPEEDS
 ) -> list[float]:
-    return [weighted_level(scene, mine, v) - weighted_level(scene, reference, v) for v in speeds]
+    return [weighted_level(scene, a3, v) - weighted_level(scene, reference, v) for v in speeds]

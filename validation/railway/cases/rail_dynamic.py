@@ -125,7 +125,7 @@ class RailDynamicResult(Outcomes):
 
     def powers(self, key: Key, track: str) -> FloatArray:
         """Mean square in each band of what lifts the wheel, a track of `roll_and_move`, (strips, bands)."""
-        tracks, spacing = [one[track] for one in self[key]], self.case.problem(key, 0).strip.spacing
+        tracks, spacing = [outcome[track] for outcome in self[key]], self.case.problem(key, 0).strip.spacing
         return self.case.bands.powers_of_track(tracks, spacing=spacing)
 
     @cached_property
@@ -133,17 +133,17 @@ class RailDynamicResult(Outcomes):
         """Bands down to the first in which A3 of linear theory is below -15 dB."""
         return counted(linear_filter(self.case.rail, LINEAR, "isotropic"))
 
-    def over(self, offset: float, mine: Track, other: Track, strips: int | None = None, grid: str = FINE) -> Estimates:
+    def over(self, offset: float, track: Track, other: Track, strips: int | None = None, grid: str = FINE) -> Estimates:
         """ln of the band powers of one track over another on the same strips."""
-        found, reference = (
-            self.powers((offset, self.case.damping, model, grid), name) for model, name in (mine, other)
+        powers, reference = (
+            self.powers((offset, self.case.damping, model, grid), name) for model, name in (track, other)
         )
-        return Estimates.ratios(found[:strips], reference[:strips])
+        return Estimates.ratios(powers[:strips], reference[:strips])
 
-    def left_by_grid(self, mine: Track, other: Track) -> FloatArray:
+    def left_by_grid(self, track: Track, other: Track) -> FloatArray:
         """Of the same, to first order, from the strips on both grids."""
         case = self.case
-        fine, coarse = (self.over(CURVE, mine, other, case.compared, grid).values for grid in (FINE, COARSE))
+        fine, coarse = (self.over(CURVE, track, other, case.compared, grid).values for grid in (FINE, COARSE))
         return np.asarray(np.abs(fine - coarse) / (case.cells / case.coarse - 1))
 
 
@@ -151,7 +151,7 @@ def run(case: RailDynamic, engine: Engine = SERIAL) -> RailDynamicResult:
     """All strips, on both grids. Raises NotConvergedError where one is lost: the models are compared strip by strip."""
     problems = {key: [case.problem(key, i) for i in range(count)] for key, count in case.keys.items()}
     outcomes = engine.map_groups(roll_and_move, problems)
-    failed = {key: sum(bool(one["failed"]) for one in some) for key, some in outcomes.items()}
+    failed = {key: sum(bool(outcome["failed"]) for outcome in strips) for key, strips in outcomes.items()}
     if lost := [f"{key[2]} at +{key[0]:g} dB, {key[3]} grid: {n} strips" for key, n in failed.items() if n]:
         raise NotConvergedError("models are compared strip by strip, and some are lost", lost)
     return RailDynamicResult(case, outcomes)
@@ -162,11 +162,11 @@ def series(result: RailDynamicResult) -> list[Series]:
     case, airborne = result.case, []
     for damping in sorted((case.damping, *case.others)):
         at = [offset for offset, *key in result.found if key == [damping, BEM, FINE]]
-        shares = [np.array([100 * float(one["airborne"]) for one in result[o, damping, BEM, FINE]]) for o in at]
+        shares = [np.array([100 * float(outcome["airborne"]) for outcome in result[o, damping, BEM, FINE]]) for o in at]
         where = {DAMPING: in_per_cent(damping) if damping else "none"}
-        found = [mean_estimate(share) for share in shares]
-        airborne.append(Series(AIRBORNE, BEM, found, where=where, along=OFFSET, at=at, unit="%"))
-    return [*(one for offset in case.offsets for one in _ratios(result, offset)), *airborne]
+        estimates = [mean_estimate(share) for share in shares]
+        airborne.append(Series(AIRBORNE, BEM, estimates, where=where, along=OFFSET, at=at, unit="%"))
+    return [*(ratio for offset in case.offsets for ratio in _ratios(result, offset)), *airborne]
 
 
 def _ratios(result: RailDynamicResult, offset: float) -> Iterator[Series]:
@@ -174,13 +174,13 @@ def _ratios(result: RailDynamicResult, offset: float) -> Iterator[Series]:
     f, family = result.case.speed / result.case.bands.wavelengths, len(result.case.offsets)
     in_bands = partial(Series, along=FREQUENCY, at=f, scale=POWER_DECIBEL, unit="dB", family=family)
     moving, constant = (BEM, "moving"), (BEM, "constant")
-    for quantity, model, mine, other, source in (
+    for quantity, model, track, other, source in (
         (MOVING, BEM, moving, constant, "at constant load, same strips"),
         (INFERRED, BEM, (BEM, "inferred"), constant, "at constant load, same strips"),
         (BESIDE, SPRINGS_OVER_BEM, (SPRINGS_THAT_READ, "moving"), moving, "boundary elements, same strips"),
     ):
-        found, grid = masked(result.over(offset, mine, other), result.judged), result.left_by_grid(mine, other)
-        yield in_bands(quantity, model, found, where={OFFSET: offset}, grid=grid, margin=IN_RMS.beside(source))
+        ratio, grid = masked(result.over(offset, track, other), result.judged), result.left_by_grid(track, other)
+        yield in_bands(quantity, model, ratio, where={OFFSET: offset}, grid=grid, margin=IN_RMS.beside(source))
 
 
 STUDY = Study(

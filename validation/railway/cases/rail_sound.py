@@ -80,8 +80,8 @@ class RailSound:
     @property
     def sounding(self) -> tuple[str, ...]:
         """Models in the order of `SOUNDING`, without Geike's rule where the ground is not isotropic."""
-        some = [model for name, model in SOUNDING.items() if name in self.models]
-        return tuple(model for model in some if model != GEIKE or self.across == ISOTROPIC)
+        models = [model for name, model in SOUNDING.items() if name in self.models]
+        return tuple(model for model in models if model != GEIKE or self.across == ISOTROPIC)
 
     @property
     def samples(self) -> int:
@@ -142,8 +142,8 @@ class RailSoundResult(Outcomes):
 
     def signal(self, model: str) -> FloatArray:
         """On the finer grid."""
-        found: FloatArray = self[model, self.case.cells[1]]
-        return found
+        samples: FloatArray = self[model, self.case.cells[1]]
+        return samples
 
     @cached_property
     def full_scale(self) -> float:
@@ -167,16 +167,16 @@ class RailSoundResult(Outcomes):
     def over(self, model: str) -> tuple[Estimate, float]:
         """A-weighted level over boundary elements on the same strip, and what the grid leaves, to first order [dB]."""
         coarse, fine = self.case.cells
-        found, before = (self._over_bem(model, cells) for cells in (fine, coarse))
-        return found, abs(found.value - before.value) * coarse / (fine - coarse)
+        estimate, on_coarse = (self._over_bem(model, cells) for cells in (fine, coarse))
+        return estimate, abs(estimate.value - on_coarse.value) * coarse / (fine - coarse)
 
     def _over_bem(self, model: str, cells: int) -> Estimate:
         """By the jackknife over pieces of the strip."""
         powers = [powers_of_blocks(filtered(self[name, cells], self.weight), self.case.blocks) for name in (model, BEM)]
 
         def ratio(rows: FloatArray) -> FloatArray:
-            mine, other = rows.sum(axis=0)
-            return np.atleast_1d(decibels(mine / other))
+            power, reference = rows.sum(axis=0)
+            return np.atleast_1d(decibels(power / reference))
 
         return jackknifed(ratio, np.stack(powers, axis=1))[0]
 
@@ -189,12 +189,12 @@ class RailSoundResult(Outcomes):
     def in_bands(self, model: str) -> FloatArray:
         """dB re 1 N; NaN below that of the samples' last digit."""
         powers = levels(waves(self.signal(model), spacing=1 / self.case.rate), self.bands)
-        found = np.array([decibels(2 * power) for power in powers])
-        return np.where(found > LEAST, np.round(found, 2), np.nan)
+        level = np.array([decibels(2 * power) for power in powers])
+        return np.where(level > LEAST, np.round(level, 2), np.nan)
 
     def bands_table(self) -> Table:
-        found = {f"{model} [dB re 1 N]": self.in_bands(model).tolist() for model in self.case.sounding}
-        return Table("levels", {"f [Hz]": (self.bands.centres / (2 * math.pi)).tolist(), **found})
+        columns = {f"{model} [dB re 1 N]": self.in_bands(model).tolist() for model in self.case.sounding}
+        return Table("levels", {"f [Hz]": (self.bands.centres / (2 * math.pi)).tolist(), **columns})
 
     def sounds_table(self) -> Table:
         """A row a model: its levels, and over boundary elements where these are heard."""
@@ -209,18 +209,18 @@ class RailSoundResult(Outcomes):
                 "samples a second": self.case.rate,
             }
             if BEM in self.case.sounding:
-                found, grid = self.over(model)
+                estimate, grid = self.over(model)
                 row |= {
-                    "A-weighted over boundary elements [dB]": round(found.value, 2),
-                    "± [dB]": round(found.half_width + grid, 2),
+                    "A-weighted over boundary elements [dB]": round(estimate.value, 2),
+                    "± [dB]": round(estimate.half_width + grid, 2),
                 }
             rows.append(row)
         return table_of("sounds", rows)
 
     def samples_table(self) -> Table:
         """A column a model, to a tenth of a newton."""
-        found = {column_of(model): np.round(self.signal(model), 1).tolist() for model in self.case.sounding}
-        return Table("samples", found)
+        columns = {column_of(model): np.round(self.signal(model), 1).tolist() for model in self.case.sounding}
+        return Table("samples", columns)
 
 
 def column_of(model: str) -> str:
@@ -239,12 +239,12 @@ def run(case: RailSound, engine: Engine = SERIAL) -> RailSoundResult:
     outcomes = engine.map_groups(sounds.roll_held_wheel, groups)
     lost = tuple(
         f"{model}, {cells} cells to an axis: {count} positions"
-        for (model, cells), some in outcomes.items()
-        if (count := int(sum(float(one["failed"]) for one in some)))
+        for (model, cells), parts in outcomes.items()
+        if (count := int(sum(float(part["failed"]) for part in parts)))
     )
     if lost:
         raise NotConvergedError("a sound has no gaps: some positions did not converge", lost)
-    return RailSoundResult(case, {key: _joined(case, some) for key, some in outcomes.items()})
+    return RailSoundResult(case, {key: _joined(case, parts) for key, parts in outcomes.items()})
 
 
 def _joined(case: RailSound, parts: Sequence[Outcome]) -> FloatArray:

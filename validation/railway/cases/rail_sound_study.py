@@ -24,16 +24,16 @@ SHOWN = 0.02
 
 def series(result: RailSoundResult) -> list[Series]:
     """What is drawn: the waveforms, their levels, and places in frequency."""
-    case, found = result.case, list[Series]()
+    case, drawn = result.case, list[Series]()
     f, time = result.bands.centres / (2 * math.pi), 1000 * np.arange(round(SHOWN * case.rate)) / case.rate
     for model in case.sounding:
         name, force = model, np.round(result.signal(model), 1)[: time.size]
-        found += [
+        drawn += [
             Series(IN_BANDS, name, result.in_bands(model), along=FREQUENCY, at=f, unit="dB re 1 N"),
             Series(FORCE, name, force, along=TIME, at=time[: force.size], unit="N"),
         ]
     places = ((ENDS, case.band), (OF_CONTACT, (case.of_contact,)))
-    return found + [Series(PLACES, name, at, along=FREQUENCY, at=at, unit="Hz") for name, at in places]
+    return drawn + [Series(PLACES, name, at, along=FREQUENCY, at=at, unit="Hz") for name, at in places]
 
 
 def signed(value: float) -> str:

@@ -86,8 +86,8 @@ class RolledFiltersResult(Outcomes):
         if model == other:
             return Estimates.exact(np.zeros(len(bands)))
         spacing = self.case.problems(key, cells)[0].strip.spacing
-        found = [outcome for outcome in self[key, cells] if not outcome["failed"]]
-        return Estimates(tracks.log_over(model, other, found, spacing, Bands(tuple(bands.edges.tolist()))))
+        converged = [outcome for outcome in self[key, cells] if not outcome["failed"]]
+        return Estimates(tracks.log_over(model, other, converged, spacing, Bands(tuple(bands.edges.tolist()))))
 
     def over_twin(self, key: Key, model: str) -> Estimates:
         return self.over(key, model, twin_of(model))
@@ -105,8 +105,8 @@ class RolledFiltersResult(Outcomes):
 
     def over_linear(self, key: Key, model: str) -> Estimates:
         """ln of the filter of a model over that of linear theory of the ellipse: that of its twin is exact."""
-        apart = Estimates.exact((self.linear(key, model) - self.linear(key)) / POWER_DECIBEL)
-        return apart + self.over_twin(key, model)
+        difference = Estimates.exact((self.linear(key, model) - self.linear(key)) / POWER_DECIBEL)
+        return difference + self.over_twin(key, model)
 
     def filters(self, key: Key) -> Iterator[Series]:
         """A3 of all models."""
@@ -138,12 +138,13 @@ def solved(case: RolledFilters, engine: Engine, solve: Callable[[Any], Outcome],
     }
     outcomes = engine.map_groups(solve, groups)
     lost = tuple(
-        f"strip {i}, {wheel.label}, {offset:+g} dB, {name}, {cells} cells to an axis: {int(one['failed'])} positions"
-        for ((wheel, offset, name), cells), found in outcomes.items()
-        for i, one in enumerate(found)
-        if one["failed"]
+        f"strip {i}, {wheel.label}, {offset:+g} dB, {name}, {cells} cells to an axis: "
+        f"{int(outcome['failed'])} positions"
+        for ((wheel, offset, name), cells), of_strips in outcomes.items()
+        for i, outcome in enumerate(of_strips)
+        if outcome["failed"]
     )
-    for ((wheel, offset, name), _), found in outcomes.items():
-        if sum(not one["failed"] for one in found) < FEWEST:
+    for ((wheel, offset, name), _), of_strips in outcomes.items():
+        if sum(not outcome["failed"] for outcome in of_strips) < FEWEST:
             raise NotConvergedError(f"fewer than {FEWEST} strips of {wheel.label}, {offset:+g} dB, {name}", lost)
     return result(case, outcomes, lost)

@@ -49,7 +49,7 @@ class RoughRail(rolled.RolledFilters):
 def series(result: rolled.RolledFiltersResult) -> list[Series]:
     """Filters and models over boundary elements, roughness by roughness; mean of heights over energy mean of lines."""
     parts = ((*result.filters(key), *_over_bem(result, key)) for key in result.case.keys)
-    return [*(one for part in parts for one in part), *means_of_lines(result.case)]
+    return [*(series for part in parts for series in part), *means_of_lines(result.case)]
 
 
 def _over_bem(result: rolled.RolledFiltersResult, key: rolled.Key) -> Iterator[Series]:
@@ -59,15 +59,15 @@ def _over_bem(result: rolled.RolledFiltersResult, key: rolled.Key) -> Iterator[S
     """
     case, bem, keep = result.case, result.over_twin(key, BEM), counted(result.linear(key))
     shown, at = rolled.in_bands(case, key), millimetres(strip_bands(case.scene(key)))
-    whole = np.arange(at.size) < at.size - 2
+    complete = np.arange(at.size) < at.size - 2
     margin = FIELD.beside(f"boundary elements on the same {case.strips} strips")
-    scatter = Estimates(replace(one, value=0.0) for one in bem)
-    yield shown(OF_BEM, BEM, masked(scatter, whole), grid=result.left_by_grid(key, BEM, LINEAR))
+    scatter = Estimates(replace(estimate, value=0.0) for estimate in bem)
+    yield shown(OF_BEM, BEM, masked(scatter, complete), grid=result.left_by_grid(key, BEM, LINEAR))
     for model in MODELS:
         twin = twin_of(model)
         over = result.over(key, model, BEM) if twin == LINEAR else result.over_linear(key, model) - bem
         judged = partial(shown, rolled.OVER_BEM, model, grid=result.left_by_grid(key, BEM, twin), margin=margin)
-        yield judged(masked(over, whole), where={OFFSET: key[1]}, ranges=only(at, keep & whole))
+        yield judged(masked(over, complete), where={OFFSET: key[1]}, ranges=only(at, keep & complete))
 
 
 def means_of_lines(case: Any) -> Iterator[Series]:
@@ -78,7 +78,7 @@ def means_of_lines(case: Any) -> Iterator[Series]:
     scene = case.scene(case.keys[0])
     line, bands = line_of(scene), strip_bands(scene)
     a3 = [filters.linear_filter(scene, model, "isotropic") for model in (LINEAR, LINEAR_ON_LINE)]
-    ellipse, on_line = (filters.on_strips(scene, one) for one in a3)
+    ellipse, on_line = (filters.on_strips(scene, values) for values in a3)
     keep = counted(ellipse)
     in_bands = partial(Series, along=rolled.WAVE, at=millimetres(bands)[keep], unit="dB")
     yield in_bands(ELLIPSE, "", (ellipse - on_line)[keep])
@@ -88,16 +88,16 @@ def means_of_lines(case: Any) -> Iterator[Series]:
             places, where = lines_across(case.lines, spacing), {ACROSS: ground, SPACING: 1000 * spacing}
             reach = scene.contact.along, places[-1] - places[0]
             of_mean = partial(structure_of(stated, line).band_power, line, edges=bands.edges, semi_axes=reach)
-            found = filters.decibel(of_mean(mean_of_lines(places)))[keep]
+            levels = filters.decibel(of_mean(mean_of_lines(places)))[keep]
             margin = replace(near, role=Role.IDENTITY if ground == RIDGES else Role.FINDING)
-            yield in_bands(HEIGHTS, "", found, where=where, margin=margin)
+            yield in_bands(HEIGHTS, "", levels, where=where, margin=margin)
 
 
 def notes(result: rolled.RolledFiltersResult) -> list[str]:
     """Which mean of parallel lines to take."""
     case = result.case
     assert isinstance(case, RoughRail)
-    numbers = [n for one in means_of_lines(case) for n in one.numbers if n.role is Role.FINDING]
+    numbers = [n for series in means_of_lines(case) for n in series.numbers if n.role is Role.FINDING]
     low = min(numbers, key=lambda number: number.value)
     return [
         f"The mean of the heights of {case.lines} parallel lines {low.where[SPACING]:g} mm apart is off by "

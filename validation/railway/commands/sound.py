@@ -29,8 +29,8 @@ def describe(sounding: argparse.ArgumentParser) -> None:
     sounding.add_argument(
         "--out", type=Path, default=Path("sounds"), metavar="DIR", help="folder of the files (default: sounds)"
     )
-    known = f"some of {', '.join(SOUNDING)} (default: all)"
-    sounding.add_argument("--models", type=some_of(SOUNDING), default=tuple(SOUNDING), metavar="A,B", help=known)
+    choices = f"some of {', '.join(SOUNDING)} (default: all)"
+    sounding.add_argument("--models", type=some_of(SOUNDING), default=tuple(SOUNDING), metavar="A,B", help=choices)
     sounding.add_argument(
         "--seconds",
         type=_seconds,
@@ -62,8 +62,8 @@ def sound(arguments: argparse.Namespace) -> Exit:
         with progress_of("sound", arguments.workers) as progress:
             result = run(case, Engine(workers=arguments.workers, progress=progress))
         folder.replace(files_of(result))
-    said = [line for sentence in what_is_heard(result) for line in textwrap.wrap(sentence, COLUMNS)]
-    print("\n".join([*said, "", *_lines(result)]))
+    wrapped = [line for sentence in what_is_heard(result) for line in textwrap.wrap(sentence, COLUMNS)]
+    print("\n".join([*wrapped, "", *_lines(result)]))
     print(printable(f"sounds: {arguments.out}"))
     return Exit.MET
 
@@ -100,12 +100,14 @@ def _lines(result: RailSoundResult) -> list[str]:
     """A row a model."""
     table = result.sounds_table()
     reference = SOUNDING["bem"]
-    beside = reference in result.case.sounding
-    lines = [f"{'model':32s} {'level':>10s} {'A-weighted':>12s}" + ("   over boundary elements" if beside else "")]
+    has_reference = reference in result.case.sounding
+    lines = [
+        f"{'model':32s} {'level':>10s} {'A-weighted':>12s}" + ("   over boundary elements" if has_reference else "")
+    ]
     for i, model in enumerate(result.case.sounding):
         level, weighted = table["level [dB re 1 N]"][i], table["A-weighted [dB re 1 N]"][i]
         line = f"{model:32s} {level:7.1f} dB {weighted:6.1f} dB(A)"
-        if beside and model != reference:
+        if has_reference and model != reference:
             over, half = table["A-weighted over boundary elements [dB]"][i], table["± [dB]"][i]
             line += f"   {signed(over)} ± {half:.1f} dB(A)"
         lines.append(line)

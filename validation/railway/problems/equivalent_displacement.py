@@ -121,8 +121,8 @@ def roll_boundary_elements(
         columns, across = heights_across(strip, profile)
         shape = {"radius": strip.radii[0], "transverse_profile": across}
     load = {} if "approach" in settings else {"force": strip.force}
-    given = {"raise_on_failure": False, **shape, **load, **settings}
-    return bem3d.roll(surface[:, columns], spacing=strip.spacing, modulus=strip.modulus, tolerance=tolerance, **given)
+    options = {"raise_on_failure": False, **shape, **load, **settings}
+    return bem3d.roll(surface[:, columns], spacing=strip.spacing, modulus=strip.modulus, tolerance=tolerance, **options)
 
 
 def heights_across(strip: RailStrip, profile: TransverseProfile) -> tuple[slice, FloatArray]:
@@ -176,11 +176,11 @@ def one_sided_bed(strip: RailStrip) -> FloatArray:
     rows, y = np.arange(-reach, reach + 1), (np.arange(ny) - (ny - 1) / 2) * step
     near = np.abs(y) <= share * contact.across
     gap = depth * ((rows * step / contact.along)[:, np.newaxis] ** 2 + (y[near] / contact.across) ** 2)
-    wanted = contact.force * math.pi * contact.along * contact.across / contact.stiffness / step**2
+    total_overlap = contact.force * math.pi * contact.along * contact.across / contact.stiffness / step**2
 
     def approach(positions: NDArray[np.int64]) -> FloatArray:
         level = surface[(positions[:, np.newaxis] + rows) % nx][:, :, near] - gap
-        return borne_by(level.reshape(positions.size, -1), wanted).approach
+        return borne_by(level.reshape(positions.size, -1), total_overlap).approach
 
     blocks = np.array_split(np.arange(nx), 1 + nx * gap.size // MOST_NUMBERS)
     return lifted(np.concatenate([approach(block) for block in blocks]))
@@ -215,9 +215,9 @@ class RolledRail:
     profile: TransverseProfile | None = None
 
     def __post_init__(self) -> None:
-        known = (BEM, *ONE_SIDED)
-        if unknown := [name for name in self.models if name not in known]:
-            raise ValueError(f"models must be of {', '.join(known)}, got {', '.join(unknown)}")
+        choices = (BEM, *ONE_SIDED)
+        if unknown := [name for name in self.models if name not in choices]:
+            raise ValueError(f"models must be of {', '.join(choices)}, got {', '.join(unknown)}")
 
 
 def roll_rail(problem: RolledRail) -> Outcome:
@@ -227,22 +227,22 @@ def roll_rail(problem: RolledRail) -> Outcome:
     not known.
     """
     strip = problem.strip
-    found = {twin: linear_displacement(strip, twin) for twin in map(twin_of, problem.models)}
-    found |= {name: ONE_SIDED[name](strip) for name in problem.models if name != BEM}
+    displacements = {twin: linear_displacement(strip, twin) for twin in map(twin_of, problem.models)}
+    displacements |= {name: ONE_SIDED[name](strip) for name in problem.models if name != BEM}
     failed = 0
     if BEM in problem.models:
         rolled = roll_boundary_elements(strip, problem.tolerance, problem.profile)
-        found[BEM] = lifted(rolled.approach)
+        displacements[BEM] = lifted(rolled.approach)
         failed = int(np.count_nonzero(~rolled.converged))
-    return {**found, "failed": np.array(float(failed))}
+    return {**displacements, "failed": np.array(float(failed))}
 
 
 def log_over(model: str, other: str, outcomes: Sequence[Outcome], spacing: float, bands: Bands) -> list[Estimate]:
     """ln of the band power of a model over that of another on the same strips, by the jackknife over strips."""
-    both = [[levels(waves(one[name], spacing=spacing), bands) for name in (model, other)] for one in outcomes]
+    both = [[levels(waves(outcome[name], spacing=spacing), bands) for name in (model, other)] for outcome in outcomes]
 
     def ratio(rows: FloatArray) -> FloatArray:
-        mine, reference = rows.sum(axis=0)
-        return np.asarray(np.log(mine / reference))
+        power, reference = rows.sum(axis=0)
+        return np.asarray(np.log(power / reference))
 
     return jackknifed(ratio, np.array(both))

@@ -79,8 +79,8 @@ class ContactFilter:
 
         model: infinite in bands of which no error is known.
         """
-        found = self.closed(quantity)
-        over, grid, sample = np.zeros((3, *found.shape))
+        at_ends = self.closed(quantity)
+        over, grid, sample = np.zeros((3, *at_ends.shape))
         if self.on_strips:
             inside = in_strips(quantity)
             for i, across in enumerate(quantity.ends):
@@ -89,8 +89,8 @@ class ContactFilter:
                 )
                 over[i, inside], sample[i, inside] = fine
                 grid[i, inside] = OF_FINE * np.abs(fine[0] - coarse[0])
-            found = quantity.between(found + over)
-        a3, left = found.mean(axis=0), {"grid": grid.max(axis=0), "sample": sample.max(axis=0)}
+            at_ends = quantity.between(at_ends + over)
+        a3, left = at_ends.mean(axis=0), {"grid": grid.max(axis=0), "sample": sample.max(axis=0)}
         return {"a3": a3, "model": self.model_error(quantity, a3), **left}
 
     def over_twin(self, scene: RailScene, across: StatedAcross, cells: int, seed: int) -> FloatArray:
@@ -100,8 +100,8 @@ class ContactFilter:
         bands = Bands(tuple(strip_bands(scene).edges.tolist()))
         if any(outcome["failed"] for outcome in outcomes):
             return np.full((2, len(bands.centres)), np.nan)
-        found = log_over(self.name, twin_of(self.name), outcomes, strips[0].spacing, bands)
-        return np.asarray(POWER_DECIBEL * np.array([(one.value, one.half_width) for one in found]).T)
+        estimates = log_over(self.name, twin_of(self.name), outcomes, strips[0].spacing, bands)
+        return np.asarray(POWER_DECIBEL * np.array([(estimate.value, estimate.half_width) for estimate in estimates]).T)
 
     def roll(self, scene: RailScene, strip: RailStrip) -> Outcome:
         """Tracks along a strip of this model and of its twin, by their names [m]; failed: positions without any.
@@ -171,10 +171,10 @@ class ContactFilter:
     def solve(self, target: Target, resolution: Resolution) -> Result:
         """Of both quantities, by their names, and what `find` has."""
         quantity = rail_quantity(target)
-        found = self.find(quantity, target.seed)
-        both = {str(name): replace(quantity, name=name).amplitude(found["a3"]) for name in RAIL_QUANTITIES}
-        failed = "" if np.isfinite(found["a3"]).all() else "a contact along a strip did not converge"
-        return Result({**both, **found}, failed=failed)
+        values = self.find(quantity, target.seed)
+        both = {str(name): replace(quantity, name=name).amplitude(values["a3"]) for name in RAIL_QUANTITIES}
+        failed = "" if np.isfinite(values["a3"]).all() else "a contact along a strip did not converge"
+        return Result({**both, **values}, failed=failed)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -190,10 +190,12 @@ def rail_model(name: str, setting: str, *, is_mdr: bool = False, **of_filter: An
     def linear(quantity: RailQuantity) -> FloatArray:
         return quantity.filtered(transfer_of(twin_of(name), quantity.scene.contact))
 
-    one = ContactFilter(**{"name": name, "closed": linear, **of_filter})
+    contact_filter = ContactFilter(**{"name": name, "closed": linear, **of_filter})
     about = {"name": name, "setting": setting, "is_mdr": is_mdr, "charted": False, **IN_BANDS}
-    plain = model(serves=one.serves, cost=one.cost, claim=one.claim, **about)(one.solve)
-    return RailModel(filter=one, **vars(plain))
+    plain = model(serves=contact_filter.serves, cost=contact_filter.cost, claim=contact_filter.claim, **about)(
+        contact_filter.solve
+    )
+    return RailModel(filter=contact_filter, **vars(plain))
 
 
 def rail_quantity(target: Target) -> RailQuantity:
@@ -243,31 +245,31 @@ def reason_of(quantity: RailQuantity, a3: FloatArray, error: FloatArray) -> str:
     return f"its error is largest at {1e3 * quantity.bands.nominal[at]:g} mm: {due}"
 
 
-def answer_in_bands(one: SceneModel) -> Answer:
+def answer_in_bands(scene_model: SceneModel) -> Answer:
     """Of one solve, which has all of its strips: the largest errors of the bands in which the tolerance counts, and
     those of each band."""
-    (result,) = one.first(one.resolution, 1)
+    (result,) = scene_model.first(scene_model.resolution, 1)
     if result.failed:
-        return Answer(value=np.array([np.nan]), cost=one.cost(), failed=result.failed)
-    asked, a3 = rail_quantity(one.target), result.values["a3"]
-    counts = asked.counted(a3)
+        return Answer(value=np.array([np.nan]), cost=scene_model.cost(), failed=result.failed)
+    quantity, a3 = rail_quantity(scene_model.target), result.values["a3"]
+    counts = quantity.counted(a3)
     answer = Answer(
-        value=result.values[asked.name],
-        cost=one.cost(),
+        value=result.values[quantity.name],
+        cost=scene_model.cost(),
         counted=(
-            f"the tolerance counts where A3 is above {COUNTED:g} dB: {asked.bands.names(counts)}"
+            f"the tolerance counts where A3 is above {COUNTED:g} dB: {quantity.bands.names(counts)}"
             if counts.any()
-            else asked.none_counts
+            else quantity.none_counts
         ),
         counts=tuple(counts.tolist()),
         band_errors={name: result.values[name] for name in ("model", "grid", "sample")},
-        seconds=one.seconds_of(1),
+        seconds=scene_model.seconds_of(1),
     )
     error = answer.error_in_bands
     at = int(np.argmax(np.where(counts, error, -1.0)))
     grid, sample = (relative(float(answer.band_errors[name][at]) * counts[at]) for name in ("grid", "sample"))
-    left = relative(worst(asked, a3, error)) - math.hypot(grid, sample)
-    reason = reason_of(asked, a3, error) if np.isfinite(error).any() else ""
+    left = relative(worst(quantity, a3, error)) - math.hypot(grid, sample)
+    reason = reason_of(quantity, a3, error) if np.isfinite(error).any() else ""
     return replace(answer, model=max(left, 0.0), grid=grid, sample=sample, reason=reason)
 
 

@@ -57,10 +57,10 @@ class RailQuantity:
 
         Its oblique waves would be seen in longer bands, which have too little for them: they are less oblique.
         """
-        isotropic, found = self.scene.isotropic, np.zeros(len(self.bands), dtype=bool)
+        isotropic, flags = self.scene.isotropic, np.zeros(len(self.bands), dtype=bool)
         if isotropic is not None:
-            found[-len(isotropic.stands_out) :] = isotropic.stands_out
-        return found
+            flags[-len(isotropic.stands_out) :] = isotropic.stands_out
+        return flags
 
     @cached_property
     def line(self) -> LineSpectrum:
@@ -133,8 +133,8 @@ class RailQuantity:
 
         A3 itself is a ratio and changes less: this is an upper bound for it. Longer bands have that of the first.
         """
-        known = np.array(self.scene.levels.errors or (0.0,) * len(self.scene.levels.levels))
-        return np.concatenate([np.full(len(self.bands) - known.size, known[0]), known])
+        errors = np.array(self.scene.levels.errors or (0.0,) * len(self.scene.levels.levels))
+        return np.concatenate([np.full(len(self.bands) - errors.size, errors[0]), errors])
 
     @cached_property
     def smoothing_error(self) -> FloatArray:
@@ -150,8 +150,8 @@ class RailQuantity:
         lines = self.line, self.line.steeper(TILT), isotropic.smoother
         transfer = transfer_of(LINEAR, self.scene.contact)
         own, tilted, smoother = (self._of_ground(IsotropicGround(line), line, transfer) for line in lines)
-        found = np.abs(tilted - own) / TILT * isotropic.slope_error + OF_SMOOTHING * np.abs(smoother - own)
-        return np.asarray(found)
+        error = np.abs(tilted - own) / TILT * isotropic.slope_error + OF_SMOOTHING * np.abs(smoother - own)
+        return np.asarray(error)
 
     @cached_property
     def wave(self) -> FloatArray:

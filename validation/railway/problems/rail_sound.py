@@ -117,5 +117,5 @@ FORCES: dict[str, Callable[[HeldWheel], FloatArray]] = {
 
 def samples_of(force: FloatArray, samples: int) -> FloatArray:
     """A periodic force less its mean, at so many instants of its period: all its waves that they can carry [N]."""
-    found = np.asarray(scipy.signal.resample(force, samples), dtype=np.float64)
-    return np.asarray(found - found.mean())
+    resampled = np.asarray(scipy.signal.resample(force, samples), dtype=np.float64)
+    return np.asarray(resampled - resampled.mean())

@@ -57,15 +57,15 @@ def line_of(scene: RailScene) -> LineSpectrum:
 class RailGround:
     """Waves of a line spectrum between two wavenumbers along and in all directions.
 
-    line: of isotropic ground or of a band of waves; whole: with what stands out of isotropic ground, as ridges, None
-    for the line itself.
+    line: of isotropic ground or of a band of waves; with_peaks: with what stands out of isotropic ground, as ridges;
+    None for the line itself.
     """
 
     line: LineSpectrum
     across: StatedAcross
     first: float
     last: float
-    whole: LineSpectrum | None = None
+    with_peaks: LineSpectrum | None = None
 
     @property
     def highest(self) -> float:
@@ -78,7 +78,7 @@ class RailGround:
         k, (dx, dy) = np.hypot(k_x, k_y), steps
         inside = (k_x >= self.first) & (k_x <= self.last)
         wave = np.where(inside, k_x, self.last)
-        on_ridges = np.where(k_y == 0, (self.whole or self.line)(wave) * dx, 0.0)
+        on_ridges = np.where(k_y == 0, (self.with_peaks or self.line)(wave) * dx, 0.0)
         if self.across == "isotropic":
             round_about = (k >= self.first) & (k <= self.last)
             density = IsotropicGround(self.line).c2d(np.where(round_about, k, self.last)) * dx * dy
@@ -182,11 +182,11 @@ def _sides_of_strip(scene: RailScene) -> tuple[int, int]:
 def strip_of(scene: RailScene, across: StatedAcross, cells: int, realisation: int, seed: int) -> RailStrip:
     """One realisation with so many cells to the smaller semi-axis; the same surface on every grid."""
     first, last = strip_bands(scene).edges[[0, -1]].tolist()
-    whole = None if scene.isotropic is None else scene.isotropic.whole
+    with_peaks = None if scene.isotropic is None else scene.isotropic.with_peaks
     unit = min(scene.contact.semi_axes)
     length, width = (sides * unit for sides in _sides_of_strip(scene))
     return RailStrip(
-        ground=RailGround(line=line_of(scene), whole=whole, across=across, first=first, last=last),
+        ground=RailGround(line=line_of(scene), with_peaks=with_peaks, across=across, first=first, last=last),
         radii=scene.radii,
         force=scene.load,
         modulus=scene.modulus,

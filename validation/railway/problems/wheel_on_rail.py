@@ -138,8 +138,8 @@ def hann(points: int) -> FloatArray:
 def over_dynamic_stiffness(case: WheelOnRail, force: FloatArray) -> FloatArray:
     """F (1/k - 1/(M w^2 - i c w)) in steps of velocity Verlet: what lifts a wheel on a linear contact."""
     wheel, omega = case.wheel, 2 * math.pi * np.fft.rfftfreq(force.size, case.time_step)[1:]
-    given = {"stiffness": wheel.stiffness, "mass": wheel.mass, "damping": wheel.damping}
-    body = dynamic_stiffness(omega, time_step=case.time_step, **given) - wheel.stiffness
+    oscillator = {"stiffness": wheel.stiffness, "mass": wheel.mass, "damping": wheel.damping}
+    body = dynamic_stiffness(omega, time_step=case.time_step, **oscillator) - wheel.stiffness
     waves = np.fft.rfft(force)
     waves[0] = 0.0
     waves[1:] *= 1 / wheel.stiffness + 1 / body

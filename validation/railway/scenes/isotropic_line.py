@@ -95,25 +95,25 @@ REACH = 5
 
 @dataclass(frozen=True, eq=False)
 class IsotropicLine:
-    """line: of isotropic ground; whole: the same with the levels that stand out above it.
+    """line: of isotropic ground; with_peaks: the same with the levels that stand out above it.
 
     smoother: the line smoothed twice more; slope_error: 95 % half-width of the exponent of q in each band [-]; scatter:
-    of the levels about a smooth line [dB]; apart: of each level from the line [dB]; stands_out: bands in which no
+    of the levels about a smooth line [dB]; deviation: of each level from the line [dB]; stands_out: bands in which no
     isotropic ground has the level.
     """
 
     line: LineSpectrum
-    whole: LineSpectrum
+    with_peaks: LineSpectrum
     smoother: LineSpectrum
     slope_error: FloatArray
     scatter: float
-    apart: FloatArray
+    deviation: FloatArray
     stands_out: NDArray[np.bool_]
 
     @property
     def as_it_is(self) -> bool:
         """Whether isotropic ground has the levels."""
-        return self.line is self.whole
+        return self.line is self.with_peaks
 
 
 def isotropic_line(levels: RoughnessLevels, weights: ArrayLike) -> IsotropicLine:
@@ -122,26 +122,28 @@ def isotropic_line(levels: RoughnessLevels, weights: ArrayLike) -> IsotropicLine
     weights: of the levels, as the number of their waves but for a factor. A band whose level rises too steeply for
     isotropic ground, or stands out of its neighbours, is no part of the line.
     """
-    bands, given = levels.bands, np.array(levels.levels)
+    bands, level = levels.bands, np.array(levels.levels)
     line, none = levels.c_line, np.zeros(len(bands))
-    if has_isotropic_surface(line) and scatter_of(given) <= WHOLE_DECIBELS:
+    if has_isotropic_surface(line) and scatter_of(level) <= WHOLE_DECIBELS:
         return IsotropicLine(line, line, line, none, 0.0, none, none > 0)
 
-    def of(some: FloatArray) -> LineSpectrum:
-        return line_of_powers(bands, MICROMETRE**2 * 10 ** (some / 10))
+    def spectrum_of(values: FloatArray) -> LineSpectrum:
+        return line_of_powers(bands, MICROMETRE**2 * 10 ** (values / 10))
 
-    smooth = graduated(given, weights, least=LEAST_SCATTER)
-    line, smoother = (_falling(of(some)) for some in (smooth.values, smooth.hat @ smooth.hat @ smooth.values))
+    smooth = graduated(level, weights, least=LEAST_SCATTER)
+    line, smoother = (
+        _nowhere_rising(spectrum_of(values)) for values in (smooth.values, smooth.hat @ smooth.hat @ smooth.values)
+    )
     ground = 10 * np.log10(bands.powers_of_spectrum(line) / MICROMETRE**2)
-    apart, scatter = given - ground, smooth.scatter / np.sqrt(smooth.of_values)
+    deviation, scatter = level - ground, smooth.scatter / np.sqrt(smooth.of_values)
     too_steep = np.abs(smooth.values - ground) > LEAST_SCATTER
-    out = too_steep | (np.abs(apart) > np.maximum(STANDS_OUT * scatter, HALF_POWER))
-    whole = of(np.where(out & (apart > 0), given, ground))
-    rms = float(np.sqrt(np.mean(apart[~out] ** 2))) if not out.all() else 0.0
-    return IsotropicLine(line, whole, smoother, smooth.slope_error(REACH), rms, apart, out)
+    out = too_steep | (np.abs(deviation) > np.maximum(STANDS_OUT * scatter, HALF_POWER))
+    with_peaks = spectrum_of(np.where(out & (deviation > 0), level, ground))
+    rms = float(np.sqrt(np.mean(deviation[~out] ** 2))) if not out.all() else 0.0
+    return IsotropicLine(line, with_peaks, smoother, smooth.slope_error(REACH), rms, deviation, out)
 
 
-def _falling(line: LineSpectrum) -> LineSpectrum:
+def _nowhere_rising(line: LineSpectrum) -> LineSpectrum:
     """The line itself where isotropic ground has it, else one that nowhere rises: at its top to longer waves."""
     if has_isotropic_surface(line):
         return line

@@ -92,8 +92,8 @@ class RoughnessLevels:
         try:
             kept = self.bands.within(first if longest is None else longest, last if shortest is None else shortest)
         except ValueError as none:
-            known = f"one of the bands of {self.bands.span}"
-            raise ValueError(f"longest and shortest must leave {known}, got that {none}") from None
+            allowed = f"one of the bands of {self.bands.span}"
+            raise ValueError(f"longest and shortest must leave {allowed}, got that {none}") from None
         start = self.bands.longest - kept.longest
         inside = slice(start, start + len(kept))
         return replace(
@@ -171,8 +171,8 @@ def curve(name: str) -> RoughnessLevels:
     return _levels_of("curve", paths[name], read_table("curve", paths[name]), source=name)[0]
 
 
-def levels_in(name: str, given: object, *, folder: Path, told: list[str]) -> RoughnessLevels:
-    """Of a bundled curve or of a file, so many decibels more, between two wavelengths. told: takes what was assumed."""
+def levels_in(name: str, value: object, *, folder: Path, notes: list[str]) -> RoughnessLevels:
+    """Of a bundled curve or of a file, so many decibels more, between two wavelengths. notes: takes assumptions."""
     readers: dict[str, Reader] = {
         **values("curve", "file"),
         "offset": DECIBELS,
@@ -180,18 +180,20 @@ def levels_in(name: str, given: object, *, folder: Path, told: list[str]) -> Rou
         "unit": unit_of_wavelengths,
         **FORM,
     }
-    found = table(readers, tuple(readers), name, given)
-    one_of(found, name, ("curve", "file"))
-    if "file" in found:
-        path, numbers = table_beside(name, found, folder)
-        levels, notes = _levels_of(f"{name}.file", path, numbers, unit=found.get("unit"))
-        told += sentence_about(path, notes)
-    elif others := [key for key in found if key not in ("curve", "offset", "longest", "shortest")]:
-        raise ValueError(f"{name}.{others[0]} must be left out beside a curve, got it with {quoted(found['curve'])}")
+    entries = table(readers, tuple(readers), name, value)
+    one_of(entries, name, ("curve", "file"))
+    if "file" in entries:
+        path, numbers = table_beside(name, entries, folder)
+        levels, assumptions = _levels_of(f"{name}.file", path, numbers, unit=entries.get("unit"))
+        notes += sentence_about(path, assumptions)
+    elif superfluous := [key for key in entries if key not in ("curve", "offset", "longest", "shortest")]:
+        raise ValueError(
+            f"{name}.{superfluous[0]} must be left out beside a curve, got it with {quoted(entries['curve'])}"
+        )
     with errors_of(f"{name}."):
-        levels = curve(found["curve"]) if "curve" in found else levels
-        levels = levels.within(found.get("longest"), found.get("shortest"))
-        return levels.raised(found["offset"]) if "offset" in found else levels
+        levels = curve(entries["curve"]) if "curve" in entries else levels
+        levels = levels.within(entries.get("longest"), entries.get("shortest"))
+        return levels.raised(entries["offset"]) if "offset" in entries else levels
 
 
 def _levels_of(
@@ -202,27 +204,27 @@ def _levels_of(
     unit: of the wavelengths, where their column does not name it. Raises ValueError for a file that holds no levels.
     """
     with errors_of(f"{name} {printable(path)}: "):
-        of_wave, of_level = _both(table, unit)
-        known = np.isfinite(table.values[:, [of_wave, of_level]]).all(axis=1)
-        waves, levels = (table.values[known, i] for i in (of_wave, of_level))
+        of_wave, of_level = _wave_and_level(table, unit)
+        complete = np.isfinite(table.values[:, [of_wave, of_level]]).all(axis=1)
+        waves, levels = (table.values[complete, i] for i in (of_wave, of_level))
         wavelengths, notes = _wavelengths(waves, table.columns[of_wave].unit or str(unit))
         order = slice(None, None, -1 if wavelengths[:1] < wavelengths[-1:] else 1)
-        left_out = int((~known).sum())
+        left_out = int((~complete).sum())
         notes += (f"{left_out} of its rows have no level and are left out",) if left_out else ()
-        found = RoughnessLevels(
+        roughness = RoughnessLevels(
             wavelengths=tuple(wavelengths[order]), levels=tuple(levels[order].tolist()), source=source or path.name
         )
-    others = [i for i in range(len(table.columns)) if i not in (of_wave, of_level)]
-    notes += (f"without {table.names(others)}",) if others else ()
-    return found, (*table.notes, *notes)
+    unread = [i for i in range(len(table.columns)) if i not in (of_wave, of_level)]
+    notes += (f"without {table.names(unread)}",) if unread else ()
+    return roughness, (*table.notes, *notes)
 
 
-def _both(table: NumberTable, unit: str | None) -> tuple[int, int]:
+def _wave_and_level(table: NumberTable, unit: str | None) -> tuple[int, int]:
     """The columns of wavelength and level. Raises ValueError."""
     units = [column.unit for column in table.columns]
-    lengths = [i for i, one in enumerate(units) if one in UNITS["length"]]
-    waves = lengths or [i for i, one in enumerate(units) if one in WAVENUMBERS]
-    levels = [i for i, one in enumerate(units) if one == "dB"]
+    lengths = [i for i, name in enumerate(units) if name in UNITS["length"]]
+    waves = lengths or [i for i, name in enumerate(units) if name in WAVENUMBERS]
+    levels = [i for i, name in enumerate(units) if name == "dB"]
     if len(units) == 2 and (waves or unit or levels):
         # the other of two is the other, unless it is another quantity
         waves = waves or [i for i in ([1 - levels[0]] if levels else [0]) if not units[i]]
@@ -261,19 +263,19 @@ def _wavelengths(values: NDArray[np.float64], unit: str) -> tuple[list[float], t
         return [value * metres_of("unit", unit) for value in numbers], ()
     if any(value <= 0 for value in numbers):
         raise ValueError(f"wavenumbers must be positive, got {min(numbers):g} {unit}")
-    found = []
+    nominal = []
     for value in numbers:
         length = 1 / (value * WAVENUMBERS[unit])
         band = nominal_wavelength(round(10 * math.log10(length)))
         if abs(length / band - 1) > NEAR:
             raise ValueError(f"wavenumbers must be those of one-third octaves, got {value:g} {unit}")
-        found.append(band)
+        nominal.append(band)
     words = "k = 2 pi / wavelength" if unit == RADIANS else "cycles: wavelength = 1 / k"
-    return found, (f"its wavenumbers in {unit} are {words}, each of the nearest one-third octave",)
+    return nominal, (f"its wavenumbers in {unit} are {words}, each of the nearest one-third octave",)
 
 
-def unit_of_wavelengths(name: str, given: object) -> str:
+def unit_of_wavelengths(name: str, value: object) -> str:
     """A length, or cycles over one. Raises ValueError."""
-    if given not in WAVENUMBERS:
-        metres_of(name, given)
-    return str(given)
+    if value not in WAVENUMBERS:
+        metres_of(name, value)
+    return str(value)

@@ -77,17 +77,17 @@ def along_the_track(
     step = metres_of_step(place.step, numbers.columns[at].unit, spacing, name)
     lines = f"{numbers.names(rest)} {'is a line' if len(rest) == 1 else 'are lines'}"
     notes.append(f"{name} is the place along the track, {in_unit(step, 'length')} apart, and {lines}")
-    whole = np.full((int(place.number[-1]) + 1, len(rest)), np.nan)
-    known = np.isfinite(numbers.values[:, at])
-    whole[place.number] = height[known]
-    if not known.all():
-        count = int((~known).sum())
+    on_grid = np.full((int(place.number[-1]) + 1, len(rest)), np.nan)
+    has_place = np.isfinite(numbers.values[:, at])
+    on_grid[place.number] = height[has_place]
+    if not has_place.all():
+        count = int((~has_place).sum())
         notes.append(
             f"{count} {'row has' if count == 1 else 'rows have'} no place and {'is' if count == 1 else 'are'} left out"
         )
     if place.gaps:
         notes.append(f"{place.gaps} of its places have no row, the first behind {place.before_gap:.6g}")
-    ordered = whole[:: -1 if place.step < 0 else 1]
+    ordered = on_grid[:: -1 if place.step < 0 else 1]
     return Lines(height=ordered, spacing=step, positions=where, notes=tuple(notes))
 
 
@@ -98,14 +98,14 @@ def _units_of_lines(numbers: NumberTable, rest: Sequence[int]) -> list[str]:
 
 
 def _positions_of(
-    numbers: NumberTable, given: Sequence[float] | None, rest: Sequence[int], dead: Sequence[int]
+    numbers: NumberTable, positions: Sequence[float] | None, rest: Sequence[int], dead: Sequence[int]
 ) -> tuple[Sequence[float], dict[int, str]]:
     """Of the lines that are left, and those of the others in words. Raises ValueError.
 
     Positions may be those of all lines, or of those that measured something.
     """
     lines = sorted([*rest, *dead])
-    if given is None:
+    if positions is None:
         if len(rest) == 1:
             return (0.0,), {}
         row = numbers.values[0, rest]
@@ -117,7 +117,7 @@ def _positions_of(
         if len(named) == len(rest):
             first, example = (
                 ", which the names of its columns may be",
-                "[" + ", ".join(f'"{one}"' for one in named) + "]",
+                "[" + ", ".join(f'"{place}"' for place in named) + "]",
             )
         else:
             example = _as_key(row if even else np.asarray(10.0 * np.arange(-(len(rest) // 2), (len(rest) + 1) // 2)))
@@ -125,17 +125,17 @@ def _positions_of(
             f"positions is missing: the file has {len(rest)} lines, whose places across the rail are needed{first}, "
             f"as: positions = {example}"
         )
-    if len(given) == len(lines):
-        shown = {i: f" at {1e3 * given[lines.index(i)]:g} mm" for i in dead}
-        return [given[lines.index(i)] for i in rest], shown
-    if len(given) != len(rest):
-        beside = f", without {numbers.names(dead)}, which measured nothing" if dead else ""
+    if len(positions) == len(lines):
+        shown = {i: f" at {1e3 * positions[lines.index(i)]:g} mm" for i in dead}
+        return [positions[lines.index(i)] for i in rest], shown
+    if len(positions) != len(rest):
+        without = f", without {numbers.names(dead)}, which measured nothing" if dead else ""
         those = "line" if len(rest) == 1 else "lines"
         raise ValueError(
-            f"positions must be one a line, got {len(given)} for {len(rest)} {those}, {numbers.names(rest)}{beside}, "
-            f"in a table of {len(numbers.values)} rows"
+            f"positions must be one a line, got {len(positions)} for {len(rest)} {those}, {numbers.names(rest)}"
+            f"{without}, in a table of {len(numbers.values)} rows"
         )
-    return given, {}
+    return positions, {}
 
 
 def _as_columns(numbers: NumberTable, metre: float | None, spacing: float | None) -> tuple[NumberTable, float | None]:
@@ -161,14 +161,14 @@ def _without_first_row(numbers: NumberTable, positions: Sequence[float] | None) 
     row, below = numbers.values[0], numbers.values[1:]
     if numbers.spacing is not None or len(below) < 50 or row.size < 2:
         return numbers, ()
-    known = np.isfinite(row)
+    has_value = np.isfinite(row)
     # of places along the track the first row may have none, or any number
     for first in (0, 1):
         inside = row[first:]
-        if inside.size < 2 or not known[first:].all():
+        if inside.size < 2 or not has_value[first:].all():
             continue
-        given = positions is not None and len(positions) == inside.size and _are(inside, np.array(positions))
-        if not given and not (_runs_evenly(inside) and _is_far(inside, below[:, first:])):
+        has_positions = positions is not None and len(positions) == inside.size and _are(inside, np.array(positions))
+        if not has_positions and not (_runs_evenly(inside) and _is_far(inside, below[:, first:])):
             continue
         shown = ", ".join(f"{value:g}" for value in inside)
         if positions is None:
@@ -226,14 +226,14 @@ def _kinds(numbers: NumberTable, count: int | None) -> tuple[dict[int, Places], 
     one_way = []
     for i in range(len(numbers.columns)):
         values = numbers.values[np.isfinite(numbers.values[:, i]), i]
-        if (known := values.size / len(numbers.values)) < HALF:
-            nothing[i] = f"has no data in {100 - 100 * known:.3g} % of its rows" if values.size else "has no data"
+        if (share := values.size / len(numbers.values)) < HALF:
+            nothing[i] = f"has no data in {100 - 100 * share:.3g} % of its rows" if values.size else "has no data"
         if values.size < MOSTLY * len(numbers.values):
             continue
         if is_time(numbers.columns[i], values):
             nothing[i] = "has time stamps"
-        elif found := places_of(values):
-            places[i] = found
+        elif place := places_of(values):
+            places[i] = place
         elif runs_one_way(values):
             one_way.append(i)
         elif np.ptp(values) == 0:
@@ -252,8 +252,8 @@ def _kinds(numbers: NumberTable, count: int | None) -> tuple[dict[int, Places], 
         )
     evenly = dict.fromkeys(places, "runs evenly")
     rest = [i for i in range(len(numbers.columns)) if i not in evenly and i not in nothing]
-    known = [numbers.values[np.isfinite(numbers.values[:, i]), i] for i in rest]
-    nothing |= {rest[i]: "is noise, whose neighbouring points have nothing in common," for i in noise_among(known)}
+    heights = [numbers.values[np.isfinite(numbers.values[:, i]), i] for i in rest]
+    nothing |= {rest[i]: "is noise, whose neighbouring points have nothing in common," for i in noise_among(heights)}
     lines = len(numbers.columns) - len(evenly) - len(nothing)
     return _one_place(numbers, places), {**evenly, **nothing} if lines else evenly
 
@@ -268,12 +268,12 @@ def is_time(column: Column, values: FloatArray) -> bool:
 
 def _one_place(numbers: NumberTable, places: dict[int, Places]) -> dict[int, Places]:
     """The one column of places among those that run evenly. Raises ValueError."""
-    lengths = {i: one for i, one in places.items() if numbers.columns[i].unit in LENGTHS}
-    unnamed = {i: one for i, one in places.items() if not numbers.columns[i].unit}
-    found = lengths or {i: one for i, one in unnamed.items() if not one.counts} or unnamed
-    if len(found) > 1:
+    lengths = {i: place for i, place in places.items() if numbers.columns[i].unit in LENGTHS}
+    unnamed = {i: place for i, place in places.items() if not numbers.columns[i].unit}
+    candidates = lengths or {i: place for i, place in unnamed.items() if not place.counts} or unnamed
+    if len(candidates) > 1:
         raise ValueError(
-            f"columns must have one that runs evenly, the place along the track, got {numbers.names(sorted(found))}: "
-            "say which to read by columns"
+            f"columns must have one that runs evenly, the place along the track, got "
+            f"{numbers.names(sorted(candidates))}: say which to read by columns"
         )
-    return found
+    return candidates

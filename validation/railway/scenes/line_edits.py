@@ -102,13 +102,13 @@ class Windows:
     @property
     def raised(self) -> NDArray[np.bool_]:
         """Bands of windows that are part of a burst."""
-        found = np.zeros(self.powers.shape, dtype=bool)
+        raised = np.zeros(self.powers.shape, dtype=bool)
         short = int(np.argmax(np.append(self.bands.nominal, 0.0) <= SHORT * (1 + 1e-9)))
         for count, first in ((NEIGHBOURS, 0), (OF_SHORT, short)):
             over = self._over((FALSE / self.powers.size) ** (1 / count))[:, first:]
             for i in range(over.shape[1] - count + 1):
-                found[:, first + i : first + i + count] |= over[:, i : i + count].all(axis=1, keepdims=True)
-        return found
+                raised[:, first + i : first + i + count] |= over[:, i : i + count].all(axis=1, keepdims=True)
+        return raised
 
     @property
     def excess(self) -> FloatArray:
@@ -135,7 +135,7 @@ class Windows:
     def touched(self, bursts: tuple[Outlier, ...]) -> NDArray[np.bool_]:
         """Windows that have points of bursts."""
         ends = self.starts + self.points
-        return np.asarray(np.any([(self.starts <= one.last) & (ends > one.first) for one in bursts], axis=0))
+        return np.asarray(np.any([(self.starts <= burst.last) & (ends > burst.first) for burst in bursts], axis=0))
 
 
 def _bands(window: float, spacing: float, waves: int) -> NominalBands | None:
@@ -159,11 +159,11 @@ def bursts_of(line: FloatArray, measured: FloatArray, spacing: float, sensor: fl
         return ()
     both = np.maximum(square, _squares(measured, spacing, sensor))
     number, count = scipy.ndimage.label(both > 0)
-    found = []
+    bursts = []
     for (part,) in scipy.ndimage.find_objects(number, count):
         if square[part].any() or replaced[part].mean() > MOSTLY:
-            found.append(Outlier("burst", part.start, part.stop - 1, float(np.sqrt(both[part].max()))))
-    return tuple(found)
+            bursts.append(Outlier("burst", part.start, part.stop - 1, float(np.sqrt(both[part].max()))))
+    return tuple(bursts)
 
 
 def _squares(line: FloatArray, spacing: float, sensor: float) -> FloatArray:
@@ -212,9 +212,9 @@ def left_by_bursts(
     added = np.where(little, share / (1 - np.minimum(share, LITTLE)), most)
     half_width = np.where(little, added, 0.0)
     shorter = np.searchsorted(-np.array(bands.numbers), -windows.bands.longest)
-    known = slice(max(0, windows.bands.longest - bands.longest), None)
-    added[shorter:] = ratio[known][: len(bands) - shorter]
-    half_width[shorter:] = 2 * (scatter * np.sqrt(np.sum((all_of_it - rest) ** 2)))[known][: len(bands) - shorter]
+    common = slice(max(0, windows.bands.longest - bands.longest), None)
+    added[shorter:] = ratio[common][: len(bands) - shorter]
+    half_width[shorter:] = 2 * (scatter * np.sqrt(np.sum((all_of_it - rest) ** 2)))[common][: len(bands) - shorter]
     freedom = np.maximum(2 / OF_HANN * np.diff(bands.edges) / (2 * np.pi) * line.size * spacing, 1.0)
     return added, half_width + 4 * np.sqrt(added / freedom)
 
@@ -274,33 +274,35 @@ class EditedLine:
         clean, steps = without_steps(smooth, spacing, sensor)
         if bursts := bursts_of(clean, clean + solid - smooth, spacing, sensor):
             noisy = points_of(bursts, height.size)
-            high = tuple(one for one in high if not noisy[one.first : one.last + 1].any())
+            high = tuple(outlier for outlier in high if not noisy[outlier.first : outlier.last + 1].any())
             clean, steps = without_steps(np.where(points_of(high, height.size), smooth, solid), spacing, sensor)
         far, middle = max(DROPOUT * float(np.ptp(clean)), LEAST_DROPOUT), float(np.median(clean))
-        named = [_named(one, abs(one.size) > far) for one in high]
-        named += [_named(one, one.kind == "run" and abs(one.size - middle) > far) for one in runs]
+        named = [_relabelled(outlier, abs(outlier.size) > far) for outlier in high]
+        named += [_relabelled(outlier, outlier.kind == "run" and abs(outlier.size - middle) > far) for outlier in runs]
         bend, over_rest = drift_of(clean)
         drift = [Outlier("drift", 0, clean.size - 1, float(np.ptp(bend)))] if over_rest > DRIFTS else []
-        found = (*drift, *bursts, *steps, *sorted(named, key=lambda one: one.first))
-        return cls(height, clean - bend if drift else clean, found, spacing)
+        outliers = (*drift, *bursts, *steps, *sorted(named, key=lambda outlier: outlier.first))
+        return cls(height, clean - bend if drift else clean, outliers, spacing)
 
     @property
     def replaced(self) -> NDArray[np.bool_]:
         """Points with a straight line in their place."""
-        points = points_of(tuple(one for one in self.outliers if one.kind not in MOVED), self.height.size)
+        points = points_of(tuple(outlier for outlier in self.outliers if outlier.kind not in MOVED), self.height.size)
         for step in self.of_kind("step"):
             points[step.first + 1 : step.last] = True
         return points
 
     def of_kind(self, kind: str) -> list[Outlier]:
-        return [one for one in self.outliers if one.kind == kind]
+        return [outlier for outlier in self.outliers if outlier.kind == kind]
 
     @property
     def unknown(self) -> str:
         """Why no error is known; empty where one is."""
         clipped = points_of(tuple(self.of_kind("clipping")), self.height.size).mean()
         if clipped > MOST_CLIPPED:
-            ends = " and ".join(sorted({in_unit(one.size, "length", digits=4) for one in self.of_kind("clipping")}))
+            ends = " and ".join(
+                sorted({in_unit(outlier.size, "length", digits=4) for outlier in self.of_kind("clipping")})
+            )
             return f"clipped at {ends} in {100 * clipped:.3g} % of its points"
         if (share := self.replaced.mean()) > MOST_REPLACED:
             return f"none of a rail in {100 * share:.3g} % of its points"
@@ -318,21 +320,21 @@ class EditedLine:
         """
         powers = partial(self._powers, bands)
         own, replaced = powers(self.clean), self.replaced
-        found = np.zeros(len(bands))
+        total = np.zeros(len(bands))
         if replaced.any():
             rolled = (np.roll(replaced, i * replaced.size // (SHIFTS + 1)) for i in range(1, SHIFTS + 1))
             elsewhere = [np.abs(powers(interpolated(self.clean, places)) - own) for places in rolled]
             wider = np.abs(powers(interpolated(self.clean, self._wider)) - own)
-            found += OF_SHIFTS * np.max(elsewhere, axis=0) + wider + powers(self._missed)
+            total += OF_SHIFTS * np.max(elsewhere, axis=0) + wider + powers(self._missed)
         for step in self.of_kind("step"):
             residue = powers(np.where(np.arange(self.clean.size) >= step.last, step.spread, 0.0))
-            found += residue + 2 * np.sqrt(residue * own)
+            total += residue + 2 * np.sqrt(residue * own)
         if self.of_kind("drift"):
-            found += np.abs(powers(self.clean + drift_of(self.height)[0]) - own)
+            total += np.abs(powers(self.clean + drift_of(self.height)[0]) - own)
         if bursts := tuple(self.of_kind("burst")):
             added, half_width = left_by_bursts(self.clean, self.spacing, bursts, bands)
-            found += own / (1 + added) * half_width
-        return found
+            total += own / (1 + added) * half_width
+        return total
 
     def of_bursts(self, bands: NominalBands) -> FloatArray:
         """What bursts of noise, which are left in, add to the mean squares in bands [m^2]."""
@@ -353,10 +355,10 @@ class EditedLine:
     def _wider(self) -> NDArray[np.bool_]:
         """Points of outliers that are half as wide again."""
         points = self.replaced
-        for one in self.outliers:
-            if one.kind not in MOVED:
-                more = max(1, (one.last - one.first + 1) // WIDER)
-                points[max(0, one.first - more) : one.last + 1 + more] = True
+        for outlier in self.outliers:
+            if outlier.kind not in MOVED:
+                more = max(1, (outlier.last - outlier.first + 1) // WIDER)
+                points[max(0, outlier.first - more) : outlier.last + 1 + more] = True
         return points
 
     @property
@@ -366,17 +368,17 @@ class EditedLine:
         As many as there are of wide outliers and of those that barely were found, and a share of the others.
         """
         missed = np.zeros_like(self.clean)
-        for one in self.outliers:
-            if one.kind in ("spike", "pit", "dropout"):
-                inside = slice(one.first, one.last + 1)
-                wide = (one.last - one.first) * self.spacing > 2 * WIDE
-                share = 1.0 if wide or one.margin < BARELY else math.sqrt(MISSED)
-                missed[inside] = (self.height - self.clean)[inside] * share / max(1.0, one.margin)
+        for outlier in self.outliers:
+            if outlier.kind in ("spike", "pit", "dropout"):
+                inside = slice(outlier.first, outlier.last + 1)
+                wide = (outlier.last - outlier.first) * self.spacing > 2 * WIDE
+                share = 1.0 if wide or outlier.margin < BARELY else math.sqrt(MISSED)
+                missed[inside] = (self.height - self.clean)[inside] * share / max(1.0, outlier.margin)
         return missed
 
 
-def _named(one: Outlier, far: bool) -> Outlier:
-    return Outlier("dropout", one.first, one.last, one.size, one.margin) if far else one
+def _relabelled(outlier: Outlier, far: bool) -> Outlier:
+    return Outlier("dropout", outlier.first, outlier.last, outlier.size, outlier.margin) if far else outlier
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -414,21 +416,21 @@ class LineEdits:
         """Lines of shape (points, lines) [m] as their levels are to have them, from those that were searched."""
         if self.outliers == "keep" or not self.lines:
             return height
-        found = height.copy()
+        cleaned = height.copy()
         for i, line in self.lines:
-            found[:, i] = line.clean
-        return found
+            cleaned[:, i] = line.clean
+        return cleaned
 
     def notes(self, positions: Sequence[float]) -> tuple[str, ...]:
         """In sentences. positions: of the lines across the rail [m]."""
-        return tuple(sentence for i, line in self.lines for sentence in self._of_line(_name(positions, i), line))
+        return tuple(sentence for i, line in self.lines for sentence in self._sentences(_line_name(positions, i), line))
 
-    def _of_line(self, name: str, line: EditedLine) -> Iterator[str]:
-        for kind, (one, several) in KINDS.items():
+    def _sentences(self, name: str, line: EditedLine) -> Iterator[str]:
+        for kind, (singular, plural) in KINDS.items():
             those = line.of_kind(kind)
             if not those:
                 continue
-            count = f"{len(those)} {one if len(those) == 1 else several}"
+            count = f"{len(those)} {singular if len(those) == 1 else plural}"
             if kind == "drift":
                 size = in_unit(those[0].size, "length", digits=3)
                 yield f"{name} has a drift of {size} from its beginning to its end: {self._done(line, kind)}."
@@ -452,11 +454,11 @@ class LineEdits:
 
 def _sizes(kind: str, those: list[Outlier], spacing: float) -> str:
     """Heights and widths of some of one kind."""
-    heights = sorted(one.size for one in those)
+    heights = sorted(outlier.size for outlier in those)
     if kind in ("spike", "pit", "step"):
         heights = sorted(map(abs, heights)) if kind != "step" else heights
     ends = dict.fromkeys(in_unit(end, "length", digits=3) if end else "0" for end in (heights[0], heights[-1]))
-    wide = in_unit(spacing * max(one.last - one.first + 1 for one in those), "length", digits=3)
+    wide = in_unit(spacing * max(outlier.last - outlier.first + 1 for outlier in those), "length", digits=3)
     if kind in ("run", "clipping"):
         return f" at {' to '.join(ends)}, up to {wide} long,"
     of = " to ".join(ends)
@@ -465,7 +467,7 @@ def _sizes(kind: str, those: list[Outlier], spacing: float) -> str:
     return f" of {of}" if kind == "step" else f" of {of}, up to {wide} wide,"
 
 
-def _name(positions: Sequence[float], i: int) -> str:
+def _line_name(positions: Sequence[float], i: int) -> str:
     return "the line" if len(positions) == 1 else f"the line at {1e3 * positions[i]:g} mm"
 
 

@@ -120,14 +120,14 @@ class _Prominent:
     @classmethod
     def of(cls, line: FloatArray, spacing: float, step: float) -> "_Prominent":
         points = dict.fromkeys(max(1, round(distance / spacing)) for distance in DISTANCES)
-        distances = tuple(one for one in points if 4 * one < line.size)
+        distances = tuple(distance for distance in points if 4 * distance < line.size)
         floor, scales, heights, least = np.full(line.size, STEP_OF_SENSOR * step), [], [], list[float]()
         for distance in distances:
             left, right = (line - side for side in _sides(line, distance))
             height = np.where(left * right > 0, np.sign(left) * np.minimum(np.abs(left), np.abs(right)), 0.0)
-            around, whole = scale_of((left + right) / 2, max(round(STRETCH / spacing), PERIODS * distance))
+            around, overall = scale_of((left + right) / 2, max(round(STRETCH / spacing), PERIODS * distance))
             if distance <= 2:
-                around = np.minimum(around, BURST * whole)
+                around = np.minimum(around, BURST * overall)
             # a wave as long as the distance is not seen at it, and a longer distance has no smaller scale
             floor = np.maximum(np.maximum(around, floor), 1e-12 * float(np.abs(line).max()))
             scales.append(floor)
@@ -232,32 +232,32 @@ def runs_of(line: FloatArray) -> tuple[Outlier, ...]:
     usual_step = max(step, float(np.quantile(np.abs(np.diff(line)), SHARE)) / OF_NORMAL)
     equal = 1 - lengths.size / line.size
     usual, longest = float(np.quantile(lengths, 0.95)), float(np.sort(lengths)[-ELEVENTH:][0])
-    found = []
+    runs = []
     for first, length in zip(starts.tolist(), lengths.tolist(), strict=True):
         value, last = float(line[first]), first + length - 1
         if value in ends:
-            found.append(Outlier("clipping", first, last, value))
+            runs.append(Outlier("clipping", first, last, value))
         elif length >= max(LONG_RUN, OF_USUAL * usual):
             jumps = [abs(line[i] - line[j]) for i, j in ((first, first - 1), (last, last + 1)) if 0 <= j < line.size]
             fine = equal - length / line.size < ROUNDED and length >= OF_USUAL * longest
             jumped = equal >= ROUNDED and max(jumps, default=0.0) > JUMP * usual_step
             if fine or jumped or length >= FAR_LONGER * longest:
-                found.append(Outlier("run", first, last, value))
-    return tuple(found)
+                runs.append(Outlier("run", first, last, value))
+    return tuple(runs)
 
 
 def _clipped_at(line: FloatArray, starts: NDArray[np.intp], lengths: NDArray[np.intp]) -> set[float]:
     """The largest or the smallest value, where many points have it, in runs, and few the next ones."""
     values, counts = np.unique(line, return_counts=True)
-    found = set[float]()
+    ends = set[float]()
     for order in (1, -1):
         value, count = values[::order], counts[::order]
         near = value.size > 4 and abs(value[1] - value[0]) < NEAR_END * abs(value[-1] - value[1])
         runs = lengths[line[starts] == value[0]]
         lasting = 2 * runs[runs >= SHORT_RUN].sum() > count[0]
         if near and lasting and count[0] >= CLIPPED and count[0] > CROWDED * count[1:4].max():
-            found.add(float(value[0]))
-    return found
+            ends.add(float(value[0]))
+    return ends
 
 
 def without_steps(line: FloatArray, spacing: float, sensor: float) -> tuple[FloatArray, tuple[Outlier, ...]]:
@@ -265,51 +265,51 @@ def without_steps(line: FloatArray, spacing: float, sensor: float) -> tuple[Floa
 
     sensor: the step to which the line was rounded as it was measured [m].
     """
-    found, clean = list[Outlier](), line
-    while len(found) < MOST_STEPS:
-        one = _largest_step(clean, spacing, sensor) or _hidden_step(clean, spacing, sensor)
-        if one is None:
+    steps, clean = list[Outlier](), line
+    while len(steps) < MOST_STEPS:
+        step = _largest_step(clean, spacing, sensor) or _hidden_step(clean, spacing, sensor)
+        if step is None:
             break
         moved = clean.copy()
-        moved[one.last :] -= one.size
+        moved[step.last :] -= step.size
         between = np.zeros(line.size, dtype=bool)
-        between[one.first + 1 : one.last] = True
+        between[step.first + 1 : step.last] = True
         clean = interpolated(moved, between)
-        found.append(one)
-    return clean, tuple(found)
+        steps.append(step)
+    return clean, tuple(steps)
 
 
 def _largest_step(line: FloatArray, spacing: float, sensor: float) -> Outlier | None:
     """Of those that last to both sides; its first and last point are the ends of the flank."""
     best, floor, height = None, STEP_OF_SENSOR * sensor, 0.0
     slope = float(np.median(np.diff(line)))
-    for apart in (one for one in APART if line.size > 4 * LASTS):
-        jump = line[apart:] - line[:-apart] - apart * slope
-        around, _ = scale_of(jump, max(round(STRETCH / spacing), PERIODS * apart))
+    for width in (width for width in APART if line.size > 4 * LASTS):
+        jump = line[width:] - line[:-width] - width * slope
+        around, _ = scale_of(jump, max(round(STRETCH / spacing), PERIODS * width))
         scale = np.maximum(around, floor)
         for i in np.argsort(-np.abs(jump) / np.maximum(scale, 1e-300))[:LASTS].tolist():
             size = float(jump[i])
             if abs(size) <= STEP * scale[i]:
                 break
-            before, behind = line[max(0, i - LASTS) : i + 1], line[i + apart : i + apart + LASTS]
-            rise = slope * (apart + (before.size + behind.size) / 2 - 1)
+            before, behind = line[max(0, i - LASTS) : i + 1], line[i + width : i + width + LASTS]
+            rise = slope * (width + (before.size + behind.size) / 2 - 1)
             lasts = np.sign(size) * (np.median(behind) - np.median(before) - rise) > OF_STEP * abs(size)
             # the same step over a longer distance is no higher, but for the slope of the line
             if lasts and abs(size) > 1.2 * height:
-                best, height = Outlier("step", i, i + apart, size, spread=float(2 * scale[i])), abs(size)
+                best, height = Outlier("step", i, i + width, size, spread=float(2 * scale[i])), abs(size)
                 break
     return best
 
 
 def _hidden_step(line: FloatArray, spacing: float, sensor: float) -> Outlier | None:
     """One that corrugation hides: it stands out of differences of the means over `MEAN` to both sides of a flank."""
-    apart, mean = APART[-1], round(MEAN / spacing)
-    if mean <= LASTS or line.size < 4 * (apart + 2 * mean):
+    width, mean = APART[-1], round(MEAN / spacing)
+    if mean <= LASTS or line.size < 4 * (width + 2 * mean):
         return None
     total = np.cumsum(np.append(0.0, line))
     means = (total[mean:] - total[:-mean]) / mean
     slope = float(np.median(np.diff(line)))
-    jump = means[mean + apart - 1 :] - means[: -(mean + apart - 1)] - (mean + apart - 1) * slope
+    jump = means[mean + width - 1 :] - means[: -(mean + width - 1)] - (mean + width - 1) * slope
     scale, _ = scale_of(jump, max(round(STRETCH / spacing), PERIODS * mean))
     scale = np.maximum(scale, STEP_OF_SENSOR * sensor)
     i = int(np.argmax(np.abs(jump) / np.maximum(scale, 1e-300)))
@@ -317,14 +317,14 @@ def _hidden_step(line: FloatArray, spacing: float, sensor: float) -> Outlier | N
     if abs(size) <= STEP * scale[i]:
         return None
     # the flank is where most of it rises within the fewest points
-    part = line[i : i + 2 * mean + apart] * np.sign(size)
-    for apart in APART:
-        rise = part[apart:] - part[:-apart]
+    part = line[i : i + 2 * mean + width] * np.sign(size)
+    for width in APART:
+        rise = part[width:] - part[:-width]
         if rise.max() >= AS_HIGH * abs(size):
             break
-    first = max(i + int(rise.argmax()) - apart // 4, 0)
+    first = max(i + int(rise.argmax()) - width // 4, 0)
     return Outlier(
-        "step", first, min(first + apart + 2 * (apart // 4), line.size - 1), size, spread=2 * float(scale[i])
+        "step", first, min(first + width + 2 * (width // 4), line.size - 1), size, spread=2 * float(scale[i])
     )
 
 
@@ -345,9 +345,9 @@ def noise_among(lines: Sequence[FloatArray]) -> list[int]:
     Neighbouring points have nothing in common there.
     """
     correlation = [_correlation(line) for line in lines]
-    if not any(one > ROUGH for one in correlation):
+    if not any(value > ROUGH for value in correlation):
         return []
-    return [i for i, one in enumerate(correlation) if one < NOISE / math.sqrt(lines[i].size)]
+    return [i for i, value in enumerate(correlation) if value < NOISE / math.sqrt(lines[i].size)]
 
 
 def _correlation(line: FloatArray) -> float:
@@ -355,13 +355,13 @@ def _correlation(line: FloatArray) -> float:
     if line.size < 50 * LAGS:
         return 1.0
     power = np.abs(np.fft.rfft(line - line.mean(), 2 * line.size)) ** 2
-    found = np.fft.irfft(power)[: LAGS + 1]
-    return float(np.abs(found[1:]).max() / found[0]) if found[0] > 0 else 1.0
+    autocorrelation = np.fft.irfft(power)[: LAGS + 1]
+    return float(np.abs(autocorrelation[1:]).max() / autocorrelation[0]) if autocorrelation[0] > 0 else 1.0
 
 
-def points_of(found: tuple[Outlier, ...], size: int) -> NDArray[np.bool_]:
+def points_of(outliers: tuple[Outlier, ...], size: int) -> NDArray[np.bool_]:
     """The points of a line that these have."""
     points = np.zeros(size, dtype=bool)
-    for one in found:
-        points[one.first : one.last + 1] = True
+    for outlier in outliers:
+        points[outlier.first : outlier.last + 1] = True
     return points

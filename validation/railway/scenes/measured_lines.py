@@ -120,28 +120,28 @@ class MeasuredLines:
 # Of a file in a scene
 
 
-def lines_in(name: str, given: object, *, folder: Path, told: list[str]) -> MeasuredLines:
-    """Of a table in a scene file: the file beside it, and how to read it. told: takes what was assumed of it."""
+def lines_in(name: str, value: object, *, folder: Path, notes: list[str]) -> MeasuredLines:
+    """Of a table in a scene file: the file beside it, and how to read it. notes: takes what was assumed of it."""
     own: dict[str, Reader] = {"unit": unit_of, "positions": _positions, "outliers": _outliers}
     readers = values("file", "spacing") | own | values("longest", "shortest", "fill", "detrend") | FORM
-    found = table(readers, tuple(readers)[1:], name, given)
-    path, numbers = table_beside(name, found, folder)
+    entries = table(readers, tuple(readers)[1:], name, value)
+    path, numbers = table_beside(name, entries, folder)
     with errors_of(f"{name}."):
-        unit, spacing, positions = (found.pop(key, None) for key in ("unit", "spacing", "positions"))
+        unit, spacing, positions = (entries.pop(key, None) for key in ("unit", "spacing", "positions"))
         lines = along_the_track(numbers, unit, spacing, positions)
-        fill = found.pop("fill", False)
+        fill = entries.pop("fill", False)
         height, ends = (lines.height, ()) if fill else without_unknown_ends(lines.height)
         height, edits = edited_lines(height, fill=fill, asked_by="fill = true", missing=numbers.missing)
         if not np.ptp(height, axis=0).any():
             raise ValueError("file must have heights that differ along a line, got zeros alone, or one other number")
         order = np.argsort(lines.positions, kind="stable")
-        flaws = edited(height[:, order], lines.spacing, found.pop("outliers", "remove"))
+        flaws = edited(height[:, order], lines.spacing, entries.pop("outliers", "remove"))
         measured = MeasuredLines(
             height=flaws.result(height[:, order]),
             spacing=lines.spacing,
             positions=np.array(lines.positions)[order].tolist(),
             edits=flaws,
-            **found,
+            **entries,
         )
         try:
             _ = measured.levels  # heights in a wrong unit are refused here, by their levels
@@ -149,9 +149,9 @@ def lines_in(name: str, given: object, *, folder: Path, told: list[str]) -> Meas
             raise ValueError(f"{problem} If so, {_other_unit(numbers)}") from None
     if unit is None and (doubt := _doubt(measured.levels, _other_unit(numbers))):
         measured = replace(measured, edits=replace(flaws, doubt=doubt))
-        told.append(f"{printable(path.name)}: {doubt}.")
-    told += [*sentence_about(path, (*numbers.notes, *lines.notes, *ends)), *edits.notes]
-    told += [f"{printable(path.name)}: {sentence}" for sentence in flaws.notes(measured.positions)]
+        notes.append(f"{printable(path.name)}: {doubt}.")
+    notes += [*sentence_about(path, (*numbers.notes, *lines.notes, *ends)), *edits.notes]
+    notes += [f"{printable(path.name)}: {sentence}" for sentence in flaws.notes(measured.positions)]
     return measured
 
 
@@ -178,10 +178,10 @@ def _doubt(levels: RoughnessLevels, other: str) -> str:
     )
 
 
-def _positions(name: str, given: object) -> list[float]:
-    if not isinstance(given, list):
-        raise ValueError(f'{name} must be a list of lengths, as ["-10 mm", "0 mm"], got {shortened(given)}')
-    return [quantity(f"{name}[{i}]", one, "length") for i, one in enumerate(given)]
+def _positions(name: str, value: object) -> list[float]:
+    if not isinstance(value, list):
+        raise ValueError(f'{name} must be a list of lengths, as ["-10 mm", "0 mm"], got {shortened(value)}')
+    return [quantity(f"{name}[{i}]", position, "length") for i, position in enumerate(value)]
 
 
 _outliers = partial(one_word, words=get_args(Outliers))

@@ -293,9 +293,9 @@ class RailScene(SceneDefaults):
                 f"the contact is wider than the crown: {width} across, the head of a rail has {head}; are the units of "
                 "rail.crown_radius and wheel.load right?"
             )
-        if (known := self.levels.bands) != NominalBands():
+        if (bands := self.levels.bands) != NominalBands():
             yield (
-                f"roughness is known in bands of {known.span}: the others of {NominalBands().span} are missing, and "
+                f"roughness is known in bands of {bands.span}: the others of {NominalBands().span} are missing, and "
                 "have no answer."
             )
         yield from self._scatter()

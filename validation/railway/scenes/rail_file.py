@@ -38,15 +38,15 @@ def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
     """The scene in the tables of a file, other files beside it. Raises ValueError that names the key."""
     told: list[str] = []
     of_files = {"profile": profile_in, "levels": levels_in, "lines": lines_in}
-    files: dict[str, Reader] = {key: partial(read, folder=folder, told=told) for key, read in of_files.items()}
+    files: dict[str, Reader] = {key: partial(read, folder=folder, notes=told) for key, read in of_files.items()}
     bodies = {"wheel": WHEEL | files, "rail": RAIL | files | {"heights": partial(heights_of, folder=folder)}}
     readers = {key: partial(table, every, tuple(every)) for key, every in bodies.items()}
-    found = table({**values("name"), "material": material_of, **readers}, (), "", tables)
-    wheel, rail, material = found["wheel"], found["rail"], found["material"]
-    roughness, of_roughness = _both(one_of(rail, "rail", GROUNDS), one_of(wheel, "wheel", GROUNDS, least=0))
+    entries = table({**values("name"), "material": material_of, **readers}, (), "", tables)
+    wheel, rail, material = entries["wheel"], entries["rail"], entries["material"]
+    roughness, of_roughness = _combined(one_of(rail, "rail", GROUNDS), one_of(wheel, "wheel", GROUNDS, least=0))
     load, of_load = _load(wheel)
-    given: dict[str, Any] = {
-        "name": found["name"],
+    fields: dict[str, Any] = {
+        "name": entries["name"],
         "radius": one_of(wheel, "wheel", ("radius", "diameter")) / (2 if "diameter" in wheel else 1),
         "load": load,
         "modulus": material.modulus,
@@ -61,10 +61,10 @@ def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
     if not any(isinstance(body, TransverseProfile) for body in (of_rail, of_wheel)):
         if "offset" in wheel:
             raise ValueError("wheel.offset must be left out where neither wheel nor rail has a profile, got it")
-        return RailScene(**given, crown_radius=of_rail, transverse_radius=of_wheel)
+        return RailScene(**fields, crown_radius=of_rail, transverse_radius=of_wheel)
     offset = wheel.get("offset", 0.0)
     with errors_of("rail." if isinstance(of_rail, TransverseProfile) else "wheel.", of="profile"):
-        scene = ProfiledRail(**given, profile=_together(of_rail, of_wheel, offset), offset=offset)
+        scene = ProfiledRail(**fields, profile=_together(of_rail, of_wheel, offset), offset=offset)
     if isinstance(of_wheel, TransverseProfile):
         _check_flange(of_wheel, scene.profile.at - offset)
     return scene
@@ -100,23 +100,23 @@ def _check_flange(wheel: TransverseProfile, at: float) -> None:
 
 def _load(wheel: dict[str, Any]) -> tuple[float, tuple[str, ...]]:
     """Of one wheel, and what was assumed of an axle."""
-    one: float = one_of(wheel, "wheel", ("load", "axle_load"))
+    load: float = one_of(wheel, "wheel", ("load", "axle_load"))
     wheels = wheel.get("wheels_per_axle")
     if "load" in wheel:
         if wheels is not None:
             raise ValueError("wheel.wheels_per_axle belongs to wheel.axle_load, got it beside wheel.load, of one wheel")
-        return one, ()
+        return load, ()
     if wheels is None:
         raise ValueError(
             "wheel.wheels_per_axle is missing: wheel.axle_load must be shared out among wheels, as wheels_per_axle = 2"
         )
     if wheels > MOST_WHEELS:
         raise ValueError(f"wheel.wheels_per_axle must be at most {MOST_WHEELS}, got {shortened(wheels)}")
-    loads = in_unit(one, "force"), in_unit(one / wheels, "force")
-    return one / wheels, (f"the axle load of {loads[0]} is shared by {wheels} wheels: {loads[1]} each.",)
+    loads = in_unit(load, "force"), in_unit(load / wheels, "force")
+    return load / wheels, (f"the axle load of {loads[0]} is shared by {wheels} wheels: {loads[1]} each.",)
 
 
-def _both(rail: Any, wheel: Any) -> tuple[Any, tuple[str, ...]]:
+def _combined(rail: Any, wheel: Any) -> tuple[Any, tuple[str, ...]]:
     """Roughness of rail and wheel together, their energies added, and what is missing of it."""
     if wheel is None:
         return rail, ()
@@ -130,13 +130,13 @@ def _both(rail: Any, wheel: Any) -> tuple[Any, tuple[str, ...]]:
     return levels + more, (note,) if missing else ()
 
 
-def _across(name: str, given: object) -> Any:
+def _across(name: str, value: object) -> Any:
     """What an `Across` of `RailScene` may be."""
-    if given in ("ridges", "isotropic"):
-        return given
-    if isinstance(given, str):
-        raise ValueError(f'{name} must be "ridges", "isotropic" or a number alpha, got {shortened(given)}')
-    return POSITIVE(name, given)
+    if value in ("ridges", "isotropic"):
+        return value
+    if isinstance(value, str):
+        raise ValueError(f'{name} must be "ridges", "isotropic" or a number alpha, got {shortened(value)}')
+    return POSITIVE(name, value)
 
 
 class RailReader:

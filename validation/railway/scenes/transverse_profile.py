@@ -72,11 +72,11 @@ class TransverseProfile:
 
     def moved(self, offset: float) -> "TransverseProfile":
         """The same, its y = 0 at another place across the track [m]."""
-        return replace(self, y=tuple(one + offset for one in self.y))
+        return replace(self, y=tuple(place + offset for place in self.y))
 
     def within(self, half_width: float) -> "TransverseProfile":
         """The part with abs(y) up to a half width [m]."""
-        kept = [i for i, one in enumerate(self.y) if abs(one) <= half_width]
+        kept = [i for i, place in enumerate(self.y) if abs(place) <= half_width]
         return replace(self, y=tuple(self.y[i] for i in kept), height=tuple(self.height[i] for i in kept))
 
     def slope(self, y: float) -> float:
@@ -139,10 +139,10 @@ def both_together(bodies: Sequence[TransverseProfile], curvature: float, centre:
     y = own[(own >= first) & (own <= last)]
     # the same place in both files, but for rounding, is one
     y = y[np.append(True, np.diff(y) > SAME_PLACE)]
-    found = height(y) - height(np.array([top]))
+    heights = height(y) - height(np.array([top]))
     return TransverseProfile(
         y=tuple((y - top).tolist()),
-        height=tuple(found.tolist()),
+        height=tuple(heights.tolist()),
         source=" and ".join(body.source for body in bodies),
         at=top,
         inclination=inclination,
@@ -217,24 +217,24 @@ KNOTS, TO_A_KNOT = 1e-3, 6
 """Distance of the knots of the spline that smooths a profile [m], with so many points to each or more."""
 
 
-def profile_in(name: str, given: object, *, folder: Path, told: list[str]) -> TransverseProfile:
+def profile_in(name: str, value: object, *, folder: Path, notes: list[str]) -> TransverseProfile:
     """Of a file beside a scene: its name, or a table that has it and says how to read it. y runs in either order.
 
-    told: takes what was assumed. Raises OSError for a file that cannot be read, ValueError for one that holds none.
+    notes: takes what was assumed. Raises OSError for a file that cannot be read, ValueError for one that holds none.
     """
     readers: dict[str, Reader] = {**values("file"), "unit": unit_of, "flip": yes_or_no, **FORM}
-    found = table(readers, tuple(readers)[1:], name, {"file": given} if isinstance(given, str) else given)
-    key = name if isinstance(given, str) else f"{name}.file"
-    path, numbers = table_beside(name, found, folder, key=key)
+    entries = table(readers, tuple(readers)[1:], name, {"file": value} if isinstance(value, str) else value)
+    key = name if isinstance(value, str) else f"{name}.file"
+    path, numbers = table_beside(name, entries, folder, key=key)
     with errors_of(f"{key} {printable(path)}: "):
-        y, height = _in_metres(numbers, found.get("unit"))
-        known = np.isfinite(y) & np.isfinite(height)
-        y, height, of_ends = _ascending(y[known], height[known] * (-1 if found.get("flip") else 1))
+        y, height = _in_metres(numbers, entries.get("unit"))
+        has_both = np.isfinite(y) & np.isfinite(height)
+        y, height, of_ends = _ascending(y[has_both], height[has_both] * (-1 if entries.get("flip") else 1))
         smooth, of_noise = _smoothed(y, height)
         profile = TransverseProfile(y=tuple(y.tolist()), height=tuple(smooth.tolist()), source=path.name)
-    missing = int((~known).sum())
-    notes = (f"{missing} of its points have no data and are left out",) if missing else ()
-    told += sentence_about(path, (*numbers.notes, *notes, *of_ends, *of_noise))
+    missing = int((~has_both).sum())
+    of_missing = (f"{missing} of its points have no data and are left out",) if missing else ()
+    notes += sentence_about(path, (*numbers.notes, *of_missing, *of_ends, *of_noise))
     return profile
 
 

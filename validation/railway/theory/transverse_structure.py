@@ -88,8 +88,8 @@ class LineSpectrum:
         """
         radial = np.asarray(s, dtype=np.float64)
         flat = radial.ravel()
-        found = sum((self._of_piece(flat, i) for i in range(len(self.wavenumbers) - 1)), self._of_last(flat))
-        return np.asarray(found / math.pi).reshape(radial.shape)
+        integral = sum((self._of_piece(flat, i) for i in range(len(self.wavenumbers) - 1)), self._of_last(flat))
+        return np.asarray(integral / math.pi).reshape(radial.shape)
 
     def _of_piece(self, s: FloatArray, law: int) -> FloatArray:
         """p c int q^(-p-2) dk over one of the laws; the first begins at s."""
@@ -104,9 +104,9 @@ class LineSpectrum:
         node, weight = gauss_legendre(LINE_NODES)
         half = np.diff(k, axis=0)[:, np.newaxis] / 2
         q = np.hypot(s[reached], k[:-1, np.newaxis] + half * (1 + node[:, np.newaxis]))
-        found = np.zeros_like(s)
-        found[reached] = np.sum(half * weight[:, np.newaxis] * self._falling(law, q) / q, axis=(0, 1))
-        return found
+        integral = np.zeros_like(s)
+        integral[reached] = np.sum(half * weight[:, np.newaxis] * self._falling(law, q) / q, axis=(0, 1))
+        return integral
 
     def _of_last(self, s: FloatArray) -> FloatArray:
         """p c int_{max(s, q_n)}^inf q^(-p-1) / sqrt(q^2 - s^2) dq = p c s^(-p-1) B((p+1)/2, 1/2; s^2/q^2) / 2."""
@@ -246,10 +246,10 @@ class IsotropicGround(TransverseStructure):
         q = np.asarray(s, dtype=np.float64)
         table_q, table_c = _tabulated(self.line)
         # between points C_2D is nearly a power of q, a line of logarithms; constant below the first of the table
-        found = np.exp(np.interp(np.log(q), np.log(table_q), np.log(table_c)))
+        density = np.exp(np.interp(np.log(q), np.log(table_q), np.log(table_c)))
         # behind the last point by the law of the line, one power steeper in two dimensions
         beyond = np.maximum(q / table_q[-1], 1.0) ** -(self.line.exponents[-1] + 1)
-        return np.asarray(np.where(q <= self.q_max, found * beyond, 0.0))
+        return np.asarray(np.where(q <= self.q_max, density * beyond, 0.0))
 
     def mean_square(self, q: ArrayLike, transfer: Filter, *, semi_axis: float) -> FloatArray:
         along = np.asarray(q, dtype=np.float64)[..., np.newaxis]
@@ -276,7 +276,7 @@ class IsotropicGround(TransverseStructure):
         along = np.asarray(q, dtype=np.float64)
         if math.isinf(self.q_max):
             return self.line(along)
-        return np.array([self._cut_line(one) for one in along.ravel()]).reshape(along.shape)
+        return np.array([self._cut_line(wavenumber) for wavenumber in along.ravel()]).reshape(along.shape)
 
     def _cut_line(self, q: float) -> float:
         """int C_2D dk over waves up to q_max."""
