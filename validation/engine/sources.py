@@ -64,8 +64,8 @@ def modules() -> dict[str, Path]:
 
     Raises RuntimeError for a package without source.
     """
-    found = {package: importlib.util.find_spec(package) for package in PACKAGES}
-    roots = {name: Path(spec.origin).parent for name, spec in found.items() if spec and spec.origin}
+    specs = {package: importlib.util.find_spec(package) for package in PACKAGES}
+    roots = {name: Path(spec.origin).parent for name, spec in specs.items() if spec and spec.origin}
     if missing := set(PACKAGES) - set(roots):
         raise RuntimeError(f"the source of {missing} is not to be found: stored results could be of any version of it")
     return {
@@ -82,14 +82,14 @@ def modules_behind(module: str, without: frozenset[str] = frozenset()) -> frozen
 
     All of it where a module imports by name. The engine and the modules without are left out, and what these import.
     """
-    found, left = set[str](), {module}
+    behind, left = set[str](), {module}
     while left:
         name = left.pop()
-        found.add(name)
+        behind.add(name)
         if _imports_by_name(name):
-            return frozenset(found | set(modules())) - {ENGINE, *without}
-        left |= (_imported(name) & set(modules())) - found - {ENGINE, *without}
-    return frozenset(found)
+            return frozenset(behind | set(modules())) - {ENGINE, *without}
+        left |= (_imported(name) & set(modules())) - behind - {ENGINE, *without}
+    return frozenset(behind)
 
 
 def _digest(sources: Iterable[bytes]) -> str:
@@ -186,32 +186,32 @@ def _named(module: str) -> frozenset[str]:
 
 @cache
 def _named_in(module: str, path: Path | None) -> frozenset[str]:
-    found = set[str]()
+    names = set[str]()
     for node in ast.walk(_tree(path)) if path else ():
         if isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names}
+            names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
             above = module.rsplit(".", node.level)[0] + "." if node.level else ""
             start = (above + (node.module or "")).rstrip(".")
-            found |= {start, *(f"{start}.{alias.name}" for alias in node.names)}
-    found |= _of_houses(path)
+            names |= {start, *(f"{start}.{alias.name}" for alias in node.names)}
+    names |= _of_houses(path)
     if path and LISTS in _words(path):
-        listed = found - {module.rpartition(".")[0]}
-        found |= {name for name in modules() if name.rpartition(".")[0] in listed}
-    return frozenset(found)
+        listed = names - {module.rpartition(".")[0]}
+        names |= {name for name in modules() if name.rpartition(".")[0] in listed}
+    return frozenset(names)
 
 
 @cache
 def _of_houses(path: Path | None) -> frozenset[str]:
     """Modules of the houses that `brought` and `modules_in` find for it, by the texts that it gives them."""
-    asked: dict[str, set[str]] = {BROUGHT: set(), FOLDERS: set()}
+    texts: dict[str, set[str]] = {BROUGHT: set(), FOLDERS: set()}
     for node in ast.walk(_tree(path)) if path else ():
         match node:
-            case ast.Call(func=ast.Name(id=name), args=[ast.Constant(value=str(text))]) if name in asked:
-                asked[name].add(text)
-    found = {place.partition(":")[0] for use in asked[BROUGHT] for place in places(use)}
-    folders = {f"{ROOT}.{house}.{folder}" for folder in asked[FOLDERS] for house in houses()}
-    return frozenset(found | {name for name in modules() if name.rpartition(".")[0] in folders})
+            case ast.Call(func=ast.Name(id=name), args=[ast.Constant(value=str(text))]) if name in texts:
+                texts[name].add(text)
+    names = {place.partition(":")[0] for use in texts[BROUGHT] for place in places(use)}
+    folders = {f"{ROOT}.{house}.{folder}" for folder in texts[FOLDERS] for house in houses()}
+    return frozenset(names | {name for name in modules() if name.rpartition(".")[0] in folders})
 
 
 # read when the code is loaded: an edit during a run does not make old results new
