@@ -148,7 +148,7 @@ def test_a_sweep_that_passes_no_threshold_decides_nothing(error, side, at):
     sweep = replace(planted(error, side), predicted_threshold=at * X[-1 if side == "above" else 0])
     (number,) = case.threshold(sweep).numbers
     assert number.verdict is Verdict.INCONCLUSIVE
-    assert case.said(number) == "no threshold in the sweep"
+    assert case.in_words(number) == "no threshold in the sweep"
 
 
 def test_what_follows_from_theory_alone_must_hold_and_all_warnings_count():

@@ -41,8 +41,8 @@ class SurfaceProblem:
     @property
     def solvers(self) -> tuple[PeerSolver, ...]:
         """Those that serve it."""
-        every = (*solvers_with(self.own), *with_threads(self.threads))
-        served = (solver for solver in every if self.half_space in solver.serves)
+        solvers = (*solvers_with(self.own), *with_threads(self.threads))
+        served = (solver for solver in solvers if self.half_space in solver.serves)
         return tuple(solver for solver in served if self.cells**2 <= solver.cells)
 
     @property
@@ -72,13 +72,13 @@ class SurfaceProblem:
     def discrete(self) -> ContactProblem:
         """In plain values, with the approach that belongs to its force."""
         side = 1 / self.cells
-        known: dict[str, Any] = {
+        values: dict[str, Any] = {
             "gap": -self.height(),
             "spacing": (side, side),
             "modulus": 1.0,
             "periodic": self.periodic,
         }
-        problem = ContactProblem(name=self.name, force=self.load, **known)
+        problem = ContactProblem(name=self.name, force=self.load, **values)
         return replace(problem, approach=pressed(problem, 1e-10, force=self.load).approach)
 
     def configurations(self) -> tuple[Configuration, ...]:

@@ -33,13 +33,13 @@ def measure_own_models(model: str, arguments: argparse.Namespace) -> Exit:
         raise ValueError("--install is for models of the package, whose table has no rows of others")
     store = arguments.out or STORE
     engine = Engine(store=store / REALISATIONS)
-    found = [calibrated(one, None, engine) for one in models_in(model)]
-    errors = {(*group, one.name): known.measured for one in found for group, known in one.errors.items()}
-    known = {key: measured for key, measured in errors.items() if measured}
-    lines = errors_as_lines(known)
-    for one in found:
-        if not any(one.name == name for *_, name in known):
-            lines.append(f"{one.serves}; {one.unknown(next(iter(one.errors.values()), None))}")
+    models = [calibrated(own, None, engine) for own in models_in(model)]
+    errors = {(*group, own.name): part.measured for own in models for group, part in own.errors.items()}
+    measured = {key: rows for key, rows in errors.items() if rows}
+    lines = errors_as_lines(measured)
+    for own in models:
+        if not any(own.name == name for *_, name in measured):
+            lines.append(f"{own.serves}; {own.unknown(next(iter(own.errors.values()), None))}")
     lines.append(f"errors: in {store}, by the bytes of {Path(model).name} and of what it loads and reads")
     print(printable("\n".join(lines), lines=True))
     return Exit.MET

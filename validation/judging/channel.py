@@ -27,10 +27,10 @@ class Channel:
     @classmethod
     def pair(cls) -> tuple["Channel", socket.socket]:
         """An end, and the other one, from which `at` makes a channel."""
-        here, there = socket.socketpair()
-        channel = cls(here, secrets.token_bytes(TOKEN))
-        here.sendall(channel._token)
-        return channel, there
+        end, other = socket.socketpair()
+        channel = cls(end, secrets.token_bytes(TOKEN))
+        end.sendall(channel._token)
+        return channel, other
 
     @classmethod
     def at(cls, handle: int) -> "Channel":

@@ -18,7 +18,7 @@ ENTRY = "entry point "
 
 def installed() -> dict[str, EntryPoint]:
     """By their names. Nothing is imported."""
-    return {one.name: one for one in sorted(entry_points(group=GROUP), key=lambda one: one.name)}
+    return {entry.name: entry for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name)}
 
 
 def is_installed(model: str | Path) -> bool:
@@ -37,10 +37,10 @@ def file_of(model: str | Path) -> Iterator[Path]:
     if not is_installed(model):
         yield Path(model)
         return
-    one = installed()[str(model)]
+    entry = installed()[str(model)]
     with TemporaryDirectory() as folder:
-        path = Path(folder, f"{ENTRY}{one.name!r} ({one.value})".replace("/", " "))
-        path.write_text(f"from {one.module} import {one.attr or '*'}\n", encoding="utf-8")
+        path = Path(folder, f"{ENTRY}{entry.name!r} ({entry.value})".replace("/", " "))
+        path.write_text(f"from {entry.module} import {entry.attr or '*'}\n", encoding="utf-8")
         yield path
 
 
@@ -72,7 +72,7 @@ def sources_of(path: Path) -> tuple[Path, ...]:
     """
     modules = map(_file_of, list(sys.modules.values()))
     loaded = {Path(file) for file in modules if isinstance(file, str)}
-    data = (one for one in list(OPENED) if one.is_file() and not BEGUN[0] <= one.stat().st_mtime <= time.time())
+    data = (file for file in list(OPENED) if file.is_file() and not BEGUN[0] <= file.stat().st_mtime <= time.time())
     folders = path.parent, path.parent.resolve()
     near = (file for file in (*loaded, *data) if any(file.is_relative_to(folder) for folder in folders))
     without = {"site-packages", "__pycache__"}

@@ -17,29 +17,30 @@ def with_models(problems: Sequence[SceneProblem], name: str) -> Sequence[ScenePr
     own = tuple(models_in(name))
 
     def is_served(problem: SceneProblem) -> bool:
-        return any(one.model().serves(problem.scene, asked) for one in own for asked in problem.quantities)
+        return any(model.model().serves(problem.scene, key) for model in own for key in problem.quantities)
 
     served = [is_served(problem) for problem in problems]
     # where none is served, all have them, which is refused with the reason
     return [
-        replace(one, own=own if here or not any(served) else ()) for one, here in zip(problems, served, strict=True)
+        replace(problem, own=own if is_own or not any(served) else ())
+        for problem, is_own in zip(problems, served, strict=True)
     ]
 
 
 def measured(problems: Sequence[SceneProblem], name: str, store: Path) -> Sequence[SceneProblem]:
     """With the errors of models of somebody's own, which are measured first where they are not in the store."""
-    groups = {group_of(one.scene, quantity) for one in problems for quantity in one.quantities}
+    groups = {group_of(problem.scene, quantity) for problem in problems for quantity in problem.quantities}
     solved = Part()
     engine = Engine(store=store / "realisations", progress=solved)
 
     def with_errors(problem: SceneProblem) -> SceneProblem:
-        own = tuple(calibrated(one, groups, engine) for one in problem.own if isinstance(one, OwnModel))
+        own = tuple(calibrated(model, groups, engine) for model in problem.own if isinstance(model, OwnModel))
         return replace(problem, own=own)
 
-    found = [with_errors(problem) for problem in problems]
-    if any(kind.found for kind in solved.kinds):
+    measured_problems = [with_errors(problem) for problem in problems]
+    if any(kind.stored for kind in solved.kinds):
         print(
             f"errors of {printable(name)} are those kept in {printable(store)}, {NOT_IN_KEY}",
             file=sys.stderr,
         )
-    return found
+    return measured_problems

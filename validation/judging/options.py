@@ -22,27 +22,27 @@ class ModelsFrom:
     )
 
     @staticmethod
-    def check(given: str) -> None:
+    def check(name: str) -> None:
         """Raises ValueError for neither."""
         from validation.judging.files_read import is_installed
 
-        if not Path(given).is_file() and not is_installed(given):
-            known = "a Python file, or a name of `judge --list`"
-            raise ValueError(f"--models-from must be {known}, got {printable(given)}: No such file")
+        if not Path(name).is_file() and not is_installed(name):
+            expected = "a Python file, or a name of `judge --list`"
+            raise ValueError(f"--models-from must be {expected}, got {printable(name)}: No such file")
 
     @staticmethod
-    def with_models(problems: Sequence["SceneProblem"], given: str) -> Sequence["SceneProblem"]:
+    def with_models(problems: Sequence["SceneProblem"], name: str) -> Sequence["SceneProblem"]:
         """Problems with the models of the file."""
         from validation.judging.models_from import with_models
 
-        return with_models(problems, given)
+        return with_models(problems, name)
 
     @staticmethod
-    def measured(problems: Sequence["SceneProblem"], given: str, store: Path) -> Sequence["SceneProblem"]:
+    def measured(problems: Sequence["SceneProblem"], name: str, store: Path) -> Sequence["SceneProblem"]:
         """The same with the errors of these models."""
         from validation.judging.models_from import measured
 
-        return measured(problems, given, store)
+        return measured(problems, name, store)
 
 
 class OfCalibrate:

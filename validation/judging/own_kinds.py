@@ -50,9 +50,9 @@ class ServedKind:
 
     what: in words; serves: whether it has a quantity of a scene; rows: its values; scatter: relative deviation of one
     realisation, of a function that asks for these arguments, zero where one is all; share, fewest, most: a sample
-    leaves this share of the tolerance, within these bounds; given: whether it is asked on surfaces that boundary
-    elements have, too; own: error of one measured surface about the mean of all that have its spectrum, None for a
-    kind that is given the surface itself.
+    leaves this share of the tolerance, within these bounds; reads_surface: whether it is asked on surfaces that
+    boundary elements have, too; own: error of one measured surface about the mean of all that have its spectrum, None
+    for a kind that is given the surface itself.
     """
 
     what: str
@@ -62,7 +62,7 @@ class ServedKind:
     share: float = 0.2
     fewest: int = 50
     most: int = 2000
-    given: bool = False
+    reads_surface: bool = False
     own: float | None = 0.0
 
     def sample(self, asks: Sequence[str], target: Target) -> tuple[int, float]:
@@ -87,10 +87,10 @@ def _is_rough_punch(scene: Any, quantity: str) -> bool:
 
 def _stiffness(caller: Caller, target: Target, count: int) -> FloatArray:
     scene = target.scene
-    given = {"load": scene.load, "side": scene.size, "modulus": scene.modulus}
-    given["roughness"] = roughness_of(ground_of(scene))
+    arguments = {"load": scene.load, "side": scene.size, "modulus": scene.modulus}
+    arguments["roughness"] = roughness_of(ground_of(scene))
     rngs = (random_generator(target.seed, DRAWS, i) for i in range(count))
-    return np.array([asked(caller, **given, rng=rng).flat[:1] for rng in rngs])  # of (mean, deviation) the mean
+    return np.array([asked(caller, **arguments, rng=rng).flat[:1] for rng in rngs])  # of (mean, deviation) the mean
 
 
 def _stiffness_of_surfaces(caller: Caller, target: Target, count: int) -> FloatArray:
@@ -98,9 +98,9 @@ def _stiffness_of_surfaces(caller: Caller, target: Target, count: int) -> FloatA
     scene, single = target.scene, ground_of(target.scene).is_single
     cells = round(boundary_elements_pressed.resolutions(target)[-1].size)
     cells = cells_wanted(scene) if single else max(cells // 2, 1)
-    given = {"spacing": side_of(scene) / cells, "modulus": scene.modulus, "load": scene.load}
+    arguments = {"spacing": side_of(scene) / cells, "modulus": scene.modulus, "load": scene.load}
     heights = (height_of(scene, cells, i, target.seed) for i in range(count))
-    return np.array([[float(asked(caller, height=height, **given))] for height in heights])
+    return np.array([[float(asked(caller, height=height, **arguments))] for height in heights])
 
 
 def _is_rolling(scene: Any, quantity: str) -> bool:
@@ -110,16 +110,16 @@ def _is_rolling(scene: Any, quantity: str) -> bool:
 def _levels(caller: Caller, target: Target, count: int) -> FloatArray:
     """sqrt(2 int |T|^2 C_F dq) over each band."""
     scene = target.scene
-    given = {**scene.body.smooth, "contact_radius": scene.contact_radius, "roughness": roughness_of(scene.ground)}
-    return _of_density(target.rolling, lambda q: asked(caller, q=q, **given))
+    arguments = {**scene.body.smooth, "contact_radius": scene.contact_radius, "roughness": roughness_of(scene.ground)}
+    return _of_density(target.rolling, lambda q: asked(caller, q=q, **arguments))
 
 
 def _of_density(quantity: RollingQuantity, density: Callable[[FloatArray], FloatArray]) -> FloatArray:
     bands = list(_quadratures(quantity))
-    q = np.concatenate([one for one, _ in bands])
+    q = np.concatenate([nodes for nodes, _ in bands])
     power = 2 * density(q) * quantity.transfer(q) ** 2 * np.concatenate([weight for _, weight in bands])
-    of_bands = np.split(power, np.cumsum([one.size for one, _ in bands])[:-1])
-    return np.sqrt(np.maximum([[one.sum() for one in of_bands]], 0.0))
+    of_bands = np.split(power, np.cumsum([nodes.size for nodes, _ in bands])[:-1])
+    return np.sqrt(np.maximum([[band.sum() for band in of_bands]], 0.0))
 
 
 def _quadratures(quantity: RollingQuantity) -> Iterator[tuple[FloatArray, FloatArray]]:
@@ -149,8 +149,8 @@ def _of_rule(caller: Caller, target: Target, count: int) -> FloatArray:
     drawn = mdr.rough_profiles(c1d, length=scene.size, points=points, count=count, rng=rng, rms=rms)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", mdr.SpringResolutionWarning)
-        found = mdr.stiffness_under(scene.load, drawn, length=scene.size, modulus=scene.modulus)
-    return np.asarray(found)[:, np.newaxis]
+        stiffness = mdr.stiffness_under(scene.load, drawn, length=scene.size, modulus=scene.modulus)
+    return np.asarray(stiffness)[:, np.newaxis]
 
 
 def _rolled(caller: Caller, target: Target, count: int) -> FloatArray:
@@ -172,14 +172,14 @@ def _rolled(caller: Caller, target: Target, count: int) -> FloatArray:
 
 def _filtered(caller: Caller, target: Target, count: int) -> FloatArray:
     """A3 in bands, at both ends where the ground is not stated [dB]."""
-    quantity, contact, found = rail_quantity(target), target.scene.contact, []
+    quantity, contact, powers = rail_quantity(target), target.scene.contact, []
     bands = {"edges": quantity.bands.edges, "semi_axes": contact.semi_axes}
-    given = {"a_x": contact.along, "a_y": contact.across, "approach": contact.approach}
+    arguments = {"a_x": contact.along, "a_y": contact.across, "approach": contact.approach}
     for across in quantity.ends:
-        given["alpha"] = {"ridges": 0.0, "isotropic": math.inf}.get(str(across), across)
+        arguments["alpha"] = {"ridges": 0.0, "isotropic": math.inf}.get(str(across), across)
         ground = structure_of(across if "k_y" in caller.asks else "ridges", quantity.line)
-        found.append(ground.band_power(quantity.line, partial(_amplitude, caller, given), **bands))
-    return quantity.between(10 * np.log10(found))
+        powers.append(ground.band_power(quantity.line, partial(_amplitude, caller, arguments), **bands))
+    return quantity.between(10 * np.log10(powers))
 
 
 def filter_of(name: str, a3: FloatArray) -> ContactFilter:
@@ -187,9 +187,9 @@ def filter_of(name: str, a3: FloatArray) -> ContactFilter:
     return ContactFilter(name=name, closed=lambda quantity: a3)
 
 
-def _amplitude(caller: Caller, given: Given, k_x: FloatArray, k_y: FloatArray) -> FloatArray:
+def _amplitude(caller: Caller, arguments: Given, k_x: FloatArray, k_y: FloatArray) -> FloatArray:
     k_x, k_y = np.broadcast_arrays(k_x, k_y)
-    return asked(caller, k_x=k_x, k_y=k_y, **given)
+    return asked(caller, k_x=k_x, k_y=k_y, **arguments)
 
 
 def _scatter_of_strips(asks: Sequence[str], target: Target) -> float:
@@ -212,7 +212,7 @@ SERVED: Mapping[str, ServedKind] = {
         share=0.5,
         fewest=FEWEST,
         most=200,
-        given=True,
+        reads_surface=True,
         own=None,
     ),
     "force_spectrum": ServedKind("force and acceleration of rolling wheels", _is_rolling, _levels, own=0.5),
@@ -223,7 +223,7 @@ SERVED: Mapping[str, ServedKind] = {
         _scatter_of_strips,
         fewest=FEWEST,
         most=FEWEST,
-        given=True,
+        reads_surface=True,
         own=None,
     ),
     "profile_spectrum": ServedKind(

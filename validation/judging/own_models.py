@@ -54,27 +54,30 @@ def named_in(place: str, kind: str) -> Offered:
         raise ValueError(f"a function is named as FILE:NAME, and there is no file {file!r} in {place!r}")
     sys.path.insert(0, str(path.parent))
     try:
-        found = runpy.run_path(str(path)).get(name)
+        function = runpy.run_path(str(path)).get(name)
     except (Exception, SystemExit) as error:
         raise ValueError(f"{file}: {raised(error, path)}") from None
-    if isinstance(found, Offered) and found.kind == kind:
-        return found
-    if not callable(found) or isinstance(found, Offered):
+    if isinstance(function, Offered) and function.kind == kind:
+        return function
+    if not callable(function) or isinstance(function, Offered):
         raise ValueError(f"{file} has no function {name!r} for @{kind}")
-    return offer(kind, name, KINDS[kind].options, found)
+    return offer(kind, name, KINDS[kind].options, function)
 
 
 @cache
 def _solvers_in(file: str) -> list[Offered]:
-    found = [one for one in offered_in(Path(file)) if one.kind == "contact_solver"]
-    if not found:
+    solvers = [offered for offered in offered_in(Path(file)) if offered.kind == "contact_solver"]
+    if not solvers:
         raise OthersError(f"{Path(file).name}: no function has the decorator @contact_solver")
-    return found
+    return solvers
 
 
 def solvers_in(file: str, taken: Collection[str]) -> list[PeerSolver]:
     """Contact solvers of a file for the race, by names that are not taken. Raises OthersError where it has none."""
-    return [_own(one, file, f"{one.name}, own" if one.name in taken else one.name) for one in _solvers_in(file)]
+    return [
+        _own(solver, file, f"{solver.name}, own" if solver.name in taken else solver.name)
+        for solver in _solvers_in(file)
+    ]
 
 
 def _own(offered: Offered, file: str, name: str) -> PeerSolver:
@@ -86,15 +89,15 @@ def _own(offered: Offered, file: str, name: str) -> PeerSolver:
 
 def of_file(file: str, name: str, problem: ContactProblem, tolerance: float) -> ColdSolve:
     """A solver of somebody's own, in the process that times it."""
-    (solver,) = (one for one in _loaded(file) if one.name == name)
+    (solver,) = (offered for offered in _loaded(file) if offered.name == name)
     gap = problem.gap.copy()
     gap.flags.writeable = False
     other = "approach" if "force" in solver.asks else "force"
-    given = {**vars(problem), "gap": gap, "tolerance": tolerance, other: None}
-    asked = {argument: given[argument] for argument in solver.asks}
+    available = {**vars(problem), "gap": gap, "tolerance": tolerance, other: None}
+    arguments = {argument: available[argument] for argument in solver.asks}
 
     def solve() -> tuple[Field, float]:
-        return np.array(solver(**asked), dtype=float), math.nan
+        return np.array(solver(**arguments), dtype=float), math.nan
 
     return solve
 
@@ -102,7 +105,7 @@ def of_file(file: str, name: str, problem: ContactProblem, tolerance: float) -> 
 @cache
 def _loaded(file: str) -> tuple[Offered, ...]:
     sys.path.insert(0, str(Path(file).resolve().parent))
-    return tuple(one for one in runpy.run_path(file).values() if isinstance(one, Offered))
+    return tuple(value for value in runpy.run_path(file).values() if isinstance(value, Offered))
 
 
 CALL = 1e-4
@@ -168,7 +171,7 @@ class OwnModel:
         self.check_unchanged()
         key = self.path, self.digest
         visitor = VISITORS[key] = VISITORS.get(key) or RUNNING.enter_context(Visitor(self.path))
-        return next(one for one in visitor.callers() if one.name == self.name)
+        return next(caller for caller in visitor.callers() if caller.name == self.name)
 
     def check_unchanged(self) -> None:
         """Raises ChangedError where its file, or a module or data of that, has other bytes than at first."""
@@ -182,17 +185,17 @@ class OwnModel:
         return model(cost=self._cost, claim=self._claim, **about)(self._solve)
 
     def _solve(self, target: Target, resolution: Resolution) -> Result:
-        found = result_of(self.called(), target, self._sample(target)[0])
+        result = result_of(self.called(), target, self._sample(target)[0])
         # a process that had to be started again has run the file once more
         self.check_unchanged()
-        return found
+        return result
 
     def _sample(self, target: Target) -> tuple[int, float]:
         return SERVED[self.kind].sample(self.asks, target)
 
     def _cost(self, target: Target, resolution: Resolution) -> Cost:
-        (count, _), known = self._sample(target), self.errors.get(_group(target))
-        return Cost(work=count, seconds=count * (known.seconds if known else CALL))
+        (count, _), errors = self._sample(target), self.errors.get(_group(target))
+        return Cost(work=count, seconds=count * (errors.seconds if errors else CALL))
 
     def _claim(self, of: Model, target: Target, resolution: Resolution) -> ErrorEstimate:
         """As measured, what the sample leaves, and what one measured surface has beside all that have its spectrum."""
@@ -202,25 +205,25 @@ class OwnModel:
             except (ValueError, ArithmeticError) as problem:
                 return ErrorEstimate.out_of_range(str(problem))
             return filter_of(self.name, a3).claim(of, target, resolution)
-        known, own = self.errors.get(_group(target)), SERVED[self.kind].own
-        if known is None or known.measured is None:
-            return ErrorEstimate.out_of_range(self.unknown(known))
+        errors, own = self.errors.get(_group(target)), SERVED[self.kind].own
+        if errors is None or errors.measured is None:
+            return ErrorEstimate.out_of_range(self.unknown(errors))
         ground = target.scene.ground
         of_spectrum = beyond_spectrum(ground) if own is not None else ""
         if reason := of_spectrum or (_group(target)[0] in ("rolling", "wheel") and target.rolling.no_answer):
             return ErrorEstimate.out_of_range(reason)
-        found = known.measured.estimate(conditions_by_kind(target)[1])
+        estimate = errors.measured.estimate(conditions_by_kind(target)[1])
         scatters = own or 0.0 if ground.is_single else 0.0
         # a distance of logarithms: 0.7 of what is right is off by 43 % of itself
-        return replace(found, model=math.expm1(found.model) + scatters, sample=self._sample(target)[1])
+        return replace(estimate, model=math.expm1(estimate.model) + scatters, sample=self._sample(target)[1])
 
-    def unknown(self, known: OwnErrors | None) -> str:
+    def unknown(self, errors: OwnErrors | None) -> str:
         """Why an error is unknown."""
         if self.kind == "contact_filter":
             return "its error is known on each rail, beside linear theory"
         if not self.digest:
             return "a function without a file is not calibrated: its error is unknown"
-        if known is None:
+        if errors is None:
             return "no answers of boundary elements are stored for such scenes: its error is unknown"
         return f"it answers fewer than {FEWEST_SCENES} scenes of the calibration: its error is unknown"
 
@@ -242,14 +245,14 @@ def models_in(file: str | Path) -> list[OwnModel]:
     """
     path = RUNNING.enter_context(file_of(file))
     visitor = RUNNING.enter_context(Visitor(path))
-    callers = [one for one in visitor.callers() if one.kind in SERVED]
-    for one in callers:
-        _probe(one)
+    callers = [caller for caller in visitor.callers() if caller.kind in SERVED]
+    for caller in callers:
+        _probe(caller)
     VISITORS[visitor.path, visitor.digest] = visitor
     if not callers:
         raise OthersError(f"{path.name}: no function serves a scene, as @{', @'.join(SERVED)} do")
     files = {"digest": visitor.digest, "path": visitor.path, "sources": visitor.sources}
-    return [OwnModel(one.kind, one.name, one.asks, **files) for one in callers]  # type: ignore[arg-type]
+    return [OwnModel(caller.kind, caller.name, caller.asks, **files) for caller in callers]  # type: ignore[arg-type]
 
 
 def _probe(called: Called) -> None:
@@ -263,13 +266,13 @@ def _probe(called: Called) -> None:
 
 def of_functions(functions: Iterable[Offered], scene: Scene, quantity: str) -> tuple[OwnModel, ...]:
     """Functions of this process, those of files calibrated. Raises TypeError for a kind that has no scenes."""
-    found = []
-    for one in functions:
-        if one.kind not in SERVED:
-            raise TypeError(f"models must be of @{', @'.join(SERVED)}, got {quoted(one.name)} of @{one.kind}")
-        own = OwnModel(one.kind, one.name, one.asks, _digest_of_file(one), function=one)
-        found.append(calibrated(own, [group_of(scene, quantity)]))
-    return tuple(found)
+    models = []
+    for function in functions:
+        if function.kind not in SERVED:
+            raise TypeError(f"models must be of @{', @'.join(SERVED)}, got {quoted(function.name)} of @{function.kind}")
+        own = OwnModel(function.kind, function.name, function.asks, _digest_of_file(function), function=function)
+        models.append(calibrated(own, [group_of(scene, quantity)]))
+    return tuple(models)
 
 
 def _digest_of_file(offered: Offered) -> str:
@@ -305,12 +308,14 @@ def _first_of(group: Group) -> CalibrationScene:
 @cache
 def _errors(part: OwnPart, engine: Engine) -> OwnErrors:
     (outcome,) = engine.map(measure_own, [part])
-    known, measured = np.isfinite(outcome["error"]), None
-    if known.sum() >= FEWEST_SCENES:
-        every = [conditions_by_kind(point.target())[1] for point, *_ in answers_in()[part.group].scenes(part.group)]
-        names = tuple(name for name in CONDITIONS if name in every[0])
-        at = np.array([[one[name] if name == HURST else math.log10(one[name]) for name in names] for one in every])
-        measured = MeasuredErrors(names, at[known], outcome["error"][known], np.ones(known.sum()))
+    answered, measured = np.isfinite(outcome["error"]), None
+    if answered.sum() >= FEWEST_SCENES:
+        conditions = [
+            conditions_by_kind(point.target())[1] for point, *_ in answers_in()[part.group].scenes(part.group)
+        ]
+        names = tuple(name for name in CONDITIONS if name in conditions[0])
+        at = np.array([[row[name] if name == HURST else math.log10(row[name]) for name in names] for row in conditions])
+        measured = MeasuredErrors(names, at[answered], outcome["error"][answered], np.ones(answered.sum()))
     return OwnErrors(part.digest, measured, float(outcome["seconds"]))
 
 
@@ -330,15 +335,15 @@ def measure_own(part: OwnPart) -> Outcome:
 def _error(called: Called, point: CalibrationScene, value: FloatArray, each: FloatArray) -> tuple[float, int]:
     """And of how many realisations: on the surfaces of the reference where a model is given them."""
     of = SERVED[called.kind]
-    target = point.target(seed=OTHER_SEED if of.given else 0)
-    most = min(SURFACES, len(each)) if of.given else CALIBRATED
+    target = point.target(seed=OTHER_SEED if of.reads_surface else 0)
+    most = min(SURFACES, len(each)) if of.reads_surface else CALIBRATED
     count = min(most, of.sample(called.asks, target)[0])
     try:
-        found = result_of(called, target, count).values[point.quantity]
+        values = result_of(called, target, count).values[point.quantity]
     except (ValueError, ArithmeticError):
         return math.nan, 1
-    truth = _mean(each[:count], point.quantity) if of.given else value
-    return distance(_mean(found, point.quantity), truth), count
+    truth = _mean(each[:count], point.quantity) if of.reads_surface else value
+    return distance(_mean(values, point.quantity), truth), count
 
 
 def _mean(rows: FloatArray, quantity: str) -> FloatArray:

@@ -47,11 +47,11 @@ class Noted(Asked):
 
     def pressure(self, problem: ContactProblem) -> FloatArray:
         """As its parent."""
-        asked = ("gap", "spacing", "modulus", "periodic", "force" if self.by_force else "approach")
-        note("\n".join(f"{name} = {pasted(getattr(problem, name))}" for name in asked))
-        found = super().pressure(problem)
-        note(f"pressure = {pasted(found)}")
-        return found
+        names = ("gap", "spacing", "modulus", "periodic", "force" if self.by_force else "approach")
+        note("\n".join(f"{name} = {pasted(getattr(problem, name))}" for name in names))
+        pressure = super().pressure(problem)
+        note(f"pressure = {pasted(pressure)}")
+        return pressure
 
 
 def pasted(value: Any) -> str:
@@ -91,8 +91,8 @@ def contacts(draw: st.DrawFn, half_spaces: Sequence[bool], cells: float) -> Cont
     depth = gap.mean() - gap.min() if periodic else 1e-2 * spacing[0]
     assume(depth > 0)
     force = part * modulus * 1e-2 * math.sqrt(n * m) * spacing[0] * math.sqrt(spacing[0] * spacing[1])
-    known: dict[str, Any] = {"gap": gap, "spacing": spacing, "modulus": modulus, "periodic": periodic, "force": force}
-    return ContactProblem(name="drawn", approach=gap.min() + part * depth, **known)
+    values: dict[str, Any] = {"gap": gap, "spacing": spacing, "modulus": modulus, "periodic": periodic, "force": force}
+    return ContactProblem(name="drawn", approach=gap.min() + part * depth, **values)
 
 
 def points_by_each(
@@ -114,7 +114,8 @@ def points_by_each(
 def test_a_contact_solver_has_the_property(asked: list[Asked], name: str) -> None:
     """What it does not serve is not asked; where it serves nothing that the property needs, the test is skipped."""
     solver, unserved, answers = asked[0], list[str](), list[str]()
-    half_spaces = [one for one in served(PROPERTIES[name]) if solver.solver.options["periodic" if one else "free"]]
+    keys = {True: "periodic", False: "free"}
+    half_spaces = [periodic for periodic in served(PROPERTIES[name]) if solver.solver.options[keys[periodic]]]
     if not half_spaces:
         pytest.skip("a property of half-spaces that the solver does not serve")
 
@@ -124,12 +125,12 @@ def test_a_contact_solver_has_the_property(asked: list[Asked], name: str) -> Non
             assert point.verdict is Verdict.WITHIN, message
             answers.append(point.quantity)
 
-    one = STATED["sphere, periodic" if half_spaces[0] else "sphere"].on(int(min(8, solver.cells**0.5)))
+    sphere = STATED["sphere, periodic" if half_spaces[0] else "sphere"].on(int(min(8, solver.cells**0.5)))
 
     def example() -> None:
         with suppress(UnansweredError):
             for _ in range(2):
-                Asked(solver.solver).pressure(replace(one, approach=float(one.gap.mean() + one.gap.min()) / 2))
+                Asked(solver.solver).pressure(replace(sphere, approach=float(sphere.gap.mean() + sphere.gap.min()) / 2))
 
     settings_for(example)(given(contacts(half_spaces, solver.cells))(holds))()
     if unserved and not answers:
@@ -154,8 +155,8 @@ def test_a_rule_has_the_properties(rule: Called) -> None:
 
     def holds(hurst: float, q_min: float, ratio: float, rms: float) -> None:
         for finding in properties_of_rule(rule, hurst, q_min, q_min * ratio, rms):
-            found = finding.judged(OF_RULE)
-            assert found.verdict is Verdict.WITHIN, f"{found.quantity}: {found.shown}"
+            number = finding.judged(OF_RULE)
+            assert number.verdict is Verdict.WITHIN, f"{number.quantity}: {number.shown}"
 
     drawn = st.floats(0.1, 1.0), st.floats(1e2, 1e5), st.floats(2.0, 100.0), st.floats(1e-8, 1e-4)
     settings_for(lambda: list(properties_of_rule(rule, 0.7, 1e3, 1e5, 1e-6)))(given(*drawn)(holds))()

@@ -33,7 +33,7 @@ class Failed:
     late: bool = False
 
 
-def _one(given: Given) -> tuple[Shape, ...]:
+def _scalar(arguments: Given) -> tuple[Shape, ...]:
     return ((),)
 
 
@@ -47,17 +47,17 @@ class OfferedKind(NamedTuple):
     example: str
     needs: tuple[str, ...] = ()
     either: tuple[tuple[str, str], ...] = ()
-    shapes: Callable[[Given], tuple[Shape, ...]] = _one
+    shapes: Callable[[Given], tuple[Shape, ...]] = _scalar
     options: Given = MappingProxyType({})
     check: Callable[[str, Given], None] = lambda name, options: None
 
 
-def _mean_and_deviation(given: Given) -> tuple[Shape, ...]:
-    return ((),) if "rng" in given else ((), (2,))
+def _mean_and_deviation(arguments: Given) -> tuple[Shape, ...]:
+    return ((),) if "rng" in arguments else ((), (2,))
 
 
-def _along(given: Given) -> tuple[Shape, ...]:
-    return (np.shape(given.get("height", given.get("line")))[:1],)
+def _along(arguments: Given) -> tuple[Shape, ...]:
+    return (np.shape(arguments.get("height", arguments.get("line")))[:1],)
 
 
 def _can_be_judged(name: str, options: Given) -> None:
@@ -72,7 +72,7 @@ def _can_be_judged(name: str, options: Given) -> None:
 
 
 def _as(*names: str) -> Callable[[Given], tuple[Shape, ...]]:
-    return lambda given: (np.broadcast_shapes(*(np.shape(given[name]) for name in names if name in given)),)
+    return lambda arguments: (np.broadcast_shapes(*(np.shape(arguments[name]) for name in names if name in arguments)),)
 
 
 KINDS: Mapping[str, OfferedKind] = {
@@ -195,25 +195,27 @@ DECORATED: list[tuple[Given, Offered]] = []
 
 def _asked(kind: str, function: Callable[..., Any]) -> tuple[str, ...]:
     """Names of the arguments. Raises TypeError for one that the kind has not, for one too many or too few."""
-    of, known = KINDS[kind], f"@{kind} may ask for {', '.join(KINDS[kind].arguments)}"
+    of, accepted = KINDS[kind], f"@{kind} may ask for {', '.join(KINDS[kind].arguments)}"
     if not callable(function) or isinstance(function, type | Offered):
         what = "one that is offered already" if isinstance(function, Offered) else repr(function)
         raise TypeError(f"@{kind} must stand above a function, got {what}")
     # what a partial function has already is not asked for
     bound = function.keywords if isinstance(function, functools.partial) else {}
-    given = {name: one for name, one in inspect.signature(function).parameters.items() if name not in bound}
-    for name, parameter in given.items():
+    parameters = {name: value for name, value in inspect.signature(function).parameters.items() if name not in bound}
+    for name, parameter in parameters.items():
         if parameter.kind not in (parameter.POSITIONAL_OR_KEYWORD, parameter.KEYWORD_ONLY):
-            raise TypeError(f"arguments go by name, one by one, got {parameter}: {known}")
+            raise TypeError(f"arguments go by name, one by one, got {parameter}: {accepted}")
         if name not in of.arguments:
-            raise TypeError(f"{name} is unknown: {known}")
-    if missing := [name for name in of.needs if name not in given]:
-        raise TypeError(f"{missing[0]} must be asked for: {known}")
+            raise TypeError(f"{name} is unknown: {accepted}")
+    if missing := [name for name in of.needs if name not in parameters]:
+        raise TypeError(f"{missing[0]} must be asked for: {accepted}")
     for pair in of.either:
-        there = [name for name in pair if name in given]
-        if not there or (len(there) > 1 and any(given[name].default is not None for name in there)):
-            raise TypeError(f"either {pair[0]} or {pair[1]} must be asked for, got {' and '.join(there) or 'neither'}")
-    return tuple(given)
+        present = [name for name in pair if name in parameters]
+        if not present or (len(present) > 1 and any(parameters[name].default is not None for name in present)):
+            raise TypeError(
+                f"either {pair[0]} or {pair[1]} must be asked for, got {' and '.join(present) or 'neither'}"
+            )
+    return tuple(parameters)
 
 
 def offer(kind: str, name: str, options: Given, function: Callable[..., Any]) -> Offered:
@@ -235,8 +237,8 @@ def _decorator(kind: str) -> Callable[..., Decorator]:
         if unknown := [option for option in options if option not in of.options]:
             raise OfferedError(f"option {unknown[0]} is unknown: @{kind} has {', '.join(of.options) or 'none'}")
         for option, value in options.items():
-            known = of.options[option]
-            if isinstance(known, bool) != isinstance(value, bool) or not isinstance(value, float | int):
+            default = of.options[option]
+            if isinstance(default, bool) != isinstance(value, bool) or not isinstance(value, float | int):
                 raise OfferedError(f"option {option} must be as {of.options[option]}, got {value!r}")
         of.check(name, {**of.options, **options})
 
@@ -247,7 +249,7 @@ def _decorator(kind: str) -> Callable[..., Decorator]:
         return decorated
 
     keyword = inspect.Parameter.KEYWORD_ONLY
-    options = [inspect.Parameter(one, keyword, default=value) for one, value in of.options.items()]
+    options = [inspect.Parameter(option, keyword, default=value) for option, value in of.options.items()]
     named = inspect.Parameter("name", inspect.Parameter.POSITIONAL_ONLY)
     decorate.__signature__ = inspect.Signature([named, *options])  # type: ignore[attr-defined]  # of any function
     decorate.__name__ = decorate.__qualname__ = kind

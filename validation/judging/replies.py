@@ -258,7 +258,7 @@ def called(offered: Offered, arguments: Mapping[str, Any], file: Path | None = N
         warnings.simplefilter("always")
         begin = time.perf_counter()
         try:
-            value = _value(offered, arguments, file)
+            value = _validated_value(offered, arguments, file)
         finally:
             if os.getpid() != process:
                 FORKED[0] = 1
@@ -273,10 +273,10 @@ def has_forked() -> bool:
     return before != 0
 
 
-def _value(offered: Offered, arguments: Mapping[str, Any], file: Path | None) -> FloatArray | Failed:
+def _validated_value(offered: Offered, arguments: Mapping[str, Any], file: Path | None) -> FloatArray | Failed:
     """The value, finite and of the right shape, or what is wrong. Arguments are copies, compared afterwards."""
-    given = {name: arguments[name] for name in offered.asks if name in arguments}
-    lent, classes = {name: copy_of(value) for name, value in given.items()}, classes_of(given)
+    passed = {name: arguments[name] for name in offered.asks if name in arguments}
+    lent, classes = {name: copy_of(value) for name, value in passed.items()}, classes_of(passed)
     try:
         with np.errstate(all="ignore"):
             value = offered.function(**{name: as_argument(part) for name, part in lent.items()})
@@ -285,9 +285,9 @@ def _value(offered: Offered, arguments: Mapping[str, Any], file: Path | None) ->
         return Failed(f"raised {raised(error, homes=homes_of(offered.function, file))}", refused=is_refused)
     finally:
         class_changed = restored(classes)
-    if name := changed(given, lent) or class_changed:
+    if name := changed(passed, lent) or class_changed:
         return Failed(f"changed {name}, which is not its own")
-    return number(value, KINDS[offered.kind].shapes(given))
+    return number(value, KINDS[offered.kind].shapes(passed))
 
 
 def number(value: Any, shapes: tuple[Shape, ...]) -> FloatArray | Failed:
@@ -302,8 +302,8 @@ def number(value: Any, shapes: tuple[Shape, ...]) -> FloatArray | Failed:
             )
             return Failed(f"returned {what or type(value).__name__}, must be real numbers")
         if array.shape not in shapes:
-            wanted = " or ".join(str(shape) if shape else "one number" for shape in shapes)
-            return Failed(f"returned shape {array.shape}, must be {wanted}")
+            expected = " or ".join(str(shape) if shape else "one number" for shape in shapes)
+            return Failed(f"returned shape {array.shape}, must be {expected}")
         numbers = array.astype(np.float64)
     except (TypeError, ValueError):
         return Failed("returned rows of different lengths")
@@ -315,10 +315,10 @@ def number(value: Any, shapes: tuple[Shape, ...]) -> FloatArray | Failed:
     return numbers
 
 
-def on_one_line(said: object) -> str:
+def on_one_line(text: object) -> str:
     """The first of it; nothing of what cannot say it."""
     try:
-        words = " ".join(str(said).split())
+        words = " ".join(str(text).split())
     # an exception of somebody else's has a text of somebody else's
     except Exception:
         return ""
@@ -331,13 +331,13 @@ def raised(error: BaseException, path: Path | None = None, homes: tuple[str, ...
     Of a decorator the line comes first, before names that are listed. homes: files of a function, whose last line is
     taken rather than one of a library.
     """
-    said = on_one_line(error)
+    message = on_one_line(error)
     lines = [(Path(frame.filename), frame.lineno) for frame in traceback.extract_tb(error.__traceback__)]
-    mine = [(file, line) for file, line in lines if file.parent not in NOT_THEIRS and not file.name.startswith(ENTRY)]
+    own = [(file, line) for file, line in lines if file.parent not in NOT_THEIRS and not file.name.startswith(ENTRY)]
     if path and not path.name.startswith(ENTRY):
-        mine = [(file, line) for file, line in mine if file.is_relative_to(path.parent)]
-    mine = [(file, line) for file, line in mine if is_own(str(file), homes)] or mine
-    where = f"line {mine[-1][1]} of {mine[-1][0].name}" if mine else ""
+        own = [(file, line) for file, line in own if file.is_relative_to(path.parent)]
+    own = [(file, line) for file, line in own if is_own(str(file), homes)] or own
+    where = f"line {own[-1][1]} of {own[-1][0].name}" if own else ""
     if isinstance(error, OfferedError):
-        return f"{where}: {said}" if where else said
-    return f"{type(error).__name__}{f': {said}' if said else ''}{where and f', {where}'}"
+        return f"{where}: {message}" if where else message
+    return f"{type(error).__name__}{f': {message}' if message else ''}{where and f', {where}'}"

@@ -115,7 +115,7 @@ class Visitor:
         self, offered: Offered, name: str, values: Sequence[Any], arguments: Mapping[str, Any]
     ) -> tuple[list[Reply], str, bool]:
         """What it says for each value of one argument, what was printed, and whether a fork of it came back."""
-        given = {each: arguments[each] for each in offered.asks if each in arguments}
+        passed = {each: arguments[each] for each in offered.asks if each in arguments}
         replies: list[Reply] = []
         printed, forked = "", False
         while len(replies) < len(values):
@@ -129,11 +129,11 @@ class Visitor:
                 return replies + [Reply(Failed(f"cannot be run again: {error}"))] * left, printed, forked
             try:
                 self._asked += 1
-                request = self._asked, self.offered.index(offered), given, name, values[len(replies) :]
+                request = self._asked, self.offered.index(offered), passed, name, values[len(replies) :]
                 self._channel.send(request, self.seconds)
                 for position in range(left):
                     reply, text, has_returned = self._answer((self._asked, position))
-                    where = {**given, name: values[len(replies)]}
+                    where = {**passed, name: values[len(replies)]}
                     replies.append(
                         _checked(reply, offered, {each: where[each] for each in offered.asks if each in where})
                     )

@@ -91,8 +91,8 @@ def _printed(file: IO[bytes], place: os.stat_result) -> str:
     with suppress(Exception):
         sys.stdout.flush()
     try:
-        there = os.fstat(file.fileno())
-        if not os.path.samestat(there, place) or not there.st_size:
+        status = os.fstat(file.fileno())
+        if not os.path.samestat(status, place) or not status.st_size:
             return ""
         file.seek(0)
         text = file.read(4 * SHOWN)

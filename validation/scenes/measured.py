@@ -46,13 +46,13 @@ def known_heights(height: ArrayLike) -> FloatArray:
 class HeightEdits:
     """What was done to measured heights: how many points were filled in, of which shape the central square was cut.
 
-    told: what was assumed of their file, in sentences.
+    assumptions: about their file, in sentences.
     """
 
     filled: int = 0
     share: float = 0.0
     cropped_from: tuple[int, int] | None = None
-    told: tuple[str, ...] = ()
+    assumptions: tuple[str, ...] = ()
 
     @property
     def words(self) -> str:
@@ -63,7 +63,7 @@ class HeightEdits:
     @property
     def notes(self) -> tuple[str, ...]:
         """The assumptions about the file, and the edits, each in a sentence."""
-        notes = [*self.told]
+        notes = [*self.assumptions]
         if self.cropped_from:
             notes.append(f"heights are the central square of {_size(self.cropped_from)} points, as asked by crop.")
         if self.filled:

@@ -109,7 +109,7 @@ def edit_heights(
     part = central_square(height, spacing) if crop else height
     count, share = points_to_fill(part, fill=fill, asked_by=asked_by, missing=missing)
     cropped = None if part.shape == height.shape else height.shape
-    edits = HeightEdits(filled=count, share=share, cropped_from=cropped, told=assumptions)
+    edits = HeightEdits(filled=count, share=share, cropped_from=cropped, assumptions=assumptions)
     complete = filled_in(part, spacing) if count else part
     return MeasuredHeights(height=complete, spacing=spacing, edits=edits, detrend=detrend)
 

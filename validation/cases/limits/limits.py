@@ -154,7 +154,7 @@ def summarised(sweep: Sweep) -> dict[str, object]:
     }
 
 
-def said(number: Number) -> str:
+def in_words(number: Number) -> str:
     if number.quantity == WARNED:
         return f"{number.value:.0f} % of its values without the right message"
     if number.grid > abs(number.value) + number.tolerance:
@@ -196,12 +196,12 @@ STUDY = Study(
     ),
     series=series,
     claims=(
-        Claim(quantity=THRESHOLD, printed=said).saying(
+        Claim(quantity=THRESHOLD, printed=in_words).saying(
             "Each method fails where its condition says.",
             short="Failures of the methods agree with their predicted thresholds",
             key="failure",
         ),
-        Claim(quantity=WARNED, printed=said).saying(
+        Claim(quantity=WARNED, printed=in_words).saying(
             "The software warns past each limit and only there.",
             short="Warnings of the software agree with the limits",
             key="warning",

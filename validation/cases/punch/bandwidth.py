@@ -112,7 +112,7 @@ class Bandwidth(PunchEnsembles):
         """The first ones at all forces, the others at those of the first decade."""
         few = force_levels((self.decades[0], self.decades[0] + 1), self.per_decade)
         forces = [self.forces if i < heavy else few for i in range(light)]
-        return [self.surface_of(roughness, self.first + i, cells, mine) for i, mine in enumerate(forces)]
+        return [self.surface_of(roughness, self.first + i, cells, levels) for i, levels in enumerate(forces)]
 
     def springs(self, roughness: PunchRoughness, points: int, count: int) -> Profiles:
         return replace(self.profiles_of(roughness, points), realisations=count)
@@ -144,12 +144,12 @@ def run(case: Bandwidth, engine: Engine = SERIAL) -> Outcomes:
     band, key = case.bands[case.roll_off[1]], (ROLL_OFF, case.roll_off[1])
     surfaces[BEM, *key] = case.pressed(case.rolled, band.cells, case.rolled_off, case.rolled_off)
     profiles[MDR, *key] = case.springs(case.rolled, A_WAVE * band.waves, case.profiles)
-    surfaces = {key: some for key, some in surfaces.items() if some}
-    areas = {key: some for key, some in areas.items() if some.realisations}
+    surfaces = {key: group for key, group in surfaces.items() if group}
+    areas = {key: group for key, group in areas.items() if group.realisations}
     bem, springs, unconverged = press(engine, surfaces, profiles, press_lightly)
     uncoupled = dict(zip(areas, engine.map(press_areas, list(areas.values())), strict=True))
-    found = {**bem, **springs, **uncoupled}
-    return Outcomes(case, {key: outcome["stiffness"] for key, outcome in found.items()}, unconverged)
+    outcomes = {**bem, **springs, **uncoupled}
+    return Outcomes(case, {key: outcome["stiffness"] for key, outcome in outcomes.items()}, unconverged)
 
 
 @dataclass(frozen=True)
@@ -161,40 +161,40 @@ class Deviations:
     @cached_property
     def most(self) -> Mapping[str, int]:
         """Realisations of each method, in any band."""
-        counts = [(SAMPLE_OF.get(key[0], key[0]), len(found)) for key, found in self.result.found.items()]
+        counts = [(SAMPLE_OF.get(key[0], key[0]), len(rows)) for key, rows in self.result.found.items()]
         return {method: max(n for m, n in counts if m == method) for method, _ in counts}
 
     def column(self, method: str, name: float | str, band: int, level: int) -> FloatArray:
         """Under one force, or at one load of springs over an area; NaN for realisations that were not pressed."""
         column = np.full(self.most[SAMPLE_OF.get(method, method)], math.nan)
-        found = self.result.found.get((method, name, band))
-        if found is not None and level < found.shape[1]:
-            column[: len(found)] = found[:, level]
+        rows = self.result.found.get((method, name, band))
+        if rows is not None and level < rows.shape[1]:
+            column[: len(rows)] = rows[:, level]
         return column
 
     def by_band(self, method: str, name: float | str, level: int) -> dict[int, Linearised]:
         """From the narrowest band to the widest that has this level."""
         columns = {i: self.column(method, name, i, level) for i in range(len(self.result.case.bands))}
-        known = {i: column for i, column in columns.items() if np.isfinite(column).any()}
-        found = multilevel_moments(list(known.values()))
-        return {i: one.log_relative_deviation for i, one in zip(known, found, strict=True)}
+        pressed = {i: column for i, column in columns.items() if np.isfinite(column).any()}
+        of_bands = multilevel_moments(list(pressed.values()))
+        return {i: band.log_relative_deviation for i, band in zip(pressed, of_bands, strict=True)}
 
     def change(self, key: tuple[float, int, int], before: str, after: str) -> Linearised:
         """On the realisations that both have, by Hurst exponent, band and level."""
         columns = [self.column(method, *key) for method in (before, after)]
         both = np.asarray(np.isfinite(columns).all(axis=0))
-        one, other = (moments(column, both).log_relative_deviation for column in columns)
-        return other - one
+        start, end = (moments(column, both).log_relative_deviation for column in columns)
+        return end - start
 
     def steps(self, method: str, hurst: float, level: int) -> dict[int, Linearised]:
         """What cells half as long, or twice the springs, change; where that is not measured, as in the band before."""
-        other, found = {BEM: FINER, MDR: DOUBLED}[method], {}
+        finer, changes = {BEM: FINER, MDR: DOUBLED}[method], {}
         step = Linearised(0.0, np.zeros(self.most[method]))
         for i in self.by_band(method, hurst, level):
-            if np.isfinite(self.column(other, hurst, i, level)).any():
-                step = self.change((hurst, i, level), method, other)
-            found[i] = step
-        return found
+            if np.isfinite(self.column(finer, hurst, i, level)).any():
+                step = self.change((hurst, i, level), method, finer)
+            changes[i] = step
+        return changes
 
     def resolved(self, method: str, hurst: float, level: int) -> dict[int, Resolved]:
         """Boundary elements to first order on cells of no size, and half of the way there; springs as they are, and
@@ -206,17 +206,17 @@ class Deviations:
     def ratio(self, hurst: float, level: int) -> dict[int, Resolved]:
         """MDR over boundary elements."""
         springs, bem = (self.resolved(method, hurst, level) for method in (MDR, BEM))
-        return {i: springs[i].beside(one) for i, one in bem.items()}
+        return {i: springs[i].beside(deviation) for i, deviation in bem.items()}
 
     def slope(self, hurst: float, level: int) -> Resolved:
         """d ln ratio / d log10(q_max / q_min) by generalised least squares: a change that few surfaces tell counts
         little. Cells err alike in all bands, so that what they leave of a slope is the slope of what they leave."""
-        ratio = {i: one.value for i, one in self.ratio(hurst, level).items()}
-        shifts = np.array([one.influence for one in ratio.values()])
+        ratio = {i: point.value for i, point in self.ratio(hurst, level).items()}
+        shifts = np.array([point.influence for point in ratio.values()])
         left = np.array(
             [[steps[i].value for i in ratio] for steps in (self.steps(of, hurst, level) for of in (BEM, MDR))]
         )
-        if not np.isfinite([*left.sum(axis=0), *(one.value for one in ratio.values())]).all():
+        if not np.isfinite([*left.sum(axis=0), *(point.value for point in ratio.values())]).all():
             return Resolved(Linearised(math.nan, shifts[0]), 0.0)
         waves = [self.result.case.bands[i].waves for i in ratio]
         line = np.stack([np.ones(len(waves)), np.log10(waves)], axis=1)
@@ -231,7 +231,7 @@ class Deviations:
 
         In bands wider than (kbar / Fbar)^(1/H), whose shorter waves are low beside the depth F / k of the contact.
         """
-        case, line, found = self.result.case, self.by_band(MDR, hurst, level), {}
+        case, line, ratios = self.result.case, self.by_band(MDR, hurst, level), {}
         for i, band in enumerate(case.bands):
             fractions = self.result.found.get((AREA, hurst, i))
             if fractions is None:
@@ -239,8 +239,8 @@ class Deviations:
             wide = float(np.nanmean(self.column(BEM, hurst, i, level)))
             if band.waves > (wide / case.forces[level]) ** (1 / hurst):
                 load = nearest(fractions.mean(axis=0).tolist(), wide**2)
-                found[i] = line[i].beside(self.by_band(AREA, hurst, load)[i])
-        return found
+                ratios[i] = line[i].beside(self.by_band(AREA, hurst, load)[i])
+        return ratios
 
     def of_roll_off(self, level: int) -> Linearised:
         """Change of MDR over boundary elements on equal cells."""

@@ -28,38 +28,41 @@ def series(result: Outcomes) -> list[Series]:
     """Raises NotConvergedError where too few surfaces have converged at one of the forces."""
     pressed = [{"stiffness": rows} for (method, *_), rows in result.found.items() if method == BEM]
     require_converged(pressed, result.unconverged)
-    found = Deviations(result)
-    return [*(one for hurst in result.case.hursts for one in _of(found, hurst)), *_changes(found)]
+    deviations = Deviations(result)
+    return [
+        *(series for hurst in result.case.hursts for series in _by_bandwidth(deviations, hurst)),
+        *_changes(deviations),
+    ]
 
 
-def _of(found: Deviations, hurst: float) -> Iterator[Series]:
+def _by_bandwidth(deviations: Deviations, hurst: float) -> Iterator[Series]:
     """Under each force by band."""
-    waves = [float(band.waves) for band in found.result.case.bands]
+    waves = [float(band.waves) for band in deviations.result.case.bands]
 
-    for level, force in enumerate(found.result.case.forces):
-        one = partial(Series, where={H: hurst, FORCE: force}, along=BANDWIDTH, shown=math.exp)
+    for level, force in enumerate(deviations.result.case.forces):
+        by_band = partial(Series, where={H: hurst, FORCE: force}, along=BANDWIDTH, shown=math.exp)
         for quantity, model, values in (
-            (RATIO, OVER, found.ratio(hurst, level)),
-            (DEVIATION, BEM, found.resolved(BEM, hurst, level)),
-            (DEVIATION, MDR, found.resolved(MDR, hurst, level)),
+            (RATIO, OVER, deviations.ratio(hurst, level)),
+            (DEVIATION, BEM, deviations.resolved(BEM, hurst, level)),
+            (DEVIATION, MDR, deviations.resolved(MDR, hurst, level)),
         ):
-            at, found_there = [waves[i] for i in values], list(values.values())
-            yield one(quantity, model, [v.value for v in found_there], at=at, grid=[v.grid for v in found_there])
-        alone = found.without_coupling(hurst, level)
-        yield one(RATIO, AREA, list(alone.values()), at=[waves[i] for i in alone])
+            at, resolved = [waves[i] for i in values], list(values.values())
+            yield by_band(quantity, model, [v.value for v in resolved], at=at, grid=[v.grid for v in resolved])
+        alone = deviations.without_coupling(hurst, level)
+        yield by_band(RATIO, AREA, list(alone.values()), at=[waves[i] for i in alone])
 
 
-def _changes(found: Deviations) -> Iterator[Series]:
+def _changes(deviations: Deviations) -> Iterator[Series]:
     """Of the ratio by decade of bandwidth, under each force and as their mean, which is judged; by a roll-off."""
-    case, levels = found.result.case, range(len(found.result.case.forces))
+    case, levels = deviations.result.case, range(len(deviations.result.case.forces))
     by_force = partial(case.in_decibels, shown=in_factors)
     judged = partial(Series, DRIFT, OVER, scale=DECIBEL, unit="dB", margin=ALIKE, family=len(case.hursts))
     for hurst in case.hursts:
-        slopes = [found.slope(hurst, level) for level in levels]
+        slopes = [deviations.slope(hurst, level) for level in levels]
         mean = combined([1 / len(slopes)] * len(slopes), slopes)
         yield judged((mean.value,), where={H: hurst, FORCE: (case.forces[0], case.forces[-1])}, grid=[mean.grid])
         yield by_force(OF_EACH, OVER, [s.value for s in slopes], grid=[s.grid for s in slopes], where={H: hurst})
-    rolled = [found.of_roll_off(level) for level in levels]
+    rolled = [deviations.of_roll_off(level) for level in levels]
     where: dict[str, Place] = {H: case.rolled.hurst, ROLL_OFF: float(case.roll_off[0])}
     yield by_force(ROLLED, OVER, rolled, where=where, margin=ALIKE)
 
@@ -70,24 +73,24 @@ def in_factors(decibels: float) -> float:
 
 def notes(result: Outcomes) -> list[str]:
     """What the constant is, and what springs without coupling say of it."""
-    case, found = result.case, Deviations(result)
+    case, deviations = result.case, Deviations(result)
     pairs = [(hurst, level) for hurst in case.hursts for level in range(len(case.forces))]
     widest = max(i for i, band in enumerate(case.bands) if band.heavy)
-    waves, ratios = case.bands[widest].waves, [found.ratio(*pair)[widest].value.value for pair in pairs]
-    slopes = [found.slope(*pair) for pair in pairs]
+    waves, ratios = case.bands[widest].waves, [deviations.ratio(*pair)[widest].value.value for pair in pairs]
+    slopes = [deviations.slope(*pair) for pair in pairs]
     mean = combined([1 / len(slopes)] * len(slopes), slopes)
     if not math.isfinite(mean.value.value):
         return []
-    said = [
+    sentences = [
         f"Over all loads and H, the ratio changes by {100 * mean.value.value:+.1f} ± "
         f"{100 * (mean.value.half_width + mean.grid):.1f} % per decade of bandwidth.",
         f"At q_max/q_min = {waves} MDR's relative deviation is {_from_to(ratios)} that of boundary elements.",
     ]
-    uncoupled = [ratio.value for pair in pairs for ratio in found.without_coupling(*pair).values()]
+    uncoupled = [ratio.value for pair in pairs for ratio in deviations.without_coupling(*pair).values()]
     if uncoupled:
         times = _from_to(uncoupled)
-        said += [f"Without elastic coupling, the deviation of springs along a line is {times} that over an area."]
-    return said
+        sentences += [f"Without elastic coupling, the deviation of springs along a line is {times} that over an area."]
+    return sentences
 
 
 def _from_to(logarithms: list[float]) -> str:

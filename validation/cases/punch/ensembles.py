@@ -33,8 +33,8 @@ def worked(cells: int, springs: int, outcomes: Iterable[Outcome]) -> Table:
 
     outcomes: a row a surface and a column a load, NaN where a surface was not pressed: light loads have more.
     """
-    found = [outcome["applications"] + outcome["frozen applications"] for outcome in outcomes]
-    mean_of_loads = float(np.nanmean(np.concatenate([np.nanmean(values, axis=0) for values in found])))
+    counts = [outcome["applications"] + outcome["frozen applications"] for outcome in outcomes]
+    mean_of_loads = float(np.nanmean(np.concatenate([np.nanmean(values, axis=0) for values in counts])))
     return Table(WORK, {CELLS: [cells], SPRINGS: [springs], APPLICATIONS: [mean_of_loads]})
 
 
@@ -84,9 +84,9 @@ class PunchEnsembles:
         """Of natural logarithms at each force, judged decade by decade."""
         return partial(Series, along=FORCE, at=self.forces, scale=DECIBEL, unit="dB", ranges=self.by_decade)
 
-    def family(self, others: int) -> int:
-        """Numbers of a claim at most, whose intervals hold at once: decades of so many others, of two quantities."""
-        return 2 * len(self.first_forces) * others
+    def family(self, count: int) -> int:
+        """Numbers of a claim at most, whose intervals hold at once: decades of so many curves, of two quantities."""
+        return 2 * len(self.first_forces) * count
 
     def band(self, hurst: float) -> PunchRoughness:
         """Self-affine from one wave on a side to four cells a wave, the same on every grid and by both methods."""
@@ -130,4 +130,4 @@ def change(statistic: Statistic, before: FloatArray, after: FloatArray) -> Estim
     """From one to another of the first realisations that both have, by the jackknife, since they are few."""
     count = min(len(before), len(after))
     pairs = np.stack([before[:count], after[:count]], axis=1)
-    return Estimates(jackknifed(lambda some: of_rows(statistic, some[:, 1]) - of_rows(statistic, some[:, 0]), pairs))
+    return Estimates(jackknifed(lambda rows: of_rows(statistic, rows[:, 1]) - of_rows(statistic, rows[:, 0]), pairs))

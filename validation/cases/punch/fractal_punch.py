@@ -125,9 +125,9 @@ class FractalPunch(PunchEnsembles):
 
     def roughness(self, hurst: float, cells: int | None = None) -> PunchRoughness:
         """Of surfaces on a grid, which has no wave shorter than two cells; without one, the whole band."""
-        whole = replace(self.band(hurst), common=True)
-        first, last = whole.waves
-        return whole if cells is None else replace(whole, waves=(first, min(last, cells // 2)))
+        band = replace(self.band(hurst), common=True)
+        first, last = band.waves
+        return band if cells is None else replace(band, waves=(first, min(last, cells // 2)))
 
     def surface(self, hurst: float, realisation: int, cells: int) -> Surface:
         """One of the solves: one realisation on one grid, at all forces that have so many surfaces there."""
@@ -162,17 +162,17 @@ def run(case: FractalPunch, engine: Engine = SERIAL) -> Outcomes:
     return Outcomes(case, {**placed, **springs}, unconverged)
 
 
-def at_all_forces(case: FractalPunch, surfaces: Sequence[Surface], found: Outcome) -> Outcome:
+def at_all_forces(case: FractalPunch, surfaces: Sequence[Surface], outcome: Outcome) -> Outcome:
     """What was found at the forces of each surface, put under those of the case; NaN elsewhere."""
     level = {force: i for i, force in enumerate(case.forces)}
 
     def spread(values: FloatArray) -> FloatArray:
         placed = np.full((len(surfaces), len(level)), np.nan)
-        for row, surface, mine in zip(placed, surfaces, values, strict=True):
-            row[[level[force] for force in surface.forces]] = mine[: len(surface.forces)]
+        for row, surface, pressed in zip(placed, surfaces, values, strict=True):
+            row[[level[force] for force in surface.forces]] = pressed[: len(surface.forces)]
         return placed
 
-    return {name: spread(values) if values.ndim > 1 else values for name, values in found.items()}
+    return {name: spread(values) if values.ndim > 1 else values for name, values in outcome.items()}
 
 
 @dataclass(frozen=True)
@@ -188,7 +188,7 @@ class PunchStatistics:
 
     def outcomes(self, hurst: float, method: str) -> dict[int, Outcome]:
         """By cells on a side, or springs, coarse to fine."""
-        return {size: found for (h, m, size), found in self.result.found.items() if (h, m) == (hurst, method)}
+        return {size: outcome for (h, m, size), outcome in self.result.found.items() if (h, m) == (hurst, method)}
 
     def on_grids(self, name: str, hurst: float, method: str, level: int) -> dict[int, FloatArray]:
         """What each realisation has under one force, on each grid where some were pressed; NaN for the others."""
@@ -213,9 +213,9 @@ class PunchStatistics:
 
     def steps(self, hurst: float, method: str, statistic: str, level: int) -> dict[int, Linearised]:
         """ln of the mean stiffness, or of the relative deviation, under one force, on each grid."""
-        found = self._moments[hurst, method, level]
+        moments = self._moments[hurst, method, level]
         logarithm = attrgetter("log_mean" if statistic == MEAN else "log_relative_deviation")
-        return {n: logarithm(mine) for n, mine in found.items()}
+        return {n: logarithm(of_grid) for n, of_grid in moments.items()}
 
     def at(self, hurst: float, method: str, statistic: str, level: int) -> Resolved:
         """On cells of no size, or on twice the springs."""
@@ -227,12 +227,12 @@ class PunchStatistics:
 
         Minus infinity where no profile of springs deviates from another, as in full contact; NaN where no surface does.
         """
-        springs, bem = (self.at(hurst, one, statistic, level) for one in (method, BEM))
+        springs, bem = (self.at(hurst, model, statistic, level) for model in (method, BEM))
         return springs.beside(bem)
 
     def counted(self, hurst: float, method: str, level: int) -> Resolved:
         """The ratio of the deviations as it is judged, by `RULE`."""
-        springs, bem = (at_least(self.at(hurst, one, DEVIATION, level)) for one in (method, BEM))
+        springs, bem = (at_least(self.at(hurst, model, DEVIATION, level)) for model in (method, BEM))
         return springs.beside(bem)
 
     def exponent(self, hurst: float, method: str, before: int, after: int) -> Resolved:
@@ -242,8 +242,8 @@ class PunchStatistics:
 
     def trend(self, method: str, level: int) -> Resolved:
         """d ln deviation / d H by least squares over the Hurst exponents: positive if the deviation rises with H."""
-        apart = np.array(self.case.hursts) - np.mean(self.case.hursts)
-        return combined(apart / (apart**2).sum(), [self.at(h, method, DEVIATION, level) for h in self.case.hursts])
+        centred = np.array(self.case.hursts) - np.mean(self.case.hursts)
+        return combined(centred / (centred**2).sum(), [self.at(h, method, DEVIATION, level) for h in self.case.hursts])
 
     def require_converged(self) -> None:
         """Raises NotConvergedError where too few surfaces have converged at one of the forces."""
@@ -275,9 +275,9 @@ CONVEX = Quantity("largest_excess_of_the_slope_of_the_load_curve_over_the_stiffn
 FLAT = Quantity("largest_stiffness_of_any_surface_over_that_of_the_flat_punch")
 
 
-def criteria(found: PunchStatistics) -> Iterator[Series]:
+def criteria(statistics: PunchStatistics) -> Iterator[Series]:
     """F(d) is convex: its slope lies between the stiffnesses at two forces. No punch is stiffer than a flat one."""
-    case = found.case
+    case = statistics.case
     force = case.height * np.array(case.forces)
     consistent = (
         "force, approach and stiffness of every realisation are consistent; residual of the solver, and two digits of "
@@ -285,30 +285,30 @@ def criteria(found: PunchStatistics) -> Iterator[Series]:
     )
     for method in (BEM, MDR):
         excess = 1.0
-        for outcome in (one for hurst in case.hursts for one in found.outcomes(hurst, method).values()):
+        for outcome in (o for hurst in case.hursts for o in statistics.outcomes(hurst, method).values()):
             slope, stiffness = np.diff(force) / np.diff(outcome["approach"], axis=1), outcome["stiffness"]
             for ratio in (stiffness[:, :-1] / slope, slope / stiffness[:, 1:]):
                 excess = float(np.fmax.reduce(ratio, axis=None, initial=excess))
         yield single(CONVEX, method, excess - 1, 100 * case.tolerance, "F(d) is convex", consistent)
-    largest = max(float(np.nanmax(found.result[hurst, BEM, case.cells]["stiffness"])) for hurst in case.hursts)
+    largest = max(float(np.nanmax(statistics.result[hurst, BEM, case.cells]["stiffness"])) for hurst in case.hursts)
     over_flat, half = largest / closed_forms.SQUARE_PUNCH, 1 / case.cells
     all_cells = "flat punch: all cells in contact"
     reason = "never stiffer than all cells in contact; at the largest force at most two cells a side "
     yield single(FLAT, BEM, over_flat, half, all_cells, f"{reason}({2 * half:.2g}) softer", 1.0 - half)
 
 
-def curves(found: PunchStatistics, hurst: float) -> Iterator[Series]:
+def curves(statistics: PunchStatistics, hurst: float) -> Iterator[Series]:
     """Statistics of each method force by force, on grids too, and which of them stand on few cells."""
-    case, levels = found.case, range(len(found.case.forces))
+    case, levels = statistics.case, range(len(statistics.case.forces))
     by_force = partial(Series, where={H: hurst}, along=FORCE, at=case.forces)
     ends = [(max(i - 1, 0), min(i + 1, len(levels) - 1)) for i in levels]
     finest = [max(case.counts(force)) for force in case.forces]
-    cells = np.array([found.contact(hurst, i, n) for i, n in zip(levels, finest, strict=True)])
+    cells = np.array([statistics.contact(hurst, i, n) for i, n in zip(levels, finest, strict=True)])
     for method in (BEM, MDR, LONG):
         of: dict[tuple[str, Callable[[float], float]], list[Linearised]] = {
-            (STIFFNESS, math.exp): [found.at(hurst, method, MEAN, i).value for i in levels],
-            (SCATTER, math.exp): [found.at(hurst, method, DEVIATION, i).value for i in levels],
-            (SLOPE, float): [found.exponent(hurst, method, *pair).value for pair in ends],
+            (STIFFNESS, math.exp): [statistics.at(hurst, method, MEAN, i).value for i in levels],
+            (SCATTER, math.exp): [statistics.at(hurst, method, DEVIATION, i).value for i in levels],
+            (SLOPE, float): [statistics.exponent(hurst, method, *pair).value for pair in ends],
         }
         for (quantity, shown), values in of.items():
             yield by_force(quantity, method, values, shown=shown)
@@ -316,24 +316,24 @@ def curves(found: PunchStatistics, hurst: float) -> Iterator[Series]:
                 yield by_force(quantity, FEW, masked(values, cells < FEW_CELLS), shown=shown)
     force, middle = np.array(case.forces), len(levels) // 2
     law = np.where(force <= 1, (force / force[middle]) ** (1 / (1 + hurst)), math.nan)
-    yield by_force(STIFFNESS, LAW, law * math.exp(found.at(hurst, BEM, MEAN, middle).value.value))
+    yield by_force(STIFFNESS, LAW, law * math.exp(statistics.at(hurst, BEM, MEAN, middle).value.value))
     yield by_force(SLOPE, LAW, np.full(force.size, 1 / (1 + hurst)))
-    pressed = [found.on_grids("stiffness", hurst, BEM, i).values() for i in levels]
-    yield by_force("surfaces", BEM, [float(max(np.isfinite(one).sum() for one in grids)) for grids in pressed])
+    pressed = [statistics.on_grids("stiffness", hurst, BEM, i).values() for i in levels]
+    yield by_force("surfaces", BEM, [float(max(np.isfinite(column).sum() for column in grids)) for grids in pressed])
     yield by_force(FRACTION, BEM, cells / np.square(finest))
-    yield by_force(FRACTION, MDR, found.result[hurst, MDR, case.points]["area"].mean(axis=0))
+    yield by_force(FRACTION, MDR, statistics.result[hurst, MDR, case.points]["area"].mean(axis=0))
     for quantity, statistic in ((STIFFNESS, MEAN), (SCATTER, DEVIATION)):
-        steps = [found.steps(hurst, BEM, statistic, i) for i in levels]
+        steps = [statistics.steps(hurst, BEM, statistic, i) for i in levels]
         for n in case.grids:
             on_grid = [step[n].value if n in step else math.nan for step in steps]
             yield by_force(f"{quantity} on grids", f"{n}²", on_grid, shown=math.exp)
 
 
-def trends(found: PunchStatistics) -> Iterator[Series]:
+def trends(statistics: PunchStatistics) -> Iterator[Series]:
     """Whether the deviation rises with H, where there are several."""
-    case = found.case
+    case = statistics.case
     for method in (BEM, MDR) if len(case.hursts) > 1 else ():
-        by_force = [found.trend(method, level) for level in range(len(case.forces))]
+        by_force = [statistics.trend(method, level) for level in range(len(case.forces))]
         values, grid = [t.value for t in by_force], [t.grid for t in by_force]
         yield Series(TREND, method, values, along=FORCE, at=case.forces, grid=grid)
 

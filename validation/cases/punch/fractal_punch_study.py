@@ -46,19 +46,19 @@ HEAVY = (0.4, 10.0)
 
 def series(result: Outcomes) -> list[Series]:
     """Raises NotConvergedError where too few surfaces have converged at one of the forces."""
-    case, found = result.case, shown.PunchStatistics(result)
-    found.require_converged()
+    case, statistics = result.case, shown.PunchStatistics(result)
+    statistics.require_converged()
     return [
-        *shown.criteria(found),
-        *(one for hurst in case.hursts for one in shown.curves(found, hurst)),
-        *(one for hurst in case.hursts for one in compared(found, hurst)),
-        *shown.trends(found),
+        *shown.criteria(statistics),
+        *(series for hurst in case.hursts for series in shown.curves(statistics, hurst)),
+        *(series for hurst in case.hursts for series in compared(statistics, hurst)),
+        *shown.trends(statistics),
     ]
 
 
-def compared(found: shown.PunchStatistics, hurst: float) -> Iterator[Series]:
+def compared(statistics: shown.PunchStatistics, hurst: float) -> Iterator[Series]:
     """Each 1D model over boundary elements; every decade is judged by its worst force, whose intervals hold at once."""
-    case = found.case
+    case = statistics.case
     where: dict[str, Place] = {shown.H: hurst}
     judged = partial(case.in_decibels, where=where, shown=lambda x: math.exp(x / DECIBEL), fewest=case.per_decade + 1)
     for statistic, method, margins in (
@@ -66,36 +66,42 @@ def compared(found: shown.PunchStatistics, hurst: float) -> Iterator[Series]:
         (MEAN, MDR, {MEAN: LEVEL}),
         (MEAN, shown.LONG, {MEAN + OF_LONG: LEVEL}),
     ):
-        ratios = [found.ratio(hurst, method, statistic, level) for level in range(len(case.forces))]
+        ratios = [statistics.ratio(hurst, method, statistic, level) for level in range(len(case.forces))]
         values, grid = [ratio.value for ratio in ratios], [ratio.grid for ratio in ratios]
-        as_judged = counted(found, hurst, method) if statistic == DEVIATION else None
+        as_judged = counted(statistics, hurst, method) if statistic == DEVIATION else None
         for name, margin in margins.items():
             yield judged(name, OVER, values, grid=grid, margin=margin, counted=as_judged)
-    bem = [found.at(hurst, BEM, MEAN, level) for level in range(len(case.forces))]
+    bem = [statistics.at(hurst, BEM, MEAN, level) for level in range(len(case.forces))]
     of_fit = [Linearised(math.log(fitted(case, force)), np.zeros(1)) for force in case.forces]
-    apart = [mine.beside(one.value) for mine, one in zip(of_fit, bem, strict=True)]
+    differences = [fit.beside(stiffness.value) for fit, stiffness in zip(of_fit, bem, strict=True)]
     yield judged(
-        MEAN, FIT, apart, grid=[one.grid for one in bem], margin=LEVEL, ranges=spans(case.forces, HEAVY), fewest=2
+        MEAN,
+        FIT,
+        differences,
+        grid=[stiffness.grid for stiffness in bem],
+        margin=LEVEL,
+        ranges=spans(case.forces, HEAVY),
+        fewest=2,
     )
-    yield from exponents(found, hurst)
+    yield from exponents(statistics, hurst)
 
 
-def counted(found: shown.PunchStatistics, hurst: float, method: str) -> Counted:
+def counted(statistics: shown.PunchStatistics, hurst: float, method: str) -> Counted:
     """Ratios of deviations as verdicts are about them."""
-    ratios = [found.counted(hurst, method, level) for level in range(len(found.case.forces))]
+    ratios = [statistics.counted(hurst, method, level) for level in range(len(statistics.case.forces))]
     return Counted([ratio.value for ratio in ratios], [ratio.grid for ratio in ratios], shown.RULE)
 
 
-def exponents(found: shown.PunchStatistics, hurst: float) -> Iterator[Series]:
+def exponents(statistics: shown.PunchStatistics, hurst: float) -> Iterator[Series]:
     """Decade by decade; off the last asperity and off saturation beside those that are published, all H at once."""
-    case = found.case
+    case = statistics.case
     tested = min(case.first_forces, key=lambda force: abs(math.log(force / 0.01)))
     steep, flat = max(PUBLISHED), min(PUBLISHED)
     for first in case.first_forces:
-        springs, bem = (found.exponent(hurst, method, *case.decade(first)) for method in (MDR, BEM))
-        apart = springs.beside(bem)
+        springs, bem = (statistics.exponent(hurst, method, *case.decade(first)) for method in (MDR, BEM))
+        difference = springs.beside(bem)
         place: dict[str, Place] = {shown.H: hurst, FORCE: (first, 10 * first)}
-        yield Series(EXPONENT, LESS, (apart.value,), where=place, grid=[apart.grid], margin=DIGITS)
+        yield Series(EXPONENT, LESS, (difference.value,), where=place, grid=[difference.grid], margin=DIGITS)
         if first == tested:
             law = partial(Series, EXPONENT, where=place, family=len(case.hursts), grid=[bem.grid])
             for model, source, reference in (
@@ -120,11 +126,11 @@ def once_more(result: Outcomes, numbers: Sequence[Number]) -> list[Number]:
 
     In decades whose lightest contacts have cells enough at every H, and in the last.
     """
-    case, found = result.case, shown.PunchStatistics(result)
+    case, statistics = result.case, shown.PunchStatistics(result)
     light = {
         (case.forces[first], case.forces[last])
         for first, last in map(case.decade, case.first_forces[:-1])
-        if min(found.contact(hurst, first, case.cells) for hurst in case.hursts) < FEW_CELLS
+        if min(statistics.contact(hurst, first, case.cells) for hurst in case.hursts) < FEW_CELLS
     }
     mean = [n for n in numbers_with(numbers, MEAN, OVER) if n.where[FORCE] not in light]
     farthest = max(mean, key=lambda n: abs(n.value) + n.uncertainty, default=None)
@@ -155,8 +161,8 @@ def _by_hurst(
     **panel: object,
 ) -> Chart:
     """A panel for each Hurst exponent."""
-    mine = tuple(replace(curve, quantity=quantity) for curve in drawn)
-    panels = (Panel(FORCE, label, facet=shown.H, **panel).of(*mine),)  # type: ignore[arg-type]
+    curves = tuple(replace(curve, quantity=quantity) for curve in drawn)
+    panels = (Panel(FORCE, label, facet=shown.H, **panel).of(*curves),)  # type: ignore[arg-type]
     name = f"fractal_punch-{part}"
     return Chart(name, claims=(claim,)).of(caption, *panels)
 
@@ -275,8 +281,8 @@ STUDY = Study(
     ),
     matrices=(
         *(
-            of_hursts(name=f"{one}: MDR over boundary elements", quantity=one, model=OVER, printed=per_cent)
-            for one in (DEVIATION, DEVIATION + PRINTED, MEAN, MEAN + OF_LONG)
+            of_hursts(name=f"{quantity}: MDR over boundary elements", quantity=quantity, model=OVER, printed=per_cent)
+            for quantity in (DEVIATION, DEVIATION + PRINTED, MEAN, MEAN + OF_LONG)
         ),
         of_hursts(name="mean stiffness: the fit over boundary elements", quantity=MEAN, model=FIT, printed=per_cent),
         of_hursts(name="exponent: MDR less boundary elements", quantity=EXPONENT, model=LESS),

@@ -106,8 +106,8 @@ class Interface:
 
 def run(case: Interface, engine: Engine = SERIAL) -> Outcomes:
     """Outcomes by ground and how many times finer the grid is, for the punch by "punch" and for the springs by MDR."""
-    grounds = {key: some for ground in case.grounds for key, some in case.surfaces_of(ground).items()}
-    punches = {(PUNCH, finer): some for (_, finer), some in case.surfaces_of(case.pressed).items()}
+    grounds = {key: surfaces for ground in case.grounds for key, surfaces in case.surfaces_of(ground).items()}
+    punches = {(PUNCH, finer): surfaces for (_, finer), surfaces in case.surfaces_of(case.pressed).items()}
     springs = Profiles(
         roughness=case.roughness(case.pressed),
         realisations=case.profiles,
@@ -177,37 +177,37 @@ def series(result: Outcomes) -> list[Series]:
     case = result.case
     require_converged([o for key, o in result.found.items() if key != MDR], result.unconverged)
     grounds = {g: Measured(result[g, 1], result[g, 2]) for g in case.grounds}
-    found = [one for ground, mine in grounds.items() for one in _of_interface(case, ground, mine)]
+    rows = [s for ground, measured in grounds.items() for s in _of_interface(case, ground, measured)]
     inside = [result[g, 1]["stiffness"] * result[g, 1]["highest"][:, np.newaxis] for g in case.grounds]
     shares = [np.mean(k > case.height * case.pressures(g)) for k, g in zip(inside, case.grounds, strict=True)]
     exact = "no load path leaves those of the smooth faces shifted by the extreme heights: Barber (2003)"
-    found.append(single(BOUNDED, BEM, float(np.mean(shares)), 1e-9, exact, "a theorem", 1.0))
+    rows.append(single(BOUNDED, BEM, float(np.mean(shares)), 1e-9, exact, "a theorem", 1.0))
     for ground, more in grounds.items():
         fewer = ground[0] // 2, ground[1]
         if half := grounds.get(fewer):
             loads = Estimates.exact(np.log(case.pressures(ground) / case.pressures(fewer)))
-            apart, finer = (one - other for one, other in zip(more.of(), half.of(), strict=True))
-            found += _each(case, ground, OF_HALF, BEM, apart - loads, finer)
+            ratios, finer = (value - reference for value, reference in zip(more.of(), half.of(), strict=True))
+            rows += _at_each_load(case, ground, OF_HALF, BEM, ratios - loads, finer)
     punch = Measured(result[PUNCH, 1], result[PUNCH, 2])
-    return found + list(_of_punch(case, grounds[case.pressed], punch, result[MDR]))
+    return rows + list(_of_punch(case, grounds[case.pressed], punch, result[MDR]))
 
 
-def _of_interface(case: Interface, ground: Ground, mine: Measured) -> Iterator[Series]:
+def _of_interface(case: Interface, ground: Ground, measured: Measured) -> Iterator[Series]:
     """K h / p along the loads, theory beside it load by load, and the exponents of both from load to load."""
     over_h, where = case.pressures(ground), _where(ground)
-    stiffness, finer = mine.of()
+    stiffness, finer = measured.of()
     shown = partial(Series, SCALED, where=where, along=CONTACT, at=case.per_cent, shown=math.exp)
     yield shown(BEM, stiffness - Estimates.exact(np.log(over_h)), grid=finer)
-    yield shown(BARBER, np.full(over_h.size, math.log(case.height / float(mine.coarse["highest"].mean()))))
+    yield shown(BARBER, np.full(over_h.size, math.log(case.height / float(measured.coarse["highest"].mean()))))
     spectrum = case.spectrum(ground)
     for model, gamma in GAMMAS.items():
-        known = persson_stiffness(over_h, c2d=spectrum.c2d, edges=spectrum.edges, modulus=1.0, gamma=gamma)
-        yield shown(model, np.log(known / over_h))
-        yield from _each(case, ground, BESIDE_BEM, model, Estimates.exact(np.log(known)) - stiffness, finer)
-        yield from _each(case, ground, EXPONENT, model, case.slopes(ground)(known, known), margin=None)
-    yield from _each(case, ground, EXPONENT, BEM, *mine.of(statistic=case.slopes(ground)), PROPORTIONAL)
-    found, finer = mine.of(statistic=case.beside_heavier(ground))
-    yield from _each(case, ground, OVER_LOAD, BEM, masked(found, np.array(case.contacts) < LIGHT), finer)
+        theory = persson_stiffness(over_h, c2d=spectrum.c2d, edges=spectrum.edges, modulus=1.0, gamma=gamma)
+        yield shown(model, np.log(theory / over_h))
+        yield from _at_each_load(case, ground, BESIDE_BEM, model, Estimates.exact(np.log(theory)) - stiffness, finer)
+        yield from _at_each_load(case, ground, EXPONENT, model, case.slopes(ground)(theory, theory), margin=None)
+    yield from _at_each_load(case, ground, EXPONENT, BEM, *measured.of(statistic=case.slopes(ground)), PROPORTIONAL)
+    ratios, finer = measured.of(statistic=case.beside_heavier(ground))
+    yield from _at_each_load(case, ground, OVER_LOAD, BEM, masked(ratios, np.array(case.contacts) < LIGHT), finer)
 
 
 def _of_punch(case: Interface, interface: Measured, punch: Measured, springs: Outcome) -> Iterator[Series]:
@@ -221,25 +221,25 @@ def _of_punch(case: Interface, interface: Measured, punch: Measured, springs: Ou
     }
     for (name, (quantity, unit)), judged in zip(drawn.items(), (STIFFNESS, AREA, GAP), strict=True):
         # zero where all springs touch, which leaves no ratio; its digits are rounding
-        known = np.where(springs[name] > ZERO_GAP, springs[name], 0.0)
-        logs = Estimates(jackknifed(partial(of_rows, log_mean), known))
-        (found, finer), (edgeless, left) = punch.of(name), interface.of(name)
+        values = np.where(springs[name] > ZERO_GAP, springs[name], 0.0)
+        logs = Estimates(jackknifed(partial(of_rows, log_mean), values))
+        (on_punch, finer), (edgeless, left) = punch.of(name), interface.of(name)
         over = Estimates.exact(np.log(unit * np.ones(forces.size)))
-        yield shown(quantity, ON_PUNCH, found - over, grid=finer)
+        yield shown(quantity, ON_PUNCH, on_punch - over, grid=finer)
         yield shown(quantity, MDR, logs - over)
         if name != "stiffness":
             yield shown(quantity, EDGELESS, edgeless - over, grid=left)
-        yield from _each(case, ground, judged, OVER, logs - found, finer)
-    yield from _each(case, ground, EXPONENT, ON_PUNCH, *punch.of(statistic=slope), None)
+        yield from _at_each_load(case, ground, judged, OVER, logs - on_punch, finer)
+    yield from _at_each_load(case, ground, EXPONENT, ON_PUNCH, *punch.of(statistic=slope), None)
     slopes = Estimates(jackknifed(partial(of_rows, slope), springs["stiffness"]))
-    yield from _each(case, ground, EXPONENT, MDR, slopes, margin=None)
+    yield from _at_each_load(case, ground, EXPONENT, MDR, slopes, margin=None)
     alone = np.exp(interface.of()[0].values)
     yield shown(SCALED_PUNCH, SERIES, -np.log(forces * (1 / alone + 1 / SQUARE_PUNCH)))
     coarse, fine = (np.stack([p["stiffness"], i["stiffness"]], axis=1) for p, i in zip(punch, interface, strict=True))
     both = np.stack([coarse[: len(fine)], fine], axis=1)
     finer = Estimates(jackknifed(lambda rows: _over_series(rows[:, 1]) - _over_series(rows[:, 0]), both))
-    found = Estimates(jackknifed(_over_series, coarse)).on_no_size(finer)
-    yield from _each(case, ground, OF_SERIES, BEM, found, finer)
+    ratios = Estimates(jackknifed(_over_series, coarse)).on_no_size(finer)
+    yield from _at_each_load(case, ground, OF_SERIES, BEM, ratios, finer)
 
 
 def _over_series(rows: FloatArray) -> FloatArray:
@@ -248,22 +248,22 @@ def _over_series(rows: FloatArray) -> FloatArray:
     return np.asarray(np.log(k * (1 / alone + 1 / SQUARE_PUNCH)))
 
 
-def _each(
+def _at_each_load(
     case: Interface,
     ground: Ground,
     quantity: str,
     model: str,
-    found: Iterable[Estimate | float],
+    values: Iterable[Estimate | float],
     finer: Iterable[Estimate | float] = repeat(0.0),
     margin: Margin | None = NEAR,
 ) -> Iterator[Series]:
     """A number at each load; of exponents for each step between light loads."""
     places: Sequence[Place] = [step for step in pairwise(case.per_cent) if step[1] <= 100 * LIGHT]
     places, unit = (places, ONE) if quantity == EXPONENT else (case.per_cent, DECIBELS)
-    for place, one, left in zip(places, found, finer, strict=False):
+    for place, value, left in zip(places, values, finer, strict=False):
         where: Where = {**_where(ground), CONTACT: place}
         family = len(places) * len(case.grounds)
-        yield Series(quantity, model, (one,), where=where, grid=(left,), margin=margin, family=family, **unit)
+        yield Series(quantity, model, (value,), where=where, grid=(left,), margin=margin, family=family, **unit)
 
 
 def _where(ground: Ground) -> Where:

@@ -48,12 +48,12 @@ def _work(result: Outcomes) -> tuple[Table]:
 def notes(result: Outcomes) -> list[str]:
     """Whether the finite face is why theory is too soft under light loads."""
     case, numbers = result.case, numbers_of(series(result))
-    there = {"H": case.pressed[1], CONTACT: case.per_cent[0]}
-    by_size = {n.where[ROLL_OFF]: per_cent(n) for n in numbers_with(numbers, BESIDE_BEM, FITTED, **there)}
+    lightest = {"H": case.pressed[1], CONTACT: case.per_cent[0]}
+    by_size = {n.where[ROLL_OFF]: per_cent(n) for n in numbers_with(numbers, BESIDE_BEM, FITTED, **lightest)}
     if len(by_size) < MANY:
         return []
-    said = listed([f"{by_size[size]} at {ROLL_OFF} = {size:g}" for size in sorted(by_size)])
-    return [f"Under the lightest load, H = {case.pressed[1]:g}, the stiffness of Persson's theory is off by {said}."]
+    errors = listed([f"{by_size[size]} at {ROLL_OFF} = {size:g}" for size in sorted(by_size)])
+    return [f"Under the lightest load, H = {case.pressed[1]:g}, the stiffness of Persson's theory is off by {errors}."]
 
 
 of_interface = partial(

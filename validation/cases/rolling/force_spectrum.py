@@ -113,7 +113,7 @@ def run(case: ForceSpectrum, engine: Engine = SERIAL) -> Outcomes:
     groups = {(name, h): case.strips_of(h, cells) for name, cells in grids.items() for h in case.heights}
     strips, unconverged = rolling_strip.roll_strips(groups, engine)
     tracks = {(SPRINGS, h): case.tracks_of(h) for h in case.heights}
-    levels = {(name, h): strip_levels(one, 1 / grids[name], case.bands) for (name, h), one in strips.items()}
+    levels = {(name, h): strip_levels(outcome, 1 / grids[name], case.bands) for (name, h), outcome in strips.items()}
     rolled = dict(zip(tracks, engine.map(rolling_strip.roll_tracks, list(tracks.values())), strict=True))
     return Outcomes(case, {**levels, **rolled}, unconverged)
 
@@ -148,7 +148,7 @@ def series(result: Outcomes) -> list[Series]:
     heights = result.case.heights
     by_height = (_curve, _levels, _force, _roughness)
     return [
-        *(one for of in by_height for height in heights for one in of(result, height)),
+        *(series for of in by_height for height in heights for series in of(result, height)),
         *_inputs(result.case),
         *_spectrum(result, heights[0]),
     ]
@@ -188,7 +188,7 @@ def _curve(result: Outcomes, height: float) -> Iterator[Series]:
     inside, short = ((edges[:-1] > q * (1 - 1e-9)) & (edges[1:] < case.last) for q in (case.first, SHORT_WAVES))
     decibels = partial(Series, where=where, scale=POWER_DECIBEL, unit="dB")
     filters = partial(force_spectrum_1d, contact_radius=1.0, modulus=1.0), partial(mean_force_spectrum_1d, modulus=1.0)
-    book, mean = (levels_on_track(case, one) for one in filters)
+    book, mean = (levels_on_track(case, spectrum) for spectrum in filters)
     curve = Estimates.ratios(springs[:, inside], book[inside])
     margin = REPEATABLE.beside("(14.12), (14.14), on the waves of a track") if height <= LOW else None
     yield decibels(CURVE, SPRINGS, curve, along=Q, at=case.bands.centres[inside], margin=margin)
@@ -210,10 +210,10 @@ def _curve(result: Outcomes, height: float) -> Iterator[Series]:
 
 def levels_on_track(case: ForceSpectrum, spectrum: Callable[..., FloatArray]) -> FloatArray:
     """Of (14.12) or (14.14) in each one-third octave, on the waves of a track with Geike's spectrum, h_rms = d."""
-    geike, apart = TrackSpectrum(case.spectrum, "geike"), 2 * math.pi / case.length
-    q = apart * np.arange(1, math.floor(case.last * (1 + 1e-9) / apart) + 1)
-    square = 2 * apart * geike(q).sum()
-    return np.asarray(case.bands.sums(q, apart * spectrum(q, geike)).real / square / HERTZ**2)
+    geike, step = TrackSpectrum(case.spectrum, "geike"), 2 * math.pi / case.length
+    q = step * np.arange(1, math.floor(case.last * (1 + 1e-9) / step) + 1)
+    square = 2 * step * geike(q).sum()
+    return np.asarray(case.bands.sums(q, step * spectrum(q, geike)).real / square / HERTZ**2)
 
 
 def _levels(result: Outcomes, height: float) -> Iterator[Series]:
@@ -256,13 +256,13 @@ def _force(result: Outcomes, height: float) -> Iterator[Series]:
     Geike's rule keeps the variance of linear theory in 3D.
     """
     bem, springs, fine = (result[name, height] for name in (BEM, SPRINGS, REFINED))
-    whole, in_1d = (Estimates.ratios(one["variance"], one["linear variance"]) for one in (bem, springs))
+    in_3d, in_1d = (Estimates.ratios(rows["variance"], rows["linear variance"]) for rows in (bem, springs))
     finer = Estimates.ratios(fine["variance"], bem["variance"][: len(fine["variance"])])
     over = partial(Series, where=at(result.case, height), unit="dB", margin=OF_FORCE)
     of_rms = partial(over, RMS_FORCE, scale=POWER_DECIBEL, grid=finer)
-    for model, level in ((SPRINGS, in_1d), (LINEAR_3D, Estimates.exact(0.0, whole[0].samples))):
-        yield of_rms(model + OVER, level - whole.on_no_size(finer))
-    mean, in_1d = (Estimates.ratios(one["mean"], np.ones(1)) for one in (bem, springs))
+    for model, level in ((SPRINGS, in_1d), (LINEAR_3D, Estimates.exact(0.0, in_3d[0].samples))):
+        yield of_rms(model + OVER, level - in_3d.on_no_size(finer))
+    mean, in_1d = (Estimates.ratios(rows["mean"], np.ones(1)) for rows in (bem, springs))
     finer = Estimates.ratios(fine["mean"], bem["mean"][: len(fine["mean"])])
     yield over(MEAN_FORCE, SPRINGS + OVER, in_1d - mean.on_no_size(finer), scale=DECIBEL, grid=finer)
 
@@ -276,13 +276,13 @@ def _roughness(result: Outcomes, height: float) -> Iterator[Series]:
     for name, read in ((MEAN_1D, by_mean_filter), (LINEAR_3D, by_filter_3d)):
 
         def over_true(
-            some: FloatArray, read: Callable[[Bands, FloatArray], FloatArray] = read, least: float = 0.0
+            levels: FloatArray, read: Callable[[Bands, FloatArray], FloatArray] = read, least: float = 0.0
         ) -> FloatArray:
-            level, linear = some.mean(axis=0)
-            found = read(case.bands, exact * level / linear * np.exp(2 * finer.values))
-            return np.asarray(np.log(np.maximum(found[kept] / true[kept], least)))
+            level, linear = levels.mean(axis=0)
+            power = read(case.bands, exact * level / linear * np.exp(2 * finer.values))
+            return np.asarray(np.log(np.maximum(power[kept] / true[kept], least)))
 
-        left = [one for one, inside in zip(finer, kept, strict=True) if inside]
+        left = [change for change, inside in zip(finer, kept, strict=True) if inside]
         yield Series(
             FOUND,
             name,
@@ -309,12 +309,14 @@ def _inputs(case: ForceSpectrum) -> Iterator[Series]:
     for name, spectrum in case.spectra.items():
         exact, octaves = level_3d(spectrum, case.bands), octaves_of(case.bands, spectrum)
         for rule in INPUT_SPECTRA:
-            mine, model = level_1d(spectrum, rule, case.bands), INPUT_NAMES[rule]
-            decibels = partial(Series, model=model, where={SURFACE: name}, along=Q, scale=POWER_DECIBEL, unit="dB")
-            found = np.log(mine[octaves].sum(axis=1) / exact[octaves].sum(axis=1))
-            yield decibels(INPUT, found=found, at=case.bands.centres[octaves[:, 1]], margin=margin)
-            known = (mine > 0) & (exact > 0)
-            yield decibels(INPUT_LEVEL, found=np.log(mine[known] / exact[known]), at=case.bands.centres[known])
+            of_rule, model = level_1d(spectrum, rule, case.bands), INPUT_NAMES[rule]
+            decibels = partial(Series, where={SURFACE: name}, along=Q, scale=POWER_DECIBEL, unit="dB")
+            levels = np.log(of_rule[octaves].sum(axis=1) / exact[octaves].sum(axis=1))
+            yield decibels(INPUT, model, levels, at=case.bands.centres[octaves[:, 1]], margin=margin)
+            positive = (of_rule > 0) & (exact > 0)
+            yield decibels(
+                INPUT_LEVEL, model, np.log(of_rule[positive] / exact[positive]), at=case.bands.centres[positive]
+            )
 
 
 def _spectrum(result: Outcomes, height: float) -> Iterator[Series]:

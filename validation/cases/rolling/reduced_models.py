@@ -81,14 +81,14 @@ def height_at(slope: float, spectrum: Spectrum) -> float:
 
 def run(case: ReducedModels, engine: Engine = SERIAL) -> Outcomes:
     groups = {key: case.strips_of(*key) for key in product(case.slopes, case.spectra)}
-    found = engine.map_groups(reduced_models.roll_by_all, groups)
+    strips = engine.map_groups(reduced_models.roll_by_all, groups)
     unconverged = tuple(
         f"strip {i}, h' a/d = {key[0]:g}: {int(outcome['failed'])} models with a contact that did not converge"
-        for key, outcomes in found.items()
+        for key, outcomes in strips.items()
         for i, outcome in enumerate(outcomes)
         if outcome["failed"]
     )
-    return Outcomes(case, found, unconverged)
+    return Outcomes(case, strips, unconverged)
 
 
 OFF = Quantity("rms_over_octaves_of_the_level_over_boundary_elements")
@@ -104,15 +104,15 @@ TENTH = Margin(0.1, "0.1: a tenth of the contact", source="the first spectrum at
 
 def series(result: Outcomes) -> list[Series]:
     """Of each model over all strips, the smoothest first; over its work where these are roughest."""
-    case, found = result.case, []
+    case, numbers = result.case, []
     for model in MODELS:
         largest = [max(off(result, key, model).value for key in result.found if key[0] <= s) for s in case.slopes]
-        found.append(Series(LARGEST, _named(model), np.array(largest), along=SLOPE, at=case.slopes))
-        found += [one for key in result.found for one in _of_strips(result, key, model)]
-    found += [one for key in result.found for one in _contact(result, key)]
+        numbers.append(Series(LARGEST, _named(model), np.array(largest), along=SLOPE, at=case.slopes))
+        numbers += [s for key in result.found for s in _of_strips(result, key, model)]
+    numbers += [s for key in result.found for s in _contact(result, key)]
     scene = load_wheel_scene("table_14_1")
-    found.append(Series(TABLE_14_1, HEIGHT, (scene.rms / scene.approach,)))
-    return [*found, Series(TABLE_14_1, SLOPE, (slope_ratio(scene.slope_along, scene),))]
+    numbers.append(Series(TABLE_14_1, HEIGHT, (scene.rms / scene.approach,)))
+    return [*numbers, Series(TABLE_14_1, SLOPE, (slope_ratio(scene.slope_along, scene),))]
 
 
 def _where(key: Key) -> dict[str, Place]:
@@ -127,10 +127,10 @@ def _named(model: str) -> str:
 
 def _of_strips(result: Outcomes, key: Key, model: str) -> Iterator[Series]:
     name, judge = _named(model), model == JUDGE
-    single = partial(Series, model=name, where=_where(key))
+    single = partial(Series, where=_where(key))
     grid, error = GRID * off(result, key, COARSE).value, off(result, key, model)
-    yield single(OFF, found=(error,), grid=grid, unit="dB", margin=None if judge else BESIDE)
-    yield single(WORK, found=(work(result, key, model),))
+    yield single(OFF, name, (error,), grid=grid, unit="dB", margin=None if judge else BESIDE)
+    yield single(WORK, name, (work(result, key, model),))
     if not judge and key[0] == result.case.slopes[-1]:
         yield Series(AT_WORK, name, (error,), where=_where(key), along=WORK, at=(work(result, key, model),), unit="dB")
 
@@ -138,29 +138,29 @@ def _of_strips(result: Outcomes, key: Key, model: str) -> Iterator[Series]:
 def _contact(result: Outcomes, key: Key) -> Iterator[Series]:
     """Beside what the first spectrum keeps at the same h' a/d; intervals hold at once for all."""
     slope, spectra = key[0], result.case.spectra
-    mine, first = (
-        mean_estimate(np.array([float(one["kept"]) for one in result[slope, s]])) for s in (key[1], spectra[0])
+    share, first = (
+        mean_estimate(np.array([float(outcome["kept"]) for outcome in result[slope, s]])) for s in (key[1], spectra[0])
     )
-    yield Series(OWN_KEPT, JUDGE, (mine,), where=_where(key))
+    yield Series(OWN_KEPT, JUDGE, (share,), where=_where(key))
     if key[1] != spectra[0]:
         family = (len(spectra) - 1) * len(result.case.slopes)
-        yield Series(KEPT, JUDGE, (mine,), where=_where(key), reference=(first,), margin=TENTH, family=family)
+        yield Series(KEPT, JUDGE, (share,), where=_where(key), reference=(first,), margin=TENTH, family=family)
 
 
 def off(result: Outcomes, key: Key, model: str) -> Estimate:
     """Root mean square over octaves of the mean level over that of boundary elements [dB], with its jackknife."""
     names = list(MODELS)
-    pairs = np.array([one["level"][[names.index(model), names.index(JUDGE)]] for one in result[key]])
+    pairs = np.array([outcome["level"][[names.index(model), names.index(JUDGE)]] for outcome in result[key]])
 
-    def rms(some: FloatArray) -> FloatArray:
-        mine, other = some.mean(axis=0)
-        return np.asarray(np.sqrt(np.mean((POWER_DECIBEL * np.log(mine / other)) ** 2)))
+    def rms(levels: FloatArray) -> FloatArray:
+        level, reference = levels.mean(axis=0)
+        return np.asarray(np.sqrt(np.mean((POWER_DECIBEL * np.log(level / reference)) ** 2)))
 
     return jackknifed(rms, pairs)[0]
 
 
 def work(result: Outcomes, key: Key, model: str) -> float:
-    mean, names = np.mean([one["work"] for one in result[key]], axis=0), list(MODELS)
+    mean, names = np.mean([outcome["work"] for outcome in result[key]], axis=0), list(MODELS)
     return float(mean[names.index(model)] / mean[names.index(LINE)])
 
 

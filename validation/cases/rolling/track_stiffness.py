@@ -85,17 +85,17 @@ def run(case: TrackStiffness, engine: Engine = SERIAL) -> Outcomes:
     groups = {(name, force): case.strips_of(force, n) for force in case.forces for name, n in cells.items()}
     strips = engine.map_groups(rolling_strip.roll_loaded_strip, groups)
     lost = tuple(
-        f"strip {i}, Fbar = {force:g}, {cells[name]} cells to a radius: {int(one['failed'])} positions"
-        for (name, force), found in strips.items()
-        for i, one in enumerate(found)
-        if one["failed"]
+        f"strip {i}, Fbar = {force:g}, {cells[name]} cells to a radius: {int(outcome['failed'])} positions"
+        for (name, force), outcomes in strips.items()
+        for i, outcome in enumerate(outcomes)
+        if outcome["failed"]
     )
-    for key, found in strips.items():
-        if sum(not one["failed"] for one in found) < FEWEST:
+    for key, outcomes in strips.items():
+        if sum(not outcome["failed"] for outcome in outcomes) < FEWEST:
             raise NotConvergedError(f"fewer than {FEWEST} strips of {key} converged", lost)
     along: dict[tuple[str, float], Outcome] = {}
-    for key, found in strips.items():
-        along[key] = rolling_strip.stiffness_moments(np.array([one["stiffness"] for one in found]))
+    for key, outcomes in strips.items():
+        along[key] = rolling_strip.stiffness_moments(np.array([outcome["stiffness"] for outcome in outcomes]))
     tracks = {(SPRINGS, force): case.tracks_of(force) for force in case.forces}
     rolled = engine.map(rolling_strip.roll_loaded_tracks, list(tracks.values()))
     return Outcomes(case, {**along, **dict(zip(tracks, rolled, strict=True))}, lost)
@@ -115,7 +115,7 @@ TEN_PER_CENT = Margin(10.0, "10 %, as of the stiffness of punches", source="boun
 
 def series(result: Outcomes) -> list[Series]:
     """Each model's own moments along the track, and springs over boundary elements, force by force."""
-    return [one for force in result.case.forces for quantity in WEIGHTS for one in _moments(result, quantity, force)]
+    return [s for force in result.case.forces for quantity in WEIGHTS for s in _moments(result, quantity, force)]
 
 
 def _moments(result: Outcomes, quantity: str, force: float) -> Iterator[Series]:
@@ -147,8 +147,8 @@ def of_bem(result: Outcomes, quantity: str, force: float) -> tuple[Estimate, flo
 
 def moment(quantity: str, outcome: Outcome, other: Outcome | None = None) -> Estimate:
     """The same along tracks, or over another's."""
-    mine, reference = (np.stack([one["variance"], one["mean"]], axis=1) for one in (outcome, other or outcome))
-    return log_ratio_of_means(mine, reference if other else np.ones(2), WEIGHTS[quantity])
+    rows, reference = (np.stack([o["variance"], o["mean"]], axis=1) for o in (outcome, other or outcome))
+    return log_ratio_of_means(rows, reference if other else np.ones(2), WEIGHTS[quantity])
 
 
 def exponential(log: Estimate, less: float = 0.0) -> Estimate:

@@ -74,11 +74,11 @@ class WheelDistance:
         """
         counts = [round(self.wheels * 2 ** (self.doublings / 2 - i)) for i in range(self.doublings + 1)]
         counts = [max(self.fewest, min(self.wheels, count)) // self.groups * self.groups for count in counts]
-        found = {}
+        ensembles = {}
         for i, count in reversed(list(enumerate(counts))):
             scene = replace(self.scene, distance=self.periods * self.scene.period_length * 2**i)
-            found["distance", i] = WheelEnsemble(scene=scene, count=count, groups=self.groups, seed=self.seed)
-        return found
+            ensembles["distance", i] = WheelEnsemble(scene=scene, count=count, groups=self.groups, seed=self.seed)
+        return ensembles
 
     def ensemble(self, kind: Kind, height: float = 1.0, short: bool = False) -> WheelEnsemble:
         """A steady state lasts a round; a part of one, and the motion from rest, are recorded over half of it."""
@@ -115,14 +115,17 @@ def run(case: WheelDistance, engine: Engine = SERIAL) -> Outcomes:
     """
     _check_regions(case.scene)
     ensembles = case.ensembles()
-    found = dict(zip(ensembles, engine.map(simulate_ensemble, list(ensembles.values())), strict=True))
-    failed = [(one, int(found[key]["failed"])) for key, one in ensembles.items() if found[key]["failed"]]
+    outcomes = dict(zip(ensembles, engine.map(simulate_ensemble, list(ensembles.values())), strict=True))
+    failed = [
+        (ensemble, int(outcomes[key]["failed"])) for key, ensemble in ensembles.items() if outcomes[key]["failed"]
+    ]
     unconverged = tuple(
-        f"{count} of {one.count} wheels do not repeat their motion, h₀ = {one.scene.rms:.3g} m" for one, count in failed
+        f"{count} of {ensemble.count} wheels do not repeat their motion, h₀ = {ensemble.scene.rms:.3g} m"
+        for ensemble, count in failed
     )
-    if any(count > one.count / 2 for one, count in failed):
+    if any(count > ensemble.count / 2 for ensemble, count in failed):
         raise NotConvergedError("most wheels of an ensemble do not repeat their motion", unconverged)
-    return Outcomes(case, found, unconverged)
+    return Outcomes(case, outcomes, unconverged)
 
 
 def _check_regions(scene: WheelScene) -> None:
@@ -198,14 +201,14 @@ def _breaks(result: Outcomes) -> Iterator[Series]:
     for key, ensemble in reversed(case.distances().items()):
         scene, outcome, distance = ensemble.scene, result[key], ensemble.steps * ensemble.scene.spacing
         spectrum = features.Spectrum.of(scene, [outcome])
-        found, by_jumps = features.measured(spectrum)[features.BREAK], features.expected(spectrum)[features.BREAK]
+        measured, by_jumps = features.measured(spectrum)[features.BREAK], features.expected(spectrum)[features.BREAK]
         low, high = 1.5 * float(outcome["omega"][0]), 1.6 * scene.cutoff
         omega, density = features.in_sixths(outcome["omega"], outcome["plain"].mean(axis=0), low, high)
         spectra = partial(density_of, SPECTRA, where={DISTANCE: round(distance, 3)})
         yield spectra("spectrum", density, at=omega)
-        at_break = math.exp(np.interp(np.log(found.value), np.log(omega), np.log(density)))
-        yield spectra("break", (at_break,), at=(found.value,))
-        rows.append((spectrum.duration, by_jumps, found))
+        at_break = math.exp(np.interp(np.log(measured.value), np.log(omega), np.log(density)))
+        yield spectra("break", (at_break,), at=(measured.value,))
+        rows.append((spectrum.duration, by_jumps, measured))
     t, predicted, breaks = zip(*rows, strict=True)
     law = break_exponent(features.hurst(case.scene))
     middle = math.exp(np.mean(np.log(Estimates(breaks).values) - law * np.log(t)))
@@ -213,14 +216,14 @@ def _breaks(result: Outcomes) -> Iterator[Series]:
     yield by_duration("found", breaks)
     yield by_duration("by the jumps of the records", predicted)
     yield by_duration("T^(1/(2H+1))", middle * np.array(t) ** law)
-    found_law = (law_of_break(np.array(t), Estimates(breaks)),)
+    exponent = (law_of_break(np.array(t), Estimates(breaks)),)
     where = {"durations": f"over a factor of {2**case.doublings}"}
-    yield Series(BREAK_LAW, SPRINGS, found_law, where=where, reference=law, family=3, margin=OF_LAW)
+    yield Series(BREAK_LAW, SPRINGS, exponent, where=where, reference=law, family=3, margin=OF_LAW)
 
 
 def law_of_break(t: FloatArray, breaks: Estimates) -> Estimate:
     """d ln omega_break / d ln T by weighted least squares."""
-    weights = breaks.values / np.array([one.error for one in breaks])
+    weights = breaks.values / np.array([point.error for point in breaks])
     (slope, _), covariance = np.polyfit(np.log(t), np.log(breaks.values), 1, w=weights, cov="unscaled")
     return Estimate(float(slope), math.sqrt(covariance[0, 0]), breaks[0].samples)
 
@@ -243,11 +246,11 @@ def _regions(result: Outcomes) -> Iterator[Series]:
     for name in WITHOUT_LEAKAGE:
         record = RECORDS[name]
         for region in (FIRST, PLATEAU):
-            mine, all_of_it = (record.of(result, bands[region], model) for model in (LINEAR, SPRINGS))
+            linear, of_springs = (record.of(result, bands[region], model) for model in (LINEAR, SPRINGS))
             # of a linear contact that repeats its motion nothing can be elsewhere
             margin = OF_SHARE if name == HANN else replace(OF_SHARE, role=Role.IDENTITY)
-            found, of = (ratio_of_means(mine, all_of_it),), {"region": region, RECORD: name}
-            yield share(LINEAR, found, where=of, family=2, margin=margin)
+            of = {"region": region, RECORD: name}
+            yield share(LINEAR, (ratio_of_means(linear, of_springs),), where=of, family=2, margin=margin)
         left = ratio_of_means(record.of(result, bands[FOURTH]), RECORDS[CUT].of(result, bands[FOURTH]))
         of = {"region": FOURTH, RECORD: name}
         yield share(SPRINGS, (left,), where=of, family=len(WITHOUT_LEAKAGE), margin=OF_SHARE)
@@ -260,10 +263,10 @@ def theory_of(scene: WheelScene) -> RollingWheel:
 
 def second_order(scene: WheelScene, omega: FloatArray) -> FloatArray:
     """A of the second order below the jump; zero from there on."""
-    found, inside = np.zeros(omega.size), omega < scene.jump
+    density, inside = np.zeros(omega.size), omega < scene.jump
     q_max = scene.cutoff / scene.speed
-    found[inside] = theory_of(scene).acceleration(omega[inside], features.roughness(scene), q_max=q_max)
-    return found
+    density[inside] = theory_of(scene).acceleration(omega[inside], features.roughness(scene), q_max=q_max)
+    return density
 
 
 def _second_order(result: Outcomes) -> Iterator[Series]:
@@ -280,11 +283,11 @@ def _over_second_order(scene: WheelScene, outcome: Outcome, family: int) -> Iter
     theory, place = second_order(scene, omega), at_height(scene)
     damping = {DAMPING: f"{100 * scene.damping:g} % of critical" if scene.damping else "none"}
     for region, edges in ((FIRST, np.array(bands[FIRST])), (PLATEAU, one_third_octaves(*bands[PLATEAU]))):
-        mine, its = band_levels(omega, outcome["plain"].T, edges).T, band_levels(omega, theory, edges)
+        levels, reference = band_levels(omega, outcome["plain"].T, edges).T, band_levels(omega, theory, edges)
         yield decibels(
             OVER,
             SPRINGS,
-            Estimates.ratios(mine, its),
+            Estimates.ratios(levels, reference),
             where={"region": region, **damping, **place},
             along=features.OMEGA,
             at=np.sqrt(edges[1:] * edges[:-1]),

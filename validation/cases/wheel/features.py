@@ -55,10 +55,10 @@ class Spectrum:
     @classmethod
     def of(cls, scene: WheelScene, outcomes: Sequence[Outcome]) -> "Spectrum":
         """All batches of one ensemble, of equal size."""
-        one = outcomes[0]
+        first = outcomes[0]
         plain, hann = (np.concatenate([o[name] for o in outcomes]) for name in ("plain", "hann"))
         jumps = np.concatenate([o["jump"] for o in outcomes])
-        return cls(scene, one["omega"], plain, hann, jumps, float(one["time step"]), float(one["duration"]))
+        return cls(scene, first["omega"], plain, hann, jumps, float(first["time step"]), float(first["duration"]))
 
     @property
     def linear(self) -> FloatArray:
@@ -110,12 +110,12 @@ def measured(spectrum: Spectrum) -> dict[str, Estimate]:
     """The features that stand out, with standard errors by the jackknife over groups of wheels."""
 
     def of(kept: FloatArray) -> FloatArray:
-        some = kept.astype(int)
-        found = _features(spectrum, *(s[some].mean(axis=0) for s in (spectrum.plain, spectrum.hann)))
-        return np.array([found.get(name, math.nan) for name in FEATURES])
+        groups = kept.astype(int)
+        values = _features(spectrum, *(s[groups].mean(axis=0) for s in (spectrum.plain, spectrum.hann)))
+        return np.array([values.get(name, math.nan) for name in FEATURES])
 
-    found = zip(FEATURES, jackknifed(of, np.arange(float(len(spectrum.plain)))), strict=True)
-    return {name: one for name, one in found if math.isfinite(one.value) and math.isfinite(one.error)}
+    estimates = zip(FEATURES, jackknifed(of, np.arange(float(len(spectrum.plain)))), strict=True)
+    return {name: value for name, value in estimates if math.isfinite(value.value) and math.isfinite(value.error)}
 
 
 def expected(spectrum: Spectrum) -> dict[str, float]:

@@ -82,8 +82,8 @@ class Wheel3D:
         scene = replace(self.scene, distance=self.strip.shape[0] * self.strip.spacing)
         batches = max(self.wheels // self.batch, 1)
         count = self.wheels // batches
-        one = WheelEnsemble(scene=scene, count=count, groups=self.groups, track="steady-state", seed=self.seed)
-        return [replace(one, first=i * count) for i in range(batches)]
+        ensemble = WheelEnsemble(scene=scene, count=count, groups=self.groups, track="steady-state", seed=self.seed)
+        return [replace(ensemble, first=i * count) for i in range(batches)]
 
 
 def run(case: Wheel3D, engine: Engine = SERIAL) -> Outcomes:
@@ -92,8 +92,8 @@ def run(case: Wheel3D, engine: Engine = SERIAL) -> Outcomes:
     strips = engine.map_groups(simulate_strip, problems)
     unconverged = tuple(
         f"strip {strip.realisation}, {strip.cells} cells to a radius, residual {strip.tolerance:g}"
-        for name, some in problems.items()
-        for strip, outcome in zip(some, strips[name], strict=True)
+        for name, group in problems.items()
+        for strip, outcome in zip(group, strips[name], strict=True)
         if outcome["failed"]
     )
     converged = sum(not outcome["failed"] for outcome in strips[STRIPS])
@@ -160,8 +160,8 @@ class WheelLevels:
     @cached_property
     def ratio(self) -> Estimates:
         """ln of boundary elements over the linear contact on the same strips, band by band, on cells of no size."""
-        found = Estimates.ratios(*(self.of_strips(self.converged, contact) for contact in ("bem", "linear")))
-        return found.on_no_size(self.change)
+        ratio = Estimates.ratios(*(self.of_strips(self.converged, contact) for contact in ("bem", "linear")))
+        return ratio.on_no_size(self.change)
 
     @property
     def grids(self) -> tuple[list[Outcome], list[Outcome]]:
@@ -183,15 +183,15 @@ class WheelLevels:
     def left(self) -> Estimates:
         """What grid and solver leave of a level."""
         pairs = zip(self.change, self.solver.tolist(), strict=True)
-        return Estimates(replace(one, value=abs(one.value) + solver) for one, solver in pairs)
+        return Estimates(replace(change, value=abs(change.value) + solver) for change, solver in pairs)
 
     @cached_property
     def solver(self) -> FloatArray:
         """Change of the level of a short strip with a tighter residual; where that has no line, the largest of all."""
         loose, tight = (self.of_strips(self.result[name], "bem")[0] for name in (LOOSE, TIGHT))
         change = np.abs(np.log(loose / tight))
-        known = np.isfinite(change)
-        return np.asarray(np.where(known, change, np.max(change, initial=0.0, where=known)))
+        finite = np.isfinite(change)
+        return np.asarray(np.where(finite, change, np.max(change, initial=0.0, where=finite)))
 
     @cached_property
     def exact(self) -> FloatArray:
@@ -222,9 +222,9 @@ class WheelLevels:
 
     def over_bem(self, model: str) -> Estimates:
         """ln of a model's level over boundary elements, band by band, with the error of both samples."""
-        found = self.springs if model == GEIKE else Estimates.exact(self.exact)
+        level = self.springs if model == GEIKE else Estimates.exact(self.exact)
         bem = zip(self.ratio, self.bem.tolist(), strict=True)
-        return found - Estimates(replace(one, value=value) for one, value in bem)
+        return level - Estimates(replace(ratio, value=value) for ratio, value in bem)
 
 
 def _integral(density: Callable[[FloatArray], FloatArray], low: float, high: float) -> float:

@@ -38,26 +38,26 @@ def series(result: Outcomes) -> list[Series]:
 def _of_bands(levels: wheel.WheelLevels) -> Iterator[Series]:
     """Each one-third octave, and those of each range."""
     bands = partial(decibels, along=OMEGA, at=levels.centres, grid=levels.left)
-    bem = Estimates(replace(one, value=value) for one, value in zip(levels.ratio, levels.bem.tolist(), strict=True))
+    bem = Estimates(replace(ratio, value=value) for ratio, value in zip(levels.ratio, levels.bem.tolist(), strict=True))
     yield bands(LEVELS, wheel.BEM, bem)
-    yield bands(OVER, wheel.BEM, Estimates(replace(one, value=0.0) for one in levels.ratio))
+    yield bands(OVER, wheel.BEM, Estimates(replace(ratio, value=0.0) for ratio in levels.ratio))
     margin = MARGINS["level"].beside("boundary elements in the time loop")
     for model in wheel.MODELS:
         over = levels.over_bem(model)
         yield decibels(LEVELS, model, over.values + levels.bem, along=OMEGA, at=levels.centres)
         yield bands(OVER, model, over)
         for name, inside in levels.ranges.items():
-            some = np.flatnonzero(inside)
+            indices = np.flatnonzero(inside)
             yield decibels(
                 LEVEL,
                 wheel.OVER_BEM[model],
-                [over[i] for i in some],
+                [over[i] for i in indices],
                 where={"range": name},
                 along=OMEGA,
                 at=levels.centres[inside],
-                grid=[levels.left[i] for i in some],
+                grid=[levels.left[i] for i in indices],
                 margin=margin,
-                fewest=max(some.size, 1),
+                fewest=max(indices.size, 1),
                 family=OF_FIGURE if model == wheel.GEIKE else len(levels.ranges),
             )
     yield Series(MARKS, "q_min v₀", (levels.result.case.scene.jump,))
@@ -72,10 +72,10 @@ def _slopes(levels: wheel.WheelLevels) -> Iterator[Series]:
     for model, contact in wheel.CONTACTS.items():
         omega, density = levels.spectra(contact)
 
-        def of(some: FloatArray, omega: FloatArray = omega) -> FloatArray:
-            return np.array(spectral_features.slope(omega, some.mean(axis=0), first, last, period))
+        def of(rows: FloatArray, omega: FloatArray = omega) -> FloatArray:
+            return np.array(spectral_features.slope(omega, rows.mean(axis=0), first, last, period))
 
-        coarse, fine = (float(of(some, lines)) for lines, some in levels.on_grids(contact))
+        coarse, fine = (float(of(rows, lines)) for lines, rows in levels.on_grids(contact))
         yield Series(
             QUANTITIES[SLOPE],
             model,
@@ -116,14 +116,14 @@ def _contrasts(levels: wheel.WheelLevels) -> Iterator[Series]:
     scene = levels.result.case.scene
     for model, (omega, density) in _spectra(levels).items():
 
-        def of(some: FloatArray, omega: FloatArray = omega) -> FloatArray:
-            return log_contrasts(omega, some.mean(axis=0), scene)
+        def of(rows: FloatArray, omega: FloatArray = omega) -> FloatArray:
+            return log_contrasts(omega, rows.mean(axis=0), scene)
 
         by_zero = partial(decibels, CONTRAST, along=ZERO, at=zeros_of(scene))
         linear = log_contrasts(omega, features.linear_spectrum(scene, omega), scene)
         margin = MARGINS["contrast"].beside("linear theory in one dimension in the same bands")
-        beside = {"reference": Estimates.exact(linear), "family": OF_FIGURE, "margin": margin}
-        yield by_zero(model, jackknifed(of, density), **beside if model == wheel.BEM else {})
+        compared = {"reference": Estimates.exact(linear), "family": OF_FIGURE, "margin": margin}
+        yield by_zero(model, jackknifed(of, density), **compared if model == wheel.BEM else {})
         if model == wheel.BEM:
             yield by_zero(wheel.LINEAR_1D, linear)
 
@@ -151,16 +151,16 @@ def notes(result: Outcomes) -> Sequence[str]:
     levels = wheel.WheelLevels(result)
     plateau, changes = levels.ranges["region 2"], POWER_DECIBEL * np.abs(levels.change.values)
     below = -POWER_DECIBEL * levels.over_bem(wheel.GEIKE).values[plateau]
-    said = f"From {result.case.cells} to {2 * result.case.cells} cells to a radius a level changes by "
+    change = f"From {result.case.cells} to {2 * result.case.cells} cells to a radius a level changes by "
     return (
         *(
-            f"In three dimensions region 2 is no second order: boundary elements have {one:.0f} to {other:.0f} dB more "
+            f"In three dimensions region 2 is no second order: boundary elements have {low:.0f} to {high:.0f} dB more "
             "than springs there. Waves aslant to the track are longer along it than 2π / q_min, and linear theory in "
             "three dimensions has them."
-            for one, other in ([(below.min(), below.max())] if plateau.any() else [])
+            for low, high in ([(below.min(), below.max())] if plateau.any() else [])
         ),
-        f"{said}{np.median(changes):.2g} dB in the median band and {changes.max():.2g} dB at most; levels are those of "
-        "no size, to first order.",
+        f"{change}{np.median(changes):.2g} dB in the median band and {changes.max():.2g} dB at most; levels are those "
+        "of no size, to first order.",
     )
 
 

@@ -80,7 +80,7 @@ def _varied(scene: WheelScene) -> dict[str, WheelScene]:
     rails |= {f"q_max × {factor:g}": replace(rail, shortest=rail.shortest / factor) for factor in (0.5, 2.0)}
     rails |= {f"H = {hurst:g}": replace(rail, hurst=hurst) for hurst in (0.4, 1.0)}
     rails |= {f"h₀ × {factor:g}": replace(rail, rms=factor * rail.rms) for factor in (0.25, 4.0)}
-    return varied | {name: replace(scene, rail=one) for name, one in rails.items()}
+    return varied | {name: replace(scene, rail=rail) for name, rail in rails.items()}
 
 
 SPECTRUM, VARIED = Quantity("A_in_twelfths_of_an_octave"), Quantity("A_with_one_parameter_changed")
@@ -116,7 +116,7 @@ def series(result: Outcomes) -> list[Series]:
         *features_by_scene(result),
         *levels_over_linear(spectrum),
         *_drawn(spectrum, result[base]),
-        *(_in_sixths(name, one) for name, one in spectra.items() if name != base),
+        *(_in_sixths(name, of_scene) for name, of_scene in spectra.items() if name != base),
     ]
 
 
@@ -160,11 +160,11 @@ def levels_over_linear(spectrum: features.Spectrum) -> list[Series]:
     edges = one_third_octaves(first, last) if first < last else np.empty(0)
     if edges.size < 2:
         return []
-    found = Estimates.ratios(band_levels(omega, spectrum.hann.T, edges).T, band_levels(omega, spectrum.linear, edges))
+    levels = Estimates.ratios(band_levels(omega, spectrum.hann.T, edges).T, band_levels(omega, spectrum.linear, edges))
     centres = np.sqrt(edges[1:] * edges[:-1])
     place: Where = {"region": features.THIRD}
     over = partial(decibels, features.LEVEL, "springs over linear theory", where=place, along=features.OMEGA)
-    return [over(found=found, at=centres, margin=OVER_LINEAR)]
+    return [over(levels, at=centres, margin=OVER_LINEAR)]
 
 
 def _identities(batches: list[Outcome]) -> Iterator[Series]:
