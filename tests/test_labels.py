@@ -26,7 +26,7 @@ from validation.judging.kinds import from_report, references, rolling, stiffness
 report = from_report.Report(Path({report!r}))
 for quantity in (stiffness.MEAN, rolling.RMS, rolling.LEVEL):
     made = list(from_report.SOURCES[quantity].find(report, SERIAL))
-    known = references.known(quantity)
+    known = references.reference_rows(quantity)
     assert len(made) == len(known) > 0, quantity
     for one, other in zip(made, known):
         assert abs(one.value - other.value) <= 1e-6 * abs(one.value), quantity

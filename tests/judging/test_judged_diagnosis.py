@@ -16,7 +16,7 @@ from validation.judging.kinds import judge as repeats
 from validation.judging.kinds.diagnosis import remarks
 from validation.judging.kinds.judge import Recorded, points_of, repeated
 from validation.judging.kinds.own import OWN, bed, ellipse, geike, half_space, in_1d, in_3d, line, springs, trace
-from validation.judging.kinds.references import known
+from validation.judging.kinds.references import reference_rows
 from validation.judging.registry import offer
 from validation.judging.worker import Called
 from validation.theory.rolling import linear_force
@@ -53,9 +53,9 @@ def again(function):
     for hurst in (0.4, 0.7, 1.0):
         for force in (0.01, 0.1, 1.0):
             if "rng" in model.asks:
-                stiffness.draws(model, stiffness.AskedPunch(hurst, force).arguments, 4)
+                stiffness.draws(model, stiffness.JudgedPunch(hurst, force).arguments, 4)
             else:
-                model.call(**stiffness.AskedPunch(hurst, force).arguments)
+                model.call(**stiffness.JudgedPunch(hurst, force).arguments)
     return repeated(model)
 
 
@@ -118,7 +118,7 @@ def test_a_problem_that_has_the_answer_of_another_one_when_it_is_asked_twice_is_
 
     model = Recorded(Called(offer("stiffness_model", "mine", {}, mixed)))
     for force in (0.01, 0.02, 0.04, 0.1, 0.2, 0.2, 0.2):
-        model.call(**stiffness.AskedPunch(0.7, force).arguments)
+        model.call(**stiffness.JudgedPunch(0.7, force).arguments)
     found = repeated(model)
     assert found.change > 0.1 and found.reason.startswith(repeats.CACHED)
 
@@ -208,7 +208,7 @@ def test_a_generator_that_is_not_used_leaves_the_mean_inconclusive(few, rounding
 def test_draws_of_a_small_pool_count_as_few(few, monkeypatch, count):
     """Student's quantile of one or two degrees of freedom, and no more than that many records."""
     monkeypatch.setattr(stiffness, "REALISATIONS", {stiffness.FAST: 60, math.inf: 60})
-    punches = [stiffness.AskedPunch(0.7, force) for force in (0.01, 0.1)]
+    punches = [stiffness.JudgedPunch(0.7, force) for force in (0.01, 0.1)]
     model = Called(offer("stiffness_model", "mine", {}, drawn_from(count)))
     for punch, found in stiffness.answers_of(model, punches).items():
         values = stiffness.draws(model, punch.arguments, 60) / stiffness.UNIT
@@ -223,7 +223,7 @@ def test_few_draws_leave_their_deviation_open(count):
     """Of two the scatter of the squares is zero."""
     pool = np.random.default_rng(count).normal(1.0, 0.1, count)
     apart = np.arange(60) % count
-    found = stiffness.sampled(pool[apart], apart=apart)
+    found = stiffness.sampled(pool[apart], first_equal=apart)
     assert math.isinf(found.deviation.half) and f"{count} are different" in found.deviation.reason
     assert found.deviation.value == pytest.approx(pool.std(ddof=1) / pool.mean(), rel=0.2)
     all_different = stiffness.sampled(np.random.default_rng(count).normal(1.0, 0.1, 60))
@@ -247,7 +247,7 @@ def test_draws_that_are_drawn_unequally_often_have_the_error_of_fewer(times):
 def test_draws_that_differ_under_any_load_are_draws():
     """Springs that are pressed flat are all as stiff."""
     model = Called(springs)
-    punches = [stiffness.AskedPunch(0.7, force) for force in (0.1, 1e4)]
+    punches = [stiffness.JudgedPunch(0.7, force) for force in (0.1, 1e4)]
     light, heavy = stiffness.answers_of(model, punches, 8).values()
     assert 0 < light.mean.half < 1 and heavy.mean.half == 0 and "equal realisations" in heavy.mean.reason
 
@@ -257,7 +257,7 @@ def test_draws_that_differ_under_any_load_are_draws():
 
 def interpolated(load, side, modulus, roughness):
     """The table of the nearest H, between its loads."""
-    rows = known("mean stiffness")
+    rows = reference_rows("mean stiffness")
     nearest = min((row["H"] for row in rows), key=lambda hurst: abs(hurst - roughness.hurst))
     force, mean = np.log([(row["Fbar"], row.value) for row in rows if row["H"] == nearest]).T
     return modulus * side * math.exp(np.interp(math.log(load / (modulus * roughness.rms * side)), force, mean))
@@ -276,7 +276,7 @@ def of_a_wheel(q, contact_radius, modulus, roughness):
 
 
 def of_an_ellipse(k_x, k_y, a_x, a_y):
-    table = {(row[filters.LOAD], row[filters.DIAMETER]) for row in known(filters.FILTER)}
+    table = {(row[filters.LOAD], row[filters.DIAMETER]) for row in reference_rows(filters.FILTER)}
     contacts = [filters.scene_of(*wheel).contact for wheel in table]
     if all(abs(one.across / a_y - 1) + abs(one.along / a_x - 1) > 1e-6 for one in contacts):
         raise LookupError("an ellipse that is in no table")

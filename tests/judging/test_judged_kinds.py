@@ -390,12 +390,12 @@ def test_of_few_records_a_peak_has_twice_the_scatter_of_the_reference_and_all_el
     """That of the reference is of the mean of many wheels, so that one record has it times the root of their number."""
     wheels = laws.about(laws.FEATURE)["settings"]["realisations"]
     assert wheels > 100
-    for row in laws.known(laws.FEATURE, laws.REGION):
-        found = laws._answer(row, row.value, 0.001, records)
+    for row in laws.reference_rows(laws.FEATURE, laws.REGION):
+        found = laws._model_answer(row, row.value, 0.001, records)
         is_peak = row.where.get("feature") == laws.PEAK
         assert found.half == (pytest.approx(2 * row.sample * math.sqrt(wheels / records)) if is_peak else math.inf)
         assert "the track repeats itself" in found.reason
-        assert laws._answer(row, row.value, 0.001, laws.FEWEST).half < 0.1
+        assert laws._model_answer(row, row.value, 0.001, laws.FEWEST).half < 0.1
 
 
 @catches("wheels that are all as far apart").at("validation.judging.kinds.laws.BENDS", (0.0, 0.0))

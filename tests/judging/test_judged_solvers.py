@@ -19,7 +19,7 @@ from validation.benchmarks.discrete import STATED, ContactProblem, pressed
 from validation.judging.registry import KINDS, LOOSEST, Failed, Offered
 from validation.judging.solvers import judged
 from validation.judging.solvers.judged import findings
-from validation.judging.solvers.properties import PROPERTIES, Asked
+from validation.judging.solvers.properties import PROPERTIES, JudgedSolver
 from validation.judging.worker import Called
 
 EXAMPLE = str(Path(discrete.__file__).parents[1] / "examples" / "own_solver.py")
@@ -34,7 +34,7 @@ def ours(tolerance, force=math.nan, approach=math.nan, **given):
 def asked(solve, load="force", **options):
     """As of somebody's file."""
     asks = ("gap", "spacing", "modulus", "periodic", "tolerance", load)
-    return Asked(Called(Offered("contact_solver", "planted", solve, asks, OPTIONS | options)))
+    return JudgedSolver(Called(Offered("contact_solver", "planted", solve, asks, OPTIONS | options)))
 
 
 def wrong_in(solve, load="force", **options):
@@ -55,7 +55,7 @@ def test_our_solver_is_right_on_every_problem(load):
 
 def test_a_solver_of_forty_lines_is_accepted_and_not_asked_what_it_does_not_serve():
     example = runpy.run_path(EXAMPLE)["solve"]
-    found = list(findings(Asked(Called(example))))
+    found = list(findings(JudgedSolver(Called(example))))
     assert all(finding.verdict == WITHIN for finding in found)
     assert not any("periodic" in finding.where["problem"] for finding in found)
     periodic = {one.where["problem"] for one in findings(asked(ours, free=False, periodic=True))}
@@ -84,7 +84,7 @@ def test_a_solver_that_serves_both_loads_is_given_the_force_alone():
         lambda gap, force=None, approach=None: given.append((force, approach)) or gap * 0 + 1
     )
     problem = discrete.problems()[0]
-    Asked(Called(offered)).pressure(problem)
+    JudgedSolver(Called(offered)).pressure(problem)
     assert given == [(problem.force, None)]
 
 
@@ -289,7 +289,7 @@ def test_a_solver_that_is_right_on_small_grids_alone_is_wrong(way, quantity):
 
     with pytest.MonkeyPatch.context() as monkeypatch:
         monkeypatch.setattr(judged, "GRIDS", (32, 64))
-        points, times = judged.judged(asked(solve).solver)
+        points, times = judged.judged(asked(solve).model)
     wrong = {(point.quantity, point.where["problem"]) for point in points if point.verdict != WITHIN}
     assert (quantity, "rough, light load, 64 x 64 cells") in wrong
     assert {place for _, place in wrong} == {"rough, light load, 64 x 64 cells"}
@@ -298,7 +298,7 @@ def test_a_solver_that_is_right_on_small_grids_alone_is_wrong(way, quantity):
 
 def test_a_solver_that_is_too_slow_for_a_large_grid_is_not_wrong_there(monkeypatch):
     late = asked(ours)
-    monkeypatch.setattr(late.solver, "calls", lambda *given: [Failed("no answer within 10 s", late=True)])
+    monkeypatch.setattr(late.model, "calls", lambda *given: [Failed("no answer within 10 s", late=True)])
     ((found,), times), *more = judged.timed(late)
     assert (found.reason, found.decides, times, more) == ("no answer within 10 s", False, [], [])
 

@@ -12,8 +12,8 @@ from tests.seeded import catches
 from validation.judging.judgement import ranges_of
 from validation.judging.kinds import stiffness, surfaces
 from validation.judging.kinds.judge import ModelAnswer
-from validation.judging.kinds.references import Reference, known
-from validation.judging.kinds.stiffness import AskedPunch
+from validation.judging.kinds.references import Reference, reference_rows
+from validation.judging.kinds.stiffness import JudgedPunch
 from validation.judging.registry import offer
 from validation.judging.worker import Called
 from validation.simulation.rough_punch import PlateauSpectrum
@@ -36,8 +36,8 @@ def solved():
     """Fbar, mean and deviation of boundary elements by H, bandwidth and roll-off; constants where one is not known."""
     found = {}
     for quantity, column in ((MEAN, 0), (stiffness.ROLLED_OFF, 0), (DEVIATION, 1), (stiffness.BY_BAND, 1)):
-        for row in known(quantity):
-            one = AskedPunch.at(row.where)
+        for row in reference_rows(quantity):
+            one = JudgedPunch.at(row.where)
             of = found.setdefault((one.hurst, one.waves, one.roll_off), {})
             of.setdefault(one.force, [0.1, 0.3])[column] = row.value
     return {key: np.log([(force, *of[force]) for force in sorted(of)]).T for key, of in found.items()}
@@ -70,7 +70,7 @@ def test_with_e_for_e_star_a_law_is_nowhere_enough():
     assert verdicts(points, MEAN) == {OUTSIDE}
 
 
-given = stiffness.AskedPunch.arguments.fget
+given = stiffness.JudgedPunch.arguments.fget
 
 
 def under_twice_the_load(asked):
@@ -78,7 +78,7 @@ def under_twice_the_load(asked):
 
 
 @catches("a model asked under twice the load").at(
-    "validation.judging.kinds.stiffness.AskedPunch.arguments", property(under_twice_the_load)
+    "validation.judging.kinds.stiffness.JudgedPunch.arguments", property(under_twice_the_load)
 )
 def test_what_boundary_elements_have_agrees_and_what_is_twice_as_far_differs():
     points = judged(as_known)
@@ -96,7 +96,7 @@ def test_what_boundary_elements_have_agrees_and_what_is_twice_as_far_differs():
     assert WITHIN not in {p.verdict for p in points if p.quantity == DEVIATION and p.reference > 0.02}
 
 
-def without_the_error_of_the_sample(values, so_few, apart):
+def without_the_error_of_the_sample(values, so_few, first_equal):
     return stiffness.Stiffness(ModelAnswer(np.mean(values)), ModelAnswer(np.std(values) / np.mean(values)))
 
 
@@ -139,7 +139,7 @@ def test_the_fastest_call_is_counted(monkeypatch):
         clock.now += next(seconds)
         return load
 
-    assert stiffness.seconds_of(Called(offer("stiffness_model", "mine", {}, mine)), AskedPunch(0.7, 0.1)) == 2.0
+    assert stiffness.seconds_of(Called(offer("stiffness_model", "mine", {}, mine)), JudgedPunch(0.7, 0.1)) == 2.0
 
 
 @pytest.mark.parametrize(
@@ -188,7 +188,7 @@ def test_a_stiffness_that_falls_between_loads_that_are_known_is_found(deep):
     "validation.judging.kinds.stiffness.PlateauRoughness.c2d", PlateauSpectrum.c2d
 )
 def test_a_plateau_is_given_with_its_own_rms_height():
-    rough = AskedPunch(0.7, 0.1, 64, 8).arguments["roughness"]
+    rough = JudgedPunch(0.7, 0.1, 64, 8).arguments["roughness"]
     q = np.geomspace(rough.q_min, rough.q_max, 200001)
     assert np.sqrt(2 * np.pi * np.trapezoid(q * rough.c2d(q), q)) == pytest.approx(rough.rms, rel=1e-6)
     assert np.sqrt(2 * np.trapezoid(rough.c1d(q), q)) == pytest.approx(rough.rms, rel=1e-6)
@@ -216,7 +216,7 @@ def summits(monkeypatch):
         for load in [force * stiffness.MODULUS * stiffness.HEIGHT * stiffness.SIDE**2]
         for value in [by_the_summit(height, stiffness.SIDE / 256, 1.0, load / stiffness.MODULUS) / stiffness.SIDE]
     ]
-    monkeypatch.setattr(surfaces, "known", lambda quantity: rows)
+    monkeypatch.setattr(surfaces, "reference_rows", lambda quantity: rows)
 
 
 def test_surfaces_are_judged_one_by_one_and_in_their_mean_and_deviation(summits):
@@ -233,7 +233,10 @@ def test_surfaces_are_judged_one_by_one_and_in_their_mean_and_deviation(summits)
 
 
 def test_a_law_without_the_surface_has_no_deviation(summits):
-    mean = {force: np.mean([row.value for row in surfaces.known("") if row.where["Fbar"] == force]) for force in FORCES}
+    mean = {
+        force: np.mean([row.value for row in surfaces.reference_rows("") if row.where["Fbar"] == force])
+        for force in FORCES
+    }
 
     def blind(height, load):
         force = load / (stiffness.MODULUS * stiffness.HEIGHT * stiffness.SIDE**2)

@@ -16,7 +16,7 @@ from validation.benchmarks.discrete import ContactProblem, pressed
 from validation.benchmarks.surface_problem import SurfaceProblem
 from validation.judging.registry import KINDS, Offered
 from validation.judging.solvers import judged, properties
-from validation.judging.solvers.properties import Asked, loaded, monotone
+from validation.judging.solvers.properties import JudgedSolver, loaded, monotone
 from validation.judging.worker import Called
 
 SMALL = next(problem for problem in discrete.problems() if problem.name == "odd cells of 2:1, light load")
@@ -27,7 +27,7 @@ GRID = ContactProblem(
 
 def solver(function, load="force", **options):
     asks = ("gap", "spacing", "modulus", "periodic", "tolerance", load)
-    return Asked(
+    return JudgedSolver(
         Called(Offered("contact_solver", "foreign", function, asks, KINDS["contact_solver"].options | options))
     )
 
@@ -213,7 +213,7 @@ def test_a_prescribed_load_is_that_which_is_named():
         )
     )
     for load in ("force", "approach"):
-        Asked(both, by=load).pressure(SMALL)
+        JudgedSolver(both, by=load).pressure(SMALL)
     assert given == [(SMALL.force, None), (None, SMALL.approach)]
 
 

@@ -11,7 +11,7 @@ from validation.judging.kinds import held_out_solves, references, rolling, surfa
 from validation.judging.kinds.from_report import HELD_OUT, SOURCES, Report
 from validation.judging.kinds.held_out_solves import held_out
 from validation.judging.kinds.own import ERRORS
-from validation.judging.kinds.references import about, as_file, file_name, known
+from validation.judging.kinds.references import about, as_file, file_name, reference_rows
 from validation.judging.kinds.rolling import EACH, GRIDS, HEIGHTS, LIFT, MEAN
 from validation.judging.kinds.surfaces import OF_SURFACE
 from validation.simulation.rolling_strip import roll_strip
@@ -25,12 +25,12 @@ SOLVED = (MEAN, EACH, LIFT, OF_SURFACE, ERRORS, *HELD_OUT)
 def test_a_file_is_what_the_committed_report_shows(quantity):
     """Otherwise the report was made anew: `mdr-validation calibrate --references reports/reference --install`."""
     rows = [row for row in SOURCES[quantity].find(Report(REPORT), SERIAL) if np.isfinite(row.value)]
-    assert [row.where for row in known(quantity)] == [
+    assert [row.where for row in reference_rows(quantity)] == [
         {name: place if isinstance(place, str) else float(f"{place:.7g}") for name, place in row.where.items()}
         for row in rows
     ]
     for name in references.VALUES:
-        mine, report = ([getattr(row, name) for row in some] for some in (known(quantity), rows))
+        mine, report = ([getattr(row, name) for row in some] for some in (reference_rows(quantity), rows))
         assert mine == pytest.approx(report, rel=1e-3 if name != "value" else 1e-6)
     assert about(quantity)["settings"] == Report(REPORT).settings(SOURCES[quantity].case)
 
@@ -39,7 +39,7 @@ def test_all_of_them_are_small_and_complete():
     assert references.quantities() == sorted(SOURCES, key=file_name)
     assert sum(path.stat().st_size for path in references.FOLDER.iterdir()) < 3e6
     for quantity in SOURCES:
-        rows = known(quantity)
+        rows = reference_rows(quantity)
         assert rows and all(np.isfinite([row.value, row.sample, row.grid]).all() for row in rows)
         assert all(min(row.sample, row.grid) >= 0 for row in rows)
         assert set(about(quantity)) == {"quantity", "unit", "case", "commit", "settings"}
@@ -50,7 +50,7 @@ def test_positions_are_those_of_boundary_elements_on_the_strip():
     height, coarse = HEIGHTS[-1], GRIDS[0]
     (strip,) = rolling.strip_of(height).strips(coarse, 1e-4 * height, 1)
     force = roll_strip(strip)["force"]
-    rows = [row for row in known(EACH) if row.where["h/d"] == height]
+    rows = [row for row in reference_rows(EACH) if row.where["h/d"] == height]
     left = np.array([2 * abs(row.value) * row.grid for row in rows])
     assert np.abs(force - [row.value for row in rows]) == pytest.approx(left * 1.5, abs=2e-4)
 
@@ -69,7 +69,7 @@ def test_positions_are_extrapolated_to_cells_of_no_size():
     rows = list(SOURCES[EACH].find(None, Made()))
     assert [row.value for row in rows] == pytest.approx([2.0] * len(rows))
     assert [row.grid for row in rows] == pytest.approx([0.1 / GRIDS[1] / 2] * len(rows))
-    assert len(rows) == len(known(EACH)) and [row.where for row in rows] == [row.where for row in known(EACH)]
+    assert [row.where for row in rows] == [row.where for row in reference_rows(EACH)]
 
 
 class Pressed:
@@ -89,7 +89,7 @@ class Pressed:
 def test_a_surface_is_known_as_well_as_its_two_grids_agree():
     """All loads are asked, and a right answer on the cells that a model is given does not differ."""
     rows = list(surfaces.solved(Pressed()))
-    assert len(rows) == 3 * 8 * len(surfaces.FORCES) == len(known(OF_SURFACE))
+    assert len(rows) == 3 * 8 * len(surfaces.FORCES) == len(reference_rows(OF_SURFACE))
     assert [row.value for row in rows[:: len(surfaces.FORCES)][:2]] == pytest.approx(np.exp([0.1, -0.1]))
     assert [row.grid for row in rows] == pytest.approx([2.306 * 0.1] * len(rows), rel=1e-3)
 
@@ -98,9 +98,9 @@ def test_what_is_written_is_read_and_what_is_unknown_is_refused(tmp_path, monkey
     monkeypatch.setattr(references, "FOLDER", tmp_path)
     row = references.Reference({"H": 0.7, "across": "ridges"}, 2.0, 0.5, 0.25, quantity="a level, of mine")
     (tmp_path / file_name("a level, of mine")).write_bytes(as_file({"quantity": "a level, of mine"}, [row]))
-    assert known("a level, of mine") == [row]
+    assert reference_rows("a level, of mine") == [row]
     with pytest.raises(LookupError, match="a level, of mine, got 'mass'"):
-        known("mass")
+        reference_rows("mass")
 
 
 def test_a_folder_without_a_full_report_is_refused(tmp_path):
@@ -110,7 +110,7 @@ def test_a_folder_without_a_full_report_is_refused(tmp_path):
 
 def test_held_out_faces_are_those_of_boundary_elements_on_the_finer_grid():
     """Two of them under the heavier loads, by transforms alone."""
-    rows = [row for row in known(held_out(OF_SURFACE)) if row["Fbar"] > 0.05]
+    rows = [row for row in reference_rows(held_out(OF_SURFACE)) if row["Fbar"] > 0.05]
     for face in held_out_solves.FACES[1:3]:
         found = held_out_solves.press_face(held_out_solves.PressedFace(face, held_out_solves.FACE_CELLS))
         stored = [row for row in rows if row.where["surface"] == str(face)]
@@ -132,7 +132,7 @@ def test_held_out_positions_are_those_of_boundary_elements_on_cells_of_two_lengt
     """The coarse grid is three times as far off as what the two grids leave."""
     scene, height = held_out_solves.THIRD, held_out_solves.HEIGHTS[-1]
     found = held_out_solves.roll_oblong(held_out_solves.OblongStrip(scene, height, GRIDS[0], by_load=False))
-    rows = [row for row in known(held_out(EACH), where=scene.where) if row["h/d"] == height]
+    rows = [row for row in reference_rows(held_out(EACH), where=scene.where) if row["h/d"] == height]
     left = np.array([2 * abs(row.value) * row.grid for row in rows])
     assert np.abs(found["value"] - [row.value for row in rows]) == pytest.approx(left * 1.5, abs=2e-4)
     assert scene.lateral == 2 and scene.surface(height, 8).shape[1] == 2 * 8 * round(held_out_solves.WIDTH)
@@ -140,9 +140,9 @@ def test_held_out_positions_are_those_of_boundary_elements_on_cells_of_two_lengt
 
 @catches("held-out loads that are those of the table").at("validation.judging.kinds.held_out_solves.LOADS", (0.01, 0.1))
 def test_held_out_scenes_are_none_of_the_tables():
-    table = {(row["H"], 64) for row in known("mean stiffness")}
+    table = {(row["H"], 64) for row in reference_rows("mean stiffness")}
     assert not {(one.hurst, one.ratio) for one in held_out_solves.PUNCHES} & table
-    loads = {round(row["Fbar"], 6) for row in known("mean stiffness")}
+    loads = {round(row["Fbar"], 6) for row in reference_rows("mean stiffness")}
     assert not {round(force, 6) for force in held_out_solves.LOADS} & loads
     assert all(scene.wheel != rolling.MAIN and scene.hurst != 0.7 for scene in held_out_solves.SCENES)
 
@@ -150,7 +150,7 @@ def test_held_out_scenes_are_none_of_the_tables():
 def test_held_out_levels_are_those_of_linear_theory_on_smooth_roughness():
     """Within their errors, which are less than half a decibel; and below it on rougher ones."""
     for scene in held_out_solves.SCENES:
-        for row in known(held_out(rolling.RMS), where=scene.where):
+        for row in reference_rows(held_out(rolling.RMS), where=scene.where):
             linear = 10 * np.log10(rolling.variance_of(scene.spectrum))
             half = row.sample + row.grid
             assert half < 0.5

@@ -16,7 +16,7 @@ from validation.judging.solvers import diagnosis, judged
 from validation.judging.solvers.causes import JudgedContact, causes
 from validation.judging.solvers.factors import numbered
 from validation.judging.solvers.judged import findings
-from validation.judging.solvers.properties import Asked
+from validation.judging.solvers.properties import JudgedSolver
 from validation.judging.words import solver_lines
 from validation.judging.worker import Called
 
@@ -83,7 +83,7 @@ QUICK = (
 @pytest.mark.parametrize("name", [pytest.param(one, marks=() if one in QUICK else pytest.mark.slow) for one in WRONG])
 def test_a_wrong_solver_is_caught_and_its_cause_is_named_first(name, few_problems):
     function, cause = WRONG[name]
-    points = findings(Asked(solver(on_free_space(function), **OPTIONS.get(name, {}))))
+    points = findings(JudgedSolver(solver(on_free_space(function), **OPTIONS.get(name, {}))))
     assert any(point.verdict != WITHIN and point.decides for point in points)
     assert cause in said_first(points)
 
@@ -162,7 +162,7 @@ RIGHT = {
 @pytest.mark.parametrize("name", RIGHT)
 def test_a_right_solver_is_right_on_all_that_it_serves(name):
     function, options = RIGHT[name]
-    points = findings(Asked(solver(function, **options)))
+    points = findings(JudgedSolver(solver(function, **options)))
     assert [point for point in points if point.verdict != WITHIN] == []
     asked = {"periodic" in point.where["problem"] for point in points}
     assert asked == {served for served, key in ((True, "periodic"), (False, "free")) if options.get(key, not served)}
@@ -186,7 +186,7 @@ def test_a_solver_of_both_loads_is_judged_by_both(few_problems):
 
 
 def test_what_a_solver_does_not_serve_is_counted_apart_and_never_wrong():
-    points = findings(Asked(solver(on_free_space(square_cells_alone))))
+    points = findings(JudgedSolver(solver(on_free_space(square_cells_alone))))
     unserved = [point for point in points if point.verdict == NOT_SERVED]
     assert {point.verdict for point in points} == {WITHIN, NOT_SERVED}
     assert {"cells of 1:4", "cells of 2:1"} < {point.where["problem"] for point in unserved}
@@ -207,7 +207,7 @@ def test_a_solver_is_not_asked_beyond_the_cells_that_it_declares():
         asked.append(gap.size)
         return pressed(gap, **given)
 
-    points = findings(Asked(solver(on_free_space(counting), cells=900)))
+    points = findings(JudgedSolver(solver(on_free_space(counting), cells=900)))
     assert max(asked) <= 900 and {point.verdict for point in points} == {WITHIN, NOT_SERVED}
     assert {"mirror", "superposition", "order of convergence"} < {p.quantity for p in points if p.verdict == WITHIN}
     assert {point.where["problem"] for point in points if point.verdict == NOT_SERVED} >= {
@@ -220,7 +220,7 @@ def test_a_solver_that_serves_nothing_has_no_verdict():
     def nothing(**_):
         raise NotImplementedError("not yet")
 
-    points = findings(Asked(solver(nothing)))
+    points = findings(JudgedSolver(solver(nothing)))
     assert {point.verdict for point in points} == {NOT_SERVED} and not any(point.decides for point in points)
     assert "without an answer" in next(iter(solver_lines("foreign", points, (), 0.0)))
 

@@ -16,7 +16,7 @@ import mdr
 from validation.advice.calibration import SCATTER
 from validation.advice.models import boundary_elements_pressed, boundary_elements_rolling
 from validation.engine.random_numbers import random_generator
-from validation.judging.kinds.judge import asked
+from validation.judging.kinds.judge import answer_of as asked
 from validation.judging.kinds.profiles import rms_of_profile
 from validation.judging.kinds.rolling import middle_line
 from validation.judging.registry import Caller, FloatArray, Given

@@ -20,7 +20,7 @@ from validation.judging.judgement import JudgedNumber
 from validation.judging.kinds.profiles import properties_of_rule
 from validation.judging.own_models import named_in
 from validation.judging.registry import KINDS, FloatArray, offer
-from validation.judging.solvers.properties import PROPERTIES, Asked, UnansweredError, loads_of, served
+from validation.judging.solvers.properties import PROPERTIES, JudgedSolver, UnansweredError, loads_of, served
 from validation.judging.worker import Called
 
 OF_RULE = 1e-3
@@ -42,7 +42,7 @@ def settings_for(example: Callable[[], object]) -> settings:
 # --- contact solvers ---
 
 
-class Noted(Asked):
+class Noted(JudgedSolver):
     """What it is asked, and what it answers, stands below a failure."""
 
     def pressure(self, problem: ContactProblem) -> FloatArray:
@@ -66,7 +66,7 @@ def ours(gap: FloatArray, spacing: Any, modulus: float, periodic: bool, toleranc
 
 
 @pytest.fixture(scope="module")
-def asked(request: pytest.FixtureRequest) -> list[Asked]:
+def asked(request: pytest.FixtureRequest) -> list[JudgedSolver]:
     """The solver under test, called in this process, by each load that it offers; that of this project without one."""
     place = request.config.getoption(SOLVER, None)
     options = {**KINDS["contact_solver"].options, "periodic": True, "residual": 1e-5}
@@ -96,7 +96,7 @@ def contacts(draw: st.DrawFn, half_spaces: Sequence[bool], cells: float) -> Cont
 
 
 def points_by_each(
-    solvers: Sequence[Asked], name: str, problem: ContactProblem, unserved: list[str]
+    solvers: Sequence[JudgedSolver], name: str, problem: ContactProblem, unserved: list[str]
 ) -> list[JudgedNumber]:
     """Of a property, by each load; what the solver says that it does not serve goes to a list."""
     points = list[JudgedNumber]()
@@ -111,11 +111,11 @@ def points_by_each(
 
 
 @pytest.mark.parametrize("name", PROPERTIES)
-def test_a_contact_solver_has_the_property(asked: list[Asked], name: str) -> None:
+def test_a_contact_solver_has_the_property(asked: list[JudgedSolver], name: str) -> None:
     """What it does not serve is not asked; where it serves nothing that the property needs, the test is skipped."""
     solver, unserved, answers = asked[0], list[str](), list[str]()
     keys = {True: "periodic", False: "free"}
-    half_spaces = [periodic for periodic in served(PROPERTIES[name]) if solver.solver.options[keys[periodic]]]
+    half_spaces = [periodic for periodic in served(PROPERTIES[name]) if solver.model.options[keys[periodic]]]
     if not half_spaces:
         pytest.skip("a property of half-spaces that the solver does not serve")
 
@@ -130,7 +130,7 @@ def test_a_contact_solver_has_the_property(asked: list[Asked], name: str) -> Non
     def example() -> None:
         with suppress(UnansweredError):
             for _ in range(2):
-                Asked(solver.solver).pressure(replace(sphere, approach=float(sphere.gap.mean() + sphere.gap.min()) / 2))
+                JudgedSolver(solver.model).pressure(replace(sphere, approach=float(sphere.gap.mean() + sphere.gap.min()) / 2))
 
     settings_for(example)(given(contacts(half_spaces, solver.cells))(holds))()
     if unserved and not answers:

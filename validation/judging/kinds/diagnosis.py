@@ -85,8 +85,8 @@ def common_factor(ratios: Sequence[float] | FloatArray, halves: Sequence[float] 
     ratios: positive, of values over their references; halves: of their 95 % intervals, relative.
     """
     logs, errors = np.log(np.asarray(ratios, dtype=float)), np.asarray(halves, dtype=float)
-    known = np.isfinite(logs) & np.isfinite(errors)
-    logs, errors = logs[known], errors[known]
+    finite = np.isfinite(logs) & np.isfinite(errors)
+    logs, errors = logs[finite], errors[finite]
     if logs.size < LEAST:
         return None
     weights = 1 / (errors**2 + SPARE**2)
@@ -110,8 +110,8 @@ def _median(values: FloatArray, weights: FloatArray) -> float:
 
 def named(factor: float, half: float, names: Mapping[str, float]) -> str:
     """What a factor may come from, the nearest first; nothing where it is none of these."""
-    apart = {name: abs(math.log(factor / known)) for name, known in names.items()}
-    near = sorted((name for name in apart if apart[name] <= NEAR + half), key=lambda one: apart[one])
+    distances = {name: abs(math.log(factor / value)) for name, value in names.items()}
+    near = sorted((name for name in distances if distances[name] <= NEAR + half), key=lambda name: distances[name])
     return "; or ".join(near[:2])
 
 
@@ -174,14 +174,14 @@ def _table(points: Sequence[JudgedNumber]) -> Iterator[Remark]:
     """Scenes of held-out points where the model fails and the nearest points of the table agree."""
     failed: list[str] = []
     lost = expected = wrong = sure = 0
-    for scene, some in _scenes(points).items():
-        there = [point for point in some if _is_right_nearby(point, points)]
-        out = [point for point in there if point.verdict in (Verdict.OUTSIDE, *WITHOUT_NUMBER)]
-        expected, wrong = expected + len(there), wrong + len(out)
+    for scene, held_out in _scenes(points).items():
+        comparable = [point for point in held_out if _is_right_nearby(point, points)]
+        out = [point for point in comparable if point.verdict in (Verdict.OUTSIDE, *WITHOUT_NUMBER)]
+        expected, wrong = expected + len(comparable), wrong + len(out)
         lost += sum(point.verdict is not Verdict.OUTSIDE for point in out)
-        if there and len(out) >= MOST * len(there):
-            failed.append(f"{scene or 'all'} ({len(out)} of {len(there)})")
-            sure += len(there) > 1 or there[0].quantity in UNSIGNED or there[0].reference == 1
+        if comparable and len(out) >= MOST * len(comparable):
+            failed.append(f"{scene or 'all'} ({len(out)} of {len(comparable)})")
+            sure += len(comparable) > 1 or comparable[0].quantity in UNSIGNED or comparable[0].reference == 1
     # one point of a scene may be off by chance, one of each of several is not
     if (sure or len(failed) >= SHOWN) and wrong >= FEW * expected:
         what = "has no value" if lost == wrong else "is outside of the tolerance"
@@ -195,13 +195,13 @@ def _table(points: Sequence[JudgedNumber]) -> Iterator[Remark]:
 
 def _scenes(points: Sequence[JudgedNumber]) -> dict[str, list[JudgedNumber]]:
     """Held-out points by their conditions but those along which a table goes."""
-    found: dict[str, list[JudgedNumber]] = {}
+    scenes: dict[str, list[JudgedNumber]] = {}
     for point in points:
         # a mean over a strip shows little of a model
         if point.quantity.endswith(SUFFIX) and point.quantity.removesuffix(SUFFIX) not in (MEAN, "mean approach"):
             where = {name: value for name, value in point.where.items() if name not in ALONG}
-            found.setdefault(conditions_text(where), []).append(point)
-    return found
+            scenes.setdefault(conditions_text(where), []).append(point)
+    return scenes
 
 
 def _is_right_nearby(point: JudgedNumber, points: Sequence[JudgedNumber]) -> bool:
@@ -215,8 +215,8 @@ def _is_right_nearby(point: JudgedNumber, points: Sequence[JudgedNumber]) -> boo
     return sum(other.verdict is Verdict.WITHIN for other in near) >= NEAREST * len(near)
 
 
-def _distance(one: Conditions, other: Conditions, names: Sequence[str]) -> float:
-    return sum(abs(math.log(float(one[name]) / float(other[name]))) for name in names)
+def _distance(where: Conditions, other: Conditions, names: Sequence[str]) -> float:
+    return sum(abs(math.log(float(where[name]) / float(other[name]))) for name in names)
 
 
 # --- a factor, or a shift ---
@@ -231,28 +231,28 @@ def _factor(points: Sequence[JudgedNumber]) -> Iterator[Remark]:
         if point.quantity.removesuffix(SUFFIX) not in (*UNSIGNED, OF_STIFFNESS, BY_BAND) and point.unit != DEVIATION
     ]
     for of, is_level in ((_of_values, False), (_of_levels, True)):
-        some = [point for point in signed if (point.unit == LEVEL) == is_level]
-        table = [point for point in some if not point.quantity.endswith(SUFFIX)]
+        selected = [point for point in signed if (point.unit == LEVEL) == is_level]
+        table = [point for point in selected if not point.quantity.endswith(SUFFIX)]
         of_each = [[p for p in table if p.quantity == name] for name in dict.fromkeys(p.quantity for p in table)]
-        if everywhere := next(filter(None, (list(of(part, "")) for part in (some, table, *of_each))), []):
+        if everywhere := next(filter(None, (list(of(part, "")) for part in (selected, table, *of_each))), []):
             yield from everywhere
             continue
-        smooth = [point for point in some if float(point.where.get(SLOPE, math.inf)) <= SMOOTH]
-        flat = [point for point in some if float(point.where.get(FORCE, 0.0)) >= FLAT]
-        yield from (one for one in of(smooth, f" up to {SLOPE} = {SMOOTH:g}") if one.sentence.endswith("?"))
-        yield from (one for one in of(flat, f" from {FORCE} = {FLAT:g} on") if one.sentence.endswith("?"))
+        smooth = [point for point in selected if float(point.where.get(SLOPE, math.inf)) <= SMOOTH]
+        flat = [point for point in selected if float(point.where.get(FORCE, 0.0)) >= FLAT]
+        yield from (remark for remark in of(smooth, f" up to {SLOPE} = {SMOOTH:g}") if remark.sentence.endswith("?"))
+        yield from (remark for remark in of(flat, f" from {FORCE} = {FLAT:g} on") if remark.sentence.endswith("?"))
     yield from _of_moments(points)
 
 
 def _of_moments(points: Sequence[JudgedNumber]) -> Iterator[Remark]:
     """Of a rule for the spectrum of a profile, beside those of the surface."""
-    there = [p for p in points if p.quantity.removesuffix(SUFFIX) in MOMENTS.values() and math.isfinite(p.difference)]
-    power = [2.0 if point.quantity.startswith("rms") else 1.0 for point in there]
-    ratios = np.array([max(1 + point.difference, 0.0) ** n for point, n in zip(there, power, strict=True)])
-    found = common_factor(ratios, np.full(len(there), SPARE)) if there and ratios.min() > 0 else None
-    if found and found.kept == len(there):
-        cause = named(found.factor, found.half, OF_POWERS)
-        sentence = f"All moments of the profile are {found.factor:.3g} times those of the surface"
+    moments = [p for p in points if p.quantity.removesuffix(SUFFIX) in MOMENTS.values() and math.isfinite(p.difference)]
+    power = [2.0 if point.quantity.startswith("rms") else 1.0 for point in moments]
+    ratios = np.array([max(1 + point.difference, 0.0) ** n for point, n in zip(moments, power, strict=True)])
+    common = common_factor(ratios, np.full(len(moments), SPARE)) if moments and ratios.min() > 0 else None
+    if common and common.kept == len(moments):
+        cause = named(common.factor, common.half, OF_POWERS)
+        sentence = f"All moments of the profile are {common.factor:.3g} times those of the surface"
         yield Remark("a factor everywhere", f"{sentence}: {cause}?" if cause else f"{sentence}.")
 
 
@@ -261,11 +261,11 @@ def _columns(points: Sequence[JudgedNumber]) -> tuple[FloatArray, FloatArray]:
 
 
 def _of_values(points: Sequence[JudgedNumber], where: str) -> Iterator[Remark]:
-    some = [point for point in points if point.difference > -1]
-    difference, error = _columns(some)
-    if len(some) == len(points) and (found := common_factor(1 + difference, error / (1 + difference))):
-        cause = named(found.factor, found.half, OF_VALUES)
-        sentence = f"{_of(found.kept, len(points), points, where)} {found.factor:.3g} times the reference"
+    positive = [point for point in points if point.difference > -1]
+    difference, error = _columns(positive)
+    if len(positive) == len(points) and (common := common_factor(1 + difference, error / (1 + difference))):
+        cause = named(common.factor, common.half, OF_VALUES)
+        sentence = f"{_subject(common.kept, len(points), points, where)} {common.factor:.3g} times the reference"
         yield Remark("a factor everywhere", f"{sentence}: {cause}?" if cause else f"{sentence}.")
 
 
@@ -273,10 +273,10 @@ def _of_levels(points: Sequence[JudgedNumber], where: str) -> Iterator[Remark]:
     """A shift is a factor of powers; of filters, levels that are twice the references are those of a square."""
     difference, error = _columns(points)
     in_power = math.log(10) / 10
-    if found := common_factor(np.exp(in_power * difference), in_power * error):
-        cause, shift = named(found.factor, found.half, OF_POWERS), 10 * math.log10(found.factor)
+    if common := common_factor(np.exp(in_power * difference), in_power * error):
+        cause, shift = named(common.factor, common.half, OF_POWERS), 10 * math.log10(common.factor)
         side = "above" if shift > 0 else "below"
-        sentence = f"{_of(found.kept, len(points), points, where)} {abs(shift):.2f} dB {side} the reference"
+        sentence = f"{_subject(common.kept, len(points), points, where)} {abs(shift):.2f} dB {side} the reference"
         yield Remark("a shift everywhere", f"{sentence}: {cause}?" if cause else f"{sentence}.")
         return
     yield from _of_squares(points)
@@ -284,18 +284,20 @@ def _of_levels(points: Sequence[JudgedNumber], where: str) -> Iterator[Remark]:
 
 def _of_squares(points: Sequence[JudgedNumber]) -> Iterator[Remark]:
     """Of a filter over ridges, where a band has one wave along and none across, and not its zeros."""
-    some = [p for p in points if p.quantity == FILTER and p.where.get(ALPHA) == 0.0 and p.reference > LOWEST]
-    if len(some) < LEAST:
+    ridges = [p for p in points if p.quantity == FILTER and p.where.get(ALPHA) == 0.0 and p.reference > LOWEST]
+    if len(ridges) < LEAST:
         return
-    (difference, error), reference = _columns(some), np.array([point.reference for point in some])
+    (difference, error), reference = _columns(ridges), np.array([point.reference for point in ridges])
     for times, cause in ((2.0, "the square of the amplitude, 20 lg for 10 lg"), (0.5, "the root of the amplitude")):
         # the mean of a power over a band is a little more than the power of the mean
         kept = np.abs(difference - (times - 1) * reference) <= error + SQUARED * (1 + np.abs(reference))
         if kept.mean() > MOST_OF:
-            sentence = f"{_of(int(kept.sum()), len(some), some, ' over ridges')} {times:g} times the reference in dB"
+            sentence = (
+                f"{_subject(int(kept.sum()), len(ridges), ridges, ' over ridges')} {times:g} times the reference in dB"
+            )
             yield Remark("levels of a power of the amplitude", f"{sentence}: {cause}?")
 
 
-def _of(kept: int, count: int, points: Sequence[JudgedNumber], where: str) -> str:
+def _subject(kept: int, count: int, points: Sequence[JudgedNumber], where: str) -> str:
     quantities = " and ".join(dict.fromkeys(point.quantity.removesuffix(SUFFIX) for point in points))
     return f"{'All' if kept == count else f'{kept} of'} {count} points of its {quantities}{where} are"

@@ -10,8 +10,8 @@ import numpy as np
 
 from validation.analysis.quantity import Quantity
 from validation.analysis.statistics import FloatArray
-from validation.judging.kinds.judge import Finding, asked, attempted, beside, rule
-from validation.judging.kinds.references import Reference, about, known
+from validation.judging.kinds.judge import Finding, answer_of, attempted, compared, rule
+from validation.judging.kinds.references import Reference, about, reference_rows
 from validation.judging.registry import Caller
 from validation.railway.problems.rail_strip import line_of, strip_bands, structure_of
 from validation.railway.scenes.level_files import curve as levels_of
@@ -34,14 +34,14 @@ LONG_WAVE = 1e-4
 
 def judged(model: Caller) -> Iterator[Finding]:
     """In one-third octaves from ridges to isotropic ground; boundary elements rolled over rougher rails too."""
-    rows = known(FILTER)
+    rows = reference_rows(FILTER)
     scene = scene_of(rows[0][LOAD], rows[0][DIAMETER])
     k_x = np.array([LONG_WAVE / scene.contact.along])
     long = attempted(lambda: float(np.abs(_transfer(model, scene, 1.0)(k_x, 0 * k_x)[0])))
     yield rule(LONG, {"k_x a_x": LONG_WAVE}, long, LONG_WAVE)
     for (load, diameter, offset, alpha), ground in groupby(rows, _ground):
         if math.isfinite(alpha) or answers_isotropic(model):
-            yield from _over(model, scene_of(load, diameter), offset, alpha, ground)
+            yield from _over_ground(model, scene_of(load, diameter), offset, alpha, ground)
 
 
 def answers_isotropic(model: Caller) -> bool:
@@ -53,16 +53,18 @@ def _ground(row: Reference) -> tuple[float, ...]:
     return tuple(row[name] for name in (LOAD, DIAMETER, OFFSET, ALPHA))
 
 
-def _over(model: Caller, scene: RailScene, offset: float, alpha: float, rows: Iterator[Reference]) -> Iterator[Finding]:
+def _over_ground(
+    model: Caller, scene: RailScene, offset: float, alpha: float, rows: Iterator[Reference]
+) -> Iterator[Finding]:
     """One ground, in the bands that count."""
     wheel = f"{scene.name}, {offset:+g} dB" if offset else scene.name
     waves = np.round(1000 * strip_bands(scene).nominal, 2).tolist()
-    lowest = np.minimum.accumulate(_linear(scene, alpha))
+    lowest = np.minimum.accumulate(_linear_levels(scene, alpha))
     counted = [row for row in rows if lowest[waves.index(row[WAVE])] > COUNTED]
     bands = [waves.index(row[WAVE]) for row in counted]
     ground = {"wheel": wheel, ALPHA: "isotropic" if math.isinf(alpha) else alpha}
-    found = attempted(in_bands, model, scene, alpha, bands)
-    yield from beside([replace(row, where={**ground, WAVE: row[WAVE]}) for row in counted], found)
+    levels = attempted(in_bands, model, scene, alpha, bands)
+    yield from compared([replace(row, where={**ground, WAVE: row[WAVE]}) for row in counted], levels)
 
 
 def in_bands(model: Caller, scene: RailScene, alpha: float, bands: Sequence[int]) -> FloatArray:
@@ -82,9 +84,9 @@ def a3(scene: RailScene, alpha: float, transfer: Transfer) -> FloatArray:
 def _transfer(model: Caller, scene: RailScene, alpha: float) -> Transfer:
     """What a model has for the amplitude; one that does not ask for k_y is a filter of the line, as over ridges."""
     contact = scene.contact
-    given = {"a_x": contact.along, "a_y": contact.across, "approach": contact.approach, "alpha": alpha}
+    arguments = {"a_x": contact.along, "a_y": contact.across, "approach": contact.approach, "alpha": alpha}
 
-    return lambda k_x, k_y: asked(model, k_x=k_x, k_y=k_y, **given)
+    return lambda k_x, k_y: answer_of(model, k_x=k_x, k_y=k_y, **arguments)
 
 
 def _in_one_call(integral: Callable[[Transfer], FloatArray], transfer: Transfer) -> FloatArray:
@@ -96,13 +98,13 @@ def _in_one_call(integral: Callable[[Transfer], FloatArray], transfer: Transfer)
         return np.ones(waves[-1][0].shape)
 
     integral(noted)
-    k_x, k_y = (np.concatenate([one.ravel() for one in some]) for some in zip(*waves, strict=True))
-    values = iter(np.split(transfer(k_x, k_y), np.cumsum([one.size for one, _ in waves])[:-1]))
+    k_x, k_y = (np.concatenate([wave.ravel() for wave in component]) for component in zip(*waves, strict=True))
+    values = iter(np.split(transfer(k_x, k_y), np.cumsum([wave.size for wave, _ in waves])[:-1]))
     return integral(lambda k_x, k_y: next(values).reshape(np.broadcast_shapes(k_x.shape, k_y.shape)))
 
 
 @cache
-def _linear(scene: RailScene, alpha: float) -> FloatArray:
+def _linear_levels(scene: RailScene, alpha: float) -> FloatArray:
     return a3(scene, alpha, partial(half_space_filter, semi_axes=scene.contact.semi_axes))
 
 

@@ -76,8 +76,8 @@ class Report:
 
     def rows(self, case: str, quantity: str, **equal: float | str) -> list[dict[str, Any]]:
         table = from_csv(quantity, place_in(self.folder / "data", csv_name(case, quantity)).read_text("utf-8"))
-        if found := [row for row in rows_of(table) if equal.items() <= row.items()]:
-            return found
+        if rows := [row for row in rows_of(table) if equal.items() <= row.items()]:
+            return rows
         raise ValueError(f"--references needs a report with {quantity!r} of {case}, got {self.folder} without it")
 
     def references(self, case: str, quantity: str, *names: str, model: str = BEM) -> list[Reference]:
@@ -121,11 +121,11 @@ def _punch(statistic: str, ratio: str) -> Find:
 
     def find(report: Report, _: Engine) -> Iterator[Reference]:
         case, where = "fractal_punch", (H, FORCE)
-        mine = {(one[H], one[FORCE]): one for one in report.references(case, statistic, *where)}
-        springs = {(one[H], one[FORCE]): one for one in report.references(case, statistic, *where, model=SPRINGS)}
-        for one in report.references(case, ratio, *where, model=SPRINGS_OVER):
-            known = mine[key := (one[H], one[FORCE])]
-            yield replace(known, grid=max(one.sample - math.hypot(known.sample, springs[key].sample), 0.0))
+        boundary_elements = {(row[H], row[FORCE]): row for row in report.references(case, statistic, *where)}
+        springs = {(row[H], row[FORCE]): row for row in report.references(case, statistic, *where, model=SPRINGS)}
+        for row in report.references(case, ratio, *where, model=SPRINGS_OVER):
+            reference = boundary_elements[key := (row[H], row[FORCE])]
+            yield replace(reference, grid=max(row.sample - math.hypot(reference.sample, springs[key].sample), 0.0))
 
     return find
 
@@ -136,15 +136,15 @@ def _rolled_off(report: Report, _: Engine) -> Iterator[Reference]:
     waves, hurst = settings["pressed"]
     edges = tuple(2 * math.pi * q for q in (1, waves, settings["band"] * waves))
     gradient = PiecewisePowerLaw(edges=edges, exponents=(0.0, 2 * hurst + 2)).gradient
-    for one in report.references("interface", "k_h_over_F", CONTACT, model=f"{BEM}, punch"):
-        force = gradient * float(erfinv(one[CONTACT] / 100)) / math.sqrt(2)
-        yield replace(one, where={H: hurst, ROLL_OFF: float(waves), FORCE: force}, value=force * one.value)
+    for row in report.references("interface", "k_h_over_F", CONTACT, model=f"{BEM}, punch"):
+        force = gradient * float(erfinv(row[CONTACT] / 100)) / math.sqrt(2)
+        yield replace(row, where={H: hurst, ROLL_OFF: float(waves), FORCE: force}, value=force * row.value)
 
 
 def _by_band(report: Report, _: Engine) -> Iterator[Reference]:
     """But for the band of Fig. 14.1."""
     rows = report.references("bandwidth", "relative_deviation", H, FORCE, BAND)
-    return (one for one in rows if one[BAND] != stiffness.WAVES)
+    return (row for row in rows if row[BAND] != stiffness.WAVES)
 
 
 def _levels(report: Report, _: Engine) -> Iterator[Reference]:
@@ -181,8 +181,8 @@ def roll_under_load(strip: Strip) -> Outcome:
     """Boundary elements under the load of Hertz: the approach over d; failed: positions that did not converge."""
     seen, spacing = crop_to_reach(strip.surface(), 1 / strip.cells), 1 / strip.cells
     wheel: dict[str, Any] = {"radius": 1.0, "modulus": 1.0, "force": HERTZ}
-    found = bem3d.roll(seen, spacing=spacing, tolerance=strip.tolerance, raise_on_failure=False, **wheel)
-    return {"approach": found.approach, "failed": np.array(float(np.count_nonzero(~found.converged)))}
+    rolled = bem3d.roll(seen, spacing=spacing, tolerance=strip.tolerance, raise_on_failure=False, **wheel)
+    return {"approach": rolled.approach, "failed": np.array(float(np.count_nonzero(~rolled.converged)))}
 
 
 def _positions(name: str, solve: Callable[[Strip], Outcome]) -> Find:
@@ -191,11 +191,11 @@ def _positions(name: str, solve: Callable[[Strip], Outcome]) -> Find:
     def find(_: Report, engine: Engine) -> Iterator[Reference]:
         coarse, fine = GRIDS
         problems = {(h, n): rolling.strip_of(h).strips(n, 1e-4 * h, 1) for h in HEIGHTS for n in GRIDS}
-        on = {key: one[0][name] for key, one in engine.map_groups(solve, problems).items()}
+        on = {key: outcomes[0][name] for key, outcomes in engine.map_groups(solve, problems).items()}
         for h in HEIGHTS:
-            there = on[h, fine][fine // coarse // 2 :: fine // coarse]
-            left = (there - on[h, coarse]) / (fine // coarse - 1)
-            for i, (value, change) in enumerate(zip((there + left).tolist(), left.tolist(), strict=True)):
+            finer = on[h, fine][fine // coarse // 2 :: fine // coarse]
+            left = (finer - on[h, coarse]) / (fine // coarse - 1)
+            for i, (value, change) in enumerate(zip((finer + left).tolist(), left.tolist(), strict=True)):
                 yield Reference({HEIGHT: h, "x / a": (i + 0.5) / coarse}, value, grid=abs(change / value))
 
     return find
@@ -222,7 +222,7 @@ def _regions(report: Report, _: Engine) -> Iterator[Reference]:
     """Of springs without a window; the sample by the lowest and the highest tenth of the wheels, as if Gaussian."""
     models = ("no window, (14.17)", "lowest tenth of wheels", "highest tenth of wheels")
     rows = [report.rows("wheel", "A_in_twelfths_of_an_octave", model=model) for model in models]
-    level, lowest, highest = 10 * np.log10([[row["value"] for row in some] for some in rows])
+    level, lowest, highest = 10 * np.log10([[row["value"] for row in rows_of_model] for rows_of_model in rows])
     omega = np.array([row["ω [rad/s]"] for row in rows[0]])
     half = 1.96 * (highest - lowest) / (2 * TENTH) / math.sqrt(report.settings("wheel")["realisations"])
     levels, halves = (by_region(load_wheel_scene("table_14_1"), omega, values) for values in (level, half))
@@ -231,7 +231,7 @@ def _regions(report: Report, _: Engine) -> Iterator[Reference]:
 
 OF_STRIPS = {"heights": HEIGHTS, "cells": GRIDS, "length": rolling.ALONG, "width": rolling.ACROSS, "seed": rolling.SEED}
 OF_SURFACES = {name: getattr(surfaces, name.upper()) for name in ("hursts", "surfaces", "cells", "seed", "tolerance")}
-_of, _over = ReferenceFile, "dB, over F_Hertz^2 (h/d)^2"
+_file, _UNIT = ReferenceFile, "dB, over F_Hertz^2 (h/d)^2"
 
 
 def _solved(solve: held_out_solves.Solve) -> Find:
@@ -240,39 +240,44 @@ def _solved(solve: held_out_solves.Solve) -> Find:
 
 
 HELD_OUT: Mapping[str, ReferenceFile] = {
-    held_out(stiffness.MEAN): _of("k / (E* L)", "judging/held out", _solved(held_out_solves.pressed), OF_PUNCHES),
-    held_out(surfaces.OF_SURFACE): _of("k / (E* L)", "judging/held out", _solved(held_out_solves.faces), OF_FACES),
-    held_out(rolling.LEVEL): _of(
-        f"{_over}, of an octave", "judging/held out", _solved(held_out_solves.of_octaves), held_out_solves.OF_STRIPS
+    held_out(stiffness.MEAN): _file("k / (E* L)", "judging/held out", _solved(held_out_solves.pressed), OF_PUNCHES),
+    held_out(surfaces.OF_SURFACE): _file("k / (E* L)", "judging/held out", _solved(held_out_solves.faces), OF_FACES),
+    held_out(rolling.LEVEL): _file(
+        f"{_UNIT}, of an octave",
+        "judging/held out",
+        _solved(held_out_solves.of_octaves),
+        held_out_solves.OF_STRIPS,
     ),
-    held_out(rolling.RMS): _of(
-        _over, "judging/held out", _solved(held_out_solves.of_variance), held_out_solves.OF_STRIPS
+    held_out(rolling.RMS): _file(
+        _UNIT, "judging/held out", _solved(held_out_solves.of_variance), held_out_solves.OF_STRIPS
     ),
-    held_out(rolling.EACH): _of(
+    held_out(rolling.EACH): _file(
         "over F_Hertz", "judging/held out", _solved(held_out_solves.at_positions(by_load=False)), OF_POSITIONS
     ),
-    held_out(rolling.LIFT): _of(
+    held_out(rolling.LIFT): _file(
         "over d", "judging/held out", _solved(held_out_solves.at_positions(by_load=True)), OF_POSITIONS
     ),
 }
 """Between and beside the tables."""
 SOURCES: Mapping[str, ReferenceFile] = {
-    stiffness.MEAN: _of("k / (E* L)", "fractal_punch", _punch("k_E_L", "mean_stiffness")),
-    stiffness.DEVIATION: _of(DEVIATION, "fractal_punch", _punch("relative_deviation_of_k", "relative_deviation")),
-    stiffness.ROLLED_OFF: _of("k / (E* L)", "interface", _rolled_off),
-    stiffness.BY_BAND: _of(DEVIATION, "bandwidth", _by_band),
-    "stiffness of an interface": _of(
+    stiffness.MEAN: _file("k / (E* L)", "fractal_punch", _punch("k_E_L", "mean_stiffness")),
+    stiffness.DEVIATION: _file(DEVIATION, "fractal_punch", _punch("relative_deviation_of_k", "relative_deviation")),
+    stiffness.ROLLED_OFF: _file("k / (E* L)", "interface", _rolled_off),
+    stiffness.BY_BAND: _file(DEVIATION, "bandwidth", _by_band),
+    "stiffness of an interface": _file(
         "K h / p", "interface", lambda report, _: report.references("interface", "K_h_over_p", ROLL_OFF, H, CONTACT)
     ),
-    rolling.LEVEL: _of(f"{_over}, of an octave", "rolling", _levels),
-    rolling.RMS: _of(_over, "rolling", _rms),
-    rolling.MEAN: _of("over F_Hertz", "rolling", _mean),
-    rolling.EACH: _of("over F_Hertz", "judging/rolling", _positions("force", roll_strip), OF_STRIPS),
-    rolling.LIFT: _of("over d", "judging/rolling", _positions("approach", roll_under_load), OF_STRIPS),
-    surfaces.OF_SURFACE: _of("k / (E* L)", "judging/surfaces", lambda _, engine: surfaces.solved(engine), OF_SURFACES),
-    FILTER: _of("dB, A3", "across", _filters),
-    FEATURE: _of("rad/s, but for the slope", "wheel", _features),
-    own.ERRORS: _of("over the reference, of levels in dB", "judging/own", lambda *_: own.errors(), {}),
-    REGION: _of("dB re 1 (m/s^2)^2 s", "wheel", _regions),
+    rolling.LEVEL: _file(f"{_UNIT}, of an octave", "rolling", _levels),
+    rolling.RMS: _file(_UNIT, "rolling", _rms),
+    rolling.MEAN: _file("over F_Hertz", "rolling", _mean),
+    rolling.EACH: _file("over F_Hertz", "judging/rolling", _positions("force", roll_strip), OF_STRIPS),
+    rolling.LIFT: _file("over d", "judging/rolling", _positions("approach", roll_under_load), OF_STRIPS),
+    surfaces.OF_SURFACE: _file(
+        "k / (E* L)", "judging/surfaces", lambda _, engine: surfaces.solved(engine), OF_SURFACES
+    ),
+    FILTER: _file("dB, A3", "across", _filters),
+    FEATURE: _file("rad/s, but for the slope", "wheel", _features),
+    own.ERRORS: _file("over the reference, of levels in dB", "judging/own", lambda *_: own.errors(), {}),
+    REGION: _file("dB re 1 (m/s^2)^2 s", "wheel", _regions),
     **HELD_OUT,
 }

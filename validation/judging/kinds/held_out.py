@@ -22,10 +22,10 @@ from validation.judging.kinds.held_out_solves import (
     HeldOutScene,
     held_out,
 )
-from validation.judging.kinds.judge import Finding, asked, attempted, beside
-from validation.judging.kinds.references import Reference, known
+from validation.judging.kinds.judge import Finding, answer_of, attempted, compared
+from validation.judging.kinds.references import Reference, reference_rows
 from validation.judging.kinds.rolling import GRIDS, HEIGHT, Density
-from validation.judging.kinds.stiffness import MEAN, MODULUS, SIDE, AskedPunch, answers_of, load_of
+from validation.judging.kinds.stiffness import MEAN, MODULUS, SIDE, JudgedPunch, answers_of, load_of
 from validation.judging.registry import Caller, Failed
 from validation.railway.problems.rail_strip import strip_bands
 from validation.railway.scenes.rail import RailScene
@@ -50,14 +50,14 @@ def judged(model: Caller) -> Iterator[Finding]:
 
 def _stiffness(model: Caller) -> Iterator[Finding]:
     """Mean at another H, bandwidth and longest wave."""
-    rows = known(held_out(MEAN))
-    yield from stiffness.beside_punches(rows, answers_of(model, [AskedPunch.at(row.where) for row in rows]))
+    rows = reference_rows(held_out(MEAN))
+    yield from stiffness.beside_punches(rows, answers_of(model, [JudgedPunch.at(row.where) for row in rows]))
 
 
 def _surfaces(model: Caller) -> Iterator[Finding]:
     """Of isotropic and elongated faces."""
     height = {str(face): face for face in FACES}
-    for name, rows in groupby(known(held_out(surfaces.OF_SURFACE)), lambda row: str(row.where[SURFACE])):
+    for name, rows in groupby(reference_rows(held_out(surfaces.OF_SURFACE)), lambda row: str(row.where[SURFACE])):
         face = FACE_HEIGHT * SIDE * height[name].height(FACE_CELLS)
         for row in rows:
             load = load_of(row[stiffness.FORCE])
@@ -72,19 +72,19 @@ def _surfaces(model: Caller) -> Iterator[Finding]:
 
 
 def _spectrum(model: Caller) -> Iterator[Finding]:
-    return levels(lambda q, wheel, ground: asked(model, **rolling.over(q, ground, wheel)))
+    return levels(lambda q, wheel, ground: answer_of(model, **rolling.over(q, ground, wheel)))
 
 
 def levels(density: Density) -> Iterator[Finding]:
     """Octaves and variance of a second and a third wheel over other roughness."""
     for scene in SCENES:
-        rows = known(*map(held_out, (rolling.LEVEL, rolling.RMS)), where=scene.where)
+        rows = reference_rows(*map(held_out, (rolling.LEVEL, rolling.RMS)), where=scene.where)
         for height in dict.fromkeys(row[HEIGHT] for row in rows):
-            there = [row for row in rows if row[HEIGHT] == height]
-            yield from beside(there, attempted(_levels, density, scene, height))
+            at_height = [row for row in rows if row[HEIGHT] == height]
+            yield from compared(at_height, attempted(_levels_of_scene, density, scene, height))
 
 
-def _levels(density: Density, scene: HeldOutScene, height: float) -> FloatArray:
+def _levels_of_scene(density: Density, scene: HeldOutScene, height: float) -> FloatArray:
     wheel, ground = scene.wheel, scene.ground(height)
     return rolling.levels_of_density(lambda q: density(q, wheel, ground), wheel, height, scene.settings, OCTAVES)
 
@@ -96,23 +96,23 @@ def _rolling(model: Caller) -> Iterator[Finding]:
         (rolling.LIFT, "mean approach", "approach") if by_load else (rolling.EACH, rolling.MEAN, "force")
     )
     for scene in SCENES:
-        rows = known(held_out(quantity), where=scene.where)
+        rows = reference_rows(held_out(quantity), where=scene.where)
         for height in dict.fromkeys(row[HEIGHT] for row in rows):
-            there = [row for row in rows if row[HEIGHT] == height]
-            found = attempted(_rolled, model, scene, height)
+            at_height = [row for row in rows if row[HEIGHT] == height]
+            answer = attempted(_rolled_over_scene, model, scene, height)
             where: Conditions = {**scene.where, HEIGHT: height}
-            yield rolling.position_by_position(model, there, found, scene.wheel, where, held_out(""))
-            grid = float(np.mean([row.value * row.grid for row in there]))
-            value = float(np.mean([row.value for row in there]))
+            yield rolling.position_by_position(model, at_height, answer, scene.wheel, where, held_out(""))
+            grid = float(np.mean([row.value * row.grid for row in at_height]))
+            value = float(np.mean([row.value for row in at_height]))
             row = Reference(where, value, grid=grid / value, unit=RATIO, quantity=held_out(mean))
-            if not isinstance(found, Failed):
-                found = float(rolling.at_centres(found).mean()) / getattr(scene.wheel, unit)
-            yield Finding(row, found)
+            if not isinstance(answer, Failed):
+                answer = float(rolling.at_centres(answer).mean()) / getattr(scene.wheel, unit)
+            yield Finding(row, answer)
 
 
-def _rolled(model: Caller, scene: HeldOutScene, height: float) -> FloatArray:
+def _rolled_over_scene(model: Caller, scene: HeldOutScene, height: float) -> FloatArray:
     surface = scene.surface(height, GRIDS[1])
-    return asked(model, **rolling.on(surface, GRIDS[1], scene.wheel, scene.lateral))
+    return answer_of(model, **rolling.on(surface, GRIDS[1], scene.wheel, scene.lateral))
 
 
 # --- a rail ---
@@ -124,13 +124,13 @@ def _filter(model: Caller) -> Iterator[Finding]:
         scene = filters.scene_of(*wheel)
         for alpha in ALPHAS:
             if math.isfinite(alpha) or filters.answers_isotropic(model):
-                rows = _linear(scene, alpha)
-                found = attempted(filters.in_bands, model, scene, alpha, [i for i, _ in rows])
-                yield from beside((row for _, row in rows), found)
+                rows = _linear_references(scene, alpha)
+                answers = attempted(filters.in_bands, model, scene, alpha, [i for i, _ in rows])
+                yield from compared((row for _, row in rows), answers)
 
 
 @cache
-def _linear(scene: RailScene, alpha: float) -> list[tuple[int, Reference]]:
+def _linear_references(scene: RailScene, alpha: float) -> list[tuple[int, Reference]]:
     """Number and reference of the bands that count."""
     axes = scene.contact.semi_axes
     levels = filters.a3(scene, alpha, partial(half_space_filter, semi_axes=axes))
@@ -160,8 +160,9 @@ def _rule(model: Caller) -> Iterator[Finding]:
     """Properties of another roughness; springs and levels with it."""
     hurst, first, ratio, height = BAND
     for finding in profiles.properties_of_rule(model, hurst, first, first * ratio, height):
-        yield Finding(replace(finding.known, quantity=held_out(finding.known.quantity)), finding.found, finding.within)
-    yield from profiles.springs_beside(model, known(held_out(MEAN)))
+        reference = replace(finding.reference, quantity=held_out(finding.reference.quantity))
+        yield finding._replace(reference=reference)
+    yield from profiles.springs_beside(model, reference_rows(held_out(MEAN)))
     yield from levels(partial(profiles.density_of_rule, model))
 
 

@@ -104,13 +104,13 @@ def levels_of_scenes(engine: Engine) -> Iterator[tuple[HeldOutScene, float, list
         for height in HEIGHTS
         for cells in CELLS
     }
-    found = engine.map_groups(roll_strip, groups)
+    outcomes = engine.map_groups(roll_strip, groups)
     for scene in SCENES:
         bands = Bands.around(math.pi, LOWEST, scene.last).on(LENGTH)
         linear = level_3d(scene.spectrum, bands)
         exact = [*(float(octave(linear, bands, q)) for q in OCTAVES), variance_of(scene.spectrum)]
         for height in HEIGHTS:
-            coarse, fine = (_powers(found[scene, height, n], bands, 1 / n) for n in CELLS)
+            coarse, fine = (_powers(outcomes[scene, height, n], bands, 1 / n) for n in CELLS)
             over = Estimates.ratios(coarse[:, 0], coarse[:, 1]) + Estimates.exact(np.log(exact))
             finer = Estimates.ratios(fine[:, 0], coarse[:, 0])
             yield scene, height, [extrapolated(*pair) for pair in zip(over, finer, strict=True)]
@@ -118,7 +118,7 @@ def levels_of_scenes(engine: Engine) -> Iterator[tuple[HeldOutScene, float, list
 
 def _powers(strips: list[Outcome], bands: Bands, spacing: float) -> FloatArray:
     """Octaves and variance of boundary elements, and of linear theory on the same strips."""
-    both = np.array([[one["force"], one["linear"]] for one in strips])
+    both = np.array([[strip["force"], strip["linear"]] for strip in strips])
     thirds = levels(waves(both, spacing=spacing), bands)
     octaves = [octave(thirds, bands, q) for q in OCTAVES]
     return np.stack([*octaves, both.var(axis=-1)], axis=-1)
@@ -126,15 +126,15 @@ def _powers(strips: list[Outcome], bands: Bands, spacing: float) -> FloatArray:
 
 def of_octaves(engine: Engine) -> Iterator[Reference]:
     """Levels of octaves [dB over F_Hertz^2 (h/d)^2]."""
-    for scene, height, found in levels_of_scenes(engine):
-        for q, pair in zip(OCTAVES, found, strict=False):
+    for scene, height, estimates in levels_of_scenes(engine):
+        for q, pair in zip(OCTAVES, estimates, strict=False):
             yield _level(scene, height, pair, {Q: q})
 
 
 def of_variance(engine: Engine) -> Iterator[Reference]:
     """Level of the variance [dB over F_Hertz^2 (h/d)^2]."""
-    for scene, height, found in levels_of_scenes(engine):
-        yield _level(scene, height, found[-1], {})
+    for scene, height, estimates in levels_of_scenes(engine):
+        yield _level(scene, height, estimates[-1], {})
 
 
 def _level(scene: HeldOutScene, height: float, pair: tuple[Estimate, float], at: Conditions) -> Reference:
@@ -158,11 +158,11 @@ def roll_oblong(strip: OblongStrip) -> Outcome:
     across = 1 / (strip.scene.lateral * strip.cells)
     seen = np.ascontiguousarray(crop_to_reach(strip.scene.surface(strip.height, strip.cells), across))
     wheel: dict[str, Any] = {"radius": 1.0, "modulus": 1.0, "force": HERTZ} if strip.by_load else SMOOTH
-    found = bem3d.roll(
+    rolled = bem3d.roll(
         seen, spacing=(1 / strip.cells, across), tolerance=1e-4 * strip.height, raise_on_failure=False, **wheel
     )
-    value = found.approach if strip.by_load else found.force / HERTZ
-    return {"value": value, "failed": np.array(float(np.count_nonzero(~found.converged)))}
+    value = rolled.approach if strip.by_load else rolled.force / HERTZ
+    return {"value": value, "failed": np.array(float(np.count_nonzero(~rolled.converged)))}
 
 
 def at_positions(by_load: bool) -> Callable[[Engine], Iterator[Reference]]:
@@ -171,15 +171,15 @@ def at_positions(by_load: bool) -> Callable[[Engine], Iterator[Reference]]:
     def solved(engine: Engine) -> Iterator[Reference]:
         keys = [(scene, height, cells) for scene in SCENES for height in HEIGHTS for cells in GRIDS]
         outcomes = engine.map(roll_oblong, [OblongStrip(*key, by_load) for key in keys])
-        if lost := sum(float(one["failed"]) for one in outcomes):
+        if lost := sum(float(outcome["failed"]) for outcome in outcomes):
             raise NotConvergedError(f"{lost:.0f} positions did not converge", ())
-        on = {key: one["value"] for key, one in zip(keys, outcomes, strict=True)}
+        on = {key: outcome["value"] for key, outcome in zip(keys, outcomes, strict=True)}
         coarse, fine = GRIDS
         for scene in SCENES:
             for height in HEIGHTS:
-                there = at_centres(on[scene, height, fine])
-                left = (there - on[scene, height, coarse]) / (fine // coarse - 1)
-                for i, (value, change) in enumerate(zip((there + left).tolist(), left.tolist(), strict=True)):
+                finer = at_centres(on[scene, height, fine])
+                left = (finer - on[scene, height, coarse]) / (fine // coarse - 1)
+                for i, (value, change) in enumerate(zip((finer + left).tolist(), left.tolist(), strict=True)):
                     where: Conditions = {**scene.where, HEIGHT: height, "x / a": (i + 0.5) / coarse}
                     yield Reference(where, value, grid=abs(change / value))
 
@@ -236,9 +236,9 @@ def pressed(engine: Engine) -> Iterator[Reference]:
         for last in [punch.first * punch.ratio]
         for times in (1, 2)
     }
-    found = engine.map_groups(press_lightly, groups)
+    outcomes = engine.map_groups(press_lightly, groups)
     for punch in PUNCHES:
-        coarse, fine = (np.array([one["stiffness"] for one in found[punch, n]]) for n in (1, 2))
+        coarse, fine = (np.array([outcome["stiffness"] for outcome in outcomes[punch, n]]) for n in (1, 2))
         mean, finer = Estimates.ratios(coarse, np.ones_like(coarse)), Estimates.ratios(fine, coarse[: punch.refined])
         for force, pair in zip(LOADS, zip(mean, finer, strict=True), strict=True):
             value, left = extrapolated(*pair)
@@ -301,8 +301,8 @@ def press_face(problem: PressedFace) -> Outcome:
 def faces(engine: Engine) -> Iterator[Reference]:
     """On the finer of two grids; as much is left as both differ, by the root mean square over the faces of a load."""
     grids = FACE_CELLS, 2 * FACE_CELLS
-    found = engine.map_groups(press_face, {n: [PressedFace(face, n) for face in FACES] for n in grids})
-    coarse, fine = (np.log([one["stiffness"] for one in found[n]]) for n in grids)
+    outcomes = engine.map_groups(press_face, {n: [PressedFace(face, n) for face in FACES] for n in grids})
+    coarse, fine = (np.log([outcome["stiffness"] for outcome in outcomes[n]]) for n in grids)
     left = student(len(FACES)) * np.sqrt(np.mean((fine - coarse) ** 2, axis=0))
     for (i, j), value in np.ndenumerate(fine):
         yield Reference({SURFACE: str(FACES[i]), FORCE: FACE_LOADS[j]}, math.exp(value), grid=float(left[j]))

@@ -58,13 +58,13 @@ class Recorded(Caller):
     def calls(self, name: str, values: Sequence[Any], arguments: Mapping[str, Any]) -> list[FloatArray | Failed]:
         digests, copies = [], []
         for number, value in enumerate(values):
-            problem = {one: some for one, some in {**arguments, name: value}.items() if one in self.asks}
+            problem = {key: argument for key, argument in {**arguments, name: value}.items() if key in self.asks}
             # a generator is used up by its call
             digests.append(digest_of(problem))
             candidate = len(self.kept) <= OTHERS and self.count + number + 1 >= 4 ** len(self.kept)
-            copies.append(own(problem) if candidate else None)
-        found = self.model.calls(name, values, own(arguments))
-        for digest, problem_kept, answer in zip(digests, copies, found, strict=True):
+            copies.append(copied(problem) if candidate else None)
+        answers = self.model.calls(name, values, copied(arguments))
+        for digest, problem_kept, answer in zip(digests, copies, answers, strict=True):
             self.count += 1
             if isinstance(answer, Failed):
                 continue
@@ -74,10 +74,10 @@ class Recorded(Caller):
                 self.changed.append((digest, before, answer))
             if problem_kept is not None and len(self.kept) <= OTHERS and self.count >= 4 ** len(self.kept):
                 self.kept.append(AnsweredProblem(problem_kept, answer))
-        return found
+        return answers
 
 
-def own(arguments: Mapping[str, Any]) -> dict[str, Any]:
+def copied(arguments: Mapping[str, Any]) -> dict[str, Any]:
     """The same values in new objects, but for arrays, which callers copy."""
     return {
         name: value if isinstance(value, np.ndarray | float | int) else copy.deepcopy(value)
@@ -106,10 +106,10 @@ def repeated(model: Recorded) -> Repetition | None:
     """The first problem again, and a few others; None of a model without answers."""
     if not model.kept:
         return None
-    first, *others = model.kept
+    first, *later = model.kept
     # all arguments are alive at once, so that none has the identity of another
-    problems = [first, *others, *[first] * (TIMES - 1)]
-    alive = [own(problem.arguments) for problem in problems]
+    problems = [first, *later, *[first] * (TIMES - 1)]
+    alive = [copied(problem.arguments) for problem in problems]
     again = [model.model.call(**arguments) for arguments in alive]
     if lost := next((answer for answer in again if isinstance(answer, Failed)), None):
         return Repetition(Failed(f"answered the first time, and then: {lost.reason}"))
@@ -117,13 +117,13 @@ def repeated(model: Recorded) -> Repetition | None:
     largest = max(change(problem.answer, answer) for problem, answer in zip(problems, answers, strict=True))
     if largest > SAME:
         return Repetition(largest, cause(model, problems, answers))
-    return _asked_twice(model) if model.changed else Repetition(largest)
+    return _answered_twice(model) if model.changed else Repetition(largest)
 
 
-def _asked_twice(model: Recorded) -> Repetition:
-    """Of a problem that more than one judge has asked."""
-    digest, before, after = max(model.changed, key=lambda one: change(one[1], one[2]))
-    is_cached = any(model.answers[one.tobytes()] - {digest} for one in (before, after))
+def _answered_twice(model: Recorded) -> Repetition:
+    """Of a problem that more than one judge has set."""
+    digest, before, after = max(model.changed, key=lambda row: change(row[1], row[2]))
+    is_cached = any(model.answers[answer.tobytes()] - {digest} for answer in (before, after))
     reason = f"{CACHED}: it has the answer of another problem" if is_cached else f"{DRIFTING}: it has a state"
     return Repetition(change(before, after), reason)
 
@@ -132,18 +132,18 @@ def cause(model: Recorded, problems: Sequence[AnsweredProblem], answers: Sequenc
     """Random, drifting, or cached: an answer that is that of another problem to the last bit."""
     first = problems[0].answer
     of_first = [answers[0], *answers[-(TIMES - 1) :]]
-    steps = np.diff([_along(first, one) for one in (first, *of_first)])
+    steps = np.diff([_along(first, value) for value in (first, *of_first)])
     trend = (steps > 0).all() or (steps < 0).all()
     # what is cached has few answers to one problem
-    if len({one.tobytes() for one in (first, *of_first)}) >= MANY and not trend:
+    if len({value.tobytes() for value in (first, *of_first)}) >= MANY and not trend:
         return _random(model)
     for problem, answer in zip(problems, answers, strict=True):
         if change(problem.answer, answer) > SAME:
-            for one in (problem.answer, answer):
-                if model.answers.get(one.tobytes(), set()) - {digest_of(problem.arguments)}:
+            for value in (problem.answer, answer):
+                if model.answers.get(value.tobytes(), set()) - {digest_of(problem.arguments)}:
                     return f"{CACHED}: it has the answer of another problem"
-    one_after_the_other = max(change(of_first[0], one) for one in of_first)
-    if not trend and one_after_the_other > max(SAME, TREND * change(first, of_first[0])):
+    successive = max(change(of_first[0], value) for value in of_first)
+    if not trend and successive > max(SAME, TREND * change(first, of_first[0])):
         return _random(model)
     return f"{DRIFTING}: it has a state"
 
@@ -186,23 +186,23 @@ class ModelAnswer(NamedTuple):
     reason: str = ""
 
     @classmethod
-    def of(cls, one: Estimate, unit: str) -> "ModelAnswer":
-        return cls(one.value, one.half_width / (1.0 if unit == LEVEL else abs(one.value) or 1.0))
+    def of(cls, estimate: Estimate, unit: str) -> "ModelAnswer":
+        return cls(estimate.value, estimate.half_width / (1.0 if unit == LEVEL else abs(estimate.value) or 1.0))
 
 
-Found = ModelAnswer | Failed | float
+Answer = ModelAnswer | Failed | float
 
 
 class Finding(NamedTuple):
     """An answer, or why there is none, beside its reference. within: the tolerance of what is exact."""
 
-    known: Reference
-    found: Found
+    reference: Reference
+    answer: Answer
     within: float | None = None
 
     def judged(self, tolerance: float) -> JudgedNumber:
         """The row: the grid of the reference is added to both samples, which are combined in quadrature."""
-        reference, answer = self.known, self.found
+        reference, answer = self.reference, self.answer
         if isinstance(answer, Failed):
             return missing_number(
                 reference.quantity,
@@ -226,15 +226,15 @@ class Finding(NamedTuple):
         )
 
 
-def beside(known: Iterable[Reference], found: Iterable[Found | None] | Failed) -> Iterator[Finding]:
+def compared(references: Iterable[Reference], answers: Iterable[Answer | None] | Failed) -> Iterator[Finding]:
     """An answer each, or one failure for all; None is a number that the model does not have."""
-    answers = repeat(found) if isinstance(found, Failed) else found
-    return (Finding(row, mine) for row, mine in zip(known, answers, strict=False) if mine is not None)
+    each = repeat(answers) if isinstance(answers, Failed) else answers
+    return (Finding(row, answer) for row, answer in zip(references, each, strict=False) if answer is not None)
 
 
-def rule(quantity: str, where: Conditions, found: Found, grid: float = 0.0, within: float | None = None) -> Finding:
+def rule(quantity: str, where: Conditions, answer: Answer, grid: float = 0.0, within: float | None = None) -> Finding:
     """What every model must follow: a number that is one."""
-    return Finding(Reference(where, 1.0, grid=grid, quantity=quantity), found, within)
+    return Finding(Reference(where, 1.0, grid=grid, quantity=quantity), answer, within)
 
 
 def points_of(model: Caller, tolerance: float) -> Iterator[JudgedNumber]:
@@ -242,11 +242,11 @@ def points_of(model: Caller, tolerance: float) -> Iterator[JudgedNumber]:
     recorded = Recorded(model)
     for place in (JUDGES[model.kind], "held_out:judged", "scaling:judged", "sweeps:swept"):
         judge: Callable[[Caller], Iterator[Finding]] = resolve_name(f"{__package__}.{place}")
-        yield from (one.judged(tolerance) for one in judge(recorded))
+        yield from (finding.judged(tolerance) for finding in judge(recorded))
     calls = float(recorded.count)
-    if found := repeated(recorded):
-        size = found.change
-        again = size if isinstance(size, Failed) else ModelAnswer(1 + size, reason=found.reason)
+    if repetition := repeated(recorded):
+        size = repetition.change
+        again = size if isinstance(size, Failed) else ModelAnswer(1 + size, reason=repetition.reason)
         yield rule(AGAIN, {"calls": calls}, again, within=SAME).judged(tolerance)
 
 
@@ -258,12 +258,12 @@ class LostError(ValueError):
         self.failed = failed
 
 
-def asked(model: Caller, **arguments: Any) -> FloatArray:
+def answer_of(model: Caller, **arguments: Any) -> FloatArray:
     """The answer of a model. Raises LostError where it has none."""
-    found = model.call(**arguments)
-    if isinstance(found, Failed):
-        raise LostError(found)
-    return found
+    answer = model.call(**arguments)
+    if isinstance(answer, Failed):
+        raise LostError(answer)
+    return answer
 
 
 def attempted(find: Callable[..., T], *arguments: Any) -> T | Failed:

@@ -17,8 +17,8 @@ from validation.analysis.statistics import (
     jackknifed,
 )
 from validation.judging.judgement import LEVEL
-from validation.judging.kinds.judge import Finding, LostError, ModelAnswer, asked, attempted, beside
-from validation.judging.kinds.references import Reference, about, known
+from validation.judging.kinds.judge import Finding, LostError, ModelAnswer, answer_of, attempted, compared
+from validation.judging.kinds.references import Reference, about, reference_rows
 from validation.judging.registry import Caller, Failed
 from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.simulation.motion import Motion, simulate
@@ -42,18 +42,19 @@ AT_ONCE, DIFFERENCE, NEAR, ROUNDS = 1000, 1e-4, 1e-6, 12
 
 def judged(model: Caller) -> Iterator[Finding]:
     """Features of its spectrum, and levels of its regions."""
-    rows = known(FEATURE, REGION)
-    found = attempted(_found, model)
-    if isinstance(found, Failed):
-        return beside(rows, found)
-    estimates, records = found
+    rows = reference_rows(FEATURE, REGION)
+    features = attempted(_estimates, model)
+    if isinstance(features, Failed):
+        return compared(rows, features)
+    estimates, records = features
     unseen = Failed("the spectrum does not show it")
-    halves = [half_width(one, records, among=len(rows)) for one in estimates]
-    answers = (_answer(row, one.value, half, records) for row, one, half in zip(rows, estimates, halves, strict=True))
-    return beside(rows, (one if math.isfinite(one.value) else unseen for one in answers))
+    halves = [half_width(estimate, records, among=len(rows)) for estimate in estimates]
+    values = [estimate.value for estimate in estimates]
+    answers = (_model_answer(row, value, half, records) for row, value, half in zip(rows, values, halves, strict=True))
+    return compared(rows, (answer if math.isfinite(answer.value) else unseen for answer in answers))
 
 
-def _answer(row: Reference, value: float, half: float, records: float) -> ModelAnswer:
+def _model_answer(row: Reference, value: float, half: float, records: float) -> ModelAnswer:
     """With the error of as many independent records: wheels on equal pieces of a track count as one."""
     answer = ModelAnswer(value, half / (1.0 if row.unit == LEVEL else abs(value) or 1.0))
     if records > (1 - AS_ONE) * WHEELS:
@@ -79,7 +80,7 @@ def starts(scene: WheelScene) -> FloatArray:
     return np.asarray(scene.spacing * np.rint(places / scene.spacing))
 
 
-def _found(model: Caller) -> tuple[list[Estimate], float]:
+def _estimates(model: Caller) -> tuple[list[Estimate], float]:
     """Features and levels, by the jackknife over the wheels; and as how many independent records these count."""
     scene = table_14_1()
     motion, along = rolled(model, scene)
@@ -88,9 +89,9 @@ def _found(model: Caller) -> tuple[list[Estimate], float]:
     bands, centres = band_means(plain.omega, plain.density, edges), np.sqrt(edges[1:] * edges[:-1])
 
     def of(kept: FloatArray) -> FloatArray:
-        some = kept.astype(int)
-        features = features_of(scene, hann.omega, hann.density[:, some].mean(axis=1))
-        decibels = POWER_DECIBEL * np.log(bands[:, some].mean(axis=1))
+        wheels = kept.astype(int)
+        features = features_of(scene, hann.omega, hann.density[:, wheels].mean(axis=1))
+        decibels = POWER_DECIBEL * np.log(bands[:, wheels].mean(axis=1))
         return np.array([*features.values(), *by_region(scene, centres, decibels).values()])
 
     return list(jackknifed(of, np.arange(float(WHEELS)))), independent_records(along.T)
@@ -124,8 +125,8 @@ def rolled(model: Caller, scene: WheelScene) -> tuple[Motion, FloatArray]:
     def force(d: FloatArray) -> FloatArray:
         """From the first place on, shape (places, wheels)."""
         at = np.broadcast_to(places[: len(d)], d.shape)
-        some = [slice(i, i + AT_ONCE) for i in range(0, len(d), AT_ONCE)]
-        parts = [asked(model, approach=d[i].ravel(), position=at[i].ravel()) for i in some]
+        slices = [slice(i, i + AT_ONCE) for i in range(0, len(d), AT_ONCE)]
+        parts = [answer_of(model, approach=d[i].ravel(), position=at[i].ravel()) for i in slices]
         return np.concatenate(parts).reshape(d.shape)
 
     start = _at_rest(lambda d: force(d[np.newaxis])[0], scene)

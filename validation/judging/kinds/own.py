@@ -12,7 +12,7 @@ from validation.judging import registry as offered
 from validation.judging.judgement import JudgedNumber
 from validation.judging.kinds.filters import FILTER
 from validation.judging.kinds.judge import points_of
-from validation.judging.kinds.references import Reference, known
+from validation.judging.kinds.references import Reference, reference_rows
 from validation.judging.kinds.rolling import LEVEL
 from validation.judging.kinds.stiffness import MEAN
 from validation.judging.registry import Failed, Offered
@@ -77,29 +77,31 @@ class ErrorOfCall(NamedTuple):
 
 def error_of(kind: str, points: Sequence[JudgedNumber]) -> float:
     """NaN where there is none."""
-    known = [abs(p.difference) for p in points if p.quantity == MAIN.get(kind) and math.isfinite(p.difference)]
-    return float(np.median(known)) if known else math.nan
+    deviations = [abs(p.difference) for p in points if p.quantity == MAIN.get(kind) and math.isfinite(p.difference)]
+    return float(np.median(deviations)) if deviations else math.nan
 
 
 def errors() -> Iterator[Reference]:
     """Of all of them, by their judges; half a minute."""
-    for one in OWN:
-        yield Reference({"kind": one.kind, "model": one.name}, error_of(one.kind, list(points_of(Called(one), 0.1))))
+    for model in OWN:
+        error = error_of(model.kind, list(points_of(Called(model), 0.1)))
+        yield Reference({"kind": model.kind, "model": model.name}, error)
 
 
 def costs_of(model: Called, points: Sequence[JudgedNumber]) -> list[ErrorOfCall]:
     """The model, and those of its kind, timed by the same arguments: those that it took longest for."""
-    mine = error_of(model.kind, points)
-    if not math.isfinite(mine):
+    error = error_of(model.kind, points)
+    if not math.isfinite(error):
         return []
     unit = next(point.unit for point in points if point.quantity == MAIN[model.kind])
-    given = {"rng": np.random.default_rng(0), **model.longest}
-    kept = {row.where["model"]: row.value for row in known(ERRORS, where={"kind": model.kind})}
-    others = [(kept[one.name], Called(one)) for one in OWN if one.kind == model.kind]
-    return [ErrorOfCall(one.name, error, unit, _seconds(one, given)) for error, one in [(mine, model), *others]]
+    arguments = {"rng": np.random.default_rng(0), **model.longest}
+    kept = {row.where["model"]: row.value for row in reference_rows(ERRORS, where={"kind": model.kind})}
+    suite = [(kept[function.name], Called(function)) for function in OWN if function.kind == model.kind]
+    ranked = [(error, model), *suite]
+    return [ErrorOfCall(function.name, median, unit, _seconds(function, arguments)) for median, function in ranked]
 
 
-def _seconds(model: Called, given: dict[str, object]) -> float:
+def _seconds(model: Called, arguments: dict[str, object]) -> float:
     """The least of three calls; NaN of one that is not asked any more."""
-    model.calls("", [None] * 3, given)
+    model.calls("", [None] * 3, arguments)
     return min((reply.seconds for reply in model.replies if not isinstance(reply.value, Failed)), default=math.nan)

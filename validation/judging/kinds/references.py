@@ -42,9 +42,9 @@ class Reference:
         return float(self.where[name])
 
 
-def known(*quantities: str, where: Conditions | None = None) -> list[Reference]:
+def reference_rows(*quantities: str, where: Conditions | None = None) -> list[Reference]:
     """All that is known of them under these conditions, point by point. Raises LookupError for one without a file."""
-    return [row for one in quantities for row in _curve(one) if (where or {}).items() <= row.where.items()]
+    return [row for quantity in quantities for row in _curve(quantity) if (where or {}).items() <= row.where.items()]
 
 
 @cache
@@ -52,12 +52,12 @@ def _curve(quantity: str) -> Sequence[Reference]:
     stated = str(about(quantity).get("unit"))
     unit = next((unit for unit in (LEVEL, DEVIATION) if stated.startswith(unit)), RATIO)
     lines = (line for line in _lines(quantity) if not line.startswith("#"))
-    found = []
+    references = []
     for row in rows_of(from_csv(quantity, "\n".join(lines))):
         value, sample, grid = (float(row.pop(name)) for name in VALUES)
         where = {name: place if isinstance(place, str) else float(place) for name, place in row.items()}
-        found.append(Reference(where, value, sample, grid, unit, quantity))
-    return found
+        references.append(Reference(where, value, sample, grid, unit, quantity))
+    return references
 
 
 def rows_of(table: Table) -> list[dict[str, Any]]:
@@ -88,7 +88,7 @@ def file_name(quantity: str) -> str:
 
 
 def as_file(head: Mapping[str, Any], rows: Sequence[Reference]) -> bytes:
-    """What `known` reads: the head as comments, then a row a point, to seven digits, errors to four."""
+    """What `reference_rows` reads: the head as comments, then a row a point, to seven digits, errors to four."""
     lines = [f"# {name}: {value if isinstance(value, str) else json.dumps(value)}" for name, value in head.items()]
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")

@@ -18,8 +18,8 @@ from validation.analysis.spectra import Bands, levels, waves
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, mean_estimate
 from validation.judging.judgement import LEVEL as DECIBELS
 from validation.judging.judgement import RATIO, Conditions
-from validation.judging.kinds.judge import Finding, ModelAnswer, asked, attempted, beside
-from validation.judging.kinds.references import Reference, about, known
+from validation.judging.kinds.judge import Finding, ModelAnswer, answer_of, attempted, compared
+from validation.judging.kinds.references import Reference, about, reference_rows
 from validation.judging.registry import Caller, Failed
 from validation.simulation.quantities import MEAN_FORCE, RMS_FORCE
 from validation.simulation.rolling_strip import HERTZ, SMOOTH, RoughStrip, crop_to_reach, level_3d, over_bands
@@ -92,7 +92,7 @@ def judged(model: Caller) -> Iterator[Finding]:
 
 def judged_spectrum(model: Caller) -> Iterator[Finding]:
     """Octaves of the force along the track, and its variance."""
-    return of_density(lambda q, wheel, ground: asked(model, **over(q, ground, wheel)))
+    return of_density(lambda q, wheel, ground: answer_of(model, **over(q, ground, wheel)))
 
 
 def of_density(density: Density) -> Iterator[Finding]:
@@ -101,10 +101,10 @@ def of_density(density: Density) -> Iterator[Finding]:
 
 def _at_heights(quantities: Sequence[str], find: Callable[[float], Iterable[ModelAnswer | float]]) -> Iterator[Finding]:
     """At each h/d of the case all that is known of each quantity, in the order of what is found."""
-    for height in dict.fromkeys(row[HEIGHT] for row in known(LEVEL)):
-        rows = known(*quantities, where={HEIGHT: height})
-        there = [replace(row, where={n: place for n, place in row.where.items() if n != HEIGHT}) for row in rows]
-        yield from beside(there, attempted(find, height))
+    for height in dict.fromkeys(row[HEIGHT] for row in reference_rows(LEVEL)):
+        rows = reference_rows(*quantities, where={HEIGHT: height})
+        table = [replace(row, where={n: place for n, place in row.where.items() if n != HEIGHT}) for row in rows]
+        yield from compared(table, attempted(find, height))
 
 
 def spectrum_of(settings: Mapping[str, Any]) -> PiecewisePowerLaw:
@@ -142,7 +142,7 @@ def octave(thirds: FloatArray, bands: Bands, q: float) -> FloatArray:
 def _octaves(thirds: FloatArray) -> FloatArray:
     """Those that are known."""
     bands = bands_of(about(LEVEL)["settings"])
-    return np.stack([octave(thirds, bands, q) for q in dict.fromkeys(row[Q] for row in known(LEVEL))], axis=-1)
+    return np.stack([octave(thirds, bands, q) for q in dict.fromkeys(row[Q] for row in reference_rows(LEVEL))], axis=-1)
 
 
 def ground_of(height: float) -> mdr.SelfAffine:
@@ -159,7 +159,7 @@ def over(q: FloatArray, ground: mdr.SelfAffine, wheel: WheelAtApproach = MAIN) -
 
 def _of_table(density: Density, height: float) -> FloatArray:
     settings = about(LEVEL)["settings"]
-    centres = list(dict.fromkeys(row[Q] for row in known(LEVEL)))
+    centres = list(dict.fromkeys(row[Q] for row in reference_rows(LEVEL)))
     ground = ground_of(height)
     return levels_of_density(lambda q: density(q, MAIN, ground), MAIN, height, settings, centres)
 
@@ -188,15 +188,16 @@ def _of_strips(model: Caller, height: float) -> list[ModelAnswer]:
     settings, rows = about(LEVEL)["settings"], []
     spectrum, bands = spectrum_of(settings), bands_of(settings)
     for surface, linear in _strips():
-        both = np.stack([_rolled(model, height * surface, CELLS) / FORCE, height * linear])
+        both = np.stack([_rolled_over_strip(model, height * surface, CELLS) / FORCE, height * linear])
         thirds = levels(waves(both, spacing=1 / CELLS), bands)
         rows.append(np.column_stack([_octaves(thirds), both.var(axis=1), both.mean(axis=1)]))
-    mine, of_linear = np.maximum(np.moveaxis(np.array(rows), 1, 0), NOTHING)
+    of_model, of_linear = np.maximum(np.moveaxis(np.array(rows), 1, 0), NOTHING)
     # over (h/d)^2, as linear theory is
     exact = Estimates.exact(np.log([*_octaves(level_3d(spectrum, bands)), variance_of(spectrum)]))
-    over = Estimates.ratios(mine[:, :-1], of_linear[:, :-1]) + exact
-    decibels = (Estimate(POWER_DECIBEL * one.value, POWER_DECIBEL * one.error, one.samples) for one in over)
-    return [*(ModelAnswer.of(one, DECIBELS) for one in decibels), ModelAnswer.of(mean_estimate(mine[:, -1]), RATIO)]
+    over = Estimates.ratios(of_model[:, :-1], of_linear[:, :-1]) + exact
+    decibels = (Estimate(POWER_DECIBEL * log.value, POWER_DECIBEL * log.error, log.samples) for log in over)
+    mean = ModelAnswer.of(mean_estimate(of_model[:, -1]), RATIO)
+    return [*(ModelAnswer.of(level, DECIBELS) for level in decibels), mean]
 
 
 @cache
@@ -205,7 +206,7 @@ def _strips() -> list[tuple[FloatArray, FloatArray]]:
     settings = about(LEVEL)["settings"]
     unit = RoughStrip(spectrum=spectrum_of(settings), height=1.0, length=LENGTH, width=WIDTH, seed=settings["seed"])
     surfaces = [unit.surface(CELLS, realisation) for realisation in range(STRIPS)]
-    return [(one, linear_force(one, spacing=1 / CELLS, **SMOOTH) / HERTZ - 1) for one in surfaces]
+    return [(surface, linear_force(surface, spacing=1 / CELLS, **SMOOTH) / HERTZ - 1) for surface in surfaces]
 
 
 def strip_of(height: float) -> RoughStrip:
@@ -216,8 +217,9 @@ def strip_of(height: float) -> RoughStrip:
 def _position_by_position(model: Caller, height: float) -> Finding:
     """On the strip of a height."""
     cells = GRIDS[1]
-    found = attempted(_rolled, model, strip_of(height).surface(cells, 0), cells)
-    return position_by_position(model, known(_each(model), where={HEIGHT: height}), found, MAIN, {HEIGHT: height})
+    answer = attempted(_rolled_over_strip, model, strip_of(height).surface(cells, 0), cells)
+    where: Conditions = {HEIGHT: height}
+    return position_by_position(model, reference_rows(_each(model), where=where), answer, MAIN, where)
 
 
 def _each(model: Caller) -> str:
@@ -227,7 +229,7 @@ def _each(model: Caller) -> str:
 def position_by_position(
     model: Caller,
     rows: Sequence[Reference],
-    found: FloatArray | Failed,
+    answer: FloatArray | Failed,
     wheel: WheelAtApproach,
     where: Conditions,
     of: str = "",
@@ -239,10 +241,10 @@ def position_by_position(
     unit, name = (wheel.force, "force") if "approach" in model.asks else (wheel.approach, "approach")
     values, grid = np.array([(row.value, row.value * row.grid) for row in rows]).T
     fluctuation = Reference(where, float(values.std()), quantity=APART.format(name) + of)
-    if isinstance(found, Failed):
-        return Finding(fluctuation, found)
-    apart = at_centres(found) / unit - values
-    value = fluctuation.value + math.sqrt(np.mean(apart**2))
+    if isinstance(answer, Failed):
+        return Finding(fluctuation, answer)
+    deviation = at_centres(answer) / unit - values
+    value = fluctuation.value + math.sqrt(np.mean(deviation**2))
     left = math.sqrt(np.mean(grid**2)) / value
     return Finding(replace(fluctuation, grid=left), ModelAnswer(value, reason=OF_APART))
 
@@ -253,15 +255,15 @@ def at_centres(fine: FloatArray) -> FloatArray:
     return fine[times // 2 :: times]
 
 
-def _rolled(model: Caller, surface: FloatArray, cells: int) -> FloatArray:
+def _rolled_over_strip(model: Caller, surface: FloatArray, cells: int) -> FloatArray:
     """What a model makes of a strip."""
-    return asked(model, **on(surface, cells))
+    return answer_of(model, **on(surface, cells))
 
 
 def on(surface: FloatArray, cells: int, wheel: WheelAtApproach = MAIN, lateral: int = 1) -> dict[str, Any]:
     """What it may ask for, of a strip in units of a and d, in metres; lateral: cells across to one along."""
     height, line = (
-        wheel.approach * one for one in (crop_to_reach(surface, 1 / (lateral * cells)), middle_line(surface))
+        wheel.approach * profile for profile in (crop_to_reach(surface, 1 / (lateral * cells)), middle_line(surface))
     )
     spacing = wheel.contact / cells, wheel.contact / (lateral * cells)
     return {"height": height, "line": line, "spacing": spacing, **wheel.arguments}

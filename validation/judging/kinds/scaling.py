@@ -11,8 +11,8 @@ import numpy as np
 from validation.analysis.statistics import FloatArray, ratio_of_means
 from validation.judging.judgement import Conditions
 from validation.judging.kinds import rolling, surfaces
-from validation.judging.kinds.judge import Finding, LostError, asked, attempted, rule
-from validation.judging.kinds.stiffness import FEWEST, FORCE, MODULUS, SIDE, AskedPunch, H, draws, load_of
+from validation.judging.kinds.judge import Finding, LostError, answer_of, attempted, rule
+from validation.judging.kinds.stiffness import FEWEST, FORCE, MODULUS, SIDE, H, JudgedPunch, draws, load_of
 from validation.judging.registry import Caller, Failed
 
 EXACT, OF_SAMPLE = 1e-6, 2.0
@@ -31,14 +31,14 @@ class Powers(NamedTuple):
 
 
 LENGTH = Powers(length=1)
-GIVEN = dict.fromkeys(("side", "spacing", "contact_radius", "approach", "radius"), LENGTH) | {
+OF_ARGUMENTS = dict.fromkeys(("side", "spacing", "contact_radius", "approach", "radius"), LENGTH) | {
     "load": Powers(1, 2, 1),
     "modulus": Powers(modulus=1),
     "height": Powers(length=1, height=1),
     "line": Powers(length=1, height=1),
     "q": Powers(length=-1),
 }
-FOUND = {
+OF_ANSWERS = {
     "stiffness_model": Powers(1, 1),
     "stiffness_of_surface": Powers(1, 1),
     "force_spectrum": Powers(2, 5),
@@ -55,68 +55,68 @@ RULES = {
 
 def judged(model: Caller) -> Iterator[Finding]:
     """At a light and a heavy contact, of spectra for a long and a short wave."""
-    if model.kind not in FOUND:
+    if model.kind not in OF_ANSWERS:
         return
-    answer = LENGTH if model.kind == "rolling_model" and "load" in model.asks else FOUND[model.kind]
+    answer = LENGTH if model.kind == "rolling_model" and "load" in model.asks else OF_ANSWERS[model.kind]
     rules = {name: by for name, by in RULES.items() if by.height == 1 or model.kind.startswith(PUNCH)}
-    for where, given in _places(model):
-        before = attempted(_answers, model, given)
+    for where, arguments in _places(model):
+        before = attempted(_answers, model, arguments)
         for quantity, by in rules.items():
-            other = scaled(given, by), _factor(answer, by)
-            found = before if isinstance(before, Failed) else attempted(_ratio, model, before, *other)
-            value, within = (found, None) if isinstance(found, Failed) else found
+            other = scaled(arguments, by), _factor(answer, by)
+            change = before if isinstance(before, Failed) else attempted(_ratio, model, before, *other)
+            value, within = (change, None) if isinstance(change, Failed) else change
             yield rule(quantity, where, value, within=within)
 
 
-def _answers(model: Caller, given: Mapping[str, Any]) -> FloatArray:
+def _answers(model: Caller, arguments: Mapping[str, Any]) -> FloatArray:
     """One, or those of the same draws each time. Raises LostError where there is none."""
-    found = draws(model, given, FEWEST) if "rng" in model.asks else np.atleast_1d(asked(model, **given))
-    if model.kind.startswith(PUNCH) and not found[0] > 0:
-        raise LostError(Failed(f"a stiffness of {found[0]:.3g} N/m"))
-    return found
+    values = draws(model, arguments, FEWEST) if "rng" in model.asks else np.atleast_1d(answer_of(model, **arguments))
+    if model.kind.startswith(PUNCH) and not values[0] > 0:
+        raise LostError(Failed(f"a stiffness of {values[0]:.3g} N/m"))
+    return values
 
 
-def _ratio(model: Caller, before: FloatArray, given: Mapping[str, Any], factor: float) -> tuple[float, float]:
+def _ratio(model: Caller, before: FloatArray, arguments: Mapping[str, Any], factor: float) -> tuple[float, float]:
     """Of means of draws, or of one number; of several one and the rms of what is apart; and how near one it must be."""
-    after = _answers(model, given) / factor
+    after = _answers(model, arguments) / factor
     if "rng" in model.asks:
         ratio = ratio_of_means(after, before)
         return ratio.value, max(EXACT, OF_SAMPLE * ratio.half_width)
     peak = float(np.abs(before).max()) or 1.0
-    apart, size = (after - before) / peak, float(np.linalg.norm(before / peak)) or 1.0
-    return 1 + float(apart[0] if apart.size == 1 else np.linalg.norm(apart)) / size, EXACT
+    deviation, size = (after - before) / peak, float(np.linalg.norm(before / peak)) or 1.0
+    return 1 + float(deviation[0] if deviation.size == 1 else np.linalg.norm(deviation)) / size, EXACT
 
 
 def _places(model: Caller) -> Iterator[tuple[Conditions, dict[str, Any]]]:
     """Conditions, and arguments in SI units."""
     if model.kind == "stiffness_model":
         for hurst, force in product(HURSTS[:1] if "rng" in model.asks else HURSTS, LOADS):
-            yield {H: hurst, FORCE: force}, AskedPunch(hurst, force).arguments
+            yield {H: hurst, FORCE: force}, JudgedPunch(hurst, force).arguments
     if model.kind == "stiffness_of_surface":
         surface, spacing = SIDE * surfaces.roughness(HURSTS[0]).surface(surfaces.CELLS, 0), SIDE / surfaces.CELLS
         for force in LOADS:
-            given = {"height": surface, "spacing": spacing, "modulus": MODULUS, "load": load_of(force)}
-            yield {FORCE: force}, given
+            arguments = {"height": surface, "spacing": spacing, "modulus": MODULUS, "load": load_of(force)}
+            yield {FORCE: force}, arguments
     if model.kind == "force_spectrum":
         for height, qa in product(HEIGHTS, WAVES):
-            given = rolling.over(np.array([qa / rolling.CONTACT]), rolling.ground_of(height))
-            yield {rolling.HEIGHT: height, rolling.Q: qa}, given
+            arguments = rolling.over(np.array([qa / rolling.CONTACT]), rolling.ground_of(height))
+            yield {rolling.HEIGHT: height, rolling.Q: qa}, arguments
     if model.kind == "rolling_model":
         for height in HEIGHTS:
             yield {rolling.HEIGHT: height}, rolling.on(rolling.strip_of(height).surface(CELLS, 0), CELLS)
 
 
-def scaled(given: Mapping[str, Any], by: Powers) -> dict[str, Any]:
+def scaled(arguments: Mapping[str, Any], by: Powers) -> dict[str, Any]:
     """The same problem in other units."""
-    return {name: _scaled(value, name, by) for name, value in given.items()}
+    return {name: _scaled(value, name, by) for name, value in arguments.items()}
 
 
 def _scaled(value: Any, name: str, by: Powers) -> Any:
     if name == "roughness":
         band = {end: getattr(value, end) / by.length for end in ("q_min", "q_max")}
         return replace(value, rms=value.rms * by.length * by.height, **band)
-    factor = _factor(GIVEN[name], by)
-    return tuple(factor * one for one in value) if isinstance(value, tuple) else factor * value
+    factor = _factor(OF_ARGUMENTS[name], by)
+    return tuple(factor * part for part in value) if isinstance(value, tuple) else factor * value
 
 
 def _factor(powers: Powers, by: Powers) -> float:

@@ -15,8 +15,8 @@ from validation.analysis.statistics import moments
 from validation.engine.random_numbers import random_generator
 from validation.judging import judgement
 from validation.judging.judgement import Conditions
-from validation.judging.kinds.judge import Finding, LostError, ModelAnswer, attempted, beside, rule
-from validation.judging.kinds.references import Reference, known
+from validation.judging.kinds.judge import Finding, LostError, ModelAnswer, attempted, compared, rule
+from validation.judging.kinds.references import Reference, reference_rows
 from validation.judging.registry import Caller, Failed, FloatArray
 from validation.simulation.quantities import MEAN_STIFFNESS
 from validation.simulation.rough_punch import PlateauSpectrum
@@ -55,7 +55,7 @@ class PlateauRoughness(PlateauSpectrum):
 
 
 @dataclass(frozen=True)
-class AskedPunch:
+class JudgedPunch:
     """One punch: H, Fbar, q_max / q_min, where it rolls off, and as many of the longest waves as are on a side."""
 
     hurst: float
@@ -65,9 +65,9 @@ class AskedPunch:
     first: int = 1
 
     @classmethod
-    def at(cls, where: Conditions) -> "AskedPunch":
-        whole = (int(where.get(name, usual)) for name, usual in ((BAND, WAVES), (ROLL_OFF, 0), (FIRST, 1)))
-        return cls(float(where[H]), float(where[FORCE]), *whole)
+    def at(cls, where: Conditions) -> "JudgedPunch":
+        counts = (int(where.get(name, usual)) for name, usual in ((BAND, WAVES), (ROLL_OFF, 0), (FIRST, 1)))
+        return cls(float(where[H]), float(where[FORCE]), *counts)
 
     @property
     def plain(self) -> bool:
@@ -99,19 +99,19 @@ class Stiffness(NamedTuple):
     deviation: ModelAnswer | None = None
 
 
-Answers = Mapping[AskedPunch, Stiffness | Failed]
+Answers = Mapping[JudgedPunch, Stiffness | Failed]
 
 
 def judged(model: Caller) -> Iterator[Finding]:
     """Mean and deviation over Fbar and H, with a roll-off, over the bandwidth; and what every stiffness must do."""
-    rows = [known(quantity) for quantity in (MEAN, ROLLED_OFF, DEVIATION, BY_BAND)]
+    tables = [reference_rows(quantity) for quantity in (MEAN, ROLLED_OFF, DEVIATION, BY_BAND)]
     if drawn := "rng" in model.asks:
-        rows = [_fewer(some) for some in rows]
-    found = answers_of(model, dict.fromkeys(AskedPunch.at(row.where) for some in rows for row in some))
-    for some in rows:
-        yield from beside_punches(some, found)
+        tables = [_fewer(table) for table in tables]
+    answers = answers_of(model, dict.fromkeys(JudgedPunch.at(row.where) for table in tables for row in table))
+    for table in tables:
+        yield from beside_punches(table, answers)
     if not drawn:
-        yield from _rise(model, rows[0])
+        yield from _rise(model, tables[0])
 
 
 def _fewer(rows: Sequence[Reference]) -> list[Reference]:
@@ -122,42 +122,47 @@ def _fewer(rows: Sequence[Reference]) -> list[Reference]:
     return [row for row in rows if row[H] in kept and row[FORCE] in loads]
 
 
-def beside_punches(rows: Sequence[Reference], found: Answers) -> Iterator[Finding]:
+def beside_punches(rows: Sequence[Reference], answers: Answers) -> Iterator[Finding]:
     """Means, or deviations of models that have them."""
-    return beside(rows, [_answer(found[AskedPunch.at(row.where)], row.unit == judgement.DEVIATION) for row in rows])
+    return compared(
+        rows, [_mean_or_deviation(answers[JudgedPunch.at(row.where)], row.unit == judgement.DEVIATION) for row in rows]
+    )
 
 
-def _answer(one: Stiffness | Failed, deviates: bool) -> ModelAnswer | Failed | None:
-    if isinstance(one, Failed):
-        return None if deviates else one
-    return one.deviation if deviates else one.mean
+def _mean_or_deviation(stiffness: Stiffness | Failed, deviates: bool) -> ModelAnswer | Failed | None:
+    if isinstance(stiffness, Failed):
+        return None if deviates else stiffness
+    return stiffness.deviation if deviates else stiffness.mean
 
 
-def answers_of(model: Caller, punches: Iterable[AskedPunch], count: int = 0) -> Answers:
+def answers_of(model: Caller, punches: Iterable[JudgedPunch], count: int = 0) -> Answers:
     """By a formula, or by so many realisations; by as many as its calls are fast for, where that is not said."""
     if "rng" not in model.asks:
-        return {one: _by_formula(model, one) for one in punches}
+        return {punch: _by_formula(model, punch) for punch in punches}
     punches = list(punches)
     count = count or next(n for seconds, n in REALISATIONS.items() if seconds_of(model, punches[0]) <= seconds)
     slow = "" if count == REALISATIONS[FAST] else ", since a call takes long"
-    found = {one: attempted(draws, model, one.arguments, count) for one in punches}
-    apart = apart_draws([some for some in found.values() if not isinstance(some, Failed)])
-    return {one: some if isinstance(some, Failed) else sampled(some / UNIT, slow, apart) for one, some in found.items()}
+    samples = {punch: attempted(draws, model, punch.arguments, count) for punch in punches}
+    first_equal = first_equal_draws([sample for sample in samples.values() if not isinstance(sample, Failed)])
+    return {
+        punch: sample if isinstance(sample, Failed) else sampled(sample / UNIT, slow, first_equal)
+        for punch, sample in samples.items()
+    }
 
 
-def apart_draws(found: Sequence[FloatArray]) -> NDArray[np.intp]:
+def first_equal_draws(samples: Sequence[FloatArray]) -> NDArray[np.intp]:
     """Number of the first draw that each one is equal to, under every load: of springs pressed flat all are equal.
 
     found: the same draws in each, one value a draw.
     """
-    if not found:
+    if not samples:
         return np.arange(0)
-    rows = np.array(found).T
+    rows = np.array(samples).T
     rows = rows / np.maximum(np.abs(rows).max(axis=0), np.finfo(float).tiny)
     return np.array([np.argmax(np.abs(rows - row).max(axis=1) <= EQUAL) for row in rows])
 
 
-def seconds_of(model: Caller, punch: AskedPunch) -> float:
+def seconds_of(model: Caller, punch: JudgedPunch) -> float:
     """Of the fastest of a few calls."""
 
     def once() -> float:
@@ -168,15 +173,15 @@ def seconds_of(model: Caller, punch: AskedPunch) -> float:
     return min(once() for _ in range(TRIED))
 
 
-def draws(model: Caller, given: Mapping[str, Any], count: int) -> FloatArray:
+def draws(model: Caller, arguments: Mapping[str, Any], count: int) -> FloatArray:
     """Realisations [N/m], the same ones whatever is given. Raises LostError for one that fails."""
-    found = model.calls("rng", [random_generator(SEED, DRAWS, i) for i in range(count)], given)
-    if lost := next((one for one in found if isinstance(one, Failed)), None):
+    answers = model.calls("rng", [random_generator(SEED, DRAWS, i) for i in range(count)], arguments)
+    if lost := next((answer for answer in answers if isinstance(answer, Failed)), None):
         raise LostError(lost)
-    return np.array(found, dtype=float)
+    return np.array(answers, dtype=float)
 
 
-def _by_formula(model: Caller, punch: AskedPunch) -> Stiffness | Failed:
+def _by_formula(model: Caller, punch: JudgedPunch) -> Stiffness | Failed:
     value = model.call(**punch.arguments)
     if isinstance(value, Failed):
         return value
@@ -185,18 +190,18 @@ def _by_formula(model: Caller, punch: AskedPunch) -> Stiffness | Failed:
         return Failed(f"a stiffness of {mean:.3g} N/m")
     if min(deviation, default=0.0) < 0:
         return Failed(f"a deviation of {deviation[0]:.3g} N/m")
-    return Stiffness(ModelAnswer(mean / UNIT), *(ModelAnswer(one / mean) for one in deviation))
+    return Stiffness(ModelAnswer(mean / UNIT), *(ModelAnswer(value / mean) for value in deviation))
 
 
-def sampled(values: FloatArray, so_few: str = "", apart: NDArray[np.intp] | None = None) -> Stiffness | Failed:
+def sampled(values: FloatArray, so_few: str = "", first_equal: NDArray[np.intp] | None = None) -> Stiffness | Failed:
     """Mean and deviation of a sample with their errors, by the moments of the realisations.
 
-    apart: number of the first draw that each is equal to, where any are. Equal draws are one: m of them, n_1 ... n_m
-    times, have the error of n^2 / sum n_i^2 independent ones; that of one is not known.
+    first_equal: number of the first draw that each is equal to, where any are. Equal draws are one: m of them, n_1 ...
+    n_m times, have the error of n^2 / sum n_i^2 independent ones; that of one is not known.
     """
     if values.mean() <= 0:
         return Failed(f"a mean stiffness of {values.mean():.3g} E* L")
-    first, times = np.unique(np.arange(values.size) if apart is None else apart, return_counts=True)
+    first, times = np.unique(np.arange(values.size) if first_equal is None else first_equal, return_counts=True)
     if first.size == 1:
         equal = f"{values.size} equal realisations{so_few}: {EQUAL_DRAWS}"
         mean = ModelAnswer(float(values.mean()), math.inf, equal)
@@ -219,13 +224,14 @@ def sampled(values: FloatArray, so_few: str = "", apart: NDArray[np.intp] | None
 
 def _rise(model: Caller, rows: Sequence[Reference]) -> Iterator[Finding]:
     """A stiffness does not fall under a load that grows, at those that are known and, of what is fast, between them."""
-    between = BETWEEN if seconds_of(model, AskedPunch.at(rows[0].where)) <= FAST else 0
+    between = BETWEEN if seconds_of(model, JudgedPunch.at(rows[0].where)) <= FAST else 0
     for hurst in dict.fromkeys(row[H] for row in rows):
         forces = np.log([row[FORCE] for row in rows if row[H] == hurst])
         steps = np.linspace(0, forces.size - 1, (forces.size - 1) * (between + 1) + 1)
-        given = AskedPunch(hurst, 1.0).arguments
-        loads = given["load"] * np.exp(np.interp(steps, np.arange(forces.size), forces))
-        found = [np.ravel(one)[0] for one in model.calls("load", loads.tolist(), given) if not isinstance(one, Failed)]
-        if means := [float(one) for one in found if one > 0]:
+        arguments = JudgedPunch(hurst, 1.0).arguments
+        loads = arguments["load"] * np.exp(np.interp(steps, np.arange(forces.size), forces))
+        answers = model.calls("load", loads.tolist(), arguments)
+        values = [float(np.ravel(answer)[0]) for answer in answers if not isinstance(answer, Failed)]
+        if means := [value for value in values if value > 0]:
             least = float((means / np.maximum.accumulate(means)).min())
             yield rule("rise with the load, at the least", {H: hurst}, least, within=1e-9)

@@ -12,7 +12,7 @@ from validation.engine.engine import Engine
 from validation.judging import judgement
 from validation.judging.judgement import RATIO, Conditions
 from validation.judging.kinds.judge import Finding, ModelAnswer
-from validation.judging.kinds.references import Reference, known
+from validation.judging.kinds.references import Reference, reference_rows
 from validation.judging.kinds.stiffness import DEVIATION, FORCE, HEIGHT, MEAN, MODULUS, SIDE, WAVES, H, load_of
 from validation.judging.registry import Caller, Failed
 from validation.simulation.rough_punch import PunchRoughness, Surface, force_levels, press_lightly
@@ -29,10 +29,10 @@ OF_SURFACE, REALISATION = "stiffness of a surface", "surface"
 
 def judged(model: Caller) -> Iterator[Finding]:
     """Each surface under each load; and mean and deviation over them, both on the same surfaces."""
-    found: dict[tuple[float, float], list[tuple[float, Reference]]] = {}
+    answers: dict[tuple[float, float], list[tuple[float, Reference]]] = {}
     end = time.perf_counter() + SECONDS
     # the first surface of each H, the second of each, and so on
-    for (realisation, hurst), rows in groupby(sorted(known(OF_SURFACE), key=_surface_of), _surface_of):
+    for (realisation, hurst), rows in groupby(sorted(reference_rows(OF_SURFACE), key=_surface_of), _surface_of):
         height = SIDE * roughness(hurst).surface(CELLS, int(realisation.split()[-1]))
         for row in rows:
             if time.perf_counter() > end:
@@ -40,12 +40,12 @@ def judged(model: Caller) -> Iterator[Finding]:
                 continue
             value = model.call(height=height, spacing=SIDE / CELLS, modulus=MODULUS, load=load_of(row[FORCE]))
             if not isinstance(value, Failed) and value > 0:
-                mine = float(value) / (MODULUS * SIDE)
-                found.setdefault((hurst, row[FORCE]), []).append((mine, row))
-                yield Finding(row, mine)
+                stiffness = float(value) / (MODULUS * SIDE)
+                answers.setdefault((hurst, row[FORCE]), []).append((stiffness, row))
+                yield Finding(row, stiffness)
             else:
                 yield Finding(row, value if isinstance(value, Failed) else Failed(f"a stiffness of {value:.3g} N/m"))
-    for (hurst, force), pairs in sorted(found.items()):
+    for (hurst, force), pairs in sorted(answers.items()):
         if len(pairs) >= FEWEST:
             yield from _over_surfaces({H: hurst, FORCE: force}, pairs)
 
@@ -60,16 +60,17 @@ def _over_surfaces(where: Conditions, pairs: Sequence[tuple[float, Reference]]) 
     grid = float(np.mean([row.grid for _, row in pairs]))
 
     def log_ratio(rows: FloatArray) -> FloatArray:
-        mine, other = rows.std(axis=0, ddof=1) / rows.mean(axis=0)
-        return np.atleast_1d(np.log(max(mine, 1e-9)) - np.log(other))
+        value, exact = rows.std(axis=0, ddof=1) / rows.mean(axis=0)
+        return np.atleast_1d(np.log(max(value, 1e-9)) - np.log(exact))
 
-    ratio, (apart,) = ratio_of_means(*both.T), jackknifed(log_ratio, both)
-    for quantity, unit, (mine, exact), half in (
+    ratio, (log_deviations,) = ratio_of_means(*both.T), jackknifed(log_ratio, both)
+    deviations, of_deviation = both.std(axis=0, ddof=1) / both.mean(axis=0), min(log_deviations.half_width, 10.0)
+    for quantity, unit, (value, exact), half in (
         (MEAN, RATIO, both.mean(axis=0), ratio.half_width / ratio.value),
-        (DEVIATION, judgement.DEVIATION, both.std(axis=0, ddof=1) / both.mean(axis=0), min(apart.half_width, 10.0)),
+        (DEVIATION, judgement.DEVIATION, deviations, of_deviation),
     ):
         row = Reference(where, float(exact), grid=grid, unit=unit, quantity=quantity)
-        yield Finding(row, ModelAnswer(float(mine), half))
+        yield Finding(row, ModelAnswer(float(value), half))
 
 
 def roughness(hurst: float) -> PunchRoughness:
@@ -91,9 +92,9 @@ def solved(engine: Engine) -> Iterator[Reference]:
         ]
         for hurst, cells in product(HURSTS, (CELLS, 2 * CELLS))
     }
-    found = engine.map_groups(press_lightly, groups)
+    outcomes = engine.map_groups(press_lightly, groups)
     for hurst in HURSTS:
-        coarse, fine = (np.log([one["stiffness"] for one in found[hurst, n]]) for n in (CELLS, 2 * CELLS))
+        coarse, fine = (np.log([outcome["stiffness"] for outcome in outcomes[hurst, n]]) for n in (CELLS, 2 * CELLS))
         left = student(SURFACES) * np.sqrt(np.mean((fine - coarse) ** 2, axis=0))
         for (i, j), value in np.ndenumerate(fine):
             where: Conditions = {H: hurst, REALISATION: f"surface {i}", FORCE: FORCES[j]}

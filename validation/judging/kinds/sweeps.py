@@ -12,9 +12,9 @@ import numpy as np
 import mdr
 from validation.analysis.statistics import FloatArray
 from validation.judging.kinds import rolling
-from validation.judging.kinds.judge import Finding, Found, LostError, ModelAnswer, asked, attempted, rule
-from validation.judging.kinds.references import known
-from validation.judging.kinds.stiffness import FEWEST, FORCE, MEAN, MODULUS, SIDE, AskedPunch, H, answers_of
+from validation.judging.kinds.judge import Answer, Finding, LostError, ModelAnswer, answer_of, attempted, rule
+from validation.judging.kinds.references import reference_rows
+from validation.judging.kinds.stiffness import FEWEST, FORCE, MEAN, MODULUS, SIDE, H, JudgedPunch, answers_of
 from validation.judging.registry import Caller, Failed
 from validation.theory.closed_forms import SQUARE_PUNCH
 
@@ -26,16 +26,16 @@ EXACT, SPHERE, TRACK = 1e-9, 64, 8
 
 def stiffness(model: Caller, force: float) -> float:
     """k / (E* L)."""
-    punch = AskedPunch(0.7, force)
-    found = answers_of(model, [punch], FEWEST)[punch]
-    if isinstance(found, Failed):
-        raise LostError(found)
-    return found.mean.value
+    punch = JudgedPunch(0.7, force)
+    answer = answers_of(model, [punch], FEWEST)[punch]
+    if isinstance(answer, Failed):
+        raise LostError(answer)
+    return answer.mean.value
 
 
 def left_by_the_heaviest() -> float:
     """How far from flat boundary elements are under the heaviest load that is known."""
-    return abs(known(MEAN, where={H: 0.7})[-1].value / SQUARE_PUNCH - 1)
+    return abs(reference_rows(MEAN, where={H: 0.7})[-1].value / SQUARE_PUNCH - 1)
 
 
 def below_a_sphere(model: Caller, cells: float) -> float:
@@ -44,7 +44,7 @@ def below_a_sphere(model: Caller, cells: float) -> float:
     x = (np.arange(SPHERE) - (SPHERE - 1) / 2) * spacing
     height, a = -(x**2 + x[:, np.newaxis] ** 2) / (2 * radius), math.sqrt(cells / math.pi) * spacing
     load = 4 / 3 * MODULUS * a**3 / radius
-    return float(asked(model, height=height, spacing=spacing, modulus=MODULUS, load=load)) / (2 * MODULUS * a)
+    return float(answer_of(model, height=height, spacing=spacing, modulus=MODULUS, load=load)) / (2 * MODULUS * a)
 
 
 def rms_of_long_waves(model: Caller, qa: float) -> float:
@@ -52,7 +52,7 @@ def rms_of_long_waves(model: Caller, qa: float) -> float:
     last, rms = qa / rolling.CONTACT, 1e-3 * rolling.APPROACH
     ground = mdr.SelfAffine(hurst=0.7, q_min=last / 4, q_max=last, rms=rms)
     q = (np.arange(rolling.FINE) + 0.5) / rolling.FINE * last
-    density = asked(model, **rolling.over(q, ground))
+    density = answer_of(model, **rolling.over(q, ground))
     variance = 2 * float(density.sum()) * last / rolling.FINE
     return math.sqrt(max(variance, 0.0)) / (2 * rolling.MODULUS * rolling.CONTACT * rms)
 
@@ -61,22 +61,22 @@ def amplitude(model: Caller, qa: float) -> float:
     """One for long waves, up to those of no wavenumber."""
     k = np.full(1, qa / rolling.CONTACT)
     axes = {"a_x": rolling.CONTACT, "a_y": rolling.CONTACT, "approach": rolling.APPROACH, "alpha": 1.0}
-    return float(np.abs(asked(model, k_x=k, k_y=0 * k, **axes)[0]))
+    return float(np.abs(answer_of(model, k_x=k, k_y=0 * k, **axes)[0]))
 
 
 def rolled(model: Caller, cells: float, line: FloatArray) -> FloatArray:
     """Force, or approach, over that of Hertz; line: of ridges, over d."""
     height = rolling.APPROACH * np.broadcast_to(line[:, np.newaxis], (line.size, round(TRACK * cells)))
     spacing, unit = (rolling.CONTACT / cells,) * 2, rolling.FORCE if "approach" in model.asks else rolling.APPROACH
-    return asked(model, height=height, line=height[:, 0], spacing=spacing, **rolling.SMOOTH_WHEEL) / unit
+    return answer_of(model, height=height, line=height[:, 0], spacing=spacing, **rolling.SMOOTH_WHEEL) / unit
 
 
 def followed(model: Caller, length: float) -> float:
     """The wheel follows a wave much longer than the contact; on top of one, the rms of what is apart from Hertz."""
     wave = 0.1 * np.cos(2 * math.pi * np.arange(4 * length) / (4 * length))
     exact = (1 + wave) ** 1.5 if "approach" in model.asks else 1 - wave
-    found = rolled(model, 4.0, wave) / float(rolled(model, 4.0, 0 * wave)[0])
-    return 1 + float(np.std(found - exact) / np.std(exact))
+    force = rolled(model, 4.0, wave) / float(rolled(model, 4.0, 0 * wave)[0])
+    return 1 + float(np.std(force - exact) / np.std(exact))
 
 
 class ModelSweep(NamedTuple):
@@ -115,15 +115,15 @@ SWEEPS: Mapping[str, Sequence[ModelSweep]] = {
     ),
 }
 """Of the kinds that can be asked that."""
-SWEPT = frozenset(one.quantity for some in SWEEPS.values() for one in some)
+SWEPT = frozenset(sweep.quantity for sweeps in SWEEPS.values() for sweep in sweeps)
 
 
 def swept(model: Caller) -> Iterator[Finding]:
     """Each number, and whether the model warned."""
-    for one in SWEEPS.get(model.kind, ()):
-        left = one.left() if callable(one.left) else one.left
-        for x in () if one.bound and "rng" in model.asks else map(float, one.at):
-            found: Found = attempted(one.ratio, model, x)
-            if model.warned and isinstance(found, float):
-                found = ModelAnswer(found, reason=f"it warned: {model.warned}")
-            yield rule(one.quantity, {one.along: x}, found, left, EXACT if one.bound else None)
+    for sweep in SWEEPS.get(model.kind, ()):
+        left = sweep.left() if callable(sweep.left) else sweep.left
+        for x in () if sweep.bound and "rng" in model.asks else map(float, sweep.at):
+            value: Answer = attempted(sweep.ratio, model, x)
+            if model.warned and isinstance(value, float):
+                value = ModelAnswer(value, reason=f"it warned: {model.warned}")
+            yield rule(sweep.quantity, {sweep.along: x}, value, left, EXACT if sweep.bound else None)

@@ -11,7 +11,7 @@ from scipy import fft, ndimage, optimize
 
 from validation.benchmarks.discrete import ContactProblem, KnownContact, pressed
 from validation.judging.registry import FloatArray
-from validation.judging.solvers.properties import OF_ANSWER, Way, apart
+from validation.judging.solvers.properties import OF_ANSWER, Way, relative_deviation
 from validation.theory.half_space import love
 
 Spacing = tuple[float, float]
@@ -163,10 +163,10 @@ class JudgedContact:
     def explained_by(self, pressure: FloatArray) -> float:
         """The part of the distance to the answer that another pressure leaves out; of a right answer as `explained`."""
         if self.is_right:
-            return float(apart(self.pressure, pressure) <= ALIKE * OF_ANSWER * self.residual)
+            return float(relative_deviation(self.pressure, pressure) <= ALIKE * OF_ANSWER * self.residual)
         with np.errstate(all="ignore"):
-            found = 1 - apart(self.pressure, pressure) / apart(self.pressure, self.answer)
-        return max(float(found), 0.0) if math.isfinite(found) else 0.0
+            share = 1 - relative_deviation(self.pressure, pressure) / relative_deviation(self.pressure, self.answer)
+        return max(float(share), 0.0) if math.isfinite(share) else 0.0
 
     @cached_property
     def answer(self) -> FloatArray:
@@ -184,7 +184,7 @@ class JudgedContact:
     @property
     def off(self) -> float:
         """Of the pressure, in L2 over the answer."""
-        return apart(self.pressure, self.answer)
+        return relative_deviation(self.pressure, self.answer)
 
     @cached_property
     def touching(self) -> NDArray[np.bool_]:
@@ -219,8 +219,10 @@ def causes(contact: JudgedContact) -> Causes:
 
 def is_same(problem: ContactProblem, other: ContactProblem) -> bool:
     """Whether two are one, told twice; an approach may be NaN in both."""
-    mine, others = ((*one.spacing, one.modulus, one.force, one.approach, one.periodic) for one in (problem, other))
-    return bool(np.array_equal(problem.gap, other.gap) and np.array_equal(mine, others, equal_nan=True))
+    values, other_values = (
+        (*stated.spacing, stated.modulus, stated.force, stated.approach, stated.periodic) for stated in (problem, other)
+    )
+    return bool(np.array_equal(problem.gap, other.gap) and np.array_equal(values, other_values, equal_nan=True))
 
 
 def _by_single_cell(contact: JudgedContact) -> float:
@@ -252,7 +254,7 @@ def _by_earlier(contact: JudgedContact, pressure: FloatArray) -> float:
     if contact.is_right:
         return 1.0
     scaled = float((pressure * contact.pressure).sum()) / float((pressure**2).sum()) * pressure
-    return float(apart(contact.pressure, scaled) < SAME < apart(contact.answer, scaled))
+    return float(relative_deviation(contact.pressure, scaled) < SAME < relative_deviation(contact.answer, scaled))
 
 
 def _by_kept_operator(contact: JudgedContact) -> float:
@@ -262,12 +264,12 @@ def _by_kept_operator(contact: JudgedContact) -> float:
         for other, pressure in contact.earlier
         if pressure.shape == contact.pressure.shape
     } - {(problem.spacing, problem.modulus, problem.periodic)}
-    others = [
+    substitutes = [
         replace(problem, spacing=spacing, modulus=modulus, periodic=periodic) for spacing, modulus, periodic in kept
     ]
     # with its cells, by its kernel alone, and by that for the right modulus
-    parts = [_by_problem(contact, other) for other in others]
-    for other in (*others, *(replace(other, modulus=problem.modulus) for other in others)):
+    parts = [_by_problem(contact, other) for other in substitutes]
+    for other in (*substitutes, *(replace(other, modulus=problem.modulus) for other in substitutes)):
         parts.append(contact.explained(contact.under(displacement=other.half_space.displacement(contact.pressure))))
     return max(parts, default=float(contact.is_right))
 
@@ -388,7 +390,10 @@ def most_alike(answer: FloatArray, pressure: FloatArray, mode: str) -> FloatArra
         return np.asarray(ndimage.gaussian_filter(answer, sigma, mode=mode))
 
     best = optimize.minimize_scalar(
-        lambda sigma: apart(smoothed_by(sigma), pressure), bounds=(0.3, 4.0), method="bounded", options={"xatol": 1e-3}
+        lambda sigma: relative_deviation(smoothed_by(sigma), pressure),
+        bounds=(0.3, 4.0),
+        method="bounded",
+        options={"xatol": 1e-3},
     )
     return smoothed_by(float(best.x))
 

@@ -37,28 +37,28 @@ def _share(contact: JudgedContact) -> float:
 
 
 KINDS_OF_PROBLEM = (
-    KindOfProblem("grids of an odd number of cells", lambda one: any(n % 2 for n in one.pressure.shape)),
-    KindOfProblem("grids that are odd along axis 0", lambda one: one.pressure.shape[0] % 2 == 1),
-    KindOfProblem("grids that are odd along axis 1", lambda one: one.pressure.shape[1] % 2 == 1),
-    KindOfProblem("grids that are odd along both axes", lambda one: all(n % 2 for n in one.pressure.shape)),
-    KindOfProblem("grids of an even number of cells", lambda one: not any(n % 2 for n in one.pressure.shape)),
-    KindOfProblem("cells with dx unlike dy", lambda one: not _near(*one.problem.spacing)),
-    KindOfProblem("cells with dx > dy", lambda one: one.problem.spacing[0] > 1.01 * one.problem.spacing[1]),
-    KindOfProblem("cells with dx < dy", lambda one: one.problem.spacing[1] > 1.01 * one.problem.spacing[0]),
-    KindOfProblem("cells of 4:1", lambda one: max(_ratio(one), 1 / _ratio(one)) > 3.9),
-    KindOfProblem("grids that are not square", lambda one: one.pressure.shape[0] != one.pressure.shape[1]),
-    KindOfProblem("periodic half-spaces", lambda one: one.problem.periodic),
-    KindOfProblem("free half-spaces", lambda one: not one.problem.periodic),
-    KindOfProblem("light loads, below 2 % of contact", lambda one: _share(one) < 0.02),
-    KindOfProblem("full contact", lambda one: _share(one) > 0.99),
-    KindOfProblem("contacts that reach the boundary", lambda one: _reaches_boundary(one)),
-    KindOfProblem("one row of cells", lambda one: min(one.pressure.shape) == 1),
-    KindOfProblem("a few cells", lambda one: one.pressure.size < 100),
-    KindOfProblem("more than 2304 cells", lambda one: one.pressure.size > 2304),
+    KindOfProblem("grids of an odd number of cells", lambda contact: any(n % 2 for n in contact.pressure.shape)),
+    KindOfProblem("grids that are odd along axis 0", lambda contact: contact.pressure.shape[0] % 2 == 1),
+    KindOfProblem("grids that are odd along axis 1", lambda contact: contact.pressure.shape[1] % 2 == 1),
+    KindOfProblem("grids that are odd along both axes", lambda contact: all(n % 2 for n in contact.pressure.shape)),
+    KindOfProblem("grids of an even number of cells", lambda contact: not any(n % 2 for n in contact.pressure.shape)),
+    KindOfProblem("cells with dx unlike dy", lambda contact: not _near(*contact.problem.spacing)),
+    KindOfProblem("cells with dx > dy", lambda contact: contact.problem.spacing[0] > 1.01 * contact.problem.spacing[1]),
+    KindOfProblem("cells with dx < dy", lambda contact: contact.problem.spacing[1] > 1.01 * contact.problem.spacing[0]),
+    KindOfProblem("cells of 4:1", lambda contact: max(_ratio(contact), 1 / _ratio(contact)) > 3.9),
+    KindOfProblem("grids that are not square", lambda contact: contact.pressure.shape[0] != contact.pressure.shape[1]),
+    KindOfProblem("periodic half-spaces", lambda contact: contact.problem.periodic),
+    KindOfProblem("free half-spaces", lambda contact: not contact.problem.periodic),
+    KindOfProblem("light loads, below 2 % of contact", lambda contact: _share(contact) < 0.02),
+    KindOfProblem("full contact", lambda contact: _share(contact) > 0.99),
+    KindOfProblem("contacts that reach the boundary", lambda contact: _reaches_boundary(contact)),
+    KindOfProblem("one row of cells", lambda contact: min(contact.pressure.shape) == 1),
+    KindOfProblem("a few cells", lambda contact: contact.pressure.size < 100),
+    KindOfProblem("more than 2304 cells", lambda contact: contact.pressure.size > 2304),
 )
 NUMBERS: Mapping[str, Callable[[JudgedContact], float]] = {
-    "cells in contact": lambda one: float(np.count_nonzero(one.answer > 0)),
-    "cells of the grid": lambda one: float(one.pressure.size),
+    "cells in contact": lambda contact: float(np.count_nonzero(contact.answer > 0)),
+    "cells of the grid": lambda contact: float(contact.pressure.size),
 }
 """What may grow until a solver goes wrong."""
 
@@ -87,12 +87,12 @@ def diagnosed(contacts: Sequence[JudgedContact], tightened: Tightened) -> dict[J
         return {}
     if _reaches_its_residual(wrong, tightened):
         return dict.fromkeys(wrong, f"{LOOSE}: under a tighter tolerance it does")
-    found, rest = dict[JudgedContact, str](), list(wrong)
+    diagnosis, rest = dict[JudgedContact, str](), list(wrong)
     for _ in range(MOST):
         if not rest:
             break
         # large grids take long, and have mostly the cause of small ones
-        pool = [one for one in rest if one.pressure.size <= LARGE] or rest
+        pool = [contact for contact in rest if contact.pressure.size <= LARGE] or rest
         sample = [pool[i] for i in sorted({round(i) for i in np.linspace(0, len(pool) - 1, SAMPLE)})]
         table = explained(sample)
         scores = {name: sum(part for part in parts if part > EXPLAINED) for name, parts in table.items()}
@@ -102,18 +102,22 @@ def diagnosed(contacts: Sequence[JudgedContact], tightened: Tightened) -> dict[J
         # one problem of many may fit anything, but not exactly
         if not fits or (len(fits) < fewest and max(fits) < EXACTLY):
             break
-        mine = [one for one, part in zip(rest, _parts_of(best, sample, rest), strict=True) if part > EXPLAINED]
+        matches = [
+            contact for contact, part in zip(rest, _parts_of(best, sample, rest), strict=True) if part > EXPLAINED
+        ]
         # what would make right answers wrong is there on some problems alone
-        others = [one for one, part in zip(right, _parts_of(best, sample, right), strict=True) if part < 0.5]
-        kind = kind_of(mine, others)
-        found |= dict.fromkeys(mine, f"on {kind} alone: {best}" if kind else best)
-        rest = [one for one in rest if one not in found]
-    return found | _unexplained(rest, contacts, "" if found else kind_of(wrong, right))
+        counterexamples = [
+            contact for contact, part in zip(right, _parts_of(best, sample, right), strict=True) if part < 0.5
+        ]
+        kind = kind_of(matches, counterexamples)
+        diagnosis |= dict.fromkeys(matches, f"on {kind} alone: {best}" if kind else best)
+        rest = [contact for contact in rest if contact not in diagnosis]
+    return diagnosis | _unexplained(rest, contacts, "" if diagnosis else kind_of(wrong, right))
 
 
 def _reaches_its_residual(wrong: Sequence[JudgedContact], tightened: Tightened) -> bool:
     """Whether the smallest of the wrong answers are right under a tighter tolerance."""
-    for contact in sorted(wrong, key=lambda one: one.pressure.size)[:2]:
+    for contact in sorted(wrong, key=lambda candidate: candidate.pressure.size)[:2]:
         again = next((p for factor in TIGHTER if (p := tightened(contact.problem, factor)) is not None), None)
         if again is None or contact.under(pressure=again) > contact.residual:
             return False
@@ -124,35 +128,38 @@ def _unexplained(
     rest: Sequence[JudgedContact], contacts: Sequence[JudgedContact], kind: str
 ) -> dict[JudgedContact, str]:
     """What can be said of each that no cause explains."""
-    single = all(np.array_equal(one.pressure, one.pressure.astype(np.float32)) for one in contacts)
+    single = all(np.array_equal(contact.pressure, contact.pressure.astype(np.float32)) for contact in contacts)
     where = f"on {kind} alone: " if kind else ""
-    said = {}
+    remarks = {}
     for contact in rest:
         if single:
-            said[contact] = f"{where}single precision: all pressures are numbers of 32 bits"
+            remarks[contact] = f"{where}single precision: all pressures are numbers of 32 bits"
         elif contact.off < NEAR:
-            said[contact] = f"{where}near the answer: {LOOSE}, rounding, or an operator that is a little off"
+            remarks[contact] = f"{where}near the answer: {LOOSE}, rounding, or an operator that is a little off"
         else:
-            said[contact] = f"{where}not the answer of any half-space that is known"
-    return said
+            remarks[contact] = f"{where}not the answer of any half-space that is known"
+    return remarks
 
 
 def explained(wrong: Sequence[JudgedContact]) -> dict[str, list[float]]:
     """Of each cause the parts of the errors that it explains, the more specific cause first."""
     tables = [_parts(contact) for contact in wrong]
     parts = {
-        name: [mine.get(name, 0.0) for mine in tables] for name in dict.fromkeys(name for one in tables for name in one)
+        name: [table.get(name, 0.0) for table in tables]
+        for name in dict.fromkeys(name for table in tables for name in table)
     }
-    for name, some in numbered(wrong, wrong):
-        parts[name] = [max(one, before) for one, before in zip(some, parts.get(name, [0.0] * len(wrong)), strict=True)]
+    for name, shares in numbered(wrong, wrong):
+        parts[name] = [
+            max(share, before) for share, before in zip(shares, parts.get(name, [0.0] * len(wrong)), strict=True)
+        ]
     return parts
 
 
 def _parts(contact: JudgedContact) -> dict[str, float]:
-    found: dict[str, float] = {}
+    parts: dict[str, float] = {}
     for name, explains in causes(contact):
-        found[name] = max(explains(), found.get(name, 0.0))
-    return found
+        parts[name] = max(explains(), parts.get(name, 0.0))
+    return parts
 
 
 def _parts_of(cause: str, sample: Sequence[JudgedContact], contacts: Sequence[JudgedContact]) -> list[float]:
@@ -161,8 +168,8 @@ def _parts_of(cause: str, sample: Sequence[JudgedContact], contacts: Sequence[Ju
     if numbers is not None:
         return numbers
     # where a cause is not possible a right answer stays right
-    found = [[explains() for name, explains in causes(one) if name == cause] for one in contacts]
-    return [max(parts, default=float(one.is_right)) for parts, one in zip(found, contacts, strict=True)]
+    table = [[explains() for name, explains in causes(contact) if name == cause] for contact in contacts]
+    return [max(parts, default=float(contact.is_right)) for parts, contact in zip(table, contacts, strict=True)]
 
 
 def kind_of(wrong: Sequence[JudgedContact], right: Sequence[JudgedContact]) -> str:
@@ -179,7 +186,7 @@ def kind_of(wrong: Sequence[JudgedContact], right: Sequence[JudgedContact]) -> s
         if len(wrong) > FEW and all(map(kind.has, wrong)) and sum(map(kind.has, right)) <= len(wrong) / 2:
             return kind.name
     for name, of in NUMBERS.items():
-        mine, others = [of(one) for one in wrong], [of(one) for one in right]
-        if min(mine) > max(others) and len(mine) > 2:
-            return f"more than {max(others):g} {name}"
+        of_wrong, of_right = [of(contact) for contact in wrong], [of(contact) for contact in right]
+        if min(of_wrong) > max(of_right) and len(of_wrong) > 2:
+            return f"more than {max(of_right):g} {name}"
     return ""

@@ -42,18 +42,18 @@ OF_MODULUS = {
 
 def named(factor: float) -> str:
     """Where a factor may come from: " (E for E* at nu = 0.3?)", or nothing."""
-    exact = [name for name, known in OF_MODULUS.items() for one in (known, 1 / known) if abs(factor / one - 1) < 3e-3]
+    exact = [name for name, value in OF_MODULUS.items() for c in (value, 1 / value) if abs(factor / c - 1) < 3e-3]
     return f" ({exact[0]}?)" if exact else ""
 
 
-def numbered(wrong: Contacts, asked: Contacts) -> Parts:
+def numbered(wrong: Contacts, contacts: Contacts) -> Parts:
     """Causes with the part of each error that they explain; the number of a cause is that of most wrong ones."""
-    yield from _of_modulus(wrong, asked)
-    yield from _of_approach(wrong, asked) if wrong and not wrong[0].by_force else _of_force(wrong, asked)
-    yield from _of_pressure(wrong, asked)
+    yield from _of_modulus(wrong, contacts)
+    yield from _of_approach(wrong, contacts) if wrong and not wrong[0].by_force else _of_force(wrong, contacts)
+    yield from _of_pressure(wrong, contacts)
 
 
-def _of_modulus(wrong: Contacts, asked: Contacts) -> Parts:
+def _of_modulus(wrong: Contacts, contacts: Contacts) -> Parts:
     factors = [compliance(contact) for contact in wrong]
 
     def explained(contact: JudgedContact, factor: float) -> float:
@@ -62,8 +62,8 @@ def _of_modulus(wrong: Contacts, asked: Contacts) -> Parts:
 
     if factor := _common(factors):
         c = 1 / factor
-        said = f"the answer for {c:.4g} times the modulus{named(c)}, or an operator with a factor of {factor:.4g}"
-        yield said, [explained(contact, factor) for contact in asked]
+        cause = f"the answer for {c:.4g} times the modulus{named(c)}, or an operator with a factor of {factor:.4g}"
+        yield cause, [explained(contact, factor) for contact in contacts]
 
 
 def compliance(contact: JudgedContact) -> float:
@@ -78,7 +78,7 @@ def compliance(contact: JudgedContact) -> float:
     return float(factor / unit) if holds else math.nan
 
 
-def _of_force(wrong: Contacts, asked: Contacts) -> Parts:
+def _of_force(wrong: Contacts, contacts: Contacts) -> Parts:
     """Answers under another force."""
 
     def under(contact: JudgedContact, factor: float) -> float:
@@ -90,33 +90,34 @@ def _of_force(wrong: Contacts, asked: Contacts) -> Parts:
         return contact.explained(left) if left <= CLOSE * contact.residual else 0.0
 
     ratios = [contact.problem.force_of(contact.pressure) / contact.problem.force for contact in wrong]
-    area = [math.prod(contact.problem.spacing) for contact in asked]
-    sides = [contact.problem.gap.size * one for contact, one in zip(asked, area, strict=True)]
-    squares = [contact.problem.spacing[0] / contact.problem.spacing[1] for contact in asked]
-    known: dict[str, Numbers] = {
+    area = [math.prod(contact.problem.spacing) for contact in contacts]
+    sides = [contact.problem.gap.size * cell for contact, cell in zip(contacts, area, strict=True)]
+    squares = [contact.problem.spacing[0] / contact.problem.spacing[1] for contact in contacts]
+    confusions: dict[str, Numbers] = {
         "the sum of the pressures for the force: the area of a cell is missing": area,
         "the mean pressure for the force: the area of the grid is missing": sides,
-        "the force for the mean pressure: over the area of the grid": [1 / one for one in sides],
-        "the force of all cells over their area: the area of a cell stands twice": [1 / one for one in area],
+        "the force for the mean pressure: over the area of the grid": [1 / side for side in sides],
+        "the force of all cells over their area: the area of a cell stands twice": [1 / cell for cell in area],
         "the area of a cell is dy^2 for dx dy: the force is not held": squares,
-        "the area of a cell is dx^2 for dx dy: the force is not held": [1 / one for one in squares],
+        "the area of a cell is dx^2 for dx dy: the force is not held": [1 / square for square in squares],
     }
-    for name, factors in known.items():
+    for name, factors in confusions.items():
         if any(abs(factor - 1) > NEAR for factor in factors):
-            yield name, [under(contact, factor) for contact, factor in zip(asked, factors, strict=True)]
+            yield name, [under(contact, factor) for contact, factor in zip(contacts, factors, strict=True)]
     if factor := _common(ratios, 1e-3):
-        said = f"the answer under another load, {factor:.4g} times the force: the force is not held"
-        yield said, [under(contact, factor) for contact in asked]
+        cause = f"the answer under another load, {factor:.4g} times the force: the force is not held"
+        yield cause, [under(contact, factor) for contact in contacts]
     yield (
         "the answer under another load: the force is not held",
         [
             under(contact, ratio) if contact.is_right or abs(ratio - 1) > contact.residual else 0.0
-            for contact, ratio in ((one, one.problem.force_of(one.pressure) / one.problem.force) for one in asked)
+            for contact in contacts
+            for ratio in [contact.problem.force_of(contact.pressure) / contact.problem.force]
         ],
     )
 
 
-def _of_approach(wrong: Contacts, asked: Contacts) -> Parts:
+def _of_approach(wrong: Contacts, contacts: Contacts) -> Parts:
     """Answers at another approach."""
 
     def at(contact: JudgedContact, shift: float) -> float:
@@ -126,29 +127,33 @@ def _of_approach(wrong: Contacts, asked: Contacts) -> Parts:
         return contact.explained(contact.under(moved)) if met and shift != 0 else 0.0
 
     planes: dict[str, Numbers] = {
-        "the approach counts from the first touch, not from gap = 0": [float(one.problem.gap.min()) for one in asked],
-        "the approach counts from the mean plane of the gap, not from gap = 0": [
-            float(one.problem.gap.mean()) for one in asked
+        "the approach counts from the first touch, not from gap = 0": [
+            float(contact.problem.gap.min()) for contact in contacts
         ],
-        "the approach counts from the largest gap, not from gap = 0": [float(one.problem.gap.max()) for one in asked],
-        "the sign of the approach": [-2 * one.problem.approach for one in asked],
-        "half of the approach": [-one.problem.approach / 2 for one in asked],
-        "twice the approach": [one.problem.approach for one in asked],
+        "the approach counts from the mean plane of the gap, not from gap = 0": [
+            float(contact.problem.gap.mean()) for contact in contacts
+        ],
+        "the approach counts from the largest gap, not from gap = 0": [
+            float(contact.problem.gap.max()) for contact in contacts
+        ],
+        "the sign of the approach": [-2 * contact.problem.approach for contact in contacts],
+        "half of the approach": [-contact.problem.approach / 2 for contact in contacts],
+        "twice the approach": [contact.problem.approach for contact in contacts],
     }
     for name, shifts in planes.items():
-        yield name, [at(one, shift) for one, shift in zip(asked, shifts, strict=True)]
+        yield name, [at(contact, shift) for contact, shift in zip(contacts, shifts, strict=True)]
     # of a wave q = 0 the displacement goes with the mean pressure
-    periodic = [one for one in wrong if one.problem.periodic]
+    periodic = [contact for contact in wrong if contact.problem.periodic]
     with np.errstate(all="ignore"):
-        slopes = [_shift(one) * one.problem.modulus / float(one.pressure.mean()) for one in periodic]
+        slopes = [_shift(contact) * contact.problem.modulus / float(contact.pressure.mean()) for contact in periodic]
     if slope := _common(slopes, 0.0):
-        shifts = [slope * float(one.pressure.mean()) / one.problem.modulus for one in asked]
+        shifts = [slope * float(contact.pressure.mean()) / contact.problem.modulus for contact in contacts]
         parts = [
-            at(one, shift) if one.problem.periodic else float(one.is_right)
-            for one, shift in zip(asked, shifts, strict=True)
+            at(contact, shift) if contact.problem.periodic else float(contact.is_right)
+            for contact, shift in zip(contacts, shifts, strict=True)
         ]
         yield "the mean displacement of a periodic half-space is not zero: its wave q = 0", parts
-    yield "the answer under another load, at another approach", [at(one, _shift(one)) for one in asked]
+    yield "the answer under another load, at another approach", [at(contact, _shift(contact)) for contact in contacts]
 
 
 def _shift(contact: JudgedContact) -> float:
@@ -158,7 +163,7 @@ def _shift(contact: JudgedContact) -> float:
     return float((p * separation).sum() / p.sum()) - contact.problem.approach
 
 
-def _of_pressure(wrong: Contacts, asked: Contacts) -> Parts:
+def _of_pressure(wrong: Contacts, contacts: Contacts) -> Parts:
     """The answer times a number."""
 
     def over(contact: JudgedContact, factor: float) -> float:
@@ -168,28 +173,28 @@ def _of_pressure(wrong: Contacts, asked: Contacts) -> Parts:
 
     with np.errstate(all="ignore"):
         parts = [_part(contact.pressure, contact.answer) for contact in wrong]
-        area = [math.prod(contact.problem.spacing) for contact in asked]
+        area = [math.prod(contact.problem.spacing) for contact in contacts]
         for name, factors in {
             "the forces of the cells for their pressures: times the area of a cell": area,
-            "over the area of a cell": [1 / one for one in area],
-            "over the modulus": [1 / contact.problem.modulus for contact in asked],
+            "over the area of a cell": [1 / cell for cell in area],
+            "over the modulus": [1 / contact.problem.modulus for contact in contacts],
         }.items():
-            yield name, [over(contact, factor) for contact, factor in zip(asked, factors, strict=True)]
+            yield name, [over(contact, factor) for contact, factor in zip(contacts, factors, strict=True)]
         if factor := _common(parts, 1e-3):
-            yield f"{factor:.4g} times the answer{named(factor)}", [over(contact, factor) for contact in asked]
+            yield f"{factor:.4g} times the answer{named(factor)}", [over(contact, factor) for contact in contacts]
 
 
 def _part(pressure: FloatArray, answer: FloatArray) -> float:
     return float((pressure * answer).sum() / (answer**2).sum())
 
 
-def _common(numbers: Numbers, apart: float = NEAR) -> float:
+def _common(numbers: Numbers, margin: float = NEAR) -> float:
     """The number that more than half are to a fiftieth; zero where it is one to `apart`, or there is none."""
     finite = sorted(number for number in numbers if math.isfinite(number))
     if not finite:
         return 0.0
     # the middle of those with most others near them
-    most = max(finite, key=lambda one: sum(abs(other - one) <= NEAR * abs(one) for other in finite))
-    alike = [one for one in finite if abs(one - most) <= NEAR * abs(most)]
+    most = max(finite, key=lambda number: sum(abs(neighbour - number) <= NEAR * abs(number) for neighbour in finite))
+    alike = [number for number in finite if abs(number - most) <= NEAR * abs(most)]
     middle = alike[len(alike) // 2]
-    return middle if len(alike) > len(finite) / 2 and abs(middle - 1) > apart else 0.0
+    return middle if len(alike) > len(finite) / 2 and abs(middle - 1) > margin else 0.0

@@ -20,12 +20,12 @@ from validation.judging.solvers.causes import JudgedContact
 from validation.judging.solvers.diagnosis import LOOSE, diagnosed
 from validation.judging.solvers.properties import (
     PROPERTIES,
-    Asked,
+    JudgedSolver,
     UnansweredError,
-    apart,
     checked,
     conditions,
     loads_of,
+    relative_deviation,
 )
 
 RECTANGLE, RECTANGLES = ("rough, heavy load", "rough, periodic"), {(40, 28): 1.5, (27, 21): 1.0}
@@ -59,46 +59,48 @@ def judged(model: Caller) -> tuple[list[JudgedNumber], list[SolverTime]]:
     """
     points, times = list[JudgedNumber](), list[SolverTime]()
     for load in loads_of(model):
-        asked = Asked(model, by=load)
-        points += findings(asked, [] if load != loads_of(model)[0] else times)
+        solver = JudgedSolver(model, by=load)
+        points += findings(solver, [] if load != loads_of(model)[0] else times)
     return points, times
 
 
-def findings(asked: Asked, times: list[SolverTime] | None = None) -> list[JudgedNumber]:
+def findings(solver: JudgedSolver, times: list[SolverTime] | None = None) -> list[JudgedNumber]:
     """All of one load, each with its cause; what a solver does not serve is not asked, and that is said.
 
     times: to which seconds on growing grids are added; without a list none are taken.
     """
-    points = list(_found_of(asked))
+    points = list(_points_of(solver))
     if times is not None:
-        for found, seconds in timed(asked) if not times else ():
-            points += found
+        for numbers, seconds in timed(solver) if not times else ():
+            points += numbers
             times += seconds
-    points += repeated(asked)
-    points = explained(asked, points)
-    if asked.by == "approach" and "force" in asked.solver.asks:
+    points += repeated(solver)
+    points = explained(solver, points)
+    if solver.by == "approach" and "force" in solver.model.asks:
         return [replace(point, where={"problem": f"{point.where['problem']}, by approach"}) for point in points]
     return points
 
 
-def _found_of(asked: Asked) -> Iterator[JudgedNumber]:
-    known = [problem for problem in problems() if asked.serves(problem)]
+def _points_of(solver: JudgedSolver) -> Iterator[JudgedNumber]:
+    served = [problem for problem in problems() if solver.serves(problem)]
     for problem in problems():
-        if problem.gap.size > asked.cells and asked.solver.options["periodic" if problem.periodic else "free"]:
-            yield from _found("answer", problem, partial(answer, asked, problem))
-    for problem in known:
-        yield from _found("answer", problem, partial(answer, asked, problem))
-    whole = [problem for problem in problems() if problem.name in RECTANGLE]
-    for part in (_rectangle(problem, shape, longer) for shape, longer in RECTANGLES.items() for problem in whole):
-        if asked.serves(part):
+        if problem.gap.size > solver.cells and solver.model.options["periodic" if problem.periodic else "free"]:
+            yield from _points_or_reason("answer", problem, partial(answer, solver, problem))
+    for problem in served:
+        yield from _points_or_reason("answer", problem, partial(answer, solver, problem))
+    rough = [problem for problem in problems() if problem.name in RECTANGLE]
+    for part in (_rectangle(problem, shape, longer) for shape, longer in RECTANGLES.items() for problem in rough):
+        if solver.serves(part):
             for name, has in PROPERTIES.items():
-                yield from _found(name, part, partial(has, asked, part))
+                yield from _points_or_reason(name, part, partial(has, solver, part))
     for problem in problems():
-        if problem.name == FLAT and asked.solver.options["free"]:
-            yield from _found("order of convergence", problem, partial(convergence, asked, problem))
+        if problem.name == FLAT and solver.model.options["free"]:
+            yield from _points_or_reason("order of convergence", problem, partial(convergence, solver, problem))
 
 
-def _found(quantity: str, problem: ContactProblem, of: Callable[[], Iterator[JudgedNumber]]) -> Iterator[JudgedNumber]:
+def _points_or_reason(
+    quantity: str, problem: ContactProblem, of: Callable[[], Iterator[JudgedNumber]]
+) -> Iterator[JudgedNumber]:
     try:
         yield from of()
     except UnansweredError as error:
@@ -114,57 +116,59 @@ def unanswered(quantity: str, problem: ContactProblem, error: UnansweredError) -
 def _rectangle(problem: KnownContact, shape: tuple[int, int], longer: float) -> ContactProblem:
     """A part of it with more cells along one axis, so much longer along the other: no symmetry, and no answer."""
     (dx, dy), (n, m) = problem.spacing, shape
-    whole = {name: getattr(problem, name) for name in ("modulus", "periodic", "force", "approach")}
+    fields = {name: getattr(problem, name) for name in ("modulus", "periodic", "force", "approach")}
     name = f"{problem.name}, {n} x {m} cells"
-    return ContactProblem(name=name, gap=problem.gap[:n, :m], spacing=(dx, longer * dy), **whole)
+    return ContactProblem(name=name, gap=problem.gap[:n, :m], spacing=(dx, longer * dy), **fields)
 
 
-def answer(asked: Asked, problem: KnownContact) -> Iterator[JudgedNumber]:
+def answer(solver: JudgedSolver, problem: KnownContact) -> Iterator[JudgedNumber]:
     """Conditions of the contact by the operator that judges, then the known answer."""
-    p = asked.pressure(problem)
-    yield from conditions(asked, problem)
-    if asked.by_force:
-        _, mine = problem.left(p, asked.by_force)
-        off = (mine - problem.approach) / problem.overlap
-        yield replace(checked("approach", problem, off, asked.of_answer, OFF), value=mine, reference=problem.approach)
+    p = solver.pressure(problem)
+    yield from conditions(solver, problem)
+    if solver.by_force:
+        _, approach = problem.left(p, solver.by_force)
+        off = (approach - problem.approach) / problem.overlap
+        yield replace(
+            checked("approach", problem, off, solver.of_answer, OFF), value=approach, reference=problem.approach
+        )
     else:
-        yield checked("force", problem, problem.force_of(p), asked.of_answer, OFF, problem.force)
-    yield checked("pressure", problem, apart(p, problem.pressure), asked.of_answer, OFF)
+        yield checked("force", problem, problem.force_of(p), solver.of_answer, OFF, problem.force)
+    yield checked("pressure", problem, relative_deviation(p, problem.pressure), solver.of_answer, OFF)
 
 
-def repeated(asked: Asked) -> Iterator[JudgedNumber]:
+def repeated(solver: JudgedSolver) -> Iterator[JudgedNumber]:
     """The first problem that has an answer, asked again at the end: the pressure is the same."""
-    if not asked.known:
+    if not solver.pressures:
         return
     # under a flat punch many a mistake has no effect
-    problem = max(asked.known, key=lambda one: bool(np.ptp(one.gap)))
+    problem = max(solver.pressures, key=lambda candidate: bool(np.ptp(candidate.gap)))
     try:
-        last = [asked.answer(problem, asked.residual) for _ in range(3)]
+        last = [solver.answer(problem, solver.residual) for _ in range(3)]
     except UnansweredError as error:
         yield replace(unanswered("repeated call", problem, error), decides=not (error.late or error.unserved))
         return
-    steps = [after - before for before, after in pairwise([asked.known[problem], *last])]
-    off = max(apart(one, asked.known[problem]) for one in last)
+    steps = [after - before for before, after in pairwise([solver.pressures[problem], *last])]
+    off = max(relative_deviation(pressure, solver.pressures[problem]) for pressure in last)
     # random steps go to and fro: half of the square of each is taken back by the next
     going, squares = float((steps[1] * steps[2]).sum()), [float((step**2).sum()) for step in steps]
     random = going < -0.25 * math.sqrt(squares[1] * squares[2])
-    yield checked("repeated call", problem, off, 2 * asked.of_answer, RANDOM if random else STATE)
+    yield checked("repeated call", problem, off, 2 * solver.of_answer, RANDOM if random else STATE)
 
 
-def explained(asked: Asked, points: Sequence[JudgedNumber]) -> list[JudgedNumber]:
+def explained(solver: JudgedSolver, points: Sequence[JudgedNumber]) -> list[JudgedNumber]:
     """Each wrong point with the cause of its problem, where there is one."""
     contacts = dict[ContactProblem, JudgedContact]()
-    for problem, pressure in asked.known.items():
-        earlier = [(one.problem, one.pressure) for one in contacts.values()]
-        contacts[problem] = JudgedContact(problem, pressure, asked.by_force, asked.residual, earlier)
+    for problem, pressure in solver.pressures.items():
+        earlier = [(contact.problem, contact.pressure) for contact in contacts.values()]
+        contacts[problem] = JudgedContact(problem, pressure, solver.by_force, solver.residual, earlier)
 
     def tightened(problem: ContactProblem, factor: float) -> FloatArray | None:
         with suppress(UnansweredError):
-            return asked.answer(problem, factor * asked.residual)
+            return solver.answer(problem, factor * solver.residual)
         return None
 
-    causes = diagnosed(list(contacts.values()), tightened if "tolerance" in asked.solver.asks else lambda *_: None)
-    of = {place: causes.get(contacts[problem], "") for place, problem in asked.judged.items() if problem in contacts}
+    causes = diagnosed(list(contacts.values()), tightened if "tolerance" in solver.model.asks else lambda *_: None)
+    of = {place: causes.get(contacts[problem], "") for place, problem in solver.judged.items() if problem in contacts}
     commonest = Counter(causes.values()).most_common(1)
     # a call that is answered otherwise is a cause by itself
     state = next(
@@ -183,43 +187,43 @@ def explained(asked: Asked, points: Sequence[JudgedNumber]) -> list[JudgedNumber
     return [with_cause(point) for point in points]
 
 
-def convergence(asked: Asked, flat: KnownContact) -> Iterator[JudgedNumber]:
+def convergence(solver: JudgedSolver, flat: KnownContact) -> Iterator[JudgedNumber]:
     """The approach of a flat punch, or its force, goes to its limit with the cell size, to first order."""
     limit, errors = flat.limits[0, 0], []
-    finest = FINEST[0] if FINEST[0] ** 2 <= asked.cells else FINEST[1]
+    finest = FINEST[0] if FINEST[0] ** 2 <= solver.cells else FINEST[1]
     for cells in (COARSEST, finest):
-        one = replace(STATED[FLAT].on(cells), approach=limit)
-        p = asked.pressure(one)
-        found = one.left(p, True)[1] / limit if asked.by_force else one.force_of(p) / flat.force
-        errors.append(abs(found - 1))
+        problem = replace(STATED[FLAT].on(cells), approach=limit)
+        p = solver.pressure(problem)
+        value = problem.left(p, True)[1] / limit if solver.by_force else problem.force_of(p) / flat.force
+        errors.append(abs(value - 1))
     order = math.log(errors[0] / errors[1]) / math.log(finest / COARSEST) if min(errors) > 0 else math.nan
     yield checked("order of convergence", flat, order, NEXT_TERM, "the error does not fall with the cell size", 1.0)
 
 
-def timed(asked: Asked) -> Iterator[tuple[list[JudgedNumber], list[SolverTime]]]:
+def timed(solver: JudgedSolver) -> Iterator[tuple[list[JudgedNumber], list[SolverTime]]]:
     """Of a rough surface on grids that grow: conditions of what is timed, and seconds beside ours, one thread each, the
     same residual: medians."""
-    served = [problem for problem in problems() if problem.name in ROUGH]
-    known = [one for one in served if asked.solver.options["periodic" if one.periodic else "free"]][:1]
-    for cells, rough in product([cells for cells in GRIDS if cells**2 <= asked.cells], known):
+    rough_problems = [problem for problem in problems() if problem.name in ROUGH]
+    served = [rough for rough in rough_problems if solver.model.options["periodic" if rough.periodic else "free"]][:1]
+    for cells, rough in product([cells for cells in GRIDS if cells**2 <= solver.cells], served):
         name = f"{rough.name}, {cells} x {cells} cells"
         problem = replace(STATED[rough.name].on(cells), name=name, approach=rough.limits[0, 0])
-        load = {"force": problem.force} if asked.by_force else {"approach": problem.approach}
-        found: list[list[JudgedNumber]] = []
+        load = {"force": problem.force} if solver.by_force else {"approach": problem.approach}
+        runs: list[list[JudgedNumber]] = []
         seconds: list[tuple[float, float]] = []
-        while len(seconds) < RUNS and sum(mine for mine, _ in seconds) < LONGEST:
+        while len(seconds) < RUNS and sum(elapsed for elapsed, _ in seconds) < LONGEST:
             again = replace(problem)
             try:
-                _, mine = clocked(partial(asked.pressure, again))
+                _, elapsed = clocked(partial(solver.pressure, again))
             except UnansweredError as error:
                 point = unanswered("answer", problem, error)
                 yield [replace(point, decides=point.decides and not error.late)], []
                 return
-            _, ours = clocked(partial(pressed, problem, asked.residual, **load))
-            seconds.append((mine, ours))
-            found.append(list(conditions(asked, again)))
-        mine, ours = np.median(seconds, axis=0).tolist()
-        worst = max(found, key=lambda run: sum(point.verdict is not Verdict.WITHIN for point in run))
-        yield worst, [SolverTime(float(cells), mine, ours)]
-        if mine > LONGEST / 8:
+            _, ours = clocked(partial(pressed, problem, solver.residual, **load))
+            seconds.append((elapsed, ours))
+            runs.append(list(conditions(solver, again)))
+        elapsed, ours = np.median(seconds, axis=0).tolist()
+        worst = max(runs, key=lambda run: sum(point.verdict is not Verdict.WITHIN for point in run))
+        yield worst, [SolverTime(float(cells), elapsed, ours)]
+        if elapsed > LONGEST / 8:
             return

@@ -39,21 +39,21 @@ class UnansweredError(Exception):
 
 
 @dataclass(frozen=True, eq=False)
-class Asked:
+class JudgedSolver:
     """A solver with the residual that it names, under one kind of load; each problem is solved once.
 
     by: "force" or "approach"; without it by force where both are offered; judged: pressures that were judged by
     themselves, under the quantity and the name of the problem.
     """
 
-    solver: Caller
-    known: dict[ContactProblem, FloatArray] = field(default_factory=dict, repr=False)
+    model: Caller
+    pressures: dict[ContactProblem, FloatArray] = field(default_factory=dict, repr=False)
     by: str = ""
     judged: dict[tuple[str, str], ContactProblem] = field(default_factory=dict, repr=False)
 
     @property
     def residual(self) -> float:
-        return float(self.solver.options["residual"])
+        return float(self.model.options["residual"])
 
     @property
     def of_answer(self) -> float:
@@ -61,37 +61,37 @@ class Asked:
 
     @property
     def by_force(self) -> bool:
-        return self.by == "force" if self.by else "force" in self.solver.asks
+        return self.by == "force" if self.by else "force" in self.model.asks
 
     @property
     def cells(self) -> float:
         """The most of a grid that the solver declares to serve."""
-        return float(self.solver.options.get("cells", math.inf))
+        return float(self.model.options.get("cells", math.inf))
 
     def serves(self, problem: ContactProblem) -> bool:
         """Its half-space and its number of cells, and a load that determines the pressure."""
-        served = self.solver.options["periodic" if problem.periodic else "free"] and problem.gap.size <= self.cells
+        served = self.model.options["periodic" if problem.periodic else "free"] and problem.gap.size <= self.cells
         return bool(served) and (self.by_force or problem.is_determined_by_approach)
 
     def pressure(self, problem: ContactProblem) -> FloatArray:
         """Its answer [Pa]. Raises UnansweredError where there is none."""
-        if problem not in self.known:
-            self.known[problem] = self.answer(problem, self.residual)
-        return self.known[problem]
+        if problem not in self.pressures:
+            self.pressures[problem] = self.answer(problem, self.residual)
+        return self.pressures[problem]
 
     def answer(self, problem: ContactProblem, tolerance: float) -> FloatArray:
         """Of a call of its own. Raises UnansweredError as `pressure`."""
         if problem.gap.size > self.cells:
             raise UnansweredError(f"{NOT_SERVED}: more than the {self.cells:g} cells that it declares", unserved=True)
         other = {"approach" if self.by_force else "force": None}
-        found = self.solver.call(**vars(problem) | other, tolerance=tolerance)
-        if isinstance(found, Failed):
-            unserved = found.reason.startswith("raised NotImplementedError")
-            reason = f"{NOT_SERVED}: {found.reason}" if unserved else found.reason
-            raise UnansweredError(reason, found.late, unserved)
-        if not found.any():
+        pressure = self.model.call(**vars(problem) | other, tolerance=tolerance)
+        if isinstance(pressure, Failed):
+            unserved = pressure.reason.startswith("raised NotImplementedError")
+            reason = f"{NOT_SERVED}: {pressure.reason}" if unserved else pressure.reason
+            raise UnansweredError(reason, pressure.late, unserved)
+        if not pressure.any():
             raise UnansweredError("no pressure anywhere")
-        return found
+        return pressure
 
 
 def loads_of(model: Caller) -> list[str]:
@@ -122,25 +122,27 @@ def checked(
     )
 
 
-def apart(one: FloatArray, other: FloatArray) -> float:
-    """In L2, over the other; infinite where that is zero."""
-    norm = float(np.linalg.norm(other))
-    return float(np.linalg.norm(one - other)) / norm if norm else math.inf
+def relative_deviation(values: FloatArray, reference: FloatArray) -> float:
+    """In L2, relative to the reference; infinite where that is zero."""
+    norm = float(np.linalg.norm(reference))
+    return float(np.linalg.norm(values - reference)) / norm if norm else math.inf
 
 
 LEFT = {"force balance": "force not held", "tension": "negative pressures: p >= 0 is not held"}
 """What is said of a condition that is left."""
 
 
-def conditions(asked: Asked, problem: ContactProblem) -> Iterator[JudgedNumber]:
+def conditions(solver: JudgedSolver, problem: ContactProblem) -> Iterator[JudgedNumber]:
     """No tension, no pressure at a gap, no overlap, and a force that is held, by the operator that judges."""
-    left, _ = problem.left(asked.pressure(problem), asked.by_force)
-    asked.judged["", problem.name] = problem
+    left, _ = problem.left(solver.pressure(problem), solver.by_force)
+    solver.judged["", problem.name] = problem
     for name, value in left.items():
-        yield checked(name, problem, value, asked.residual, LEFT.get(name, "above the residual that it names"))
+        yield checked(name, problem, value, solver.residual, LEFT.get(name, "above the residual that it names"))
 
 
-def told(problem: ContactProblem, *, modulus: float = 1.0, length: float = 1.0, height: float = 1.0) -> ContactProblem:
+def rescaled(
+    problem: ContactProblem, *, modulus: float = 1.0, length: float = 1.0, height: float = 1.0
+) -> ContactProblem:
     """In other units, and over other heights: its pressure goes with modulus * height / length."""
     dx, dy = problem.spacing
     return replace(
@@ -184,17 +186,17 @@ class Same:
     first: Callable[[ContactProblem], ContactProblem] = lambda problem: problem
     served: tuple[bool, ...] = (False, True)
 
-    def __call__(self, asked: Asked, problem: ContactProblem) -> Iterator[JudgedNumber]:
+    def __call__(self, solver: JudgedSolver, problem: ContactProblem) -> Iterator[JudgedNumber]:
         if problem.periodic in self.served:
-            other = asked.judged[self.quantity, problem.name] = self.other(problem)
-            off = apart(self.back(asked.pressure(other)), asked.pressure(self.first(problem)))
-            yield checked(self.quantity, problem, off, 2 * asked.of_answer, "the pressure is another one")
+            other = solver.judged[self.quantity, problem.name] = self.other(problem)
+            off = relative_deviation(self.back(solver.pressure(other)), solver.pressure(self.first(problem)))
+            yield checked(self.quantity, problem, off, 2 * solver.of_answer, "the pressure is another one")
 
 
 SAME = (
-    Same("scaling in E", lambda problem: told(problem, modulus=3.0), lambda p: p / 3.0),
-    Same("scaling in length", lambda problem: told(problem, length=7.0, height=7.0), lambda p: p),
-    Same("scaling in height", lambda problem: told(problem, height=2.0), lambda p: p / 2.0),
+    Same("scaling in E", lambda problem: rescaled(problem, modulus=3.0), lambda p: p / 3.0),
+    Same("scaling in length", lambda problem: rescaled(problem, length=7.0, height=7.0), lambda p: p),
+    Same("scaling in height", lambda problem: rescaled(problem, height=2.0), lambda p: p / 2.0),
     Same("mirror", lambda problem: moved(problem, np.flipud), np.flipud),
     Same("transposition", lambda problem: moved(problem, np.transpose), np.transpose),
     Same("shift", lambda problem: moved(problem, rolled), lambda p: rolled(p, -1), served=(True,)),
@@ -203,19 +205,19 @@ SAME = (
 )
 
 
-def monotone(asked: Asked, problem: ContactProblem) -> Iterator[JudgedNumber]:
+def monotone(solver: JudgedSolver, problem: ContactProblem) -> Iterator[JudgedNumber]:
     """Contact and stiffness grow with the load."""
-    loads = [loaded(problem, part) for part in PARTS]
-    found = [asked.pressure(one) for one in loads]
-    lost = max(float(before[after <= 0].sum() / before.sum()) for before, after in pairwise(found))
+    steps = [loaded(problem, part) for part in PARTS]
+    pressures = [solver.pressure(step) for step in steps]
+    lost = max(float(before[after <= 0].sum() / before.sum()) for before, after in pairwise(pressures))
     yield checked("monotone area", problem, lost, SINGLE_CELLS, "the contact shrinks under more load")
-    force = np.array([one.force_of(p) for one, p in zip(loads, found, strict=True)])
-    approach = np.array([one.left(p, asked.by_force)[1] for one, p in zip(loads, found, strict=True)])
+    force = np.array([step.force_of(p) for step, p in zip(steps, pressures, strict=True)])
+    approach = np.array([step.left(p, solver.by_force)[1] for step, p in zip(steps, pressures, strict=True)])
     # compliances over that of the chord from the first touch: a full periodic contact has none
     with np.errstate(all="ignore"):  # the same pressure under every load
         first, second = np.diff(approach) / np.diff(force) * force[-1] / (approach[-1] - problem.gap.min())
     fall = max(second - first, -first, -second, 0.0)
-    yield checked("monotone stiffness", problem, fall, asked.of_answer, "it falls under more load")
+    yield checked("monotone stiffness", problem, fall, solver.of_answer, "it falls under more load")
 
 
 def served(has: "Property") -> tuple[bool, ...]:
@@ -223,7 +225,7 @@ def served(has: "Property") -> tuple[bool, ...]:
     return has.served if isinstance(has, Same) else (False, True)
 
 
-Property = Callable[[Asked, ContactProblem], Iterator[JudgedNumber]]
+Property = Callable[[JudgedSolver, ContactProblem], Iterator[JudgedNumber]]
 PROPERTIES: Mapping[str, Property] = {
     "conditions": conditions,
     **{same.quantity: same for same in SAME},
