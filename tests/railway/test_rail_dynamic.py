@@ -44,7 +44,7 @@ def test_the_claim_of_the_filter_follows_what_lifts_the_wheel_in_motion(factor, 
     assert claim.status is status
     assert ("; within tolerance only at 0 dB over ISO 3095" in claim.answer) is only
     shares = {
-        one.where["damping"]: [each.value for each in one.found] for one in series(result) if one.quantity == AIRBORNE
+        one.where["damping"]: [each.value for each in one.values] for one in series(result) if one.quantity == AIRBORNE
     }
     assert shares == {"none": pytest.approx([30]), "2 %": pytest.approx([10, 10])}
 

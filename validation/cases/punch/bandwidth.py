@@ -161,13 +161,13 @@ class Deviations:
     @cached_property
     def most(self) -> Mapping[str, int]:
         """Realisations of each method, in any band."""
-        counts = [(SAMPLE_OF.get(key[0], key[0]), len(found)) for key, found in self.result.found.items()]
+        counts = [(SAMPLE_OF.get(key[0], key[0]), len(found)) for key, found in self.result.by_key.items()]
         return {method: max(n for m, n in counts if m == method) for method, _ in counts}
 
     def column(self, method: str, name: float | str, band: int, level: int) -> FloatArray:
         """Under one force, or at one load of springs over an area; NaN for realisations that were not pressed."""
         column = np.full(self.most[SAMPLE_OF.get(method, method)], math.nan)
-        found = self.result.found.get((method, name, band))
+        found = self.result.by_key.get((method, name, band))
         if found is not None and level < found.shape[1]:
             column[: len(found)] = found[:, level]
         return column
@@ -233,7 +233,7 @@ class Deviations:
         """
         case, line, found = self.result.case, self.by_band(MDR, hurst, level), {}
         for i, band in enumerate(case.bands):
-            fractions = self.result.found.get((AREA, hurst, i))
+            fractions = self.result.by_key.get((AREA, hurst, i))
             if fractions is None:
                 continue
             wide = float(np.nanmean(self.column(BEM, hurst, i, level)))

@@ -26,7 +26,7 @@ ALIKE = Margin(DECIBEL * math.log(1.1), "10 %, the margin at which MDR is said t
 
 def series(result: Outcomes) -> list[Series]:
     """Raises NotConvergedError where too few surfaces have converged at one of the forces."""
-    pressed = [{"stiffness": rows} for (method, *_), rows in result.found.items() if method == BEM]
+    pressed = [{"stiffness": rows} for (method, *_), rows in result.by_key.items() if method == BEM]
     require_converged(pressed, result.unconverged)
     found = Deviations(result)
     return [*(one for hurst in result.case.hursts for one in _of(found, hurst)), *_changes(found)]

@@ -188,7 +188,7 @@ class PunchStatistics:
 
     def outcomes(self, hurst: float, method: str) -> dict[int, Outcome]:
         """By cells on a side, or springs, coarse to fine."""
-        return {size: found for (h, m, size), found in self.result.found.items() if (h, m) == (hurst, method)}
+        return {size: found for (h, m, size), found in self.result.by_key.items() if (h, m) == (hurst, method)}
 
     def on_grids(self, name: str, hurst: float, method: str, level: int) -> dict[int, FloatArray]:
         """What each realisation has under one force, on each grid where some were pressed; NaN for the others."""
@@ -247,7 +247,7 @@ class PunchStatistics:
 
     def require_converged(self) -> None:
         """Raises NotConvergedError where too few surfaces have converged at one of the forces."""
-        for (_, method, cells), outcome in self.result.found.items():
+        for (_, method, cells), outcome in self.result.by_key.items():
             if method == BEM:
                 pressed = [level for level, force in enumerate(self.case.forces) if cells in self.case.counts(force)]
                 require_converged([{"stiffness": outcome["stiffness"][:, pressed]}], self.result.unconverged)

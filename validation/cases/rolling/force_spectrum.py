@@ -312,9 +312,9 @@ def _inputs(case: ForceSpectrum) -> Iterator[Series]:
             mine, model = level_1d(spectrum, rule, case.bands), INPUT_NAMES[rule]
             decibels = partial(Series, model=model, where={SURFACE: name}, along=Q, scale=POWER_DECIBEL, unit="dB")
             found = np.log(mine[octaves].sum(axis=1) / exact[octaves].sum(axis=1))
-            yield decibels(INPUT, found=found, at=case.bands.centres[octaves[:, 1]], margin=margin)
+            yield decibels(INPUT, values=found, at=case.bands.centres[octaves[:, 1]], margin=margin)
             known = (mine > 0) & (exact > 0)
-            yield decibels(INPUT_LEVEL, found=np.log(mine[known] / exact[known]), at=case.bands.centres[known])
+            yield decibels(INPUT_LEVEL, values=np.log(mine[known] / exact[known]), at=case.bands.centres[known])
 
 
 def _spectrum(result: Outcomes, height: float) -> Iterator[Series]:

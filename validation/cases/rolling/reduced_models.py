@@ -106,10 +106,10 @@ def series(result: Outcomes) -> list[Series]:
     """Of each model over all strips, the smoothest first; over its work where these are roughest."""
     case, found = result.case, []
     for model in MODELS:
-        largest = [max(off(result, key, model).value for key in result.found if key[0] <= s) for s in case.slopes]
+        largest = [max(off(result, key, model).value for key in result.by_key if key[0] <= s) for s in case.slopes]
         found.append(Series(LARGEST, _named(model), np.array(largest), along=SLOPE, at=case.slopes))
-        found += [one for key in result.found for one in _of_strips(result, key, model)]
-    found += [one for key in result.found for one in _contact(result, key)]
+        found += [one for key in result.by_key for one in _of_strips(result, key, model)]
+    found += [one for key in result.by_key for one in _contact(result, key)]
     scene = load_wheel_scene("table_14_1")
     found.append(Series(TABLE_14_1, HEIGHT, (scene.rms / scene.approach,)))
     return [*found, Series(TABLE_14_1, SLOPE, (slope_ratio(scene.slope_along, scene),))]
@@ -129,8 +129,8 @@ def _of_strips(result: Outcomes, key: Key, model: str) -> Iterator[Series]:
     name, judge = _named(model), model == JUDGE
     single = partial(Series, model=name, where=_where(key))
     grid, error = GRID * off(result, key, COARSE).value, off(result, key, model)
-    yield single(OFF, found=(error,), grid=grid, unit="dB", margin=None if judge else BESIDE)
-    yield single(WORK, found=(work(result, key, model),))
+    yield single(OFF, values=(error,), grid=grid, unit="dB", margin=None if judge else BESIDE)
+    yield single(WORK, values=(work(result, key, model),))
     if not judge and key[0] == result.case.slopes[-1]:
         yield Series(AT_WORK, name, (error,), where=_where(key), along=WORK, at=(work(result, key, model),), unit="dB")
 

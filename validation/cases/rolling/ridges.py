@@ -105,7 +105,7 @@ def series(result: Outcomes) -> list[Series]:
     along_q = partial(Series, along=Q, at=q)
     numbers = [along_q(RESPONSE, EXACT, exact * q)]
     largest: dict[tuple[str, float], float] = {}
-    for method, n, prescribed in result.found:
+    for method, n, prescribed in result.by_key:
         if prescribed == "force":
             continue
         of_method, where = result[method, n, prescribed], {CELLS: n}

@@ -161,8 +161,8 @@ def coarse_springs(spacing: Mapping[float, Sequence[Outcome]]) -> Iterator[Serie
             for x in (level, linear, 1 + spread / math.sqrt(len(outcomes)))
         )
         left_open = [Estimate(*pair, CERTAIN) for pair in zip(decibels.tolist(), left.tolist(), strict=True)]
-        yield of("springs", found=left_open)
-        yield of(THEORY, found=by_theory)
+        yield of("springs", values=left_open)
+        yield of(THEORY, values=by_theory)
         if height > min(spacing):
             continue
         off = decibels - by_theory

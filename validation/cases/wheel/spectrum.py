@@ -164,7 +164,7 @@ def levels_over_linear(spectrum: features.Spectrum) -> list[Series]:
     centres = np.sqrt(edges[1:] * edges[:-1])
     place: Where = {"region": features.THIRD}
     over = partial(decibels, features.LEVEL, "springs over linear theory", where=place, along=features.OMEGA)
-    return [over(found=found, at=centres, margin=OVER_LINEAR)]
+    return [over(values=found, at=centres, margin=OVER_LINEAR)]
 
 
 def _identities(batches: list[Outcome]) -> Iterator[Series]:

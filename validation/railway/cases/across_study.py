@@ -34,7 +34,7 @@ def tables(result: AcrossResult) -> tuple[Table, ...]:
     for one in _smooth(result, across.WEIGHTED):
         if one.where[WHEEL] == wheel:
             rows.setdefault(one.model, {"model": one.model})[str(one.where[GROUND])] = " / ".join(
-                f"{round(_value(found), 1) + 0.0:+.1f}" for found in one.found
+                f"{round(_value(found), 1) + 0.0:+.1f}" for found in one.values
             )
     return table_of(LOUDER, list(rows.values())), *_borders(result), _stands(result), _lacking(result)
 
@@ -51,7 +51,7 @@ def _borders(result: AcrossResult) -> Iterator[Table]:
     rows: dict[object, dict[str, object]] = {}
     for one in _smooth(result, across.BORDER):
         row = rows.setdefault(one.where[WHEEL], {WHEEL: one.where[WHEEL]})
-        of_ways = zip(one.at, one.found, strict=True)
+        of_ways = zip(one.at, one.values, strict=True)
         row.update({f"{tolerance:g} dB {one.model}": _border(alpha) for tolerance, alpha in of_ways})
     if rows:
         yield table_of(BORDERS, list(rows.values()))
@@ -88,7 +88,7 @@ def _stands(result: AcrossResult) -> Table:
 def _of_wheels(result: AcrossResult, quantity: str) -> Found:
     found: Found = {}
     for one in _smooth(result, quantity):
-        found.setdefault((one.model, str(one.where[GROUND])), []).append(_value(one.found[0]))
+        found.setdefault((one.model, str(one.where[GROUND])), []).append(_value(one.values[0]))
     return found
 
 
@@ -113,9 +113,9 @@ def notes(result: AcrossResult) -> list[str]:
     said = []
     for way in across.WAYS:
         if mine := [one for one in _smooth(result, across.BORDER) if one.model == way]:
-            near, far = (_by_wheel([one.found[i] for one in mine]) for i in (0, 1))
+            near, far = (_by_wheel([one.values[i] for one in mine]) for i in (0, 1))
             said.append(f"One line is within 1 dB {way} up to alpha = {near}; within 2 dB up to {far}.")
-    if alike := [one.found[0] for one in _smooth(result, across.NEAREST) if one.model == across.ALIKE]:
+    if alike := [one.values[0] for one in _smooth(result, across.NEAREST) if one.model == across.ALIKE]:
         said.append(f"The alpha whose contact filter is nearest to that of isotropic ground is {_by_wheel(alike)}.")
     return said
 

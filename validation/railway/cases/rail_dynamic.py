@@ -161,7 +161,7 @@ def series(result: RailDynamicResult) -> list[Series]:
     """Ratios of filters by offset, and the time without contact by damping."""
     case, airborne = result.case, []
     for damping in sorted((case.damping, *case.others)):
-        at = [offset for offset, *key in result.found if key == [damping, BEM, FINE]]
+        at = [offset for offset, *key in result.by_key if key == [damping, BEM, FINE]]
         shares = [np.array([100 * float(one["airborne"]) for one in result[o, damping, BEM, FINE]]) for o in at]
         where = {DAMPING: in_per_cent(damping) if damping else "none"}
         found = [mean_estimate(share) for share in shares]
