@@ -18,13 +18,13 @@ STYLES = (
 class Curve:
     """Rows of a table as a curve.
 
-    quantity: the table; model: one or several, all where empty; style: one of `STYLES`, over that of the model;
-    label: by default the values, or the model, "_" for none; by: columns, a curve for each value of them, dark to light
-    in their order but for models; of: values that other columns have, "first" for the first of its model, "first of
-    all" for that of the table; bars, band: whether intervals are drawn; down: from curve to curve; apart: from marker
-    to marker, of the diagonal of the panel, all markers where zero; beside: x of a curve with bars over that of the
-    last one, on a logarithmic axis; upright: whether the values are places on the horizontal axis, drawn as lines
-    across the panel, without a label by the names of their models.
+    quantity: the table; model: one or several, all where empty; style: one of `STYLES`, over that of the model; label:
+    by default the values, or the model, "_" for none; by: columns, a curve for each value of them, dark to light in
+    their order but for models; of: values that other columns have, "first" for the first of its model, "first of all"
+    for that of the table; bars, band: whether intervals are drawn; down: from curve to curve; marker_spacing: from
+    marker to marker, of the diagonal of the panel, all markers where zero; x_factor: x of a curve with bars over that
+    of the last one, on a logarithmic axis; upright: whether the values are places on the horizontal axis, drawn as
+    lines across the panel, without a label by the names of their models.
     """
 
     quantity: str
@@ -37,14 +37,14 @@ class Curve:
     bars: bool = False
     band: bool = False
     down: float = 0.0
-    apart: float = 0.0
-    beside: float = 1.03
+    marker_spacing: float = 0.0
+    x_factor: float = 1.03
     upright: bool = False
 
     def __post_init__(self) -> None:
         if self.style not in STYLES:
-            known = ", ".join(map(repr, STYLES))
-            raise ValueError(f"style of {self.quantity!r} must be one of {known}, got {self.style!r}")
+            names = ", ".join(map(repr, STYLES))
+            raise ValueError(f"style of {self.quantity!r} must be one of {names}, got {self.style!r}")
 
 
 def by_model(quantity: str, styles: Mapping[str, str], *, bars: bool = False) -> tuple[Curve, ...]:

@@ -206,7 +206,7 @@ class Deviations:
     def ratio(self, hurst: float, level: int) -> dict[int, Resolved]:
         """MDR over boundary elements."""
         springs, bem = (self.resolved(method, hurst, level) for method in (MDR, BEM))
-        return {i: springs[i].beside(one) for i, one in bem.items()}
+        return {i: springs[i].minus_independent(one) for i, one in bem.items()}
 
     def slope(self, hurst: float, level: int) -> Resolved:
         """d ln ratio / d log10(q_max / q_min) by generalised least squares: a change that few surfaces tell counts
@@ -239,7 +239,7 @@ class Deviations:
             wide = float(np.nanmean(self.column(BEM, hurst, i, level)))
             if band.waves > (wide / case.forces[level]) ** (1 / hurst):
                 load = nearest(fractions.mean(axis=0).tolist(), wide**2)
-                found[i] = line[i].beside(self.by_band(AREA, hurst, load)[i])
+                found[i] = line[i].minus_independent(self.by_band(AREA, hurst, load)[i])
         return found
 
     def of_roll_off(self, level: int) -> Linearised:
@@ -247,7 +247,7 @@ class Deviations:
         case = self.result.case
         hurst, band = case.rolled.hurst, case.roll_off[1]
         plain, rolled = (
-            self.by_band(MDR, name, level)[band].beside(self.by_band(BEM, name, level)[band])
+            self.by_band(MDR, name, level)[band].minus_independent(self.by_band(BEM, name, level)[band])
             for name in (hurst, ROLL_OFF)
         )
         return rolled - plain

@@ -95,7 +95,7 @@ def _from_to(logarithms: list[float]) -> str:
     return f"{ends} times (mean {math.exp(sum(logarithms) / len(logarithms)):.2f})"
 
 
-at_bandwidth = partial(Curve, by=(BANDWIDTH,), beside=1.06)
+at_bandwidth = partial(Curve, by=(BANDWIDTH,), x_factor=1.06)
 STUDY = Study(
     title="Bandwidth: is MDR noisier than the half-space however wide the band is?",
     method=(

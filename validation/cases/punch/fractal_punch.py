@@ -228,12 +228,12 @@ class PunchStatistics:
         Minus infinity where no profile of springs deviates from another, as in full contact; NaN where no surface does.
         """
         springs, bem = (self.at(hurst, one, statistic, level) for one in (method, BEM))
-        return springs.beside(bem)
+        return springs.minus_independent(bem)
 
     def counted(self, hurst: float, method: str, level: int) -> Resolved:
         """The ratio of the deviations as it is judged, by `RULE`."""
         springs, bem = (at_least(self.at(hurst, one, DEVIATION, level)) for one in (method, BEM))
-        return springs.beside(bem)
+        return springs.minus_independent(bem)
 
     def exponent(self, hurst: float, method: str, before: int, after: int) -> Resolved:
         """d ln k / d ln F of the mean stiffness from one level of force to another."""

@@ -73,7 +73,7 @@ def compared(found: shown.PunchStatistics, hurst: float) -> Iterator[Series]:
             yield judged(name, OVER, values, grid=grid, margin=margin, counted=as_judged)
     bem = [found.at(hurst, BEM, MEAN, level) for level in range(len(case.forces))]
     of_fit = [Linearised(math.log(fitted(case, force)), np.zeros(1)) for force in case.forces]
-    apart = [mine.beside(one.value) for mine, one in zip(of_fit, bem, strict=True)]
+    apart = [mine.minus_independent(one.value) for mine, one in zip(of_fit, bem, strict=True)]
     yield judged(
         MEAN, FIT, apart, grid=[one.grid for one in bem], margin=LEVEL, ranges=spans(case.forces, HEAVY), fewest=2
     )
@@ -93,7 +93,7 @@ def exponents(found: shown.PunchStatistics, hurst: float) -> Iterator[Series]:
     steep, flat = max(PUBLISHED), min(PUBLISHED)
     for first in case.first_forces:
         springs, bem = (found.exponent(hurst, method, *case.decade(first)) for method in (MDR, BEM))
-        apart = springs.beside(bem)
+        apart = springs.minus_independent(bem)
         place: dict[str, Place] = {shown.H: hurst, FORCE: (first, 10 * first)}
         yield Series(EXPONENT, LESS, (apart.value,), where=place, grid=[apart.grid], margin=DIGITS)
         if first == tested:

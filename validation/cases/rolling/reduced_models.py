@@ -98,7 +98,7 @@ WORK, AT_WORK = Quantity("work_over_springs_on_a_line"), Quantity("rms_over_octa
 TABLE_14_1 = Quantity("wheel_of_Table_14.1")
 GRID = 1 / 3
 """Error of a grid over its change to half of the cells, of second order."""
-BESIDE = REPEATABLE.beside("boundary elements on the same strips, all cells")
+BESIDE = REPEATABLE.with_source("boundary elements on the same strips, all cells")
 TENTH = Margin(0.1, "0.1: a tenth of the contact", source="the first spectrum at the same h' a/d")
 
 

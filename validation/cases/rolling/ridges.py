@@ -179,11 +179,11 @@ STUDY = Study(
             f"one-sided springs. (b) Errors over the envelope; dotted: an edge {EDGE:g} of a cell out of place.",
             Panel(Q, f"{RESPONSE}, over 2 E* a", title="amplitude and sign", log="", ylim=(-1.2, 1.6)).of(
                 Curve(RESPONSE, EXACT),
-                Curve(RESPONSE, BEM, "marks", of=FINEST, apart=0.03),
-                Curve(RESPONSE, SPRINGS, "around", "springs", of=FINEST, apart=0.03),
+                Curve(RESPONSE, BEM, "marks", of=FINEST, marker_spacing=0.03),
+                Curve(RESPONSE, SPRINGS, "around", "springs", of=FINEST, marker_spacing=0.03),
             ),
             Panel(Q, ERROR, title="errors", log="xy", ylim=(1e-7, 1)).of(
-                Curve(ERROR, BEM, "marks", by=BY_CELLS, apart=0.03),
+                Curve(ERROR, BEM, "marks", by=BY_CELLS, marker_spacing=0.03),
                 Curve(BOUND, BEM, "dotted", "_", by=BY_CELLS),
                 Curve(ERROR, SPRINGS, "lines", by=BY_CELLS),
             ),

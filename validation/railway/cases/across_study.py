@@ -177,7 +177,7 @@ STUDY = Study(
                 downward=True,
             ).of(
                 Curve(A3, LINEAR, "lines", "_", by=(GROUND,), of=OF_FIRST),
-                Curve(A3, BEM, "marks", "_", by=(GROUND,), of=OF_FIRST, bars=True, beside=1.0),
+                Curve(A3, BEM, "marks", "_", by=(GROUND,), of=OF_FIRST, bars=True, x_factor=1.0),
                 Curve(A3, across.TABLE, "crosses", "CNOSSOS-EU", of={WHEEL: "first of all"}),
             ),
             Panel("alpha", across.OFF, title="one line", shade=(-1, 1), ylim=(-1.2, 9)).of(

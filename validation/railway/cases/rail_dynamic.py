@@ -180,7 +180,7 @@ def _ratios(result: RailDynamicResult, offset: float) -> Iterator[Series]:
         (BESIDE, SPRINGS_OVER_BEM, (SPRINGS_THAT_READ, "moving"), moving, "boundary elements, same strips"),
     ):
         found, grid = masked(result.over(offset, mine, other), result.judged), result.left_by_grid(mine, other)
-        yield in_bands(quantity, model, found, where={OFFSET: offset}, grid=grid, margin=IN_RMS.beside(source))
+        yield in_bands(quantity, model, found, where={OFFSET: offset}, grid=grid, margin=IN_RMS.with_source(source))
 
 
 STUDY = Study(
