@@ -74,7 +74,7 @@ def steps(*values, error=0.01, n=50):
 
 
 def compared(bem, springs, *, name=MEAN_STIFFNESS, among=4):
-    apart = on_finest(list(springs.values())).beside(on_no_size(list(bem.values())))
+    apart = on_finest(list(springs.values())).minus_independent(on_no_size(list(bem.values())))
     return number_of(apart, name, among)
 
 
@@ -129,15 +129,15 @@ def test_grid_errors_of_fig_14_1_never_cancel(weights, left):
         assert combined(weights, parts).grid == pytest.approx(left)
 
 
-def beside_with_its_sign(one, other):
-    return statistics.Resolved(one.value.beside(other.value), abs(one.grid - other.grid))
+def difference_with_its_sign(one, other):
+    return statistics.Resolved(one.value.minus_independent(other.value), abs(one.grid - other.grid))
 
 
 @catches("grid errors of Fig. 14.1 that cancel in an exponent").at(
     "validation.cases.punch.fractal_punch.combined", cancelled
 )
 @catches("grid errors of two methods that cancel").at(
-    "validation.analysis.statistics.Resolved.beside", beside_with_its_sign
+    "validation.analysis.statistics.Resolved.minus_independent", difference_with_its_sign
 )
 def test_grid_errors_of_an_exponent_a_trend_and_a_ratio_add_up():
     """The same grid error at both ends of a decade, at all Hurst exponents and in both methods."""
@@ -150,11 +150,11 @@ def test_grid_errors_of_an_exponent_a_trend_and_a_ratio_add_up():
         # slope of least squares over 0.4, 0.7, 1: weights -1 / 0.6, 0, 1 / 0.6
         assert found.trend(MDR, 0).grid == pytest.approx(0.02 / 0.6)
     for name, scale in ((MEAN_STIFFNESS, DECIBEL), (study.EXPONENT, 1.0)):
-        assert number_of(resolved(0.03).beside(resolved(0.05)), name).grid == pytest.approx(scale * 0.08)
+        assert number_of(resolved(0.03).minus_independent(resolved(0.05)), name).grid == pytest.approx(scale * 0.08)
 
 
 @catches("profiles and surfaces taken for the same realisations").at(
-    "validation.analysis.statistics.Linearised.beside", lambda mine, other: mine - other
+    "validation.analysis.statistics.Linearised.minus_independent", lambda mine, other: mine - other
 )
 def test_the_sample_interval_of_fig_14_1():
     """Root of the sum of squares of surfaces and profiles, at once for all forces of the decade."""

@@ -117,9 +117,9 @@ def test_values_from_the_same_realisations_share_their_errors():
     x = multilevel_moments([rng.standard_normal(100) + 3])[0].mean
     assert (x - x).error == 0
     assert (x + x).error == pytest.approx(2 * x.error)
-    assert x.beside(x).error == pytest.approx(math.sqrt(2) * x.error)
+    assert x.minus_independent(x).error == pytest.approx(math.sqrt(2) * x.error)
     assert weighted_sum([0.25, 0.75], [x, x]).error == pytest.approx(x.error)
-    assert x.beside(2.0 * x).value == pytest.approx(-x.value)
+    assert x.minus_independent(2.0 * x).value == pytest.approx(-x.value)
 
 
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])

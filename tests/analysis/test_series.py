@@ -126,7 +126,7 @@ def test_a_series_has_a_value_at_each_point():
 
 
 def test_what_is_exact_has_no_sample_and_an_absolute_margin_knows_no_scale():
-    margin = Margin(tolerance=0.3, reason="r").beside("theory")
+    margin = Margin(tolerance=0.3, reason="r").with_source("theory")
     (exact,) = Series("x", "m", (2.0,), reference=1.0, scale=5.0, grid=0.1, margin=margin).numbers
     assert (exact.value, exact.reference, exact.sample, exact.grid) == (10.0, 5.0, 0.0, 0.5)
     assert (exact.tolerance, exact.source) == (0.3, "theory")

@@ -141,7 +141,7 @@ def with_rows(result, *changes):
         [{**row, **change.get(row["solver"], {})} for row in rows]
         for rows, change in zip(result["problems"], changes, strict=True)
     ]
-    return dataclasses.replace(result, found={**result.found, "problems": changed})
+    return dataclasses.replace(result, by_key={**result.by_key, "problems": changed})
 
 
 @pytest.mark.slow

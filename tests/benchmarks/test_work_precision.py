@@ -147,7 +147,7 @@ def test_three_dimensions_cost_hours_and_not_days(result, found):
     np.testing.assert_allclose(table["Fig. 14.4 [h]"], table["one metre [s]"] * 0.65 * 4 / 3600)
     assert found.claims[-1].status == "refuted"
     days = dict(table.columns, **{name: [1.0, 50.0] for name in figure_cost.HOURS})
-    slow = dataclasses.replace(result, found={**result.found, "cost": Table(figure_cost.COST_OF_STEPS, days)})
+    slow = dataclasses.replace(result, by_key={**result.by_key, "cost": Table(figure_cost.COST_OF_STEPS, days)})
     assert CASE.evidence(slow).claims[-1].status == "supported"
 
 

@@ -16,7 +16,7 @@ NOTHING = MappingProxyType({})
 
 def changed(result, found=NOTHING, **more):
     """With other outcomes under some keys."""
-    return replace(result, found={**result.found, **found, **more})
+    return replace(result, by_key={**result.by_key, **found, **more})
 
 
 def times(outcomes, factor, *names):

@@ -42,7 +42,7 @@ def test_a_wheel_in_three_dimensions_is_judged_by_the_worst_band_of_each_range()
     (linear, _) = numbers_with(numbers_of(series), half_space_study.LEVEL, half_space.OVER_BEM[half_space.LINEAR_3D])
     assert linear.sample == pytest.approx(POWER_DECIBEL * 0.05 * student(5, 1 - 0.05 / (3 * 2)))
     (shown,) = (one for one in series if (one.quantity, one.model) == (half_space_study.LEVELS, half_space.GEIKE))
-    np.testing.assert_allclose(shown.found, over.values + levels.bem)
+    np.testing.assert_allclose(shown.values, over.values + levels.bem)
 
 
 def test_models_are_taken_over_boundary_elements_as_loud_as_their_strips():

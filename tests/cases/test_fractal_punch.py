@@ -180,7 +180,8 @@ def numbers(evidence, name):
 
 
 @catches("no grid error").at(
-    "validation.analysis.statistics.Resolved.beside", lambda one, other: Resolved(one.value.beside(other.value), 0.0)
+    "validation.analysis.statistics.Resolved.minus_independent",
+    lambda a, b: Resolved(a.value.minus_independent(b.value), 0.0),
 )
 @catches("no extrapolation").at("validation.cases.punch.fractal_punch.on_no_size", statistics.on_finest)
 def test_a_change_of_the_grid_is_extrapolated_and_leaves_its_error_bar():

@@ -102,7 +102,7 @@ shown = limits.shown
 
 def no_less_than_the_panel_shows(sweep):
     for one in shown(sweep):
-        yield Series(one.quantity, one.model, [max(x, 0.04) for x in one.found], along=one.along, at=one.at)
+        yield Series(one.quantity, one.model, [max(x, 0.04) for x in one.values], along=one.along, at=one.at)
 
 
 @catches("the floor of a panel in the data").at("validation.cases.limits.limits.shown", no_less_than_the_panel_shows)
@@ -162,7 +162,7 @@ def test_a_filter_that_is_off_in_the_first_band_reaches_no_wave(monkeypatch):
             "over_linear",
             lambda _, key, model, off=off: Estimates.exact(np.zeros(bands) if model == across.BEM else off),
         )
-        found = [one.found[0] for one in across._over_bem(CROSSING, KEY) if one.quantity == across.REACH]
+        found = [one.values[0] for one in across._over_bem(CROSSING, KEY) if one.quantity == across.REACH]
         assert found and np.isfinite(found).all() == reach
         at = across.filters.millimetres(across.strip_bands(CROSSING.case.scene(KEY)))
         assert not reach or set(found) == {at[2]}
@@ -211,7 +211,7 @@ def test_a_step_that_turns_by_no_angle_has_no_period():
     found = {"angle": np.array([0.5, 0.0, 1.6]), "growth": np.ones(3), "change": np.zeros(3)}
     first, *_ = wheel_stability.linear_vibration("velocity Verlet", x, found)
     assert first.quantity == wheel_stability.PERIOD
-    assert first.found.tolist() == pytest.approx([0.0, math.nan, 1 - 1.5 / 1.6], nan_ok=True)
+    assert first.values.tolist() == pytest.approx([0.0, math.nan, 1 - 1.5 / 1.6], nan_ok=True)
 
 
 def test_a_band_without_a_line_takes_the_largest_change_of_the_solver(monkeypatch):

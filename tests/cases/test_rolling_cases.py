@@ -192,7 +192,7 @@ def test_a_strip_that_was_lost_counts_in_nothing(rolled):
 def test_ridges_agree_and_a_lost_factor_does_not():
     result = ridges.run(ridges.RollingOverRidges(length=20, shortest=6.0, cells=(6, 8), springs=(8.5, 16.5)))
     # the phase counts as much as the amplitude
-    responses = ({key: factor * r for key, r in result.found.items()} for factor in (1.0, 0.5, np.exp(0.3j)))
+    responses = ({key: factor * r for key, r in result.by_key.items()} for factor in (1.0, 0.5, np.exp(0.3j)))
     whole, halved, turned = (
         [n.model for n in judged(ridges.CASE, changed(result, one)) if not n.met] for one in responses
     )

@@ -215,7 +215,7 @@ def test_the_border_of_one_line_is_where_linear_theory_passes_the_tolerance_less
             for series in across._of_wheel(rolled(beyond), WHEEL)
             if series.quantity == across.BORDER
         }
-        (alpha, *_) = borders[across.WAYS[0]].found
+        (alpha, *_) = borders[across.WAYS[0]].values
         assert alpha.value == pytest.approx(low, rel=0.01)
         # 0.4 dB of the grid and 0.07 of the sample
         assert 0.05 < alpha.half_width < 0.2
@@ -249,7 +249,7 @@ def test_forces_in_decibel_a_are_beside_those_of_boundary_elements():
     bands, a3 = scene.levels.bands, filters.linear_filter(scene, LINEAR, "ridges")
     louder = 0.5 * np.isin(bands.numbers, strip_bands(scene).numbers)
     (linear,) = (series for series in across._weighted(result, key) if series.model == LINEAR)
-    for speed, interval in zip((80, 200), linear.found, strict=True):
+    for speed, interval in zip((80, 200), linear.values, strict=True):
         f = speed / 3.6 / bands.wavelengths
         gain = 12194**2 * f**4 / ((f**2 + 20.6**2) * (f**2 + 12194**2))
         gain /= np.sqrt((f**2 + 107.7**2) * (f**2 + 737.9**2))

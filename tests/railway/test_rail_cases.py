@@ -74,7 +74,7 @@ def test_mean_of_heights_over_ridges_is_one_line_and_over_isotropic_ground_less(
     """Of three lines 10 mm apart, at 16 mm, by the mean of cos(k_y y) over isotropic waves: a plain sum over k_y."""
     case = rough_rail.RoughRail()
     by_place = {tuple(series.where.values()): series for series in rough_rail.means_of_lines(case) if series.where}
-    np.testing.assert_allclose(by_place[rough_rail.RIDGES, 10.0].found, 0.0, atol=1e-9)
+    np.testing.assert_allclose(by_place[rough_rail.RIDGES, 10.0].values, 0.0, atol=1e-9)
     over_isotropic, scene = by_place[rough_rail.GROUND, 10.0], case.scene(case.keys[0])
     c2d = IsotropicGround(line_of(scene)).c2d
     at = over_isotropic.at.tolist().index(16.0)
@@ -84,7 +84,7 @@ def test_mean_of_heights_over_ridges_is_one_line_and_over_isotropic_ground_less(
     density = c2d(np.hypot(k_x, k_y)) * k_x
     mean = (1 + 2 * np.cos(0.01 * k_y)) / 3
     expected = 10 * np.log10(np.sum(density * mean**2) / np.sum(density))
-    assert over_isotropic.found[at] == pytest.approx(expected, abs=0.1)
+    assert over_isotropic.values[at] == pytest.approx(expected, abs=0.1)
     assert expected < -3
 
 

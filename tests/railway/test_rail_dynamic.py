@@ -44,7 +44,7 @@ def test_the_claim_of_the_filter_follows_what_lifts_the_wheel_in_motion(factor, 
     assert claim.status is status
     assert ("; within tolerance only at 0 dB over ISO 3095" in claim.answer) is only
     shares = {
-        airborne.where["damping"]: [each.value for each in airborne.found]
+        airborne.where["damping"]: [each.value for each in airborne.values]
         for airborne in series(result)
         if airborne.quantity == AIRBORNE
     }

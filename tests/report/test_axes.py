@@ -140,8 +140,8 @@ def allowed(case, panel, facet):
         for row in chosen(case, curve, facet) if not curve.upright else ():
             both = (number(row[panel.x]), number(row["value"]))
             x, y = (max(value, least) for value, least in zip(both, panel.least, strict=True))
-            beside = curve.beside if curve.bars and "x" in panel.log else 1.0
-            points += [(x * beside**i, y - i * curve.down) for i in range(FAMILIES if beside > 1 or curve.down else 1)]
+            factor = curve.x_factor if curve.bars and "x" in panel.log else 1.0
+            points += [(x * factor**i, y - i * curve.down) for i in range(FAMILIES if factor > 1 or curve.down else 1)]
     return np.array(points).reshape(-1, 2)
 
 

@@ -62,7 +62,10 @@ def test_each_model_has_its_style_and_bars_where_it_has_an_interval():
 
 def test_markers_are_apart_and_ticks_are_plain_numbers_at_the_values_or_of_few_decades():
     (axis,) = drawn(
-        Curve("level", "bem", "black", "b", of={"h/d": "first"}, apart=0.1), ticked=True, log="xy", ylim=(0.3, 3)
+        Curve("level", "bem", "black", "b", of={"h/d": "first"}, marker_spacing=0.1),
+        ticked=True,
+        log="xy",
+        ylim=(0.3, 3),
     )
     assert axis.lines[0].get_markevery() == 0.1
     ticks = [[label.get_text() for label in labels()] for labels in (axis.get_xticklabels, axis.get_yticklabels)]

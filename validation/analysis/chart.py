@@ -38,9 +38,9 @@ class Curve:
         Whether 95 % intervals are drawn, as bars or as a band.
     down : float
         How much each curve of a family is drawn below the one before, in the unit of the vertical axis.
-    apart : float
+    marker_spacing : float
         From marker to marker, as a fraction of the diagonal of the panel; 0 for a marker at each point, at 15 of many.
-    beside : float
+    x_factor : float
         Factor by which each curve with bars is moved along a logarithmic axis from the one before.
     upright : bool
         Whether the values are places on the horizontal axis, drawn as vertical lines across the panel, named by
@@ -69,14 +69,14 @@ class Curve:
     bars: bool = False
     band: bool = False
     down: float = 0.0
-    apart: float = 0.0
-    beside: float = 1.03
+    marker_spacing: float = 0.0
+    x_factor: float = 1.03
     upright: bool = False
 
     def __post_init__(self) -> None:
         if self.style not in STYLES:
-            known = ", ".join(map(repr, STYLES))
-            raise ValueError(f"style of {self.quantity!r} must be one of {known}, got {self.style!r}")
+            names = ", ".join(map(repr, STYLES))
+            raise ValueError(f"style of {self.quantity!r} must be one of {names}, got {self.style!r}")
 
 
 def by_model(quantity: str, styles: Mapping[str, str], *, bars: bool = False) -> tuple[Curve, ...]:

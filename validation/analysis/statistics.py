@@ -220,7 +220,7 @@ class Linearised:
     def __rmul__(self, factor: float) -> "Linearised":
         return Linearised(factor * self.value, factor * self.influence)
 
-    def beside(self, other: "Linearised") -> "Linearised":
+    def minus_independent(self, other: "Linearised") -> "Linearised":
         """The difference to a value from other, independent realisations."""
         return Linearised(self.value - other.value, np.concatenate([self.influence, -other.influence]))
 
@@ -264,9 +264,9 @@ class Resolved:
     value: Linearised
     grid: float
 
-    def beside(self, other: "Resolved") -> "Resolved":
+    def minus_independent(self, other: "Resolved") -> "Resolved":
         """The difference to a value from other realisations; grid errors add up as if they went the same way."""
-        return Resolved(self.value.beside(other.value), self.grid + other.grid)
+        return Resolved(self.value.minus_independent(other.value), self.grid + other.grid)
 
 
 def on_no_size(grids: Sequence[Linearised]) -> Resolved:

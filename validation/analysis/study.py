@@ -144,8 +144,8 @@ class Outcomes:
     """Outcomes by the keys that the case has given them."""
 
     case: Any
-    found: Mapping[Any, Any]
+    by_key: Mapping[Any, Any]
     unconverged: tuple[str, ...] = ()
 
     def __getitem__(self, key: Any) -> Any:
-        return self.found[key]
+        return self.by_key[key]

@@ -130,7 +130,9 @@ def test_a_contact_solver_has_the_property(asked: list[JudgedSolver], name: str)
     def example() -> None:
         with suppress(UnansweredError):
             for _ in range(2):
-                JudgedSolver(solver.model).pressure(replace(sphere, approach=float(sphere.gap.mean() + sphere.gap.min()) / 2))
+                JudgedSolver(solver.model).pressure(
+                    replace(sphere, approach=float(sphere.gap.mean() + sphere.gap.min()) / 2)
+                )
 
     settings_for(example)(given(contacts(half_spaces, solver.cells))(holds))()
     if unserved and not answers:

@@ -234,7 +234,7 @@ def _limits(axis: Axes, panel: Panel) -> None:
     if panel.ylim:
         axis.set_ylim(*panel.ylim)
     if panel.ticked:
-        tick(axis, _apart(np.unique(np.concatenate([line.get_xdata() for line in lines]))))
+        tick(axis, _separate_ticks(np.unique(np.concatenate([line.get_xdata() for line in lines]))))
     elif "x" in panel.log and max(axis.get_xlim()) < LARGE:
         tick(axis, _round(*sorted(axis.get_xlim())))
     if "y" in panel.log and axis.get_ylim()[1] < FEW_DECADES * axis.get_ylim()[0]:
@@ -257,7 +257,7 @@ def _round(low: float, high: float) -> list[float]:
     return found
 
 
-def _apart(values: np.ndarray) -> list[float]:
+def _separate_ticks(values: np.ndarray) -> list[float]:
     """Without those of curves that are moved aside."""
     kept: list[float] = []
     for value in values.tolist():
@@ -326,15 +326,15 @@ def _curve(
     if curve.style == "interval":
         axis.fill_between(x, low, high, color=style["color"], alpha=0.2, linewidth=0, label=label)
         return
-    if curve.apart or (y.size > FEW and not curve.bars and style["linestyle"] != "none"):
-        style["markevery"] = curve.apart or max(y.size // FEW, 1)
+    if curve.marker_spacing or (y.size > FEW and not curve.bars and style["linestyle"] != "none"):
+        style["markevery"] = curve.marker_spacing or max(y.size // FEW, 1)
     if curve.bars and np.any(high > low):
         # down to nothing: on a logarithmic axis a decade
         down_to = np.where(np.asarray(mine["low"]) > above, low, 0.1 * y)
         bars = [np.nan_to_num(y - down_to), np.nan_to_num(high - y)]
         # moved a little, so that intervals stand side by side
-        beside = curve.beside**i if "x" in panel.log else 1.0
-        axis.errorbar(beside * x, y - down, yerr=bars, label=label, **style, **BARS)
+        factor = curve.x_factor**i if "x" in panel.log else 1.0
+        axis.errorbar(factor * x, y - down, yerr=bars, label=label, **style, **BARS)
     else:
         axis.plot(x, y - down, label=label, **style)
     if curve.band:

@@ -87,8 +87,8 @@ def mean_power_of_cosine(n: int) -> float:
 SPECTRA = (
     Curve(SPECTRUM, GEIKE, "black", "Geike, π q C_2D"),
     Curve(SPECTRUM, LINE, "dashed"),
-    Curve(SPECTRUM, PROFILE, "marks", apart=0.02),
-    Curve(SPECTRUM, LINES, "marks", apart=0.02),
+    Curve(SPECTRUM, PROFILE, "marks", marker_spacing=0.02),
+    Curve(SPECTRUM, LINES, "marks", marker_spacing=0.02),
 )
 SHARES = (
     Curve(SHARE, PROFILE, "around"),

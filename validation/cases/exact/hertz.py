@@ -309,7 +309,7 @@ STUDY = Study(
             ),
             Panel(PLACE, WAVE_PRESSURE, log="").of(
                 Curve(WAVE_PRESSURE, "Westergaard", "lines", "_", by=(LOAD,)),
-                Curve(WAVE_PRESSURE, BEM, "open marks", by=(LOAD,), apart=0.02),
+                Curve(WAVE_PRESSURE, BEM, "open marks", by=(LOAD,), marker_spacing=0.02),
             ),
             Panel(CELLS, SQUARE, ticked=True).of(
                 Curve(SQUARE, "closed form", label="closed form"),

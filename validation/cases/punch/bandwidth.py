@@ -161,13 +161,13 @@ class Deviations:
     @cached_property
     def most(self) -> Mapping[str, int]:
         """Realisations of each method, in any band."""
-        counts = [(SAMPLE_OF.get(key[0], key[0]), len(rows)) for key, rows in self.result.found.items()]
+        counts = [(SAMPLE_OF.get(key[0], key[0]), len(rows)) for key, rows in self.result.by_key.items()]
         return {method: max(n for m, n in counts if m == method) for method, _ in counts}
 
     def column(self, method: str, name: float | str, band: int, level: int) -> FloatArray:
         """Under one force, or at one load of springs over an area; NaN for realisations that were not pressed."""
         column = np.full(self.most[SAMPLE_OF.get(method, method)], math.nan)
-        rows = self.result.found.get((method, name, band))
+        rows = self.result.by_key.get((method, name, band))
         if rows is not None and level < rows.shape[1]:
             column[: len(rows)] = rows[:, level]
         return column
@@ -206,7 +206,7 @@ class Deviations:
     def ratio(self, hurst: float, level: int) -> dict[int, Resolved]:
         """MDR over boundary elements."""
         springs, bem = (self.resolved(method, hurst, level) for method in (MDR, BEM))
-        return {i: springs[i].beside(deviation) for i, deviation in bem.items()}
+        return {i: springs[i].minus_independent(deviation) for i, deviation in bem.items()}
 
     def slope(self, hurst: float, level: int) -> Resolved:
         """d ln ratio / d log10(q_max / q_min) by generalised least squares: a change that few surfaces tell counts
@@ -233,13 +233,13 @@ class Deviations:
         """
         case, line, ratios = self.result.case, self.by_band(MDR, hurst, level), {}
         for i, band in enumerate(case.bands):
-            fractions = self.result.found.get((AREA, hurst, i))
+            fractions = self.result.by_key.get((AREA, hurst, i))
             if fractions is None:
                 continue
             wide = float(np.nanmean(self.column(BEM, hurst, i, level)))
             if band.waves > (wide / case.forces[level]) ** (1 / hurst):
                 load = nearest(fractions.mean(axis=0).tolist(), wide**2)
-                ratios[i] = line[i].beside(self.by_band(AREA, hurst, load)[i])
+                ratios[i] = line[i].minus_independent(self.by_band(AREA, hurst, load)[i])
         return ratios
 
     def of_roll_off(self, level: int) -> Linearised:
@@ -247,7 +247,7 @@ class Deviations:
         case = self.result.case
         hurst, band = case.rolled.hurst, case.roll_off[1]
         plain, rolled = (
-            self.by_band(MDR, name, level)[band].beside(self.by_band(BEM, name, level)[band])
+            self.by_band(MDR, name, level)[band].minus_independent(self.by_band(BEM, name, level)[band])
             for name in (hurst, ROLL_OFF)
         )
         return rolled - plain

@@ -26,7 +26,7 @@ ALIKE = Margin(DECIBEL * math.log(1.1), "10 %, the margin at which MDR is said t
 
 def series(result: Outcomes) -> list[Series]:
     """Raises NotConvergedError where too few surfaces have converged at one of the forces."""
-    pressed = [{"stiffness": rows} for (method, *_), rows in result.found.items() if method == BEM]
+    pressed = [{"stiffness": rows} for (method, *_), rows in result.by_key.items() if method == BEM]
     require_converged(pressed, result.unconverged)
     deviations = Deviations(result)
     return [
@@ -98,7 +98,7 @@ def _from_to(logarithms: list[float]) -> str:
     return f"{ends} times (mean {math.exp(sum(logarithms) / len(logarithms)):.2f})"
 
 
-at_bandwidth = partial(Curve, by=(BANDWIDTH,), beside=1.06)
+at_bandwidth = partial(Curve, by=(BANDWIDTH,), x_factor=1.06)
 STUDY = Study(
     title="Bandwidth: is MDR noisier than the half-space however wide the band is?",
     method=(

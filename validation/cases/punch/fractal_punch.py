@@ -188,7 +188,7 @@ class PunchStatistics:
 
     def outcomes(self, hurst: float, method: str) -> dict[int, Outcome]:
         """By cells on a side, or springs, coarse to fine."""
-        return {size: outcome for (h, m, size), outcome in self.result.found.items() if (h, m) == (hurst, method)}
+        return {size: outcome for (h, m, size), outcome in self.result.by_key.items() if (h, m) == (hurst, method)}
 
     def on_grids(self, name: str, hurst: float, method: str, level: int) -> dict[int, FloatArray]:
         """What each realisation has under one force, on each grid where some were pressed; NaN for the others."""
@@ -228,12 +228,12 @@ class PunchStatistics:
         Minus infinity where no profile of springs deviates from another, as in full contact; NaN where no surface does.
         """
         springs, bem = (self.at(hurst, model, statistic, level) for model in (method, BEM))
-        return springs.beside(bem)
+        return springs.minus_independent(bem)
 
     def counted(self, hurst: float, method: str, level: int) -> Resolved:
         """The ratio of the deviations as it is judged, by `RULE`."""
         springs, bem = (at_least(self.at(hurst, model, DEVIATION, level)) for model in (method, BEM))
-        return springs.beside(bem)
+        return springs.minus_independent(bem)
 
     def exponent(self, hurst: float, method: str, before: int, after: int) -> Resolved:
         """d ln k / d ln F of the mean stiffness from one level of force to another."""
@@ -247,7 +247,7 @@ class PunchStatistics:
 
     def require_converged(self) -> None:
         """Raises NotConvergedError where too few surfaces have converged at one of the forces."""
-        for (_, method, cells), outcome in self.result.found.items():
+        for (_, method, cells), outcome in self.result.by_key.items():
             if method == BEM:
                 pressed = [level for level, force in enumerate(self.case.forces) if cells in self.case.counts(force)]
                 require_converged([{"stiffness": outcome["stiffness"][:, pressed]}], self.result.unconverged)

@@ -73,7 +73,7 @@ def compared(statistics: shown.PunchStatistics, hurst: float) -> Iterator[Series
             yield judged(name, OVER, values, grid=grid, margin=margin, counted=as_judged)
     bem = [statistics.at(hurst, BEM, MEAN, level) for level in range(len(case.forces))]
     of_fit = [Linearised(math.log(fitted(case, force)), np.zeros(1)) for force in case.forces]
-    differences = [fit.beside(stiffness.value) for fit, stiffness in zip(of_fit, bem, strict=True)]
+    differences = [fit.minus_independent(stiffness.value) for fit, stiffness in zip(of_fit, bem, strict=True)]
     yield judged(
         MEAN,
         FIT,
@@ -99,7 +99,7 @@ def exponents(statistics: shown.PunchStatistics, hurst: float) -> Iterator[Serie
     steep, flat = max(PUBLISHED), min(PUBLISHED)
     for first in case.first_forces:
         springs, bem = (statistics.exponent(hurst, method, *case.decade(first)) for method in (MDR, BEM))
-        difference = springs.beside(bem)
+        difference = springs.minus_independent(bem)
         place: dict[str, Place] = {shown.H: hurst, FORCE: (first, 10 * first)}
         yield Series(EXPONENT, LESS, (difference.value,), where=place, grid=[difference.grid], margin=DIGITS)
         if first == tested:

@@ -175,7 +175,7 @@ class Measured:
 def series(result: Outcomes) -> list[Series]:
     """Raises NotConvergedError where too few surfaces have converged under one of the loads."""
     case = result.case
-    require_converged([o for key, o in result.found.items() if key != MDR], result.unconverged)
+    require_converged([o for key, o in result.by_key.items() if key != MDR], result.unconverged)
     grounds = {g: Measured(result[g, 1], result[g, 2]) for g in case.grounds}
     rows = [s for ground, measured in grounds.items() for s in _of_interface(case, ground, measured)]
     inside = [result[g, 1]["stiffness"] * result[g, 1]["highest"][:, np.newaxis] for g in case.grounds]

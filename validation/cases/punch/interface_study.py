@@ -104,7 +104,7 @@ STUDY = Study(
             "(Barber). (b) The same of a punch, of its interface in series with the flat punch, and of MDR. (c) "
             "Contact fraction, (d) mean gap over h. Bars: 95 % of sample and grid.",
             Panel(CONTACT, SCALED, title="interface", log="xy", lines=(1 / INTERFACE,)).of(
-                Curve(SCALED, BEM, "marks", by=(ROLL_OFF, "H"), bars=True, beside=1.06),
+                Curve(SCALED, BEM, "marks", by=(ROLL_OFF, "H"), bars=True, x_factor=1.06),
                 *(Curve(SCALED, model, style, of=FIRST) for model, style in LINES.items()),
             ),
             Panel(CONTACT, SCALED_PUNCH, title="punch", log="xy").of(*by_model(SCALED_PUNCH, STYLES, bars=True)),

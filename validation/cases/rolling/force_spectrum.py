@@ -133,7 +133,7 @@ HEIGHT, SLOPE, Q, SURFACE = "h/d", "h' a/d", "q a", "surface"
 SLOPE_COUNTS = "h' is the rms slope along the track, in one direction, of all waves"
 SHORT_WAVES = 4.0
 """q a of where q a >> 1 begins."""
-BESIDE_BEM = REPEATABLE.beside("boundary elements, extrapolated, on the same surfaces as linear theory in 3D")
+BESIDE_BEM = REPEATABLE.with_source("boundary elements, extrapolated, on the same surfaces as linear theory in 3D")
 IN_OCTAVES = replace(BESIDE_BEM, worst=False, rms=(REPEATABLE.tolerance, REPEATABLE.reason))
 OF_FORCE = Margin(
     DECIBEL * math.log(1.1), "10 %: 0.8 dB of the whole force, less than what is repeatable", source=BESIDE_BEM.source
@@ -190,7 +190,7 @@ def _curve(result: Outcomes, height: float) -> Iterator[Series]:
     filters = partial(force_spectrum_1d, contact_radius=1.0, modulus=1.0), partial(mean_force_spectrum_1d, modulus=1.0)
     book, mean = (levels_on_track(case, spectrum) for spectrum in filters)
     curve = Estimates.ratios(springs[:, inside], book[inside])
-    margin = REPEATABLE.beside("(14.12), (14.14), on the waves of a track") if height <= LOW else None
+    margin = REPEATABLE.with_source("(14.12), (14.14), on the waves of a track") if height <= LOW else None
     yield decibels(CURVE, SPRINGS, curve, along=Q, at=case.bands.centres[inside], margin=margin)
     if np.count_nonzero(short) < 3:
         return  # no octave, which holds a period of sin^2(q a)

@@ -98,7 +98,7 @@ WORK, AT_WORK = Quantity("work_over_springs_on_a_line"), Quantity("rms_over_octa
 TABLE_14_1 = Quantity("wheel_of_Table_14.1")
 GRID = 1 / 3
 """Error of a grid over its change to half of the cells, of second order."""
-BESIDE = REPEATABLE.beside("boundary elements on the same strips, all cells")
+BESIDE = REPEATABLE.with_source("boundary elements on the same strips, all cells")
 TENTH = Margin(0.1, "0.1: a tenth of the contact", source="the first spectrum at the same h' a/d")
 
 
@@ -106,10 +106,10 @@ def series(result: Outcomes) -> list[Series]:
     """Of each model over all strips, the smoothest first; over its work where these are roughest."""
     case, numbers = result.case, []
     for model in MODELS:
-        largest = [max(off(result, key, model).value for key in result.found if key[0] <= s) for s in case.slopes]
+        largest = [max(off(result, key, model).value for key in result.by_key if key[0] <= s) for s in case.slopes]
         numbers.append(Series(LARGEST, _named(model), np.array(largest), along=SLOPE, at=case.slopes))
-        numbers += [s for key in result.found for s in _of_strips(result, key, model)]
-    numbers += [s for key in result.found for s in _contact(result, key)]
+        numbers += [s for key in result.by_key for s in _of_strips(result, key, model)]
+    numbers += [s for key in result.by_key for s in _contact(result, key)]
     scene = load_wheel_scene("table_14_1")
     numbers.append(Series(TABLE_14_1, HEIGHT, (scene.rms / scene.approach,)))
     return [*numbers, Series(TABLE_14_1, SLOPE, (slope_ratio(scene.slope_along, scene),))]

@@ -105,7 +105,7 @@ def series(result: Outcomes) -> list[Series]:
     along_q = partial(Series, along=Q, at=q)
     numbers = [along_q(RESPONSE, EXACT, exact * q)]
     largest: dict[tuple[str, float], float] = {}
-    for method, n, prescribed in result.found:
+    for method, n, prescribed in result.by_key:
         if prescribed == "force":
             continue
         of_method, where = result[method, n, prescribed], {CELLS: n}
@@ -179,11 +179,11 @@ STUDY = Study(
             f"one-sided springs. (b) Errors over the envelope; dotted: an edge {EDGE:g} of a cell out of place.",
             Panel(Q, f"{RESPONSE}, over 2 E* a", title="amplitude and sign", log="", ylim=(-1.2, 1.6)).of(
                 Curve(RESPONSE, EXACT),
-                Curve(RESPONSE, BEM, "marks", of=FINEST, apart=0.03),
-                Curve(RESPONSE, SPRINGS, "around", "springs", of=FINEST, apart=0.03),
+                Curve(RESPONSE, BEM, "marks", of=FINEST, marker_spacing=0.03),
+                Curve(RESPONSE, SPRINGS, "around", "springs", of=FINEST, marker_spacing=0.03),
             ),
             Panel(Q, ERROR, title="errors", log="xy", ylim=(1e-7, 1)).of(
-                Curve(ERROR, BEM, "marks", by=BY_CELLS, apart=0.03),
+                Curve(ERROR, BEM, "marks", by=BY_CELLS, marker_spacing=0.03),
                 Curve(BOUND, BEM, "dotted", "_", by=BY_CELLS),
                 Curve(ERROR, SPRINGS, "lines", by=BY_CELLS),
             ),

@@ -166,7 +166,9 @@ OF_LAW = Margin(
     source="1 / (2 H + 1): a floor J² / (ω² T) under a spectrum of ω^(-2H-3)",
 )
 OF_SHARE = Margin(0.01, "1 %: 20 dB below", source="nothing is left")
-OF_SECOND_ORDER = MARGINS["level"].beside("the closed second order through the damped resonance, no free parameter")
+OF_SECOND_ORDER = MARGINS["level"].with_source(
+    "the closed second order through the damped resonance, no free parameter"
+)
 
 
 class Record(NamedTuple):
@@ -319,7 +321,7 @@ def _contrasts(scene: WheelScene, outcome: Outcome) -> Iterator[Series]:
         along=MAXIMUM,
         at=at,
         reference=Estimates.exact(contrasts(theory[np.newaxis])),
-        margin=MARGINS["contrast"].beside("the closed second order in the same bands"),
+        margin=MARGINS["contrast"].with_source("the closed second order in the same bands"),
     )
     edges = np.arange(scene.eigenfrequency, 0.99 * scene.jump, scene.oscillation_period / 12)
     for model, density in ((SPRINGS, outcome["plain"].mean(axis=0)), (SECOND_ORDER, theory)):

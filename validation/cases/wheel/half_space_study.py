@@ -41,7 +41,7 @@ def _of_bands(levels: wheel.WheelLevels) -> Iterator[Series]:
     bem = Estimates(replace(ratio, value=value) for ratio, value in zip(levels.ratio, levels.bem.tolist(), strict=True))
     yield bands(LEVELS, wheel.BEM, bem)
     yield bands(OVER, wheel.BEM, Estimates(replace(ratio, value=0.0) for ratio in levels.ratio))
-    margin = MARGINS["level"].beside("boundary elements in the time loop")
+    margin = MARGINS["level"].with_source("boundary elements in the time loop")
     for model in wheel.MODELS:
         over = levels.over_bem(model)
         yield decibels(LEVELS, model, over.values + levels.bem, along=OMEGA, at=levels.centres)
@@ -84,7 +84,7 @@ def _slopes(levels: wheel.WheelLevels) -> Iterator[Series]:
             reference=-2 * features.hurst(scene) - 3,
             grid=2 * abs(fine - coarse),
             family=OF_FIGURE,
-            margin=MARGINS[SLOPE].beside("-2 H - 3, (14.13); the same in linear theory in 3D"),
+            margin=MARGINS[SLOPE].with_source("-2 H - 3, (14.13); the same in linear theory in 3D"),
         )
 
 
@@ -121,7 +121,7 @@ def _contrasts(levels: wheel.WheelLevels) -> Iterator[Series]:
 
         by_zero = partial(decibels, CONTRAST, along=ZERO, at=zeros_of(scene))
         linear = log_contrasts(omega, features.linear_spectrum(scene, omega), scene)
-        margin = MARGINS["contrast"].beside("linear theory in one dimension in the same bands")
+        margin = MARGINS["contrast"].with_source("linear theory in one dimension in the same bands")
         compared = {"reference": Estimates.exact(linear), "family": OF_FIGURE, "margin": margin}
         yield by_zero(model, jackknifed(of, density), **compared if model == wheel.BEM else {})
         if model == wheel.BEM:

@@ -104,7 +104,7 @@ BANDS_PER_PERIOD = 12
 BALANCE = Margin(
     1e-11, "rounding of a sum over all steps", source="Newton: mean force and load balance", role=Role.IDENTITY
 )
-OVER_LINEAR = MARGINS["level"].beside("(14.12) through the resonator: a contact of fixed radius")
+OVER_LINEAR = MARGINS["level"].with_source("(14.12) through the resonator: a contact of fixed radius")
 
 
 def series(result: Outcomes) -> list[Series]:
@@ -142,7 +142,7 @@ def features_by_scene(result: Outcomes) -> list[Series]:
             reference=theory[key],
             grid=float(spectrum.omega[0]) / 2 if key == features.JUMP else 0.0,
             unit="-" if key == features.SLOPE else "rad/s",
-            margin=MARGINS[key].beside(SOURCES[key]),
+            margin=MARGINS[key].with_source(SOURCES[key]),
             family=family,
         )
         for name, spectrum in spectra_of(result).items()

@@ -152,7 +152,7 @@ def _over_bem(result: AcrossResult, key: Key) -> Iterator[Series]:
     case, bem, keep = result.case, result.over_linear(key, BEM), counted(result.linear(key))
     at, grid = filters.millimetres(strip_bands(case.scene(key))), result.left_by_grid(key, BEM, LINEAR)
     near, three = (
-        margin.beside(f"boundary elements on strips of both signs, {key[0].label}")
+        margin.with_source(f"boundary elements on strips of both signs, {key[0].label}")
         for margin in (FIELD, replace(THREE_DECIBELS, rms=None))
     )
     judged = partial(in_bands(case, key), grid=grid, ranges=only(at, keep))

@@ -34,7 +34,7 @@ def tables(result: AcrossResult) -> tuple[Table, ...]:
     for series in _smooth(result, across.WEIGHTED):
         if series.where[WHEEL] == wheel:
             rows.setdefault(series.model, {"model": series.model})[str(series.where[GROUND])] = " / ".join(
-                f"{round(_central(value), 1) + 0.0:+.1f}" for value in series.found
+                f"{round(_central(value), 1) + 0.0:+.1f}" for value in series.values
             )
     return table_of(LOUDER, list(rows.values())), *_borders(result), _stands(result), _lacking(result)
 
@@ -51,7 +51,7 @@ def _borders(result: AcrossResult) -> Iterator[Table]:
     rows: dict[object, dict[str, object]] = {}
     for series in _smooth(result, across.BORDER):
         row = rows.setdefault(series.where[WHEEL], {WHEEL: series.where[WHEEL]})
-        of_ways = zip(series.at, series.found, strict=True)
+        of_ways = zip(series.at, series.values, strict=True)
         row.update({f"{tolerance:g} dB {series.model}": _border(alpha) for tolerance, alpha in of_ways})
     if rows:
         yield table_of(BORDERS, list(rows.values()))
@@ -88,7 +88,7 @@ def _stands(result: AcrossResult) -> Table:
 def _of_wheels(result: AcrossResult, quantity: str) -> ByModelAndGround:
     values: ByModelAndGround = {}
     for series in _smooth(result, quantity):
-        values.setdefault((series.model, str(series.where[GROUND])), []).append(_central(series.found[0]))
+        values.setdefault((series.model, str(series.where[GROUND])), []).append(_central(series.values[0]))
     return values
 
 
@@ -113,9 +113,9 @@ def notes(result: AcrossResult) -> list[str]:
     sentences = []
     for way in across.WAYS:
         if borders := [series for series in _smooth(result, across.BORDER) if series.model == way]:
-            near, far = (_by_wheel([series.found[i] for series in borders]) for i in (0, 1))
+            near, far = (_by_wheel([series.values[i] for series in borders]) for i in (0, 1))
             sentences.append(f"One line is within 1 dB {way} up to alpha = {near}; within 2 dB up to {far}.")
-    if alike := [series.found[0] for series in _smooth(result, across.NEAREST) if series.model == across.ALIKE]:
+    if alike := [series.values[0] for series in _smooth(result, across.NEAREST) if series.model == across.ALIKE]:
         sentences.append(
             f"The alpha whose contact filter is nearest to that of isotropic ground is {_by_wheel(alike)}."
         )
@@ -179,7 +179,7 @@ STUDY = Study(
                 downward=True,
             ).of(
                 Curve(A3, LINEAR, "lines", "_", by=(GROUND,), of=OF_FIRST),
-                Curve(A3, BEM, "marks", "_", by=(GROUND,), of=OF_FIRST, bars=True, beside=1.0),
+                Curve(A3, BEM, "marks", "_", by=(GROUND,), of=OF_FIRST, bars=True, x_factor=1.0),
                 Curve(A3, across.TABLE, "crosses", "CNOSSOS-EU", of={WHEEL: "first of all"}),
             ),
             Panel("alpha", across.OFF, title="one line", shade=(-1, 1), ylim=(-1.2, 9)).of(

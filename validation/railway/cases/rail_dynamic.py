@@ -161,7 +161,7 @@ def series(result: RailDynamicResult) -> list[Series]:
     """Ratios of filters by offset, and the time without contact by damping."""
     case, airborne = result.case, []
     for damping in sorted((case.damping, *case.others)):
-        at = [offset for offset, *key in result.found if key == [damping, BEM, FINE]]
+        at = [offset for offset, *key in result.by_key if key == [damping, BEM, FINE]]
         shares = [np.array([100 * float(outcome["airborne"]) for outcome in result[o, damping, BEM, FINE]]) for o in at]
         where = {DAMPING: in_per_cent(damping) if damping else "none"}
         estimates = [mean_estimate(share) for share in shares]
@@ -180,7 +180,7 @@ def _ratios(result: RailDynamicResult, offset: float) -> Iterator[Series]:
         (BESIDE, SPRINGS_OVER_BEM, (SPRINGS_THAT_READ, "moving"), moving, "boundary elements, same strips"),
     ):
         ratio, grid = masked(result.over(offset, track, other), result.judged), result.left_by_grid(track, other)
-        yield in_bands(quantity, model, ratio, where={OFFSET: offset}, grid=grid, margin=IN_RMS.beside(source))
+        yield in_bands(quantity, model, ratio, where={OFFSET: offset}, grid=grid, margin=IN_RMS.with_source(source))
 
 
 STUDY = Study(

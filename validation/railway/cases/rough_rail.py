@@ -60,7 +60,7 @@ def _over_bem(result: rolled.RolledFiltersResult, key: rolled.Key) -> Iterator[S
     case, bem, keep = result.case, result.over_twin(key, BEM), counted(result.linear(key))
     shown, at = rolled.in_bands(case, key), millimetres(strip_bands(case.scene(key)))
     complete = np.arange(at.size) < at.size - 2
-    margin = FIELD.beside(f"boundary elements on the same {case.strips} strips")
+    margin = FIELD.with_source(f"boundary elements on the same {case.strips} strips")
     scatter = Estimates(replace(estimate, value=0.0) for estimate in bem)
     yield shown(OF_BEM, BEM, masked(scatter, complete), grid=result.left_by_grid(key, BEM, LINEAR))
     for model in MODELS:
@@ -82,7 +82,7 @@ def means_of_lines(case: Any) -> Iterator[Series]:
     keep = counted(ellipse)
     in_bands = partial(Series, along=rolled.WAVE, at=millimetres(bands)[keep], unit="dB")
     yield in_bands(ELLIPSE, "", (ellipse - on_line)[keep])
-    near = FIELD.beside("energy mean of the spectra of the same lines")
+    near = FIELD.with_source("energy mean of the spectra of the same lines")
     for ground, stated in GROUNDS.items():
         for spacing in case.spacings:
             places, where = lines_across(case.lines, spacing), {ACROSS: ground, SPACING: 1000 * spacing}
