@@ -9,19 +9,17 @@ from hypothesis import given
 
 from tests.analysis.test_judged_claims import point, points_with, verdicts
 from tests.seeded import catches
-from validation.analysis.claims import (
-    NOT_THIS_CURVE,
-    Claim,
-    Matrix,
-    beside,
+from validation.analysis.claims import NOT_THIS_CURVE, Claim, Matrix
+from validation.analysis.evidence import ClaimStatus, Role, Verdict
+from validation.analysis.number_text import (
     decibels,
     decibels_rms,
     off_by,
     per_cent,
     times,
     times_source,
+    with_reference,
 )
-from validation.analysis.evidence import ClaimStatus, Role, Verdict
 from validation.analysis.series import Margin, Series
 from validation.analysis.study import Outcomes, Study
 
@@ -265,7 +263,7 @@ def test_a_worst_point_is_at_its_place_and_names_follow_after_a_comma(where, sai
         (per_cent, -40.0, 0.0, "none left"),
         (off_by, 1.0, 0.0, "off by +1.0e+00 dB"),
         (times_source, 0.5, 0.0, "0.5 times that of s"),
-        (beside, 3.0, 0.1, "+3.00 ± 0.10 dB"),
+        (with_reference, 3.0, 0.1, "+3.00 ± 0.10 dB"),
     ],
 )
 def test_a_number_is_printed_as_its_quantity(printed, value, half_width, said):
@@ -273,7 +271,7 @@ def test_a_number_is_printed_as_its_quantity(printed, value, half_width, said):
 
 
 def test_a_reference_of_five_digits_has_no_exponent():
-    assert beside(point(12520.0, 190.0, reference=12566.4, tolerance=377.0)) == "12520 ± 190 beside 12566 dB"
+    assert with_reference(point(12520.0, 190.0, reference=12566.4, tolerance=377.0)) == "12520 ± 190 beside 12566 dB"
 
 
 def test_a_matrix_has_a_cell_for_each_number_with_its_verdict():
@@ -311,8 +309,8 @@ def test_a_matrix_of_models_has_no_column_of_a_quantity_and_a_study_prints_what_
 
 def test_a_number_is_printed_beside_its_reference_with_the_digits_of_its_tolerance():
     near = point(1234.5, reference=1234.5678, tolerance=1.0)
-    assert [beside(replace(near, tolerance=t)) for t in (1.0, 2.0)] == [
+    assert [with_reference(replace(near, tolerance=t)) for t in (1.0, 2.0)] == [
         "1234.5 beside 1234.57 dB",
         "1234.5 beside 1234.6 dB",
     ]
-    assert [beside(point(x)) for x in (0.5, 0.0, -0.5)] == ["+0.5 dB", "0 dB", "-0.5 dB"]
+    assert [with_reference(point(x)) for x in (0.5, 0.0, -0.5)] == ["+0.5 dB", "0 dB", "-0.5 dB"]

@@ -12,6 +12,7 @@ from tests.report.test_printed import html_of, number
 from tests.seeded import catches
 from validation.analysis import statistics
 from validation.analysis.evidence import Evidence, Role, Table, Verdict
+from validation.analysis.number_text import level_as_factor, level_in_decibels, level_in_per_cent
 from validation.benchmarks.work_precision.case import POINTS
 from validation.benchmarks.work_precision.figure_cost import COST_OF_STEPS
 from validation.benchmarks.work_precision.problem import BEM
@@ -26,7 +27,7 @@ from validation.railway.cases.filters import OFFSET
 from validation.railway.cases.rail_dynamic import BESIDE, RMS, SPRINGS_OVER_BEM
 from validation.report.answers import first_screen, seconds, strip
 from validation.report.answers.first_screen import answered_questions, from_to, plain
-from validation.report.answers.questions import QUESTIONS, in_decibels, per_cent, times
+from validation.report.answers.questions import QUESTIONS
 from validation.report.answers.strip import Cell, span
 from validation.report.contents import CASES, TIMED
 from validation.report.section import Section, case_results
@@ -423,16 +424,16 @@ def test_the_scatter_has_numbers_of_its_own():
 
 
 @catches("the power of a ratio printed for its amplitude").at(
-    "validation.report.answers.question.DECIBEL", statistics.POWER_DECIBEL
+    "validation.analysis.number_text.DECIBEL", statistics.POWER_DECIBEL
 )
 def test_decibels_are_printed_as_their_quantity():
-    assert per_cent(TEN) == "+10 %"
-    assert per_cent(-1e-9) == "+0 %"
-    assert times(20.0) == "10 times"
-    assert times(51.0) == "350 times"
-    assert in_decibels(-0.01) == "+0 dB"
-    assert from_to([2.5, -1.0], in_decibels) == "-1 to +2.5 dB"
-    assert from_to([2.0], in_decibels) == "+2 dB"
+    assert level_in_per_cent(TEN) == "+10 %"
+    assert level_in_per_cent(-1e-9) == "+0 %"
+    assert level_as_factor(20.0) == "10 times"
+    assert level_as_factor(51.0) == "350 times"
+    assert level_in_decibels(-0.01) == "+0 dB"
+    assert from_to([2.5, -1.0], level_in_decibels) == "-1 to +2.5 dB"
+    assert from_to([2.0], level_in_decibels) == "+2 dB"
 
 
 AGREES, DIFFERS, UNDECIDED = (0.0, 0.0), (9.0, 0.0), (0.0, 9.0)

@@ -15,8 +15,8 @@ from validation.analysis.evidence import (
     Table,
     Verdict,
     VerdictCell,
-    plus_minus,
 )
+from validation.analysis.number_text import plus_minus
 from validation.analysis.verdict import OF_NUMBERS
 from validation.report import drawing, formats, page
 from validation.report.contents import CASES

@@ -8,7 +8,7 @@ from validation.advice.calibration import SHARE
 from validation.advice.compare import MOST_REALISATIONS, Comparison
 from validation.advice.hierarchy import Candidate, contradicting
 from validation.advice.scene_model import SAMPLE_SHARE
-from validation.advice.tolerance import format_seconds
+from validation.analysis.number_text import format_seconds
 from validation.analysis.statistics import student
 from validation.scenes.scene import Scene
 from validation.simulation.method import realisations

@@ -134,6 +134,7 @@ NO_NUMBERS = (
     "mdr.formatting",
     "bem3d.formatting",
     "bem3d.progress",
+    "validation.analysis.number_text",
     "validation.scenes",
     "validation.advice.models",
     "validation.advice.calibration",

@@ -10,13 +10,12 @@ from validation.advice.advice import is_solved, springs_of
 from validation.advice.compare import Comparison
 from validation.advice.contact_force import ContactForce
 from validation.advice.hierarchy import Candidate, Status
-from validation.advice.side_by_side import TOGETHER, differences, error_of_difference, per_cent, reference_of
-from validation.advice.tolerance import (
-    NAMES,
+from validation.advice.side_by_side import TOGETHER, differences, error_of_difference, reference_of
+from validation.advice.tolerance import NAMES, Columns, percentage
+from validation.analysis.number_text import (
     NONE,
-    Columns,
     format_seconds,
-    half_width,
+    half_width_text,
     scaled,
     short,
     signed,
@@ -127,8 +126,8 @@ def _largest_difference(comparison: Comparison, candidate: Candidate) -> str:
     worst = abs(off).argmax()
     largest, error = float(off[worst]), float(error_of_difference(comparison, candidate)[worst])
     if comparison.is_level or comparison.in_decibels:
-        return f"{'+' if largest > 0 else ''}{short(largest)} {half_width(error)} dB"
-    return f"{per_cent(largest):+.2g} {half_width(per_cent(error))} %"
+        return f"{'+' if largest > 0 else ''}{short(largest)} {half_width_text(error)} dB"
+    return f"{percentage(largest):+.2g} {half_width_text(percentage(error))} %"
 
 
 def numbers_of_models(comparison: Comparison) -> Columns:
@@ -146,8 +145,8 @@ def numbers_of_models(comparison: Comparison) -> Columns:
         (float(differences(candidate, reference)[0]), float(error_of_difference(comparison, candidate)[0]))
         for candidate in solved
     ]
-    for head, convert, digits in (("difference [dB]", float, 2), ("[%]", per_cent, 1)):
-        cells = [f"{signed(convert(offset), digits)} {half_width(convert(error))}" for offset, error in offsets]
+    for head, convert, digits in (("difference [dB]", float, 2), ("[%]", percentage, 1)):
+        cells = [f"{signed(convert(offset), digits)} {half_width_text(convert(error))}" for offset, error in offsets]
         columns[head] = [
             NONE if candidate is reference else cell for candidate, cell in zip(solved, cells, strict=True)
         ]
@@ -176,7 +175,7 @@ def levels_of_models(comparison: Comparison) -> tuple[dict[str, str], Columns]:
 def _error_in_words(candidate: Candidate, errors: np.ndarray) -> str:
     """As ± 1.2 dB: the error of the rms over bands, or the smallest and the largest where each band has its own."""
     assert candidate.answer is not None  # as solved
-    ends = dict.fromkeys(half_width(float(end)) for end in (errors.min(), errors.max()))
+    ends = dict.fromkeys(half_width_text(float(end)) for end in (errors.min(), errors.max()))
     shown = " to ".join(ends).replace("to ± ", "to ")
     where = "each band" if candidate.answer.band_errors else "the rms over bands"
     return shown if "unknown" in shown else f"{shown} dB in {where}"

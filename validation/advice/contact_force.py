@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from validation.advice.tolerance import NAMES, NONE, Columns, half_width, signed
+from validation.advice.tolerance import NAMES, Columns
+from validation.analysis.number_text import NONE, half_width_text, signed
 from validation.analysis.sound import energy_sum
 from validation.engine.engine import FloatArray
 
@@ -63,7 +64,7 @@ class ContactForce:
     @property
     def shown(self) -> str:
         """The sum of the chosen, with its error."""
-        return f"{self.total(self.chosen):.1f} {half_width(self.error)} dB(A) re 1 N"
+        return f"{self.total(self.chosen):.1f} {half_width_text(self.error)} dB(A) re 1 N"
 
     @property
     def change(self) -> str:

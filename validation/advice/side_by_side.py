@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from validation.advice.compare import Comparison
 from validation.advice.hierarchy import ALIKE, Candidate, bias
-from validation.advice.tolerance import decibels
+from validation.advice.tolerance import decibels, percentage
 from validation.analysis.evidence import Table, table_of
 
 TOGETHER = "both errors together: of the models the sum, of grid and sample the root of the sum of squares"
@@ -40,11 +40,6 @@ def error_of_difference(comparison: Comparison, candidate: Candidate) -> np.ndar
     random = [errors[name] for errors in parts for name in ("grid", "sample")]
     both = sum(errors["model"] for errors in parts) + np.sqrt(np.sum(np.square(random), axis=0))
     return np.asarray(both if comparison.is_level else 20 * np.log10(1 + both))
-
-
-def per_cent(level: float) -> float:
-    """Of an amplitude, from its level [dB]."""
-    return float(100 * (10 ** (level / 20) - 1))
 
 
 def counted_bands(comparison: Comparison, candidate: Candidate) -> NDArray[np.bool_]:
@@ -81,7 +76,7 @@ def speed_and_accuracy(comparison: Comparison) -> Table:
     of_reference = decibels(reference.error) if unit == "dB" else 100 * reference.error
     for candidate in comparison.selection.solved:
         error, half = (
-            level if unit == "dB" else per_cent(level) for level in _distance_from_reference(comparison, candidate)
+            level if unit == "dB" else percentage(level) for level in _distance_from_reference(comparison, candidate)
         )
         low, high = (max(error - half, 0.0), error + half) if math.isfinite(half) else (math.nan, math.nan)
         if is_reference := candidate is reference:

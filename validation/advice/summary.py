@@ -11,7 +11,8 @@ from validation.advice.compare import Comparison, OneOrSeveral, listed
 from validation.advice.contact_force import LEVELS
 from validation.advice.quantities import quantity_of
 from validation.advice.scene_model import Answer
-from validation.advice.tolerance import Tolerance, decibels, format_seconds, scaled, short
+from validation.advice.tolerance import Tolerance, decibels
+from validation.analysis.number_text import format_seconds, scaled, short
 from validation.scenes.description import description_lines
 from validation.scenes.scene import Scene
 from validation.simulation.model import Target

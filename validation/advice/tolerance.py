@@ -4,57 +4,11 @@ import math
 from dataclasses import dataclass
 
 from mdr.checks import positive
-from validation.analysis.evidence import plus_minus
+from validation.analysis.number_text import short
 
 Columns = dict[str, list[str]]
 NAMES = "by"
 """The column of the names of models."""
-NONE = "—"
-
-
-def short(value: float) -> str:
-    """A number with two digits, without a power of ten where that can be."""
-    return f"{float(f'{value:.2g}'):g}"
-
-
-def half_width(error: float) -> str:
-    """An error as "± 1.2", or "± unknown"."""
-    return f"± {short(error)}" if math.isfinite(error) else "± unknown"
-
-
-def signed(value: float, digits: int) -> str:
-    """A number with its sign, but for a zero; a dash where it is not finite."""
-    if not math.isfinite(value):
-        return NONE
-    return f"{rounded:+.{digits}f}" if (rounded := round(value, digits)) else f"{0:.{digits}f}"
-
-
-def tenth(level: float) -> str:
-    """A level to a tenth, without the sign of a zero; a dash where it is not finite."""
-    return f"{round(float(level), 1) + 0.0:.1f}" if math.isfinite(level) else NONE
-
-
-def two_digits(error: float) -> str:
-    return f"{error:.2g}" if math.isfinite(error) else "unknown"
-
-
-def scaled(value: float, error: float) -> str:
-    """A number with its error, over a power of ten where that is far from one: (5.49 ± 0.50)e7."""
-    power = math.floor(math.log10(value))
-    if -3 < power < 4:
-        return plus_minus(value, error)
-    shown = plus_minus(value / 10**power, error / 10**power)
-    return f"({shown})e{power}" if "±" in shown else f"{shown}e{power}"
-
-
-def format_seconds(seconds: float, least: str = "1 ms") -> str:
-    """A duration in a unit that fits. least: the text for less than a millisecond."""
-    if not math.isfinite(seconds):
-        return NONE
-    units = (("h", 3600.0), ("min", 60.0), ("s", 1.0), ("ms", 1e-3))
-    return next((f"{short(seconds / size)} {unit}" for unit, size in units if seconds >= size), least)
-
-
 FORMS = '"5%", "0.05" or "0.4 dB"'
 LARGEST = 2.0
 """Of a number: a larger one is a percentage, or decibels, without its unit."""
@@ -68,6 +22,11 @@ def decibels(error: float) -> float:
 def relative(level: float) -> float:
     """Relative error of an amplitude, from its error [dB]: 10^(level / 20) - 1."""
     return float(10 ** (level / 20) - 1)
+
+
+def percentage(level: float) -> float:
+    """Relative error of an amplitude [%], from its error [dB]."""
+    return 100 * relative(level)
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,5 @@
 """Evidence: numbers with a reference, a tolerance, an error bar and a verdict; tables behind figures; conclusions."""
 
-import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
@@ -323,15 +322,3 @@ class Evidence:
 
     def has_table(self, name: str) -> bool:
         return any(table.name == name for table in self.tables)
-
-
-def plus_minus(value: float, half_width: float) -> str:
-    """A value with its interval, to the second digit of that: 12640 ± 110."""
-    if not half_width > 0:
-        return f"{value:.5g}"
-    place = 1 - math.floor(math.log10(half_width))
-    # what rounds to nothing has no sign
-    rounded, half = round(value, place) + 0.0, round(half_width, place)
-    if place < 8:
-        return f"{rounded:.{max(place, 0)}f} ± {half:.{max(place, 0)}f}"
-    return f"{value:.5g} ± {half_width:.2g}"

@@ -8,10 +8,9 @@ from typing import Any
 from validation.analysis.chart import Chart
 from validation.analysis.claims import Claim, Matrix, in_sentence
 from validation.analysis.evidence import Evidence, Number, Table
+from validation.analysis.number_text import with_prefix
 from validation.analysis.series import Series, numbers_of, tables_of
 from validation.analysis.sound import Sounds
-
-PREFIXES = {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 
 
 class Settings(string.Formatter):
@@ -22,8 +21,7 @@ class Settings(string.Formatter):
             parts = [self.format_field(one, format_spec) for one in value]
             return f"{', '.join(parts[:-1])} and {parts[-1]}" if len(parts) > 1 else "".join(parts)
         if format_spec == "SI":
-            power = int(f"{value:e}".partition("e")[2]) // 3 * 3
-            return f"{value / 10.0**power:.5g} {PREFIXES[power]}"
+            return with_prefix(value)
         return str(super().format_field(value, format_spec))
 
 

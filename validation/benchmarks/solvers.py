@@ -11,8 +11,9 @@ import numpy as np
 from bem3d.threads import cores
 from validation.analysis.case import Case, Chapter
 from validation.analysis.chart import Chart
-from validation.analysis.claims import Claim, Matrix, times_source
+from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Table, table_of
+from validation.analysis.number_text import times_source
 from validation.analysis.quantity import Quantity
 from validation.analysis.series import Margin, Series, single
 from validation.analysis.statistics import Interval

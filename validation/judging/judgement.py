@@ -7,6 +7,7 @@ from itertools import groupby
 from operator import attrgetter
 
 from validation.analysis.evidence import Number, Role
+from validation.analysis.number_text import deviation_text
 from validation.analysis.verdict import Verdict, VerdictRange, verdict_of, verdict_ranges
 
 RATIO, LEVEL, DEVIATION = "-", "dB", "over the mean"
@@ -102,11 +103,6 @@ class JudgedNumber:
             sample=max(self.error - self.grid, 0.0),
             role=Role.CRITERION if self.decides else Role.FINDING,
         )
-
-
-def deviation_text(difference: float, unit: str, sign: str = "-") -> str:
-    """ "+12 %" or "-3.1 dB"."""
-    return f"{difference:{sign}.2g} dB" if unit == LEVEL else f"{100 * difference:{sign}.3g} %"
 
 
 def conditions_text(where: Conditions) -> str:

@@ -9,6 +9,7 @@ from itertools import groupby
 from typing import TYPE_CHECKING
 
 from validation.advice.tolerance import Tolerance, decibels
+from validation.analysis.number_text import deviation_text, interval_text
 from validation.analysis.verdict import Verdict, VerdictRange
 from validation.judging.judgement import (
     LEVEL,
@@ -16,7 +17,6 @@ from validation.judging.judgement import (
     JudgedSeries,
     common_condition,
     conditions_text,
-    deviation_text,
     largest_deviations,
     series_of,
 )
@@ -97,11 +97,6 @@ def _from_to(start: float, stop: float) -> str:
     return f"from {start:.3g} to {stop:.3g}" if stop > start else f"at {start:.3g}"
 
 
-def _interval(start: float, stop: float) -> str:
-    """ "0.464 to 10", "10"."""
-    return f"{start:.3g} to {stop:.3g}" if stop > start else f"{start:.3g}"
-
-
 def closed_form_lines(numbers: Sequence[JudgedNumber]) -> Iterator[str]:
     """Closed forms and asymptotic limits that the model does not follow, and whether it has warned of that.
 
@@ -125,7 +120,9 @@ def _break_line(series: JudgedSeries, part: VerdictRange) -> str:
     if part.verdict in (Verdict.WITHIN, Verdict.INCONCLUSIVE):
         return ""
     numbers = series.numbers_in(part)
-    where = f"{series.along} = {_interval(part.start, part.stop)}" if series.along else conditions_text(series.where)
+    where = (
+        f"{series.along} = {interval_text(part.start, part.stop)}" if series.along else conditions_text(series.where)
+    )
     shown = max(numbers, key=lambda number: abs(number.difference)).shown
     silent = ", without a warning" if series.quantity in SWEPT else ""
     warning = next((f", {number.reason}" for number in numbers if number.reason), silent)
@@ -215,7 +212,7 @@ def _range_within(series: Sequence[JudgedSeries], numeric: Sequence[str]) -> str
     within = set.intersection(*places.values()) - lost
     runs = groupby(sorted(set().union(*places.values())), within.__contains__)
     ranges = [list(run) for is_within, run in runs if is_within]
-    return " and ".join(_interval(run[0], run[-1]) for run in ranges)
+    return " and ".join(interval_text(run[0], run[-1]) for run in ranges)
 
 
 def _value_text(value: float | str) -> str:
@@ -230,7 +227,7 @@ def _values(name: str, numbers: Sequence[JudgedNumber]) -> str:
     if len(floats) < len(values):
         return ", ".join(map(str, values)) if len(values) <= LISTED else f"{len(values)} values of {name}"
     texts = ", ".join(f"{x:.0f}" if x.is_integer() else f"{x:.3g}" for x in floats)
-    return f"{name} = {texts if len(floats) <= LISTED else _interval(floats[0], floats[-1])}"
+    return f"{name} = {texts if len(floats) <= LISTED else interval_text(floats[0], floats[-1])}"
 
 
 SHOWN = 5

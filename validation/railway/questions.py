@@ -2,10 +2,11 @@
 
 from functools import partial
 
+from validation.analysis.number_text import level_in_decibels
 from validation.cases.rolling.reduced_models import READ
 from validation.railway.cases import across, filters, rail_dynamic
 from validation.railway.cases.rolled_filters import OVER_BEM
-from validation.report.answers.question import BEM, INTEGRAL, Alternative, Question, in_decibels
+from validation.report.answers.question import BEM, INTEGRAL, Alternative, Question
 from validation.report.answers.strip import Source
 
 of_rail = partial(
@@ -28,7 +29,7 @@ QUESTIONS = (
         "contact-filter",
         "Contact filter of a wheel on a rail, ensemble mean",
         of_rail(model=across.LINES[0]),
-        in_decibels,
+        level_in_decibels,
         (
             Alternative(across.MODELS[0], of_rail(model=across.MODELS[0]), INTEGRAL),
             Alternative(filters.BED_WIDER, of_rail(model=filters.BED_WIDER), INTEGRAL),

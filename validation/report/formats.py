@@ -11,7 +11,7 @@ from markupsafe import Markup, escape
 from validation.analysis.contents import csv_name
 from validation.analysis.escapes import printable
 from validation.analysis.evidence import ClaimStatus, Table, Verdict, VerdictCell, Whose
-from validation.analysis.study import Settings
+from validation.analysis.number_text import in_seconds
 from validation.report.columns import SYMBOLS, symbols_in
 
 SYMBOL = {Verdict.WITHIN: "✓", Verdict.OUTSIDE: "≠", Verdict.INCONCLUSIVE: "?"}
@@ -54,11 +54,6 @@ def templates(*folders: Path) -> jinja2.Environment:
 def _without_controls(value: object) -> object:
     """A text of a user's; what is markup already is ours."""
     return printable(value, lines=True) if isinstance(value, str) and not isinstance(value, Markup) else value
-
-
-def in_seconds(value: float) -> str:
-    """Two digits with a prefix: 120 µs."""
-    return Settings().format("{:SI}s", float(f"{value:.2g}"))
 
 
 def format_status(status: ClaimStatus | None) -> Markup:

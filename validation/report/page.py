@@ -7,7 +7,8 @@ from typing import Any
 
 from validation.analysis.case import Chapter, Profile
 from validation.analysis.contents import as_written, csv_name
-from validation.analysis.evidence import Evidence, plus_minus
+from validation.analysis.evidence import Evidence
+from validation.analysis.number_text import plus_minus
 from validation.engine.progress import Part
 from validation.engine.street import brought
 from validation.engine.workers import Workers

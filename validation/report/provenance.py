@@ -20,7 +20,7 @@ from validation.report.contents import CASES, TIMED
 from validation.report.section import Section
 from validation.scenes.printable import printable
 
-WORDS = tuple(f"validation.analysis.{name}" for name in ("case", "chart", "claims", "conditions", "printed", "study"))
+WORDS = tuple(f"validation.analysis.{name}" for name in ("case", "chart", "claims", "number_text", "study"))
 """What only words claims and declares charts."""
 
 

@@ -16,7 +16,8 @@ from validation.advice.cases.model_selection import (
     EdgeTrial,
     run,
 )
-from validation.analysis.evidence import Columns, Table, grouped, plus_minus, table_of
+from validation.analysis.evidence import Columns, Table, grouped, table_of
+from validation.analysis.number_text import plus_minus
 from validation.analysis.series import Margin
 from validation.analysis.statistics import Interval
 from validation.case import Case, Chapter, Chart, Claim, Curve, Outcomes, Panel, Quantity, Series, Study

@@ -13,7 +13,8 @@ from validation.advice.quantities import all_quantities, quantities_of
 from validation.advice.scene_model import SceneModel
 from validation.advice.several_scenes import compare_scenes
 from validation.advice.summary import findings, heading, in_full, in_short, summary
-from validation.advice.tolerance import format_seconds, tolerance_of
+from validation.advice.tolerance import tolerance_of
+from validation.analysis.number_text import format_seconds
 from validation.engine.engine import Engine
 from validation.engine.files import write_given
 from validation.engine.progress import progress_of

@@ -4,11 +4,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import groupby
 
-from validation.analysis.claims import times_source
 from validation.analysis.evidence import Number, Role, Table, Whose, grouped, table_of
+from validation.analysis.number_text import in_seconds, times_source
 from validation.analysis.series import Margin, single
 from validation.analysis.statistics import Interval
-from validation.analysis.study import Settings
 from validation.benchmarks.peers import all_methods
 from validation.benchmarks.timing import FAILED, FINISHED, TimedProblem
 from validation.benchmarks.work_precision import pareto
@@ -225,7 +224,7 @@ def _cheapest_within(chart: Sequence[Point], tolerance: float) -> str:
     best = cheapest(chart, tolerance)
     if not best:
         return pareto.reason_if_none(chart, tolerance)
-    return Settings().format("{}, {}: {:SI}s", best.method, best.setting, float(f"{seconds(best):.2g}"))
+    return f"{best.method}, {best.setting}: {in_seconds(seconds(best))}"
 
 
 MARKS = (

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import mdr
-from validation.analysis.claims import off_by
 from validation.analysis.evidence import Number, Role
+from validation.analysis.number_text import off_by
 from validation.analysis.series import Margin, single
 from validation.case import SERIAL, Case, Chapter, Chart, Claim, Curve, Engine, Outcomes, Panel, Quantity, Series, Study
 from validation.engine.convergence import NotConvergedError

@@ -4,8 +4,9 @@ import math
 from collections.abc import Iterator
 from functools import partial
 
-from validation.analysis.claims import Matrix, per_cent
+from validation.analysis.claims import Matrix
 from validation.analysis.evidence import Place
+from validation.analysis.number_text import per_cent
 from validation.analysis.series import Margin
 from validation.analysis.statistics import DECIBEL, combined
 from validation.case import Case, Chapter, Chart, Claim, Curve, Outcomes, Panel, Quantity, Series, Study

@@ -7,8 +7,9 @@ from functools import partial
 
 import numpy as np
 
-from validation.analysis.claims import THREE_D_DIFFER, Matrix, per_cent
+from validation.analysis.claims import THREE_D_DIFFER, Matrix
 from validation.analysis.evidence import Number, Place, Role, Whose, numbers_with
+from validation.analysis.number_text import per_cent
 from validation.analysis.series import Counted, Margin, spans
 from validation.analysis.statistics import DECIBEL, Linearised
 from validation.case import Case, Chapter, Chart, Claim, Curve, Outcomes, Panel, Series, Study

@@ -3,8 +3,9 @@
 from functools import partial
 
 from validation.analysis.chart import by_model
-from validation.analysis.claims import NOT_THIS_CURVE, Matrix, listed, per_cent, times
+from validation.analysis.claims import NOT_THIS_CURVE, Matrix, listed
 from validation.analysis.evidence import Table, Whose, numbers_with
+from validation.analysis.number_text import per_cent, times
 from validation.analysis.series import numbers_of
 from validation.case import Case, Chapter, Chart, Claim, Curve, Outcomes, Panel, Study
 from validation.cases.punch.ensembles import worked

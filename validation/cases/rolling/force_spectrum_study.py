@@ -2,8 +2,9 @@
 
 from functools import partial
 
-from validation.analysis.claims import THREE_D_DIFFER, Matrix, decibels, decibels_rms, per_cent
+from validation.analysis.claims import THREE_D_DIFFER, Matrix
 from validation.analysis.evidence import Whose
+from validation.analysis.number_text import decibels, decibels_rms, per_cent
 from validation.case import Case, Chapter, Chart, Claim, Curve, Panel, Study
 from validation.cases.rolling.force_spectrum import (
     BEM,

@@ -8,8 +8,9 @@ from itertools import product
 
 import numpy as np
 
-from validation.analysis.claims import Matrix, decibels_rms
+from validation.analysis.claims import Matrix
 from validation.analysis.evidence import Place
+from validation.analysis.number_text import decibels_rms
 from validation.analysis.series import REPEATABLE, Margin
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed, mean_estimate
 from validation.case import SERIAL, Case, Chapter, Chart, Claim, Curve, Engine, Outcomes, Panel, Quantity, Series, Study

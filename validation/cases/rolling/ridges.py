@@ -6,8 +6,8 @@ from functools import partial
 
 import numpy as np
 
-from validation.analysis.claims import share
 from validation.analysis.evidence import Role, Whose
+from validation.analysis.number_text import share
 from validation.analysis.series import Margin
 from validation.case import SERIAL, Case, Chapter, Chart, Claim, Curve, Engine, Outcomes, Panel, Quantity, Series, Study
 from validation.engine.engine import FloatArray

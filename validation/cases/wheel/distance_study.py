@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from validation.analysis.chart import by_model
-from validation.analysis.claims import share
 from validation.analysis.evidence import Whose
+from validation.analysis.number_text import share
 from validation.case import Case, Chapter, Chart, Claim, Curve, Outcomes, Panel, Study
 from validation.cases.wheel import distance
 from validation.cases.wheel.distance import BOOK, CUT, HANN, LINEAR, PERIODIC, SECOND_ORDER, SPRINGS

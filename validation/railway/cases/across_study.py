@@ -6,8 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from validation.analysis.claims import Matrix, decibels
+from validation.analysis.claims import Matrix
 from validation.analysis.evidence import Table, Whose, table_of
+from validation.analysis.number_text import decibels
 from validation.analysis.statistics import Interval
 from validation.case import Case, Chapter, Chart, Claim, Curve, Panel, Quantity, Series, Study
 from validation.railway.cases import across, filters

@@ -8,8 +8,9 @@ from functools import cached_property, partial
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.analysis.claims import Matrix, decibels_rms
+from validation.analysis.claims import Matrix
 from validation.analysis.evidence import Whose
+from validation.analysis.number_text import decibels_rms
 from validation.analysis.series import REPEATABLE, Estimates, masked
 from validation.analysis.spectra import NominalBands
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray, mean_estimate

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from validation.analysis.number_text import tenth
 from validation.analysis.sound import Sound, Sounds
 from validation.case import Case, Chapter, Chart, Curve, Panel, Quantity, Series, Study
 from validation.railway.cases import rail_sound
@@ -36,11 +37,6 @@ def series(result: RailSoundResult) -> list[Series]:
     return drawn + [Series(PLACES, name, at, along=FREQUENCY, at=at, unit="Hz") for name, at in places]
 
 
-def signed(value: float) -> str:
-    """To a tenth; zero has the sign +."""
-    return f"{round(value, 1) + 0.0:+.1f}"
-
-
 def sounds_of(result: RailSoundResult) -> Sounds:
     case = result.case
     return Sounds(
@@ -65,7 +61,7 @@ def sounds_of(result: RailSoundResult) -> Sounds:
 def _beside(result: RailSoundResult, model: str) -> str:
     if model == BEM or BEM not in result.case.sounding:
         return ""
-    return f", {signed(result.over(model)[0].value)} dB over boundary elements"
+    return f", {tenth(result.over(model)[0].value, sign='+')} dB over boundary elements"
 
 
 def what_is_heard(result: RailSoundResult) -> list[str]:

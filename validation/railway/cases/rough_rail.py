@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from validation.analysis.claims import Matrix, decibels
+from validation.analysis.claims import Matrix
 from validation.analysis.evidence import Role, Table
+from validation.analysis.number_text import decibels
 from validation.analysis.series import FIELD, Estimates, masked, only
 from validation.case import Case, Chapter, Chart, Claim, Curve, Panel, Quantity, Series, Study
 from validation.railway.cases import filters

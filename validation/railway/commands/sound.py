@@ -6,10 +6,11 @@ import textwrap
 from pathlib import Path
 
 from validation.analysis.contents import as_csv, as_json
+from validation.analysis.number_text import tenth
 from validation.engine.engine import Engine
 from validation.engine.progress import progress_of
 from validation.railway.cases.rail_sound import SOUNDING, RailSound, RailSoundResult, run
-from validation.railway.cases.rail_sound_study import signed, sounds_of, what_is_heard
+from validation.railway.cases.rail_sound_study import sounds_of, what_is_heard
 from validation.railway.scenes.rail import RailScene
 from validation.report.commands.arguments import Exit, add_workers, at_least, some_of
 from validation.report.folder import SOUND, Folder
@@ -109,7 +110,7 @@ def _lines(result: RailSoundResult) -> list[str]:
         line = f"{model:32s} {level:7.1f} dB {weighted:6.1f} dB(A)"
         if has_reference and model != reference:
             over, half = table["A-weighted over boundary elements [dB]"][i], table["± [dB]"][i]
-            line += f"   {signed(over)} ± {half:.1f} dB(A)"
+            line += f"   {tenth(over, sign='+')} ± {half:.1f} dB(A)"
         lines.append(line)
     return lines
 

@@ -6,8 +6,9 @@ from itertools import groupby
 
 from validation.analysis.claims import listed
 from validation.analysis.evidence import Evidence, Number, Place, Verdict, placed
+from validation.analysis.number_text import level_as_factor, level_in_per_cent
 from validation.analysis.verdict import OF_NUMBERS
-from validation.report.answers.question import Alternative, Printed, Question, per_cent, times
+from validation.report.answers.question import Alternative, Printed, Question
 from validation.report.answers.questions import QUESTIONS
 from validation.report.answers.seconds import TIMES
 from validation.report.answers.strip import EARLIER_WORDS, Cell, Source, ends, interval, span
@@ -184,7 +185,7 @@ def _cost(model: Alternative, evidence: Mapping[str, Evidence]) -> str:
 
 def _margins(question: Question, numbers: Sequence[Number]) -> str:
     """Tolerances of the numbers; of what is printed as a factor, in per cent."""
-    printed = per_cent if question.printed is times else question.printed
+    printed = level_in_per_cent if question.printed is level_as_factor else question.printed
     tolerances = sorted({number.tolerance for number in numbers})
     return " and ".join(printed(tolerance).removeprefix("+") for tolerance in tolerances)
 
@@ -239,12 +240,12 @@ def sentence(cells: Sequence[Cell], over: str, printed: Printed) -> str:
 def _found(verdict: Verdict, numbers: Sequence[Number], printed: Printed) -> str:
     mine = [number for number in numbers if number.verdict is verdict]
     if verdict is Verdict.OUTSIDE:
-        return f"{'' if printed is times else 'off by '}{_by_quantity(mine, printed)}"
+        return f"{'' if printed is level_as_factor else 'off by '}{_by_quantity(mine, printed)}"
     if not mine:
         return "some numbers are missing"
     ends = (number.difference + sign * number.uncertainty for number in mine for sign in (-1, 1))
     off = from_to(ends, printed)
-    return f"{'' if printed is times else 'off by '}{off}, error bars included"
+    return f"{'' if printed is level_as_factor else 'off by '}{off}, error bars included"
 
 
 def _by_quantity(numbers: Sequence[Number], printed: Printed) -> str:

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from validation.analysis.evidence import Evidence, Verdict, placed
+from validation.analysis.number_text import short
 from validation.benchmarks.work_precision.case import POINTS
 from validation.benchmarks.work_precision.pareto import FASTER
 from validation.benchmarks.work_precision.pressed import RoughPunchProblem
@@ -62,7 +63,7 @@ def times_faster_said(rows: Sequence[Mapping[str, Any]]) -> str:
     found = [float(row["times faster"]) for row in rows if row["model"] in SPRINGS and row["enough"] == Verdict.WITHIN]
     if not found:
         return ""
-    least, most = (f"{float(f'{times:.2g}'):g}" for times in (min(found), max(found)))
+    least, most = map(short, (min(found), max(found)))
     within = " or ".join(f"{error:g} {unit}" for unit, error in ENOUGH.items())
     return f"Where springs are within {within}, they are {least} to {most} times faster than boundary elements"
 

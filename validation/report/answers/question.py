@@ -1,10 +1,8 @@
 """A question of the first screen: which numbers answer it, and what else to take."""
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from validation.analysis.statistics import DECIBEL
 from validation.report.answers.seconds import Timed
 from validation.report.answers.strip import Source
 
@@ -13,20 +11,6 @@ INTEGRAL = "an integral over the spectrum"
 CONTACT, SPRINGS, BEM = "roughness and contact", "springs, Geike's rule", "boundary elements"
 Printed = Callable[[float], str]
 """From the difference of a number in decibels to a text with its unit."""
-
-
-def per_cent(decibels: float) -> str:
-    """Of an amplitude: -12 %."""
-    return f"{round(100 * math.expm1(decibels / DECIBEL)) + 0:+d} %"
-
-
-def times(decibels: float) -> str:
-    """Of an amplitude: 0.53 times, 350 times."""
-    return f"{float(f'{math.exp(decibels / DECIBEL):.2g}'):g} times"
-
-
-def in_decibels(decibels: float) -> str:
-    return f"{round(decibels, 1) + 0.0:+.3g} dB"
 
 
 @dataclass(frozen=True)

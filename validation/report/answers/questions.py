@@ -3,6 +3,7 @@
 from dataclasses import replace
 from functools import partial
 
+from validation.analysis.number_text import level_as_factor, level_in_decibels, level_in_per_cent
 from validation.cases.punch import ensembles as punch
 from validation.cases.punch import fractal_punch_study as fig_14_1
 from validation.cases.punch import interface
@@ -12,7 +13,7 @@ from validation.cases.wheel import half_space as wheel
 from validation.cases.wheel.features import LEVEL
 from validation.cases.wheel.half_space_study import WHEEL
 from validation.engine.street import brought
-from validation.report.answers.question import BEM, INTEGRAL, Alternative, Question, in_decibels, per_cent, times
+from validation.report.answers.question import BEM, INTEGRAL, Alternative, Question
 from validation.report.answers.seconds import a_surface, a_track, a_wheel, an_integral
 from validation.report.answers.strip import Source
 from validation.report.contents import CASES
@@ -37,7 +38,7 @@ OF_THE_CORE = (
         "mean-stiffness",
         "Stiffness of a rough punch, ensemble mean",
         of_mdr(quantity=punch.MEAN),
-        per_cent,
+        level_in_per_cent,
         (
             Alternative("the fit 1/kbar = 1/1.1523 + 0.48/Fbar", FIT, "a formula"),
             Alternative(BEM, timed=a_surface(punch.MEAN)),
@@ -47,35 +48,35 @@ OF_THE_CORE = (
         "scatter",
         "Scatter of that stiffness over the ensemble",
         of_mdr(quantity=punch.DEVIATION),
-        per_cent,
+        level_in_per_cent,
         (Alternative(BEM, timed=a_surface(punch.DEVIATION)),),
     ),
     Question(
         "area-and-gap",
         "True contact area and mean gap of a rough punch, ensemble means",
         of_rolled_off(quantity=(interface.AREA, interface.GAP)),
-        times,
+        level_as_factor,
         (PRESSED,),
     ),
     Question(
         "roll-off",
         "Stiffness of a rough punch with a roll-off, ensemble mean",
         of_rolled_off(quantity=interface.STIFFNESS),
-        per_cent,
+        level_in_per_cent,
         (PRESSED,),
     ),
     Question(
         "rolling-rms",
         "Rms force of a rolling wheel, ensemble mean",
         of_rolling(quantity=RMS_FORCE, model=GEIKE),
-        per_cent,
+        level_in_per_cent,
         (IN_3D(of_rolling(quantity=RMS_FORCE, model=LINEAR)), JUDGE),
     ),
     Question(
         "rolling-spectrum",
         "Force spectrum of a rolling wheel, ensemble mean, rms over octaves",
         of_rolling(quantity=rolling.RMS_LEVEL, model=GEIKE),
-        in_decibels,
+        level_in_decibels,
         (
             IN_3D(of_rolling(quantity=rolling.RMS_LEVEL, model=LINEAR)),
             Alternative(reduced.PRINTED[reduced.COARSEST], of_strips(model=reduced.COARSEST), timed=a_track(4)),
@@ -86,7 +87,7 @@ OF_THE_CORE = (
         "dynamic-wheel",
         "Acceleration of a dynamic wheel, ensemble mean, band by band",
         of_wheel(model=wheel.OVER_BEM[wheel.GEIKE]),
-        in_decibels,
+        level_in_decibels,
         (
             Alternative(LINEAR_3D, of_wheel(model=wheel.OVER_BEM[wheel.LINEAR_3D]), INTEGRAL),
             Alternative(f"{BEM} in the time loop", timed=a_wheel),

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable
 
 from validation.analysis.evidence import Evidence
-from validation.analysis.study import Settings
+from validation.analysis.number_text import in_seconds
 from validation.benchmarks.timing import FINISHED
 from validation.benchmarks.work_precision.case import POINTS
 from validation.benchmarks.work_precision.figure_cost import COST_OF_STEPS
@@ -17,11 +17,6 @@ TIMES = "precision"
 ENOUGH = {"%": 10.0, "dB": 1.0}
 """Largest error of what is enough, as in the verdicts of `precision`."""
 Timed = Callable[[Evidence], str]
-
-
-def in_seconds(seconds: float) -> str:
-    """Two digits: "54 ms"."""
-    return Settings().format("{:SI}s", float(f"{seconds:.2g}"))
 
 
 def timed_at(

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from validation.analysis.claims import Choice, alone, listed
 from validation.analysis.evidence import Evidence, Number, Place, Verdict, placed
+from validation.analysis.number_text import interval_text
 from validation.analysis.series import worst
 from validation.analysis.verdict import OF_NUMBERS
 
@@ -99,7 +100,7 @@ def span(places: Sequence[Place], name: str = "") -> str:
     if isinstance(places[0], str):
         return listed(list(dict.fromkeys(places)))
     low, high = min(ends(place)[0] for place in places), max(ends(place)[1] for place in places)
-    both = f"{low:.2g}" if low == high else f"{low:.2g} to {high:.2g}"
+    both = interval_text(low, high, 2)
     return placed(name, both) if name else both
 
 
