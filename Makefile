@@ -15,7 +15,7 @@ OLDEST := .venv-oldest
 RECORD := .coverage-times.xml
 RECORD_OF_VERDICTS := .coverage-verdicts-times.xml
 
-.PHONY: report full-report reference answers race peers docs check fast test accessibility oldest-python oldest thorough coverage verdicts mutation lint types format clean
+.PHONY: report full-report reference answers benchmark race peers docs check fast test accessibility oldest-python oldest thorough coverage verdicts mutation lint types format clean
 
 report: $(READY)  ## the validation report, small: reports/quick/index.html
 	$(RUN) validation report $(ARGS)
@@ -23,13 +23,16 @@ report: $(READY)  ## the validation report, small: reports/quick/index.html
 full-report: $(READY)  ## the real one: reports/full/index.html
 	$(RUN) validation report --profile full $(ARGS)
 
-reference: $(PEERS)  ## the committed one, with the race: reports/reference/index.html
+reference: $(PEERS)  ## the committed one, with the solver benchmark: reports/reference/index.html
 	$(RUN) validation report --profile full --out reports/reference; status=$$?; $(MAKE) answers; exit $$status
 
 answers: $(READY)  ## the table of README.md, from the results of the committed report
 	$(VENV)/bin/python .ci/readme.py
 
-race: $(PEERS)  ## beside the peers, which it installs: reports/race-quick/index.html
+benchmark: $(PEERS)  ## solvers beside the peers, which it installs: reports/benchmark-quick/index.html
+	$(RUN) validation benchmark $(ARGS)
+
+race: $(PEERS)  ## the former name of benchmark, for one release: reports/race-quick/index.html
 	$(RUN) validation race $(ARGS)
 
 peers: $(PEERS)  ## the packages of the solver comparison; tests beside them are skipped without

@@ -30,10 +30,12 @@ COMMANDS = {
     **{name: what for name, (what, _) in commands().items()},
     "scene": "print a scene that comes with this package, with a comment on every key",
     "precision": f"error against cost of every method; the full size takes {said('full', ['precision'])}",
-    "race": f"our solver and the other packages that are installed; the full size takes {said('full', ['race'])}",
+    "benchmark": f"our solver and the other packages that are installed; the full size takes {said('full', ['race'])}",
     "cases": "list the cases and what each shows",
 }
-OF_REPORT = ("precision", "race", "cases")
+FORMER = ("race",)
+"""Former names of commands, which work for one release, with a note, and are not listed."""
+OF_REPORT = ("precision", "benchmark", "cases", *FORMER)
 """In the module of `report`; each other one has its own in a folder `commands`, imported when it is given."""
 
 STDOUT = 1
@@ -148,6 +150,8 @@ def _parser() -> argparse.ArgumentParser:
     subparsers = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=_CommandParser)
     for name, what in COMMANDS.items():
         subparsers.add_parser(name, help=what)
+    for name in FORMER:
+        subparsers.add_parser(name)
     return parser
 
 

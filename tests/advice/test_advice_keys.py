@@ -28,18 +28,22 @@ KINDS = {
     "moving wheel": ("table_14_1", ()),
     "measured face": ("rough_punch", (("[roughness]", '[heights]\nfile = "face.npy"\nspacing = "20 um"\n[gone]'),)),
     "rail": ("rail", ()),
-    "rail without across": ("rail", (("\nacross =", "\n# across ="),)),
-    "rail of ridges": ("rail", (('across = "isotropic"', 'across = "ridges"'),)),
-    "rail with alpha": ("rail", (('across = "isotropic"', "alpha = 0.7"),)),
+    "rail without across": ("rail", (("\nlateral_structure =", "\n# lateral_structure ="),)),
+    "rail of ridges": ("rail", (('lateral_structure = "isotropic"', 'lateral_structure = "ridges"'),)),
+    "rail with alpha": ("rail", (('lateral_structure = "isotropic"', "lateral_ratio = 0.7"),)),
     "rail of lines": ("rail", ((LEVELS, "[rail.lines] #"), (CURVE, LINES))),
     "rail of lines without across": (
         "rail",
-        ((LEVELS, "[rail.lines] #"), (CURVE, LINES), ("\nacross =", "\n# across =")),
+        ((LEVELS, "[rail.lines] #"), (CURVE, LINES), ("\nlateral_structure =", "\n# lateral_structure =")),
     ),
     "rail of peaks": ("rail", ((CURVE, 'file = "peaks.csv"'),)),
     "rail of heights": (
         "rail",
-        ((LEVELS, "[rail.heights] #"), (CURVE, 'file = "patch.npy"\nspacing = "1 mm"'), ("\nacross =", "\n# across =")),
+        (
+            (LEVELS, "[rail.heights] #"),
+            (CURVE, 'file = "patch.npy"\nspacing = "1 mm"'),
+            ("\nlateral_structure =", "\n# lateral_structure ="),
+        ),
     ),
 }
 
@@ -80,7 +84,7 @@ def sentences(scene):
 IN_TABLE = re.compile(r"`(\w+)` in \[([\w.]+)\]")
 VALUE = re.compile(r'(\w+) = ("[^"]*")(?: in \[([\w.]+)\])?')
 ALPHA = re.compile(r"a number (alpha)")
-STANDS_FOR = {"across": "alpha", "alpha": "across"}
+STANDS_FOR = {"lateral_structure": "lateral_ratio", "lateral_ratio": "lateral_structure"}
 """Of which a rail has one."""
 
 
@@ -88,7 +92,7 @@ def keys_in(sentence):
     """Table, key and value of what is named; None for the value that it has, a little longer."""
     yield from ((table, key, None) for key, table in IN_TABLE.findall(sentence))
     yield from ((table or "rail", key, value) for key, value, table in VALUE.findall(sentence))
-    yield from (("rail", key, "0.5") for key in ALPHA.findall(sentence))
+    yield from (("rail", "lateral_ratio", "0.5") for _ in ALPHA.findall(sentence))
 
 
 def with_key(tables, table, key, value):
@@ -115,8 +119,8 @@ def test_each_key_that_is_advised_is_taken_by_the_scene(kind, folder):
         other = folder / "other.toml"
         other.write_text(as_toml(with_key(tomllib.loads(text), *key)), encoding="utf-8")
         load_scene(other)
-    words = {word for sentence in said for word in ("shortest", "longest", "across", "alpha") if word in sentence}
-    assert {key for _, key, _ in named} >= words - ({"across", "alpha"} if kind == "rail of heights" else set())
+    words = {word for sentence in said for word in ("shortest", "longest", "lateral_structure") if word in sentence}
+    assert {key for _, key, _ in named} >= words
     assert bool(named) is (kind not in ("measured face", "rail of heights"))
 
 

@@ -13,9 +13,10 @@ from validation.__main__ import main
 from validation.advice.compare import SceneProblem
 from validation.advice.hierarchy import select_model
 from validation.advice.named_models import models_named
-from validation.advice.quantities import models_of
+from validation.advice.quantities import models_of, quantities_of
 from validation.advice.summary import WIDTH, summary
 from validation.scenes.load import load_varied
+from validation.simulation.model_aliases import label_of
 from validation.simulation.model_names import SPRINGS_THAT_READ
 
 SPECTRUM = "rolling_wheel --quantity force-spectrum"
@@ -155,3 +156,61 @@ def test_a_model_is_found_by_its_name_or_the_beginning_of_it():
 def test_names_that_are_no_texts_are_refused(names):
     with pytest.raises(TypeError, match="models must be names, got "):
         validation.compare(validation.load_scene("rough_punch"), models=names)
+
+
+@pytest.mark.parametrize(
+    ("scene", "quantity", "names", "expected"),
+    [
+        ("rough_punch", "stiffness", "MDR, series model", ["fit", "springs"]),
+        ("rough_punch", "stiffness", "BEM, 64 cells per side", ["boundary elements 64²"]),
+        ("rolling_wheel", "force-spectrum", "linear half-space filter", ["linear filter, 3D"]),
+        ("rolling_wheel", "force-spectrum", "1d linear filter, sin(ka)/(ka), bem", None),
+        ("rolling_wheel", "force-spectrum", ["BEM, 8 cells per contact"], ["boundary elements, a = 8 cells"]),
+        ("rail", "contact-filter", "MDR, Geike PSD", ["springs, Geike's rule"]),
+        ("rail", "contact-filter", "MDR, rolling-equivalent PSD", ["springs, rolling spectrum"]),
+        ("rail", "contact-filter", ["MDR, single line"], ["springs on the line"]),
+        ("rail", "contact-filter", "MDR, cross-averaged line, 1D linear filter", None),
+        ("rail", "contact-filter", "MDR, cross-averaged surface", ["springs that read the surface"]),
+        ("rail", "contact-filter", "linear half-space filter", ["linear, ellipse"]),
+        ("rail", "contact-filter", "DPRS (Winkler bed)", ["spring bed (DPRS), linear"]),
+        ("rail", "contact-filter", "DPRS (Winkler bed), one-sided", ["spring bed (DPRS), one-sided"]),
+        ("rail", "contact-filter", "Remington filter", ["Remington"]),
+    ],
+)
+def test_labels_of_the_field_stand_for_the_printed_ones(scene, quantity, names, expected):
+    models = models_of(validation.load_scene(scene), quantity, 0.4, 0, include_by_name=True)
+    two = {
+        "rolling_wheel": ["linear filter, 1D", "boundary elements, a = 8 cells"],
+        "rail": ["linear, on the line", "springs on the mean across"],
+    }
+    assert [model.name for model in models_named(models, names, 0.4)] == (expected or two[scene])
+
+
+@pytest.mark.parametrize("scene", ["rail", "rolling_wheel", "rough_punch", "table_14_1"])
+def test_every_model_of_a_scene_has_a_label_of_its_own(scene):
+    loaded = validation.load_scene(scene)
+    models = [model for key in quantities_of(loaded) for model in models_of(loaded, key, 0.1, 0, include_by_name=True)]
+    labels = {model.name: label_of(model.name) for model in models}
+    assert len({label.lower() for label in labels.values()}) == len(labels)
+    for model in models_of(loaded, quantities_of(loaded)[0], 0.1, 0, include_by_name=True):
+        siblings = models_of(loaded, quantities_of(loaded)[0], 0.1, 0, include_by_name=True)
+        chosen = {found.name for found in models_named(siblings, [label_of(model.name)], 0.1)}
+        assert model.name in chosen and (len(chosen) == 1 or label_of(model.name) == "MDR")
+
+
+@pytest.mark.parametrize(
+    ("names", "note"),
+    [
+        ("series model", 'note: "series model" and "fit" are labels of one model; results have the latter.\n'),
+        ("fit", 'note: "series model" and "fit" are labels of one model; results have the latter.\n'),
+        ("mdr", ""),
+    ],
+)
+def test_a_note_has_both_labels_of_a_model(names, note, capsys):
+    assert main(["compare", "rough_punch", "--tolerance", "60%", "--models", names]) in (0, 3)
+    assert "".join(line for line in capsys.readouterr().err.splitlines(keepends=True) if "note" in line) == note
+
+
+def test_results_are_found_by_labels_of_the_field():
+    found = compared(Fake(name="springs"), Fake(name="boundary elements 64²")).models
+    assert found["MDR"] is found[0] and found["BEM, 64 cells per side"] is found[1]

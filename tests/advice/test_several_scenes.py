@@ -122,7 +122,9 @@ def test_an_interrupted_sweep_goes_on(monkeypatch, capsys):
 def test_no_place_of_a_measured_line_is_left_out_of_the_digest_of_its_scene(place):
     def content(height):
         rail = validation.load_scene("rail")
-        return content_of(replace(rail, roughness=MeasuredLines(height=height, spacing=1e-3), across="ridges"))
+        return content_of(
+            replace(rail, roughness=MeasuredLines(height=height, spacing=1e-3), lateral_structure="ridges")
+        )
 
     line = np.random.default_rng(6).standard_normal(3000) * 1e-6
     changed = line.copy()

@@ -108,7 +108,9 @@ def falling_rail():
     """C_line = c q^-p in all bands."""
     bands = RAIL.levels.bands
     powers = 2 * LEVEL * -np.diff(bands.edges ** (1 - EXPONENT)) / (EXPONENT - 1)
-    return replace(RAIL, across="isotropic", roughness=RoughnessLevels.of_powers(bands, powers, source="a power law"))
+    return replace(
+        RAIL, lateral_structure="isotropic", roughness=RoughnessLevels.of_powers(bands, powers, source="a power law")
+    )
 
 
 def line_slope(first, last):

@@ -171,7 +171,7 @@ def test_every_end_has_its_status_and_its_sentence(error, status, said, tmp_path
         ("compare sphere rough_punch", "advice.commands.compare.compare_scenes", True),
         ("calibrate --check 1", "advice.commands.calibrate.check_calibration", False),
         ("calibrate", "advice.commands.calibrate.measured_table", True),
-        ("race --out out", "report.commands.run_cases.build", True),
+        ("benchmark --out out", "report.commands.run_cases.build", True),
     ],
 )
 def test_what_is_kept_is_said_by_commands_that_keep_it(words, called, kept, tmp_path, monkeypatch, capsys):

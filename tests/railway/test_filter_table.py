@@ -44,7 +44,7 @@ def without_long_waves(first, across="ridges", p=None):
     levels = RAIL.levels
     values = levels.levels if p is None else tuple((10 * (p - 1) * np.log10(levels.bands.wavelengths)).tolist())
     cut = replace(levels, wavelengths=levels.wavelengths[first:], levels=values[first:])
-    return replace(RAIL, roughness=cut, across=across)
+    return replace(RAIL, roughness=cut, lateral_structure=across)
 
 
 @pytest.mark.parametrize("first", [5, 13, 18])

@@ -410,7 +410,7 @@ def test_no_filter_has_less_error_than_its_lines():
     """Which is added linearly to that of what lies across."""
     height, _ = changed(spikes, 21)
     of_lines = lines(height, "keep")
-    scene = replace(load_scene("rail"), roughness=of_lines, across="ridges")
+    scene = replace(load_scene("rail"), roughness=of_lines, lateral_structure="ridges")
     left = RailQuantity(scene, "contact-filter").left_by_ground
     assert (left >= np.array(of_lines.levels.errors)).all() and left.max() > 3
 

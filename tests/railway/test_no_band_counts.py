@@ -46,7 +46,7 @@ def asked(model):
 @pytest.mark.parametrize("across", ["ridges", "isotropic", 0.5, None])
 def test_no_model_is_enough_where_no_band_counts(scene, span, across):
     """Also where a wrong filter has one: the linear bed of springs at 12.5 mm."""
-    found = compare(replace(scene, across=across), "contact-filter", "1 dB", callback=asked)
+    found = compare(replace(scene, lateral_structure=across), "contact-filter", "1 dB", callback=asked)
     assert not found.met and found.model == "" and math.isinf(found.error)
     assert all(one.status == "out of range" and math.isinf(one.claimed) for one in found.models)
     text = " ".join(summary(found).split())
@@ -81,7 +81,7 @@ def test_a_trial_without_a_band_that_counts_has_no_true_error():
     assert true_error(trial, quiet * 2, np.ones(4)) > 0.5
 
 
-OPEN = replace(RAIL, across=None)
+OPEN = replace(RAIL, lateral_structure=None)
 
 
 def test_no_model_is_solved_that_what_lies_across_makes_too_wide():
@@ -90,7 +90,7 @@ def test_no_model_is_solved_that_what_lies_across_makes_too_wide():
     assert names == ["linear, ellipse"] and not found.met
     (missed, helps) = what_would_help(found)
     assert missed.startswith("not reached: the tolerance of 1 dB")
-    assert 'across = "isotropic" or "ridges" in [rail]' in helps
+    assert 'lateral_structure = "isotropic" or "ridges" in [rail]' in helps
 
 
 @pytest.mark.parametrize(("scene", "tolerance"), [(RAIL, "0.2 dB"), (OPEN, "1.6 dB")])

@@ -32,7 +32,7 @@ def worn(y):
 
 def profiled(height):
     profile = TransverseProfile(y=tuple(Y.tolist()), height=tuple(height.tolist()), source="head.csv")
-    names = ("name", "radius", "load", "modulus", "material", "roughness", "speed", "across")
+    names = ("name", "radius", "load", "modulus", "material", "roughness", "speed", "lateral_structure")
     return ProfiledRail(**{name: getattr(RAIL, name) for name in names}, profile=profile)
 
 
@@ -101,7 +101,7 @@ def test_a_cone_and_a_flange_press_as_the_ellipse_of_the_crown(cone):
     assert tread.argmax() == 0
     profile = both_together(bodies, 0.0)
     assert profile.at == pytest.approx(-0.3 * cone, abs=3e-6)
-    names = ("name", "radius", "load", "modulus", "material", "roughness", "speed", "across")
+    names = ("name", "radius", "load", "modulus", "material", "roughness", "speed", "lateral_structure")
     scene = ProfiledRail(**{name: getattr(RAIL, name) for name in names}, profile=profile)
     strip = SimpleNamespace(spacing=0.3e-3, shape=(64, 64))
     columns, z = heights_across(strip, scene.profile)

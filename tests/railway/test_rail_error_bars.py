@@ -23,7 +23,7 @@ from validation.simulation.model import Target, models_serving
 from validation.simulation.model_names import BEM, LINEAR
 
 RAIL = load_scene("rail")
-OPEN = replace(RAIL, across=None)
+OPEN = replace(RAIL, lateral_structure=None)
 POWERS = np.array([0.8, 1.3, 1.0, 0.9, 1.2, 1.1])
 """Of boundary elements on each strip, over linear theory."""
 GRID = 0.35
@@ -152,7 +152,8 @@ def test_what_the_ground_leaves_adds_to_grid_and_sample_as_it_is():
         quantity, filters, inside = found(OPEN)
         answer = SceneModel(BOUNDARY_ELEMENTS, Target(OPEN, "contact-filter", 0.5), Resolution()).solve()
     ends = [
-        RailQuantity(replace(RAIL, across=across), "contact-filter").linear[0] for across in ("ridges", "isotropic")
+        RailQuantity(replace(RAIL, lateral_structure=across), "contact-filter").linear[0]
+        for across in ("ridges", "isotropic")
     ]
     half = np.abs(ends[0] - ends[1]) / 2
     np.testing.assert_allclose(filters.model[inside], half[inside], rtol=1e-9)

@@ -26,7 +26,7 @@ load = "50 kN"                   # per wheel
 speed = "80 km/h"
 [rail]
 crown_radius = "300 mm"
-across = "isotropic"             # "ridges", or alpha = 1.0
+lateral_structure = "isotropic"             # "ridges", or lateral_ratio = 1.0
 [rail.levels]
 curve = "iso3095-2013"           # or "cnossos-average", or file = "levels.csv"
 """
@@ -60,7 +60,7 @@ def test_the_file_of_the_field_is_the_scene_that_it_says(tmp_path):
     scene = loaded(tmp_path)
     assert isinstance(scene, RailScene)
     assert (scene.name, scene.radius, scene.crown_radius, scene.load) == ("regional train", 0.46, 0.3, 5e4)
-    assert (scene.across, scene.transverse_radius, scene.mass, scene.notes) == ("isotropic", None, None, ())
+    assert (scene.lateral_structure, scene.transverse_radius, scene.mass, scene.notes) == ("isotropic", None, None, ())
     assert scene.speed == pytest.approx(80 / 3.6)
     assert scene.modulus == pytest.approx(210e9 / 2 / (1 - 0.09))
     assert scene.levels.levels[0] == 17.1
@@ -74,16 +74,18 @@ def test_the_file_of_the_field_is_the_scene_that_it_says(tmp_path):
         ('load = "50 kN" ', 'axle_load = "100 kN"\nwheels_per_axle = 2', {"load": 5e4}),
         ('speed = "80 km/h"', 'mass = "0.5 t"', {"speed": None, "mass": 500.0}),
         ('crown_radius = "300 mm"', "", {"crown_radius": None}),
-        ('across = "isotropic"', 'across = "ridges"', {"across": "ridges"}),
-        ('across = "isotropic"', "across = 1.5", {"across": 1.5}),
-        ('across = "isotropic"', "alpha = 1.0", {"across": 1.0}),
-        ('across = "isotropic"', "", {"across": None}),
+        ('lateral_structure = "isotropic"', 'lateral_structure = "ridges"', {"lateral_structure": "ridges"}),
+        ('lateral_structure = "isotropic"', "lateral_structure = 1.5", {"lateral_structure": 1.5}),
+        ('lateral_structure = "isotropic"', "lateral_ratio = 1.0", {"lateral_structure": 1.0}),
+        ('lateral_structure = "isotropic"', "", {"lateral_structure": None}),
     ],
 )
 def test_other_words_for_a_value(tmp_path, old, new, value):
     changes = [(old, new)] if "crown" not in old else [(old, new), ('load = "', 'transverse_radius = "1 m"\nload = "')]
     scene = loaded(tmp_path, *changes)
-    assert {key: getattr(scene, key) for key in value} == pytest.approx(value) or value == {"across": scene.across}
+    assert {key: getattr(scene, key) for key in value} == pytest.approx(value) or value == {
+        "lateral_structure": scene.lateral_structure
+    }
     assert ("axle" in new) == ("the axle load of 100 kN is shared by 2 wheels: 50 kN each." in scene.diagnose())
 
 
@@ -158,14 +160,16 @@ def test_a_band_without_waves_is_named_and_no_unit_is_blamed_for_it(tmp_path):
 def test_heights_have_the_levels_of_their_lines(tmp_path):
     np.save(tmp_path / "h.npy", 1e-6 * np.random.default_rng(1).standard_normal((1000, 40)))
     heights = [("[rail.levels]", "[rail.heights]"), (CURVE, 'file = "h.npy"\nspacing = "1 mm"')]
-    scene = loaded(tmp_path, *heights, ('across = "isotropic"', ""))
+    scene = loaded(tmp_path, *heights, ('lateral_structure = "isotropic"', ""))
     assert isinstance(scene.roughness, MeasuredHeights)
     assert scene.levels.source == "40 measured lines"
     assert dict(describe(scene))["what lies across"] == "measured"
-    with pytest.raises(ValueError, match=r"rail\.across must be left out beside rail\.heights"):
+    with pytest.raises(ValueError, match=r"rail\.lateral_structure must be left out beside rail\.heights"):
         loaded(tmp_path, *heights)
     with pytest.raises(ValueError, match=r"wheel\.levels must be left out beside rail\.heights"):
-        loaded(tmp_path, *heights, ("[rail]", f"[wheel.levels]\n{CURVE}\n[rail]"), ('across = "isotropic"', ""))
+        loaded(
+            tmp_path, *heights, ("[rail]", f"[wheel.levels]\n{CURVE}\n[rail]"), ('lateral_structure = "isotropic"', "")
+        )
 
 
 # What is refused
@@ -184,9 +188,17 @@ def test_heights_have_the_levels_of_their_lines(tmp_path):
             "wheel.offset must be left out where neither wheel nor rail",
         ),
         ('load = "50 kN" ', "", "wheel must have one of load, axle_load, got none"),
-        ('across = "isotropic"', 'across = "random"', 'rail.across must be "ridges", "isotropic" or a number'),
-        ('across = "isotropic"', "across = -1.0", "rail.across must be positive"),
-        ('across = "isotropic"', 'across = "ridges"\nalpha = 1.0', "got across and alpha"),
+        (
+            'lateral_structure = "isotropic"',
+            'lateral_structure = "random"',
+            'rail.lateral_structure must be "ridges", "isotropic" or a number',
+        ),
+        ('lateral_structure = "isotropic"', "across = -1.0", "rail.lateral_structure must be positive"),
+        (
+            'lateral_structure = "isotropic"',
+            'lateral_structure = "ridges"\nlateral_ratio = 1.0',
+            "got lateral_structure and lateral_ratio",
+        ),
         ('crown_radius = "300 mm"', "", "rail.crown_radius or wheel.transverse_radius must be given"),
         (CURVE, 'curve = "iso3095"', "rail.levels.curve must be one of cnossos-average, iso3095-2013, got"),
         (CURVE, f'{CURVE}\nfile = "a.csv"', "rail.levels must have one of curve, file, got curve and file"),
@@ -258,7 +270,7 @@ def test_heights_must_hold_the_contact(tmp_path, shape, spacing, said):
     np.save(tmp_path / "h.npy", 1e-6 * np.random.default_rng(1).standard_normal(shape))
     ground = f'file = "h.npy"\nspacing = "{spacing}"'
     with pytest.raises(ValueError, match=said):
-        loaded(tmp_path, ("[rail.levels]", "[rail.heights]"), (CURVE, ground), ('across = "isotropic"', ""))
+        loaded(tmp_path, ("[rail.levels]", "[rail.heights]"), (CURVE, ground), ('lateral_structure = "isotropic"', ""))
 
 
 def test_a_rail_is_no_dynamic_wheel():

@@ -37,7 +37,7 @@ EXACT_OVER_RIDGES = (LINEAR, LINEAR_ON_LINE, "springs on the line", "springs tha
 
 def closed(scene, across, *names):
     """A3 of the linear filter, or twin, of each model, or of those with these names."""
-    quantity = RailQuantity(replace(scene, across=across), "contact-filter")
+    quantity = RailQuantity(replace(scene, lateral_structure=across), "contact-filter")
     models = models_serving(quantity.scene, "contact-filter")
     return quantity, {
         model.name: model.filter.closed(quantity)[0] for model in models if model.name in names or not names
@@ -112,8 +112,8 @@ def test_a_level_that_stands_for_nothing_costs_its_own_band_alone(band, across):
     """-99 dB, as files have it where nothing was measured: the spectrum falls by a hundred decibels in a band."""
     levels = list(RAIL.levels.levels)
     levels[band] = -99.0
-    empty = replace(RAIL, across=across, roughness=replace(RAIL.levels, levels=tuple(levels)))
-    found, own = (RailQuantity(one, "contact-filter") for one in (empty, replace(RAIL, across=across)))
+    empty = replace(RAIL, lateral_structure=across, roughness=replace(RAIL.levels, levels=tuple(levels)))
+    found, own = (RailQuantity(one, "contact-filter") for one in (empty, replace(RAIL, lateral_structure=across)))
     others = (np.abs(np.arange(35) - band) > 1) & own.counted(own.linear.mean(axis=0))
     # what falls steeply beyond the last wave is a spectrum that isotropic ground can have
     assert found.no_answer == "" and found.stands_out[band] == (band < 34)
@@ -191,13 +191,13 @@ def test_at_fixed_aspect_the_filter_over_wavelength_and_contact_does_not_depend_
     "validation.railway.problems.rail_quantity.RailQuantity.half_width", property(lambda quantity: 0 * quantity.wave)
 )
 def test_ground_that_is_not_given_is_a_band_between_ridges_and_isotropic_ground():
-    both = compare(replace(RAIL, across=None), "contact-filter", "3 dB")
+    both = compare(replace(RAIL, lateral_structure=None), "contact-filter", "3 dB")
     ends = [closed(RAIL, across)[1][LINEAR] for across in ("ridges", "isotropic")]
-    quantity = RailQuantity(replace(RAIL, across=None), "contact-filter")
+    quantity = RailQuantity(replace(RAIL, lateral_structure=None), "contact-filter")
     np.testing.assert_allclose(quantity.half_width, np.abs(ends[0] - ends[1]) / 2)
     linear = next(one for one in both.models if one.name == LINEAR)
     assert linear.claimed > rail_models.relative(float(quantity.half_width[quantity.counted(ends[1])].max()))
-    assert "across is not given" in linear.reason
+    assert "lateral_structure is not given" in linear.reason
 
 
 @catches("errors of contact filters claimed beyond where they were measured").at(
@@ -238,11 +238,11 @@ def test_measured_lines_of_isotropic_ground_have_its_filter(lines, across):
         a, b = s * rng.standard_normal((2, lines)) / math.sqrt(2)
         height += np.outer(np.cos(k * x), a) + np.outer(np.sin(k * x), b)
     measured = MeasuredLines(height=height, spacing=1e-3, positions=tuple(range(lines)))
-    found = RailQuantity(replace(RAIL, roughness=measured, across=across), "contact-filter")
+    found = RailQuantity(replace(RAIL, roughness=measured, lateral_structure=across), "contact-filter")
     assert found.no_answer == "" and (found.smoothing_error > 0).all()
     with pytest.raises(ValueError, match="no isotropic surface has this line"):
         IsotropicGround(measured.levels.c_line)
-    own = RailQuantity(replace(RAIL, across=across), "contact-filter").linear.mean(axis=0)
+    own = RailQuantity(replace(RAIL, lateral_structure=across), "contact-filter").linear.mean(axis=0)
     own = own[np.isin(RAIL.levels.bands.numbers, found.bands.numbers)]
     off, claimed = np.abs(found.linear.mean(axis=0) - own), found.left_by_ground + rail_models.linear_error(found)
     assert (off <= claimed)[own > -15].all()
@@ -264,7 +264,7 @@ def test_springs_and_boundary_elements_agree_with_linear_theory_within_their_cla
     monkeypatch.setattr(rail_models, "COARSE", COARSE * 3 // 4)
     monkeypatch.setattr(rail_models, "FINE", FINE * 3 // 4)
     monkeypatch.setattr(rail_models, "STRIPS", 3)
-    scene = replace(RAIL, across=across, roughness=curve("iso3095-2013"))
+    scene = replace(RAIL, lateral_structure=across, roughness=curve("iso3095-2013"))
     quantity = RailQuantity(scene, "contact-filter")
     expected, counted = quantity.linear[0], quantity.counted(quantity.linear[0])
     model = next(one for one in models_serving(scene, "contact-filter") if one.name == name)
@@ -277,7 +277,7 @@ def test_springs_and_boundary_elements_agree_with_linear_theory_within_their_cla
 
 def test_the_cost_of_a_closed_filter_goes_with_its_evaluations():
     """Of a soft wheel, whose contact is hundreds of waves wide."""
-    target = Target(replace(RAIL, modulus=1e6, material=None, across=None), "contact-filter")
+    target = Target(replace(RAIL, modulus=1e6, material=None, lateral_structure=None), "contact-filter")
     model = next(one for one in models_serving(target.scene, "contact-filter") if one.name == LINEAR)
     evaluations = RailQuantity(target.scene, "contact-filter").evaluations
     assert 1e6 < evaluations < 4e6

@@ -58,7 +58,7 @@ def test_bands_are_levels_of_their_tones():
 
 @pytest.mark.parametrize("alpha", [1.0, 3.0])
 def test_oblique_waves_have_two_cells_on_both_grids(alpha):
-    case = replace(CASE, rail=replace(CASE.rail, across=alpha), seconds=0.02)
+    case = replace(CASE, rail=replace(CASE.rail, lateral_structure=alpha), seconds=0.02)
     coarse, fine = (case.strip(cells) for cells in case.cells)
     assert coarse.ground.highest < np.pi / coarse.spacing
     assert fine.spacing / coarse.spacing == pytest.approx(case.cells[0] / case.cells[1], rel=0.1)

@@ -347,7 +347,7 @@ def test_a_lost_ensemble_has_no_result_and_is_exit_3(small, tmp_path, monkeypatc
         (["report", "--workers", "two"], "whole number"),
         (["report", "--seed", "-1"], "--seed"),
         (["report", "--seed", "nan"], "--seed"),
-        (["race", "--executor", "local"], "usage: mdr-validation race "),
+        (["benchmark", "--executor", "local"], "usage: mdr-validation benchmark "),
         (["judge", "a.py", "b.py"], "mdr-validation judge: error: unrecognized arguments: b.py"),
         (["sound", "rail", "--models", "bem,moon"], "--models"),
         (["sound", "rail", "--seconds", "nan"], "--seconds"),

@@ -30,7 +30,7 @@ def modules_of(code, *words):
     return set(run.stdout.splitlines()[-1].split())
 
 
-HELP = [[command, "--help"] for command in ("report", "precision", "race", "cases", "scene")]
+HELP = [[command, "--help"] for command in ("report", "precision", "benchmark", "race", "cases", "scene")]
 
 
 @pytest.mark.parametrize("words", [["--help"], ["--version"], ["scene", "sphere"], *HELP])

@@ -33,7 +33,7 @@ def line_with(words):
         ("make reference ", said("full", seconds_of("full"), 2)),
         ("--only fractal_punch --profile full", said("full", ["fractal_punch"], 2)),
         ("mdr-validation precision --profile full", said("full", ["precision"])),
-        ("mdr-validation race --profile full", said("full", ["race"])),
+        ("mdr-validation benchmark --profile full", said("full", ["race"])),
         ("the quick size they take", f"{said('quick', ['precision'])} and {said('quick', ['race'])}"),
     ],
 )
@@ -48,9 +48,9 @@ def test_no_other_duration_stands_there():
     assert not re.search(r"half an hour|twenty minutes|half a minute|hours? on two cores, less", REPORTS)
 
 
-@pytest.mark.parametrize("name", ["precision", "race"])
-def test_the_help_has_the_same_durations(name):
-    assert COMMANDS[name].endswith(f"the full size takes {said('full', [name])}")
+@pytest.mark.parametrize(("name", "case"), [("precision", "precision"), ("benchmark", "race")])
+def test_the_help_has_the_same_durations(name, case):
+    assert COMMANDS[name].endswith(f"the full size takes {said('full', [case])}")
 
 
 @pytest.mark.parametrize(
@@ -70,7 +70,7 @@ def test_a_solver_is_left_out_after_the_seconds_that_the_page_says():
 
 def test_the_grids_of_the_race_are_those_of_the_page():
     cells = (*RACE.full.cells, *RACE.full.large)
-    assert f"{cells[0]}² to {cells[-1]}² cells" in line_with("mdr-validation race --profile full")
+    assert f"{cells[0]}² to {cells[-1]}² cells" in line_with("mdr-validation benchmark --profile full")
     assert f"The full size has grids of {cells[-2]}² and {cells[-1]}² cells" in REPORTS
     assert f"on {RACE.quick.cells[0]}² cells" in REPORTS
 

@@ -22,7 +22,10 @@ WRONG = [
     (f"{COMPARE} --models-from mine.py --figure mine.py", "--figure must end in .svg, .png, .pdf, got {path}"),
     (f"{COMPARE} --models-from mine.py --report mine.py", "--report must be a folder that can be written, got {path}"),
     ("calibrate --model mine.py --out mine.py", "--out must be a folder that can be written, got {path}: Not a dir"),
-    ("race --solver mine.py --out mine.py", "--out must be a folder that can be written, got {path}: Not a directory"),
+    (
+        "benchmark --solver mine.py --out mine.py",
+        "--out must be a folder that can be written, got {path}: Not a directory",
+    ),
 ]
 
 

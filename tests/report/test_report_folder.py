@@ -240,7 +240,7 @@ def holder(tmp_path):
 
 
 def test_the_second_of_two_runs_is_refused_and_a_killed_one_forgotten(tmp_path, holder, capsys):
-    for command_name in ("report", "precision", "race"):
+    for command_name in ("report", "precision", "benchmark"):
         assert command.main([command_name, "--out", str(tmp_path)]) == command.Exit.BAD_INPUT
         said = capsys.readouterr().err
         assert f"is being written by process {holder.pid} on {socket.gethostname()} since 20" in said

@@ -111,13 +111,13 @@ def edited(tmp_path, capsys, old, new):
 
 
 def test_geikes_rule_is_left_out_where_the_ground_is_not_isotropic(tmp_path, capsys):
-    scene = edited(tmp_path, capsys, 'across = "isotropic"', 'across = "ridges"')
+    scene = edited(tmp_path, capsys, 'lateral_structure = "isotropic"', 'lateral_structure = "ridges"')
     words = ["sound", scene, "--seconds", "0.02", "--workers", "1", "--out", str(tmp_path / "out")]
     assert command.main([*words, "--models", "linear,geike"]) == 0
     assert "Geike's rule is for isotropic ground, here it is ridges" in capsys.readouterr().out
     assert [f.name for f in (tmp_path / "out").glob("*.wav")] == ["linear.wav"]
     assert command.main([*words, "--models", "geike"]) == command.Exit.BAD_INPUT
-    assert "rail.across must be isotropic" in capsys.readouterr().err
+    assert "rail.lateral_structure must be isotropic" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -38,9 +38,9 @@ VARIANTS = {
     "axle": {
         "of": "rail",
         "wheel": {"load": LEFT_OUT, "axle_load": "100 kN", "wheels_per_axle": 2, "radius": LEFT_OUT, "diameter": "1 m"},
-        "rail": {"across": LEFT_OUT, "alpha": 1.0},
+        "rail": {"lateral_structure": LEFT_OUT, "lateral_ratio": 1.0},
     },
-    "number across": {"of": "rail", "rail": {"across": 1.0}},
+    "number across": {"of": "rail", "rail": {"lateral_structure": 1.0}},
     "contact modulus": {
         "of": "rough_punch",
         "material": dict.fromkeys(("youngs_modulus", "poisson_ratio", "counterface"), LEFT_OUT)
@@ -142,7 +142,11 @@ def counts_of(scene):
         return {"springs of a track": length / scene.contact_radius * scene.springs}
     if isinstance(scene, RailScene):
         (a, b), shortest = scene.contact.semi_axes, 0.8e-3
-        slope = 1.0 if scene.across is None or isinstance(scene.across, str) else scene.across
+        slope = (
+            1.0
+            if scene.lateral_structure is None or isinstance(scene.lateral_structure, str)
+            else scene.lateral_structure
+        )
         # 60 by 12 of the larger semi-axis, 12 cells to the smaller
         return {
             "cells of a strip": 60 * 12 * 144 * (max(a, b) / min(a, b)) ** 2,
@@ -195,11 +199,11 @@ def test_every_key_of_a_number_is_tried():
     ("variant", "key", "value", "said"),
     [
         ("rail", ("wheel", "load"), "0.001 N", "wheel.load must press a contact that filters a wavelength"),
-        ("rail", ("rail", "across"), 1e5, "rail.across must be a number alpha from 0.1 to 10, waves within 6 to 84"),
-        ("rail", ("rail", "across"), 1e12, "rail.across must be a number alpha from 0.1 to 10"),
-        ("axle", ("rail", "alpha"), 0.09, "rail.across must be a number alpha from 0.1 to 10"),
-        ("rail", ("rail", "across"), 0.1, None),
-        ("rail", ("rail", "across"), 10, None),
+        ("rail", ("rail", "lateral_structure"), 1e5, "rail.lateral_structure must be a number alpha from 0.1 to 10"),
+        ("rail", ("rail", "lateral_structure"), 1e12, "rail.lateral_structure must be a number alpha from 0.1 to 10"),
+        ("axle", ("rail", "lateral_ratio"), 0.09, "rail.lateral_structure must be a number alpha from 0.1 to 10"),
+        ("rail", ("rail", "lateral_structure"), 0.1, None),
+        ("rail", ("rail", "lateral_structure"), 10, None),
         ("axle", ("rail", "crown_radius"), "1e6 m",
          "rail.crown_radius and wheel.transverse_radius must leave a contact"),
         ("axle", ("rail", "crown_radius"), "10 m",

@@ -54,7 +54,7 @@ def drawn(rng, across, scatter, wide=0):
         radius=rng.uniform(0.18, 0.6),
         crown_radius=rng.uniform(0.15, 0.5),
         load=rng.uniform(15e3, 110e3),
-        across=across,
+        lateral_structure=across,
         roughness=RoughnessLevels(wavelengths=tuple(bands.nominal.tolist()), levels=tuple(levels.tolist())),
     )
     return scene, float(slope)
@@ -64,7 +64,7 @@ def held(scene, slope, value, half):
     """Whether intervals hold both ends that may be, or the isotropic one, of 16 to 160 mm that count."""
     bands = scene.levels.bands
     ends = filters_of_power_law(scene, slope, bands.edges)
-    truth = ends if scene.across is None else ends[1:]
+    truth = ends if scene.lateral_structure is None else ends[1:]
     asked = (bands.nominal >= 0.016) & (bands.nominal <= 0.16) & (value > -15)
     return (np.abs(value - truth) <= half + 1e-9).all(axis=0)[asked], half[asked]
 
@@ -136,7 +136,7 @@ def test_what_smoothing_leaves_is_its_slope_error_and_three_times_what_more_smoo
     q = bands.edges[[0, -1]]
     line, whole, smoother = (LineSpectrum.through(q, q ** -(1 + slope / 10)) for slope in (10.0, 10.0, 11.5))
     isotropic = IsotropicLine(line, whole, smoother, none + 0.2, 0.5, none, none > 0)
-    scene = replace(RAIL, across="isotropic")
+    scene = replace(RAIL, lateral_structure="isotropic")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(type(scene), "isotropic", isotropic)
         found = RailQuantity(scene, "contact-filter").smoothing_error
@@ -150,7 +150,7 @@ def test_what_smoothing_leaves_is_its_slope_error_and_three_times_what_more_smoo
 def corrugated(across="isotropic", by=6.0, waves=(31.5, 25)):
     raised = np.array(ISO.levels) + by * np.isin(1000 * ISO.bands.nominal, waves)
     scattered = raised + 0.4 * (-1.0) ** np.arange(35)
-    return replace(RAIL, across=across, roughness=replace(ISO, levels=tuple(scattered.tolist())))
+    return replace(RAIL, lateral_structure=across, roughness=replace(ISO, levels=tuple(scattered.tolist())))
 
 
 @catches("a corrugation taken for isotropic ground").at(
@@ -158,7 +158,7 @@ def corrugated(across="isotropic", by=6.0, waves=(31.5, 25)):
 )
 def test_a_corrugation_costs_its_own_bands_alone_and_they_lie_between_ridges_and_isotropic_ground():
     asked, smooth = (RailQuantity(one, "contact-filter") for one in (corrugated(), RAIL))
-    ridges = RailQuantity(replace(RAIL, across="ridges"), "contact-filter").linear[0]
+    ridges = RailQuantity(replace(RAIL, lateral_structure="ridges"), "contact-filter").linear[0]
     own = np.isin(1000 * asked.bands.nominal, (31.5, 25))
     assert asked.ends == ("ridges", "isotropic") and asked.stands_out.tolist() == own.tolist()
     assert (asked.half_width[own] > 0.3).all() and not asked.half_width[~own].any()
@@ -179,7 +179,7 @@ stands_out = RailQuantity.stands_out.fget
 def test_bands_that_stand_out_keep_their_names_under_longer_waves():
     """As of a table from 2000 mm on, by levels that begin at 400 mm."""
     levels = corrugated().levels.within(0.4, None)
-    asked = RailQuantity(replace(RAIL, across="isotropic", roughness=levels), "contact-filter", LONGEST)
+    asked = RailQuantity(replace(RAIL, lateral_structure="isotropic", roughness=levels), "contact-filter", LONGEST)
     assert (1000 * asked.bands.nominal)[asked.stands_out].tolist() == [31.5, 25.0]
 
 
@@ -225,7 +225,7 @@ def test_models_that_read_a_line_are_that_of_ridges_whatever_lies_across():
         scene = replace(RAIL, roughness=roughness)
         asked, line = (
             RailQuantity(scene, "contact-filter"),
-            RailQuantity(replace(scene, across="ridges"), "contact-filter"),
+            RailQuantity(replace(scene, lateral_structure="ridges"), "contact-filter"),
         )
         (model,) = (one for one in models_serving(scene, "contact-filter") if one.name == LINEAR_ON_LINE)
         found, own = model.filter.closed(asked).mean(axis=0), model.filter.closed(line)[0]

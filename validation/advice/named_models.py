@@ -1,4 +1,4 @@
-"""Models of a scene by the names that a user gives: mdr, bem, a full name, or its beginning."""
+"""Models of a scene by the names that a user gives: mdr, bem, a label, or its beginning."""
 
 from collections.abc import Callable, Collection, Sequence
 from pkgutil import resolve_name
@@ -11,6 +11,7 @@ from validation.scenes.printable import quoted
 from validation.scenes.scene import Scene
 from validation.simulation.method import Resolution
 from validation.simulation.model import Model, Target
+from validation.simulation.model_aliases import label_of, note_of
 from validation.simulation.model_names import SHORT
 
 T = TypeVar("T", SceneModel, Candidate)
@@ -23,7 +24,9 @@ def named(items: Sequence[T], name: str) -> list[T]:
         lambda model: model.name.lower() == full_name,
         lambda model: full_name == "mdr" and model.is_mdr,
         lambda model: model.kind.lower() == full_name,
+        lambda model: label_of(model.name).lower() == full_name,
         lambda model: full_name != "" and model.name.lower().startswith(full_name),
+        lambda model: full_name != "" and label_of(model.name).lower().startswith(full_name),
     ]
     return next((matches for rule in rules if (matches := [model for model in items if rule(model)])), [])
 
@@ -35,9 +38,17 @@ def models_named(models: Sequence[SceneModel], names: Sequence[str], tolerance: 
     ValueError for a name that no model of the scene has, or that several have.
     """
     if isinstance(names, str):
-        names = names_in(names, [model.name for model in models])
+        names = names_in(names, _labels_of(models))
     chosen = [model for name in names for model in _models_of_name(models, name, tolerance)]
     return [model for model in models if any(model is candidate for candidate in chosen)]
+
+
+def label_notes(models: Sequence[SceneModel], names: str) -> list[str]:
+    """A note for each model of a list with commas that is not named by "mdr" or "bem" and has two labels."""
+    given = names_in(names, _labels_of(models))
+    matches = [named(models, name) for name in given if name.lower() not in {"mdr", *SHORT}]
+    labelled = [found[0].name if len(found) == 1 else found[0].kind for found in matches if found]
+    return [note for name in dict.fromkeys(labelled) if (note := note_of(name))]
 
 
 def names_in(text: str, full_names: Sequence[str]) -> list[str]:
@@ -50,6 +61,11 @@ def names_in(text: str, full_names: Sequence[str]) -> list[str]:
         names.append(", ".join(parts[:end]))
         parts = parts[end:]
     return names
+
+
+def _labels_of(models: Sequence[SceneModel]) -> list[str]:
+    """All labels that are accepted."""
+    return [label for model in models for label in (model.name, label_of(model.name))]
 
 
 def _models_of_name(models: Sequence[SceneModel], name: str, tolerance: float) -> list[SceneModel]:
@@ -144,7 +160,10 @@ def names_and_own(
 
 def own_candidates(own: Sequence[Own], target: Target, packaged: Sequence[SceneModel]) -> list[SceneModel]:
     """Own models that serve the scene. ValueError where none does, and for a name that a packaged model has."""
-    taken = {name.lower() for model in packaged for name in (model.name, model.kind)} | {"mdr", *SHORT}
+    taken = {name.lower() for model in packaged for name in (model.name, model.kind, label_of(model.name))} | {
+        "mdr",
+        *SHORT,
+    }
     if same := [function.name for function in own if function.name.lower() in taken]:
         raise ValueError(f"a model of your own must have a name that no other has, got {quoted(same[0])}")
     own_models = [function.model() for function in own]

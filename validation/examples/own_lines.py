@@ -18,7 +18,7 @@ material = { youngs_modulus = "210 GPa", poisson_ratio = 0.3, counterface = "sam
 wheel = { diameter = "920 mm", axle_load = "100 kN", wheels_per_axle = 2, speed = "80 km/h" }
 [rail]
 crown_radius = "300 mm"
-across = "isotropic"
+lateral_structure = "isotropic"
 [rail.lines]
 file = "lines.csv"
 spacing = "1 mm"

@@ -13,14 +13,14 @@ Path("my_rail.toml").write_text(
 name = "my rail"
 material = { youngs_modulus = "210 GPa", poisson_ratio = 0.3, counterface = "same" }
 wheel = { diameter = "920 mm", load = "50 kN", speed = "80 km/h" }
-rail = { crown_radius = "300 mm", across = "isotropic", levels = { file = "levels.csv" } }
+rail = { crown_radius = "300 mm", lateral_structure = "isotropic", levels = { file = "levels.csv" } }
 """,
     encoding="utf-8",
 )
 scene = validation.load_scene("my_rail.toml")
 assert isinstance(scene, validation.RailScene)
 found = {
-    across: validation.compare(replace(scene, across=across), quantity="contact-filter", tolerance="1 dB")
+    across: validation.compare(replace(scene, lateral_structure=across), quantity="contact-filter", tolerance="1 dB")
     for across in ("ridges", "isotropic")
 }
 print(validation.summary(found["isotropic"]))

@@ -25,7 +25,7 @@ BODIES, GROUNDS = ("sphere", "punch", "wheel"), ("roughness", "heights")
 """Tables of bodies, of which a scene has one, and of roughness, of which it has one at the most."""
 LOADS = ("load", "pressure")
 """Keys of which a punch has one: its force, or the mean pressure on its face."""
-OTHER_GROUNDS = ("roughness", "levels", "lines", "across", "alpha")
+OTHER_GROUNDS = ("roughness", "levels", "lines", "lateral_structure", "lateral_ratio", "across", "alpha")
 """Keys of a body or a rail that heights stand in place of."""
 
 
@@ -102,9 +102,19 @@ def load_varied(scene: str | Path, key: str, value: str) -> Scene:
                 raise ValueError(f"{printable(key)} must be a key in a table of the scene, as wheel.load")
         if isinstance(inner.get(last), dict):
             raise ValueError(f"{printable(key)} must be a key with a value, got a table")
+        _without_other_name(tables, key)
         inner[last] = _number_or_text(value)
         tables["name"] = f"{tables.get('name')}, {last} = {value}"
         return _read_scene(tables, path.parent)
+
+
+def _without_other_name(tables: dict[str, Any], key: str) -> None:
+    """Remove the former name of a key, or today's beside a former one, which would be a second value of the same."""
+    for reader in brought("scene"):
+        for names in reader.renamed.items():
+            for name in names if key in names else ():
+                table_name, _, other = name.partition(".")
+                tables[table_name].pop(other, None)
 
 
 def _number_or_text(text: str) -> object:

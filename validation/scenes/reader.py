@@ -156,7 +156,13 @@ _LENGTHS = "radius diameter transverse_radius crown_radius side distance longest
 VALUES: dict[str, Reader] = {
     **dict.fromkeys(_LENGTHS.split(), LENGTH),
     **{"load": FORCE, "axle_load": FORCE, "mass": MASS, "speed": SPEED, "youngs_modulus": PRESSURE},
-    **{"pressure": PRESSURE, "contact_modulus": PRESSURE, "poisson_ratio": NUMBER, "alpha": POSITIVE, "springs": WHOLE},
+    **{
+        "pressure": PRESSURE,
+        "contact_modulus": PRESSURE,
+        "poisson_ratio": NUMBER,
+        "lateral_ratio": POSITIVE,
+        "springs": WHOLE,
+    },
     **{"wheels_per_axle": WHOLE, "damping": partial(_number_or_quantity, "share of critical")},
     "detrend": partial(one_word, words=get_args(Detrend)),
     **{"name": nonblank_text, "file": nonblank_text, "curve": nonblank_text, "fill": yes_or_no, "crop": yes_or_no},

@@ -9,6 +9,7 @@ from typing import Any
 
 from validation.advice.compare import Comparison, SceneProblem, Swept, swept_values
 from validation.advice.export import Export
+from validation.advice.named_models import label_notes
 from validation.advice.quantities import all_quantities, quantities_of
 from validation.advice.scene_model import SceneModel
 from validation.advice.several_scenes import compare_scenes
@@ -51,7 +52,7 @@ def describe(comparing: argparse.ArgumentParser) -> None:
     solved = comparing.add_mutually_exclusive_group()
     solved.add_argument("--all", action="store_true", help="solve and time all models, and print them side by side")
     solved.add_argument(
-        "--models", metavar="NAMES", help='solve these alone: mdr, bem, or names, as "mdr,bem" or "fit,springs"'
+        "--models", metavar="NAMES", help='solve these alone: mdr, bem, or names, as "mdr,bem" or "MDR, single line"'
     )
     add_options(
         comparing,
@@ -96,9 +97,13 @@ def compare(arguments: argparse.Namespace) -> Exit:
     _check_files(problems, arguments)
     for reader in _model_readers(arguments):
         problems = reader.with_models(problems, arguments.models_from)
+    notes = dict[str, None]()
     for problem in problems:
         for quantity in problem.quantities:
-            problem.offered(quantity)  # or an error, before anything is measured, written or solved
+            models, _ = problem.offered(quantity)  # or an error, before anything is measured, written or solved
+            notes |= dict.fromkeys(label_notes(models, arguments.models) if arguments.models else ())
+    for note in notes:
+        print(f"note: {note}", file=sys.stderr)
     swept = [sweep for (_, sweep), problem in zip(scenes, problems, strict=True) for _ in problem.quantities]
     comparisons = (
         _solve_and_report(problems, swept, arguments)

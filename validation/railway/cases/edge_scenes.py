@@ -31,7 +31,7 @@ def edge_rail(rng: Generator, name: str) -> RailScene:
         load=log_uniform(rng, WHEEL_LOADS),
         modulus=log_uniform(rng, MODULI),
         roughness=levels,
-        across=across,
+        lateral_structure=across,
     )
 
 

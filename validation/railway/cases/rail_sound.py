@@ -69,13 +69,13 @@ class RailSound:
             raise ValueError(f"models must be one of {', '.join(SOUNDING)} at least, got none")
         if self.across != ISOTROPIC and set(self.models) == {"geike"}:
             raise ValueError(
-                "Geike's rule is for isotropic ground: rail.across must be isotropic, or another model given"
+                "Geike's rule is for isotropic ground: rail.lateral_structure must be isotropic, or another model given"
             )
 
     @property
     def across(self) -> StatedAcross:
         """Isotropic where the scene leaves it out."""
-        return ISOTROPIC if self.rail.across is None else self.rail.across
+        return ISOTROPIC if self.rail.lateral_structure is None else self.rail.lateral_structure
 
     @property
     def sounding(self) -> tuple[str, ...]:

@@ -90,8 +90,8 @@ def files_of(result: RailSoundResult) -> dict[str, bytes]:
 
 def _assumed(case: RailSound) -> list[str]:
     lines = ["note: the strip is drawn at random with the levels of the scene"]
-    if case.rail.across is None:
-        lines.append("note: the ground is taken as isotropic, since rail.across is left out")
+    if case.rail.lateral_structure is None:
+        lines.append("note: the ground is taken as isotropic, since rail.lateral_structure is left out")
     if "geike" in case.models and len(case.sounding) < len(case.models):
         lines.append(f"note: Geike's rule is for isotropic ground, here it is {case.across}: no sound of it")
     return lines

@@ -20,7 +20,7 @@ ON_STRIPS = f"{STRIPS} strips, constant load"
 
 def by_remington(quantity: RailQuantity) -> FloatArray:
     """The linear bed of springs on a circle of radius sqrt(a_x a_y), over waves with |k_y| < alpha k_x."""
-    across, contact = quantity.scene.across, quantity.scene.contact
+    across, contact = quantity.scene.lateral_structure, quantity.scene.contact
     alpha = ALPHA if across is None or isinstance(across, str) else float(across)
     b = math.sqrt(contact.along * contact.across)
     square = partial(remington_filter, radius=b, alpha=alpha)

@@ -47,9 +47,9 @@ class RailQuantity:
     @property
     def ends(self) -> tuple[StatedAcross, ...]:
         """What lies across, or both ends of what may: also where levels stand out of the isotropic ground stated."""
-        if self.scene.across is None or self.stands_out.any():
+        if self.scene.lateral_structure is None or self.stands_out.any():
             return "ridges", "isotropic"
-        return (self.scene.across,)
+        return (self.scene.lateral_structure,)
 
     @property
     def stands_out(self) -> NDArray[np.bool_]:
@@ -110,7 +110,7 @@ class RailQuantity:
 
     def between(self, ends: FloatArray) -> FloatArray:
         """Of values at both ends, (ends, bands), those of isotropic ground where it is stated and has the level."""
-        both = self.scene.across is None or len(ends) == 1
+        both = self.scene.lateral_structure is None or len(ends) == 1
         return ends if both else np.where(self.stands_out, ends, ends[-1])
 
     def _of_ground(self, ground: TransverseStructure, line: LineSpectrum, transfer: Filter) -> FloatArray:

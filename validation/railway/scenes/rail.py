@@ -11,6 +11,7 @@ import numpy as np
 from mdr.checks import positive
 from validation.analysis.spectra import NominalBands
 from validation.analysis.statistics import FloatArray
+from validation.engine.former_names import renamed_field
 from validation.railway.scenes.isotropic_line import IsotropicLine, isotropic_line
 from validation.railway.scenes.level_files import MICROMETRE, RoughnessLevels
 from validation.railway.scenes.measured_lines import MeasuredLines
@@ -50,6 +51,7 @@ LONGEST_OF_CONTACT, SHORTEST_OF_CONTACT = 10.0, 0.45
 """Wavelengths over the half-length of the contact, one of which at least the roughness must have."""
 
 
+@renamed_field("across", "lateral_structure")
 @dataclass(frozen=True, kw_only=True)
 class RailScene(SceneDefaults):
     """A wheel that rolls along a rail with rough surfaces.
@@ -72,9 +74,9 @@ class RailScene(SceneDefaults):
         Of the wheel [m/s], [kg]. Without a speed there are wavelengths alone, without a mass no dynamic wheel.
     material : Material or None, optional
         What E* is made of, None where only ``modulus`` is known.
-    across : "ridges", "isotropic", float or None, optional
-        What lies across a line: ridges, isotropic ground, or waves with abs(k_y) < alpha k_x. None: ridges and
-        isotropic ground, as both ends.
+    lateral_structure : "ridges", "isotropic", float or None, optional
+        Lateral structure of the roughness: ridges, isotropic ground, or waves with abs(k_y) < alpha k_x. None: ridges
+        and isotropic ground, as both ends.
     notes : tuple of str, optional
         What was assumed where the scene was made, in sentences.
     damping : float, optional
@@ -109,7 +111,7 @@ class RailScene(SceneDefaults):
     speed: float | None = None
     mass: float | None = None
     material: Material | None = None
-    across: Across = None
+    lateral_structure: Across = None
     notes: tuple[str, ...] = ()
     damping: float = 0.0
 
@@ -124,13 +126,14 @@ class RailScene(SceneDefaults):
         if not isinstance(self.roughness, RoughnessLevels | MeasuredLines | MeasuredHeights):
             given = type(self.roughness).__name__
             raise TypeError(f"roughness must be RoughnessLevels, MeasuredLines or MeasuredHeights, got {given}")
-        if self.across not in ("ridges", "isotropic", None):
-            _check_alpha(self.across)
+        if self.lateral_structure not in ("ridges", "isotropic", None):
+            _check_alpha(self.lateral_structure)
         _check_contact(self)
         if isinstance(self.roughness, MeasuredHeights):
-            if self.across is not None:
+            if self.lateral_structure is not None:
                 raise ValueError(
-                    f"rail.across must be left out beside rail.heights, which have it, got {self.across!r}"
+                    "rail.lateral_structure must be left out beside rail.heights, which have it, "
+                    f"got {self.lateral_structure!r}"
                 )
             along, across = self.contact.along, self.contact.across
             check_covers("rail.heights", self.roughness, (4 * math.pi * along, 3 * across), min(along, across))
@@ -171,7 +174,7 @@ class RailScene(SceneDefaults):
     @cached_property
     def isotropic(self) -> IsotropicLine | None:
         """The line of isotropic ground nearest to the levels; None where other ground is stated."""
-        if self.across not in ("isotropic", None):
+        if self.lateral_structure not in ("isotropic", None):
             return None
         waves = 1 / self.levels.bands.wavelengths
         few = not isinstance(self.roughness, RoughnessLevels)
@@ -262,10 +265,10 @@ class RailScene(SceneDefaults):
             "isotropic": "isotropic ground",
             "ridges": "ridges",
         }
-        if self.across is None or isinstance(self.across, str):
-            return words[self.across]
-        angle = math.degrees(math.atan(self.across))
-        return f"waves within {angle:.3g} degrees of the track, alpha = {self.across:g}"
+        if self.lateral_structure is None or isinstance(self.lateral_structure, str):
+            return words[self.lateral_structure]
+        angle = math.degrees(math.atan(self.lateral_structure))
+        return f"waves within {angle:.3g} degrees of the track, alpha = {self.lateral_structure:g}"
 
     def diagnose(self) -> tuple[str, ...]:
         """What may be wrong about this scene though it is valid, in sentences with numbers."""
@@ -311,7 +314,11 @@ class RailScene(SceneDefaults):
             "what that leaves is in the error of each band."
         )
         if ground.stands_out.any():
-            taken = "the smooth line" if self.across is None else "the range from the smooth line's to that of ridges"
+            taken = (
+                "the smooth line"
+                if self.lateral_structure is None
+                else "the range from the smooth line's to that of ridges"
+            )
             yield (
                 f"no isotropic ground has the levels at {self.levels.bands.names(ground.stands_out)}, which rise too "
                 f"steeply or stand out of their neighbours: there it has {taken}."
@@ -323,10 +330,10 @@ def _short(length: float) -> str:
 
 
 def _check_alpha(alpha: Any) -> None:
-    if not LEAST_ALPHA <= positive("rail.across", alpha) <= MOST_ALPHA:
+    if not LEAST_ALPHA <= positive("rail.lateral_structure", alpha) <= MOST_ALPHA:
         raise ValueError(
-            f"rail.across must be a number alpha from {LEAST_ALPHA:g} to {MOST_ALPHA:g}, waves within 6 to 84 degrees "
-            f'of the track, got {alpha:g}; "ridges" stands for less, "isotropic" for all directions'
+            f"rail.lateral_structure must be a number alpha from {LEAST_ALPHA:g} to {MOST_ALPHA:g}, waves within 6 to "
+            f'84 degrees of the track, got {alpha:g}; "ridges" stands for less, "isotropic" for all directions'
         )
 
 
@@ -363,6 +370,7 @@ def _check_contact(scene: RailScene) -> None:
         )
 
 
+@renamed_field("across", "lateral_structure")
 @dataclass(frozen=True, kw_only=True)
 class ProfiledRail(RailScene):
     """A wheel on a rail with a transverse profile.

@@ -4,6 +4,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from validation.engine.former_names import with_current_keys
 from validation.railway.scenes.level_files import levels_in
 from validation.railway.scenes.measured_lines import MeasuredLines, lines_in
 from validation.railway.scenes.rail import ProfiledRail, RailScene
@@ -17,9 +18,11 @@ from validation.scenes.units import in_unit, quantity
 
 OWN = {
     "wheel": ("transverse_radius", "profile", "offset", "axle_load", "levels", "lines"),
-    "rail": ("crown_radius", "profile", "across", "alpha", "levels", "lines"),
+    "rail": ("crown_radius", "profile", "lateral_structure", "lateral_ratio", "across", "alpha", "levels", "lines"),
 }
 """What stands in the scene of a rail alone."""
+RENAMED = {"rail.across": "rail.lateral_structure", "rail.alpha": "rail.lateral_ratio"}
+"""Former keys, which are read for one release, and today's."""
 GROUNDS = ("levels", "lines", "heights")
 Shape = TransverseProfile | float | None
 MOST_WHEELS = 8
@@ -36,7 +39,7 @@ def is_rail(tables: dict[str, Any]) -> bool:
 
 def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
     """The scene in the tables of a file, other files beside it. Raises ValueError that names the key."""
-    told: list[str] = []
+    tables, told = with_current_keys(tables, RENAMED)
     of_files = {"profile": profile_in, "levels": levels_in, "lines": lines_in}
     files: dict[str, Reader] = {key: partial(read, folder=folder, notes=told) for key, read in of_files.items()}
     bodies = {"wheel": WHEEL | files, "rail": RAIL | files | {"heights": partial(heights_of, folder=folder)}}
@@ -52,7 +55,7 @@ def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
         "modulus": material.modulus,
         "material": material,
         "roughness": roughness,
-        "across": one_of(rail, "rail", ("across", "alpha"), least=0),
+        "lateral_structure": one_of(rail, "rail", ("lateral_structure", "lateral_ratio"), least=0),
         "notes": (*of_load, *of_roughness, *told),
         **{key: wheel[key] for key in ("speed", "mass", "damping") if key in wheel},
     }
@@ -143,11 +146,12 @@ class RailReader:
     """Reads the scenes of this house."""
 
     what = "a wheel on a rail with two radii"
+    renamed = RENAMED
     reads = staticmethod(is_rail)
     scene_of = staticmethod(rail_of)
 
 
 LOADED = values("radius", "diameter", "transverse_radius", "load", "axle_load", "wheels_per_axle")
 WHEEL = LOADED | values("speed", "mass", "damping") | {"offset": partial(quantity, dimension="length")}
-RAIL = {**values("crown_radius"), "across": _across, **values("alpha")}
+RAIL = {**values("crown_radius"), "lateral_structure": _across, **values("lateral_ratio")}
 """How each value of a scene file is read."""

@@ -25,7 +25,7 @@ def cases(arguments: argparse.Namespace) -> Exit:
 
 def report(arguments: argparse.Namespace) -> Exit:
     """Run cases, write their report, and say how it came out."""
-    # what is timed is run last, when nothing else is; a race needs other solvers
+    # what is timed is run last, when nothing else is; the solver benchmark needs other solvers
     everything = [*CASES, *timed_here()] if arguments.scene is None else ["wheel"]
     arguments.only = [name for some in arguments.only or () for name in some]
     names = list(dict.fromkeys(arguments.only or everything))
@@ -69,7 +69,7 @@ def _solvers_of(arguments: argparse.Namespace) -> str:
 
 def _folder(names: Sequence[str], arguments: argparse.Namespace) -> str:
     if arguments.timed:
-        return "-".join([*names, *["quick"] * (arguments.profile == "quick")])
+        return "-".join([arguments.timed, *["quick"] * (arguments.profile == "quick")])
     some = names if (arguments.only or arguments.scene) and not arguments.keep else ()
     return "-".join([arguments.profile, *some])
 
