@@ -238,9 +238,9 @@ class IsotropicGround(TransverseStructure):
         """C_2D(s) from a table, to 1e-3, zero beyond q_max; s > 0, any shape [m^4]."""
         q = np.asarray(s, dtype=np.float64)
         table_q, table_c = _tabulated(self.line)
-        density = np.exp(np.interp(np.log(q), np.log(table_q), np.log(table_c)))
+        found = np.exp(np.interp(np.log(q), np.log(table_q), np.log(table_c)))
         beyond = np.maximum(q / table_q[-1], 1.0) ** -(self.line.exponents[-1] + 1)
-        return np.asarray(np.where(q <= self.q_max, density * beyond, 0.0))
+        return np.asarray(np.where(q <= self.q_max, found * beyond, 0.0))
 
     def mean_square(self, q: ArrayLike, transfer: Filter, *, semi_axis: float) -> FloatArray:
         along = np.asarray(q, dtype=np.float64)[..., np.newaxis]
