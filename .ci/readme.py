@@ -13,27 +13,27 @@ from validation.report.answers.strip import interval
 ROOT = Path(__file__).resolve().parents[1]
 TABLE = re.compile(r"(<!-- answers: .*? -->\n).*?(<!-- end of answers -->)", flags=re.DOTALL)
 HEAD = "\n| question | is MDR enough? | over | what else is enough |\n|---|---|---|---|\n"
-WORDS = {"yes": "within tolerance", "open": "inconclusive", "no": "outside tolerance"}
+WORDS = ("within tolerance", "inconclusive", "outside tolerance")
 
 
 def with_answers(text: str, results: Mapping[str, Any]) -> str:
     """The page with a row a question between its marks."""
-    rows = "".join(f"| {' | '.join(cells(row))} |\n" for row in results["when MDR is enough"])
+    rows = "".join(f"| {' | '.join(cells(row))} |\n" for row in results["when_mdr_is_accurate_enough"])
     return TABLE.sub(lambda found: found[1] + HEAD + rows + "\n" + found[2], text)
 
 
 def cells(row: Mapping[str, Any]) -> list[str]:
     """Neighbouring places with the same answer are one range; what a model costs is left to the report."""
     places: dict[str, list[str]] = {}
-    measured = [cell for cell in row["strip"] if cell["enough"] in WORDS]
-    for (word, alone), group in groupby(measured, key=lambda cell: (cell["enough"], cell.get("alone", ""))):
+    measured = [cell for cell in row["strip"] if cell["verdict"] in WORDS]
+    for (word, alone), group in groupby(measured, key=lambda cell: (cell["verdict"], cell.get("alone", ""))):
         some = list(group)
-        where = _range(some, row["number that decides"], closed=some[-1] is measured[-1])
+        where = _range(some, row["deciding_number"], closed=some[-1] is measured[-1])
         places.setdefault(word, []).append(f"{where} ({alone})" if alone else where)
     words = [word for word in WORDS if word in places]
-    where = "; ".join(f"{WORDS[word]}: {listed(places[word])}" for word in words)
+    where = "; ".join(f"{word}: {listed(places[word])}" for word in words)
     instead = "; ".join(model["model"] for model in row["instead"])
-    said = [row["question"], f"**{row['answer']}.** {where}", row["number that decides"], instead]
+    said = [row["question"], f"**{row['answer']}.** {where}", row["deciding_number"], instead]
     return [text.replace("|", r"\|") for text in said]
 
 

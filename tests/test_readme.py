@@ -71,9 +71,10 @@ def test_the_answers_of_the_readme_are_those_of_the_reference_report():
         (ROOT / "reports" / "reference" / "results.json").read_text(encoding="utf-8"),
     )
     assert with_answers(text, json.loads(results)) == text
-    rows = re.findall(r"^\| .* \| \*\*(?:Yes|No|In part|Open|No or open)\.\*\* ", text, flags=re.MULTILINE)
-    assert len(rows) == len(json.loads(results)["when MDR is enough"]) == 8
-    assert with_answers(text, json.loads(results.replace('"enough": "yes"', '"enough": "no"'))) != text
+    answers = "Within tolerance|Outside tolerance|Inconclusive|In part|Outside tolerance or inconclusive"
+    rows = re.findall(rf"^\| .* \| \*\*(?:{answers})\.\*\* ", text, flags=re.MULTILINE)
+    assert len(rows) == len(json.loads(results)["when_mdr_is_accurate_enough"]) == 8
+    assert with_answers(text, json.loads(results.replace('"verdict": "within', '"verdict": "outside'))) != text
 
 
 def test_exit_statuses():

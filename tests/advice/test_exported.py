@@ -61,7 +61,9 @@ def test_what_is_not_known_is_null():
     nothing = compared(*models[:2])
     found = read(nothing)
     assert (found["model"], found["value"], found["error"], found["met"]) == (None, [None], [None], False)
-    assert [one["claimed"] for one in found["models"]] == [None, 0.0]
+    assert [one["predicted_error"] for one in found["models"]] == [None, 0.0]
+    # under its former name, too, for one release
+    assert [one["claimed"] for one in found["models"]] == [None, 0.0] and found["schema_version"] == 2
     assert [one["value"] for one in found["models"]] == [None, None]
     (row,) = rows_of(nothing)
     assert row["value"] == row["model"] == ""
@@ -143,6 +145,7 @@ def test_what_is_not_known_and_lists_are_as_the_schema_says():
 @pytest.mark.parametrize(
     ("key", "value", "fault"),
     [
+        ("schema_version", 1, "enum"),
         ("met", 1, "type"),
         ("met", None, "type"),
         ("tolerance", 0.0, "exclusiveMinimum"),

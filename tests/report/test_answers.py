@@ -135,8 +135,9 @@ def test_a_sentence_has_a_clause_for_each_side_and_ends_where_it_was_measured():
     )
     assert (row.measured, row.margin) == ("Fbar = 0.01 to 10, H = 0.7", "10 %: reason")
     (told,) = plain([row])
-    assert {name: told["strip"][2][name] for name in ("place", "enough", "verdict", "ends")} == {
+    assert {name: told["strip"][2][name] for name in ("place", "within_tolerance", "enough", "verdict", "ends")} == {
         "place": "0.1 to 1",
+        "within_tolerance": True,
         "enough": "yes",
         "verdict": "within tolerance",
         "ends": (0.1, 1.0),
@@ -204,8 +205,8 @@ def test_what_is_an_ensemble_mean_is_called_one():
     section = replace(punch(*by_hurst()), needed="the model of an estimate")
     assert "the model of an estimate" not in html_of(section)
     kept = case_results(section)
-    assert kept["model needed"] == "the model of an estimate"
-    assert "single surface" in kept["model needed is"] and "before a solve" in kept["model needed is"]
+    assert kept["model_needed"] == kept["model needed"] == "the model of an estimate"
+    assert "single surface" in kept["model_needed_is"] and "before a solve" in kept["model_needed_is"]
 
 
 # --- what else ---

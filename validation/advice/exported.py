@@ -16,6 +16,8 @@ from validation.analysis.contents import as_csv, as_json
 from validation.analysis.evidence import Table
 from validation.scenes.scene import Scene
 
+SCHEMA = 2
+"""Of the JSON; 1 had no key of its own and no `predicted_error`, whose former name `claimed` stays for one release."""
 SCHEMA_OF_JSON = Path(__file__).with_name("comparison.schema.json")
 AXES, OF_RAIL = ("wavelength_mm", "frequency_hz"), ("roughness_dB", "a3_dB", "equivalent_dB", "force_dBA")
 
@@ -55,6 +57,7 @@ def _record_of_comparison(comparison: Comparison) -> dict[str, object]:
     levels = levels_of(comparison, best, force)
     parts = comparison.error_parts_of(best) if best else {}
     return {
+        "schema_version": SCHEMA,
         "scene": comparison.scene.name,
         "quantity": comparison.quantity,
         "unit": comparison.unit,
@@ -170,6 +173,7 @@ def _record_of_model(comparison: Comparison, candidate: Candidate, force: Contac
         "model": candidate.name,
         "is_mdr": candidate.is_mdr,
         "status": candidate.status,
+        "predicted_error": _number(candidate.claimed),
         "claimed": _number(candidate.claimed),
         "error": _number(candidate.error) if solved else None,
         "cost_s": _number(candidate.cost),

@@ -5,7 +5,8 @@ import io
 import math
 import re
 import unicodedata
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 from validation.analysis.escapes import cell_text, json_text, printable
 from validation.analysis.evidence import Table
@@ -19,6 +20,20 @@ VALUES = (*INTERVAL, "value")
 VALUE = re.compile(r"value \[(.+)\]")
 NO_NAME = re.compile(r"[^\w.+'-]+")
 """What a file name is better without."""
+NO_KEY = re.compile(r"\W+", re.ASCII)
+CONDITION_KEYS = {"H": "hurst", "Fbar": "normalised_load"}
+"""Of the conditions whose name is a symbol."""
+GREEK = {
+    "α": "alpha",
+    "β": "beta",
+    "ζ": "zeta",
+    "λ": "lambda",
+    "μ": "u",
+    "ν": "nu",
+    "π": "pi",
+    "ρ": "rho",
+    "ω": "omega",
+}
 LONGEST_NAME = 120
 """Bytes of the name of a folder; a file system takes 255 of each."""
 RESERVED = {"con", "prn", "aux", "nul", "conin$", "conout$", "clock$"} | {
@@ -45,6 +60,22 @@ def _nested(value: object, levels: int) -> str:
 def plain_name(text: str) -> str:
     """Of a file or an address: "k / (E* L)" is "k_E_L"."""
     return NO_NAME.sub("_", text).strip("_")
+
+
+def ascii_text(text: str) -> str:
+    """Greek letters by their names, superscripts as digits, letters without marks; any other letter is a blank."""
+    named = "".join(GREEK.get(letter, letter) for letter in unicodedata.normalize("NFKD", text))
+    return "".join(" " if ord(letter) > 127 else letter for letter in named if not unicodedata.combining(letter))
+
+
+def condition_key(name: str) -> str:
+    """Of a condition in JSON and CSV: "wavelength [mm]" is wavelength_mm, "q_r L / 2π" is q_r_L_2pi."""
+    return CONDITION_KEYS.get(name) or NO_KEY.sub("_", ascii_text(name).replace("'", "")).strip("_")
+
+
+def conditions_in_json(where: Mapping[str, Any]) -> dict[str, Any]:
+    """With names that are keys."""
+    return {condition_key(name): value for name, value in where.items()}
 
 
 def folder_names(texts: Sequence[str]) -> list[str]:

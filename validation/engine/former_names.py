@@ -25,6 +25,17 @@ def with_current_keys(tables: Mapping[str, Any], renamed: Mapping[str, str]) -> 
     return tables, notes
 
 
+def with_former_keys(record: Mapping[str, Any], former: Mapping[str, str]) -> dict[str, Any]:
+    """A record of JSON in which each key that had another name stands under both. former: by today's key."""
+    keys = {key: (key, former[key]) if key in former else (key,) for key in record}
+    return {name: value for key, value in record.items() for name in keys[key]}
+
+
+def value_of(record: Mapping[str, Any], key: str, former: str) -> Any:
+    """Of a file that may be from before the key had its name. Raises KeyError where it has neither."""
+    return record[key] if key in record else record[former]
+
+
 def renamed_field(former: str, current: str) -> Callable[[type[Class]], type[Class]]:
     """Of a dataclass: its former keyword and attribute work, with a FutureWarning."""
 

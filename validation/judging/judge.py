@@ -3,14 +3,14 @@
 import math
 import time
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from validation.advice.tolerance import Tolerance, tolerance_of
-from validation.analysis.contents import as_csv, as_json, plain_name
+from validation.analysis.contents import as_csv, as_json, condition_key, conditions_in_json
 from validation.analysis.evidence import Table, table_of
 from validation.analysis.verdict import Verdict
 from validation.judging.judgement import (
@@ -25,7 +25,6 @@ from validation.judging.judgement import (
 from validation.judging.kinds.diagnosis import Remark, remarks
 from validation.judging.kinds.judge import JUDGES, points_of
 from validation.judging.kinds.own import ErrorOfCall, costs_of
-from validation.judging.kinds.stiffness import FORCE, H
 from validation.judging.replies import raised
 from validation.judging.words import solver_lines, summary_lines
 from validation.judging.worker import Called, visited
@@ -44,8 +43,6 @@ SCHEMA = 2
 VALUES = ("value", "reference", "difference", "error", "unit")
 """Numbers of a row of CSV and JSON, and the unit of the difference."""
 CSV_COLUMNS = (*VALUES, "outcome", "reason")
-CONDITION_KEYS = {H: "hurst", FORCE: "normalised_load"}
-"""In CSV and JSON, of the conditions whose name is a symbol."""
 Row = TypeVar("Row", JudgedNumber, JudgedRange)
 
 
@@ -254,7 +251,7 @@ def judged(model: Called, tolerance: Tolerance) -> Judgement:
 def numbers_as_csv(judgements: Sequence[Judgement]) -> bytes:
     """A row a number of each model; a condition that a number does not have is left empty."""
     rows = [
-        {"model": judgement.model, "quantity": number.quantity, **_conditions(number.where)} | _cells(number)
+        {"model": judgement.model, "quantity": number.quantity, **conditions_in_json(number.where)} | _cells(number)
         for judgement in judgements
         for number in judgement.numbers
     ]
@@ -273,7 +270,7 @@ def _number_in_json(number: JudgedNumber) -> dict[str, object]:
     return {
         "quantity": number.quantity,
         "where": dict(number.where),
-        "conditions": _conditions(number.where),
+        "conditions": conditions_in_json(number.where),
         **{name: _finite(getattr(number, name)) for name in VALUES},
         "verdict": number.verdict.earlier,
         "outcome": str(number.verdict),
@@ -284,8 +281,8 @@ def _number_in_json(number: JudgedNumber) -> dict[str, object]:
 def _range_in_json(part: JudgedRange) -> dict[str, object]:
     return {
         "quantity": part.quantity,
-        "conditions": _conditions(part.where),
-        "along": _key_of(part.along),
+        "conditions": conditions_in_json(part.where),
+        "along": condition_key(part.along),
         "from": _finite(part.start),
         "to": _finite(part.stop),
         "outcome": str(part.verdict),
@@ -295,16 +292,6 @@ def _range_in_json(part: JudgedRange) -> dict[str, object]:
 def _range_in_schema_1(part: JudgedRange) -> dict[str, object]:
     earlier = {"where": dict(part.where), "along": part.along, "from": _finite(part.start), "to": _finite(part.stop)}
     return {"quantity": part.quantity, **earlier, "verdict": part.verdict.earlier}
-
-
-def _conditions(where: Mapping[str, float | str]) -> dict[str, object]:
-    """With names that are keys."""
-    return {_key_of(name): value for name, value in where.items()}
-
-
-def _key_of(condition: str) -> str:
-    """ "wavelength [mm]" is wavelength_mm, "q_r L / 2π" is q_r_L_2pi."""
-    return CONDITION_KEYS.get(condition) or plain_name(condition.replace("π", "pi"))
 
 
 def _finite(value: float | str) -> float | str | None:

@@ -15,6 +15,7 @@ from validation.analysis.contents import as_csv, as_json, csv_name
 from validation.analysis.evidence import Evidence
 from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.engine.engine import LOCAL, Engine
+from validation.engine.former_names import with_former_keys
 from validation.engine.progress import Part, Progress
 from validation.engine.workers import Workers
 from validation.report.answers.first_screen import answered_questions, plain
@@ -29,6 +30,9 @@ from validation.report.provenance import machine, provenance, require_todays_cod
 from validation.report.section import Section, numbers_table, results_of, written_tables
 from validation.report.sounds import sound_files
 from validation.scenes.dynamic_wheel import WheelScene
+
+FORMER_KEYS = {"chapter_14": "chapter 14", "when_mdr_is_accurate_enough": "when MDR is enough"}
+"""Of results.json of schema 1, which schema 2 has beside today's for one release."""
 
 
 def build(
@@ -160,10 +164,12 @@ def _files(
     lasting = [section for section in sections if section.name not in TIMED]
     timed = [section for section in sections if section.name in TIMED]
     # the statements of the book are about its own scene
+    answers = {
+        "chapter_14": chapter_results(lasting),
+        "when_mdr_is_accurate_enough": plain(answered_questions(lasting)),
+    }
     more: dict[str, object] = (
-        {"chapter 14": chapter_results(lasting), "when MDR is enough": plain(answered_questions(lasting))}
-        if scene is None
-        else {"scene": scene_summary(scene)}
+        with_former_keys(answers, FORMER_KEYS) if scene is None else {"scene": scene_summary(scene)}
     )
     files[RESULTS] = as_json(results_of(lasting, profile) | more)
     files |= {f"{section.name}.json": as_json(results_of([section], profile)) for section in timed}

@@ -12,6 +12,7 @@ from validation.analysis.evidence import Evidence, JudgedClaim, Number, Role, Ta
 from validation.analysis.quantity import quantity_with
 from validation.analysis.sound import Sound, Sounds
 from validation.engine.files import name_in, place_in
+from validation.engine.former_names import value_of
 from validation.report.contents import CASES, TIMED
 from validation.report.folder import RESULTS, SOUNDS
 from validation.report.section import WORDS, Section
@@ -58,7 +59,15 @@ def _section(folder: Path, name: str, case: Mapping[str, Any]) -> Section:
     # no name of a case has a hyphen
     files = [*sorted((folder / DATA).glob(f"{name}-*.csv")), *sorted((folder / SOUNDS).glob(f"{name}-*.wav"))]
     held = {name_in(folder, file): file.read_bytes() for file in files}
-    return Section(name, (CASES | TIMED)[name], case["model needed"], case["settings"], evidence, failure, held)
+    return Section(
+        name,
+        (CASES | TIMED)[name],
+        value_of(case, "model_needed", "model needed"),
+        case["settings"],
+        evidence,
+        failure,
+        held,
+    )
 
 
 def _evidence(folder: Path, name: str, case: Mapping[str, Any]) -> Evidence:
@@ -74,7 +83,7 @@ def _evidence(folder: Path, name: str, case: Mapping[str, Any]) -> Evidence:
         unconverged=tuple(case["unconverged"]),
         page_tables=tuple(
             Table(table["name"], {name: list(map(_cell, cells)) for name, cells in table["columns"].items()})
-            for table in case["page tables"]
+            for table in value_of(case, "page_tables", "page tables")
         ),
         claims=tuple(_claim(name, claim, numbers) for claim in case["claims"]),
         sounds=Sounds(**{**sounds, "tracks": tuple(Sound(**track) for track in sounds["tracks"])}) if sounds else None,
@@ -91,7 +100,10 @@ def _number(told: Mapping[str, Any]) -> Number:
 def _claim(case: str, told: Mapping[str, Any], numbers: Mapping[str, Number]) -> JudgedClaim:
     tested, inside = (tuple(numbers[label] for label in told[of]) for of in ("numbers", "inside"))
     words = {name: told[name] for name in ("claim", "answer", "limits")}
-    whose, confirmed_by = Whose(told.get("whose", Whose.FINDING)), Verdict(told["confirmed by"])
+    whose, confirmed_by = (
+        Whose(told.get("whose", Whose.FINDING)),
+        Verdict(value_of(told, "confirmed_by", "confirmed by")),
+    )
     key = told.get("key") or _key_of(case, told["claim"])
     return JudgedClaim(**words, numbers=tested, inside=inside, confirmed_by=confirmed_by, whose=whose, key=key)
 

@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 from validation.analysis.case import Case, Profile
-from validation.analysis.contents import plain_name
+from validation.analysis.contents import conditions_in_json, plain_name
 from validation.analysis.evidence import (
     ClaimStatus,
     Evidence,
@@ -18,12 +18,15 @@ from validation.analysis.evidence import (
     Whose,
 )
 from validation.analysis.verdict import OF_NUMBERS
+from validation.engine.former_names import with_former_keys
 
 PREDICTED = "predicted before a solve, for a single surface and not for ensemble means"
 STATED = "stated by the case"
 """What the model is that a case needs, by the a-priori error estimates or by itself: no answer of the page."""
 SCHEMA = 2
 """Of results.json: keys of schema 1 stay for one release."""
+FORMER_KEYS = {name.replace(" ", "_"): name for name in ("model needed", "model needed is", "page tables")}
+"""Of a case in results.json of schema 1, which schema 2 has beside today's for one release."""
 FIRST_WORDS = 10
 """Of a claim without a key, by which it is found."""
 
@@ -122,7 +125,7 @@ def results_of(sections: Sequence[Section], profile: Profile) -> dict[str, objec
 
 def case_results(section: Section) -> dict[str, object]:
     """Everything that the page says of a case, as plain values; its tables are in files of their own."""
-    return {
+    results = {
         **(_words(section.evidence) if section.evidence else {}),
         "claim": section.entry.claim,
         "claims": [
@@ -139,13 +142,14 @@ def case_results(section: Section) -> dict[str, object]:
             for claim in section.claims
         ],
         "answers": section.entry.answers,
-        "model needed": section.needed,
-        "model needed is": PREDICTED if callable(section.entry.needs) else STATED,
+        "model_needed": section.needed,
+        "model_needed_is": PREDICTED if callable(section.entry.needs) else STATED,
         "settings": section.settings,
         "numbers": [
             {
                 "label": number.label,
                 **asdict(number),
+                "conditions": conditions_in_json(number.where),
                 "difference": number.difference,
                 "verdict": number.verdict.earlier,
                 "outcome": number.verdict,
@@ -156,6 +160,7 @@ def case_results(section: Section) -> dict[str, object]:
         "conclusions": section.evidence.conclusions if section.evidence else (),
         "unconverged": section.unconverged,
     }
+    return with_former_keys(results, FORMER_KEYS)
 
 
 WORDS = ("title", "finding", "method", "captions", "headlines")
@@ -167,7 +172,7 @@ def _words(evidence: Evidence) -> dict[str, object]:
     return {
         **{name: getattr(evidence, name) for name in WORDS},
         "tables": [table.name for table in written_tables(evidence)],
-        "page tables": [
+        "page_tables": [
             {"name": table.name, "columns": {name: list(map(_plain, cells)) for name, cells in table.columns.items()}}
             for table in evidence.page_tables
         ],

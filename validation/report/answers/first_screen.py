@@ -17,6 +17,8 @@ from validation.report.section import Section
 REGIONS = "the spectrum"
 """An axis whose places are parts of it, not surfaces."""
 NOT_RUN, NO_RESULT, NOT_MEASURED = "Not run", "No result", "Not measured"
+WITHIN_TOLERANCE: Mapping[Verdict | None, bool] = {Verdict.WITHIN: True, Verdict.OUTSIDE: False}
+"""In results.json, null where that is inconclusive or was not measured."""
 ENSEMBLE_MEAN = "ensemble mean"
 """What all answers are of: a single surface may be off by more."""
 
@@ -71,11 +73,12 @@ def answered_questions(sections: Sequence[Section]) -> list[AnsweredQuestion]:
 
 
 def plain(rows: Sequence[AnsweredQuestion]) -> list[dict[str, object]]:
-    """The same for results.json."""
+    """The same for results.json: keys of schema 2, and for one release those of schema 1 that were renamed."""
     return [
         {
             "question": row.question.asks,
             "case": row.question.source.case,
+            "deciding_number": row.question.source.over,
             "number that decides": row.question.source.over,
             "answer": row.word,
             "sentence": row.answer,
@@ -83,9 +86,11 @@ def plain(rows: Sequence[AnsweredQuestion]) -> list[dict[str, object]]:
             "strip": [
                 {
                     "place": cell.place,
+                    "within_tolerance": WITHIN_TOLERANCE.get(cell.verdict),
                     "enough": EARLIER_WORDS[cell.verdict] if cell.verdict else NOT_MEASURED.lower(),
                     "verdict": cell.verdict,
                     "alone": cell.alone,
+                    "by_condition": cell.by,
                     "by condition": cell.by,
                     "ends": cell.ends,
                 }
