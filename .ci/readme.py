@@ -3,17 +3,18 @@
 import json
 import re
 from collections.abc import Mapping, Sequence
-from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-from validation.analysis.claims import listed
-from validation.report.answers.strip import interval
+from validation.analysis.claim_text import listed
+from validation.analysis.number_text import half_open_text
+from validation.analysis.ranges import verdict_ranges
+from validation.analysis.verdict import Verdict
 
 ROOT = Path(__file__).resolve().parents[1]
 TABLE = re.compile(r"(<!-- answers: .*? -->\n).*?(<!-- end of answers -->)", flags=re.DOTALL)
 HEAD = "\n| question | is MDR enough? | over | what else is enough |\n|---|---|---|---|\n"
-WORDS = ("within tolerance", "inconclusive", "outside tolerance")
+VERDICTS = ("within tolerance", "inconclusive", "outside tolerance")
 
 
 def with_answers(text: str, results: Mapping[str, Any]) -> str:
@@ -24,14 +25,17 @@ def with_answers(text: str, results: Mapping[str, Any]) -> str:
 
 def cells(row: Mapping[str, Any]) -> list[str]:
     """Neighbouring places with the same answer are one range; what a model costs is left to the report."""
+    measured = [cell for cell in row["strip"] if cell["verdict"] in VERDICTS]
+    verdicts, conditions = ([cell.get(name, "") for cell in measured] for name in ("verdict", "alone"))
+    ranges = verdict_ranges(
+        [cell["place"] for cell in measured], [Verdict(verdict) for verdict in verdicts], conditions
+    )
     places: dict[str, list[str]] = {}
-    measured = [cell for cell in row["strip"] if cell["verdict"] in WORDS]
-    for (word, alone), group in groupby(measured, key=lambda cell: (cell["verdict"], cell.get("alone", ""))):
-        some = list(group)
-        where = _range(some, row["deciding_number"], closed=some[-1] is measured[-1])
-        places.setdefault(word, []).append(f"{where} ({alone})" if alone else where)
-    words = [word for word in WORDS if word in places]
-    where = "; ".join(f"{word}: {listed(places[word])}" for word in words)
+    for part in ranges:
+        neighbours = part.items(measured)
+        where = _range(neighbours, row["deciding_number"], closed=neighbours[-1] is measured[-1])
+        places.setdefault(part.verdict, []).append(f"{where} ({part.split})" if part.split else where)
+    where = "; ".join(f"{verdict}: {listed(places[verdict])}" for verdict in VERDICTS if verdict in places)
     instead = "; ".join(model["model"] for model in row["instead"])
     said = [row["question"], f"**{row['answer']}.** {where}", row["deciding_number"], instead]
     return [text.replace("|", r"\|") for text in said]
@@ -41,7 +45,7 @@ def _range(cells: Sequence[Mapping[str, Any]], over: str, *, closed: bool) -> st
     """Of ranges "0.01 ≤ Fbar < 0.1", the last of them closed; of points "0.024 to 0.73", "ridges to alpha = 0.25"."""
     ends = [cell.get("ends") for cell in (cells[0], cells[-1])]
     if all(ends):
-        return interval(over, ends[0][0], ends[1][1], closed=closed)
+        return half_open_text(over, ends[0][0], ends[1][1], closed=closed)
     return " to ".join(dict.fromkeys((cells[0]["place"], cells[-1]["place"])))
 
 

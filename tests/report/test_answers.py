@@ -171,7 +171,9 @@ def by_hurst():
     ]
 
 
-@catches("a strip that hides its Hurst exponent").at("validation.report.answers.strip.alone", lambda *_: "")
+@catches("a strip that hides its Hurst exponent").at(
+    "validation.report.answers.strip.separating_conditions", lambda *_: ()
+)
 def test_a_strip_and_its_sentence_name_the_hurst_exponents_on_which_a_verdict_depends():
     row = mean_stiffness(*by_hurst())
     assert [cell.alone for cell in row.strip] == ["", "H = 1 alone", "", "H = 0.4 alone", "", ""]

@@ -226,6 +226,16 @@ EARLIER_STATUSES = {
 }
 
 
+def claim_status(numbers: Iterable[Number], inside: Iterable[Number], confirmed_by: Verdict) -> ClaimStatus:
+    """Of a claim with these numbers; inside: those within its limits, none without limits."""
+    verdicts = {number.verdict for number in numbers}
+    if verdicts == {confirmed_by}:
+        return ClaimStatus.SUPPORTED
+    if {number.verdict for number in inside} == {confirmed_by}:
+        return ClaimStatus.LIMITED
+    return ClaimStatus.INCONCLUSIVE if verdicts <= {confirmed_by, Verdict.INCONCLUSIVE} else ClaimStatus.REFUTED
+
+
 class Whose(StrEnum):
     """Who says so: a claim that its author would recognise, or what was found here."""
 
@@ -269,14 +279,7 @@ class JudgedClaim:
     @property
     def status(self) -> ClaimStatus:
         """By the verdicts of all numbers, or of those inside the limits; one counterexample contradicts."""
-        verdicts, inside = ({number.verdict for number in some} for some in (self.numbers, self.inside))
-        if verdicts == {self.confirmed_by}:
-            return ClaimStatus.SUPPORTED
-        if inside == {self.confirmed_by}:
-            return ClaimStatus.LIMITED
-        return (
-            ClaimStatus.INCONCLUSIVE if verdicts <= {self.confirmed_by, Verdict.INCONCLUSIVE} else ClaimStatus.REFUTED
-        )
+        return claim_status(self.numbers, self.inside, self.confirmed_by)
 
     def count(self, verdict: Verdict) -> int:
         """Of the numbers that test it."""

@@ -68,6 +68,11 @@ def interval_text(low: float, high: float, digits: int = 3) -> str:
     return f"{low:.{digits}g} to {high:.{digits}g}" if high > low else f"{low:.{digits}g}"
 
 
+def half_open_text(name: str, low: float, high: float, *, closed: bool = False) -> str:
+    """ "0.01 ≤ Fbar < 0.1", so that neighbours share no value; closed: the last of them."""
+    return f"{low:.2g} ≤ {name} {'≤' if closed else '<'} {high:.2g}"
+
+
 def place_value(value: float) -> str:
     """Of a condition: three digits, or the whole of a number of four to six."""
     return f"{value:.0f}" if 1000 <= abs(value) < 1e6 else f"{value:.3g}"

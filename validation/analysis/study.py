@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from validation.analysis.chart import Chart
-from validation.analysis.claims import Claim, Matrix, in_sentence
+from validation.analysis.claim_text import in_sentence
+from validation.analysis.claims import Claim, Matrix
 from validation.analysis.evidence import Evidence, Number, Table
 from validation.analysis.number_text import with_prefix
 from validation.analysis.series import Series, numbers_of, tables_of

@@ -1,9 +1,6 @@
-"""The verdict of a number: one vocabulary, one rule, and ranges of equal verdict along a parameter."""
+"""The verdict of a number: one vocabulary and one rule."""
 
-from collections.abc import Hashable, Sequence
-from dataclasses import dataclass
 from enum import StrEnum
-from itertools import groupby
 
 Place = str | float | tuple[float, float]
 """A region by its name, a parameter by its value, or a range of it by both ends."""
@@ -65,50 +62,3 @@ def verdict_of(difference: float, half_width: float, tolerance: float, rounding:
     if abs(difference) + half_width <= limit:
         return Verdict.WITHIN
     return Verdict.OUTSIDE if abs(difference) - half_width > limit else Verdict.INCONCLUSIVE
-
-
-@dataclass(frozen=True)
-class VerdictRange:
-    """Neighbouring places of one verdict along a parameter.
-
-    places: in their order; first: position of the first of them among all; split: the value of what else keeps
-    neighbours apart, as a condition that alone has the verdict.
-    """
-
-    verdict: Verdict
-    places: tuple[Place, ...]
-    first: int
-    split: Hashable = None
-
-    @property
-    def start(self) -> float:
-        """Lower end of the first place. Raises TypeError for a region by its name."""
-        return ends_of(self.places[0])[0]
-
-    @property
-    def stop(self) -> float:
-        """Upper end of the last place. Raises TypeError for a region by its name."""
-        return ends_of(self.places[-1])[1]
-
-
-def ends_of(place: Place) -> tuple[float, float]:
-    """Both ends of a range; of a value, twice the value. Raises TypeError for a region by its name."""
-    if isinstance(place, str):
-        raise TypeError(f"place must be a value or a range, got {place!r}")
-    return place if isinstance(place, tuple) else (place, place)
-
-
-def verdict_ranges(
-    places: Sequence[Place], verdicts: Sequence[Verdict], split: Sequence[Hashable] | None = None
-) -> list[VerdictRange]:
-    """Ranges of equal verdict, in the order of the places.
-
-    split: a value each, by which neighbours of one verdict stay apart where it differs. Raises ValueError where the
-    lengths differ.
-    """
-    rows = list(zip(places, verdicts, split if split is not None else [None] * len(places), strict=True))
-    ranges: list[VerdictRange] = []
-    for (verdict, value), group in groupby(rows, lambda row: (row[1], row[2])):
-        first = ranges[-1].first + len(ranges[-1].places) if ranges else 0
-        ranges.append(VerdictRange(verdict, tuple(row[0] for row in group), first, value))
-    return ranges

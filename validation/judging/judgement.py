@@ -8,7 +8,8 @@ from operator import attrgetter
 
 from validation.analysis.evidence import Number, Role
 from validation.analysis.number_text import deviation_text
-from validation.analysis.verdict import Verdict, VerdictRange, verdict_of, verdict_ranges
+from validation.analysis.ranges import VerdictRange, verdict_ranges
+from validation.analysis.verdict import Verdict, verdict_of
 
 RATIO, LEVEL, DEVIATION = "-", "dB", "over the mean"
 """Units, by which a number is compared with its reference."""
@@ -238,10 +239,6 @@ class JudgedSeries:
             JudgedRange(self.quantity, self.where, self.along, part.start, part.stop, part.verdict)
             for part in self.verdict_ranges
         ]
-
-    def numbers_in(self, part: VerdictRange) -> Sequence[JudgedNumber]:
-        """Of one of its ranges."""
-        return self.numbers[part.first : part.first + len(part.places)]
 
 
 def series_of(numbers: Iterable[JudgedNumber]) -> list[list[JudgedSeries]]:

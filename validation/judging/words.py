@@ -5,12 +5,12 @@ import textwrap
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from importlib import metadata
-from itertools import groupby
 from typing import TYPE_CHECKING
 
 from validation.advice.tolerance import Tolerance, decibels
 from validation.analysis.number_text import deviation_text, interval_text
-from validation.analysis.verdict import Verdict, VerdictRange
+from validation.analysis.ranges import VerdictRange, verdict_ranges
+from validation.analysis.verdict import Verdict
 from validation.judging.judgement import (
     LEVEL,
     JudgedNumber,
@@ -119,7 +119,7 @@ def _break_line(series: JudgedSeries, part: VerdictRange) -> str:
     """The largest deviation of a range; empty where the range is within tolerance or inconclusive."""
     if part.verdict in (Verdict.WITHIN, Verdict.INCONCLUSIVE):
         return ""
-    numbers = series.numbers_in(part)
+    numbers = part.items(series.numbers)
     where = (
         f"{series.along} = {interval_text(part.start, part.stop)}" if series.along else conditions_text(series.where)
     )
@@ -210,9 +210,10 @@ def _range_within(series: Sequence[JudgedSeries], numeric: Sequence[str]) -> str
         pairs = zip(part.at, part.numbers, strict=True)
         lost |= {place for place, number in pairs if number.verdict is not Verdict.WITHIN}
     within = set.intersection(*places.values()) - lost
-    runs = groupby(sorted(set().union(*places.values())), within.__contains__)
-    ranges = [list(run) for is_within, run in runs if is_within]
-    return " and ".join(interval_text(run[0], run[-1]) for run in ranges)
+    ordered = sorted(set().union(*places.values()))
+    verdicts = [Verdict.WITHIN if place in within else Verdict.INCONCLUSIVE for place in ordered]
+    ranges = [part for part in verdict_ranges(ordered, verdicts) if part.verdict is Verdict.WITHIN]
+    return " and ".join(interval_text(part.start, part.stop) for part in ranges)
 
 
 def _value_text(value: float | str) -> str:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from validation.analysis.claims import listed
+from validation.analysis.claim_text import listed
 from validation.analysis.evidence import Evidence, Table, Verdict, VerdictCell
 from validation.railway.cases.across_study import LOUDER
 from validation.railway.cases.rolled_filters import OVER_BEM

@@ -10,7 +10,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from validation.analysis.claims import REFUTED, Claim
+from validation.analysis.claim_text import REFUTED
+from validation.analysis.claims import Claim
 from validation.analysis.evidence import Evidence, JudgedClaim
 from validation.analysis.quantity import quantity_with
 from validation.analysis.statistics import POWER_DECIBEL

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from validation.analysis.case import Case, Profile
-from validation.analysis.claims import listed
+from validation.analysis.claim_text import listed
 from validation.analysis.contents import as_json
 from validation.engine.engine import LOCAL, Engine
 from validation.engine.sources import version_of
@@ -20,7 +20,9 @@ from validation.report.contents import CASES, TIMED
 from validation.report.section import Section
 from validation.scenes.printable import printable
 
-WORDS = tuple(f"validation.analysis.{name}" for name in ("case", "chart", "claims", "number_text", "study"))
+WORDS = tuple(
+    f"validation.analysis.{name}" for name in ("case", "chart", "claim_text", "claims", "number_text", "study")
+)
 """What only words claims and declares charts."""
 
 

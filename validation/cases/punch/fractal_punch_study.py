@@ -7,7 +7,8 @@ from functools import partial
 
 import numpy as np
 
-from validation.analysis.claims import THREE_D_DIFFER, Matrix
+from validation.analysis.claim_text import THREE_D_DIFFER
+from validation.analysis.claims import Matrix
 from validation.analysis.evidence import Number, Place, Role, Whose, numbers_with
 from validation.analysis.number_text import per_cent
 from validation.analysis.series import Counted, Margin, spans

@@ -3,7 +3,8 @@
 from functools import partial
 
 from validation.analysis.chart import by_model
-from validation.analysis.claims import NOT_THIS_CURVE, Matrix, listed
+from validation.analysis.claim_text import NOT_THIS_CURVE, listed
+from validation.analysis.claims import Matrix
 from validation.analysis.evidence import Table, Whose, numbers_with
 from validation.analysis.number_text import per_cent, times
 from validation.analysis.series import numbers_of

@@ -2,7 +2,8 @@
 
 from functools import partial
 
-from validation.analysis.claims import THREE_D_DIFFER, Matrix
+from validation.analysis.claim_text import THREE_D_DIFFER
+from validation.analysis.claims import Matrix
 from validation.analysis.evidence import Whose
 from validation.analysis.number_text import decibels, decibels_rms, per_cent
 from validation.case import Case, Chapter, Chart, Claim, Curve, Panel, Study

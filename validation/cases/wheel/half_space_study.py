@@ -8,7 +8,7 @@ import numpy as np
 
 from validation.analysis import spectra as spectral_features
 from validation.analysis.chart import by_model
-from validation.analysis.claims import THREE_D_DIFFER
+from validation.analysis.claim_text import THREE_D_DIFFER
 from validation.analysis.evidence import Table, Whose
 from validation.analysis.series import MARGINS, Estimates
 from validation.analysis.statistics import POWER_DECIBEL, FloatArray, jackknifed

@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from validation.analysis.chart import by_model
-from validation.analysis.claims import NOT_THIS_CURVE, Matrix
+from validation.analysis.claim_text import NOT_THIS_CURVE
+from validation.analysis.claims import Matrix
 from validation.analysis.evidence import Table, Whose
 from validation.case import Case, Chapter, Chart, Claim, Curve, Outcomes, Panel, Study
 from validation.cases.wheel import features, spectrum

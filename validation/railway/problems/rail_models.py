@@ -71,8 +71,8 @@ class ContactFilter:
         return twin_of(self.name) != self.name
 
     def serves(self, scene: Any, quantity: str) -> bool:
-        known = scene.kind == "rail" and quantity in RAIL_QUANTITIES
-        return known and (self.across is None or scene.lateral_structure in (self.across, None))
+        served = scene.kind == "rail" and quantity in RAIL_QUANTITIES
+        return served and (self.across is None or scene.lateral_structure in (self.across, None))
 
     def find(self, quantity: RailQuantity, seed: int) -> Values:
         """a3: in the middle of both ends where the ground is not stated; model, grid, sample: half-widths of 95 % [dB].
@@ -229,14 +229,14 @@ def reason_of(quantity: RailQuantity, a3: FloatArray, error: FloatArray) -> str:
     if not quantity.counted(a3).any():
         return quantity.none_counts
     at = int(np.argmax(np.where(quantity.counted(a3), error, -1.0)))
-    apart = f"ridges and isotropic ground are ± {quantity.half_width[at]:.2g} dB apart"
+    spread = f"ridges and isotropic ground are ± {quantity.half_width[at]:.2g} dB apart"
     off, smoothing = abs(a3[at] - quantity.linear.mean(axis=0)[at]), quantity.smoothing_error[at]
     is_open, of_strips = quantity.scene.lateral_structure is None, strip_bands(quantity.scene).span
     faults = quantity.left_by_faults[at]
     causes = {
         f"outliers of the measured lines leave ± {faults:.2g} dB": faults > 0,
-        f"lateral_structure is not given, {apart}": is_open,
-        f"no isotropic ground has this level, {apart}": quantity.stands_out[at] and not is_open,
+        f"lateral_structure is not given, {spread}": is_open,
+        f"no isotropic ground has this level, {spread}": quantity.stands_out[at] and not is_open,
         f"levels that scatter leave ± {smoothing:.2g} dB of isotropic ground": smoothing > 0,
         f"{off:.2g} dB off {LINEAR}, on this ground": off > LINEAR_ERROR,
         f"h' a_x / d = {quantity.lost:.2g} of waves of {of_strips}": True,
@@ -275,25 +275,25 @@ def answer_in_bands(scene_model: SceneModel) -> Answer:
 
 def what_would_state_the_ground(target: Target) -> str:
     """Keys of a scene file by which the ground leaves less open, and why."""
-    asked = rail_quantity(target)
+    quantity = rail_quantity(target)
     scene, stated = (
-        asked.scene,
+        quantity.scene,
         'lateral_structure = "ridges" in [rail], or a number alpha: waves with |k_y| < alpha k_x',
     )
-    faults = asked.left_by_faults
-    if 2 * faults.max() > (asked.left_by_ground - faults).max() and faults.max() > 0:
+    faults = quantity.left_by_faults
+    if 2 * faults.max() > (quantity.left_by_ground - faults).max() and faults.max() > 0:
         return "a measurement without the outliers that the notes name, or a part of it that has none"
     if isinstance(scene.roughness, MeasuredHeights):
         return "a filter of this surface, by its own heights: of its lines both ends of what lies across are open"
     if scene.lateral_structure is None:
         return f'to tell what lies across the rail, as lateral_structure = "isotropic" or {stated.partition(" = ")[2]}'
     table = "rail.lines" if isinstance(scene.roughness, MeasuredLines) else "rail.levels"
-    if not asked.stands_out.any():
+    if not quantity.stands_out.any():
         return f"levels of more lines or of longer ones, which scatter less; or {stated}"
-    rest = asked.bands.nominal[~asked.stands_out]
-    long = asked.stands_out[0] and rest.size
+    rest = quantity.bands.nominal[~quantity.stands_out]
+    long = quantity.stands_out[0] and rest.size
     cut = f'; or longest = "{1e3 * rest.max():g} mm" in [{table}]' if long else ""
-    return f"{stated}{cut}, since no isotropic ground has the levels at {asked.bands.names(asked.stands_out)}"
+    return f"{stated}{cut}, since no isotropic ground has the levels at {quantity.bands.names(quantity.stands_out)}"
 
 
 IN_BANDS: Mapping[str, Any] = {"answer": answer_in_bands, "helps": what_would_state_the_ground}

@@ -124,8 +124,8 @@ class RailScene(SceneDefaults):
                 "rail.crown_radius or wheel.transverse_radius must be given, got none: the contact is no ellipse"
             )
         if not isinstance(self.roughness, RoughnessLevels | MeasuredLines | MeasuredHeights):
-            given = type(self.roughness).__name__
-            raise TypeError(f"roughness must be RoughnessLevels, MeasuredLines or MeasuredHeights, got {given}")
+            kind = type(self.roughness).__name__
+            raise TypeError(f"roughness must be RoughnessLevels, MeasuredLines or MeasuredHeights, got {kind}")
         if self.lateral_structure not in ("ridges", "isotropic", None):
             _check_alpha(self.lateral_structure)
         _check_contact(self)

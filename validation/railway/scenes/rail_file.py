@@ -39,11 +39,11 @@ def is_rail(tables: dict[str, Any]) -> bool:
 
 def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
     """The scene in the tables of a file, other files beside it. Raises ValueError that names the key."""
-    tables, told = with_current_keys(tables, RENAMED)
+    tables, notes = with_current_keys(tables, RENAMED)
     of_files = {"profile": profile_in, "levels": levels_in, "lines": lines_in}
-    files: dict[str, Reader] = {key: partial(read, folder=folder, notes=told) for key, read in of_files.items()}
+    files: dict[str, Reader] = {key: partial(read, folder=folder, notes=notes) for key, read in of_files.items()}
     bodies = {"wheel": WHEEL | files, "rail": RAIL | files | {"heights": partial(heights_of, folder=folder)}}
-    readers = {key: partial(table, every, tuple(every)) for key, every in bodies.items()}
+    readers = {key: partial(table, own, tuple(own)) for key, own in bodies.items()}
     entries = table({**values("name"), "material": material_of, **readers}, (), "", tables)
     wheel, rail, material = entries["wheel"], entries["rail"], entries["material"]
     roughness, of_roughness = _combined(one_of(rail, "rail", GROUNDS), one_of(wheel, "wheel", GROUNDS, least=0))
@@ -56,7 +56,7 @@ def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
         "material": material,
         "roughness": roughness,
         "lateral_structure": one_of(rail, "rail", ("lateral_structure", "lateral_ratio"), least=0),
-        "notes": (*of_load, *of_roughness, *told),
+        "notes": (*of_load, *of_roughness, *notes),
         **{key: wheel[key] for key in ("speed", "mass", "damping") if key in wheel},
     }
     of_rail = one_of(rail, "rail", ("crown_radius", "profile"), least=0)

@@ -2,16 +2,16 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import groupby
 
-from validation.analysis.claims import listed
+from validation.analysis.claim_text import listed
 from validation.analysis.evidence import Evidence, Number, Place, Verdict, placed
-from validation.analysis.number_text import level_as_factor, level_in_per_cent
+from validation.analysis.number_text import half_open_text, level_as_factor, level_in_per_cent
+from validation.analysis.ranges import VerdictRange, ends_of, verdict_ranges
 from validation.analysis.verdict import OF_NUMBERS
 from validation.report.answers.question import Alternative, Printed, Question
 from validation.report.answers.questions import QUESTIONS
 from validation.report.answers.seconds import TIMES
-from validation.report.answers.strip import EARLIER_WORDS, Cell, Source, ends, interval, span
+from validation.report.answers.strip import EARLIER_WORDS, Cell, Source, span
 from validation.report.section import Section
 
 REGIONS = "the spectrum"
@@ -143,7 +143,7 @@ def _strip(cells: Sequence[Cell]) -> list[StripCell]:
     inside, places = [_strip_cell(cell) for cell in cells], [cell.place for cell in cells]
     if any(isinstance(place, str) for place in places):
         return inside
-    below, above = f"< {ends(places[0])[0]:.2g}", f"> {ends(places[-1])[1]:.2g}"
+    below, above = f"< {ends_of(places[0])[0]:.2g}", f"> {ends_of(places[-1])[1]:.2g}"
     return [StripCell(below, None), *inside, StripCell(above, None)]
 
 
@@ -204,22 +204,22 @@ def _word(verdicts: set[Verdict]) -> str:
 
 def _where(cells: Sequence[Cell], verdict: Verdict, over: str) -> str:
     """Neighbouring cells that say it: "at h' a/d = 0.3", "for 0.1 ≤ Fbar < 1 (H = 1 alone)", "over ridges"."""
-    grouped = [list(some) for _, some in groupby(cells, key=lambda cell: (cell.verdict, cell.alone))]
-    groups = [some for some in grouped if some[0].verdict is verdict]
-    if len(groups) > 1 and all(len(some) == 1 and isinstance(some[0].place, float) for some in groups):
-        named = (f"{span([some[0].place])}{_alone(some[0])}" for some in groups)
-        return f"at {placed(over, listed(list(named)))}"
-    return " and ".join(f"{_along(some, cells, over)}{_alone(some[0])}" for some in groups)
+    places, conditions = [cell.place for cell in cells], [cell.alone for cell in cells]
+    ranges = verdict_ranges(places, [cell.verdict for cell in cells], conditions)
+    ranges = [part for part in ranges if part.verdict is verdict]
+    if len(ranges) > 1 and all(len(part.places) == 1 and isinstance(part.places[0], float) for part in ranges):
+        texts = [f"{span(part.places)}{_alone(part)}" for part in ranges]
+        return f"at {placed(over, listed(texts))}"
+    return " and ".join(f"{_along(part.places, cells, over)}{_alone(part)}" for part in ranges)
 
 
-def _along(some: Sequence[Cell], cells: Sequence[Cell], over: str) -> str:
+def _along(places: Sequence[Place], cells: Sequence[Cell], over: str) -> str:
     """Neighbours, and how they lie on the axis."""
-    places = [cell.place for cell in some]
     text = span(places, over)
     if isinstance(places[0], tuple) and "[" not in over:
-        (low, _), (_, high) = ends(places[0]), ends(places[-1])
-        follows = any(not isinstance(cell.place, str) and ends(cell.place)[0] == high for cell in cells)
-        return f"for {interval(over, low, high, closed=not follows)}"
+        (low, _), (_, high) = ends_of(places[0]), ends_of(places[-1])
+        follows = any(not isinstance(cell.place, str) and ends_of(cell.place)[0] == high for cell in cells)
+        return f"for {half_open_text(over, low, high, closed=not follows)}"
     if isinstance(places[0], str) and over != REGIONS and len(places) > 2:
         return f"from {places[0]} to {places[-1]}"
     if isinstance(places[0], str):
@@ -227,8 +227,8 @@ def _along(some: Sequence[Cell], cells: Sequence[Cell], over: str) -> str:
     return f"{'from' if ' to ' in text else 'at'} {text}"
 
 
-def _alone(cell: Cell) -> str:
-    return f" ({cell.alone})" if cell.alone else ""
+def _alone(part: VerdictRange) -> str:
+    return f" ({part.split})" if part.split else ""
 
 
 def sentence(cells: Sequence[Cell], over: str, printed: Printed) -> str:

@@ -3,10 +3,11 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from validation.analysis.claims import Choice, alone, listed
+from validation.analysis.claim_text import alone_text, conditions_text, listed
+from validation.analysis.claims import Choice
 from validation.analysis.evidence import Evidence, Number, Place, Verdict, placed
 from validation.analysis.number_text import interval_text
-from validation.analysis.series import worst
+from validation.analysis.ranges import SeparatingCondition, by_place, common_verdict, ends_of, separating_conditions
 from validation.analysis.verdict import OF_NUMBERS
 
 EARLIER_WORDS = {Verdict.WITHIN: "yes", Verdict.OUTSIDE: "no", Verdict.INCONCLUSIVE: "open"}
@@ -28,19 +29,22 @@ class Cell:
     @property
     def verdict(self) -> Verdict:
         """Outside tolerance by one counterexample; inconclusive by one number that is so, and by one that lacks."""
-        found = worst(self.numbers).verdict
-        return Verdict.INCONCLUSIVE if self.lacking and found is Verdict.WITHIN else found
+        verdict = common_verdict(self.numbers)
+        return Verdict.INCONCLUSIVE if self.lacking and verdict is Verdict.WITHIN else verdict
 
     @property
     def alone(self) -> str:
         """Under which other conditions alone it has its verdict, as "H = 1 alone"; empty where under all."""
-        return alone(self.numbers, self.verdict, (self.axis,))
+        return alone_text(self._conditions(self.verdict))
 
     @property
     def by_condition(self) -> str:
         """Each verdict with its conditions: "within tolerance at H = 0.4 to 0.7"; empty where all have one."""
-        conditions = [(verdict, alone(self.numbers, verdict, (self.axis,))) for verdict in OF_NUMBERS]
-        return "; ".join(f"{verdict} at {where.removesuffix(' alone')}" for verdict, where in conditions if where)
+        texts = {verdict: conditions_text(self._conditions(verdict)) for verdict in OF_NUMBERS}
+        return "; ".join(f"{verdict} at {text}" for verdict, text in texts.items() if text)
+
+    def _conditions(self, verdict: Verdict) -> tuple[SeparatingCondition, ...]:
+        return separating_conditions(self.numbers, verdict, (self.axis,))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,10 +66,7 @@ class Source(Choice):
 
     def cells(self, evidence: Evidence) -> list[Cell]:
         """In the order of the axis; names in the order of the numbers."""
-        found: dict[Place, list[Number]] = {}
-        for number in self.chosen(evidence.numbers):
-            if self.axis in number.where:
-                found.setdefault(number.where[self.axis], []).append(number)
+        found = by_place(self.chosen(evidence.numbers), self.axis)
         every = {self._series(number) for numbers in found.values() for number in numbers}
         return [
             Cell(place, tuple(numbers), len(every - {self._series(number) for number in numbers}), self.axis)
@@ -79,31 +80,20 @@ class Source(Choice):
 def _apart(found: dict[Place, list[Number]]) -> dict[Place, list[Number]]:
     """In the order of the axis; ranges that overlap, as where one quantity was measured less far, are one place."""
     joined: dict[Place, list[Number]] = {}
-    for place in found if any(isinstance(place, str) for place in found) else sorted(found, key=ends):
+    for place in found if any(isinstance(place, str) for place in found) else sorted(found, key=ends_of):
         before = next(reversed(joined), "")
-        if isinstance(before, str) or isinstance(place, str) or ends(place)[0] >= ends(before)[1]:
+        if isinstance(before, str) or isinstance(place, str) or ends_of(place)[0] >= ends_of(before)[1]:
             joined[place] = found[place]
         else:
-            both = (ends(before)[0], max(ends(before)[1], ends(place)[1]))
+            both = (ends_of(before)[0], max(ends_of(before)[1], ends_of(place)[1]))
             joined[both] = [*joined.pop(before), *found[place]]
     return joined
-
-
-def ends(place: Place) -> tuple[float, float]:
-    """Of a range, or twice the value."""
-    assert not isinstance(place, str)
-    return place if isinstance(place, tuple) else (place, place)
 
 
 def span(places: Sequence[Place], name: str = "") -> str:
     """ "Fbar = 0.1 to 10", "h' a/d = 0.3", "-10 to 10 dB over ISO 3095", "0.1 to 1", or names."""
     if isinstance(places[0], str):
         return listed(list(dict.fromkeys(places)))
-    low, high = min(ends(place)[0] for place in places), max(ends(place)[1] for place in places)
+    low, high = min(ends_of(place)[0] for place in places), max(ends_of(place)[1] for place in places)
     both = interval_text(low, high, 2)
     return placed(name, both) if name else both
-
-
-def interval(name: str, low: float, high: float, *, closed: bool = False) -> str:
-    """ "0.01 ≤ Fbar < 0.1": half-open, so that neighbours share no value; closed: the last of them."""
-    return f"{low:.2g} ≤ {name} {'≤' if closed else '<'} {high:.2g}"
