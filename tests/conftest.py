@@ -103,7 +103,7 @@ def texts_of_sources_are_read_once():
 
         return remembered
 
-    named = sources._named
+    named = sources._import_names
     with pytest.MonkeyPatch.context() as patch:
         for of, path_of in (
             (named, sources._path),

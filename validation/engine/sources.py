@@ -55,7 +55,7 @@ def version_behind(module: str, problem: object) -> str:
     That is the code of the module and of the classes of the problem and its parts, and of all that these import.
     Raises RuntimeError where no source is found.
     """
-    return version_of((module, *sorted({type(value).__module__ for value in _values(problem)})))
+    return version_of((module, *sorted({type(value).__module__ for value in _parts_of_problem(problem)})))
 
 
 @cache
@@ -97,7 +97,7 @@ def _digest(sources: Iterable[bytes]) -> str:
     return hashlib.sha256(b"".join([*sources, *versions])).hexdigest()
 
 
-def _values(problem: object) -> Iterator[object]:
+def _parts_of_problem(problem: object) -> Iterator[object]:
     """The problem and all that it is made of."""
     yield problem
     if is_dataclass(problem) and not isinstance(problem, type):
@@ -107,7 +107,7 @@ def _values(problem: object) -> Iterator[object]:
     else:
         parts = list(problem) if isinstance(problem, tuple | list | set | frozenset) else []
     for part in parts:
-        yield from _values(part)
+        yield from _parts_of_problem(part)
 
 
 def _path(module: str) -> Path | None:
@@ -170,22 +170,22 @@ def _imports_by_name(module: str) -> bool:
     path = _path(module)
     if path is None or module == FACE:
         return False
-    return FACE in _named(module) or (bool(_words(path) & BY_NAME) and LISTS not in _words(path))
+    return FACE in _import_names(module) or (bool(_words(path) & BY_NAME) and LISTS not in _words(path))
 
 
 def _imported(module: str) -> set[str]:
     """Names that may be modules, and the packages around them."""
-    parts = [name.split(".") for name in _named(module) | {module}]
+    parts = [name.split(".") for name in _import_names(module) | {module}]
     return {".".join(part[:length]) for part in parts for length in range(1, len(part) + 1)}
 
 
-def _named(module: str) -> frozenset[str]:
+def _import_names(module: str) -> frozenset[str]:
     """What its import statements name, and the modules of packages that it lists."""
-    return _named_in(module, _path(module))
+    return _import_names_in(module, _path(module))
 
 
 @cache
-def _named_in(module: str, path: Path | None) -> frozenset[str]:
+def _import_names_in(module: str, path: Path | None) -> frozenset[str]:
     names = set[str]()
     for node in ast.walk(_tree(path)) if path else ():
         if isinstance(node, ast.Import):
