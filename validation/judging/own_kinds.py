@@ -16,7 +16,7 @@ import mdr
 from validation.advice.calibration import SCATTER
 from validation.advice.models import boundary_elements_pressed, boundary_elements_rolling
 from validation.engine.random_numbers import random_generator
-from validation.judging.kinds.judge import answer_of as asked
+from validation.judging.kinds.judge import answer_of
 from validation.judging.kinds.profiles import rms_of_profile
 from validation.judging.kinds.rolling import middle_line
 from validation.judging.registry import Caller, FloatArray, Given
@@ -90,7 +90,7 @@ def _stiffness(caller: Caller, target: Target, count: int) -> FloatArray:
     arguments = {"load": scene.load, "side": scene.size, "modulus": scene.modulus}
     arguments["roughness"] = roughness_of(ground_of(scene))
     rngs = (random_generator(target.seed, DRAWS, i) for i in range(count))
-    return np.array([asked(caller, **arguments, rng=rng).flat[:1] for rng in rngs])  # of (mean, deviation) the mean
+    return np.array([answer_of(caller, **arguments, rng=rng).flat[:1] for rng in rngs])  # of (mean, deviation) the mean
 
 
 def _stiffness_of_surfaces(caller: Caller, target: Target, count: int) -> FloatArray:
@@ -100,7 +100,7 @@ def _stiffness_of_surfaces(caller: Caller, target: Target, count: int) -> FloatA
     cells = cells_wanted(scene) if single else max(cells // 2, 1)
     arguments = {"spacing": side_of(scene) / cells, "modulus": scene.modulus, "load": scene.load}
     heights = (height_of(scene, cells, i, target.seed) for i in range(count))
-    return np.array([[float(asked(caller, height=height, **arguments))] for height in heights])
+    return np.array([[float(answer_of(caller, height=height, **arguments))] for height in heights])
 
 
 def _is_rolling(scene: Any, quantity: str) -> bool:
@@ -111,7 +111,7 @@ def _levels(caller: Caller, target: Target, count: int) -> FloatArray:
     """sqrt(2 int |T|^2 C_F dq) over each band."""
     scene = target.scene
     arguments = {**scene.body.smooth, "contact_radius": scene.contact_radius, "roughness": roughness_of(scene.ground)}
-    return _of_density(target.rolling, lambda q: asked(caller, q=q, **arguments))
+    return _of_density(target.rolling, lambda q: answer_of(caller, q=q, **arguments))
 
 
 def _of_density(quantity: RollingQuantity, density: Callable[[FloatArray], FloatArray]) -> FloatArray:
@@ -138,7 +138,7 @@ def _of_rule(caller: Caller, target: Target, count: int) -> FloatArray:
     scene, roughness = target.scene, roughness_of(target.scene.ground)
 
     def c1d(q: ArrayLike) -> FloatArray:
-        return asked(caller, q=np.asarray(q), roughness=roughness)
+        return answer_of(caller, q=np.asarray(q), roughness=roughness)
 
     if scene.kind == "wheel":
         contact = {"contact_radius": scene.contact_radius, "modulus": scene.modulus}
@@ -164,7 +164,7 @@ def _rolled(caller: Caller, target: Target, count: int) -> FloatArray:
     for i in range(count):
         surface = strip_of(quantity, cells, i, target.seed)
         strip = {"height": crop_to_reach(surface, spacing, body), "line": middle_line(surface)}
-        force = asked(caller, **strip, spacing=(spacing, spacing), **body.smooth)
+        force = answer_of(caller, **strip, spacing=(spacing, spacing), **body.smooth)
         over = by_linear_theory(quantity, surface, spacing) if drawn else 1.0
         rows.append(levels_of(quantity, force, spacing) / over)
     return np.array(rows) * (quantity.expected(one_dimensional=False) if drawn else 1.0)
@@ -189,7 +189,7 @@ def filter_of(name: str, a3: FloatArray) -> ContactFilter:
 
 def _amplitude(caller: Caller, arguments: Given, k_x: FloatArray, k_y: FloatArray) -> FloatArray:
     k_x, k_y = np.broadcast_arrays(k_x, k_y)
-    return asked(caller, k_x=k_x, k_y=k_y, **arguments)
+    return answer_of(caller, k_x=k_x, k_y=k_y, **arguments)
 
 
 def _scatter_of_strips(asks: Sequence[str], target: Target) -> float:

@@ -49,7 +49,7 @@ def as_argument(lent: Any) -> Any:
 
 def changed(arguments: Mapping[str, Any], lent: Mapping[str, Any]) -> str:
     """The first argument whose copy is no longer equal to it; nothing where all are."""
-    return next((name for name, value in arguments.items() if not _same(value, lent[name], set())), "")
+    return next((name for name, value in arguments.items() if not _is_equal(value, lent[name], set())), "")
 
 
 def classes_of(arguments: Mapping[str, Any]) -> dict[str, dict[type, dict[str, Any]]]:
@@ -81,7 +81,7 @@ def _public(of: type) -> dict[str, Any]:
     return {name: value for name, value in vars(of).items() if not name.startswith("__") and name != "_abc_impl"}
 
 
-def _same(value: Any, other: Any, seen: set[tuple[int, int]]) -> bool:
+def _is_equal(value: Any, other: Any, seen: set[tuple[int, int]]) -> bool:
     """Equal in all that it holds; attributes that are new, as of a cache, are nobody's."""
     pair = id(value), id(other)
     if value is other or pair in seen:
@@ -94,12 +94,12 @@ def _same(value: Any, other: Any, seen: set[tuple[int, int]]) -> bool:
     if isinstance(value, float):
         return bool(value == other or (value != value and other != other))
     if isinstance(value, dict):
-        return value.keys() == other.keys() and all(_same(value[key], other[key], seen) for key in value)
+        return value.keys() == other.keys() and all(_is_equal(value[key], other[key], seen) for key in value)
     if isinstance(value, list | tuple):
-        return len(value) == len(other) and all(_same(*parts, seen) for parts in zip(value, other, strict=True))
+        return len(value) == len(other) and all(_is_equal(*parts, seen) for parts in zip(value, other, strict=True))
     parts = _parts(value), _parts(other)
     if parts[0]:
-        return all(name in parts[1] and _same(part, parts[1][name], seen) for name, part in parts[0].items())
+        return all(name in parts[1] and _is_equal(part, parts[1][name], seen) for name, part in parts[0].items())
     try:
         return bool(value == other) or isinstance(value, np.random.Generator) or not _compares(value)
     except Exception:

@@ -170,7 +170,7 @@ def quantity_sentence(tolerance: Tolerance, series: Sequence[JudgedSeries]) -> s
     """
     first, numbers = series[0], [number for part in series for number in part.numbers]
     names = dict.fromkeys(name for number in numbers for name in number.where)
-    settings = "; ".join(filter(None, (*(_values(name, numbers) for name in names), NOTES.get(first.quantity))))
+    settings = "; ".join(filter(None, (*(_condition_text(name, numbers) for name in names), NOTES.get(first.quantity))))
     settings = f" (compared: {settings})" if settings else ""
     limit = f"{decibels(tolerance.relative):.2g} dB" if numbers[0].unit == LEVEL else str(tolerance)
     if not first.along or max(len(part.numbers) for part in series) == 1:
@@ -221,7 +221,7 @@ def _value_text(value: float | str) -> str:
     return f"{value:.3g}" if isinstance(value, float) else value
 
 
-def _values(name: str, numbers: Sequence[JudgedNumber]) -> str:
+def _condition_text(name: str, numbers: Sequence[JudgedNumber]) -> str:
     """Of a condition: all values, or their ends, or how many there are."""
     values = list(dict.fromkeys(number.where[name] for number in numbers if name in number.where))
     floats = sorted(value for value in values if isinstance(value, float))

@@ -158,7 +158,7 @@ def first_order_limit(values: NDArray[np.floating]) -> float:
     return float(2 * values[-1] - values[-2])
 
 
-def _each(outcomes: Sequence[Outcome], name: str) -> NDArray[np.float64]:
+def _column(outcomes: Sequence[Outcome], name: str) -> NDArray[np.float64]:
     return np.array([float(outcome[name]) for outcome in outcomes])
 
 
@@ -178,7 +178,7 @@ def _curves(result: Outcomes) -> Iterator[Series]:
     by_load = partial(Series, FORCE, along=APPROACH, at=1e6 * np.array(case.approaches))
     yield by_load("Hertz", np.array([case.sphere(1, d).force for d in case.approaches]))
     for model in (BEM, MDR):
-        yield by_load(model, _each(result[model, "loads"], "force"))
+        yield by_load(model, _column(result[model, "loads"], "force"))
     yield Series(PRESSURE, "Hertz", 1e-6 * exact, along=DISTANCE, at=1e3 * x)
     yield Series(PRESSURE, BEM, 1e-6 * second["pressure"], along=DISTANCE, at=1e3 * second["x"])
 
@@ -197,7 +197,7 @@ def _sphere(result: Outcomes) -> Iterator[Series]:
         stiffness = float(last["stiffness"]) / punch
         yield over("stiffness over 2 E* a", value=stiffness, within=cell, of="Boussinesq", reason=RADIUS)
         yield from _fall(
-            f"{SPHERE}, {model}", case.cells_per_radius, _each(outcomes, "force") / case.force - 1, 2, 0.5, why
+            f"{SPHERE}, {model}", case.cells_per_radius, _column(outcomes, "force") / case.force - 1, 2, 0.5, why
         )
     last, model = result[BEM, "grids"][-1], f"{SPHERE}, {BEM}"
     radius = float(last["radius"]) / case.contact_radius
@@ -208,7 +208,7 @@ def _sphere(result: Outcomes) -> Iterator[Series]:
 def _punches(result: Outcomes) -> Iterator[Series]:
     """Stiffness of the square on cells of zero size, of the circle, and of springs on both lengths."""
     n = result.case.punch_cells
-    square, circle = (_each(result[PUNCH], name) for name in ("square", "circle"))
+    square, circle = (_column(result[PUNCH], name) for name in ("square", "circle"))
     limit, by_cells = first_order_limit(square), partial(Series, SQUARE, along=CELLS, at=n)
     left = abs(limit - first_order_limit(square[:-1]))
     why, numerical = "five units of the last digit of the reference, 1.1523", "capacitance of the square, numerical"
@@ -240,7 +240,7 @@ def _waves(result: Outcomes) -> Iterator[Series]:
         yield at_load(PRESSURE_ERROR, value=float(finest["error"]), within=near, reason=EDGE)
         width = float(finest["half_width"]) / a
         yield at_load(WIDTH, value=width, within=wave.spacing / a, reason="one cell at each edge", reference=1.0)
-    yield from _fall(WAVE, case.wave_cells, _each(result[0.5], "error"), 1, 0.1, HALF_LOAD)
+    yield from _fall(WAVE, case.wave_cells, _column(result[0.5], "error"), 1, 0.1, HALF_LOAD)
 
 
 def _ellipse(result: Outcomes) -> Iterator[Series]:

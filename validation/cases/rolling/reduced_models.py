@@ -108,7 +108,7 @@ def series(result: Outcomes) -> list[Series]:
     case, numbers = result.case, []
     for model in MODELS:
         largest = [max(off(result, key, model).value for key in result.by_key if key[0] <= s) for s in case.slopes]
-        numbers.append(Series(LARGEST, _named(model), np.array(largest), along=SLOPE, at=case.slopes))
+        numbers.append(Series(LARGEST, _label(model), np.array(largest), along=SLOPE, at=case.slopes))
         numbers += [s for key in result.by_key for s in _of_strips(result, key, model)]
     numbers += [s for key in result.by_key for s in _contact(result, key)]
     scene = load_wheel_scene("table_14_1")
@@ -121,13 +121,13 @@ def _where(key: Key) -> dict[str, Place]:
     return {"H": hurst, Q: (ends[0], ends[1]), SLOPE: slope, HEIGHT: float(f"{height_at(*key):.3g}")}
 
 
-def _named(model: str) -> str:
+def _label(model: str) -> str:
     """As `compare` has it."""
     return LINEAR if model == reduced_models.LINEAR else model
 
 
 def _of_strips(result: Outcomes, key: Key, model: str) -> Iterator[Series]:
-    name, judge = _named(model), model == JUDGE
+    name, judge = _label(model), model == JUDGE
     single = partial(Series, where=_where(key))
     grid, error = GRID * off(result, key, COARSE).value, off(result, key, model)
     yield single(OFF, name, (error,), grid=grid, unit="dB", margin=None if judge else BESIDE)

@@ -115,7 +115,7 @@ def series(result: Outcomes) -> list[Series]:
         *_identities([batch for name in spectra for batch in result[name]]),
         *features_by_scene(result),
         *levels_over_linear(spectrum),
-        *_drawn(spectrum, result[base]),
+        *_curves(spectrum, result[base]),
         *(_in_sixths(name, of_scene) for name, of_scene in spectra.items() if name != base),
     ]
 
@@ -178,7 +178,7 @@ def _identities(batches: list[Outcome]) -> Iterator[Series]:
     )
 
 
-def _drawn(spectrum: features.Spectrum, batches: list[Outcome]) -> Iterator[Series]:
+def _curves(spectrum: features.Spectrum, batches: list[Outcome]) -> Iterator[Series]:
     """Fig. 14.4 in twelfths of an octave, with the spread over wheels; region 3 over the power law of its level."""
     scene, omega, theory, edges = spectrum.scene, spectrum.omega, features.expected(spectrum), batches[0]["bands"]
     of_wheels, centres = np.concatenate([batch["levels"] for batch in batches], axis=1), np.sqrt(edges[1:] * edges[:-1])
