@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
 
@@ -163,6 +163,7 @@ NEAR = 0.05
 """By how much the wavelength of a wavenumber may differ from that of its band: 1/16 m beside 63 mm."""
 
 
+@cache
 def curve(name: str) -> RoughnessLevels:
     """The levels of a bundled curve: "iso3095-2013" or "cnossos-average". Raises ValueError for another name."""
     paths = {path.stem: path for path in sorted(CURVES.glob("*.csv"))}
