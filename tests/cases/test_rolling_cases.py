@@ -10,6 +10,7 @@ from scipy import integrate
 
 from tests.cases.planted import changed, judged
 from tests.seeded import catches, catches_root_of_two
+from validation.analysis.claim_text import THREE_D_DIFFER, Direction
 from validation.analysis.evidence import ClaimStatus, Verdict
 from validation.cases.rolling import force_spectrum as rolling
 from validation.cases.rolling import ridges
@@ -159,8 +160,13 @@ def test_springs_have_the_curve_of_the_book_and_three_dimensions_do_not(rolled):
     """And half of their force does not have it."""
     evidence = CASE.evidence(rolled)
     curve, three_d, equivalent, *_ = evidence.claims
-    assert curve.status is ClaimStatus.SUPPORTED and curve.answer.startswith("Supported, within 1 dB")
-    assert three_d.answer.startswith("We get this curve, and three dimensions differ: +")
+    assert curve.status is ClaimStatus.SUPPORTED
+    of_curve, of_three_d = (
+        claim.outcome(judged.numbers) for claim, judged in zip(CASE.study.claims[:2], evidence.claims[:2], strict=True)
+    )
+    assert of_curve.tolerance == 1.0
+    assert (three_d.status, of_three_d.direction) == (ClaimStatus.REFUTED, Direction.ABOVE)
+    assert CASE.study.claims[1].no == THREE_D_DIFFER
     assert equivalent.status is ClaimStatus.SUPPORTED
     # the line trace, of which no claim is made, has not the levels of three dimensions
     assert any(n.model == rolling.INPUT_NAMES["line"] and n.verdict is Verdict.OUTSIDE for n in evidence.numbers)
