@@ -170,7 +170,7 @@ def _record_of_model(comparison: Comparison, candidate: Candidate, force: Contac
         "model": candidate.name,
         "is_mdr": candidate.is_mdr,
         "status": candidate.status,
-        "claimed": _number(candidate.claimed),
+        "claimed": _number(candidate.predicted_error),
         "error": _number(candidate.error) if solved else None,
         "cost_s": _number(candidate.cost),
         "reason": candidate.reason,

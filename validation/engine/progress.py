@@ -26,7 +26,7 @@ class Solves:
 
     doing: str
     total: int = 0
-    found: int = 0
+    stored: int = 0
     done: int = 0
     failed: int = 0
 
@@ -43,7 +43,7 @@ class Part:
         if not self.kinds or self.kinds[-1].doing != doing:
             self.kinds.append(Solves(doing))
         kind = self.kinds[-1]
-        kind.total, kind.found, kind.done = kind.total + total, kind.found + stored, kind.done + stored
+        kind.total, kind.stored, kind.done = kind.total + total, kind.stored + stored, kind.done + stored
         kind.failed += failed
 
     def step(self, failed: bool = False, seconds: float = 0.0) -> None:
@@ -65,7 +65,7 @@ class Part:
     @property
     def share_of_this_run(self) -> float:
         """Share of the part that this run has done itself: solves in the store do not count [-]."""
-        stored = sum(kind.found for kind in self.kinds)
+        stored = sum(kind.stored for kind in self.kinds)
         return self.share - (self._share(stored) / BEFORE_EVIDENCE if self.over else self._share(stored))
 
     def _share(self, solves: int) -> float:
@@ -77,7 +77,7 @@ class Part:
         if not self.kinds:
             return self.name
         kind = self.kinds[-1]
-        stored = f", {kind.found} from an earlier run" if kind.found else ""
+        stored = f", {kind.stored} from an earlier run" if kind.stored else ""
         failed = f", {kind.failed} failed" if kind.failed else ""
         return f"{self.name}: {kind.doing} {kind.done}/{kind.total}{stored}{failed}"
 

@@ -23,7 +23,7 @@ FACE = "validation"
 """Imports by name for its users: who imports it may use anything."""
 BY_NAME, LISTS = {"import_module", "__import__"}, "iter_modules"
 """Functions that import what no statement names; what lists the packages that its statements name."""
-BROUGHT, FOLDERS = "brought", "modules_in"
+OBJECTS, FOLDERS = "objects_of_houses", "modules_in"
 """Functions of the street that import what houses bring."""
 PARSING = threading.Lock()
 
@@ -203,14 +203,14 @@ def _named_in(module: str, path: Path | None) -> frozenset[str]:
 
 @cache
 def _of_houses(path: Path | None) -> frozenset[str]:
-    """Modules of the houses that `brought` and `modules_in` find for it, by the texts that it gives them."""
-    asked: dict[str, set[str]] = {BROUGHT: set(), FOLDERS: set()}
+    """Modules of the houses that `objects_of_houses` and `modules_in` find for it, by the texts that it gives them."""
+    uses: dict[str, set[str]] = {OBJECTS: set(), FOLDERS: set()}
     for node in ast.walk(_tree(path)) if path else ():
         match node:
-            case ast.Call(func=ast.Name(id=name), args=[ast.Constant(value=str(text))]) if name in asked:
-                asked[name].add(text)
-    found = {place.partition(":")[0] for use in asked[BROUGHT] for place in places(use)}
-    folders = {f"{ROOT}.{house}.{folder}" for folder in asked[FOLDERS] for house in houses()}
+            case ast.Call(func=ast.Name(id=name), args=[ast.Constant(value=str(text))]) if name in uses:
+                uses[name].add(text)
+    found = {place.partition(":")[0] for use in uses[OBJECTS] for place in places(use)}
+    folders = {f"{ROOT}.{house}.{folder}" for folder in uses[FOLDERS] for house in houses()}
     return frozenset(found | {name for name in modules() if name.rpartition(".")[0] in folders})
 
 

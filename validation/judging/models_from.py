@@ -37,7 +37,7 @@ def measured(problems: Sequence[SceneProblem], name: str, store: Path) -> Sequen
         return replace(problem, own=own)
 
     found = [with_errors(problem) for problem in problems]
-    if any(kind.found for kind in solved.kinds):
+    if any(kind.stored for kind in solved.kinds):
         print(
             f"errors of {printable(name)} are those kept in {printable(store)}, {NOT_IN_KEY}",
             file=sys.stderr,

@@ -9,7 +9,7 @@ from validation.analysis.case import Chapter, Profile
 from validation.analysis.contents import as_written, csv_name
 from validation.analysis.evidence import Evidence, plus_minus
 from validation.engine.progress import Part
-from validation.engine.street import brought
+from validation.engine.street import objects_of_houses
 from validation.engine.workers import Workers
 from validation.report.answers.first_screen import answered_questions
 from validation.report.answers.front_tables import failures, times_faster, times_faster_said
@@ -120,7 +120,7 @@ def pages(
     figures, faster = figures_of(in_order), times_faster(sections)
     book = [] if scene else chapter_of(sections)
     places = {section.name: section.place for section in sections}
-    houses = [] if scene else brought("front_page")
+    houses = [] if scene else objects_of_houses("front_page")
     environment = templates(*(house.TEMPLATES for house in houses))
     environment.filters |= {
         "place_of": places.__getitem__,

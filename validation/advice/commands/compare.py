@@ -15,9 +15,9 @@ from validation.advice.several_scenes import compare_scenes
 from validation.advice.summary import findings, heading, in_full, in_short, summary
 from validation.advice.tolerance import format_seconds, tolerance_of
 from validation.engine.engine import Engine
-from validation.engine.files import write_given
+from validation.engine.files import write_output
 from validation.engine.progress import progress_of
-from validation.engine.street import brought
+from validation.engine.street import objects_of_houses
 from validation.report.commands.arguments import Exit, add_options, add_workers, at_least, check_places, some_of
 from validation.scenes.load import bundled_for_compare, files_of, load_scene, load_varied
 from validation.scenes.printable import printable
@@ -54,7 +54,7 @@ def describe(comparing: argparse.ArgumentParser) -> None:
     )
     add_options(
         comparing,
-        *((reader.option, "FILE", str, reader.help) for reader in brought("models_from")),
+        *((reader.option, "FILE", str, reader.help) for reader in objects_of_houses("models_from")),
         ("--sweep", "KEY=A,B,C", _sweep, 'the scene with each value, as wheel.load="5 kN,10 kN"'),
         ("--seed", "S", at_least(0), "seed of the random roughness (default: 0)"),
         (
@@ -71,7 +71,7 @@ def describe(comparing: argparse.ArgumentParser) -> None:
             "write the result for other programs; `--report` adds a schema that describes its keys",
         ),
         ("--csv", "FILE", Path, "write a row a number or a band, of each model that was solved"),
-        *((export.option, "FILE", Path, export.help) for export in brought("exports")),
+        *((export.option, "FILE", Path, export.help) for export in objects_of_houses("exports")),
         (
             "--figure",
             "FILE",
@@ -97,7 +97,7 @@ def compare(arguments: argparse.Namespace) -> Exit:
         problems = reader.with_models(problems, arguments.models_from)
     for problem in problems:
         for quantity in problem.quantities:
-            problem.offered(quantity)  # or an error, before anything is measured, written or solved
+            problem.listed_and_solvable(quantity)  # or an error, before anything is measured, written or solved
     swept = [sweep for (_, sweep), problem in zip(scenes, problems, strict=True) for _ in problem.quantities]
     comparisons = (
         _solve_and_report(problems, swept, arguments)
@@ -128,12 +128,12 @@ def _problem(scene: Scene, arguments: argparse.Namespace) -> SceneProblem:
 
 def _model_readers(arguments: argparse.Namespace) -> list[Any]:
     """What reads the models of a file or of an installed package, where one is given."""
-    return [reader for reader in brought("models_from") if getattr(arguments, reader.name) is not None]
+    return [reader for reader in objects_of_houses("models_from") if getattr(arguments, reader.name) is not None]
 
 
 def _exports(arguments: argparse.Namespace) -> list[tuple[Export, Path]]:
     """Files of houses that are asked for."""
-    exports: list[Export] = brought("exports")
+    exports: list[Export] = objects_of_houses("exports")
     return [(export, path) for export in exports if (path := getattr(arguments, export.name)) is not None]
 
 
@@ -176,7 +176,7 @@ def _solve(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> l
     """What was understood of one scene is printed before it is solved."""
     if len(problems) == 1:
         (problem,) = problems
-        print(printable(heading(problem.scene, problem.quantities, problem.wanted), lines=True), flush=True)
+        print(printable(heading(problem.scene, problem.quantities, problem.parsed_tolerance), lines=True), flush=True)
         return list(problem.compared(_announce).values())
     arguments.keeps = True
     with progress_of("scenes", arguments.workers) as progress:
@@ -222,7 +222,7 @@ def _write(comparisons: list[Comparison], arguments: argparse.Namespace) -> None
 
         form = arguments.figure.suffix[1:]
         picture = figure_over_seconds(comparisons[0], form) if arguments.over else to_figure(comparisons, form=form)
-        write_given(arguments.figure, picture)
+        write_output(arguments.figure, picture)
 
 
 def _write_data(comparisons: list[Comparison], arguments: argparse.Namespace) -> None:
@@ -231,11 +231,11 @@ def _write_data(comparisons: list[Comparison], arguments: argparse.Namespace) ->
     from validation.analysis.contents import as_csv
 
     if arguments.json:
-        write_given(arguments.json, to_json_of(comparisons).encode())
+        write_output(arguments.json, to_json_of(comparisons).encode())
     if arguments.csv:
-        write_given(arguments.csv, as_csv(table_of_several(comparisons)))
+        write_output(arguments.csv, as_csv(table_of_several(comparisons)))
     for export, path in _exports(arguments):
-        write_given(path, export.written(comparisons))
+        write_output(path, export.written(comparisons))
 
 
 def _sweep(word: str) -> tuple[str, list[str]]:

@@ -10,7 +10,7 @@ from validation.advice.calibration import SCATTER
 from validation.engine.engine import FloatArray
 from validation.scenes.indentation import IndentationScene
 from validation.simulation import indentation as face
-from validation.simulation.indentation import cells_wanted, ground_of, height_of, is_rough, side_of
+from validation.simulation.indentation import ground_of, height_of, is_rough, side_of, sufficient_cells
 from validation.simulation.method import FEWEST, STUDENT, Prepared, Resolution, Result, Solve, grid_error
 from validation.simulation.model import Cost, ErrorEstimate, GridModel, Model, Target
 from validation.simulation.model_names import BEM
@@ -36,7 +36,7 @@ MOST = 1000
 
 def resolutions(target: Target) -> tuple[Resolution, ...]:
     """Cells a side; measured heights on their own points alone, on a coarser grid the mean of these in each cell."""
-    single, wanted = ground_of(target.scene).is_single, cells_wanted(target.scene)
+    single, wanted = ground_of(target.scene).is_single, sufficient_cells(target.scene)
     finest = min(face.MANY_POINTS if single else face.MANY, wanted)
     sides = (finest,) if single else (finest // 4, finest // 2, finest)
     return tuple(on_grid(cells) for cells in sides if cells >= face.FEW)
@@ -46,7 +46,7 @@ def references(target: Target, resolution: Resolution) -> tuple[Resolution, ...]
     """Each of half as many cells a side: two, of a single surface three; and the points of that, split."""
     single, cells = ground_of(target.scene).is_single, round(resolution.size)
     coarser = tuple(on_grid(cells // 2**i) for i in range(1, 4 if single else 3))
-    on_points = single and cells == cells_wanted(target.scene)
+    on_points = single and cells == sufficient_cells(target.scene)
     return (*coarser, on_grid(SPLIT * cells)) if on_points and SPLIT * cells <= MOST_SPLIT else coarser
 
 
@@ -158,7 +158,7 @@ def grid_error_of_one(scene: IndentationScene, cells: int, changes: FloatArray, 
         return float(2 * max(edge_error(scene, cells), *np.abs(split), *(change / OTHERS for change in coarser)))
     if last >= max(before):
         return math.inf if last > 0 else 0.0
-    return float(1.5 * max(edge_error(scene, cells), *coarser) * (1 + math.log2(cells_wanted(scene) / cells)))
+    return float(1.5 * max(edge_error(scene, cells), *coarser) * (1 + math.log2(sufficient_cells(scene) / cells)))
 
 
 def hidden(target: Target, resolution: Resolution, stiffness: float) -> float:

@@ -124,7 +124,7 @@ def answer(asked: Asked, problem: KnownContact) -> Iterator[JudgedNumber]:
     p = asked.pressure(problem)
     yield from conditions(asked, problem)
     if asked.by_force:
-        _, mine = problem.left(p, asked.by_force)
+        _, mine = problem.residuals_and_approach(p, asked.by_force)
         off = (mine - problem.approach) / problem.overlap
         yield replace(checked("approach", problem, off, asked.of_answer, OFF), value=mine, reference=problem.approach)
     else:
@@ -190,7 +190,7 @@ def convergence(asked: Asked, flat: KnownContact) -> Iterator[JudgedNumber]:
     for cells in (COARSEST, finest):
         one = replace(STATED[FLAT].on(cells), approach=limit)
         p = asked.pressure(one)
-        found = one.left(p, True)[1] / limit if asked.by_force else one.force_of(p) / flat.force
+        found = one.residuals_and_approach(p, True)[1] / limit if asked.by_force else one.force_of(p) / flat.force
         errors.append(abs(found - 1))
     order = math.log(errors[0] / errors[1]) / math.log(finest / COARSEST) if min(errors) > 0 else math.nan
     yield checked("order of convergence", flat, order, NEXT_TERM, "the error does not fall with the cell size", 1.0)

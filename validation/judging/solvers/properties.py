@@ -134,7 +134,7 @@ LEFT = {"force balance": "force not held", "tension": "negative pressures: p >= 
 
 def conditions(asked: Asked, problem: ContactProblem) -> Iterator[JudgedNumber]:
     """No tension, no pressure at a gap, no overlap, and a force that is held, by the operator that judges."""
-    left, _ = problem.left(asked.pressure(problem), asked.by_force)
+    left, _ = problem.residuals_and_approach(asked.pressure(problem), asked.by_force)
     asked.judged["", problem.name] = problem
     for name, value in left.items():
         yield checked(name, problem, value, asked.residual, LEFT.get(name, "above the residual that it names"))
@@ -210,7 +210,7 @@ def monotone(asked: Asked, problem: ContactProblem) -> Iterator[JudgedNumber]:
     lost = max(float(before[after <= 0].sum() / before.sum()) for before, after in pairwise(found))
     yield checked("monotone area", problem, lost, SINGLE_CELLS, "the contact shrinks under more load")
     force = np.array([one.force_of(p) for one, p in zip(loads, found, strict=True)])
-    approach = np.array([one.left(p, asked.by_force)[1] for one, p in zip(loads, found, strict=True)])
+    approach = np.array([one.residuals_and_approach(p, asked.by_force)[1] for one, p in zip(loads, found, strict=True)])
     # compliances over that of the chord from the first touch: a full periodic contact has none
     with np.errstate(all="ignore"):  # the same pressure under every load
         first, second = np.diff(approach) / np.diff(force) * force[-1] / (approach[-1] - problem.gap.min())

@@ -16,8 +16,8 @@ from validation.railway.theory.transverse_structure import LineSpectrum
 from validation.scenes.column_names import RADIANS, WAVENUMBERS
 from validation.scenes.number_table import NumberTable
 from validation.scenes.printable import printable, quoted
-from validation.scenes.reader import DECIBELS, Reader, errors_of, one_of, table, values
-from validation.scenes.table_files import FORM, read_table, sentence_about, table_beside
+from validation.scenes.reader import DECIBELS, Reader, errors_of, table, value_of_one_key, values
+from validation.scenes.table_files import FORM, read_scene_table, read_table, sentence_about
 from validation.scenes.units import UNITS, metres_of
 
 MICROMETRE = 1e-6
@@ -181,9 +181,9 @@ def levels_in(name: str, given: object, *, folder: Path, told: list[str]) -> Rou
         **FORM,
     }
     found = table(readers, tuple(readers), name, given)
-    one_of(found, name, ("curve", "file"))
+    value_of_one_key(found, name, ("curve", "file"))
     if "file" in found:
-        path, numbers = table_beside(name, found, folder)
+        path, numbers = read_scene_table(name, found, folder)
         levels, notes = _levels_of(f"{name}.file", path, numbers, unit=found.get("unit"))
         told += sentence_about(path, notes)
     elif others := [key for key in found if key not in ("curve", "offset", "longest", "shortest")]:
