@@ -18,7 +18,7 @@ from validation.engine.engine import Engine
 from validation.engine.files import write_output
 from validation.engine.progress import progress_of
 from validation.engine.street import objects_of_houses
-from validation.report.commands.arguments import Exit, add_options, add_workers, at_least, check_places, some_of
+from validation.report.commands.arguments import Exit, add_options, add_workers, at_least, check_places, comma_separated
 from validation.scenes.load import bundled_for_compare, files_of, load_scene, load_varied
 from validation.scenes.printable import printable
 from validation.scenes.scene import Scene
@@ -40,7 +40,7 @@ def describe(comparing: argparse.ArgumentParser) -> None:
     )
     comparing.add_argument(
         "--quantity",
-        type=some_of(all_quantities()),
+        type=comma_separated(all_quantities()),
         metavar="A,B",
         help=f"of {', '.join(all_quantities())}, one or several (default: the first of the scene)",
     )

@@ -27,8 +27,8 @@ class Cell:
     @property
     def verdict(self) -> Verdict:
         """Outside tolerance by one counterexample; inconclusive by one number that is so, and by one that lacks."""
-        found = worst(self.numbers).verdict
-        return Verdict.INCONCLUSIVE if self.lacking and found is Verdict.WITHIN else found
+        worst_verdict = worst(self.numbers).verdict
+        return Verdict.INCONCLUSIVE if self.lacking and worst_verdict is Verdict.WITHIN else worst_verdict
 
     @property
     def alone(self) -> str:
@@ -61,30 +61,34 @@ class Source(Choice):
 
     def cells(self, evidence: Evidence) -> list[Cell]:
         """In the order of the axis; names in the order of the numbers."""
-        found: dict[Place, list[Number]] = {}
+        by_place: dict[Place, list[Number]] = {}
         for number in self.chosen(evidence.numbers):
             if self.axis in number.where:
-                found.setdefault(number.where[self.axis], []).append(number)
-        every = {self._series(number) for numbers in found.values() for number in numbers}
+                by_place.setdefault(number.where[self.axis], []).append(number)
+        all_series = {self._series(number) for numbers in by_place.values() for number in numbers}
         return [
-            Cell(place, tuple(numbers), len(every - {self._series(number) for number in numbers}), self.axis)
-            for place, numbers in _apart(found).items()
+            Cell(place, tuple(numbers), len(all_series - {self._series(number) for number in numbers}), self.axis)
+            for place, numbers in _joined_overlaps(by_place).items()
         ]
 
     def _series(self, number: Number) -> tuple[object, ...]:
         return (number.quantity, *(number.where.get(name) for name in self.series))
 
 
-def _apart(found: dict[Place, list[Number]]) -> dict[Place, list[Number]]:
+def _joined_overlaps(numbers_by_place: dict[Place, list[Number]]) -> dict[Place, list[Number]]:
     """In the order of the axis; ranges that overlap, as where one quantity was measured less far, are one place."""
     joined: dict[Place, list[Number]] = {}
-    for place in found if any(isinstance(place, str) for place in found) else sorted(found, key=ends):
+    for place in (
+        numbers_by_place
+        if any(isinstance(place, str) for place in numbers_by_place)
+        else sorted(numbers_by_place, key=ends)
+    ):
         before = next(reversed(joined), "")
         if isinstance(before, str) or isinstance(place, str) or ends(place)[0] >= ends(before)[1]:
-            joined[place] = found[place]
+            joined[place] = numbers_by_place[place]
         else:
             both = (ends(before)[0], max(ends(before)[1], ends(place)[1]))
-            joined[both] = [*joined.pop(before), *found[place]]
+            joined[both] = [*joined.pop(before), *numbers_by_place[place]]
     return joined
 
 

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from validation.engine.street import places
-from validation.report.commands.arguments import Exit, add_options, add_profile, add_workers, at_least, some_of
+from validation.report.commands.arguments import Exit, add_options, add_profile, add_workers, at_least, comma_separated
 
 WHEELS = ("rough_wheel", "table_14_1")
 """The scenes that `bundled_wheels` finds, which imports numerics."""
@@ -58,7 +58,7 @@ def describe(making: argparse.ArgumentParser) -> None:
 def _names(word: str) -> tuple[str, ...]:
     from validation.report.contents import CASES, TIMED
 
-    return some_of([*CASES, *TIMED])(word)
+    return comma_separated([*CASES, *TIMED])(word)
 
 
 def cases(arguments: argparse.Namespace) -> Exit:
