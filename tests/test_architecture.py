@@ -253,4 +253,4 @@ def test_oracles_share_no_code_with_what_they_check():
 def test_two_cases_of_one_name_or_place_are_refused(monkeypatch, other, said):
     monkeypatch.setattr("validation.cases.exact.geike.CASE", dataclasses.replace(contents.CASES["hertz"], **other))
     with pytest.raises(ValueError, match=said):
-        contents._found()
+        contents._cases_in_order()

@@ -41,11 +41,11 @@ def test_what_a_house_brings_is_there():
     """The places of all uses, each of a house that is at that place itself."""
     for house in street.houses():
         for use, place in import_module(f"validation.{house}").BRINGS.items():
-            assert place.startswith(f"validation.{house}") and street.brought(use), use
+            assert place.startswith(f"validation.{house}") and street.objects_of_houses(use), use
 
 
 def test_a_house_that_is_away_brings_nothing(monkeypatch):
     monkeypatch.setattr(street, "houses", lambda: ("advice",))
-    assert street.brought("quantities") == [] and street.brought("model_for")
+    assert street.objects_of_houses("quantities") == [] and street.objects_of_houses("model_for")
     assert set(street.commands()) == set(COMMANDS["advice"])
     assert {module.__name__.split(".")[1] for module in street.modules_in("cases")} == {"advice"}

@@ -21,7 +21,7 @@ from validation.engine.workers import (
     terminable,
 )
 from validation.report.commands.arguments import Exit
-from validation.report.durations import said
+from validation.report.durations import duration_text
 from validation.scenes.bundled import SceneError
 from validation.scenes.printable import never_fatal, printable
 
@@ -29,8 +29,9 @@ COMMANDS = {
     "report": "run the cases and write a report folder",
     **{name: what for name, (what, _) in commands().items()},
     "scene": "print a scene that comes with this package, with a comment on every key",
-    "precision": f"error against cost of every method; the full size takes {said('full', ['precision'])}",
-    "benchmark": f"our solver and the other packages that are installed; the full size takes {said('full', ['race'])}",
+    "precision": f"error against cost of every method; the full size takes {duration_text('full', ['precision'])}",
+    "benchmark": "our solver and the other packages that are installed; the full size takes "
+    + duration_text("full", ["race"]),
     "cases": "list the cases and what each shows",
 }
 FORMER = ("race",)

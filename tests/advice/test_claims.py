@@ -525,9 +525,9 @@ def test_no_stiffness_depends_on_units(scene):
 def test_grids_are_as_fine_in_any_unit():
     """Sixteen cells in contact of a light punch, 2 F / (E* h' L^2) of all, h' the rms slope of the gradient."""
     for scene in (*ROUGH_BODIES, light := punch(load=0.001, ground=waves(last=4))):
-        assert pressed_heights.cells_wanted(scene) == pressed_heights.cells_wanted(in_other_units(scene))
+        assert pressed_heights.sufficient_cells(scene) == pressed_heights.sufficient_cells(in_other_units(scene))
     share = 2 * light.load / (math.sqrt(2) * light.ground.slope_along)
-    cells = pressed_heights.cells_wanted(light)
+    cells = pressed_heights.sufficient_cells(light)
     assert cells > 8 * 4
     assert 16 <= share * cells**2 < 4 * 16
 

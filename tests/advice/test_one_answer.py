@@ -208,7 +208,7 @@ ROUGH = validation.load_scene("rough_punch")
 
 
 @catches("no number of realisations would do").at(
-    "validation.advice.advice.wanted_realisations", lambda one, tolerance: 0
+    "validation.advice.advice.sufficient_realisations", lambda one, tolerance: 0
 )
 def test_where_the_sample_is_the_error_a_number_of_realisations_is_advised_that_does():
     """N = (2 s / (0.9 t))^2: with as many, the tolerance is met, and the command tells what they cost before."""
@@ -230,7 +230,7 @@ def test_realisations_that_are_advised_leave_the_sample_what_the_model_does_not_
         found = answer(1.0, model=left, sample=0.4, realisations=8)
         estimate = ErrorEstimate(model=left, reason="")
         one = Candidate(Fake(is_sampled=True), "not accurate enough", "", estimate, found)
-        return advice.wanted_realisations(one, within)
+        return advice.sufficient_realisations(one, within)
 
     alone = wanted(0.0, 0.1)
     assert alone > 50 and wanted(model, tolerance) == alone

@@ -183,3 +183,11 @@ def test_the_curves_are_selected_reference_mdr_and_the_nearest():
     ]
     found = compared(replace(models[0], name="chosen", value=(2.2,)), *models, solve_all=True)
     assert shown_models(found) == ["chosen", "best", "springs", "near", "far", "poor"]
+
+
+def test_names_of_the_last_release_work_and_name_the_new_ones():
+    comparison = compared(Fake(claimed=0.1))
+    with pytest.warns(FutureWarning, match=r"Comparison\.asked is Comparison\.scene_quantity now"):
+        assert comparison.asked is comparison.scene_quantity
+    with pytest.warns(FutureWarning, match="claimed of a model is predicted_error now"):
+        assert comparison.models[0].claimed == comparison.models[0].predicted_error == 0.1

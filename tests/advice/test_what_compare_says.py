@@ -113,8 +113,8 @@ def test_no_tolerance_is_taken_for_another(given, said):
 def test_an_error_beyond_the_tolerance_is_not_printed_as_the_tolerance():
     """20 lg 1.1272 = 1.04 dB."""
     decibel = tolerance_of("1 dB")
-    assert [decibel.shown_beside(e) for e in (0.1272, 0.12203, 0.1)] == ["1.04 dB", "1.0001 dB", "0.83 dB"]
-    assert Tolerance(0.1).shown_beside(0.1002) == "10.02 %" and Tolerance(0.1).shown_beside(math.inf) == "unknown"
+    assert [decibel.shown_distinct(e) for e in (0.1272, 0.12203, 0.1)] == ["1.04 dB", "1.0001 dB", "0.83 dB"]
+    assert Tolerance(0.1).shown_distinct(0.1002) == "10.02 %" and Tolerance(0.1).shown_distinct(math.inf) == "unknown"
 
 
 def test_what_would_help_is_said_where_nothing_is_enough():

@@ -62,7 +62,7 @@ def test_what_is_lost_is_counted_while_it_runs(tmp_path):
         progress = Part("toy")
         Engine(store=tmp_path, progress=progress).map(lost_if_odd, range(4))
         (solves,) = progress.kinds
-        assert (solves.done, solves.found, solves.failed) == (4, found, failed)
+        assert (solves.done, solves.stored, solves.failed) == (4, found, failed)
 
 
 def lost_if_odd(problem):

@@ -241,7 +241,7 @@ def test_cells_of_a_light_punch_are_those_of_the_gradient(more, cells):
     ground = validation.Roughness(rms=1e-3, hurst=0.7, longest=1.0, shortest=0.25)
     load = 16 * gradient / (2 * (more * 128) ** 2)
     light = validation.IndentationScene(name="light", shape="punch", size=1.0, load=load, modulus=1.0, ground=ground)
-    assert indentation.cells_wanted(light) == cells
+    assert indentation.sufficient_cells(light) == cells
 
 
 @catches_root_of_two("the gradient of a claim on ridges", "validation.scenes.measured.MeasuredHeights.gradient")

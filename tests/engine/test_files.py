@@ -15,7 +15,7 @@ import pytest
 from tests.seeded import catches
 from validation.__main__ import main
 from validation.engine import stored
-from validation.engine.files import ERRORS_OF_A_PATH, read_plain, write_given, write_whole
+from validation.engine.files import ERRORS_OF_A_PATH, read_plain, write_output, write_whole
 
 
 @pytest.fixture
@@ -34,7 +34,7 @@ def names(folder):
     return sorted(path.name for path in folder.iterdir())
 
 
-@pytest.mark.parametrize("write", [write_given, write_whole])
+@pytest.mark.parametrize("write", [write_output, write_whole])
 @pytest.mark.parametrize(("mask", "wanted"), [(0o022, 0o644), (0o077, 0o600), (0o002, 0o664)])
 def test_a_new_file_has_the_mode_of_the_umask(write, mask, wanted, tmp_path, umask):
     umask(mask)
@@ -51,7 +51,7 @@ def test_a_file_that_is_there_keeps_its_mode_and_is_replaced(before):
         path.write_bytes(b"before")
         path.chmod(before)
         with path.open("rb") as reader:
-            write_given(path, b"after")
+            write_output(path, b"after")
             assert reader.read() == b"before"
         assert (path.read_bytes(), path.stat().st_mode & 0o777, names(path.parent)) == (b"after", before, ["old"])
 
@@ -65,8 +65,8 @@ def test_a_link_is_followed():
         real.chmod(0o640)
         link.symlink_to("real")
         to_nothing.symlink_to("new")
-        write_given(link, b"after")
-        write_given(to_nothing, b"made")
+        write_output(link, b"after")
+        write_output(to_nothing, b"made")
         assert (link.is_symlink(), to_nothing.is_symlink()) == (True, True)
         assert (real.read_bytes(), mode(real), Path(folder, "new").read_bytes()) == (b"after", 0o640, b"made")
 
@@ -76,7 +76,7 @@ def test_a_pipe_is_written_into(tmp_path):
     os.mkfifo(pipe)
     reader = threading.Thread(target=lambda: got.append(pipe.read_bytes()))
     reader.start()
-    write_given(pipe, b"it")
+    write_output(pipe, b"it")
     reader.join()
     assert got == [b"it"] and stat.S_ISFIFO(pipe.lstat().st_mode)
 
@@ -94,9 +94,9 @@ def test_a_device_stays_one(tmp_path):
 
 WRITES_TWICE = """
 import pathlib
-from validation.engine.files import write_given
+from validation.engine.files import write_output
 print("before")
-write_given(pathlib.Path("/dev/stdout"), b"it")
+write_output(pathlib.Path("/dev/stdout"), b"it")
 print("after")
 """
 
@@ -109,7 +109,7 @@ def test_standard_output_has_all_in_its_order(into, tmp_path):
     assert (run.stdout or (tmp_path / "printed").read_bytes()) == b"before\nitafter\n"
 
 
-@pytest.mark.parametrize("write", [write_given, write_whole])
+@pytest.mark.parametrize("write", [write_output, write_whole])
 def test_what_cannot_be_written_is_named_and_nothing_is_left(write, tmp_path):
     (tmp_path / "folder").mkdir()
     (tmp_path / "loop").symlink_to("loop")
@@ -125,10 +125,10 @@ def test_a_write_that_fails_leaves_the_file_that_is_there(tmp_path, monkeypatch)
     path = tmp_path / "old"
     path.write_bytes(b"before")
     with pytest.raises(TypeError):
-        write_given(path, "text")
+        write_output(path, "text")
     monkeypatch.setattr(type(path), "replace", lambda *_: (_ for _ in ()).throw(OSError(errno.ENOSPC, "full")))
     with pytest.raises(OSError, match="full"):
-        write_given(path, b"after")
+        write_output(path, b"after")
     assert (path.read_bytes(), names(tmp_path)) == (b"before", ["old"])
 
 

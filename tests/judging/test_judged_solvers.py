@@ -215,21 +215,21 @@ def test_no_answer_is_a_finding_with_its_reason(answer, reason):
     assert {finding.quantity for finding in found} == {"answer", *PROPERTIES, "order of convergence"} - {"shift"}
 
 
-left = discrete.ContactProblem.left
+left = discrete.ContactProblem.residuals_and_approach
 
 
 @catches("the approach of a contact for the one that is prescribed").at(
-    "validation.benchmarks.discrete.ContactProblem.left",
+    "validation.benchmarks.discrete.ContactProblem.residuals_and_approach",
     lambda problem, pressure, by_force, *operator: left(problem, pressure, True, *operator),
 )
 def test_a_condition_that_is_left_has_its_size():
     problem = STATED["sphere"].on(12)
     p = pressed(problem, 1e-11, force=problem.force).pressure
     assert problem.worst(p, by_force=True) < 1e-10
-    approach = problem.left(p, by_force=True)[1]
+    approach = problem.residuals_and_approach(p, by_force=True)[1]
     assert replace(problem, approach=approach).worst(p, by_force=False) < 1e-10
     assert replace(problem, approach=1.01 * approach).worst(p, by_force=False) > 1e-3
-    assert problem.left(1.02 * p, by_force=True)[0]["force balance"] == pytest.approx(0.02)
+    assert problem.residuals_and_approach(1.02 * p, by_force=True)[0]["force balance"] == pytest.approx(0.02)
     assert math.isnan(problem.worst(-p, by_force=True)), "no overlap"
 
 

@@ -48,7 +48,7 @@ def test_no_model_is_enough_where_no_band_counts(scene, span, across):
     """Also where a wrong filter has one: the linear bed of springs at 12.5 mm."""
     found = compare(replace(scene, lateral_structure=across), "contact-filter", "1 dB", callback=asked)
     assert not found.met and found.model == "" and math.isinf(found.error)
-    assert all(one.status == "out of range" and math.isinf(one.claimed) for one in found.models)
+    assert all(one.status == "out of range" and math.isinf(one.predicted_error) for one in found.models)
     text = " ".join(summary(found).split())
     assert "no band has A3 above -15 dB" in text and "levels of longer waves would count" in text
     assert span in text and ": enough" not in text

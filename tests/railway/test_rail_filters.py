@@ -196,7 +196,7 @@ def test_ground_that_is_not_given_is_a_band_between_ridges_and_isotropic_ground(
     quantity = RailQuantity(replace(RAIL, lateral_structure=None), "contact-filter")
     np.testing.assert_allclose(quantity.half_width, np.abs(ends[0] - ends[1]) / 2)
     linear = next(one for one in both.models if one.name == LINEAR)
-    assert linear.claimed > rail_models.relative(float(quantity.half_width[quantity.counted(ends[1])].max()))
+    assert linear.predicted_error > rail_models.relative(float(quantity.half_width[quantity.counted(ends[1])].max()))
     assert "lateral_structure is not given" in linear.reason
 
 

@@ -341,7 +341,9 @@ def test_numbers_of_another_model_are_no_answer():
     assert row_of("rolling-spectrum", rolling(RMS_LEVEL, LINEAR_3D, 0.0)).word == "Not measured"
 
 
-@catches("cells that overlap").at("validation.report.answers.strip._apart", lambda found: dict(sorted(found.items())))
+@catches("cells that overlap").at(
+    "validation.report.answers.strip._joined_overlaps", lambda found: dict(sorted(found.items()))
+)
 def test_ranges_that_overlap_are_one_cell():
     """One H was measured less far than the other: both are numbers of the same cell."""
     numbers = [
@@ -352,7 +354,7 @@ def test_ranges_that_overlap_are_one_cell():
     assert [place for place, _ in strip_of(mean_stiffness(*numbers))] == ["< 0.1", "0.1 to 1", "1 to 10", "> 10"]
 
 
-apart = strip._apart
+apart = strip._joined_overlaps
 
 
 def last_of_those_that_join(found):
@@ -360,7 +362,7 @@ def last_of_those_that_join(found):
 
 
 @catches("numbers dropped where ranges join", off=0).at(
-    "validation.report.answers.strip._apart", last_of_those_that_join
+    "validation.report.answers.strip._joined_overlaps", last_of_those_that_join
 )
 @pytest.mark.parametrize("off", range(4))
 def test_ranges_that_join_keep_all_of_their_numbers(off):

@@ -152,7 +152,7 @@ def no_identity_is_a_finding(evidence):
 
 def read_back_whole(folder):
     """A case that is kept by a later report says all that it said."""
-    kept = kept_sections(folder, "quick", anew=())
+    kept = kept_sections(folder, "quick", regenerated=())
     said = json.loads((folder / "results.json").read_text(encoding="utf-8"))
     assert json.loads(as_json(results_of(kept, "quick"))) == {
         name: said[name] for name in ("schema_version", "profile", "cases")

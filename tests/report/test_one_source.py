@@ -12,7 +12,7 @@ from validation.benchmarks.work_precision.case import FULL, QUICK
 from validation.cases.rolling import reduced_models as reduced
 from validation.report.answers.questions import QUESTIONS
 from validation.report.contents import CASES
-from validation.report.durations import said, seconds_of
+from validation.report.durations import duration_text, seconds_of
 from validation.simulation.reduced_models import MODELS
 
 ROOT = Path(__file__).parents[2]
@@ -28,13 +28,13 @@ def line_with(words):
 @pytest.mark.parametrize(
     ("words", "duration"),
     [
-        ("make report            #", said("quick", EVERY, 2)),
-        ("make full-report ", said("full", EVERY, 2)),
-        ("make reference ", said("full", seconds_of("full"), 2)),
-        ("--only fractal_punch --profile full", said("full", ["fractal_punch"], 2)),
-        ("mdr-validation precision --profile full", said("full", ["precision"])),
-        ("mdr-validation benchmark --profile full", said("full", ["race"])),
-        ("the quick size they take", f"{said('quick', ['precision'])} and {said('quick', ['race'])}"),
+        ("make report            #", duration_text("quick", EVERY, 2)),
+        ("make full-report ", duration_text("full", EVERY, 2)),
+        ("make reference ", duration_text("full", seconds_of("full"), 2)),
+        ("--only fractal_punch --profile full", duration_text("full", ["fractal_punch"], 2)),
+        ("mdr-validation precision --profile full", duration_text("full", ["precision"])),
+        ("mdr-validation benchmark --profile full", duration_text("full", ["race"])),
+        ("the quick size they take", f"{duration_text('quick', ['precision'])} and {duration_text('quick', ['race'])}"),
     ],
 )
 def test_durations_on_the_page_of_reports_are_those_of_the_table(words, duration):
@@ -50,7 +50,7 @@ def test_no_other_duration_stands_there():
 
 @pytest.mark.parametrize(("name", "case"), [("precision", "precision"), ("benchmark", "race")])
 def test_the_help_has_the_same_durations(name, case):
-    assert COMMANDS[name].endswith(f"the full size takes {said('full', [case])}")
+    assert COMMANDS[name].endswith(f"the full size takes {duration_text('full', [case])}")
 
 
 @pytest.mark.parametrize(
@@ -59,9 +59,9 @@ def test_the_help_has_the_same_durations(name, case):
 )
 def test_a_duration_has_two_digits_and_its_unit(monkeypatch, seconds, words):
     monkeypatch.setattr("validation.report.durations.seconds_of", lambda profile: {"hertz": seconds, "race": seconds})
-    assert said("full", ["hertz"]) == said("full", ["race"]) == words
+    assert duration_text("full", ["hertz"]) == duration_text("full", ["race"]) == words
     # what is timed has one core
-    assert said("full", ["race"], 2) == words != said("full", ["hertz"], 2)
+    assert duration_text("full", ["race"], 2) == words != duration_text("full", ["hertz"], 2)
 
 
 def test_a_solver_is_left_out_after_the_seconds_that_the_page_says():

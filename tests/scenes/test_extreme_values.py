@@ -164,7 +164,7 @@ def check_work(scene):
     if isinstance(scene, WheelScene):
         return
     quantity = quantities_of(scene)[-1]
-    listed, _ = SceneProblem(scene, (quantity,), 0.1).offered(quantity)
+    listed, _ = SceneProblem(scene, (quantity,), 0.1).listed_and_solvable(quantity)
     for one in listed:
         estimate, cost = one.estimate(), one.cost()
         assert not math.isnan(estimate.error)

@@ -34,7 +34,7 @@ def is_solved(comparison: Comparison, springs: Candidate) -> bool:
 
 def verdict(comparison: Comparison, springs: Candidate) -> tuple[str, str]:
     """Whether the springs are enough, in words that say where that is predicted alone, and why."""
-    shown, limit = comparison.tolerance.shown_beside(springs.error), comparison.tolerance.relative
+    shown, limit = comparison.tolerance.shown_distinct(springs.error), comparison.tolerance.relative
     of = f" ({comparison.statistic})" if comparison.statistic else ""
     if comparison.beyond_elasticity:
         return "not enough", comparison.beyond_elasticity
@@ -88,7 +88,7 @@ def what_would_help(comparison: Comparison) -> Iterator[str]:
     """Where no model meets the tolerance: the error that is left, and `would_help`."""
     best, tolerance = comparison.selection.best, comparison.tolerance
     if best is not None and best.answer is not None and not (comparison.met or comparison.beyond_elasticity):
-        yield f"not reached: the tolerance of {tolerance}; the error is {tolerance.shown_beside(best.error)}"
+        yield f"not reached: the tolerance of {tolerance}; the error is {tolerance.shown_distinct(best.error)}"
     yield from would_help(comparison)
 
 
@@ -100,19 +100,19 @@ def would_help(comparison: Comparison) -> Iterator[str]:
     if comparison.beyond_elasticity:
         yield f"no answer: {comparison.beyond_elasticity}"
         return
-    unasked = [
+    unasked = (
         candidate
         for candidate in comparison.models
-        if candidate.status == "not asked" and candidate.claimed <= tolerance.relative
-    ]
-    other = (
-        unasked
-        and f"{unasked[0].name}, which was not asked, with a predicted error of {tolerance.shown(unasked[0].claimed)}"
+        if candidate.status == "not asked" and candidate.predicted_error <= tolerance.relative
+    )
+    other = next(unasked, None)
+    other_model = other and (
+        f"{other.name}, which was not asked, with a predicted error of {tolerance.shown(other.predicted_error)}"
     )
     if best is None or best.answer is None:
         if comparison.models:
             another = f"a scene for which this does not hold: {comparison.models[-1].reason}"
-            yield f"what would help: {other or another}"
+            yield f"what would help: {other_model or another}"
         return
     if (left := best.estimate.of_scene) > min(tolerance.relative, best.answer.error / 2):
         stated = best.model.model.helps(best.model.target)
@@ -123,29 +123,29 @@ def would_help(comparison: Comparison) -> Iterator[str]:
         return
     more = more_realisations(comparison)
     met = "; or ".join(
-        part for part in (other, more, f"a tolerance of {tolerance.shown(1.05 * best.answer.error)}") if part
+        part for part in (other_model, more, f"a tolerance of {tolerance.shown(1.05 * best.answer.error)}") if part
     )
     yield f"what would help: {met}; most of the error is {_main_cause(comparison.scene, best)}"
 
 
 def more_realisations(comparison: Comparison) -> str:
     """How many realisations would do, and how long they take; empty where no number does."""
-    for candidate in sorted(comparison.selection.known, key=lambda candidate: candidate.found.error):
-        count = wanted_realisations(candidate, comparison.tolerance.relative)
+    for candidate in sorted(comparison.selection.with_error, key=lambda candidate: candidate.solved_answer.error):
+        count = sufficient_realisations(candidate, comparison.tolerance.relative)
         if count:
             seconds = replace(candidate.model, realisations=count).cost().seconds
-            cost = f"about {format_seconds(seconds)} ({candidate.found.realisations} were solved)"
+            cost = f"about {format_seconds(seconds)} ({candidate.solved_answer.realisations} were solved)"
             return f"{count} realisations by {candidate.name}, {cost}: --realisations {count}"
     return ""
 
 
-def wanted_realisations(candidate: Candidate, tolerance: float) -> int:
+def sufficient_realisations(candidate: Candidate, tolerance: float) -> int:
     """Number of realisations that leave most of the tolerance; zero where more of them do not help.
 
     N = (2 s / (0.9 (t - m)))^2, s of one realisation, t the tolerance, m what the model leaves. What is left by a grid
     is compared on more surfaces, too, where it is less than what the sample leaves.
     """
-    answer, left = candidate.found, tolerance - candidate.found.model
+    answer, left = candidate.solved_answer, tolerance - candidate.solved_answer.model
     if not candidate.model.is_sampled or left <= 0 or answer.sample <= answer.grid or answer.realisations < 2:
         return 0
     scatter = answer.sample * math.sqrt(answer.realisations) / student(answer.realisations - 1)
@@ -157,7 +157,7 @@ def wanted_realisations(candidate: Candidate, tolerance: float) -> int:
 
 def _main_cause(scene: Scene, best: Candidate) -> str:
     """What most of the error of a model is due to, and what has less of it."""
-    answer = best.found
+    answer = best.solved_answer
     causes = {
         f"the model's{_help_for_model(scene)}": answer.model,
         f"left by the grid: {_help_for_grid(scene)}": answer.grid,

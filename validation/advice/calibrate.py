@@ -31,7 +31,7 @@ from validation.advice.calibration_scenes import (
 from validation.advice.hierarchy import try_to_solve
 from validation.advice.scene_model import SceneModel
 from validation.engine.engine import SERIAL, Engine, Outcome
-from validation.engine.files import write_given
+from validation.engine.files import write_output
 from validation.scenes.printable import printable
 from validation.simulation.method import distance
 from validation.simulation.model import Model, Target, all_models
@@ -258,7 +258,7 @@ def check_calibration(
     solves = f"{len(points)} of {sum(map(len, groups.values()))} solves"
     if stamp and not differing:
         checked = {**about, "checked": f"{today().isoformat()}, {solves}"}
-        write_given(path, as_table(checked, [_with_code_of_today(row, seed) for row in rows]))
+        write_output(path, as_table(checked, [_with_code_of_today(row, seed) for row in rows]))
         calibration.table.cache_clear()
     return differing, solves
 
@@ -307,7 +307,7 @@ def install(measured: Path, path: Path = TABLE) -> None:
         for table in (measured, path)
     )
     _refuse_fewer(new_counts, old_counts)
-    write_given(path, measured.read_bytes())
+    write_output(path, measured.read_bytes())
     calibration.table.cache_clear()
 
 

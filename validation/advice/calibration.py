@@ -165,8 +165,8 @@ class MeasuredErrors:
         """The root mean square of the errors nearby over their shapes, times the factor that covers them."""
         low, high = self.points.min(axis=0), self.points.max(axis=0)
         at = np.array([_coordinate(name, conditions[name]) if name in conditions else math.nan for name in self.names])
-        for name, here, *ends in zip(self.names, at, low, high, strict=True):
-            below, above = here < ends[0] - MARGIN, here > ends[1] + MARGIN
+        for name, place, *ends in zip(self.names, at, low, high, strict=True):
+            below, above = place < ends[0] - MARGIN, place > ends[1] + MARGIN
             if (below and name not in OPEN_BELOW) or (above and name not in OPEN_ABOVE):
                 span = " to ".join(f"{end if name == HURST else 10**end:.3g}" for end in ends)
                 reason = f"{name} = {conditions[name]:.3g}; the error of the model is measured from {span} only"
@@ -183,8 +183,8 @@ class MeasuredErrors:
 
     def left_out(self) -> FloatArray:
         """Root mean square errors nearby, at each scene without itself."""
-        every = np.arange(len(self.errors))
-        nearby = [self._scale(point, every != i) for i, point in enumerate(self.points)]
+        all_rows = np.arange(len(self.errors))
+        nearby = [self._scale(point, all_rows != i) for i, point in enumerate(self.points)]
         return np.asarray(self.shapes * nearby)
 
     @cached_property
@@ -198,10 +198,10 @@ class MeasuredErrors:
     def _scale(self, at: FloatArray, of: NDArray[np.bool_]) -> float:
         """The nearest scenes weigh the most. A condition that measured heights do not have counts for nothing."""
         weights = np.array([LEADS] + [1.0] * (len(at) - 1))
-        apart = np.sqrt(np.nansum((weights * (self.points[of] - at)) ** 2, axis=1))
+        distance = np.sqrt(np.nansum((weights * (self.points[of] - at)) ** 2, axis=1))
         share = NEARBY_IN_SHAPE if self.names[0] == HEIGHT else NEARBY
-        nearest = np.argsort(apart, kind="stable")[: max(NEIGHBOURS, round(share * len(apart)))]
-        weight = 1 - 0.9 * (apart[nearest] / (apart[nearest[-1]] + 1e-12)) ** 2
+        nearest = np.argsort(distance, kind="stable")[: max(NEIGHBOURS, round(share * len(distance)))]
+        weight = 1 - 0.9 * (distance[nearest] / (distance[nearest[-1]] + 1e-12)) ** 2
         grown = 10 ** (self.trend * (at[0] - self.points[of][nearest, 0]))
         return math.sqrt(float(np.average(((self.errors / self.shapes)[of][nearest] * grown) ** 2, weights=weight)))
 
@@ -251,7 +251,7 @@ def table(path: Path = TABLE) -> Mapping[Key, MeasuredErrors]:
     rows: dict[Key, list[dict[str, str]]] = {}
     for row in rows_of(path):
         rows.setdefault((row["kind"], row["quantity"], row["model"]), []).append(row)
-    return {key: _errors_of(mine) for key, mine in rows.items()}
+    return {key: _errors_of(rows_of_key) for key, rows_of_key in rows.items()}
 
 
 def _errors_of(rows: Sequence[Mapping[str, str]]) -> MeasuredErrors:
@@ -275,8 +275,8 @@ def provenance(path: Path = TABLE) -> dict[str, str]:
 
 def code_behind(model: Model, target: Target) -> str:
     """Digest of the code that an error rests on: the solves of the model and of boundary elements, scenes, samples."""
-    judges = [one for one in models_serving(target.scene, target.quantity) if isinstance(one, GridModel)]
-    return _version(tuple(sorted({one.place[0] for one in (model, *judges)})))
+    judges = [serving for serving in models_serving(target.scene, target.quantity) if isinstance(serving, GridModel)]
+    return _version(tuple(sorted({used.place[0] for used in (model, *judges)})))
 
 
 @cache

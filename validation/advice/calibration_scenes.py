@@ -37,8 +37,8 @@ RADIUS, APPROACH = 1.0, 1e-4
 HEIGHT = 1e-3
 """Of the roughness of punches, over their side."""
 QUANTITIES = {
-    kind: tuple(map(str, known))
-    for kind, known in {"punch": PRESSED, "sphere": PRESSED, "rolling": ROLLING, "wheel": MOVING[::-1]}.items()
+    kind: tuple(map(str, quantities))
+    for kind, quantities in {"punch": PRESSED, "sphere": PRESSED, "rolling": ROLLING, "wheel": MOVING[::-1]}.items()
 }
 DESIGNS: Mapping[str, tuple[tuple[float, float], ...]] = {
     "punch": ((-2.2, 2.0), (0.0, math.log10(5.4)), (math.log10(3), math.log10(48)), (0.2, 1.2)),
@@ -122,7 +122,7 @@ class CalibrationRun:
 
 def cheap_models(target: Target) -> tuple[Model, ...]:
     """Those that claim errors, and are selected among."""
-    return tuple(one for one in models_serving(target.scene, target.quantity) if not isinstance(one, GridModel))
+    return tuple(model for model in models_serving(target.scene, target.quantity) if not isinstance(model, GridModel))
 
 
 def reference_answer(point: CalibrationScene) -> Outcome:
@@ -139,7 +139,7 @@ def reference_answer(point: CalibrationScene) -> Outcome:
     return {
         "value": answer.value,
         "reference": np.array(answer.error),
-        "each": np.array([one.values[point.quantity].ravel() for one in solved]),
+        "each": np.array([realisation.values[point.quantity].ravel() for realisation in solved]),
         "failed": np.array(float(bool(answer.failed))),
     }
 
@@ -168,16 +168,16 @@ class Answers:
     about: Mapping[str, str]
 
     @classmethod
-    def of(cls, found: Sequence[tuple[CalibrationScene, Outcome]], about: Mapping[str, str]) -> "Answers":
-        known = [(point.number, one) for point, one in found if not one["failed"]]
-        each = [one["each"] for _, one in known]
+    def of(cls, outcomes: Sequence[tuple[CalibrationScene, Outcome]], about: Mapping[str, str]) -> "Answers":
+        answered = [(point.number, outcome) for point, outcome in outcomes if not outcome["failed"]]
+        each = [outcome["each"] for _, outcome in answered]
         return cls(
-            number=np.array([number for number, _ in known], dtype=np.int64),
-            reference=np.array([float(one["reference"]) for _, one in known]),
-            size=np.array([one["value"].size for _, one in known], dtype=np.int64),
-            count=np.array([len(one) for one in each], dtype=np.int64),
-            value=np.concatenate([np.empty(0), *(one["value"] for _, one in known)]),
-            each=np.concatenate([np.empty(0), *(one.ravel() for one in each)]),
+            number=np.array([number for number, _ in answered], dtype=np.int64),
+            reference=np.array([float(outcome["reference"]) for _, outcome in answered]),
+            size=np.array([outcome["value"].size for _, outcome in answered], dtype=np.int64),
+            count=np.array([len(rows) for rows in each], dtype=np.int64),
+            value=np.concatenate([np.empty(0), *(outcome["value"] for _, outcome in answered)]),
+            each=np.concatenate([np.empty(0), *(rows.ravel() for rows in each)]),
             about=about,
         )
 
@@ -197,7 +197,7 @@ class Answers:
     @cached_property
     def digest(self) -> str:
         """Of all numbers."""
-        return hashlib.sha256(b"".join(one.tobytes() for one in astuple(self)[:-1])).hexdigest()[:16]
+        return hashlib.sha256(b"".join(array.tobytes() for array in astuple(self)[:-1])).hexdigest()[:16]
 
 
 def answers_of(
@@ -207,12 +207,12 @@ def answers_of(
     groups: dict[Group, list[tuple[CalibrationScene, Outcome]]] = {}
     for point, outcome in zip(points, outcomes, strict=True):
         groups.setdefault((point.kind, point.quantity), []).append((point, outcome))
-    return {group: Answers.of(some, {**about, "code": code_of(some[0][0])}) for group, some in groups.items()}
+    return {group: Answers.of(solved, {**about, "code": code_of(solved[0][0])}) for group, solved in groups.items()}
 
 
 def code_of(point: CalibrationScene) -> str:
     """Digest of the code that an answer rests on."""
-    (judge,) = (one for one in models_serving(point.scene, point.quantity) if isinstance(one, GridModel))
+    (judge,) = (model for model in models_serving(point.scene, point.quantity) if isinstance(model, GridModel))
     return calibration.code_behind(judge, point.target())
 
 
@@ -236,19 +236,19 @@ def answers_in(path: Path = ANSWERS) -> Mapping[Group, Answers]:
         return {}
     with np.load(path, allow_pickle=False) as entries:
         arrays = {name: entries[name] for name in entries.files}
-    found: dict[Group, dict[str, NDArray[np.generic]]] = {}
+    groups: dict[Group, dict[str, NDArray[np.generic]]] = {}
     for name, array in arrays.items():
         kind, quantity, field = name.split(" ")
-        found.setdefault((kind, quantity), {})[field] = array
-    return {group: Answers(**{**some, ABOUT: json.loads(str(some[ABOUT]))}) for group, some in found.items()}
+        groups.setdefault((kind, quantity), {})[field] = array
+    return {group: Answers(**{**entry, ABOUT: json.loads(str(entry[ABOUT]))}) for group, entry in groups.items()}
 
 
 def merged(path: Path, made: Mapping[Group, Answers]) -> bytes:
     """Those of a file, with these in the place of the same kinds. ValueError where a kind would have fewer scenes."""
     answers_in.cache_clear()  # which may have been written since
-    there = answers_in(path)
-    for group, answers in there.items():
+    stored = answers_in(path)
+    for group, answers in stored.items():
         if group in made and made[group].number.size < answers.number.size:
-            wanted = f"as many answers as there are, {answers.number.size} of {' '.join(group)}"
-            raise ValueError(f"--answers must leave {wanted}, got {made[group].number.size}")
-    return as_file({**there, **made})
+            least_answers = f"as many answers as there are, {answers.number.size} of {' '.join(group)}"
+            raise ValueError(f"--answers must leave {least_answers}, got {made[group].number.size}")
+    return as_file({**stored, **made})

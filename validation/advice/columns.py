@@ -72,7 +72,7 @@ def bands_of(comparison: Comparison, candidate: Candidate) -> Columns:
         del columns["value"]
     elif contact:
         columns |= {"q a": contact.along * comparison.wavenumbers, "amplitude": candidate.answer.value}
-    units = {"unit": comparison.unit, "amplitude": comparison.asked.unit}
+    units = {"unit": comparison.unit, "amplitude": comparison.scene_quantity.unit}
     return _cells_of_bands(columns, units)
 
 
@@ -91,8 +91,8 @@ def models_of_page(comparison: Comparison) -> list[dict[str, str]]:
     return [
         {
             "model": label(candidate),
-            "claims": tolerance.shown(candidate.claimed) if candidate.estimate.in_range else "out of range",
-            "found": NONE if candidate.answer is None else tolerance.shown_beside(candidate.error),
+            "claims": tolerance.shown(candidate.predicted_error) if candidate.estimate.in_range else "out of range",
+            "found": NONE if candidate.answer is None else tolerance.shown_distinct(candidate.error),
             "apart": _largest_difference(comparison, candidate) if candidate in solved else NONE,
             "cost": format_seconds(candidate.cost if candidate.answer is None else candidate.answer.cost.seconds),
             "took": format_seconds(comparison.seconds_of(candidate), least="< 1 ms"),

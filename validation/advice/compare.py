@@ -4,6 +4,7 @@ import hashlib
 import json
 import math
 import re
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
@@ -142,9 +143,15 @@ class Comparison:
     swept: Swept | None = None
 
     @property
-    def asked(self) -> SceneQuantity:
+    def scene_quantity(self) -> SceneQuantity:
         """The quantity with its unit, and how it is judged."""
         return quantity_of(self.scene, self.quantity)
+
+    @property
+    def asked(self) -> SceneQuantity:
+        """`scene_quantity` by its name of version 0.3."""
+        warnings.warn("Comparison.asked is Comparison.scene_quantity now", FutureWarning, stacklevel=2)
+        return self.scene_quantity
 
     @property
     def tolerance(self) -> Tolerance:
@@ -159,7 +166,7 @@ class Comparison:
         """The value that a solved model gives, in the unit of ``value``."""
         assert candidate.answer is not None  # the docstring asks for a solved model
         value = candidate.answer.value
-        return kept(20 * np.log10(value / self.asked.reference) if self.is_level else value)
+        return kept(20 * np.log10(value / self.scene_quantity.reference) if self.is_level else value)
 
     def errors_of(self, candidate: Candidate) -> FloatArray:
         """Half-widths of 95 % of a solved model, one for each number, in dB for levels and else in ``unit``."""
@@ -203,7 +210,7 @@ class Comparison:
 
     @property
     def unit(self) -> str:
-        unit = self.asked.unit
+        unit = self.scene_quantity.unit
         if not self.is_level:
             return unit
         return "dB" if unit == "1" else f"dB re 1 {unit}"
@@ -211,7 +218,7 @@ class Comparison:
     @property
     def is_level(self) -> bool:
         """Whether the value is a level in each one-third octave."""
-        return self.asked.in_bands
+        return self.scene_quantity.in_bands
 
     @property
     def wavenumbers(self) -> FloatArray:
@@ -364,12 +371,14 @@ class SceneProblem:
         object.__setattr__(self, "content", content_of(self.scene))
 
     @property
-    def wanted(self) -> Tolerance:
+    def parsed_tolerance(self) -> Tolerance:
         return tolerance_of(self.tolerance)
 
-    def offered(self, quantity: str, shared: Shared | None = None) -> tuple[list[SceneModel], list[SceneModel]]:
+    def listed_and_solvable(
+        self, quantity: str, shared: Shared | None = None
+    ) -> tuple[list[SceneModel], list[SceneModel]]:
         """The models that are listed, the cheapest first, and those of them that may be solved. Raises ValueError."""
-        tolerance = self.wanted.relative
+        tolerance = self.parsed_tolerance.relative
         models = models_of(
             *(self.scene, quantity, tolerance, self.seed, shared),
             include_by_name=bool(self.models),
@@ -382,9 +391,9 @@ class SceneProblem:
 
     def compared(self, callback: Callable[[SceneModel], None] = lambda _: None) -> dict[str, Comparison]:
         """Each quantity by its name; a filter and what it leaves share their solves."""
-        comparisons, shared, tolerance = dict[str, Comparison](), Shared(), self.wanted.relative
+        comparisons, shared, tolerance = dict[str, Comparison](), Shared(), self.parsed_tolerance.relative
         for key in self.quantities:
-            models, only = self.offered(key, shared)
+            models, only = self.listed_and_solvable(key, shared)
             announced = comparisons and self.scene.shares_solves
             selection = select_model(
                 models,
@@ -397,7 +406,9 @@ class SceneProblem:
             )
             if reason := beyond_elasticity(self.scene):
                 selection = rejected(selection, reason)
-            comparisons[key] = Comparison(self.scene, key, selection, self.wanted.in_decibels, timed=self.solve_all)
+            comparisons[key] = Comparison(
+                self.scene, key, selection, self.parsed_tolerance.in_decibels, timed=self.solve_all
+            )
         return comparisons
 
 

@@ -35,10 +35,10 @@ class Export:
 
     def written(self, comparisons: Iterable[Comparison]) -> bytes:
         """The rows of all scenes, as CSV."""
-        table: Callable[[Comparison], Table] = resolve_name(self.place)
+        table_of: Callable[[Comparison], Table] = resolve_name(self.place)
         # imported where a file is asked for
         from validation.analysis.contents import as_csv
 
-        tables = [table(one) for one in comparisons if one.quantity == self.quantity]
-        rows = {name: [value for one in tables for value in one.columns[name]] for name in tables[0].columns}
+        tables = [table_of(comparison) for comparison in comparisons if comparison.quantity == self.quantity]
+        rows = {name: [value for table in tables for value in table.columns[name]] for name in tables[0].columns}
         return as_csv(Table(self.quantity, rows))

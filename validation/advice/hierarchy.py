@@ -1,6 +1,7 @@
 """The cheapest model that a scene needs, from closed forms to fine boundary elements."""
 
 import math
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -76,12 +77,18 @@ class Candidate:
         return self.model.is_mdr
 
     @property
-    def claimed(self) -> float:
+    def predicted_error(self) -> float:
         """Relative half-width of 95 % that was estimated before any solve; infinite where none is known."""
         return self.estimate.error
 
     @property
-    def found(self) -> Answer:
+    def claimed(self) -> float:
+        """`predicted_error` by its name of version 0.3."""
+        warnings.warn("claimed of a model is predicted_error now", FutureWarning, stacklevel=2)
+        return self.predicted_error
+
+    @property
+    def solved_answer(self) -> Answer:
         """The answer of a model that was solved. Raises ValueError for another."""
         if self.answer is None:
             raise ValueError(f"{self.name} was not solved")
@@ -116,18 +123,20 @@ class Selection:
         None where no answer has a known error.
         """
         accepted = [candidate for candidate in self.solved if candidate.status == "accepted"]
-        alike = [candidate for candidate in self.known if candidate.error <= ALIKE * self.least_error]
-        return accepted[0] if accepted else min(alike, key=lambda candidate: bias(candidate.found), default=None)
+        alike = [candidate for candidate in self.with_error if candidate.error <= ALIKE * self.least_error]
+        return (
+            accepted[0] if accepted else min(alike, key=lambda candidate: bias(candidate.solved_answer), default=None)
+        )
 
     @property
-    def known(self) -> tuple[Candidate, ...]:
+    def with_error(self) -> tuple[Candidate, ...]:
         """The models that have an answer with an error."""
         return tuple(candidate for candidate in self.solved if math.isfinite(candidate.error))
 
     @property
     def least_error(self) -> float:
-        """The smallest error of `known`; infinite where that is empty."""
-        return min((candidate.error for candidate in self.known), default=math.inf)
+        """The smallest error of `with_error`; infinite where that is empty."""
+        return min((candidate.error for candidate in self.with_error), default=math.inf)
 
     @property
     def solved(self) -> tuple[Candidate, ...]:
@@ -166,7 +175,7 @@ def select_model(
     selection = Selection(tolerance, ())
     for model in models:
         candidate = _unsolved_candidate(model, selection.met, only is None or any(model is chosen for chosen in only))
-        if candidate.status == "skipped" and candidate.claimed <= tolerance:
+        if candidate.status == "skipped" and candidate.predicted_error <= tolerance:
             candidate = _solve_candidate(candidate, callback, tolerance)
         selection = Selection(tolerance, (*selection.candidates, candidate))
     # the error of an answer may be more than another model claims
@@ -205,13 +214,17 @@ def rejected(selection: Selection, reason: str) -> Selection:
 
 def contradicting(selection: Selection, candidate: Candidate) -> Candidate | None:
     """The least biased of the solved models that are less biased than this candidate and contradict it, or None."""
-    if not any(candidate is other for other in selection.known):
+    if not any(candidate is other for other in selection.with_error):
         return None
     less_biased = [
-        other for other in selection.known if other is not candidate and bias(other.found) < bias(candidate.found)
+        other
+        for other in selection.with_error
+        if other is not candidate and bias(other.solved_answer) < bias(candidate.solved_answer)
     ]
-    against = [other for other in less_biased if contradict(candidate.found, other.found, selection.tolerance)]
-    return min(against, key=lambda other: bias(other.found), default=None)
+    against = [
+        other for other in less_biased if contradict(candidate.solved_answer, other.solved_answer, selection.tolerance)
+    ]
+    return min(against, key=lambda other: bias(other.solved_answer), default=None)
 
 
 def without_contradiction(selection: Selection) -> Selection:
@@ -219,7 +232,7 @@ def without_contradiction(selection: Selection) -> Selection:
     while (best := selection.best) is not None and best.status == "accepted":
         if (better := contradicting(selection, best)) is None:
             return selection
-        distance = distance_of(best.found, better.found)
+        distance = distance_of(best.solved_answer, better.solved_answer)
         reason = (
             f"{better.name}, with less bias, is {100 * distance:.2g} % away, beyond the errors of both; {best.reason}"
         )
@@ -252,10 +265,10 @@ def unsolved(model: SceneModel, problem: Exception) -> Answer:
     return Answer(value=np.array([np.nan]), cost=model.cost(), failed=str(problem) or type(problem).__name__)
 
 
-def _unsolved_candidate(model: SceneModel, met: bool, offered: bool) -> Candidate:
-    """A candidate before its solve. met: whether a cheaper model is enough; offered: whether it may be solved."""
+def _unsolved_candidate(model: SceneModel, met: bool, selectable: bool) -> Candidate:
+    """A candidate before its solve. met: whether a cheaper model is enough; selectable: whether it may be solved."""
     expected = model.estimate()
-    passed: dict[Status, bool] = {"not asked": not offered, "out of range": not expected.in_range, "not needed": met}
+    passed: dict[Status, bool] = {"not asked": not selectable, "out of range": not expected.in_range, "not needed": met}
     status: Status = next((name for name, holds in passed.items() if holds), "skipped")
     return Candidate(model, status, expected.reason, expected)
 
@@ -279,5 +292,5 @@ def _least_estimate(selection: Selection) -> Candidate | None:
     skipped = [candidate for candidate in reversed(selection.candidates) if candidate.status == "skipped"]
     if all(candidate.estimate.of_scene > selection.tolerance for candidate in skipped):
         skipped = skipped[-1:] if selection.best is None else []
-    least = min(skipped, key=lambda candidate: candidate.claimed, default=None)
-    return least if least and least.claimed < selection.least_error else None
+    least = min(skipped, key=lambda candidate: candidate.predicted_error, default=None)
+    return least if least and least.predicted_error < selection.least_error else None

@@ -152,7 +152,7 @@ def names_and_own(
         raise ValueError(f"two functions are offered as {twice!r}")
     own: tuple[Own, ...] = ()
     if functions:
-        # not `brought`: what is stored of scenes without such models is not keyed by their code
+        # not `objects_of_houses`: what is stored of scenes without such models is not keyed by their code
         (place,) = places("models_of_functions")
         own = resolve_name(place)(functions, scene, quantity)
     return tuple(choice.name if isinstance(choice, Decorated) else choice for choice in choices), own

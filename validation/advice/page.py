@@ -93,5 +93,5 @@ def _title(comparisons: Sequence[Comparison]) -> str:
 def _notes(comparison: Comparison) -> list[str]:
     """Why there is no steady answer, and what may be wrong about the scene."""
     scene = comparison.scene
-    reason = scene.no_steady_answer() if comparison.asked.of_motion else ""
+    reason = scene.no_steady_answer() if comparison.scene_quantity.of_motion else ""
     return [*([f"no steady answer: {reason}"] if reason else []), *scene.diagnose()]

@@ -35,10 +35,10 @@ def compare_scene(problem: SceneProblem) -> Outcome:
 
 def _comparison(problem: SceneProblem, quantity: str, outcome: Outcome) -> Comparison:
     rows = json.loads(outcome[quantity].astype(np.uint8).tobytes())
-    models, _ = problem.offered(quantity)
+    models, _ = problem.listed_and_solvable(quantity)
     candidates = tuple(_candidate(model, *row) for model, row in zip(models, rows, strict=True))
-    selection = Selection(problem.wanted.relative, candidates)
-    return Comparison(problem.scene, quantity, selection, problem.wanted.in_decibels, timed=problem.solve_all)
+    selection = Selection(problem.parsed_tolerance.relative, candidates)
+    return Comparison(problem.scene, quantity, selection, problem.parsed_tolerance.in_decibels, timed=problem.solve_all)
 
 
 def _row(candidate: Candidate) -> tuple[object, ...]:

@@ -18,7 +18,7 @@ def reference_of(comparison: Comparison) -> Candidate:
     """The least biased of the solved models whose errors are alike the smallest, the dearest of several."""
     solved, least = comparison.selection.solved[::-1], comparison.selection.least_error
     alike = [candidate for candidate in solved if candidate.error <= ALIKE * least]
-    return min(alike, key=lambda candidate: bias(candidate.found))
+    return min(alike, key=lambda candidate: bias(candidate.solved_answer))
 
 
 def differences(candidate: Candidate, reference: Candidate) -> np.ndarray:
@@ -45,7 +45,7 @@ def error_of_difference(comparison: Comparison, candidate: Candidate) -> np.ndar
 def counted_bands(comparison: Comparison, candidate: Candidate) -> NDArray[np.bool_]:
     """Mask of the bands in which the tolerance counts: of a rail, those of which more than next to nothing is left."""
     level = comparison.a3_of(candidate) if comparison.roughness.size else np.zeros(comparison.value_of(candidate).size)
-    return np.asarray(level > comparison.asked.counted_above)
+    return np.asarray(level > comparison.scene_quantity.counted_above)
 
 
 def shown_models(comparison: Comparison) -> list[str]:
@@ -94,7 +94,7 @@ def _distance_from_reference(comparison: Comparison, candidate: Candidate) -> tu
     within = counted_bands(comparison, reference) & np.isfinite(off)
     if not within.any():
         return math.nan, math.nan
-    if comparison.asked.by_worst_band:
+    if comparison.scene_quantity.by_worst_band:
         at = int(np.argmax(np.where(within, off, -1.0)))
         return float(off[at]), float(half[at])
     return float(np.sqrt(np.mean(off[within] ** 2))), float(np.sqrt(np.mean(half[within] ** 2)))

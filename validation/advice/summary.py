@@ -238,7 +238,7 @@ def _error_sentence(comparison: Comparison, answer: Answer) -> str:
     """The error compared with the tolerance, and its parts: model, grid and sample."""
     tolerance = comparison.tolerance
     parts = {name: part for name in ("model", "grid", "sample") if (part := getattr(answer, name))}
-    error = error_of_levels(comparison, answer) if comparison.is_level else tolerance.shown_beside(answer.error)
+    error = error_of_levels(comparison, answer) if comparison.is_level else tolerance.shown_distinct(answer.error)
     parts_text = ", ".join(f"{name} {tolerance.shown(part)}" for name, part in parts.items())
     parts_text = f": {parts_text}" if len(parts) > 1 else "".join(f"; all of it is the {name}'s" for name in parts)
     return f"error {error}, {'within' if comparison.met else 'not within'} {tolerance}{parts_text}"

@@ -48,7 +48,7 @@ class Tolerance:
         """An error in the unit of the tolerance, with two digits; "unknown" where none is known."""
         return f"{short(self.in_unit(error))} {self.unit}" if math.isfinite(error) else "unknown"
 
-    def shown_beside(self, error: float) -> str:
+    def shown_distinct(self, error: float) -> str:
         """An error with as many digits as it takes to differ from the tolerance: 1.04 dB beside 1 dB."""
         text = self.shown(error)
         if text != str(self) or error <= self.relative:

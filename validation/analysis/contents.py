@@ -146,12 +146,12 @@ def _cell(value: object, digits: int, as_text: Callable[[str], str]) -> object:
 def from_csv(name: str, text: str) -> Table:
     """What `as_csv` wrote: numbers, NaN where a column of numbers is empty, True and False, else text."""
     header, *rows = csv.reader(io.StringIO(text))
-    unit = next((one[1] for name in header if (one := VALUE.fullmatch(name))), "")
+    unit = next((match[1] for name in header if (match := VALUE.fullmatch(name))), "")
     names = [name.removesuffix(f" [{unit}]") if name.startswith(VALUES) else name for name in header]
-    found = dict(zip(names, zip(*rows, strict=True) if rows else [()] * len(names), strict=True))
-    if found.keys() >= {*VALUES}:
-        found |= {n: tuple(map(_first, found[n], found["value"])) for n in INTERVAL}
-    return Table(name, {column: _values(cells) for column, cells in found.items()}, unit)
+    columns = dict(zip(names, zip(*rows, strict=True) if rows else [()] * len(names), strict=True))
+    if columns.keys() >= {*VALUES}:
+        columns |= {n: tuple(map(_first, columns[n], columns["value"])) for n in INTERVAL}
+    return Table(name, {column: _values(cells) for column, cells in columns.items()}, unit)
 
 
 def _first(cell: str, value: str) -> str:

@@ -118,10 +118,10 @@ def number_with(
     numbers: Iterable[Number], quantity: str | None = None, model: str | None = None, **where: Place
 ) -> Number:
     """The one number whose key has these parts. Raises LookupError where there is none, or more than one."""
-    found = numbers_with(numbers, quantity, model, **where)
-    if len(found) != 1:
-        raise LookupError(f"one number must have quantity {quantity!r}, model {model!r}, {where}, got {len(found)}")
-    return found[0]
+    matching = numbers_with(numbers, quantity, model, **where)
+    if len(matching) != 1:
+        raise LookupError(f"one number must have quantity {quantity!r}, model {model!r}, {where}, got {len(matching)}")
+    return matching[0]
 
 
 def _placed(name: str, value: Place) -> str:
@@ -188,9 +188,9 @@ Columns = Mapping[str, Callable[[Table], object]]
 
 def grouped(name: str, table: Table, by: tuple[str, ...], columns: Columns) -> Table:
     """A row for each value of some columns, with what is found in the rows that have it."""
-    keys = list(dict.fromkeys(zip(*(table[one].tolist() for one in by), strict=True)))
+    keys = list(dict.fromkeys(zip(*(table[key_column].tolist() for key_column in by), strict=True)))
     groups = [table.where(**dict(zip(by, key, strict=True))) for key in keys]
-    named = {one: [key[i] for key in keys] for i, one in enumerate(by)}
+    named = {key_column: [key[i] for key in keys] for i, key_column in enumerate(by)}
     return Table(name, {**named, **{column: [of(group) for group in groups] for column, of in columns.items()}})
 
 
@@ -272,8 +272,8 @@ class JudgedClaim:
             raise ValueError(
                 f"confirmed_by of the claim {self.claim!r} must be within or outside tolerance, got inconclusive"
             )
-        known = {number.label for number in self.numbers}
-        if bool(self.limits) != bool(self.inside) or any(number.label not in known for number in self.inside):
+        labels = {number.label for number in self.numbers}
+        if bool(self.limits) != bool(self.inside) or any(number.label not in labels for number in self.inside):
             raise ValueError(f"limits of the claim {self.claim!r} must come with numbers of its own inside them")
 
     @property

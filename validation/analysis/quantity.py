@@ -19,13 +19,13 @@ class Quantity(str):
     key: str
 
     def __new__(cls, key: str, label: str = "") -> Quantity:
-        found = super().__new__(cls, label or key.replace("_", " "))
-        found.key = key
+        quantity = super().__new__(cls, label or key.replace("_", " "))
+        quantity.key = key
         if plain_name(key) != key:
             raise ValueError(f"key must be a name as {plain_name(key)!r}, got {key!r}")
-        if KNOWN.setdefault(key, found) != found:
-            raise ValueError(f"key {key!r} is that of {str(KNOWN[key])!r}, got it for {str(found)!r}")
-        return found
+        if KNOWN.setdefault(key, quantity) != quantity:
+            raise ValueError(f"key {key!r} is that of {str(KNOWN[key])!r}, got it for {str(quantity)!r}")
+        return quantity
 
     def __add__(self, more: str) -> Quantity:
         return Quantity(plain_name(f"{self.key}_{plain_name(more)}"), str(self) + more)
@@ -44,5 +44,5 @@ def key_of(label: str) -> str:
 
 def quantity_with(text: str) -> str:
     """The quantity of a key, or of a label, today's or of an earlier report; any other text as it is."""
-    by_label = next((one for one in KNOWN.values() if one == text), None)
+    by_label = next((quantity for quantity in KNOWN.values() if quantity == text), None)
     return by_label or KNOWN.get(text) or KNOWN.get(plain_name(text)) or text

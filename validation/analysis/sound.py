@@ -71,5 +71,5 @@ def filtered(signal: FloatArray, gain: FloatArray) -> FloatArray:
 
 def powers_of_blocks(signal: FloatArray, blocks: int) -> FloatArray:
     """Mean square of so many equal pieces; what is left over belongs to none."""
-    whole = signal[: signal.size // blocks * blocks]
-    return np.asarray(np.mean(whole.reshape(blocks, -1) ** 2, axis=1))
+    complete_blocks = signal[: signal.size // blocks * blocks]
+    return np.asarray(np.mean(complete_blocks.reshape(blocks, -1) ** 2, axis=1))

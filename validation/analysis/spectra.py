@@ -88,9 +88,9 @@ def waves(series: ArrayLike, *, spacing: float) -> Waves:
     return Waves(q, np.fft.rfft(x, norm="forward")[..., 1 : last + 1])
 
 
-def levels(found: Waves, bands: Bands) -> FloatArray:
+def levels(spectrum: Waves, bands: Bands) -> FloatArray:
     """int C dq over each band, of positive wavenumbers; bands along the last axis."""
-    return bands.sums(found.q, np.abs(found.amplitude) ** 2).real
+    return bands.sums(spectrum.q, np.abs(spectrum.amplitude) ** 2).real
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,9 +126,9 @@ def band_levels(omega: FloatArray, density: FloatArray, edges: ArrayLike) -> Flo
     borders = np.searchsorted(omega, np.asarray(edges, dtype=np.float64))
     # each band is summed by itself: of running sums, those far below earlier ones would be lost
     ended = np.concatenate([density, np.zeros((1, *density.shape[1:]))])
-    found = np.add.reduceat(ended, borders, axis=0)[:-1] * omega[0] / (2 * np.pi)
-    found[borders[1:] == borders[:-1]] = np.nan
-    return np.asarray(found)
+    sums = np.add.reduceat(ended, borders, axis=0)[:-1] * omega[0] / (2 * np.pi)
+    sums[borders[1:] == borders[:-1]] = np.nan
+    return np.asarray(sums)
 
 
 def band_means(omega: FloatArray, density: FloatArray, edges: ArrayLike) -> FloatArray:
@@ -159,8 +159,8 @@ def peak(omega: FloatArray, hann: FloatArray, below: float) -> float:
     if inside < 1:
         return math.nan
     top = int(np.argmax(hann[:inside]))
-    beside = np.concatenate([hann[max(top - 2 * LOBE, 0) : max(top - LOBE, 0)], hann[top + LOBE : top + 2 * LOBE]])
-    if hann[top] < PROMINENT * np.median(beside):
+    neighbours = np.concatenate([hann[max(top - 2 * LOBE, 0) : max(top - LOBE, 0)], hann[top + LOBE : top + 2 * LOBE]])
+    if hann[top] < PROMINENT * np.median(neighbours):
         return math.nan
     side = 1 if top == 0 or hann[top + 1] > hann[top - 1] else -1
     ratio = math.sqrt(hann[top + side] / hann[top])
@@ -283,13 +283,13 @@ class NominalBands:
         numbers = [band_number(wavelength) for wavelength in wavelengths]
         if not numbers:
             raise ValueError("wavelengths must name one band at least, got none")
-        for before, here in pairwise(numbers):
-            name, last = _in_mm(nominal_wavelength(here)), _in_mm(nominal_wavelength(before))
-            if here == before:
+        for before, number in pairwise(numbers):
+            name, last = _in_mm(nominal_wavelength(number)), _in_mm(nominal_wavelength(before))
+            if number == before:
                 raise ValueError(f"wavelengths must name each band once, got {name} twice")
-            if here > before:
+            if number > before:
                 raise ValueError(f"wavelengths must be sorted, got {name} behind {last}")
-            if here < before - 1:
+            if number < before - 1:
                 missing = _in_mm(nominal_wavelength(before - 1))
                 raise ValueError(f"wavelengths must name all bands between their ends, got no {missing} behind {last}")
         return cls(numbers[0], numbers[-1])
@@ -373,9 +373,9 @@ class NominalBands:
             heights = scipy.signal.detrend(heights, type="linear" if detrend == "plane" else "constant")
         points = heights.shape[-1]
         window = np.sin(np.pi * (np.arange(points) + 0.5) / points) ** 2 * math.sqrt(8 / 3)
-        found = waves(window * heights, spacing=spacing)
-        ends = found.q[0] * (np.arange(found.q.size + 1) + 0.5)
-        powers = 2 * np.abs(found.amplitude) ** 2
+        spectra = waves(window * heights, spacing=spacing)
+        ends = spectra.q[0] * (np.arange(spectra.q.size + 1) + 0.5)
+        powers = 2 * np.abs(spectra.amplitude) ** 2
         total = np.cumsum(np.concatenate([np.zeros((*powers.shape[:-1], 1)), powers], axis=-1), axis=-1)
         return np.diff(scipy.interpolate.interp1d(ends, total)(self.edges))
 

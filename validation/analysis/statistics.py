@@ -91,18 +91,18 @@ def jackknifed(value: Callable[[FloatArray], FloatArray], rows: FloatArray) -> l
     rows: realisations along axis 0, pairs of them perhaps; those with a value that is not finite are left out, and more
     than a hundred are taken in as many groups.
     """
-    known = rows[np.isfinite(rows).all(axis=tuple(range(1, rows.ndim)))]
-    groups = np.array_split(np.arange(len(known)), min(len(known), JACKKNIFE_GROUPS))
+    finite_rows = rows[np.isfinite(rows).all(axis=tuple(range(1, rows.ndim)))]
+    groups = np.array_split(np.arange(len(finite_rows)), min(len(finite_rows), JACKKNIFE_GROUPS))
     with np.errstate(divide="ignore", invalid="ignore"):
-        found = np.atleast_1d(value(known))
-        errors = jackknife_error(np.array([np.atleast_1d(value(np.delete(known, group, 0))) for group in groups]))
-    return [Estimate(float(v), float(e), len(groups)) for v, e in zip(found, errors, strict=True)]
+        values = np.atleast_1d(value(finite_rows))
+        errors = jackknife_error(np.array([np.atleast_1d(value(np.delete(finite_rows, group, 0))) for group in groups]))
+    return [Estimate(float(v), float(e), len(groups)) for v, e in zip(values, errors, strict=True)]
 
 
 def mean_estimate(values: FloatArray) -> Estimate:
     """The mean of a sample, two values at least, NaN for what is lost."""
-    known = values[np.isfinite(values)]
-    return Estimate(float(known.mean()), float(known.std(ddof=1)) / math.sqrt(known.size), known.size)
+    finite = values[np.isfinite(values)]
+    return Estimate(float(finite.mean()), float(finite.std(ddof=1)) / math.sqrt(finite.size), finite.size)
 
 
 def ratio_of_means(values: FloatArray, references: FloatArray) -> Estimate:
@@ -110,11 +110,11 @@ def ratio_of_means(values: FloatArray, references: FloatArray) -> Estimate:
 
     values, references: x, y, realisation by realisation, two at least; NaN among the values for what is lost.
     """
-    known = np.isfinite(values)
-    mine, other = values[known], references[known]
-    ratio = float(mine.mean() / other.mean())
-    left = mine - ratio * other
-    error = float(left.std(ddof=1)) / math.sqrt(left.size) / abs(float(other.mean()))
+    finite = np.isfinite(values)
+    x, y = values[finite], references[finite]
+    ratio = float(x.mean() / y.mean())
+    left = x - ratio * y
+    error = float(left.std(ddof=1)) / math.sqrt(left.size) / abs(float(y.mean()))
     return Estimate(ratio, error, left.size)
 
 
@@ -124,13 +124,13 @@ def log_ratio_of_means(values: FloatArray, references: FloatArray, weights: Floa
     values, references: x, y, one row a realisation, two at least, NaN in rows of x that are lost; or y one row, which
     is exact; columns without weight need not be positive.
     """
-    used, known = weights != 0, np.isfinite(values).all(axis=1)
-    pairs = np.stack([values, np.broadcast_to(references, values.shape)])[:, known][:, :, used]
+    used, finite = weights != 0, np.isfinite(values).all(axis=1)
+    pairs = np.stack([values, np.broadcast_to(references, values.shape)])[:, finite][:, :, used]
     count = pairs.shape[1]
     total = pairs.sum(axis=1, keepdims=True)
     mean, without = total / count, (total - pairs) / (count - 1)
-    whole, rest = ((np.log(x) - np.log(y)) @ weights[used] for x, y in (mean, without))
-    return Estimate(float(whole[0]), float(jackknife_error(rest)), count)
+    log_ratio, rest = ((np.log(x) - np.log(y)) @ weights[used] for x, y in (mean, without))
+    return Estimate(float(log_ratio[0]), float(jackknife_error(rest)), count)
 
 
 def extrapolated(coarse: Estimate, finer: Estimate, among: int = 1) -> tuple[Estimate, float]:
@@ -171,15 +171,15 @@ def independent_records(records: FloatArray) -> float:
     spectra = np.fft.rfft(taper * (records - records.mean(axis=1, keepdims=True)), 2 * points)
     power = np.abs(spectra) ** 2
     kernel = np.full(neighbours := min(NEIGHBOURS, points), 1 / neighbours)
-    smooth = np.array([np.convolve(one, kernel, mode="same") for one in power])
+    smooth = np.array([np.convolve(line, kernel, mode="same") for line in power])
     white = np.where(power > FLOOR * power.max(axis=1, keepdims=True), spectra, 0.0)
     white /= np.sqrt(np.maximum(smooth, np.finfo(float).tiny))
     size = np.sqrt((np.abs(white) ** 2).sum(axis=1))
     white /= np.where(size > 0, size, 1.0)[:, np.newaxis]
     total = float(count)
-    for one, other in combinations(white, 2):
+    for first, second in combinations(white, 2):
         # twice as many lags as places: a shift by half a place is one of them
-        lags = [np.fft.irfft(one * some, 4 * points) for some in (np.conj(other), other)]
+        lags = [np.fft.irfft(first * partner, 4 * points) for partner in (np.conj(second), second)]
         shared = min(max(float(np.abs(lag).max()) for lag in lags) * 2 * points, 1.0)
         total += 2 * shared**2 if shared > CHANCE else 0.0
     return float(count**2 / total)
@@ -272,8 +272,8 @@ class Resolved:
 def on_no_size(grids: Sequence[Linearised]) -> Resolved:
     """To first order from the two finest grids; how far that is from the next two."""
     coarse, middle, fine = grids[-3:]
-    apart = abs(2 * (fine.value - middle.value) - (middle.value - coarse.value))
-    return Resolved(2.0 * fine - middle, apart)
+    grid_error = abs(2 * (fine.value - middle.value) - (middle.value - coarse.value))
+    return Resolved(2.0 * fine - middle, grid_error)
 
 
 def on_finest(grids: Sequence[Linearised]) -> Resolved:
@@ -322,11 +322,11 @@ def log(x: Linearised) -> Linearised:
 
 def moments(values: FloatArray, used: NDArray[np.bool_]) -> Moments:
     """Sample mean and sample variance of the realisations that are used, two at least; zero if rounding alone."""
-    mine = values[used]
-    n = mine.size
-    left = mine - mine.mean()
+    sample = values[used]
+    n = sample.size
+    left = sample - sample.mean()
     # equal values differ by rounding, which must not pass for a variance
-    if np.abs(left).max() < ROUNDING * abs(mine.mean()):
+    if np.abs(left).max() < ROUNDING * abs(sample.mean()):
         left = np.zeros(n)
     variance = float((left**2).sum()) / (n - 1)
     # a place for every realisation, zero where it is not used: in sums over grids the influences of one
@@ -335,7 +335,7 @@ def moments(values: FloatArray, used: NDArray[np.bool_]) -> Moments:
     # sum of squares: s^2 / n, and the variance of s^2 to the order 1 / n^2
     to_mean[used] = left / math.sqrt(n * (n - 1))
     to_variance[used] = (left**2 * n / (n - 1) - variance) / math.sqrt(n * (n - 1))
-    return Moments(Linearised(float(mine.mean()), to_mean), Linearised(variance, to_variance))
+    return Moments(Linearised(float(sample.mean()), to_mean), Linearised(variance, to_variance))
 
 
 def multilevel_moments(grids: Sequence[FloatArray]) -> list[Moments]:
@@ -343,14 +343,14 @@ def multilevel_moments(grids: Sequence[FloatArray]) -> list[Moments]:
 
     grids: one row a realisation, the same ones in each; NaN where a realisation was not solved.
     """
-    found: list[Moments] = []
+    levels: list[Moments] = []
     for i, fine in enumerate(grids):
         if i == 0:
             # the coarsest grid is the cheapest: its large sample averages most of the scatter out
-            found.append(moments(fine, np.isfinite(fine)))
+            levels.append(moments(fine, np.isfinite(fine)))
         else:
             # the step to a finer grid on the realisations of both: what they share drops out, so that few will do.
             # All rows of the coarser one would be more of a sample, and would not cancel
             both = np.isfinite(fine) & np.isfinite(grids[i - 1])
-            found.append(found[-1].with_step(moments(fine, both), moments(grids[i - 1], both)))
-    return found
+            levels.append(levels[-1].with_step(moments(fine, both), moments(grids[i - 1], both)))
+    return levels

@@ -19,7 +19,7 @@ class Settings(string.Formatter):
 
     def format_field(self, value: Any, format_spec: str) -> str:
         if isinstance(value, tuple | list):
-            parts = [self.format_field(one, format_spec) for one in value]
+            parts = [self.format_field(part, format_spec) for part in value]
             return f"{', '.join(parts[:-1])} and {parts[-1]}" if len(parts) > 1 else "".join(parts)
         if format_spec == "SI":
             return with_prefix(value)
@@ -111,7 +111,7 @@ class Study:
         filled = [replace(claim, says=self._filled(claim.says, case)) for claim in self.claims]
         pairs = [(claim, claim.judged(numbers)) for claim in filled if claim.numbers(numbers)]
         untested = [f"No number tests the claim: {claim.says}" for claim in filled if not claim.numbers(numbers)]
-        said = {claim.says: claim.headline(judged) for claim, judged in pairs if claim.short}
+        headlines = {claim.says: claim.headline(judged) for claim, judged in pairs if claim.short}
         return Evidence(
             title=self.title,
             method=self._filled(self.method, case),
@@ -125,10 +125,10 @@ class Study:
             conclusions=(*self.notes(result), *untested),
             captions={chart.name: self._filled(chart.caption, case) for chart in self.charts},
             headlines={
-                chart.name: _title(said[filled[i].says] for i in chart.claims if filled[i].says in said)
+                chart.name: _title(headlines[filled[i].says] for i in chart.claims if filled[i].says in headlines)
                 for chart in self.charts
             },
-            finding=f"{_title(list(said.values())[:2])}." if said else "",
+            finding=f"{_title(list(headlines.values())[:2])}." if headlines else "",
             unconverged=result.unconverged,
             sounds=self.sounds(result),
         )

@@ -72,7 +72,7 @@ class ContactProblem:
         """F [N]."""
         return float(pressure.sum()) * self.spacing[0] * self.spacing[1]
 
-    def left(
+    def residuals_and_approach(
         self, pressure: FloatArray, by_force: bool, displacement: FloatArray | None = None
     ) -> tuple[dict[str, float], float]:
         """What is left of each condition, and the approach: that of the contact under a force, which is to be held.
@@ -96,7 +96,7 @@ class ContactProblem:
 
     def worst(self, pressure: FloatArray, by_force: bool, displacement: FloatArray | None = None) -> float:
         """The most that is left, NaN where one of them is."""
-        return float(np.max([*self.left(pressure, by_force, displacement)[0].values()]))
+        return float(np.max([*self.residuals_and_approach(pressure, by_force, displacement)[0].values()]))
 
     @property
     def is_determined_by_approach(self) -> bool:
@@ -266,7 +266,7 @@ def pressed(
 def answered(problem: ContactProblem) -> dict[str, Any]:
     """Problem and answer by name. Raises RuntimeError where the operator that judges finds more than rounding in it."""
     contact = pressed(problem, 1e-11, force=problem.force)
-    _, approach = problem.left(contact.pressure, by_force=True)
+    _, approach = problem.residuals_and_approach(contact.pressure, by_force=True)
     worst = problem.worst(contact.pressure, by_force=True)
     same = math.isclose(approach, contact.approach, rel_tol=1e-7, abs_tol=1e-9 * np.ptp(problem.gap))
     if not (worst <= EXACT and same):

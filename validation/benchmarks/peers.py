@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 import bem3d
 from validation.benchmarks.discrete import ContactProblem
-from validation.engine.street import brought
+from validation.engine.street import objects_of_houses
 from validation.simulation.method import Prepared, Resolution, Result, Solve
 from validation.simulation.model import all_models
 
@@ -242,7 +242,7 @@ def solvers_with(file: str) -> tuple[PeerSolver, ...]:
     """All of them, and the contact solvers of a file. Raises ValueError where it offers none, or cannot be read."""
     if not file:
         return SOLVERS
-    readers = brought("solvers_of_files")
+    readers = objects_of_houses("solvers_of_files")
     if not readers:
         raise ValueError(f"{file}: solvers of files need the package validation.judging, which is not here")
     (solvers_in,) = readers

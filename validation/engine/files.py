@@ -28,7 +28,7 @@ def name_in(folder: Path, place: Path) -> str:
     return os.fsencode(place.relative_to(folder).as_posix()).decode(errors="replace")
 
 
-def write_given(path: Path, contents: bytes) -> None:
+def write_output(path: Path, contents: bytes) -> None:
     """Write where a user says: a plain file is replaced, with the mode and the owner that it has, or as the umask says.
 
     Links are followed. A device, a pipe, or the file that this program prints to is written into and stays what it is.

@@ -23,7 +23,7 @@ FACE = "validation"
 """Imports by name for its users: who imports it may use anything."""
 BY_NAME, LISTS = {"import_module", "__import__"}, "iter_modules"
 """Functions that import what no statement names; what lists the packages that its statements name."""
-BROUGHT, FOLDERS = "brought", "modules_in"
+OBJECTS, FOLDERS = "objects_of_houses", "modules_in"
 """Functions of the street that import what houses bring."""
 PARSING = threading.Lock()
 
@@ -144,8 +144,8 @@ class Code:
     """Of a file, by one pass over its tree, which is not kept.
 
     digest: of the tree without comments, and without docstrings, which are constants by themselves; words: all names
-    and attributes; imports: level, module and names of each import statement; hooks: texts that `brought` and
-    `modules_in` are called with.
+    and attributes; imports: level, module and names of each import statement; hooks: texts that `objects_of_houses`
+    and `modules_in` are called with.
     """
 
     digest: bytes
@@ -169,7 +169,7 @@ def _code(path: Path) -> Code:
                 imports += [(0, alias.name, ()) for alias in names]
             case ast.ImportFrom(module=module, names=names, level=level):
                 imports.append((level, module or "", tuple(alias.name for alias in names)))
-            case ast.Call(func=ast.Name(id=hook), args=[ast.Constant(value=str(text))]) if hook in (BROUGHT, FOLDERS):
+            case ast.Call(func=ast.Name(id=hook), args=[ast.Constant(value=str(text))]) if hook in (OBJECTS, FOLDERS):
                 hooks.add((hook, text))
     digest = hashlib.sha256(ast.dump(_WithoutDocstrings().visit(tree)).encode()).digest()
     return Code(digest, frozenset(words), tuple(imports), frozenset(hooks))
@@ -225,9 +225,9 @@ def _named(module: str, path: Path | None) -> frozenset[str]:
 
 
 def _of_houses(path: Path) -> frozenset[str]:
-    """Modules of the houses that `brought` and `modules_in` find for it, by the texts that it gives them."""
+    """Modules of the houses that `objects_of_houses` and `modules_in` find for it, by the texts that it gives them."""
     hooks = _code(path).hooks
-    names = {place.partition(":")[0] for hook, use in hooks if hook == BROUGHT for place in places(use)}
+    names = {place.partition(":")[0] for hook, use in hooks if hook == OBJECTS for place in places(use)}
     folders = {f"{ROOT}.{house}.{folder}" for hook, folder in hooks if hook == FOLDERS for house in houses()}
     return frozenset(names | {name for name in modules() if name.rpartition(".")[0] in folders})
 

@@ -29,7 +29,7 @@ def places(use: str) -> tuple[str, ...]:
     return tuple(place for place in entries if place)
 
 
-def brought(use: str) -> list[Any]:
+def objects_of_houses(use: str) -> list[Any]:
     """What houses bring for a use, in the order of the street; imported now."""
     return [resolve_name(place) for place in places(use)]
 

@@ -25,7 +25,7 @@ from validation.railway.problems.rail_quantity import RAIL_QUANTITIES
 from validation.railway.problems.rail_strip import structure_of
 from validation.scenes.rolling_quantity import QUANTITIES, RollingQuantity
 from validation.scenes.roughness import Roughness, RoughSurface
-from validation.simulation.indentation import cells_wanted, ground_of, height_of, is_rough, side_of
+from validation.simulation.indentation import ground_of, height_of, is_rough, side_of, sufficient_cells
 from validation.simulation.method import FEWEST, STUDENT, Resolution, Result, realisations
 from validation.simulation.model import Target
 from validation.simulation.rolling_levels import by_linear_theory, levels_of, strip_of
@@ -97,7 +97,7 @@ def _stiffness_of_surfaces(caller: Caller, target: Target, count: int) -> FloatA
     """On half as many cells a side as boundary elements have; measured heights on their own points."""
     scene, single = target.scene, ground_of(target.scene).is_single
     cells = round(boundary_elements_pressed.resolutions(target)[-1].size)
-    cells = cells_wanted(scene) if single else max(cells // 2, 1)
+    cells = sufficient_cells(scene) if single else max(cells // 2, 1)
     arguments = {"spacing": side_of(scene) / cells, "modulus": scene.modulus, "load": scene.load}
     heights = (height_of(scene, cells, i, target.seed) for i in range(count))
     return np.array([[float(answer_of(caller, height=height, **arguments))] for height in heights])

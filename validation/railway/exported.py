@@ -58,7 +58,7 @@ def filter_table(comparison: Comparison) -> Table:
     and where no model has an answer.
     """
     scene, best = comparison.scene, comparison.selection.best
-    if not isinstance(scene, RailScene) or comparison.asked is not CONTACT_FILTER:
+    if not isinstance(scene, RailScene) or comparison.scene_quantity is not CONTACT_FILTER:
         raise ValueError(f"--cnossos is for the quantity contact-filter of a rail, got {comparison.quantity}")
     if best is None:
         raise ValueError("--cnossos needs a contact filter, got none: no model has a result")

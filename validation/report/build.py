@@ -133,7 +133,7 @@ def _about(
     sections: Sequence[Section], profile: Profile, engine: Engine, seconds: dict[str, float], begun: dict[str, object]
 ) -> dict[str, object]:
     """The provenance of a run, with the code behind each case, and what times are measured on."""
-    seeds = {one.name: one.settings["seed"] for one in sections if "seed" in one.settings}
+    seeds = {section.name: section.settings["seed"] for section in sections if "seed" in section.settings}
     machines = {name: begun for name in seconds if name in TIMED}
     of_cases = {"code": versions_of(seconds, profile), "machines": machines}
     return provenance(profile, seeds, engine, seconds, begun) | of_cases

@@ -73,8 +73,8 @@ class BookFigure:
     confirmed: ChapterTest | None = None
 
 
-def _entry(*, tests: Sequence[dict[str, Any]] = (), **told: str) -> ChapterEntry:
-    return ChapterEntry(**told, tests=tuple(ChapterTest(**test) for test in tests))
+def _entry(*, tests: Sequence[dict[str, Any]] = (), **texts: str) -> ChapterEntry:
+    return ChapterEntry(**texts, tests=tuple(ChapterTest(**test) for test in tests))
 
 
 def figures() -> dict[str, Any]:
@@ -133,25 +133,30 @@ def _answered(entry: ChapterEntry, test: ChapterTest, section: Section) -> Answe
 
 def book_figures(sections: Sequence[Section]) -> list[tuple[BookFigure, JudgedClaim | None, JudgedClaim | None]]:
     """Each figure whose case is in the report, with the claims on it: as printed, and in three dimensions."""
-    found = {section.name: section.evidence for section in sections}
+    evidence_by_case = {section.name: section.evidence for section in sections}
 
     def judged(test: ChapterTest | None) -> JudgedClaim | None:
-        evidence = found.get(test.case) if test else None
+        evidence = evidence_by_case.get(test.case) if test else None
         return test.judged("", evidence) if test and evidence else None
 
-    return [(row, judged(row.computed), judged(row.confirmed)) for row in BOOK_FIGURES if found.get(row.computed.case)]
+    return [
+        (row, judged(row.computed), judged(row.confirmed))
+        for row in BOOK_FIGURES
+        if evidence_by_case.get(row.computed.case)
+    ]
 
 
 def chapter_of(sections: Sequence[Section]) -> list[tuple[ChapterEntry, list[Answer]]]:
     """Each entry that this report answers, with its answers; what nothing tests, too, beside any answer."""
     rows = [(entry, answers(entry, sections)) for entry in ENTRIES]
-    any_answer = any(found for _, found in rows)
-    return [(entry, found) for entry, found in rows if found or (any_answer and entry.untested)]
+    any_answer = any(answers_to_it for _, answers_to_it in rows)
+    return [(entry, answers_to_it) for entry, answers_to_it in rows if answers_to_it or (any_answer and entry.untested)]
 
 
 def chapter_results(sections: Sequence[Section]) -> list[dict[str, object]]:
     """The same as plain values."""
-    told = ("place", "statement", "untested")
+    names = ("place", "statement", "untested")
     return [
-        {**{name: getattr(entry, name) for name in told}, "answers": found} for entry, found in chapter_of(sections)
+        {**{name: getattr(entry, name) for name in names}, "answers": answers}
+        for entry, answers in chapter_of(sections)
     ]

@@ -12,7 +12,7 @@ from validation.engine.street import modules_in
 from validation.report.durations import seconds_of
 
 
-def _found() -> list[Case]:
+def _cases_in_order() -> list[Case]:
     """In the order of their chapters and of their places there. ValueError for a name or a place that two have."""
     modules = [
         import_module(module.name)
@@ -21,16 +21,16 @@ def _found() -> list[Case]:
     ] + list(modules_in("cases"))
     chapters = list(Chapter)
     entries = [module.CASE for module in modules if hasattr(module, "CASE")]
-    for what, known in (
+    for what, values in (
         ("name", [case.name for case in entries]),
         ("place", [f"{case.place} of {case.chapter!r}" for case in entries]),
     ):
-        if twice := {one for one in known if known.count(one) > 1}:
+        if twice := {value for value in values if values.count(value) > 1}:
             raise ValueError(f"a case must have a {what} of its own, got twice: {', '.join(sorted(twice))}")
     return sorted(entries, key=lambda case: (chapters.index(case.chapter), case.place))
 
 
-_ALL = {case.name: case for case in _found()}
+_ALL = {case.name: case for case in _cases_in_order()}
 CASES = {name: case for name, case in _ALL.items() if not case.timed}
 TIMED = {name: case for name, case in _ALL.items() if case.timed}
 """Run alone, last and in this order; their times differ from run to run, and stay out of the results."""
@@ -43,5 +43,5 @@ def timed_here() -> list[str]:
 
 def expected_seconds(names: Sequence[str], profile: Profile) -> dict[str, float]:
     """Of work of one core, by `durations.toml`; a case that is not there is like their mean."""
-    known = seconds_of(profile)
-    return {name: known.get(name, statistics.fmean(known.values())) for name in names}
+    seconds = seconds_of(profile)
+    return {name: seconds.get(name, statistics.fmean(seconds.values())) for name in names}

@@ -43,19 +43,19 @@ NEAR_THE_EDGE = 0.8
 def name_curves(figure: Figure, axes: Sequence[Axes], columns: int, spare: Sequence[Axes] = ()) -> None:
     """Each name once; the legend is in a spare place of the grid where there is one, else below all panels."""
     named = [dict(zip(*axis.get_legend_handles_labels()[::-1], strict=True)) for axis in axes]
-    every = {name: handle for one in named for name, handle in one.items()}
+    handles = {name: handle for handles_of_axis in named for name, handle in handles_of_axis.items()}
     last = min(columns, len(axes)) - 1
-    if not spare and len(named[last]) == len(every) <= MOST and _at_the_ends(axes[last], every):
+    if not spare and len(named[last]) == len(handles) <= MOST and _at_the_ends(axes[last], handles):
         return
-    if spare and len(every) <= BESIDE:
-        names = [textwrap.fill(name, 30) for name in every]
-        spare[0].legend(every.values(), names, loc="center", borderaxespad=0.0)
-    elif every:
-        widest = KEY + LETTER * max(map(len, every))
-        most = max(1, min(len(every), int(72 * WIDTH / widest)))
+    if spare and len(handles) <= BESIDE:
+        names = [textwrap.fill(name, 30) for name in handles]
+        spare[0].legend(handles.values(), names, loc="center", borderaxespad=0.0)
+    elif handles:
+        widest = KEY + LETTER * max(map(len, handles))
+        most = max(1, min(len(handles), int(72 * WIDTH / widest)))
         # the panels keep their height
-        figure.set_figheight(figure.get_figheight() + ROW * -(-len(every) // most) / 72)
-        figure.legend(every.values(), every.keys(), loc="outside lower center", ncols=most)
+        figure.set_figheight(figure.get_figheight() + ROW * -(-len(handles) // most) / 72)
+        figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=most)
 
 
 def _at_the_ends(axis: Axes, named: Mapping[str, Artist]) -> bool:
@@ -126,11 +126,11 @@ def draw(chart: Chart, evidence: Evidence, users: Collection[str] = ()) -> Figur
     facets = [(panel, facet) for panel in chart.panels for facet in _facets(panel, evidence)]
     columns = len(facets) if len(facets) < 4 else 2 if len(facets) == 4 else 3
     rows = -(-len(facets) // columns)
-    figure, every = panels(rows, columns)
-    axes, spare = every[: len(facets)], every[len(facets) :]
+    figure, grid = panels(rows, columns)
+    axes, spare = grid[: len(facets)], grid[len(facets) :]
     _share(axes, [panel for panel, _ in facets])
-    there = [curve for panel in chart.panels for curve in _there(panel, evidence)]
-    styles = styles_of((name for curve in there for name in _models(_rows(evidence, curve, {}))), users)
+    curves = [curve for panel in chart.panels for curve in _curves_with_table(panel, evidence)]
+    styles = styles_of((name for curve in curves for name in _models(_rows(evidence, curve, {}))), users)
     for axis, (panel, facet) in zip(axes, facets, strict=True):
         try:
             _panel(axis, panel, facet, evidence, styles)
@@ -172,12 +172,14 @@ def _facets(panel: Panel, evidence: Evidence) -> list[dict[str, object]]:
     names = (panel.facet,) if isinstance(panel.facet, str) else panel.facet
     if not names or not names[0]:
         return [{}]
-    tables = [_rows(evidence, curve, {}) for curve in _there(panel, evidence)]
-    values = dict.fromkeys(key for one in tables for key in zip(*(one.columns.get(n, ()) for n in names), strict=True))
+    tables = [_rows(evidence, curve, {}) for curve in _curves_with_table(panel, evidence)]
+    values = dict.fromkeys(
+        key for table in tables for key in zip(*(table.columns.get(n, ()) for n in names), strict=True)
+    )
     return [dict(zip(names, key, strict=True)) for key in values] or [{}]
 
 
-def _there(panel: Panel, evidence: Evidence) -> list[Curve]:
+def _curves_with_table(panel: Panel, evidence: Evidence) -> list[Curve]:
     """A run need not have every quantity."""
     return [curve for curve in panel.curves if evidence.has_table(curve.quantity)]
 
@@ -187,17 +189,17 @@ def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidenc
         axis.axhspan(*panel.shade, color="#000000", alpha=0.08, linewidth=0, label="within the margin")
     for y in panel.lines:
         axis.axhline(y, color="#000000", linewidth=0.8)
-    for curve in _there(panel, evidence):
+    for curve in _curves_with_table(panel, evidence):
         # a family has one style in all facets
-        every = [key for key, *_ in _families(curve, _rows(evidence, curve, {}))]
-        for key, values, mine in _families(curve, _rows(evidence, curve, facet)):
-            i = every.index(key)
+        family_keys = [key for key, *_ in _families(curve, _rows(evidence, curve, {}))]
+        for key, values, rows in _families(curve, _rows(evidence, curve, facet)):
+            i = family_keys.index(key)
             is_ordered = set(curve.by) - {"model"}
-            own = graded(i, len(every)) if is_ordered else styles[_models(mine)[0]]
-            _curve(axis, curve, panel, mine, values, {**own, **FORMS[curve.style]}, i)
+            own = graded(i, len(family_keys)) if is_ordered else styles[_models(rows)[0]]
+            _curve(axis, curve, panel, rows, values, {**own, **FORMS[curve.style]}, i)
     if panel.judged:
-        _verdicts(axis, _chosen(evidence.table(panel.judged + JUDGED), facet))
-    title = panel.title or ", ".join(_said(*f) for f in facet.items())
+        _verdicts(axis, _matching_rows(evidence.table(panel.judged + JUDGED), facet))
+    title = panel.title or ", ".join(_value_label(*f) for f in facet.items())
     lines = f"{axis.get_title(loc='left')} {title}".strip().split("\n")
     axis.set_title("\n".join(textwrap.fill(line, 30) for line in lines), loc="left")
     axis.set(xlabel=panel.x, ylabel=textwrap.fill(panel.y, 26))
@@ -236,9 +238,9 @@ def _limits(axis: Axes, panel: Panel) -> None:
     if panel.ticked:
         tick(axis, _separate_ticks(np.unique(np.concatenate([line.get_xdata() for line in lines]))))
     elif "x" in panel.log and max(axis.get_xlim()) < LARGE:
-        tick(axis, _round(*sorted(axis.get_xlim())))
+        tick(axis, _round_ticks(*sorted(axis.get_xlim())))
     if "y" in panel.log and axis.get_ylim()[1] < FEW_DECADES * axis.get_ylim()[0]:
-        tick(axis, _round(*axis.get_ylim()), up=True)
+        tick(axis, _round_ticks(*axis.get_ylim()), up=True)
     for x in panel.at:
         if axis.get_xlim()[0] < x < axis.get_xlim()[1]:
             axis.axvline(x, **GUIDE)
@@ -246,15 +248,15 @@ def _limits(axis: Axes, panel: Panel) -> None:
         axis.xaxis.set_inverted(True)
 
 
-def _round(low: float, high: float) -> list[float]:
+def _round_ticks(low: float, high: float) -> list[float]:
     """Powers of ten, of many some; three times them too, or more, where a panel would have few."""
     first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
     powers = range(first, last + 1, max(1, (last - first) // 4))
-    found: list[float] = []
+    ticks: list[float] = []
     for steps in ((1.0,), (1.0, 3.0), (1.0, 2.0, 5.0), (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0)):
-        if len(found) < FEWEST:
-            found = [x for power in powers for step in steps if low <= (x := step * 10.0**power) <= high]
-    return found
+        if len(ticks) < FEWEST:
+            ticks = [x for power in powers for step in steps if low <= (x := step * 10.0**power) <= high]
+    return ticks
 
 
 def _separate_ticks(values: np.ndarray) -> list[float]:
@@ -266,7 +268,7 @@ def _separate_ticks(values: np.ndarray) -> list[float]:
     return kept
 
 
-def _said(name: str, value: object) -> str:
+def _value_label(name: str, value: object) -> str:
     """A value by its name; a name by itself, unless it is a number of a column that has names too."""
     try:
         return placed(name, f"{float(value):g}")  # type: ignore[arg-type]
@@ -275,19 +277,19 @@ def _said(name: str, value: object) -> str:
 
 
 def _rows(evidence: Evidence, curve: Curve, more: dict[str, object]) -> Table:
-    return _chosen(evidence.table(curve.quantity), {"model": curve.model, **curve.of, **more})
+    return _matching_rows(evidence.table(curve.quantity), {"model": curve.model, **curve.of, **more})
 
 
-def _chosen(table: Table, of: Mapping[str, object]) -> Table:
+def _matching_rows(table: Table, of: Mapping[str, object]) -> Table:
     """Rows that have these values, or none; "first" is that of the rows so far, "first of all" that of the table."""
-    whole = table
-    for name, wanted in of.items():
-        if name in table.columns and wanted != () and table[name].size:
-            column, firsts = table[name], {FIRST: table, FIRST_OF_ALL: whole}
-            if isinstance(wanted, str) and wanted in firsts:
-                values = (firsts[wanted][name][0],)
+    complete_table = table
+    for name, choice in of.items():
+        if name in table.columns and choice != () and table[name].size:
+            column, firsts = table[name], {FIRST: table, FIRST_OF_ALL: complete_table}
+            if isinstance(choice, str) and choice in firsts:
+                values = (firsts[choice][name][0],)
             else:
-                values = wanted if isinstance(wanted, tuple) else (wanted,)
+                values = choice if isinstance(choice, tuple) else (choice,)
             table = table.rows(np.isin(column, np.asarray(values, dtype=column.dtype)))
     return table
 
@@ -300,26 +302,26 @@ def _families(curve: Curve, table: Table) -> Iterator[tuple[tuple[str, ...], dic
     size = len(next(iter(table.columns.values())))
     keys = list(zip(*(map(str, table.columns[name]) for name in curve.by), strict=True)) or [()] * size
     for key in dict.fromkeys(keys):
-        mine = table.rows([i for i in range(size) if keys[i] == key])
-        yield key, {name: column[0] for name, column in mine.columns.items()}, mine
+        rows = table.rows([i for i in range(size) if keys[i] == key])
+        yield key, {name: column[0] for name, column in rows.columns.items()}, rows
 
 
 def _curve(
-    axis: Axes, curve: Curve, panel: Panel, mine: Table, values: dict[str, object], style: Style, i: int
+    axis: Axes, curve: Curve, panel: Panel, rows: Table, values: dict[str, object], style: Style, i: int
 ) -> None:
     where = {name: value for name, value in values.items() if value == value}
-    label = curve.label or ", ".join(_said(name, where[name]) for name in curve.by if name in where)
+    label = curve.label or ", ".join(_value_label(name, where[name]) for name in curve.by if name in where)
     label = label or (curve.model if isinstance(curve.model, str) else "")
     label = label if label == curve.label else legend_name(label)
     if curve.upright:
-        for x, name in zip(mine["value"], mine["model"], strict=True):
+        for x, name in zip(rows["value"], rows["model"], strict=True):
             axis.axvline(x, label=label or "_", **style)
             up = axis.get_xaxis_transform()
             axis.text(x, 0.02, "" if label else name, transform=up, rotation=90, va="bottom", ha="right", fontsize=7)
         return
     above, down = 0.0 if "y" in panel.log else -np.inf, i * curve.down
     x, *ends = (
-        np.maximum(mine[name], least) if least > -np.inf else mine[name]
+        np.maximum(rows[name], least) if least > -np.inf else rows[name]
         for name, least in zip((panel.x, *ENDS), (panel.least[0], *[panel.least[1]] * 3), strict=True)
     )
     y, low, high = (visible(values, above=above) for values in ends)
@@ -330,7 +332,7 @@ def _curve(
         style["markevery"] = curve.marker_spacing or max(y.size // FEW, 1)
     if curve.bars and np.any(high > low):
         # down to nothing: on a logarithmic axis a decade
-        down_to = np.where(np.asarray(mine["low"]) > above, low, 0.1 * y)
+        down_to = np.where(np.asarray(rows["low"]) > above, low, 0.1 * y)
         bars = [np.nan_to_num(y - down_to), np.nan_to_num(high - y)]
         # moved a little, so that intervals stand side by side
         factor = curve.x_factor**i if "x" in panel.log else 1.0

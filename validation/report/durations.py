@@ -18,7 +18,7 @@ def seconds_of(profile: Literal["quick", "full"]) -> Mapping[str, float]:
     return {name: float(both[PROFILES.index(profile)]) for name, both in rows.items()}
 
 
-def said(profile: Literal["quick", "full"], names: Iterable[str], cores: int = 1) -> str:
+def duration_text(profile: Literal["quick", "full"], names: Iterable[str], cores: int = 1) -> str:
     """In two digits: "about 20 seconds", "about 13 minutes"; what is timed takes one core, whatever there is."""
     seconds = seconds_of(profile)
     total = sum(seconds[name] / (1 if name in TIMED else cores) for name in names)

@@ -59,8 +59,8 @@ def _taken(path: Path) -> int | None:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             _, holder = _signature(handle, path)
-            said = f"{folder} is being written by {holder or 'another run'}: wait for it, or name another folder"
-            raise ValueError(said) from None
+            message = f"{folder} is being written by {holder or 'another run'}: wait for it, or name another folder"
+            raise ValueError(message) from None
         except OSError as error:
             raise ValueError(f"{folder} must be on a file system that has locks: {error.strerror}") from None
         try:
@@ -149,14 +149,14 @@ class Folder(ExitStack):
         Raises ValueError for a file of others in one of its places, OSError, which names the place, for a full disk.
         """
         before = self._listed()
-        after = {name: (digest_of(some),) for name, some in contents.items()}
+        after = {name: (digest_of(content),) for name, content in contents.items()}
         for name in after.keys() - before.keys():
             if is_there(place_in(self.path, name)):
                 raise ValueError(f"{self.path / name} is not of this report and in its way: move it away")
         with ExitStack() as begun:
             places = {}
-            for name, some in contents.items():
-                temporary = write_partial_file(place_in(self.path, name), some)
+            for name, content in contents.items():
+                temporary = write_partial_file(place_in(self.path, name), content)
                 begun.callback(temporary.unlink, missing_ok=True)
                 places[temporary] = place_in(self.path, name)
             self._list(both(before, after))
@@ -227,8 +227,8 @@ def listed_in(folder: Path, kind: str = KIND) -> Listed:
             raise ValueError("names that no report has")
     # a foreign file may hold anything
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
-        wanted = kind.removeprefix("mdr-validation ")
-        raise ValueError(f"{folder / MANIFEST} is not the list of a {wanted}: name another folder") from None
+        kind_of_report = kind.removeprefix("mdr-validation ")
+        raise ValueError(f"{folder / MANIFEST} is not the list of a {kind_of_report}: name another folder") from None
     return listed
 
 

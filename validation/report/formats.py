@@ -97,13 +97,16 @@ class VerdictMap(NamedTuple):
 def map_of(table: Table) -> VerdictMap | None:
     """None for a table that has fewer than two columns of verdicts, or a single row: it is read faster as it stands."""
     cells = {name: [cell for cell in column if isinstance(cell, VerdictCell)] for name, column in table.columns.items()}
-    names, judged = tuple(cells), tuple(name for name, some in cells.items() if some)
+    names, judged = tuple(cells), tuple(name for name, column_cells in cells.items() if column_cells)
     if len(judged) < 2 or len(table.columns[judged[0]]) < 2 or names[0] in judged:
         return None
     heads = names[: names.index(judged[0])]
-    rows = zip(*(zip(*(table.columns[name] for name in some), strict=True) for some in (heads, judged)), strict=True)
-    found = [cell.verdict for some in cells.values() for cell in some]
-    summary = ", ".join(f"{found.count(verdict)} {verdict}" for verdict in Verdict if verdict in found)
+    rows = zip(
+        *(zip(*(table.columns[name] for name in column_cells), strict=True) for column_cells in (heads, judged)),
+        strict=True,
+    )
+    verdicts = [cell.verdict for column_cells in cells.values() for cell in column_cells]
+    summary = ", ".join(f"{verdicts.count(verdict)} {verdict}" for verdict in Verdict if verdict in verdicts)
     return VerdictMap(heads, judged, list(rows), summary)
 
 
@@ -117,6 +120,6 @@ def capitalized(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 
-def of_one(whose: Whose) -> str:
+def of_one(origin: Whose) -> str:
     """ "Statement of the book", "Statement of ours"."""
-    return {Whose.BOOK: "Statement of the book", Whose.FIELD: "Statement of the field"}.get(whose, "Statement of ours")
+    return {Whose.BOOK: "Statement of the book", Whose.FIELD: "Statement of the field"}.get(origin, "Statement of ours")

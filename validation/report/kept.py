@@ -21,7 +21,7 @@ PROVENANCE = "provenance.json"
 DATA = "data"
 
 
-def kept_sections(folder: Path, profile: Profile, anew: Collection[str]) -> list[Section]:
+def kept_sections(folder: Path, profile: Profile, regenerated: Collection[str]) -> list[Section]:
     """All cases of the report in folder but those that are made anew and those that the project no longer has.
 
     Raises ValueError for a folder without a report, a report in the other size or of a scene of the user's own, and one
@@ -29,16 +29,20 @@ def kept_sections(folder: Path, profile: Profile, anew: Collection[str]) -> list
     """
     if not (folder / RESULTS).exists():
         raise ValueError(f"--keep needs an earlier report in --out, got {folder} without {RESULTS}")
-    found = _read(folder / RESULTS)
-    if "scene" in found:
+    results = _read(folder / RESULTS)
+    if "scene" in results:
         raise ValueError(f"--keep is for reports on the scenes of the cases, got one on a scene of your own: {folder}")
-    if found["profile"] != profile:
-        raise ValueError(f"--keep needs the profile of the report in {folder}, {found['profile']}, got {profile}")
-    cases = dict(found["cases"])
+    if results["profile"] != profile:
+        raise ValueError(f"--keep needs the profile of the report in {folder}, {results['profile']}, got {profile}")
+    cases = dict(results["cases"])
     for name in TIMED:
         if (folder / f"{name}.json").exists():
             cases |= _read(folder / f"{name}.json")["cases"]
-    return [_section(folder, name, case) for name, case in cases.items() if name in CASES | TIMED and name not in anew]
+    return [
+        _section(folder, name, case)
+        for name, case in cases.items()
+        if name in CASES | TIMED and name not in regenerated
+    ]
 
 
 def kept_provenance(folder: Path) -> dict[str, Any]:
@@ -90,22 +94,22 @@ def _evidence(folder: Path, name: str, case: Mapping[str, Any]) -> Evidence:
     )
 
 
-def _number(told: Mapping[str, Any]) -> Number:
-    known = {field.name: told[field.name] for field in fields(Number)}
-    known["quantity"] = quantity_with(told["quantity"])
-    where = {name: tuple(place) if isinstance(place, list) else place for name, place in told["where"].items()}
-    return Number(**{**known, "where": where, "role": Role(told["role"])})
+def _number(entry: Mapping[str, Any]) -> Number:
+    fields_of_number = {field.name: entry[field.name] for field in fields(Number)}
+    fields_of_number["quantity"] = quantity_with(entry["quantity"])
+    where = {name: tuple(place) if isinstance(place, list) else place for name, place in entry["where"].items()}
+    return Number(**{**fields_of_number, "where": where, "role": Role(entry["role"])})
 
 
-def _claim(case: str, told: Mapping[str, Any], numbers: Mapping[str, Number]) -> JudgedClaim:
-    tested, inside = (tuple(numbers[label] for label in told[of]) for of in ("numbers", "inside"))
-    words = {name: told[name] for name in ("claim", "answer", "limits")}
-    whose, confirmed_by = (
-        Whose(told.get("whose", Whose.FINDING)),
-        Verdict(value_of(told, "confirmed_by", "confirmed by")),
+def _claim(case: str, entry: Mapping[str, Any], numbers: Mapping[str, Number]) -> JudgedClaim:
+    tested, inside = (tuple(numbers[label] for label in entry[of]) for of in ("numbers", "inside"))
+    words = {name: entry[name] for name in ("claim", "answer", "limits")}
+    origin, confirmed_by = (
+        Whose(entry.get("whose", Whose.FINDING)),
+        Verdict(value_of(entry, "confirmed_by", "confirmed by")),
     )
-    key = told.get("key") or _key_of(case, told["claim"])
-    return JudgedClaim(**words, numbers=tested, inside=inside, confirmed_by=confirmed_by, whose=whose, key=key)
+    key = entry.get("key") or _key_of(case, entry["claim"])
+    return JudgedClaim(**words, numbers=tested, inside=inside, confirmed_by=confirmed_by, whose=origin, key=key)
 
 
 def _key_of(case: str, words: str) -> str:

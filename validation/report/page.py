@@ -10,7 +10,7 @@ from validation.analysis.contents import as_written, csv_name
 from validation.analysis.evidence import Evidence
 from validation.analysis.number_text import plus_minus
 from validation.engine.progress import Part
-from validation.engine.street import brought
+from validation.engine.street import objects_of_houses
 from validation.engine.workers import Workers
 from validation.report.answers.first_screen import answered_questions
 from validation.report.answers.front_tables import failures, times_faster, times_faster_said
@@ -36,8 +36,8 @@ def begin_to_draw(
         return {}
     progress.begin("drawn", total=len(evidence.captions))
     begun = {name: workers.submit(draw_figure, name, evidence, profile) for name in evidence.captions}
-    for one in begun.values():
-        one.add_done_callback(lambda _: progress.step())
+    for figure in begun.values():
+        figure.add_done_callback(lambda _: progress.step())
     return begun
 
 
@@ -85,13 +85,13 @@ class PageFigure:
 
 def figures_of(sections: Sequence[Section]) -> dict[str, PageFigure]:
     """All figures by name, in the order of the pages."""
-    found: dict[str, PageFigure] = {}
+    figures: dict[str, PageFigure] = {}
     for section in sections:
         if section.evidence is None:
             continue
         for name, caption in section.evidence.captions.items():
-            found[name] = PageFigure(
-                number=len(found) + 1,
+            figures[name] = PageFigure(
+                number=len(figures) + 1,
                 name=name,
                 case=section.name,
                 page=section.page,
@@ -99,7 +99,7 @@ def figures_of(sections: Sequence[Section]) -> dict[str, PageFigure]:
                 caption=caption,
                 data=tuple(csv_name(section.name, t) for t in tables_of(name) if section.evidence.has_table(t)),
             )
-    return found
+    return figures
 
 
 def scene_summary(scene: WheelScene) -> dict[str, object]:
@@ -112,16 +112,22 @@ def scene_summary(scene: WheelScene) -> dict[str, object]:
     }
 
 
+def sections_by_chapter(sections: Sequence[Section]) -> list[tuple[Chapter, list[Section]]]:
+    """The chapters that have sections, in the order of the pages."""
+    of_chapters = ((chapter, [s for s in sections if s.entry.chapter == chapter]) for chapter in Chapter)
+    return [(chapter, of_chapter) for chapter, of_chapter in of_chapters if of_chapter]
+
+
 def pages(
     sections: Sequence[Section], profile: Profile, about: dict[str, object], scene: WheelScene | None
 ) -> dict[str, bytes]:
     """By their names. about: the provenance; scene: of the user's own, or None."""
-    chapters = [(chapter, some) for chapter in Chapter if (some := [s for s in sections if s.entry.chapter == chapter])]
-    in_order = [section for _, some in chapters for section in some]
+    chapters = sections_by_chapter(sections)
+    in_order = [section for _, of_chapter in chapters for section in of_chapter]
     figures, faster = figures_of(in_order), times_faster(sections)
     book = [] if scene else chapter_of(sections)
     places = {section.name: section.place for section in sections}
-    houses = [] if scene else brought("front_page")
+    houses = [] if scene else objects_of_houses("front_page")
     environment = templates(*(house.TEMPLATES for house in houses))
     environment.filters |= {
         "place_of": places.__getitem__,
@@ -139,7 +145,7 @@ def pages(
         "answers": [] if scene else answered_questions(sections),
         "failures": [] if scene else failures(sections),
         "total": total_of(sections),
-        "asked": any(section.claims for section in sections),
+        "has_claims": any(section.claims for section in sections),
         "chapters": chapters,
         "profile": profile,
         "figures": figures,
@@ -158,9 +164,10 @@ def pages(
         environment.globals |= shown
     environment.globals["front_parts"] = [house.TEMPLATE for house in houses]
     environment.globals["front_links"] = tuple((*house.LINK, any(shown.values())) for house, shown in parts.items())
+    page_of_chapter = environment.get_template("chapter.html")
     made = {
-        some[0].page: environment.get_template("chapter.html").render(chapter=chapter, some=some)
-        for chapter, some in chapters
+        of_chapter[0].page: page_of_chapter.render(chapter=chapter, chapter_sections=of_chapter)
+        for chapter, of_chapter in chapters
     }
     made[READING] = environment.get_template("reading.html").render()
     if book:

@@ -66,8 +66,8 @@ class Section:
             return self
         tables = tuple(map(_without_verdicts, self.evidence.page_tables))
         nothing: dict[str, Any] = {"claims": (), "conclusions": (), "finding": "", "headlines": {}}
-        told = (f"no steady answer: {reason}", *self.evidence.unconverged)
-        return replace(self, evidence=replace(self.evidence, **nothing, page_tables=tables, unconverged=told))
+        unconverged = (f"no steady answer: {reason}", *self.evidence.unconverged)
+        return replace(self, evidence=replace(self.evidence, **nothing, page_tables=tables, unconverged=unconverged))
 
     @property
     def page(self) -> str:
@@ -110,8 +110,8 @@ def claims_of_others(sections: Sequence[Section]) -> list[tuple[Section, JudgedC
 
 def total_of(sections: Sequence[Section]) -> str:
     """How many claims have each status."""
-    found = [claim.status for section in sections for claim in section.claims]
-    return "claims: " + ", ".join(f"{status} {found.count(status)}" for status in ClaimStatus if status in found)
+    statuses = [claim.status for section in sections for claim in section.claims]
+    return "claims: " + ", ".join(f"{status} {statuses.count(status)}" for status in ClaimStatus if status in statuses)
 
 
 def results_of(sections: Sequence[Section], profile: Profile) -> dict[str, object]:

@@ -35,8 +35,8 @@ def wavs(sounds: Sounds, samples: Table) -> dict[str, bytes]:
 
 def sound_files(case: str, evidence: Evidence) -> dict[str, bytes]:
     """Of all sounds of a case, by the places in the report folder."""
-    found = wavs(evidence.sounds, evidence.table(evidence.sounds.table)) if evidence.sounds else {}
-    return {sound_place(case, name): contents for name, contents in found.items()}
+    files = wavs(evidence.sounds, evidence.table(evidence.sounds.table)) if evidence.sounds else {}
+    return {sound_place(case, name): contents for name, contents in files.items()}
 
 
 def sound_place(case: str, name: str) -> str:

@@ -40,7 +40,7 @@ def compact(svg: str) -> str:
     svg = GROUP.sub("<g", REMARK.sub("", svg))
     # names are digests of places to the last bit, which is not the same in every process
     names = {name: f"n{i}" for i, name in enumerate(dict.fromkeys(NAME.findall(svg)))}
-    svg = NAMED.sub(lambda found: found[1] + names.get(found[2], found[2]), svg)
+    svg = NAMED.sub(lambda match: match[1] + names.get(match[2], match[2]), svg)
     svg = STYLE.sub(named, TAG.sub(_shortened, svg))
     svg = "\n".join(line.lstrip() for line in svg.splitlines())
     rules = "".join(f".{name}{{{style}}}\n" for style, name in classes.items())
@@ -99,8 +99,8 @@ MODELS: Mapping[str, Style] = {
 
 
 def _of_model(name: str) -> Style | None:
-    known = max((begin for begin in MODELS if name.startswith(begin)), key=len, default=None)
-    return MODELS[known] if known else None
+    beginning = max((begin for begin in MODELS if name.startswith(begin)), key=len, default=None)
+    return MODELS[beginning] if beginning else None
 
 
 CATEGORIES = ((INK, "-"), (BLUE, "--"), (VERMILION, "-."), (GREEN, ":"), (PURPLE, "-"), (ORANGE, "--"))
@@ -111,15 +111,15 @@ def styles_of(names: Iterable[str], users: Collection[str] = ()) -> dict[str, St
 
     users: names that are not the package's own, however they begin: they always have a marker.
     """
-    found: dict[str, Style] = {}
+    styles: dict[str, Style] = {}
     for i, name in enumerate(dict.fromkeys(names)):
         color, dash = CATEGORIES[i % len(CATEGORIES)]
         style = None if name in users else _of_model(name)
         style = style or _of(color, MARKERS[i % len(MARKERS)], dash, open_=True)
         # a second model of a kind has another marker and another dash
         again = {"marker": MARKERS[-1 - i % len(MARKERS)], "linestyle": CATEGORIES[i % 4][1]}
-        found[name] = {**style, **again} if style in found.values() and style["marker"] != "none" else style
-    return found
+        styles[name] = {**style, **again} if style in styles.values() and style["marker"] != "none" else style
+    return styles
 
 
 def graded(i: int, count: int) -> Style:
@@ -213,8 +213,8 @@ class EachNumber(Formatter):
 
     def format_ticks(self, values: Sequence[float]) -> list[str]:
         """Of all of them, with as few digits as leave a thousandth of their least distance."""
-        apart = np.diff(np.unique(values))
-        least = 1e-3 * float(apart.min() if apart.size else np.abs(values).max(initial=1.0))
+        distances = np.diff(np.unique(values))
+        least = 1e-3 * float(distances.min() if distances.size else np.abs(values).max(initial=1.0))
         texts = [f"{value:.15g}" for value in values]
         for digits in range(1, 15):
             texts = [f"{0.0 if abs(value) < least else value:.{digits}g}" for value in values]

@@ -5,7 +5,7 @@ import stat
 from collections.abc import Collection, Iterator
 from pathlib import Path
 
-from validation.engine.street import brought
+from validation.engine.street import objects_of_houses
 from validation.scenes.printable import printable
 
 SCENES = Path(__file__).parent
@@ -25,7 +25,7 @@ def bundled() -> tuple[str, ...]:
 
 def _files() -> dict[str, Path]:
     """Path of each shipped scene by its name, scenes of the houses included."""
-    folders = [SCENES, *(Path(next(iter(house.__path__))) for house in brought("scenes"))]
+    folders = [SCENES, *(Path(next(iter(house.__path__))) for house in objects_of_houses("scenes"))]
     return {path.stem: path for folder in folders for path in folder.glob("*.toml")}
 
 

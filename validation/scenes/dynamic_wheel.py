@@ -10,7 +10,7 @@ from typing import Any
 from scipy.fft import next_fast_len
 
 from mdr.checks import count
-from validation.engine.street import brought
+from validation.engine.street import objects_of_houses
 from validation.scenes.bundled import bundled, path_of
 from validation.scenes.description import body_pairs, motion_pair, roughness_pairs
 from validation.scenes.material import Material, check_scene, material_of
@@ -232,7 +232,7 @@ def load_wheel_scene(scene: str | Path) -> WheelScene:
     path = path_of(scene)
     tables = tables_of(path)
     with errors_of_file(path):
-        for reader in brought("scene"):
+        for reader in objects_of_houses("scene"):
             if reader.reads(tables):
                 raise ValueError(f"wheel and rail must be those of a dynamic wheel, got {reader.what}")
         return wheel_of(tables)

@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from validation.engine.street import brought
+from validation.engine.street import objects_of_houses
 from validation.scenes.bundled import bundled, path_of
 from validation.scenes.dynamic_wheel import wheel_of
 from validation.scenes.indentation import IndentationScene
@@ -16,7 +16,7 @@ from validation.scenes.material import material_of
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_surface import heights_of, measured
 from validation.scenes.printable import printable
-from validation.scenes.reader import Reader, errors_of_file, one_of, table, tables_of, values
+from validation.scenes.reader import Reader, errors_of_file, table, tables_of, value_of_one_key, values
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import roughness_of
 from validation.scenes.scene import Scene
@@ -110,7 +110,7 @@ def load_varied(scene: str | Path, key: str, value: str) -> Scene:
 
 def _without_other_name(tables: dict[str, Any], key: str) -> None:
     """Remove the former name of a key, or today's beside a former one, which would be a second value of the same."""
-    for reader in brought("scene"):
+    for reader in objects_of_houses("scene"):
         for names in reader.renamed.items():
             for name in names if key in names else ():
                 table_name, _, other = name.partition(".")
@@ -140,11 +140,11 @@ def _read_scene(tables: dict[str, Any], folder: Path) -> Scene:
         for table_name in tables:
             if meant := difflib.get_close_matches(table_name.casefold(), BODIES, 1):
                 raise ValueError(f"{printable(table_name)} is unknown, as: [{meant[0]}]")
-    one_of(tables, "a scene", BODIES)
+    value_of_one_key(tables, "a scene", BODIES)
     body = next(name for name in BODIES if name in tables)
     if body != "wheel":
         return _indentation_scene(body, tables, folder)
-    for reader in brought("scene"):
+    for reader in objects_of_houses("scene"):
         if reader.reads(tables):
             scene: Scene = reader.scene_of(tables, folder)
             return scene
@@ -171,7 +171,7 @@ def _indentation_scene(body: str, tables: dict[str, Any], folder: Path) -> Inden
         **_ground_readers(folder),
     }
     entries = table(readers, GROUNDS, "", tables)
-    load: float = one_of(entries[body], body, loads)
+    load: float = value_of_one_key(entries[body], body, loads)
     return IndentationScene(
         name=entries["name"],
         shape="sphere" if body == "sphere" else "punch",
@@ -179,7 +179,7 @@ def _indentation_scene(body: str, tables: dict[str, Any], folder: Path) -> Inden
         load=load * entries[body][size] ** 2 if "pressure" in entries[body] else load,
         modulus=entries["material"].modulus,
         material=entries["material"],
-        ground=one_of(entries, "a scene", GROUNDS, least=0),
+        ground=value_of_one_key(entries, "a scene", GROUNDS, least=0),
     )
 
 
@@ -193,7 +193,7 @@ def _rolling_scene(tables: dict[str, Any], moving: bool, folder: Path) -> Rollin
         "rail": partial(table, _ground_readers(folder), GROUNDS),
     }
     entries = table(readers, (), "", tables)
-    ground, material = one_of(entries.pop("rail"), "rail", GROUNDS), entries["material"]
+    ground, material = value_of_one_key(entries.pop("rail"), "rail", GROUNDS), entries["material"]
     return RollingScene(ground=ground, modulus=material.modulus, **entries.pop("wheel"), **entries)
 
 

@@ -35,7 +35,7 @@ def real_numbers(height: ArrayLike) -> FloatArray:
     return numbers
 
 
-def known_heights(height: ArrayLike) -> FloatArray:
+def complete_heights(height: ArrayLike) -> FloatArray:
     """Real numbers, all of them there. Raises ValueError for masked ones and ones that are not finite, or TypeError."""
     values = real_numbers(height)
     points_to_fill(values)
@@ -265,7 +265,7 @@ class MeasuredHeights:
     def __post_init__(self) -> None:
         if self.detrend not in get_args(Detrend):
             raise ValueError(f"detrend must be one of {', '.join(get_args(Detrend))}, got {self.detrend!r}")
-        height = known_heights(self.height)
+        height = complete_heights(self.height)
         check_grid(height)
         for name, side in zip(("spacing[0]", "spacing[1]"), self.spacing, strict=True):
             positive(name, side)

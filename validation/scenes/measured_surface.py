@@ -23,7 +23,7 @@ from validation.scenes.number_table import NumberTable
 from validation.scenes.positions import grid_of, metres_of_step, own_spacing, places_of
 from validation.scenes.printable import shortened
 from validation.scenes.reader import LENGTH, Reader, table, values
-from validation.scenes.table_files import FORM, heights_of_columns, sentence_about, table_beside
+from validation.scenes.table_files import FORM, heights_of_columns, read_scene_table, sentence_about
 from validation.scenes.units import in_unit, metres_of, unit_of
 
 
@@ -153,7 +153,7 @@ def heights_of(name: str, value: object, *, folder: Path) -> MeasuredHeights:
         **values("crop", "fill", "detrend"),
     }
     settings = table(readers, tuple(readers)[1:], name, value)
-    path, numbers = table_beside(name, settings, folder)
+    path, numbers = read_scene_table(name, settings, folder)
     edits = {"crop": settings.get("crop", False), "fill": settings.get("fill", False), "missing": numbers.missing}
     edits["detrend"] = settings.get("detrend", "plane")
     try:

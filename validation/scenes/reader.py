@@ -83,7 +83,7 @@ def table(readers: Mapping[str, Reader], optional: tuple[str, ...], name: str, e
     return {key: read(full[key], entries[key]) for key, read in readers.items() if key in entries}
 
 
-def one_of(entries: dict[str, Any], name: str, keys: tuple[str, ...], *, least: int = 1) -> Any:
+def value_of_one_key(entries: dict[str, Any], name: str, keys: tuple[str, ...], *, least: int = 1) -> Any:
     """The value of one of these keys. ValueError for more of them, or fewer than the least."""
     present = [key for key in keys if key in entries]
     if not least <= len(present) <= 1:

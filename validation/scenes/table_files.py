@@ -131,7 +131,7 @@ def read_table(name: str, path: Path, form: TableForm = PLAIN) -> NumberTable:
     return mask_sentinels(table, form.nodata).chosen(form.columns) if values.ndim == 2 and values.size else table
 
 
-def table_beside(name: str, entries: dict[str, Any], folder: Path, *, key: str = "") -> tuple[Path, NumberTable]:
+def read_scene_table(name: str, entries: dict[str, Any], folder: Path, *, key: str = "") -> tuple[Path, NumberTable]:
     """Path and numbers of the file that a table of a scene names; its entries about the file are removed.
 
     name: of the table; entries: of the table; folder: of the scene; key: of the file, where it is no key of that table.

@@ -81,7 +81,7 @@ def _reach(scene: IndentationScene, heights: MeasuredHeights) -> float:
     return 2 * (farthest + MARGIN * max(heights.spacing))
 
 
-def cells_wanted(scene: IndentationScene) -> int:
+def sufficient_cells(scene: IndentationScene) -> int:
     """A power of two with eight cells to the shortest wave and 16 in contact; of measured heights, one to a point.
 
     In contact is a part 2 F / (E* g L^2) of a punch under a light load, g the rms gradient.
@@ -111,7 +111,7 @@ def height_of(scene: IndentationScene, cells: int, realisation: int, seed: int) 
     """
     ground, side = ground_of(scene), side_of(scene)
     if isinstance(ground, MeasuredHeights):
-        points = cells_wanted(scene)
+        points = sufficient_cells(scene)
         if cells > points:
             parts = np.ones((cells // points, cells // points))
             return np.asarray(np.kron(height_of(scene, points, realisation, seed), parts), dtype=np.float64)

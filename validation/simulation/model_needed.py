@@ -6,7 +6,7 @@ from functools import partial
 from itertools import groupby
 from typing import Any
 
-from validation.engine.street import brought
+from validation.engine.street import objects_of_houses
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
@@ -19,7 +19,7 @@ TOLERANCE = 0.1
 
 def model_for(scene: Scene, quantity: SceneQuantity) -> str:
     """The cheapest whose estimated error is small enough; where nothing selects models that is not known."""
-    selections = brought("model_for")
+    selections = objects_of_houses("model_for")
     return next((select(scene, quantity, TOLERANCE) or "none" for select in selections), "not known")
 
 

@@ -10,7 +10,7 @@ from validation.advice.calibration_scenes import QUANTITIES
 from validation.advice.cases.random_scenes import EdgeKind, log_uniform
 from validation.engine.engine import FloatArray
 from validation.engine.random_numbers import random_generator
-from validation.engine.street import brought
+from validation.engine.street import objects_of_houses
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
@@ -22,7 +22,7 @@ from validation.theory.closed_forms import hertz_force
 Generator = np.random.Generator
 
 PUNCH, SPHERE, ROLLING, WHEEL = "punch", "sphere", "rolling", "wheel"
-OF_HOUSES: dict[str, EdgeKind] = {kind.name: kind for kind in brought("edge_scenes")}
+OF_HOUSES: dict[str, EdgeKind] = {kind.name: kind for kind in objects_of_houses("edge_scenes")}
 """Kinds of scenes that other houses have at the edges."""
 MEASURED = "measured "
 """Before the name of a body: one surface of points, no two of the same texture after each other."""

@@ -18,7 +18,7 @@ from validation.advice.calibration_scenes import ANSWERS, Answers, CalibrationRu
 from validation.engine.engine import Engine
 from validation.engine.files import write_whole
 from validation.engine.progress import progress_of
-from validation.engine.street import brought
+from validation.engine.street import objects_of_houses
 from validation.report.commands.arguments import Exit, add_options, add_workers, at_least, check_places, not_beside
 from validation.report.folder import CALIBRATION, REALISATIONS, Folder
 from validation.scenes.printable import printable
@@ -62,12 +62,12 @@ def describe(calibrating: argparse.ArgumentParser) -> None:
         "--model",
         metavar="FILE|NAME",
         help="measure this model alone, beside stored answers of boundary elements: of the package, by its name, whose "
-        f"rows alone change in the table{''.join(house.file for house in brought('calibrations'))}",
+        f"rows alone change in the table{''.join(house.file for house in objects_of_houses('calibrations'))}",
     )
     alone.add_argument(
         "--check", type=at_least(1), metavar="N", help="measure N scenes of each kind again, and report which differ"
     )
-    for house in brought("calibrations"):
+    for house in objects_of_houses("calibrations"):
         house.add(alone)
     calibrating.set_defaults(command=calibrate, seed=run.seed)
 
@@ -83,7 +83,7 @@ def calibrate(arguments: argparse.Namespace) -> Exit:
     for name in ("check", "model", "references"):
         if getattr(arguments, name, None):
             not_beside(arguments, f"beside --{name}", "--seed", *counts)
-    for house in brought("calibrations"):
+    for house in objects_of_houses("calibrations"):
         if (done := house.command(arguments)) is not None:
             status: Exit = done
             return status

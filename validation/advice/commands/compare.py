@@ -17,10 +17,10 @@ from validation.advice.summary import findings, heading, in_full, in_short, summ
 from validation.advice.tolerance import tolerance_of
 from validation.analysis.number_text import format_seconds
 from validation.engine.engine import Engine
-from validation.engine.files import write_given
+from validation.engine.files import write_output
 from validation.engine.progress import progress_of
-from validation.engine.street import brought
-from validation.report.commands.arguments import Exit, add_options, add_workers, at_least, check_places, some_of
+from validation.engine.street import objects_of_houses
+from validation.report.commands.arguments import Exit, add_options, add_workers, at_least, check_places, comma_separated
 from validation.scenes.load import bundled_for_compare, files_of, load_scene, load_varied
 from validation.scenes.printable import printable
 from validation.scenes.scene import Scene
@@ -42,7 +42,7 @@ def describe(comparing: argparse.ArgumentParser) -> None:
     )
     comparing.add_argument(
         "--quantity",
-        type=some_of(all_quantities()),
+        type=comma_separated(all_quantities()),
         metavar="A,B",
         help=f"of {', '.join(all_quantities())}, one or several (default: the first of the scene)",
     )
@@ -56,7 +56,7 @@ def describe(comparing: argparse.ArgumentParser) -> None:
     )
     add_options(
         comparing,
-        *((reader.option, "FILE", str, reader.help) for reader in brought("models_from")),
+        *((reader.option, "FILE", str, reader.help) for reader in objects_of_houses("models_from")),
         ("--sweep", "KEY=A,B,C", _sweep, 'the scene with each value, as wheel.load="5 kN,10 kN"'),
         ("--seed", "S", at_least(0), "seed of the random roughness (default: 0)"),
         (
@@ -73,7 +73,7 @@ def describe(comparing: argparse.ArgumentParser) -> None:
             "write the result for other programs; `--report` adds a schema that describes its keys",
         ),
         ("--csv", "FILE", Path, "write a row a number or a band, of each model that was solved"),
-        *((export.option, "FILE", Path, export.help) for export in brought("exports")),
+        *((export.option, "FILE", Path, export.help) for export in objects_of_houses("exports")),
         (
             "--figure",
             "FILE",
@@ -100,7 +100,9 @@ def compare(arguments: argparse.Namespace) -> Exit:
     notes = dict[str, None]()
     for problem in problems:
         for quantity in problem.quantities:
-            models, _ = problem.offered(quantity)  # or an error, before anything is measured, written or solved
+            models, _ = problem.listed_and_solvable(
+                quantity
+            )  # or an error, before anything is measured, written or solved
             notes |= dict.fromkeys(label_notes(models, arguments.models) if arguments.models else ())
     for note in notes:
         print(f"note: {note}", file=sys.stderr)
@@ -134,12 +136,12 @@ def _problem(scene: Scene, arguments: argparse.Namespace) -> SceneProblem:
 
 def _model_readers(arguments: argparse.Namespace) -> list[Any]:
     """What reads the models of a file or of an installed package, where one is given."""
-    return [reader for reader in brought("models_from") if getattr(arguments, reader.name) is not None]
+    return [reader for reader in objects_of_houses("models_from") if getattr(arguments, reader.name) is not None]
 
 
 def _exports(arguments: argparse.Namespace) -> list[tuple[Export, Path]]:
     """Files of houses that are asked for."""
-    exports: list[Export] = brought("exports")
+    exports: list[Export] = objects_of_houses("exports")
     return [(export, path) for export in exports if (path := getattr(arguments, export.name)) is not None]
 
 
@@ -182,7 +184,7 @@ def _solve(problems: Sequence[SceneProblem], arguments: argparse.Namespace) -> l
     """What was understood of one scene is printed before it is solved."""
     if len(problems) == 1:
         (problem,) = problems
-        print(printable(heading(problem.scene, problem.quantities, problem.wanted), lines=True), flush=True)
+        print(printable(heading(problem.scene, problem.quantities, problem.parsed_tolerance), lines=True), flush=True)
         return list(problem.compared(_announce).values())
     arguments.keeps = True
     with progress_of("scenes", arguments.workers) as progress:
@@ -228,7 +230,7 @@ def _write(comparisons: list[Comparison], arguments: argparse.Namespace) -> None
 
         form = arguments.figure.suffix[1:]
         picture = figure_over_seconds(comparisons[0], form) if arguments.over else to_figure(comparisons, form=form)
-        write_given(arguments.figure, picture)
+        write_output(arguments.figure, picture)
 
 
 def _write_data(comparisons: list[Comparison], arguments: argparse.Namespace) -> None:
@@ -237,11 +239,11 @@ def _write_data(comparisons: list[Comparison], arguments: argparse.Namespace) ->
     from validation.analysis.contents import as_csv
 
     if arguments.json:
-        write_given(arguments.json, to_json_of(comparisons).encode())
+        write_output(arguments.json, to_json_of(comparisons).encode())
     if arguments.csv:
-        write_given(arguments.csv, as_csv(table_of_several(comparisons)))
+        write_output(arguments.csv, as_csv(table_of_several(comparisons)))
     for export, path in _exports(arguments):
-        write_given(path, export.written(comparisons))
+        write_output(path, export.written(comparisons))
 
 
 def _sweep(word: str) -> tuple[str, list[str]]:

@@ -10,7 +10,7 @@ from validation.advice.calibration import SCATTER
 from validation.engine.engine import FloatArray
 from validation.scenes.indentation import IndentationScene
 from validation.simulation import indentation as face
-from validation.simulation.indentation import cells_wanted, ground_of, height_of, is_rough, side_of
+from validation.simulation.indentation import ground_of, height_of, is_rough, side_of, sufficient_cells
 from validation.simulation.method import FEWEST, STUDENT, Prepared, Resolution, Result, Solve, grid_error
 from validation.simulation.model import Cost, ErrorEstimate, GridModel, Model, Target
 from validation.simulation.model_names import BEM
@@ -36,8 +36,8 @@ MOST = 1000
 
 def resolutions(target: Target) -> tuple[Resolution, ...]:
     """Cells a side; measured heights on their own points alone, on a coarser grid the mean of these in each cell."""
-    single, wanted = ground_of(target.scene).is_single, cells_wanted(target.scene)
-    finest = min(face.MANY_POINTS if single else face.MANY, wanted)
+    single, points = ground_of(target.scene).is_single, sufficient_cells(target.scene)
+    finest = min(face.MANY_POINTS if single else face.MANY, points)
     sides = (finest,) if single else (finest // 4, finest // 2, finest)
     return tuple(on_grid(cells) for cells in sides if cells >= face.FEW)
 
@@ -46,7 +46,7 @@ def references(target: Target, resolution: Resolution) -> tuple[Resolution, ...]
     """Each of half as many cells a side: two, of a single surface three; and the points of that, split."""
     single, cells = ground_of(target.scene).is_single, round(resolution.size)
     coarser = tuple(on_grid(cells // 2**i) for i in range(1, 4 if single else 3))
-    on_points = single and cells == cells_wanted(target.scene)
+    on_points = single and cells == sufficient_cells(target.scene)
     return (*coarser, on_grid(SPLIT * cells)) if on_points and SPLIT * cells <= MOST_SPLIT else coarser
 
 
@@ -88,7 +88,7 @@ def pressed(scene: IndentationScene, height: FloatArray, residual: float) -> Res
     if sphere:
         x = ((np.arange(len(gap)) + 0.5) / len(gap) - 0.5) * side_of(scene)
         gap = gap + (x[:, np.newaxis] ** 2 + x**2) / (2 * scene.size)
-    with warnings.catch_warnings(record=True) as said:
+    with warnings.catch_warnings(record=True) as raised:
         warnings.simplefilter("always", bem3d.ContactWarning)
         try:
             contact = bem3d.solve(half_space, gap, force=scene.load, tolerance=residual)
@@ -96,20 +96,22 @@ def pressed(scene: IndentationScene, height: FloatArray, residual: float) -> Res
         except bem3d.ConvergenceError:
             return Result({}, failed="a contact did not converge")
     work = cell_applications(contact, fixed)
-    if sphere and any(issubclass(one.category, bem3d.EdgeWarning) for one in said):
+    if sphere and any(issubclass(warning.category, bem3d.EdgeWarning) for warning in raised):
         return Result({}, work, failed="the contact reached the edge of the grid")
-    found = {"stiffness": np.array(fixed.stiffness), "in contact": np.array(np.count_nonzero(contact.pressure))}
-    return Result(found, work)
+    values = {"stiffness": np.array(fixed.stiffness), "in contact": np.array(np.count_nonzero(contact.pressure))}
+    return Result(values, work)
 
 
-def left_by_grid(target: Target, resolution: Resolution, values: FloatArray, others: FloatArray) -> tuple[float, str]:
+def left_by_grid(
+    target: Target, resolution: Resolution, values: FloatArray, other_grids: FloatArray
+) -> tuple[float, str]:
     """Of the changes of the logarithm from grid to grid, the same surfaces on each."""
-    cells, compared = round(resolution.size), others.shape[1]
+    cells, compared = round(resolution.size), other_grids.shape[1]
     finer = [grid.size > cells for grid in references(target, resolution)]
-    levels = np.log([values[:compared, 0], *others[np.logical_not(finer), :, 0]])
+    levels = np.log([values[:compared, 0], *other_grids[np.logical_not(finer), :, 0]])
     changes = levels[:-1] - levels[1:]
     if ground_of(target.scene).is_single:
-        split = np.log(others[finer, 0, 0] / values[0, 0])
+        split = np.log(other_grids[finer, 0, 0] / values[0, 0])
         grid = grid_error_of_one(target.scene, cells, changes[:, 0], split)
         grid += hidden(target, resolution, values[0, 0])
     else:
@@ -158,7 +160,7 @@ def grid_error_of_one(scene: IndentationScene, cells: int, changes: FloatArray, 
         return float(2 * max(edge_error(scene, cells), *np.abs(split), *(change / OTHERS for change in coarser)))
     if last >= max(before):
         return math.inf if last > 0 else 0.0
-    return float(1.5 * max(edge_error(scene, cells), *coarser) * (1 + math.log2(cells_wanted(scene) / cells)))
+    return float(1.5 * max(edge_error(scene, cells), *coarser) * (1 + math.log2(sufficient_cells(scene) / cells)))
 
 
 def hidden(target: Target, resolution: Resolution, stiffness: float) -> float:
@@ -167,5 +169,5 @@ def hidden(target: Target, resolution: Resolution, stiffness: float) -> float:
     highest = face.highest_of(scene, cells)
     if np.array_equal(highest, height_of(scene, cells, 0, target.seed)):
         return 0.0
-    found = pressed(scene, highest, resolution.residual)
-    return math.inf if found.failed else abs(math.log(float(found.values["stiffness"]) / stiffness))
+    at_highest = pressed(scene, highest, resolution.residual)
+    return math.inf if at_highest.failed else abs(math.log(float(at_highest.values["stiffness"]) / stiffness))

@@ -76,15 +76,17 @@ def prepare(target: Target, resolution: Resolution) -> Prepared:
     return lambda strip: Solve(lambda: on_boundary_elements(quantity, cells, strip, target.seed), read)
 
 
-def left_by_grid(target: Target, resolution: Resolution, values: FloatArray, others: FloatArray) -> tuple[float, str]:
+def left_by_grid(
+    target: Target, resolution: Resolution, values: FloatArray, other_grids: FloatArray
+) -> tuple[float, str]:
     """By the first strip; of measured points, whose summits have edges, of first order in the length of a cell."""
     (other,) = references(target, resolution)
-    apart = distance(values[0], others[0, 0])
+    change = distance(values[0], other_grids[0, 0])
     coarse, fine = sorted((other.size, resolution.size))
     of_fine = 1 / (fine / coarse - 1) if target.scene.ground.is_single else OF_FINE
-    return apart * (of_fine if resolution.size == fine else 1 + of_fine), (
+    return change * (of_fine if resolution.size == fine else 1 + of_fine), (
         f"{_cells_to_a_wave(target, resolution):.2g} cells to the shortest wave; a = {other.size:.3g} cells change "
-        f"the result by {apart:.1%}; strips: {len(values)}"
+        f"the result by {change:.1%}; strips: {len(values)}"
     )
 
 

@@ -92,8 +92,8 @@ def one_of_many_surfaces(model: Model, target: Target, resolution: Resolution) -
     needed, own = f"a profile needs {resolution.size:.3g} springs, more than {MOST_SPRINGS:.3g}", 2 * SCATTER
     too_many = needed if resolution.size > MOST_SPRINGS else ""
     expected = calibrated_by_spectrum(model, target, resolution, own=own, beyond=too_many)
-    one = ground_of(target.scene).is_single and expected.in_range
-    scatters = f"one surface scatters {own:.0%} about the mean of its spectrum; " if one else ""
+    is_single = ground_of(target.scene).is_single and expected.in_range
+    scatters = f"one surface scatters {own:.0%} about the mean of its spectrum; " if is_single else ""
     return replace(expected, sample=target.tolerance / 5, reason=scatters + expected.reason)
 
 
@@ -120,11 +120,11 @@ def springs(target: Target, resolution: Resolution) -> Result:
     length, count, block = side_of(scene), profiles(target), max(1, BLOCK // points)
     x = (np.arange(points) + 0.5) * length / points - length / 2
     smooth = mdr.sphere_profile(x, radius=scene.size) if scene.shape == "sphere" else np.zeros(points)
-    rng, found = random_generator(target.seed, PROFILES), []
+    rng, stiffnesses = random_generator(target.seed, PROFILES), []
     profile = partial(mdr.rough_profiles, lambda q: mdr.geike(q, ground.c2d), length=length, points=points, rng=rng)
     for first in range(0, count, block):
         rough = profile(count=min(block, count - first), rms=ground.rms)
-        found.append(mdr.stiffness_under(scene.load, rough - smooth, length=length, modulus=scene.modulus))
-    stiffness = np.concatenate(found)
+        stiffnesses.append(mdr.stiffness_under(scene.load, rough - smooth, length=length, modulus=scene.modulus))
+    stiffness = np.concatenate(stiffnesses)
     in_contact = stiffness / (scene.modulus * length / points)
     return Result({target.quantity: stiffness, "in contact": in_contact}, count=count)

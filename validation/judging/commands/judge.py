@@ -9,7 +9,7 @@ from pathlib import Path
 
 from validation.advice.tolerance import tolerance_of
 from validation.analysis.contents import as_json, folder_names
-from validation.engine.files import write_given
+from validation.engine.files import write_output
 from validation.judging.files_read import GROUP, installed
 from validation.judging.judge import Judgement, judged, numbers_as_csv
 from validation.judging.worker import Called, visited
@@ -100,12 +100,12 @@ def _write(judgements: list[Judgement], arguments: argparse.Namespace) -> None:
     """The files of --json, --csv and --figure, each of all models."""
     if arguments.json:
         objects = [judgement.as_dict() for judgement in judgements]
-        write_given(arguments.json, as_json(objects if len(objects) > 1 else objects[0]))
+        write_output(arguments.json, as_json(objects if len(objects) > 1 else objects[0]))
     if arguments.csv:
-        write_given(arguments.csv, numbers_as_csv(judgements))
+        write_output(arguments.csv, numbers_as_csv(judgements))
     if arguments.figure:
         from validation.judging.figure import figure_of, left_out  # which takes half a second to import
 
         if names := left_out(judgements):
             print(printable(f"--figure does not show {', '.join(names)}: draw each with --only"))
-        write_given(arguments.figure, figure_of(judgements, arguments.figure.suffix[1:]))
+        write_output(arguments.figure, figure_of(judgements, arguments.figure.suffix[1:]))

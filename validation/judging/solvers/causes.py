@@ -236,7 +236,7 @@ def _by_single_cell(contact: JudgedContact) -> float:
 
 def _by_tension(contact: JudgedContact) -> float:
     """Where nothing but the sign is wrong, all other conditions hold, or all without the negative pressures."""
-    left, p = contact.problem.left(contact.pressure, contact.by_force)[0], contact.pressure
+    left, p = contact.problem.residuals_and_approach(contact.pressure, contact.by_force)[0], contact.pressure
     if contact.is_right or p.min() >= -contact.residual * np.abs(p).max():
         return float(contact.is_right)
     rest = max(value for name, value in left.items() if name != "tension")

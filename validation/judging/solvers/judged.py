@@ -126,7 +126,7 @@ def answer(solver: JudgedSolver, problem: KnownContact) -> Iterator[JudgedNumber
     p = solver.pressure(problem)
     yield from conditions(solver, problem)
     if solver.by_force:
-        _, approach = problem.left(p, solver.by_force)
+        _, approach = problem.residuals_and_approach(p, solver.by_force)
         off = (approach - problem.approach) / problem.overlap
         yield replace(
             checked("approach", problem, off, solver.of_answer, OFF), value=approach, reference=problem.approach
@@ -194,7 +194,9 @@ def convergence(solver: JudgedSolver, flat: KnownContact) -> Iterator[JudgedNumb
     for cells in (COARSEST, finest):
         problem = replace(STATED[FLAT].on(cells), approach=limit)
         p = solver.pressure(problem)
-        value = problem.left(p, True)[1] / limit if solver.by_force else problem.force_of(p) / flat.force
+        value = (
+            problem.residuals_and_approach(p, True)[1] / limit if solver.by_force else problem.force_of(p) / flat.force
+        )
         errors.append(abs(value - 1))
     order = math.log(errors[0] / errors[1]) / math.log(finest / COARSEST) if min(errors) > 0 else math.nan
     yield checked("order of convergence", flat, order, NEXT_TERM, "the error does not fall with the cell size", 1.0)

@@ -134,7 +134,7 @@ LEFT = {"force balance": "force not held", "tension": "negative pressures: p >= 
 
 def conditions(solver: JudgedSolver, problem: ContactProblem) -> Iterator[JudgedNumber]:
     """No tension, no pressure at a gap, no overlap, and a force that is held, by the operator that judges."""
-    left, _ = problem.left(solver.pressure(problem), solver.by_force)
+    left, _ = problem.residuals_and_approach(solver.pressure(problem), solver.by_force)
     solver.judged["", problem.name] = problem
     for name, value in left.items():
         yield checked(name, problem, value, solver.residual, LEFT.get(name, "above the residual that it names"))
@@ -212,7 +212,9 @@ def monotone(solver: JudgedSolver, problem: ContactProblem) -> Iterator[JudgedNu
     lost = max(float(before[after <= 0].sum() / before.sum()) for before, after in pairwise(pressures))
     yield checked("monotone area", problem, lost, SINGLE_CELLS, "the contact shrinks under more load")
     force = np.array([step.force_of(p) for step, p in zip(steps, pressures, strict=True)])
-    approach = np.array([step.left(p, solver.by_force)[1] for step, p in zip(steps, pressures, strict=True)])
+    approach = np.array(
+        [step.residuals_and_approach(p, solver.by_force)[1] for step, p in zip(steps, pressures, strict=True)]
+    )
     # compliances over that of the chord from the first touch: a full periodic contact has none
     with np.errstate(all="ignore"):  # the same pressure under every load
         first, second = np.diff(approach) / np.diff(force) * force[-1] / (approach[-1] - problem.gap.min())

@@ -12,7 +12,7 @@ from validation.engine.progress import progress_of
 from validation.railway.cases.rail_sound import SOUNDING, RailSound, RailSoundResult, run
 from validation.railway.cases.rail_sound_study import sounds_of, what_is_heard
 from validation.railway.scenes.rail import RailScene
-from validation.report.commands.arguments import Exit, add_workers, at_least, some_of
+from validation.report.commands.arguments import Exit, add_workers, at_least, comma_separated
 from validation.report.folder import SOUND, Folder
 from validation.report.sounds import wavs
 from validation.scenes.description import description_lines
@@ -31,7 +31,9 @@ def describe(sounding: argparse.ArgumentParser) -> None:
         "--out", type=Path, default=Path("sounds"), metavar="DIR", help="folder of the files (default: sounds)"
     )
     choices = f"some of {', '.join(SOUNDING)} (default: all)"
-    sounding.add_argument("--models", type=some_of(SOUNDING), default=tuple(SOUNDING), metavar="A,B", help=choices)
+    sounding.add_argument(
+        "--models", type=comma_separated(SOUNDING), default=tuple(SOUNDING), metavar="A,B", help=choices
+    )
     sounding.add_argument(
         "--seconds",
         type=_seconds,

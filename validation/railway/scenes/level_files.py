@@ -16,8 +16,8 @@ from validation.railway.theory.transverse_structure import LineSpectrum
 from validation.scenes.column_names import RADIANS, WAVENUMBERS
 from validation.scenes.number_table import NumberTable
 from validation.scenes.printable import printable, quoted
-from validation.scenes.reader import DECIBELS, Reader, errors_of, one_of, table, values
-from validation.scenes.table_files import FORM, read_table, sentence_about, table_beside
+from validation.scenes.reader import DECIBELS, Reader, errors_of, table, value_of_one_key, values
+from validation.scenes.table_files import FORM, read_scene_table, read_table, sentence_about
 from validation.scenes.units import UNITS, metres_of
 
 MICROMETRE = 1e-6
@@ -182,9 +182,9 @@ def levels_in(name: str, value: object, *, folder: Path, notes: list[str]) -> Ro
         **FORM,
     }
     entries = table(readers, tuple(readers), name, value)
-    one_of(entries, name, ("curve", "file"))
+    value_of_one_key(entries, name, ("curve", "file"))
     if "file" in entries:
-        path, numbers = table_beside(name, entries, folder)
+        path, numbers = read_scene_table(name, entries, folder)
         levels, assumptions = _levels_of(f"{name}.file", path, numbers, unit=entries.get("unit"))
         notes += sentence_about(path, assumptions)
     elif superfluous := [key for key in entries if key not in ("curve", "offset", "longest", "shortest")]:

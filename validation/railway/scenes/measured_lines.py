@@ -14,11 +14,11 @@ from validation.analysis.statistics import FloatArray
 from validation.railway.scenes.level_files import LEAST, MICROMETRE, RoughnessLevels, curve
 from validation.railway.scenes.line_columns import along_the_track
 from validation.railway.scenes.line_edits import UNTOUCHED, LineEdits, Outliers, edited
-from validation.scenes.measured import MeasuredHeights, edited_lines, known_heights, without_unknown_ends
+from validation.scenes.measured import MeasuredHeights, complete_heights, edited_lines, without_unknown_ends
 from validation.scenes.number_table import NumberTable
 from validation.scenes.printable import printable, shortened
 from validation.scenes.reader import Reader, errors_of, one_word, table, values
-from validation.scenes.table_files import FORM, sentence_about, table_beside
+from validation.scenes.table_files import FORM, read_scene_table, sentence_about
 from validation.scenes.units import LENGTHS, in_unit, quantity, unit_of
 
 WAVES_PER_LINE = 4
@@ -51,7 +51,7 @@ class MeasuredLines:
     edits: LineEdits = UNTOUCHED
 
     def __post_init__(self) -> None:
-        values = known_heights(self.height)
+        values = complete_heights(self.height)
         height = values[:, np.newaxis] if values.ndim == 1 else values
         positive("spacing", self.spacing)
         one_word("detrend", self.detrend, words=get_args(Detrend))
@@ -125,7 +125,7 @@ def lines_in(name: str, value: object, *, folder: Path, notes: list[str]) -> Mea
     own: dict[str, Reader] = {"unit": unit_of, "positions": _positions, "outliers": _outliers}
     readers = values("file", "spacing") | own | values("longest", "shortest", "fill", "detrend") | FORM
     entries = table(readers, tuple(readers)[1:], name, value)
-    path, numbers = table_beside(name, entries, folder)
+    path, numbers = read_scene_table(name, entries, folder)
     with errors_of(f"{name}."):
         unit, spacing, positions = (entries.pop(key, None) for key in ("unit", "spacing", "positions"))
         lines = along_the_track(numbers, unit, spacing, positions)

@@ -13,7 +13,7 @@ from validation.scenes.material import material_of
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.measured_surface import heights_of
 from validation.scenes.printable import shortened
-from validation.scenes.reader import POSITIVE, Reader, errors_of, one_of, table, values
+from validation.scenes.reader import POSITIVE, Reader, errors_of, table, value_of_one_key, values
 from validation.scenes.units import in_unit, quantity
 
 OWN = {
@@ -46,21 +46,23 @@ def rail_of(tables: dict[str, Any], folder: Path) -> RailScene:
     readers = {key: partial(table, own, tuple(own)) for key, own in bodies.items()}
     entries = table({**values("name"), "material": material_of, **readers}, (), "", tables)
     wheel, rail, material = entries["wheel"], entries["rail"], entries["material"]
-    roughness, of_roughness = _combined(one_of(rail, "rail", GROUNDS), one_of(wheel, "wheel", GROUNDS, least=0))
+    roughness, of_roughness = _combined(
+        value_of_one_key(rail, "rail", GROUNDS), value_of_one_key(wheel, "wheel", GROUNDS, least=0)
+    )
     load, of_load = _load(wheel)
     fields: dict[str, Any] = {
         "name": entries["name"],
-        "radius": one_of(wheel, "wheel", ("radius", "diameter")) / (2 if "diameter" in wheel else 1),
+        "radius": value_of_one_key(wheel, "wheel", ("radius", "diameter")) / (2 if "diameter" in wheel else 1),
         "load": load,
         "modulus": material.modulus,
         "material": material,
         "roughness": roughness,
-        "lateral_structure": one_of(rail, "rail", ("lateral_structure", "lateral_ratio"), least=0),
+        "lateral_structure": value_of_one_key(rail, "rail", ("lateral_structure", "lateral_ratio"), least=0),
         "notes": (*of_load, *of_roughness, *notes),
         **{key: wheel[key] for key in ("speed", "mass", "damping") if key in wheel},
     }
-    of_rail = one_of(rail, "rail", ("crown_radius", "profile"), least=0)
-    of_wheel = one_of(wheel, "wheel", ("transverse_radius", "profile"), least=0)
+    of_rail = value_of_one_key(rail, "rail", ("crown_radius", "profile"), least=0)
+    of_wheel = value_of_one_key(wheel, "wheel", ("transverse_radius", "profile"), least=0)
     if not any(isinstance(body, TransverseProfile) for body in (of_rail, of_wheel)):
         if "offset" in wheel:
             raise ValueError("wheel.offset must be left out where neither wheel nor rail has a profile, got it")
@@ -103,7 +105,7 @@ def _check_flange(wheel: TransverseProfile, at: float) -> None:
 
 def _load(wheel: dict[str, Any]) -> tuple[float, tuple[str, ...]]:
     """Of one wheel, and what was assumed of an axle."""
-    load: float = one_of(wheel, "wheel", ("load", "axle_load"))
+    load: float = value_of_one_key(wheel, "wheel", ("load", "axle_load"))
     wheels = wheel.get("wheels_per_axle")
     if "load" in wheel:
         if wheels is not None:

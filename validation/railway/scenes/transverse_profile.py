@@ -15,7 +15,7 @@ from validation.analysis.statistics import FloatArray
 from validation.scenes.number_table import NumberTable
 from validation.scenes.printable import printable
 from validation.scenes.reader import Reader, errors_of, table, values, yes_or_no
-from validation.scenes.table_files import FORM, heights_of_columns, sentence_about, table_beside
+from validation.scenes.table_files import FORM, heights_of_columns, read_scene_table, sentence_about
 from validation.scenes.units import LENGTHS, in_unit, unit_of
 from validation.theory.half_space import elliptic_contact
 
@@ -225,7 +225,7 @@ def profile_in(name: str, value: object, *, folder: Path, notes: list[str]) -> T
     readers: dict[str, Reader] = {**values("file"), "unit": unit_of, "flip": yes_or_no, **FORM}
     entries = table(readers, tuple(readers)[1:], name, {"file": value} if isinstance(value, str) else value)
     key = name if isinstance(value, str) else f"{name}.file"
-    path, numbers = table_beside(name, entries, folder, key=key)
+    path, numbers = read_scene_table(name, entries, folder, key=key)
     with errors_of(f"{key} {printable(path)}: "):
         y, height = _in_metres(numbers, entries.get("unit"))
         has_both = np.isfinite(y) & np.isfinite(height)

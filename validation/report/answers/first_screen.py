@@ -67,9 +67,9 @@ class AnsweredQuestion:
 
 def answered_questions(sections: Sequence[Section]) -> list[AnsweredQuestion]:
     """All rows; none where the report has no case of any of them."""
-    found = {section.name: section for section in sections}
-    asked = any(question.source.case in found for question in QUESTIONS)
-    return [_answered(question, found) for question in QUESTIONS] if asked else []
+    by_name = {section.name: section for section in sections}
+    is_covered = any(question.source.case in by_name for question in QUESTIONS)
+    return [_answered_question(question, by_name) for question in QUESTIONS] if is_covered else []
 
 
 def plain(rows: Sequence[AnsweredQuestion]) -> list[dict[str, object]]:
@@ -104,7 +104,7 @@ def plain(rows: Sequence[AnsweredQuestion]) -> list[dict[str, object]]:
     ]
 
 
-def _answered(question: Question, sections: Mapping[str, Section]) -> AnsweredQuestion:
+def _answered_question(question: Question, sections: Mapping[str, Section]) -> AnsweredQuestion:
     source, section = question.source, sections.get(question.source.case)
     if section is None:
         return AnsweredQuestion(question, NOT_RUN, f"The case {source.case} is not in this report.")
@@ -115,11 +115,11 @@ def _answered(question: Question, sections: Mapping[str, Section]) -> AnsweredQu
         return AnsweredQuestion(question, NOT_MEASURED, f"{section.name} has no number for it.", section.name)
     numbers, verdicts = _numbers(cells), {cell.verdict for cell in cells}
     within = _margins(question, numbers)
-    evidence = {name: one.evidence for name, one in sections.items() if one.evidence}
-    offered = [
+    evidence = {name: case_section.evidence for name, case_section in sections.items() if case_section.evidence}
+    alternatives = [
         (text, _cost(model, evidence), model.source.case if model.source else TIMES * bool(model.timed))
         for model in question.instead
-        if (text := _offered(model, question, within, evidence))
+        if (text := _alternative_text(model, question, within, evidence))
     ]
     return AnsweredQuestion(
         question,
@@ -130,7 +130,9 @@ def _answered(question: Question, sections: Mapping[str, Section]) -> AnsweredQu
         ", ".join([*_measured(cells, source), *_of_scene(question, section)]),
         " ".join(dict.fromkeys(number.reason for number in numbers)),
         within,
-        tuple((text, cost, case * (case in evidence)) for text, cost, case in offered if verdicts != {Verdict.WITHIN}),
+        tuple(
+            (text, cost, case * (case in evidence)) for text, cost, case in alternatives if verdicts != {Verdict.WITHIN}
+        ),
     )
 
 
@@ -162,15 +164,15 @@ def _measured(cells: Sequence[Cell], source: Source) -> list[str]:
 
 def _of_scene(question: Question, section: Section) -> list[str]:
     """What its case says of it; a case that is kept from before it said so has no such column."""
-    said = [f"H = {section.settings['hurst']:g}"] if "hurst" in section.settings else []
+    conditions = [f"H = {section.settings['hurst']:g}"] if "hurst" in section.settings else []
     if question.of_scene and section.evidence:
         table, column = question.of_scene
         values = section.evidence.table(table).columns.get(column, ())
-        said += [f"{column} = {value if isinstance(value, str) else f'{value:.2g}'}" for value in values[:1]]
-    return said
+        conditions += [f"{column} = {value if isinstance(value, str) else f'{value:.2g}'}" for value in values[:1]]
+    return conditions
 
 
-def _offered(model: Alternative, question: Question, within: str, evidence: Mapping[str, Evidence]) -> str:
+def _alternative_text(model: Alternative, question: Question, within: str, evidence: Mapping[str, Evidence]) -> str:
     """A model where it is enough, within its margin where that is another one; empty where it is so nowhere or was not
     run.
     """
@@ -179,7 +181,7 @@ def _offered(model: Alternative, question: Question, within: str, evidence: Mapp
     cells = model.source.cells(evidence[model.source.case]) if model.source.case in evidence else []
     margin = _margins(question, _numbers(cells))
     by = f", within {margin} {model.by}".rstrip() if model.by or margin != within else ""
-    where = _where(cells, Verdict.WITHIN, model.source.over)
+    where = _verdict_range(cells, Verdict.WITHIN, model.source.over)
     return f"{model.name} {where}{by}" if where else ""
 
 
@@ -202,7 +204,7 @@ def _word(verdicts: set[Verdict]) -> str:
     return "In part" if Verdict.WITHIN in verdicts else "Outside tolerance or inconclusive"
 
 
-def _where(cells: Sequence[Cell], verdict: Verdict, over: str) -> str:
+def _verdict_range(cells: Sequence[Cell], verdict: Verdict, over: str) -> str:
     """Neighbouring cells that say it: "at h' a/d = 0.3", "for 0.1 ≤ Fbar < 1 (H = 1 alone)", "over ridges"."""
     places, conditions = [cell.place for cell in cells], [cell.alone for cell in cells]
     ranges = verdict_ranges(places, [cell.verdict for cell in cells], conditions)
@@ -210,10 +212,10 @@ def _where(cells: Sequence[Cell], verdict: Verdict, over: str) -> str:
     if len(ranges) > 1 and all(len(part.places) == 1 and isinstance(part.places[0], float) for part in ranges):
         texts = [f"{span(part.places)}{_alone(part)}" for part in ranges]
         return f"at {placed(over, listed(texts))}"
-    return " and ".join(f"{_along(part.places, cells, over)}{_alone(part)}" for part in ranges)
+    return " and ".join(f"{_span_of_group(part.places, cells, over)}{_alone(part)}" for part in ranges)
 
 
-def _along(places: Sequence[Place], cells: Sequence[Cell], over: str) -> str:
+def _span_of_group(places: Sequence[Place], cells: Sequence[Cell], over: str) -> str:
     """Neighbours, and how they lie on the axis."""
     text = span(places, over)
     if isinstance(places[0], tuple) and "[" not in over:
@@ -235,20 +237,20 @@ def sentence(cells: Sequence[Cell], over: str, printed: Printed) -> str:
     """Where it is within tolerance, outside, inconclusive; each with the numbers that say so."""
     clauses = []
     for verdict in OF_NUMBERS:
-        if where := _where(cells, verdict, over):
+        if where := _verdict_range(cells, verdict, over):
             numbers = _numbers(cell for cell in cells if cell.verdict is verdict)
-            clauses.append(f"{verdict} {where}: {_found(verdict, numbers, printed)}")
+            clauses.append(f"{verdict} {where}: {_deviations(verdict, numbers, printed)}")
     text = "; ".join(clauses)
     return f"{text[0].upper()}{text[1:]}."
 
 
-def _found(verdict: Verdict, numbers: Sequence[Number], printed: Printed) -> str:
-    mine = [number for number in numbers if number.verdict is verdict]
+def _deviations(verdict: Verdict, numbers: Sequence[Number], printed: Printed) -> str:
+    judged = [number for number in numbers if number.verdict is verdict]
     if verdict is Verdict.OUTSIDE:
-        return f"{'' if printed is level_as_factor else 'off by '}{_by_quantity(mine, printed)}"
-    if not mine:
+        return f"{'' if printed is level_as_factor else 'off by '}{_by_quantity(judged, printed)}"
+    if not judged:
         return "some numbers are missing"
-    ends = (number.difference + sign * number.uncertainty for number in mine for sign in (-1, 1))
+    ends = (number.difference + sign * number.uncertainty for number in judged for sign in (-1, 1))
     off = from_to(ends, printed)
     return f"{'' if printed is level_as_factor else 'off by '}{off}, error bars included"
 
@@ -256,13 +258,13 @@ def _found(verdict: Verdict, numbers: Sequence[Number], printed: Printed) -> str
 def _by_quantity(numbers: Sequence[Number], printed: Printed) -> str:
     """The least and the largest, below and above the reference; apart where there are several quantities."""
     quantities = list(dict.fromkeys(number.quantity for number in numbers))
-    found = []
+    parts = []
     for quantity in quantities:
         values = [number.difference for number in numbers if number.quantity == quantity]
         sides = [value for value in values if value < 0], [value for value in values if value >= 0]
         name = f"{quantity} " if len(quantities) > 1 else ""
-        found.append(name + " and ".join(from_to(side, printed) for side in sides if side))
-    return ", ".join(found)
+        parts.append(name + " and ".join(from_to(side, printed) for side in sides if side))
+    return ", ".join(parts)
 
 
 def from_to(values: Iterable[float], printed: Printed) -> str:

@@ -29,10 +29,10 @@ def times_faster(sections: Sequence[Section]) -> list[dict[str, Any]]:
         return []
     table = section.evidence.table(FASTER)
     rows = [dict(zip(table.columns, row, strict=True)) for row in zip(*table.columns.values(), strict=True)]
-    return [row | _found(row, section.evidence) | {"place": _place(row, section)} for row in rows]
+    return [row | _verdict_on_error(row, section.evidence) | {"place": _place(row, section)} for row in rows]
 
 
-def _found(row: Mapping[str, Any], evidence: Evidence) -> dict[str, Any]:
+def _verdict_on_error(row: Mapping[str, Any], evidence: Evidence) -> dict[str, Any]:
     """Whether the interval of the error lies within what is enough, outside, or across; "error" of a row is its end."""
     enough, end = ENOUGH[str(row["unit"])], float(row["error"])
     points = evidence.table(POINTS).where(**{name: row[name] for name in ("scene", "quantity")}, method=row["model"])
@@ -51,8 +51,8 @@ def _place(row: Mapping[str, Any], section: Section) -> str:
     if row["scene"] == RoughPunchProblem.name:
         return placed(FORCE, f"{settings['fractal']['force']:g}")
     if row["scene"] == RollingProblem.name:
-        known = {name: settings["rolling"][name] for name in ("hurst", "height", "last")}
-        scene = RollingProblem(**known).scene
+        settings_of_scene = {name: settings["rolling"][name] for name in ("hurst", "height", "last")}
+        scene = RollingProblem(**settings_of_scene).scene
         slope = slope_ratio(scene.ground.slope_along, scene) if scene.ground else 0.0
         return placed(SLOPE, f"{slope:.2g}")
     return ""
@@ -60,10 +60,12 @@ def _place(row: Mapping[str, Any], section: Section) -> str:
 
 def times_faster_said(rows: Sequence[Mapping[str, Any]]) -> str:
     """Of springs over all quantities for which they are enough, the least and the most."""
-    found = [float(row["times faster"]) for row in rows if row["model"] in SPRINGS and row["enough"] == Verdict.WITHIN]
-    if not found:
+    factors = [
+        float(row["times faster"]) for row in rows if row["model"] in SPRINGS and row["enough"] == Verdict.WITHIN
+    ]
+    if not factors:
         return ""
-    least, most = map(short, (min(found), max(found)))
+    least, most = map(short, (min(factors), max(factors)))
     within = " or ".join(f"{error:g} {unit}" for unit, error in ENOUGH.items())
     return f"Where springs are within {within}, they are {least} to {most} times faster than boundary elements"
 

@@ -12,7 +12,7 @@ from validation.cases.rolling import reduced_models as reduced
 from validation.cases.wheel import half_space as wheel
 from validation.cases.wheel.features import LEVEL
 from validation.cases.wheel.half_space_study import WHEEL
-from validation.engine.street import brought
+from validation.engine.street import objects_of_houses
 from validation.report.answers.question import BEM, INTEGRAL, Alternative, Question
 from validation.report.answers.seconds import a_surface, a_track, a_wheel, an_integral
 from validation.report.answers.strip import Source
@@ -97,15 +97,19 @@ OF_THE_CORE = (
 )
 
 
-def _all() -> tuple[Question, ...]:
+def _all_questions() -> tuple[Question, ...]:
     """Those of the core and of the houses that are there, in the order of their cases; a house may add alternatives."""
-    more = {name: one for alternatives in brought("alternatives") for name, one in alternatives.items()}
+    more = {
+        name: question for alternatives in objects_of_houses("alternatives") for name, question in alternatives.items()
+    }
     core = [
-        replace(one, instead=(*one.instead[:-1], more[one.name], one.instead[-1])) if one.name in more else one
-        for one in OF_THE_CORE
+        replace(question, instead=(*question.instead[:-1], more[question.name], question.instead[-1]))
+        if question.name in more
+        else question
+        for question in OF_THE_CORE
     ]
-    every = [*core, *(one for questions in brought("questions") for one in questions)]
-    return tuple(sorted(every, key=lambda one: list(CASES).index(one.source.case)))
+    questions_of_all = [*core, *(question for questions in objects_of_houses("questions") for question in questions)]
+    return tuple(sorted(questions_of_all, key=lambda question: list(CASES).index(question.source.case)))
 
 
-QUESTIONS = _all()
+QUESTIONS = _all_questions()

@@ -40,8 +40,8 @@ def a_surface(quantity: str = "") -> Timed:
     """Boundary elements press a rough punch."""
 
     def timed(evidence: Evidence) -> str:
-        found = timed_at(evidence, RoughPunchProblem.name, BEM, quantity)
-        return f"{found[0]} a surface and load, {found[1]}" if found else ""
+        timing = timed_at(evidence, RoughPunchProblem.name, BEM, quantity)
+        return f"{timing[0]} a surface and load, {timing[1]}" if timing else ""
 
     return timed
 
@@ -50,18 +50,18 @@ def a_track(cells: float) -> Timed:
     """Boundary elements roll along a strip, with so many cells to a contact radius."""
 
     def timed(evidence: Evidence) -> str:
-        found = timed_at(evidence, RollingProblem.name, BEM, most=cells)
-        return f"{found[0]} a strip, {found[1]}" if found else ""
+        timing = timed_at(evidence, RollingProblem.name, BEM, most=cells)
+        return f"{timing[0]} a strip, {timing[1]}" if timing else ""
 
     return timed
 
 
 def an_integral(evidence: Evidence) -> str:
-    found = timed_at(evidence, RollingProblem.name, FILTER_3D)
-    return found[0] if found else ""
+    timing = timed_at(evidence, RollingProblem.name, FILTER_3D)
+    return timing[0] if timing else ""
 
 
 def a_wheel(evidence: Evidence) -> str:
     """Boundary elements in each time step of one wheel of Fig. 14.4."""
-    (found,) = evidence.table(COST_OF_STEPS).where(method="boundary elements")["one wheel [s]"]
-    return f"{in_seconds(found)} a wheel of Fig. 14.4"
+    (seconds,) = evidence.table(COST_OF_STEPS).where(method="boundary elements")["one wheel [s]"]
+    return f"{in_seconds(seconds)} a wheel of Fig. 14.4"

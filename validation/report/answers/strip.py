@@ -66,27 +66,28 @@ class Source(Choice):
 
     def cells(self, evidence: Evidence) -> list[Cell]:
         """In the order of the axis; names in the order of the numbers."""
-        found = by_place(self.chosen(evidence.numbers), self.axis)
-        every = {self._series(number) for numbers in found.values() for number in numbers}
+        numbers_by_place = by_place(self.chosen(evidence.numbers), self.axis)
+        all_series = {self._series(number) for numbers in numbers_by_place.values() for number in numbers}
         return [
-            Cell(place, tuple(numbers), len(every - {self._series(number) for number in numbers}), self.axis)
-            for place, numbers in _apart(found).items()
+            Cell(place, tuple(numbers), len(all_series - {self._series(number) for number in numbers}), self.axis)
+            for place, numbers in _joined_overlaps(numbers_by_place).items()
         ]
 
     def _series(self, number: Number) -> tuple[object, ...]:
         return (number.quantity, *(number.where.get(name) for name in self.series))
 
 
-def _apart(found: dict[Place, list[Number]]) -> dict[Place, list[Number]]:
+def _joined_overlaps(numbers_by_place: dict[Place, list[Number]]) -> dict[Place, list[Number]]:
     """In the order of the axis; ranges that overlap, as where one quantity was measured less far, are one place."""
     joined: dict[Place, list[Number]] = {}
-    for place in found if any(isinstance(place, str) for place in found) else sorted(found, key=ends_of):
+    names = any(isinstance(place, str) for place in numbers_by_place)
+    for place in numbers_by_place if names else sorted(numbers_by_place, key=ends_of):
         before = next(reversed(joined), "")
         if isinstance(before, str) or isinstance(place, str) or ends_of(place)[0] >= ends_of(before)[1]:
-            joined[place] = found[place]
+            joined[place] = numbers_by_place[place]
         else:
             both = (ends_of(before)[0], max(ends_of(before)[1], ends_of(place)[1]))
-            joined[both] = [*joined.pop(before), *found[place]]
+            joined[both] = [*joined.pop(before), *numbers_by_place[place]]
     return joined
 
 

@@ -68,14 +68,14 @@ def at_least(least: int, most: int | None = None) -> Callable[[str], int]:
     return number
 
 
-def some_of(known: Collection[str]) -> Callable[[str], tuple[str, ...]]:
+def comma_separated(valid: Collection[str]) -> Callable[[str], tuple[str, ...]]:
     """Names with commas between them, each once."""
 
     def names(word: str) -> tuple[str, ...]:
-        found = tuple(dict.fromkeys(name.strip() for name in word.split(",")))
-        if unknown := [name for name in found if name not in known]:
-            raise argparse.ArgumentTypeError(f"must be of {', '.join(known)}, got {', '.join(map(repr, unknown))}")
-        return found
+        chosen = tuple(dict.fromkeys(name.strip() for name in word.split(",")))
+        if unknown := [name for name in chosen if name not in valid]:
+            raise argparse.ArgumentTypeError(f"must be of {', '.join(valid)}, got {', '.join(map(repr, unknown))}")
+        return chosen
 
     return names
 

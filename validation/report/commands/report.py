@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 from validation.engine.street import places
-from validation.report.commands.arguments import Exit, add_options, add_profile, add_workers, at_least, some_of
+from validation.report.commands.arguments import Exit, add_options, add_profile, add_workers, at_least, comma_separated
 
 BENCHMARK, FORMER_BENCHMARK = "benchmark", "race"
 """The command of the case `race`, and its former name, which works for one release."""
@@ -61,7 +61,7 @@ def describe(making: argparse.ArgumentParser) -> None:
 def _names(word: str) -> tuple[str, ...]:
     from validation.report.contents import CASES, TIMED
 
-    return some_of([*CASES, *TIMED])(word)
+    return comma_separated([*CASES, *TIMED])(word)
 
 
 def cases(arguments: argparse.Namespace) -> Exit:

@@ -27,7 +27,7 @@ def report(arguments: argparse.Namespace) -> Exit:
     """Run cases, write their report, and say how it came out."""
     # what is timed is run last, when nothing else is; the solver benchmark needs other solvers
     everything = [*CASES, *timed_here()] if arguments.scene is None else ["wheel"]
-    arguments.only = [name for some in arguments.only or () for name in some]
+    arguments.only = [name for group in arguments.only or () for name in group]
     names = list(dict.fromkeys(arguments.only or everything))
     if arguments.keep and not arguments.only:
         raise ValueError("--keep is for --only, got it alone: without --only no case is left to be kept")
@@ -70,8 +70,8 @@ def _solvers_of(arguments: argparse.Namespace) -> str:
 def _folder(names: Sequence[str], arguments: argparse.Namespace) -> str:
     if arguments.timed:
         return "-".join([arguments.timed, *["quick"] * (arguments.profile == "quick")])
-    some = names if (arguments.only or arguments.scene) and not arguments.keep else ()
-    return "-".join([arguments.profile, *some])
+    listed = names if (arguments.only or arguments.scene) and not arguments.keep else ()
+    return "-".join([arguments.profile, *listed])
 
 
 def _scene_of(arguments: argparse.Namespace, names: Sequence[str]) -> WheelScene | None:
@@ -103,5 +103,5 @@ def _rows(table: Table) -> list[str]:
     """A line a row, under the name of the table."""
     rows = zip(*table.columns.values(), strict=True)
     pairs = ([pair for pair in zip(table.columns, row, strict=True) if pair[1] != ""] for row in rows)
-    said = ("; ".join(f"{name}: {in_four_digits(cell)}" for name, cell in some) for some in pairs)
-    return [f"{table.name}:", *(f"  {line}" for line in said)]
+    lines = ("; ".join(f"{name}: {in_four_digits(cell)}" for name, cell in pairs_of_row) for pairs_of_row in pairs)
+    return [f"{table.name}:", *(f"  {line}" for line in lines)]

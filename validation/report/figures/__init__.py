@@ -24,19 +24,19 @@ OWN: Mapping[str, Callable[..., Figure]] = {
 
 def drawing(name: str) -> Callable[[Evidence], Figure]:
     """What draws a figure. Raises ValueError where there is none."""
-    found = _found(name)
-    if isinstance(found, Chart):
-        return partial(draw, found)
-    return lambda evidence: found(*map(evidence.table, tables_of(name)))
+    draws = _chart_or_function(name)
+    if isinstance(draws, Chart):
+        return partial(draw, draws)
+    return lambda evidence: draws(*map(evidence.table, tables_of(name)))
 
 
 def tables_of(name: str) -> tuple[str, ...]:
     """Names of the tables that a figure draws. Raises ValueError for no figure."""
-    found = _found(name)
-    return found.tables if isinstance(found, Chart) else tuple(inspect.signature(found).parameters)
+    draws = _chart_or_function(name)
+    return draws.tables if isinstance(draws, Chart) else tuple(inspect.signature(draws).parameters)
 
 
-def _found(name: str) -> Chart | Callable[..., Figure]:
+def _chart_or_function(name: str) -> Chart | Callable[..., Figure]:
     case = (CASES | TIMED).get(name.partition("-")[0])
     for chart in case.study.charts if case else ():
         if chart.name == name and chart.panels:

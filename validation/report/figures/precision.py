@@ -19,30 +19,32 @@ ROOM = 3.0
 
 def draw(points: Table) -> Figure:
     """Error against seconds, of what has no closed form: the questions of the front page."""
-    return _draw(points, asked=True)
+    return _draw(points, without_closed_form=True)
 
 
 def draw_others(points: Table) -> Figure:
     """The same of what has one."""
-    return _draw(points, asked=False)
+    return _draw(points, without_closed_form=False)
 
 
-def _draw(points: Table, *, asked: bool) -> Figure:
+def _draw(points: Table, *, without_closed_form: bool) -> Figure:
     exact = set(zip(*(points.rows(points["reference itself"])[name] for name in CHART), strict=True))
     charts = [
-        key for key in dict.fromkeys(zip(*(points[name] for name in CHART), strict=True)) if asked != (key in exact)
+        key
+        for key in dict.fromkeys(zip(*(points[name] for name in CHART), strict=True))
+        if without_closed_form != (key in exact)
     ]
     columns = 2 if len(charts) in (1, 2, 4) else 3
     figure, axes = panels(max(1, -(-len(charts) // columns)), columns)
     styles = styles_of(points["method"].tolist())
     for i, (axis, key) in enumerate(zip(axes, charts, strict=False)):
-        mine = points.where(**dict(zip(CHART, key, strict=True)))
-        _chart(axis, mine, styles)
+        rows = points.where(**dict(zip(CHART, key, strict=True)))
+        _chart(axis, rows, styles)
         scene, quantity = key
         title = f"{axis.get_title(loc='left')} {scene}:\n{quantity}"
         axis.set_title(title, loc="left")
         below = i + columns >= len(charts)
-        axis.set(xlabel="seconds of one realisation" if below else "", ylabel=f"error [{mine['unit'][0]}]")
+        axis.set(xlabel="seconds of one realisation" if below else "", ylabel=f"error [{rows['unit'][0]}]")
     for axis in (spare := axes[len(charts) :]):
         axis.set_axis_off()
         axis.set_title("", loc="left")
@@ -53,10 +55,10 @@ def _draw(points: Table, *, asked: bool) -> Figure:
 def _chart(axis: Axes, points: Table, styles: Mapping[str, Style]) -> None:
     scale, done = 100.0 if points["unit"][0] == "%" else 1.0, points["status"] == "finished"
     error, half, band = (scale * points[name] for name in ("error", "± sample", "band"))
-    x, others = points["median [s]"], done & ~points["reference itself"]
-    floor, top = _limits(error[others], half[others], float(band[0]))
-    known = x[np.isfinite(x) & (x > 0)]
-    axis.set(xscale="log", yscale="log", ylim=(floor / ROOM, top), xlim=(known.min() / ROOM, known.max() * ROOM))
+    x, compared = points["median [s]"], done & ~points["reference itself"]
+    floor, top = _limits(error[compared], half[compared], float(band[0]))
+    seconds = x[np.isfinite(x) & (x > 0)]
+    axis.set(xscale="log", yscale="log", ylim=(floor / ROOM, top), xlim=(seconds.min() / ROOM, seconds.max() * ROOM))
     axis.xaxis.set_major_locator(LogLocator(numticks=5))
     axis.minorticks_off()
     axis.axhspan(floor / ROOM, floor, color="#000000", alpha=0.08, linewidth=0, label="uncertainty of the reference")
@@ -67,13 +69,13 @@ def _chart(axis: Axes, points: Table, styles: Mapping[str, Style]) -> None:
     )
     quartiles = points["lower quartile [s]"], points["upper quartile [s]"]
     for method in dict.fromkeys(points["method"].tolist()):
-        mine, style = points["method"] == method, styles[method]
-        some = mine & done & np.isfinite(x)
-        if some.any():
-            across = [np.abs(end - x)[some] for end in quartiles]
+        rows, style = points["method"] == method, styles[method]
+        finished = rows & done & np.isfinite(x)
+        if finished.any():
+            across = [np.abs(end - x)[finished] for end in quartiles]
             axis.plot([], [], label=method, **style)
-            _curve(axis, x[some], error[some], half[some], floor, across, style)
-        for place in x[mine & ~done]:
+            _curve(axis, x[finished], error[finished], half[finished], floor, across, style)
+        for place in x[rows & ~done]:
             # along the top; on the left who has no cost
             at = (place, axis.get_xaxis_transform()) if np.isfinite(place) and place > 0 else (0.03, axis.transAxes)
             axis.plot([at[0]], [0.96], marker="x", color=style["color"], transform=at[1], markersize=6)

@@ -17,18 +17,21 @@ MARKS: dict[str, Style] = {
     "tamaas": {"color": PURPLE, "marker": "s", "markerfacecolor": "none"},
     "ContactMechanics": {"color": GREEN, "marker": "^"},
 }
-OTHER: Style = {"color": "#777777", "markerfacecolor": "none"}
-OTHERS = "vP*Xpd"
+STRANGER: Style = {"color": "#777777", "markerfacecolor": "none"}
+MARKERS_OF_STRANGERS = "vP*Xpd"
 """Of solvers that have no style of their own, in turn."""
 
 
 def styles_of(names: Sequence[str]) -> dict[str, Style]:
-    """By name: with threads as without, larger and open; others than those known in turn."""
-    others = [name for name in names if name not in MARKS and not name.endswith(" threads")]
-    known = MARKS | {name: {**OTHER, "marker": OTHERS[i % len(OTHERS)]} for i, name in enumerate(others)}
+    """By name: with threads as without, larger and open; those without a style of their own in turn."""
+    strangers = [name for name in names if name not in MARKS and not name.endswith(" threads")]
+    base_styles = MARKS | {
+        name: {**STRANGER, "marker": MARKERS_OF_STRANGERS[i % len(MARKERS_OF_STRANGERS)]}
+        for i, name in enumerate(strangers)
+    }
     threads: Style = {"markersize": 9, "markerfacecolor": "none"}
-    found = {name: known.get(name) or {**known[name.rpartition(", ")[0]], **threads} for name in names}
-    return {name: {**style, "linestyle": "none", "label": name} for name, style in found.items()}
+    styles = {name: base_styles.get(name) or {**base_styles[name.rpartition(", ")[0]], **threads} for name in names}
+    return {name: {**style, "linestyle": "none", "label": name} for name, style in styles.items()}
 
 
 def draw(heats: Table) -> Figure:
@@ -38,11 +41,11 @@ def draw(heats: Table) -> Figure:
     ratio.sharey(time)
     ratio.tick_params(labelleft=False)
     ours = heats.where(solver="bem3d")
-    mine = dict(zip(ours["problem"], ours["median [s]"], strict=True))
+    our_seconds = dict(zip(ours["problem"], ours["median [s]"], strict=True))
     styles = styles_of(names)
     for shift, name in zip(np.linspace(-0.3, 0.3, len(names)), names, strict=True):
         rows = heats.where(solver=name, status="finished")
-        unit = np.array([mine[problem] for problem in rows["problem"]])
+        unit = np.array([our_seconds[problem] for problem in rows["problem"]])
         place = np.array([problems.index(problem) for problem in rows["problem"]]) + shift
         bars = np.abs(np.array([rows["fastest [s]"], rows["slowest [s]"]]) - rows["median [s]"])
         # one that finishes nowhere is in the table alone
@@ -69,8 +72,8 @@ def _draw_growth(axis: Axes, heats: Table, styles: Mapping[str, Style]) -> None:
     free = heats.where(surface="rough", **{"half-space": "free", "status": "finished"})
     rows = free.where(name=free["name"][0]) if len(free["name"]) else free
     for name in dict.fromkeys(rows["solver"].tolist()):
-        mine = rows.where(solver=name)
-        cells, seconds, style = mine["cells"].astype(float) ** 2, mine["median [s]"], styles[name]
+        of_solver = rows.where(solver=name)
+        cells, seconds, style = of_solver["cells"].astype(float) ** 2, of_solver["median [s]"], styles[name]
         line = axis.plot(cells, seconds, **{**style, "linestyle": "-", "linewidth": 0.8})
         if len(cells) > 1:
             exponent = np.polyfit(np.log(cells), np.log(seconds), 1)[0]
