@@ -39,7 +39,7 @@ COMMANDS = [
     "report --only nowhere",
     "report --only hertz --executor dask://127.0.0.1:1 --out lost",
     "report --only hertz --keep --out nowhere",
-    "calibrate --check 0",
+    "calibrate --show --workers 2",
 ]
 
 

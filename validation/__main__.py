@@ -43,12 +43,12 @@ STDOUT = 1
 """Its file descriptor."""
 
 
-def main(words: Sequence[str] | None = None) -> int:
-    """Run one command, return its exit status."""
+def main(words: Sequence[str] | None = None, parser: argparse.ArgumentParser | None = None) -> int:
+    """Run one command, return its exit status. parser: of a script that ends as the commands do."""
     # before numpy is loaded: the last bits of sums depend on the threads of BLAS, and workers have one
     os.environ.update(ONE_THREAD | os.environ)
     never_fatal((sys.stdout, sys.stderr))
-    arguments = _parser().parse_args(words)
+    arguments = (parser or _parser()).parse_args(words)
     try:
         with terminable(), one_line_warnings():
             status = int(arguments.command(arguments))

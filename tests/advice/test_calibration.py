@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 
 from tests.advice.planted_answers import punch, waves, wheel
+from tests.advice.script import calibrate
 from tests.seeded import catches
-from validation.advice import calibrate, calibration, calibration_scenes
-from validation.advice.calibrate import as_table, calibration_age, check_calibration, measured_table
+from validation.advice import calibration, calibration_scenes, calibration_solves
+from validation.advice.calibrate import calibration_age
 from validation.advice.calibration import (
     HEIGHT,
     HURST,
@@ -197,7 +198,7 @@ def test_models_whose_code_is_another_are_named(tmp_path):
     codes = [calibration.code_behind(cheap("springs", one), one) for one in (asked, pressed)]
     assert all(re.fullmatch("[0-9a-f]{12}", code) for code in codes) and codes[0] != codes[1]
     written(path, calibration.rows_of(calibration.TABLE))
-    assert check_calibration(1, MeasuredAgain(1.0), path, stamp=True)[0] == []
+    assert calibrate.check_calibration(1, MeasuredAgain(1.0), path, stamp=True)[0] == []
     for age in (calibration_age(path, asked), calibration_age(path)):
         assert "by code that gives the same as today's, checked " in age and age.endswith(" solves")
     written(path, calibration.rows_of(path))
@@ -211,7 +212,7 @@ def test_models_whose_code_is_another_are_named(tmp_path):
 def written(path, rows):
     """A table that was measured when that of the package was, and not checked since."""
     about = {name: text for name, text in calibration.provenance().items() if name != "checked"}
-    path.write_bytes(as_table(about, rows))
+    path.write_bytes(calibrate.as_table(about, rows))
     calibration.table.cache_clear()
 
 
@@ -238,7 +239,7 @@ def test_rows_take_the_version_of_today_where_some_measured_again_are_the_same(t
     path, engine = tmp_path / "table.csv", MeasuredAgain(factor)
     rows = [{**row, "code": "0" * 12} for row in calibration.rows_of(calibration.TABLE)]
     written(path, rows)
-    differing, solves = check_calibration(2, engine, path, stamp=True)
+    differing, solves = calibrate.check_calibration(2, engine, path, stamp=True)
     assert solves.startswith(f"{len(engine.points)} of ")
     assert len(engine.points) == 2 * sum(len(quantities) for quantities in QUANTITIES.values())
     assert (not differing) is same
@@ -273,7 +274,7 @@ def test_each_row_is_a_scene_of_the_design():
 def test_a_table_has_a_row_a_scene_and_model_with_its_error(monkeypatch):
     run = CalibrationRun(punches=2, spheres=0, rolling=0, wheels=0, seed=4)
     monkeypatch.setitem(calibration_scenes.DESIGNS, "punch", ((0.0, 1.0), (0.0, 0.0), (0.5, 0.9), (0.5, 0.9)))
-    table, answers = measured_table(run)
+    table, answers = calibrate.measured_table(run)
     rows = list(csv.DictReader(line for line in table.decode().splitlines() if line[0] != "#"))
     found = answers["punch", "stiffness"]
     left = [float(row["reference"]) for row in rows[::2]]
@@ -293,7 +294,7 @@ def test_the_fit_claims_less_under_more_waves():
 
 
 @catches("a reference of the calibration with the surfaces of the models").at(
-    "validation.advice.calibration_scenes.OTHER_SEED", 0
+    "validation.advice.calibration_solves.OTHER_SEED", 0
 )
 def test_the_reference_has_surfaces_of_its_own_on_its_finest_grid():
     """Errors beside surfaces that the models were solved on, too, would have no scatter of those in them."""
@@ -307,8 +308,7 @@ def test_the_reference_has_surfaces_of_its_own_on_its_finest_grid():
         return Answer(value=np.array([1.0]), cost=Cost(work=1, seconds=1.0))
 
     with pytest.MonkeyPatch.context() as patch:
-        for module in (calibrate, calibration_scenes):
-            patch.setattr(module, "try_to_solve", noted)
+        patch.setattr(calibration_solves, "try_to_solve", noted)
         for point in CalibrationRun(punches=9, spheres=9, rolling=3, wheels=3).points:
-            calibrate.measure_errors(point)
+            calibration_solves.measure_errors(point)
     assert seeds[True] and seeds[False] and not seeds[True] & seeds[False]

@@ -169,8 +169,8 @@ def test_every_end_has_its_status_and_its_sentence(error, status, said, tmp_path
         ("sound rail --out out", "railway.commands.sound.run", False),
         ("compare sphere", "advice.commands.compare.findings", False),
         ("compare sphere rough_punch", "advice.commands.compare.compare_scenes", True),
-        ("calibrate --check 1", "advice.commands.calibrate.check_calibration", False),
-        ("calibrate", "advice.commands.calibrate.measured_table", True),
+        ("calibrate --show", "advice.commands.calibrate.calibration_lines", False),
+        ("calibrate --references made", "judging.calibrations.references_of", True),
         ("benchmark --out out", "report.commands.run_cases.build", True),
     ],
 )

@@ -13,10 +13,10 @@ import pytest
 
 import mdr
 import validation
+from tests.advice.script import calibrate
 from tests.seeded import catches, module_with
 from validation.__main__ import main
 from validation.advice import calibration
-from validation.advice.calibrate import LEFT, SAME
 from validation.advice.calibration_scenes import OTHER_SEED, Answers, CalibrationScene, answers_in
 from validation.advice.models import boundary_elements_pressed
 from validation.engine.engine import Engine
@@ -64,7 +64,7 @@ def answers(value: Callable[[CalibrationScene], np.ndarray] | None = None) -> An
         reference = np.array(math.inf if number == OPEN else LEAVES)
         about = {"each": each, "reference": reference, "failed": np.array(number == UNANSWERED)}
         found.append((point, {"value": each.mean(axis=0), **about}))
-    return Answers.of(found, {"command": "mdr-validation calibrate --answers --punches 26 --seed 19"})
+    return Answers.of(found, {"command": "python .ci/calibrate.py --answers --punches 26 --seed 19"})
 
 
 @contextmanager
@@ -174,7 +174,7 @@ def test_the_table_of_the_package_was_measured_beside_the_stored_answers():
             target = point.target()
             (form,) = (one for one in models_serving(target.scene, point.quantity) if one.name == name)
             mine = form.prepare(target, form.resolutions(target)[0])(0)().values[point.quantity]
-            known = pytest.approx(float(rows[point.number]["error"]), rel=SAME, abs=LEFT)
+            known = pytest.approx(float(rows[point.number]["error"]), rel=calibrate.SAME, abs=calibrate.LEFT)
             assert abs(math.log(mine / value[0])) == known
             assert each.mean(axis=0) == pytest.approx(value)
 
@@ -272,8 +272,8 @@ def test_the_errors_of_a_file_are_shown_and_why_there_are_none(capsys):
         (["compare", "rough_punch", "--models-from", "mine.py", "--models", "yours"], '"mine"'),
         (["compare", "rough_punch", "--models-from", "taken.py"], "must have a name that no other has"),
         (["compare", "rough_punch", "--models-from", "law.py"], "no function serves a scene, as @stiffness_model"),
-        (["calibrate", "--model", "mine.py", "--install"], "--install is for models of the package"),
-        (["calibrate", "--model", "mine"], "--model must be a Python file or one of"),
+        (["calibrate", "--model", "mine.py", "--install"], "--install must be given to .ci/calibrate.py"),
+        (["calibrate", "--model", "mine"], "--model must be a Python file, or a name of"),
     ],
 )
 @pytest.mark.slow

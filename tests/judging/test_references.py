@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.advice.script import run
 from tests.seeded import catches
 from validation.engine.engine import SERIAL
 from validation.judging.kinds import held_out_solves, references, rolling, surfaces
@@ -14,6 +15,7 @@ from validation.judging.kinds.own import ERRORS
 from validation.judging.kinds.references import about, as_file, file_name, reference_rows
 from validation.judging.kinds.rolling import EACH, GRIDS, HEIGHTS, LIFT, MEAN
 from validation.judging.kinds.surfaces import OF_SURFACE
+from validation.report.folder import REFERENCES, Folder
 from validation.simulation.rolling_strip import roll_strip
 
 REPORT = Path(__file__).parents[2] / "reports" / "reference"
@@ -23,7 +25,7 @@ SOLVED = (MEAN, EACH, LIFT, OF_SURFACE, ERRORS, *HELD_OUT)
 
 @pytest.mark.parametrize("quantity", [name for name in SOURCES if name not in SOLVED])
 def test_a_file_is_what_the_committed_report_shows(quantity):
-    """Otherwise the report was made anew: `mdr-validation calibrate --references reports/reference --install`."""
+    """Otherwise the report was made anew: `calibrate --references reports/reference`, then `.ci/calibrate.py`."""
     rows = [row for row in SOURCES[quantity].find(Report(REPORT), SERIAL) if np.isfinite(row.value)]
     assert [row.where for row in reference_rows(quantity)] == [
         {name: place if isinstance(place, str) else float(f"{place:.7g}") for name, place in row.where.items()}
@@ -101,6 +103,18 @@ def test_what_is_written_is_read_and_what_is_unknown_is_refused(tmp_path, monkey
     assert reference_rows("a level, of mine") == [row]
     with pytest.raises(LookupError, match="a level, of mine, got 'mass'"):
         reference_rows("mass")
+
+
+def test_the_script_puts_references_that_were_made_in_the_place_of_those_of_the_package(tmp_path, monkeypatch, capsys):
+    made, package = tmp_path / "references", tmp_path / "package"
+    package.mkdir()
+    monkeypatch.setattr(references, "FOLDER", package)
+    with Folder(made, kind=REFERENCES) as folder:
+        folder.replace({"a_level.csv": b"made"})
+    assert run("--references", str(made)) == run("--references", str(package), "--install") == 2
+    assert capsys.readouterr().err.count("error: --references must be a folder of mdr-validation calibrate") == 2
+    assert run("--references", str(made), "--install") == 0
+    assert [(path.name, path.read_bytes()) for path in package.iterdir()] == [("a_level.csv", b"made")]
 
 
 def test_a_folder_without_a_full_report_is_refused(tmp_path):

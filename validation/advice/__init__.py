@@ -2,6 +2,6 @@
 
 COMMANDS = {
     "compare": "select the cheapest model of a scene that meets a tolerance",
-    "calibrate": "measure the errors that cheap models claim, beside boundary elements",
+    "calibrate": "show the errors that cheap models claim, or measure those of your models",
 }
 BRINGS = {"model_for": "validation.advice.quantities:model_for"}

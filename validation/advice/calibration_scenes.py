@@ -1,11 +1,10 @@
 """Scenes on which cheap models are measured, drawn evenly from ranges, and the answers of fine boundary elements."""
 
 import hashlib
-import io
 import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import astuple, dataclass, fields
+from dataclasses import astuple, dataclass
 from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
@@ -13,9 +12,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.advice import calibration
-from validation.advice.hierarchy import try_to_solve
-from validation.advice.scene_model import SceneModel
 from validation.engine.engine import FloatArray, Outcome
 from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
@@ -25,9 +21,6 @@ from validation.scenes.scene import MOVING, PRESSED, ROLLING, Scene
 from validation.simulation.model import GridModel, Model, Target, models_serving
 from validation.theory.closed_forms import hertz_force
 
-REFERENCE_TOLERANCE = {"stiffness": 0.06, "force-rms": 0.1, "acceleration-rms": 0.1}
-SPECTRUM_TOLERANCE = 0.15
-"""Of the references, by their quantity, and of spectra: half of it is left to their samples."""
 MODEL_TOLERANCE = 0.05
 """Of the models that are measured: their samples leave a fifth of it or less."""
 OTHER_SEED = 1_000_003
@@ -125,25 +118,6 @@ def cheap_models(target: Target) -> tuple[Model, ...]:
     return tuple(model for model in models_serving(target.scene, target.quantity) if not isinstance(model, GridModel))
 
 
-def reference_answer(point: CalibrationScene) -> Outcome:
-    """Of fine boundary elements on surfaces of their own: what cheap models are measured beside.
-
-    value; reference: the relative error that it leaves; each: the values of the realisations that it is the mean of;
-    failed: one where there is no answer.
-    """
-    target = point.target(REFERENCE_TOLERANCE.get(point.quantity, SPECTRUM_TOLERANCE), OTHER_SEED)
-    (judge,) = (model for model in models_serving(point.scene, point.quantity) if isinstance(model, GridModel))
-    model = SceneModel(judge, target, judge.resolutions(target)[-1])
-    answer = try_to_solve(model)
-    solved = [] if answer.failed else model.shared[judge, model.resolution].solved
-    return {
-        "value": answer.value,
-        "reference": np.array(answer.error),
-        "each": np.array([realisation.values[point.quantity].ravel() for realisation in solved]),
-        "failed": np.array(float(bool(answer.failed))),
-    }
-
-
 ANSWERS = Path(__file__).with_name("calibration_answers.npz")
 ABOUT = "about"
 Group = tuple[str, str]
@@ -200,35 +174,6 @@ class Answers:
         return hashlib.sha256(b"".join(array.tobytes() for array in astuple(self)[:-1])).hexdigest()[:16]
 
 
-def answers_of(
-    points: Sequence[CalibrationScene], outcomes: Sequence[Outcome], about: Mapping[str, str]
-) -> dict[Group, Answers]:
-    """Of `reference_answer` or more. about: lines of the provenance."""
-    groups: dict[Group, list[tuple[CalibrationScene, Outcome]]] = {}
-    for point, outcome in zip(points, outcomes, strict=True):
-        groups.setdefault((point.kind, point.quantity), []).append((point, outcome))
-    return {group: Answers.of(solved, {**about, "code": code_of(solved[0][0])}) for group, solved in groups.items()}
-
-
-def code_of(point: CalibrationScene) -> str:
-    """Digest of the code that an answer rests on."""
-    (judge,) = (model for model in models_serving(point.scene, point.quantity) if isinstance(model, GridModel))
-    return calibration.code_behind(judge, point.target())
-
-
-def as_file(groups: Mapping[Group, Answers]) -> bytes:
-    """Equal for equal answers."""
-    arrays = {
-        f"{kind} {quantity} {field.name}": np.array(json.dumps(value)) if field.name == ABOUT else value
-        for (kind, quantity), answers in sorted(groups.items())
-        for field in fields(answers)
-        for value in [getattr(answers, field.name)]
-    }
-    contents = io.BytesIO()
-    np.savez_compressed(contents, **arrays)  # type: ignore[arg-type]  # stubs take a name for a flag
-    return contents.getvalue()
-
-
 @cache
 def answers_in(path: Path = ANSWERS) -> Mapping[Group, Answers]:
     """All that are there; none without a file."""
@@ -241,14 +186,3 @@ def answers_in(path: Path = ANSWERS) -> Mapping[Group, Answers]:
         kind, quantity, field = name.split(" ")
         groups.setdefault((kind, quantity), {})[field] = array
     return {group: Answers(**{**entry, ABOUT: json.loads(str(entry[ABOUT]))}) for group, entry in groups.items()}
-
-
-def merged(path: Path, made: Mapping[Group, Answers]) -> bytes:
-    """Those of a file, with these in the place of the same kinds. ValueError where a kind would have fewer scenes."""
-    answers_in.cache_clear()  # which may have been written since
-    stored = answers_in(path)
-    for group, answers in stored.items():
-        if group in made and made[group].number.size < answers.number.size:
-            least_answers = f"as many answers as there are, {answers.number.size} of {' '.join(group)}"
-            raise ValueError(f"--answers must leave {least_answers}, got {made[group].number.size}")
-    return as_file({**stored, **made})

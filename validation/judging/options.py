@@ -48,13 +48,14 @@ class ModelsFrom:
 class OfCalibrate:
     """Of `calibrate`: models of a file, and the references of the judges."""
 
-    file = (
-        "; or those of a Python file, or of an installed package by a name of `judge --list`, which is run as a "
-        "program, with your rights"
-    )
-
     @staticmethod
     def add(alone: argparse._MutuallyExclusiveGroup) -> None:
+        alone.add_argument(
+            "--model",
+            metavar="FILE",
+            help="measure the models of a Python file, or of an installed package by a name of `judge --list`, "
+            "relative to stored answers of boundary elements; it is run as a program, with your rights",
+        )
         alone.add_argument(
             "--references",
             type=Path,
@@ -65,11 +66,11 @@ class OfCalibrate:
 
     @staticmethod
     def command(arguments: argparse.Namespace) -> Exit | None:
-        """What was asked of this house; None where it is the calibration's."""
-        from validation.judging.calibrations import is_own, make_references, measure_own_models
+        """What was asked of this house; None where nothing was."""
+        from validation.judging.calibrations import make_references, measure_own_models
 
         if arguments.references:
             return make_references(arguments)
-        if arguments.model and is_own(arguments.model):
+        if arguments.model:
             return measure_own_models(arguments.model, arguments)
         return None
