@@ -1,6 +1,7 @@
 """Results and tables as the contents of files, and back: strict JSON, and CSV."""
 
 import csv
+import hashlib
 import io
 import math
 import re
@@ -34,6 +35,8 @@ GREEK = {
     "ρ": "rho",
     "ω": "omega",
 }
+LONGEST_STEM, DIGITS = 55, 6
+"""Of a file below `data`, without its ending; of the digest in one that was longer."""
 LONGEST_NAME = 120
 """Bytes of the name of a folder; a file system takes 255 of each."""
 RESERVED = {"con", "prn", "aux", "nul", "conin$", "conout$", "clock$"} | {
@@ -63,9 +66,9 @@ def plain_name(text: str) -> str:
 
 
 def ascii_text(text: str) -> str:
-    """Greek letters by their names, superscripts as digits, letters without marks; any other letter is a blank."""
+    """Greek letters by their names, superscripts as digits, letters without marks; any other letter is left out."""
     named = "".join(GREEK.get(letter, letter) for letter in unicodedata.normalize("NFKD", text))
-    return "".join(" " if ord(letter) > 127 else letter for letter in named if not unicodedata.combining(letter))
+    return named.encode("ascii", errors="ignore").decode()
 
 
 def condition_key(name: str) -> str:
@@ -105,9 +108,19 @@ def _shortened(name: str, end: str) -> str:
     return kept.rstrip("_.") + end
 
 
+def data_name(case: str, table: str) -> str:
+    """Of a table in the lists of columns: of a quantity by its key."""
+    return f"{case}-{getattr(table, 'key', '') or plain_name(table)}"
+
+
 def csv_name(case: str, table: str) -> str:
-    """Of the file of a table: of a quantity by its key."""
-    return f"{case}-{getattr(table, 'key', '') or plain_name(table)}.csv"
+    """Of the file of a table: `data_name` in ASCII; of a long one the beginning, and a digest that keeps it apart."""
+    name = plain_name(ascii_text(data_name(case, table)))
+    if len(name) > LONGEST_STEM:
+        digest = hashlib.sha256(name.encode()).hexdigest()[:DIGITS]
+        beginning = name[: LONGEST_STEM - DIGITS].rpartition("_")[0]
+        name = f"{beginning}-{digest}"
+    return f"{name}.csv"
 
 
 def header_of(table: Table) -> list[str]:

@@ -8,7 +8,7 @@ from fnmatch import fnmatchcase
 from functools import cached_property
 from pathlib import Path
 
-from validation.analysis.contents import as_csv, csv_name, header_of, plain_name
+from validation.analysis.contents import as_csv, csv_name, data_name, header_of, plain_name
 from validation.analysis.evidence import Table
 from validation.analysis.series import JUDGED, UNIT
 from validation.engine.street import files_of_houses
@@ -75,7 +75,7 @@ def _written(section: Section) -> Sequence[Table]:
 def described(case: str, table: Table) -> Iterator[tuple[str, str, str, str]]:
     """File, column, unit and meaning of each column of a table; no meaning where nobody has given one."""
     file, judged = csv_name(case, table.name), table.name.endswith(JUDGED)
-    of_file = file.removesuffix(".csv").removesuffix(plain_name(f"_{JUDGED}") if judged else "")
+    of_file = data_name(case, table.name).removesuffix(plain_name(f"_{JUDGED}") if judged else "")
     for header in header_of(table):
         unit, name = UNIT.search(header), UNIT.sub("", header).strip()
         own = _matching(f"{of_file}: {name}") or (_quantity(table) if name == "value" else "")
