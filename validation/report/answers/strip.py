@@ -87,8 +87,8 @@ def _joined_overlaps(numbers_by_place: dict[Place, list[Number]]) -> dict[Place,
         if isinstance(before, str) or isinstance(place, str) or ends(place)[0] >= ends(before)[1]:
             joined[place] = numbers_by_place[place]
         else:
-            both = (ends(before)[0], max(ends(before)[1], ends(place)[1]))
-            joined[both] = [*joined.pop(before), *numbers_by_place[place]]
+            joined_range = (ends(before)[0], max(ends(before)[1], ends(place)[1]))
+            joined[joined_range] = [*joined.pop(before), *numbers_by_place[place]]
     return joined
 
 
@@ -103,8 +103,8 @@ def span(places: Sequence[Place], name: str = "") -> str:
     if isinstance(places[0], str):
         return listed(list(dict.fromkeys(places)))
     low, high = min(ends(place)[0] for place in places), max(ends(place)[1] for place in places)
-    both = f"{low:.2g}" if low == high else f"{low:.2g} to {high:.2g}"
-    return placed(name, both) if name else both
+    text = f"{low:.2g}" if low == high else f"{low:.2g} to {high:.2g}"
+    return placed(name, text) if name else text
 
 
 def interval(name: str, low: float, high: float, *, closed: bool = False) -> str:
