@@ -105,27 +105,29 @@ def would_help(comparison: Comparison) -> Iterator[str]:
         for candidate in comparison.models
         if candidate.status == "not asked" and candidate.predicted_error <= tolerance.relative
     )
-    other = next(unasked, None)
-    other_model = other and (
-        f"{other.name}, which was not asked, with a predicted error of {tolerance.shown(other.predicted_error)}"
+    cheapest = next(unasked, None)
+    unasked_model = cheapest and (
+        f"{cheapest.name}, which was not asked, with a predicted error of {tolerance.shown(cheapest.predicted_error)}"
     )
     if best is None or best.answer is None:
         if comparison.models:
-            another = f"a scene for which this does not hold: {comparison.models[-1].reason}"
-            yield f"what would help: {other_model or another}"
+            other_scene = f"a scene for which this does not hold: {comparison.models[-1].reason}"
+            yield f"what would help: {unasked_model or other_scene}"
         return
-    if (left := best.estimate.of_scene) > min(tolerance.relative, best.answer.error / 2):
+    if (error_of_scene := best.estimate.of_scene) > min(tolerance.relative, best.answer.error / 2):
         stated = best.model.model.helps(best.model.target)
         yield (
-            f"what would help: {stated}: the ground leaves ± {tolerance.shown(left)}, "
+            f"what would help: {stated}: the ground leaves ± {tolerance.shown(error_of_scene)}, "
             f"whatever the model; or a tolerance of {tolerance.shown(1.05 * best.answer.error)}"
         )
         return
-    more = more_realisations(comparison)
-    met = "; or ".join(
-        part for part in (other_model, more, f"a tolerance of {tolerance.shown(1.05 * best.answer.error)}") if part
+    larger_sample = more_realisations(comparison)
+    remedies = "; or ".join(
+        part
+        for part in (unasked_model, larger_sample, f"a tolerance of {tolerance.shown(1.05 * best.answer.error)}")
+        if part
     )
-    yield f"what would help: {met}; most of the error is {_main_cause(comparison.scene, best)}"
+    yield f"what would help: {remedies}; most of the error is {_main_cause(comparison.scene, best)}"
 
 
 def more_realisations(comparison: Comparison) -> str:

@@ -67,9 +67,9 @@ def _record_of_comparison(comparison: Comparison) -> dict[str, object]:
         "statistic": comparison.statistic or None,
         "beyond_elasticity": comparison.beyond_elasticity or None,
         "model": comparison.model or None,
-        **{name: _numbers(levels[name]) for name in ("value", "error")},
-        "error_parts": {name: _numbers(halves) for name, halves in parts.items()},
-        **{name: _numbers(levels.get(name, ())) for name in (*AXES, "nominal_hz", *OF_RAIL)},
+        **{name: _finite_numbers(levels[name]) for name in ("value", "error")},
+        "error_parts": {name: _finite_numbers(halves) for name, halves in parts.items()},
+        **{name: _finite_numbers(levels.get(name, ())) for name in (*AXES, "nominal_hz", *OF_RAIL)},
         **swept_of(comparison),
         "assumed": assumed(comparison.scene),
         "notes": list(comparison.scene.diagnose()),
@@ -110,7 +110,7 @@ def table_of_several(comparisons: Sequence[Comparison]) -> Table:
         front = ({"scene": comparison.scene.name} if several else {}) | (
             {"quantity": comparison.quantity} if kinds else {}
         )
-        rows += [front | row for row in _rows(comparison)]
+        rows += [front | row for row in _rows_of_comparison(comparison)]
     names = dict.fromkeys(name for row in rows for name in row)
     return Table(comparisons[0].quantity, {name: [row.get(name, math.nan) for row in rows] for name in names})
 
@@ -121,7 +121,7 @@ def by_quantity(comparisons: Sequence[Comparison]) -> dict[str, list[Comparison]
     return {name: [comparison for comparison in comparisons if comparison.quantity == name] for name in names}
 
 
-def _rows(comparison: Comparison) -> list[dict[str, object]]:
+def _rows_of_comparison(comparison: Comparison) -> list[dict[str, object]]:
     """A row a number or a band, of each model that was solved; NaN where there is no number."""
     force, swept = comparison.force, swept_of(comparison) if comparison.swept else {}
     rows = [row for candidate in comparison.selection.solved for row in _rows_of_model(comparison, candidate, force)]
@@ -173,20 +173,22 @@ def _record_of_model(comparison: Comparison, candidate: Candidate, force: Contac
         "model": candidate.name,
         "is_mdr": candidate.is_mdr,
         "status": candidate.status,
-        "predicted_error": _number(candidate.predicted_error),
-        "claimed": _number(candidate.predicted_error),
-        "error": _number(candidate.error) if solved else None,
-        "cost_s": _number(candidate.cost),
+        "predicted_error": _finite_or_null(candidate.predicted_error),
+        "claimed": _finite_or_null(candidate.predicted_error),
+        "error": _finite_or_null(candidate.error) if solved else None,
+        "cost_s": _finite_or_null(candidate.cost),
         "reason": candidate.reason,
-        "value": _numbers(comparison.value_of(candidate)) if solved else None,
-        "seconds": _number(comparison.seconds_of(candidate)),
-        "force_sum_dBA": _number(force.total(candidate.name)) if force and candidate.name in force.levels else None,
+        "value": _finite_numbers(comparison.value_of(candidate)) if solved else None,
+        "seconds": _finite_or_null(comparison.seconds_of(candidate)),
+        "force_sum_dBA": _finite_or_null(force.total(candidate.name))
+        if force and candidate.name in force.levels
+        else None,
     }
 
 
-def _numbers(values: Iterable[float]) -> list[float | None]:
-    return [_number(value) for value in values]
+def _finite_numbers(values: Iterable[float]) -> list[float | None]:
+    return [_finite_or_null(value) for value in values]
 
 
-def _number(value: float) -> float | None:
+def _finite_or_null(value: float) -> float | None:
     return float(value) if math.isfinite(value) else None

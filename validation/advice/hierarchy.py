@@ -30,14 +30,14 @@ def contradict(first: Answer, second: Answer, tolerance: float) -> bool:
     """
     difference = np.abs(np.log(first.value / second.value))
     if first.band_errors and second.band_errors:
-        both = (first.error_in_bands + second.error_in_bands) * math.log(10) / 20
+        half_widths = (first.error_in_bands + second.error_in_bands) * math.log(10) / 20
         counts = np.array(first.counts or [True] * difference.size) & np.array(
             second.counts or [True] * difference.size
         )
     else:
         difference = np.sqrt(np.mean(difference**2, keepdims=True))
-        both, counts = np.array([math.log1p(first.error) + math.log1p(second.error)]), np.array([True])
-    return bool((counts & (difference > both) & (difference > math.log1p(tolerance))).any())
+        half_widths, counts = np.array([math.log1p(first.error) + math.log1p(second.error)]), np.array([True])
+    return bool((counts & (difference > half_widths) & (difference > math.log1p(tolerance))).any())
 
 
 def distance_of(first: Answer, second: Answer) -> float:

@@ -27,7 +27,9 @@ def compare_scenes(problems: Sequence[SceneProblem], engine: Engine) -> list[Com
 def compare_scene(problem: SceneProblem) -> Outcome:
     """What became of each model, as JSON in one array a quantity."""
     texts = {
-        name: json.dumps([_row(candidate) for candidate in comparison.models], default=np.ndarray.tolist).encode()
+        name: json.dumps(
+            [_row_of_candidate(candidate) for candidate in comparison.models], default=np.ndarray.tolist
+        ).encode()
         for name, comparison in problem.compared().items()
     }
     return {name: np.frombuffer(text, dtype=np.uint8).astype(np.float64) for name, text in texts.items()}
@@ -41,13 +43,13 @@ def _comparison(problem: SceneProblem, quantity: str, outcome: Outcome) -> Compa
     return Comparison(problem.scene, quantity, selection, problem.parsed_tolerance.in_decibels, timed=problem.solve_all)
 
 
-def _row(candidate: Candidate) -> tuple[object, ...]:
+def _row_of_candidate(candidate: Candidate) -> tuple[object, ...]:
     """Status, reason, estimate and answer of a candidate, in the order of the arguments of `_candidate`."""
     return candidate.status, candidate.reason, asdict(candidate.estimate), candidate.answer and asdict(candidate.answer)
 
 
 def _candidate(model: SceneModel, status: Status, reason: str, estimate: Any, answer: Any) -> Candidate:
-    """A candidate from its row, see `_row`."""
+    """A candidate from its row, see `_row_of_candidate`."""
     if answer:
         bands = {name: np.array(half, dtype=np.float64) for name, half in answer["band_errors"].items()}
         value, cost = np.array(answer["value"], dtype=np.float64), Cost(**answer["cost"])

@@ -38,8 +38,8 @@ def error_of_difference(comparison: Comparison, candidate: Candidate) -> np.ndar
         for errors in [comparison.error_parts_of(model)]
     ]
     random = [errors[name] for errors in parts for name in ("grid", "sample")]
-    both = sum(errors["model"] for errors in parts) + np.sqrt(np.sum(np.square(random), axis=0))
-    return np.asarray(both if comparison.is_level else 20 * np.log10(1 + both))
+    half_width = sum(errors["model"] for errors in parts) + np.sqrt(np.sum(np.square(random), axis=0))
+    return np.asarray(half_width if comparison.is_level else 20 * np.log10(1 + half_width))
 
 
 def counted_bands(comparison: Comparison, candidate: Candidate) -> NDArray[np.bool_]:

@@ -107,7 +107,7 @@ def _reasons(comparison: Comparison) -> Iterator[str]:
 
 def grouped(reasons: Mapping[str, str]) -> Iterator[tuple[tuple[str, ...], str]]:
     """Names of models and the clauses that these and no others have, in their order. reasons: by name."""
-    times = Counter(end for reason in set(reasons.values()) for end in _ends(reason))
+    times = Counter(end for reason in set(reasons.values()) for end in _clauses_and_causes(reason))
     names = dict[str, dict[str, None]]()
     for name, reason in reasons.items():
         for clause in _clauses(reason, times):
@@ -118,7 +118,7 @@ def grouped(reasons: Mapping[str, str]) -> Iterator[tuple[tuple[str, ...], str]]
     return ((those, CLAUSE.join(same)) for those, same in clauses.items())
 
 
-def _ends(reason: str) -> set[str]:
+def _clauses_and_causes(reason: str) -> set[str]:
     """Clauses, and what stands behind the colon of one."""
     clauses = reason.split(CLAUSE)
     return {*clauses, *(clause.partition(CAUSE)[2] for clause in clauses)}

@@ -139,7 +139,7 @@ def as_csv(table: Table, *, drawn: bool = False) -> bytes:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(map(as_text, header_of(table)))
-    columns = {name: [_cell(value, digits, as_text) for value in values] for name, values in table.columns.items()}
+    columns = {name: [_csv_cell(value, digits, as_text) for value in values] for name, values in table.columns.items()}
     if drawn and columns.keys() >= {*VALUES}:
         ends = zip(*(columns[name] for name in INTERVAL), columns["value"], strict=True)
         exact = [low == high == value for low, high, value in ends]
@@ -148,7 +148,7 @@ def as_csv(table: Table, *, drawn: bool = False) -> bytes:
     return text.getvalue().encode()
 
 
-def _cell(value: object, digits: int, as_text: Callable[[str], str]) -> object:
+def _csv_cell(value: object, digits: int, as_text: Callable[[str], str]) -> object:
     if isinstance(value, str):
         return as_text(value)
     if not isinstance(value, float):
@@ -163,11 +163,11 @@ def from_csv(name: str, text: str) -> Table:
     names = [name.removesuffix(f" [{unit}]") if name.startswith(VALUES) else name for name in header]
     columns = dict(zip(names, zip(*rows, strict=True) if rows else [()] * len(names), strict=True))
     if columns.keys() >= {*VALUES}:
-        columns |= {n: tuple(map(_first, columns[n], columns["value"])) for n in INTERVAL}
-    return Table(name, {column: _values(cells) for column, cells in columns.items()}, unit)
+        columns |= {n: tuple(map(_cell_or_value, columns[n], columns["value"])) for n in INTERVAL}
+    return Table(name, {column: _typed_column(cells) for column, cells in columns.items()}, unit)
 
 
-def _first(cell: str, value: str) -> str:
+def _cell_or_value(cell: str, value: str) -> str:
     return cell or value
 
 
@@ -176,7 +176,7 @@ def as_written(table: Table) -> Table:
     return from_csv(table.name, as_csv(table, drawn=True).decode())
 
 
-def _values(cells: Sequence[str]) -> Sequence[object]:
+def _typed_column(cells: Sequence[str]) -> Sequence[object]:
     """Of one column, which has one type."""
     if all(cell in BOOLEAN for cell in cells):
         return [BOOLEAN[cell] for cell in cells]

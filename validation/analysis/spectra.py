@@ -220,9 +220,9 @@ def oscillation_period(omega: FloatArray, density: FloatArray, first: float, las
     log, x = np.log(density[inside]), np.log(omega[inside])
     if x.size // 4 <= least:
         return math.nan
-    rest = log - np.polyval(np.polyfit(x, log, 1), x)
+    residuals = log - np.polyval(np.polyfit(x, log, 1), x)
     w = np.sin(np.pi * np.arange(x.size) / x.size) ** 2
-    line = np.abs(np.fft.rfft(rest * w)) ** 2
+    line = np.abs(np.fft.rfft(residuals * w)) ** 2
     top = least + int(np.argmax(line[least : x.size // 4]))
     if line[top] < OUTSTANDING * np.median(line[least : x.size // 4]):
         return math.nan

@@ -113,9 +113,9 @@ def ratio_of_means(values: FloatArray, references: FloatArray) -> Estimate:
     finite = np.isfinite(values)
     x, y = values[finite], references[finite]
     ratio = float(x.mean() / y.mean())
-    left = x - ratio * y
-    error = float(left.std(ddof=1)) / math.sqrt(left.size) / abs(float(y.mean()))
-    return Estimate(ratio, error, left.size)
+    residuals = x - ratio * y
+    error = float(residuals.std(ddof=1)) / math.sqrt(residuals.size) / abs(float(y.mean()))
+    return Estimate(ratio, error, residuals.size)
 
 
 def log_ratio_of_means(values: FloatArray, references: FloatArray, weights: FloatArray) -> Estimate:
@@ -324,17 +324,17 @@ def moments(values: FloatArray, used: NDArray[np.bool_]) -> Moments:
     """Sample mean and sample variance of the realisations that are used, two at least; zero if rounding alone."""
     sample = values[used]
     n = sample.size
-    left = sample - sample.mean()
+    deviations = sample - sample.mean()
     # equal values differ by rounding, which must not pass for a variance
-    if np.abs(left).max() < ROUNDING * abs(sample.mean()):
-        left = np.zeros(n)
-    variance = float((left**2).sum()) / (n - 1)
+    if np.abs(deviations).max() < ROUNDING * abs(sample.mean()):
+        deviations = np.zeros(n)
+    variance = float((deviations**2).sum()) / (n - 1)
     # a place for every realisation, zero where it is not used: in sums over grids the influences of one
     # realisation add up before they are squared, and with them the covariance of nested samples
     to_mean, to_variance = np.zeros((2, values.size))
     # sum of squares: s^2 / n, and the variance of s^2 to the order 1 / n^2
-    to_mean[used] = left / math.sqrt(n * (n - 1))
-    to_variance[used] = (left**2 * n / (n - 1) - variance) / math.sqrt(n * (n - 1))
+    to_mean[used] = deviations / math.sqrt(n * (n - 1))
+    to_variance[used] = (deviations**2 * n / (n - 1) - variance) / math.sqrt(n * (n - 1))
     return Moments(Linearised(float(sample.mean()), to_mean), Linearised(variance, to_variance))
 
 
@@ -351,6 +351,6 @@ def multilevel_moments(grids: Sequence[FloatArray]) -> list[Moments]:
         else:
             # the step to a finer grid on the realisations of both: what they share drops out, so that few will do.
             # All rows of the coarser one would be more of a sample, and would not cancel
-            both = np.isfinite(fine) & np.isfinite(grids[i - 1])
-            levels.append(levels[-1].with_step(moments(fine, both), moments(grids[i - 1], both)))
+            in_both = np.isfinite(fine) & np.isfinite(grids[i - 1])
+            levels.append(levels[-1].with_step(moments(fine, in_both), moments(grids[i - 1], in_both)))
     return levels

@@ -130,7 +130,7 @@ def draw(chart: Chart, evidence: Evidence, users: Collection[str] = ()) -> Figur
     axes, spare = grid[: len(facets)], grid[len(facets) :]
     _share(axes, [panel for panel, _ in facets])
     curves = [curve for panel in chart.panels for curve in _curves_with_table(panel, evidence)]
-    styles = styles_of((name for curve in curves for name in _models(_rows(evidence, curve, {}))), users)
+    styles = styles_of((name for curve in curves for name in _models(_rows_of_curve(evidence, curve, {}))), users)
     for axis, (panel, facet) in zip(axes, facets, strict=True):
         try:
             _panel(axis, panel, facet, evidence, styles)
@@ -172,7 +172,7 @@ def _facets(panel: Panel, evidence: Evidence) -> list[dict[str, object]]:
     names = (panel.facet,) if isinstance(panel.facet, str) else panel.facet
     if not names or not names[0]:
         return [{}]
-    tables = [_rows(evidence, curve, {}) for curve in _curves_with_table(panel, evidence)]
+    tables = [_rows_of_curve(evidence, curve, {}) for curve in _curves_with_table(panel, evidence)]
     values = dict.fromkeys(
         key for table in tables for key in zip(*(table.columns.get(n, ()) for n in names), strict=True)
     )
@@ -191,8 +191,8 @@ def _panel(axis: Axes, panel: Panel, facet: dict[str, object], evidence: Evidenc
         axis.axhline(y, color="#000000", linewidth=0.8)
     for curve in _curves_with_table(panel, evidence):
         # a family has one style in all facets
-        family_keys = [key for key, *_ in _families(curve, _rows(evidence, curve, {}))]
-        for key, values, rows in _families(curve, _rows(evidence, curve, facet)):
+        family_keys = [key for key, *_ in _families(curve, _rows_of_curve(evidence, curve, {}))]
+        for key, values, rows in _families(curve, _rows_of_curve(evidence, curve, facet)):
             i = family_keys.index(key)
             is_ordered = set(curve.by) - {"model"}
             own = graded(i, len(family_keys)) if is_ordered else styles[_models(rows)[0]]
@@ -276,7 +276,7 @@ def _value_label(name: str, value: object) -> str:
         return str(value)
 
 
-def _rows(evidence: Evidence, curve: Curve, more: dict[str, object]) -> Table:
+def _rows_of_curve(evidence: Evidence, curve: Curve, more: dict[str, object]) -> Table:
     return _matching_rows(evidence.table(curve.quantity), {"model": curve.model, **curve.of, **more})
 
 

@@ -29,7 +29,7 @@ def kept_sections(folder: Path, profile: Profile, regenerated: Collection[str]) 
     """
     if not (folder / RESULTS).exists():
         raise ValueError(f"--keep needs an earlier report in --out, got {folder} without {RESULTS}")
-    results = _read(folder / RESULTS)
+    results = _read_json(folder / RESULTS)
     if "scene" in results:
         raise ValueError(f"--keep is for reports on the scenes of the cases, got one on a scene of your own: {folder}")
     if results["profile"] != profile:
@@ -37,7 +37,7 @@ def kept_sections(folder: Path, profile: Profile, regenerated: Collection[str]) 
     cases = dict(results["cases"])
     for name in TIMED:
         if (folder / f"{name}.json").exists():
-            cases |= _read(folder / f"{name}.json")["cases"]
+            cases |= _read_json(folder / f"{name}.json")["cases"]
     return [
         _section(folder, name, case)
         for name, case in cases.items()
@@ -47,10 +47,10 @@ def kept_sections(folder: Path, profile: Profile, regenerated: Collection[str]) 
 
 def kept_provenance(folder: Path) -> dict[str, Any]:
     """What the report in folder says of how it was made."""
-    return _read(folder / PROVENANCE)
+    return _read_json(folder / PROVENANCE)
 
 
-def _read(path: Path) -> dict[str, Any]:
+def _read_json(path: Path) -> dict[str, Any]:
     return dict(json.loads(path.read_text(encoding="utf-8")))
 
 
@@ -86,7 +86,7 @@ def _evidence(folder: Path, name: str, case: Mapping[str, Any]) -> Evidence:
         conclusions=tuple(case["conclusions"]),
         unconverged=tuple(case["unconverged"]),
         page_tables=tuple(
-            Table(table["name"], {name: list(map(_cell, cells)) for name, cells in table["columns"].items()})
+            Table(table["name"], {name: list(map(_read_cell, cells)) for name, cells in table["columns"].items()})
             for table in value_of(case, "page_tables", "page tables")
         ),
         claims=tuple(_claim(name, claim, numbers) for claim in case["claims"]),
@@ -118,5 +118,5 @@ def _key_of(case: str, words: str) -> str:
     return next((claim.key for claim in declared if words.startswith(claim.says.partition("{")[0])), "")
 
 
-def _cell(cell: Any) -> object:
+def _read_cell(cell: Any) -> object:
     return VerdictCell(cell["text"], Verdict(cell["verdict"]), cell["after"]) if isinstance(cell, dict) else cell

@@ -100,7 +100,7 @@ def _without_verdicts(table: Table) -> Table:
 def numbers_table(numbers: Sequence[Number]) -> Table:
     """All that is known of each."""
     named = "quantity model conditions verdict value reference unit difference grid sample tolerance reason source role"
-    return Table("numbers", {name: [_plain(getattr(number, name)) for number in numbers] for name in named.split()})
+    return Table("numbers", {name: [_json_cell(getattr(number, name)) for number in numbers] for name in named.split()})
 
 
 def claims_of_others(sections: Sequence[Section]) -> list[tuple[Section, JudgedClaim]]:
@@ -126,7 +126,7 @@ def results_of(sections: Sequence[Section], profile: Profile) -> dict[str, objec
 def case_results(section: Section) -> dict[str, object]:
     """Everything that the page says of a case, as plain values; its tables are in files of their own."""
     results = {
-        **(_words(section.evidence) if section.evidence else {}),
+        **(_results_of_evidence(section.evidence) if section.evidence else {}),
         "claim": section.entry.claim,
         "claims": [
             {
@@ -167,13 +167,16 @@ WORDS = ("title", "finding", "method", "captions", "headlines")
 """Of evidence, that are in its results as they are."""
 
 
-def _words(evidence: Evidence) -> dict[str, object]:
+def _results_of_evidence(evidence: Evidence) -> dict[str, object]:
     """What it says beside its numbers and claims."""
     return {
         **{name: getattr(evidence, name) for name in WORDS},
         "tables": [table.name for table in written_tables(evidence)],
         "page_tables": [
-            {"name": table.name, "columns": {name: list(map(_plain, cells)) for name, cells in table.columns.items()}}
+            {
+                "name": table.name,
+                "columns": {name: list(map(_json_cell, cells)) for name, cells in table.columns.items()},
+            }
             for table in evidence.page_tables
         ],
         "sounds": asdict(evidence.sounds) if evidence.sounds else None,
@@ -185,7 +188,7 @@ def written_tables(evidence: Evidence) -> list[Table]:
     return [table for table in evidence.tables if not evidence.sounds or table.name != evidence.sounds.table]
 
 
-def _plain(cell: object) -> object:
+def _json_cell(cell: object) -> object:
     """A cell as strict JSON can hold it, printed the same."""
     if isinstance(cell, VerdictCell):
         return {**asdict(cell), "verdict": cell.verdict.earlier, "outcome": cell.verdict}

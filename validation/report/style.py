@@ -63,7 +63,7 @@ BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY = "#0072B2", "#D55E00", "#009E73", "
 MARKERS = "osD^v<>ph*"
 
 
-def _of(color: str, marker: str, dash: str, *, open_: bool = False) -> Style:
+def _style(color: str, marker: str, dash: str, *, open_: bool = False) -> Style:
     face = {"markerfacecolor": "white"} if open_ else {}
     return {"color": color, "marker": marker, "linestyle": dash, "markersize": 3.5, "linewidth": 1.1, **face}
 
@@ -73,25 +73,28 @@ MODELS: Mapping[str, Style] = {
     for names, style in (
         (
             ("boundary elements", "boundary elements, punch", "BEM", "fine boundary elements", "sphere, b"),
-            _of(BLUE, "o", "-"),
+            _style(BLUE, "o", "-"),
         ),
-        (("boundary elements, ", "coarse boundary elements", "flat punches"), _of(BLUE, "o", "--", open_=True)),
-        (("BEM, looser residual",), _of(BLUE, "d", ":", open_=True)),
-        (("BEM, extrapolated", "boundary elements, 1/3", "wave"), _of(BLUE, "h", "--", open_=True)),
-        (("springs", "MDR", "L_1D", "sphere, s", "drawn profile", "no window"), _of(VERMILION, "s", "-", open_=True)),
+        (("boundary elements, ", "coarse boundary elements", "flat punches"), _style(BLUE, "o", "--", open_=True)),
+        (("BEM, looser residual",), _style(BLUE, "d", ":", open_=True)),
+        (("BEM, extrapolated", "boundary elements, 1/3", "wave"), _style(BLUE, "h", "--", open_=True)),
+        (
+            ("springs", "MDR", "L_1D", "sphere, s", "drawn profile", "no window"),
+            _style(VERMILION, "s", "-", open_=True),
+        ),
         (
             ("springs, ", "springs on", "springs over an area", "L_1D = 1", "Hann"),
-            _of(VERMILION, "D", "--", open_=True),
+            _style(VERMILION, "D", "--", open_=True),
         ),
-        (("linear filter, 3D", "linear theory, 3D", "linear, ellipse", "linear contact"), _of(GREEN, "^", "-")),
-        (("linear filter, 1D", "(14.12)", "linear, on", "linear theory"), _of(PURPLE, "v", "--")),
-        (("(14.14)",), _of(PURPLE, "none", ":")),
-        (("spring bed", "one-sided bed"), _of(ORANGE, "p", "-.")),
-        (("Remington",), _of(SKY, "P", "-.")),
-        (("closed form",), _of(INK, "*", "-")),
-        (("fit",), _of(INK, "x", ":")),
-        (("Hertz", "Westergaard", "Persson", "theory", "second order", "sin("), _of(INK, "none", "-")),
-        (("floor", "published", "1 / (1 + H)", "at the least"), _of(INK, "none", ":")),
+        (("linear filter, 3D", "linear theory, 3D", "linear, ellipse", "linear contact"), _style(GREEN, "^", "-")),
+        (("linear filter, 1D", "(14.12)", "linear, on", "linear theory"), _style(PURPLE, "v", "--")),
+        (("(14.14)",), _style(PURPLE, "none", ":")),
+        (("spring bed", "one-sided bed"), _style(ORANGE, "p", "-.")),
+        (("Remington",), _style(SKY, "P", "-.")),
+        (("closed form",), _style(INK, "*", "-")),
+        (("fit",), _style(INK, "x", ":")),
+        (("Hertz", "Westergaard", "Persson", "theory", "second order", "sin("), _style(INK, "none", "-")),
+        (("floor", "published", "1 / (1 + H)", "at the least"), _style(INK, "none", ":")),
     )
     for name in names
 }
@@ -115,7 +118,7 @@ def styles_of(names: Iterable[str], users: Collection[str] = ()) -> dict[str, St
     for i, name in enumerate(dict.fromkeys(names)):
         color, dash = CATEGORIES[i % len(CATEGORIES)]
         style = None if name in users else _of_model(name)
-        style = style or _of(color, MARKERS[i % len(MARKERS)], dash, open_=True)
+        style = style or _style(color, MARKERS[i % len(MARKERS)], dash, open_=True)
         # a second model of a kind has another marker and another dash
         again = {"marker": MARKERS[-1 - i % len(MARKERS)], "linestyle": CATEGORIES[i % 4][1]}
         styles[name] = {**style, **again} if style in styles.values() and style["marker"] != "none" else style
@@ -125,7 +128,7 @@ def styles_of(names: Iterable[str], users: Collection[str] = ()) -> dict[str, St
 def graded(i: int, count: int) -> Style:
     """The i-th of several curves in the order of a number: from dark to light, each with a marker of its own."""
     color = to_hex(matplotlib.colormaps["viridis"](0.85 * i / max(count - 1, 1)))
-    return _of(color, MARKERS[i % len(MARKERS)], "-")
+    return _style(color, MARKERS[i % len(MARKERS)], "-")
 
 
 GUIDE: Style = {"color": SOFT, "linestyle": ":", "linewidth": 1.0, "marker": "none"}

@@ -86,11 +86,11 @@ class RollingClaim:
             expected = self._by_envelope(target, expected.reason)
         if not expected.in_range:
             return expected
-        own = self.own if ground.is_single else 0.0
-        scatters = f"one track scatters {own:.0%} about the mean of its spectrum" if own else ""
+        scatter_of_one = self.own if ground.is_single else 0.0
+        scatters = f"one track scatters {scatter_of_one:.0%} about the mean of its spectrum" if scatter_of_one else ""
         rests_on = scatters, self.on_rms if quantity.name == FORCE_RMS else self.on_bands, expected.reason
         reason = "; ".join(filter(None, rests_on))
-        return ErrorEstimate(model=expected.model + own, reason=reason)
+        return ErrorEstimate(model=expected.model + scatter_of_one, reason=reason)
 
     def shape(self, target: Target) -> float:
         """What the error goes with."""
@@ -126,8 +126,8 @@ def filled(target: Target, value: FloatArray, share: float) -> float:
     """Error of quiet bands that have so much more: a share of h/d of the level of all bands."""
     if value.size == 1:
         return 0.0
-    other = share * target.scene.roughness_ratio * float(np.linalg.norm(value))
-    return distance(np.hypot(value, other), value)
+    missing_level = share * target.scene.roughness_ratio * float(np.linalg.norm(value))
+    return distance(np.hypot(value, missing_level), value)
 
 
 ON_A_LINE = RollingClaim(

@@ -113,7 +113,7 @@ def _answered_question(question: Question, sections: Mapping[str, Section]) -> A
     cells = source.cells(section.evidence)
     if not cells:
         return AnsweredQuestion(question, NOT_MEASURED, f"{section.name} has no number for it.", section.name)
-    numbers, verdicts = _numbers(cells), {cell.verdict for cell in cells}
+    numbers, verdicts = _numbers_of_cells(cells), {cell.verdict for cell in cells}
     within = _margins(question, numbers)
     evidence = {name: case_section.evidence for name, case_section in sections.items() if case_section.evidence}
     alternatives = [
@@ -136,7 +136,7 @@ def _answered_question(question: Question, sections: Mapping[str, Section]) -> A
     )
 
 
-def _numbers(cells: Iterable[Cell]) -> list[Number]:
+def _numbers_of_cells(cells: Iterable[Cell]) -> list[Number]:
     return [number for cell in cells for number in cell.numbers]
 
 
@@ -158,7 +158,7 @@ def _measured(cells: Sequence[Cell], source: Source) -> list[str]:
     """The whole range, and the conditions of its numbers: outside nothing is known."""
     ranges: dict[str, list[Place]] = {source.over: [cell.place for cell in cells if not isinstance(cell.place, str)]}
     for name in source.series:
-        ranges[name] = [number.where[name] for number in _numbers(cells) if name in number.where]
+        ranges[name] = [number.where[name] for number in _numbers_of_cells(cells) if name in number.where]
     return [span(places, name) for name, places in ranges.items() if places]
 
 
@@ -179,7 +179,7 @@ def _alternative_text(model: Alternative, question: Question, within: str, evide
     if model.source is None:
         return model.name
     cells = model.source.cells(evidence[model.source.case]) if model.source.case in evidence else []
-    margin = _margins(question, _numbers(cells))
+    margin = _margins(question, _numbers_of_cells(cells))
     by = f", within {margin} {model.by}".rstrip() if model.by or margin != within else ""
     where = _verdict_range(cells, Verdict.WITHIN, model.source.over)
     return f"{model.name} {where}{by}" if where else ""
@@ -238,7 +238,7 @@ def sentence(cells: Sequence[Cell], over: str, printed: Printed) -> str:
     clauses = []
     for verdict in OF_NUMBERS:
         if where := _verdict_range(cells, verdict, over):
-            numbers = _numbers(cell for cell in cells if cell.verdict is verdict)
+            numbers = _numbers_of_cells(cell for cell in cells if cell.verdict is verdict)
             clauses.append(f"{verdict} {where}: {_deviations(verdict, numbers, printed)}")
     text = "; ".join(clauses)
     return f"{text[0].upper()}{text[1:]}."

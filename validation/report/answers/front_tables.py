@@ -29,7 +29,7 @@ def times_faster(sections: Sequence[Section]) -> list[dict[str, Any]]:
         return []
     table = section.evidence.table(FASTER)
     rows = [dict(zip(table.columns, row, strict=True)) for row in zip(*table.columns.values(), strict=True)]
-    return [row | _verdict_on_error(row, section.evidence) | {"place": _place(row, section)} for row in rows]
+    return [row | _verdict_on_error(row, section.evidence) | {"place": _place_on_axis(row, section)} for row in rows]
 
 
 def _verdict_on_error(row: Mapping[str, Any], evidence: Evidence) -> dict[str, Any]:
@@ -45,7 +45,7 @@ def _verdict_on_error(row: Mapping[str, Any], evidence: Evidence) -> dict[str, A
     return {"enough": verdict, "value": value, "half": half}
 
 
-def _place(row: Mapping[str, Any], section: Section) -> str:
+def _place_on_axis(row: Mapping[str, Any], section: Section) -> str:
     """On the axis of the answers: the load, or the slope, with which the scene of a chart is rough; else nothing."""
     settings: Mapping[str, Any] = section.settings
     if row["scene"] == RoughPunchProblem.name:

@@ -86,8 +86,8 @@ def _joined_overlaps(numbers_by_place: dict[Place, list[Number]]) -> dict[Place,
         if isinstance(before, str) or isinstance(place, str) or ends_of(place)[0] >= ends_of(before)[1]:
             joined[place] = numbers_by_place[place]
         else:
-            both = (ends_of(before)[0], max(ends_of(before)[1], ends_of(place)[1]))
-            joined[both] = [*joined.pop(before), *numbers_by_place[place]]
+            joined_range = (ends_of(before)[0], max(ends_of(before)[1], ends_of(place)[1]))
+            joined[joined_range] = [*joined.pop(before), *numbers_by_place[place]]
     return joined
 
 
@@ -96,5 +96,5 @@ def span(places: Sequence[Place], name: str = "") -> str:
     if isinstance(places[0], str):
         return listed(list(dict.fromkeys(places)))
     low, high = min(ends_of(place)[0] for place in places), max(ends_of(place)[1] for place in places)
-    both = interval_text(low, high, 2)
-    return placed(name, both) if name else both
+    text = interval_text(low, high, 2)
+    return placed(name, text) if name else text

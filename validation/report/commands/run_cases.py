@@ -94,12 +94,12 @@ def lines_of(section: Section) -> list[str]:
     details += [f"missed: {number.sentence}" for number in section.missed]
     details += [f"not converged: {solve}" for solve in section.unconverged]
     if section.name in TIMED and section.evidence:
-        details += [line for table in section.evidence.page_tables for line in _rows(table)]
+        details += [line for table in section.evidence.page_tables for line in _table_lines(table)]
     head = f"{section.name:15s} {'no result' if section.failure else met}"
     return [head, *(f"    {line}" for line in details)]
 
 
-def _rows(table: Table) -> list[str]:
+def _table_lines(table: Table) -> list[str]:
     """A line a row, under the name of the table."""
     rows = zip(*table.columns.values(), strict=True)
     pairs = ([pair for pair in zip(table.columns, row, strict=True) if pair[1] != ""] for row in rows)
