@@ -51,7 +51,8 @@ def test_a_command_ends_well_in_ascii(about, words):
     kept = {name: value for name, value in os.environ.items() if name not in ("PYTHONIOENCODING", *LOCALE)}
     command = [sys.executable, "-m", "validation", *words]
     found = subprocess.run(command, env=kept | about, capture_output=True, check=False)
-    assert (found.returncode, found.stderr) == (0, b"")
+    notes = [line for line in found.stderr.splitlines() if line.startswith(b"note: ")]
+    assert (found.returncode, found.stderr.splitlines()) == (0, notes)
     assert words[0] == "sound" or b"1 um" in found.stdout
 
 
