@@ -28,7 +28,7 @@ from validation.report.page import FIGURES, begin_to_draw, pages, scene_summary
 from validation.report.provenance import machine, provenance, require_todays_code, versions_of, with_kept
 from validation.report.section import Section, numbers_table, results_of, written_tables
 from validation.report.sounds import sound_files
-from validation.scenes.dynamic_wheel import WheelScene
+from validation.scenes.rolling import RollingScene
 
 
 def build(
@@ -38,7 +38,7 @@ def build(
     out: Path,
     workers: int,
     seed: int | None,
-    scene: WheelScene | None = None,
+    scene: RollingScene | None = None,
     executor: str = LOCAL,
     progress: bool = True,
     keep: bool = False,
@@ -145,7 +145,7 @@ def _files(
     pictures: Mapping[str, bytes],
     profile: Profile,
     about: dict[str, object],
-    scene: WheelScene | None,
+    scene: RollingScene | None,
 ) -> dict[str, bytes]:
     """All that a report is, the page last.
 

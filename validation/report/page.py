@@ -21,7 +21,7 @@ from validation.report.section import Section, claims_of_others, total_of
 from validation.report.sounds import sound_place
 from validation.report.style import drawn, picture
 from validation.scenes.description import describe
-from validation.scenes.dynamic_wheel import WheelScene
+from validation.scenes.rolling import RollingScene
 
 FIGURES = "figures"
 """The part of a run in which they are drawn, and their folder."""
@@ -101,7 +101,7 @@ def figures_of(sections: Sequence[Section]) -> dict[str, PageFigure]:
     return found
 
 
-def scene_summary(scene: WheelScene) -> dict[str, object]:
+def scene_summary(scene: RollingScene) -> dict[str, object]:
     """The first lines of a report on a scene of the user's own."""
     return {
         "name": scene.name,
@@ -112,7 +112,7 @@ def scene_summary(scene: WheelScene) -> dict[str, object]:
 
 
 def pages(
-    sections: Sequence[Section], profile: Profile, about: dict[str, object], scene: WheelScene | None
+    sections: Sequence[Section], profile: Profile, about: dict[str, object], scene: RollingScene | None
 ) -> dict[str, bytes]:
     """By their names. about: the provenance; scene: of the user's own, or None."""
     chapters = [(chapter, some) for chapter in Chapter if (some := [s for s in sections if s.entry.chapter == chapter])]

@@ -7,7 +7,7 @@ from validation.engine.street import places
 from validation.report.commands.arguments import Exit, add_options, add_profile, add_workers, at_least, some_of
 
 WHEELS = ("rough_wheel", "table_14_1")
-"""The scenes that `bundled_wheels` finds, which imports numerics."""
+"""The scenes that `bundled_with_track` finds, which imports numerics."""
 
 
 def describe(making: argparse.ArgumentParser) -> None:
