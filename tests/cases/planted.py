@@ -8,7 +8,7 @@ import numpy as np
 
 from validation.analysis.evidence import numbers_with
 from validation.cases.wheel import half_space as wheel_3d
-from validation.scenes.dynamic_wheel import load_wheel_scene
+from validation.scenes.load import load_scene_with_track
 from validation.simulation.wheel_on_springs import WheelEnsemble
 
 NOTHING = MappingProxyType({})
@@ -47,16 +47,16 @@ def whole(evidence):
     return evidence
 
 
-TABLE = load_wheel_scene("table_14_1")
+TABLE = load_scene_with_track("table_14_1")
 ROUNDING = 1e-12
 DECIBEL = 10 / math.log(10)
-SMALL = replace(TABLE, distance=0.16, springs=24, rail=replace(TABLE.rail, shortest=0.5e-3))
+SMALL = replace(TABLE, distance=0.16, springs=24, ground=replace(TABLE.rail, shortest=0.5e-3))
 """Seven natural periods in two thousand steps."""
 BOTH = replace(SMALL, wheel=replace(SMALL.rail, rms=0.3e-6, longest=5e-3, hurst=0.5))
-LITTLE = replace(SMALL, radius=0.02, rail=None, wheel=replace(SMALL.rail, shortest=0.4e-3), distance=0.3)
+LITTLE = replace(SMALL, radius=0.02, ground=None, wheel=replace(SMALL.rail, shortest=0.4e-3), distance=0.3)
 """A wheel that turns more than twice."""
-COARSE = replace(TABLE, springs=8, distance=0.16, rail=replace(TABLE.rail, longest=8e-3, shortest=2e-3))
-LOW = replace(COARSE, rail=replace(COARSE.rail, shortest=4e-3, rms=1e-3 * COARSE.approach))
+COARSE = replace(TABLE, springs=8, distance=0.16, ground=replace(TABLE.rail, longest=8e-3, shortest=2e-3))
+LOW = replace(COARSE, ground=replace(COARSE.rail, shortest=4e-3, rms=1e-3 * COARSE.approach))
 QUICK_3D = wheel_3d.Wheel3D(scene=COARSE, strips=3, finer=3, cells=4, shared=1, wheels=20, groups=5, tolerance=1e-4)
 TRACKS = ("open", "part", "steady-state")
 

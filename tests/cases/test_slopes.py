@@ -37,7 +37,7 @@ from validation.simulation.reduced_models import MODELS, bands_of
 from validation.simulation.rough_punch import PunchRoughness
 from validation.simulation.track_spectrum import self_affine
 
-WHEEL = validation.load_wheel_scene("table_14_1")
+WHEEL = validation.load_scene("table_14_1")
 RNG = np.random.default_rng(0)
 
 
@@ -92,7 +92,7 @@ def test_table_14_1_has_one_slope_everywhere():
     assert WHEEL.rms / d * spectrum.slope_along == pytest.approx(expected, rel=1e-9)
 
 
-@catches_root_of_two("h' of rail and wheel", "validation.scenes.dynamic_wheel.WheelScene.slope_along")
+@catches_root_of_two("h' of rail and wheel", "validation.scenes.rolling.RollingScene.slope_along")
 def test_slopes_of_rail_and_wheel_add_by_squares():
     both = replace(WHEEL, wheel=replace(WHEEL.rail, rms=3 * WHEEL.rail.rms))
     assert of_wheel(both)["h' a/d"] == pytest.approx(math.sqrt(10) * slope_of_table_14_1(), rel=1e-9)

@@ -92,7 +92,7 @@ def test_a_lost_force_is_a_missed_criterion(long_wheel):
 
 def test_what_does_not_stand_out_has_no_number():
     """Waves of less than three periods of the oscillation: no slope, no period."""
-    case = replace(LONG, scene=replace(SMALL, rail=replace(SMALL.rail, shortest=2e-3)), realisations=10)
+    case = replace(LONG, scene=replace(SMALL, ground=replace(SMALL.rail, shortest=2e-3)), realisations=10)
     found = whole(CASE.evidence(spectrum.run(case)))
     missing = {QUANTITIES[name] for name in spectrum.SOURCES} - {number.quantity for number in found.numbers}
     assert missing == {QUANTITIES[name] for name in (SLOPE, PERIOD)}
@@ -116,7 +116,7 @@ def test_one_parameter_at_a_time():
 @pytest.mark.parametrize(("of", "case"), [(spectrum, LONG), (by_distance, by_distance.WheelDistance())])
 def test_a_scene_without_the_roughness_of_its_case_is_refused(of, case):
     with pytest.raises(ValueError, match="scene must have a rough rail"):
-        of.run(replace(case, scene=replace(TABLE, rail=None)))
+        of.run(replace(case, scene=replace(TABLE, ground=None)))
 
 
 # --- distances ---
@@ -249,5 +249,5 @@ def test_the_contrast_is_that_of_filled_zeros(share):
 def test_zeros_have_both_of_their_maxima_in_region_3():
     period, zeros = TABLE.oscillation_period, half_space_study.zeros_of(TABLE)
     assert TABLE.jump < (zeros[0] - 0.5) * period and TABLE.cutoff > (zeros[-1] + 0.5) * period
-    narrow = replace(TABLE, rail=replace(TABLE.rail, longest=2e-3, shortest=1.5e-3))
+    narrow = replace(TABLE, ground=replace(TABLE.rail, longest=2e-3, shortest=1.5e-3))
     assert half_space_study.zeros_of(narrow).size == 0

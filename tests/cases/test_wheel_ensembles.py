@@ -79,7 +79,7 @@ def test_a_part_is_the_beginning_of_the_motion_that_repeats_itself(linear):
 
 
 @catches("a wheel of half of its circumference").at(
-    "validation.scenes.dynamic_wheel.WheelScene.circumference_points",
+    "validation.scenes.wheel_track.OnTrack.circumference_points",
     property(lambda one: round(np.pi * one.radius / one.spacing)),
 )
 def test_the_roughness_of_a_wheel_repeats_after_its_circumference():
@@ -99,7 +99,7 @@ def test_rail_and_wheel_add_as_spectra():
     """Heights add to the last bit; where they are independent the cross terms of 40 pairs are below four standard
     errors of a mean of products of independent waves."""
     count, steps = 40, rides(BOTH).steps
-    alone = rides(replace(BOTH, rail=None))
+    alone = rides(replace(BOTH, ground=None))
     turns = [alone._draw_track(BOTH.wheel, BOTH.circumference_points, wheel_ensemble.WHEEL, i) for i in range(count)]
     both, rail = (rides(one, count=count).heights()[:steps] for one in (BOTH, replace(BOTH, wheel=None)))
     of_wheel = np.stack([np.resize(one, steps) for one in turns], axis=1)

@@ -28,7 +28,7 @@ def test_strips_are_the_same_surface_on_grids_with_a_divisor():
         strip(cells=5)
 
 
-@pytest.mark.parametrize("scene", [replace(LOW, rail=None), BOTH], ids=["smooth", "rough wheel"])
+@pytest.mark.parametrize("scene", [replace(LOW, ground=None), BOTH], ids=["smooth", "rough wheel"])
 def test_a_strip_is_that_of_a_rough_rail_alone(scene):
     with pytest.raises(ValueError, match="scene must have a rough rail and a smooth wheel"):
         strip(scene)

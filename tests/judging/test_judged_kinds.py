@@ -17,7 +17,7 @@ from validation.judging.kinds.own import bed, ellipse, geike, half_space, in_1d,
 from validation.judging.registry import offer
 from validation.judging.worker import Called
 from validation.railway.theory import contact_filters
-from validation.scenes.dynamic_wheel import load_wheel_scene
+from validation.scenes.load import load_scene_with_track
 from validation.simulation.wheel_on_springs import WheelEnsemble, linear_law_1d
 from validation.theory import closed_forms
 from validation.theory import rolling as linear_theory
@@ -264,7 +264,7 @@ def test_springs_on_profiles_of_geikes_rule_are_off_by_what_the_report_shows():
 
 @cache
 def wheels():
-    table = load_wheel_scene("table_14_1")
+    table = load_scene_with_track("table_14_1")
     scene = replace(table, springs=table.springs // 2)
     height = WheelEnsemble(scene=scene, count=laws.WHEELS, seed=7).heights()
     return scene, linear_law_1d(scene.body, height, scene.spacing)
@@ -321,7 +321,7 @@ def test_a_law_without_roughness_is_told_that_its_wheel_stays_at_rest():
 @catches("a path that is not rolled again").at("validation.judging.kinds.laws.NEAR", math.inf)
 def test_the_wheel_rolls_on_the_law_itself():
     """Hertz over one wave, which is not linear: each step of the motion has the force of the law at its approach."""
-    scene = replace(load_wheel_scene("table_14_1"), springs=25, distance=0.05)
+    scene = replace(load_scene_with_track("table_14_1"), springs=25, distance=0.05)
     calls = []
 
     def law(approach, position):

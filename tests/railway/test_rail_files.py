@@ -10,8 +10,7 @@ from validation.railway.scenes.level_files import curve
 from validation.railway.scenes.measured_lines import MeasuredLines
 from validation.railway.scenes.rail import RailScene
 from validation.scenes.description import describe
-from validation.scenes.dynamic_wheel import load_wheel_scene
-from validation.scenes.load import load_scene
+from validation.scenes.load import load_scene, load_scene_with_track
 from validation.scenes.measured import MeasuredHeights
 
 TEXT = """
@@ -275,4 +274,4 @@ def test_heights_must_hold_the_contact(tmp_path, shape, spacing, said):
 
 def test_a_rail_is_no_dynamic_wheel():
     with pytest.raises(ValueError, match="must be those of a dynamic wheel, got a wheel on a rail"):
-        load_wheel_scene("rail")
+        load_scene_with_track("rail")

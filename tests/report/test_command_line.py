@@ -82,7 +82,7 @@ SMALL = {
         parameters=False,
     ),
     "wheel_distance": wheel_distance.WheelDistance(
-        scene=replace(wheel.TABLE, distance=0.1, springs=24, rail=replace(wheel.TABLE.rail, shortest=0.5e-3)),
+        scene=replace(wheel.TABLE, distance=0.1, springs=24, ground=replace(wheel.TABLE.rail, shortest=0.5e-3)),
         doublings=2,
         wheels=4,
         fewest=4,

@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from validation.report.commands.report import WHEELS
-from validation.scenes.dynamic_wheel import bundled_wheels
+from validation.scenes.load import bundled_with_track
 
 HEAVY = {"matplotlib", "pyfftw", "joblib", "dask", "distributed", "jinja2", "scipy.optimize", "scipy.stats"}
 """Each takes a tenth of a second or more to import."""
@@ -42,7 +42,7 @@ def test_what_computes_nothing_imports_no_numerics(words):
 
 def test_the_help_of_report_names_all_wheels():
     """Without the numerics that their scenes import."""
-    assert bundled_wheels() == WHEELS
+    assert bundled_with_track() == WHEELS
 
 
 @pytest.mark.parametrize("code", ["import bem3d", "import mdr", "from validation import compare, load_scene, summary"])

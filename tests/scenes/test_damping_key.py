@@ -13,10 +13,8 @@ from validation.advice.exported import assumed
 from validation.scenes import units
 from validation.scenes.bundled import path_of
 from validation.scenes.description import describe
-from validation.scenes.dynamic_wheel import load_wheel_scene
-from validation.scenes.load import load_scene
+from validation.scenes.load import load_scene, load_scene_with_track
 from validation.scenes.reader import VALUES
-from validation.scenes.rolling import RollingScene
 from validation.scenes.rolling_quantity import RollingQuantity
 
 RAIL, STILL = (path_of(name).read_text(encoding="utf-8") for name in ("rail", "rolling_wheel"))
@@ -34,8 +32,8 @@ def rail(tmp_path, lines):
 @pytest.mark.parametrize(("given", "found"), [('"2 %"', 0.02), ("0.02", 0.02), ("0", 0)])
 def test_a_ratio_is_read_in_per_cent_or_as_a_number(tmp_path, given, found):
     path = dynamic(tmp_path, given)
-    assert load_wheel_scene(path).damping == load_scene(path).damping == found
-    assert load_scene(path).body.damping == load_wheel_scene(path).body.damping == found
+    assert load_scene_with_track(path).damping == load_scene(path).damping == found
+    assert load_scene(path).body.damping == load_scene_with_track(path).body.damping == found
     assert load_scene(rail(tmp_path, f'mass = "500 kg"\ndamping = {given}')).damping == found
 
 
@@ -95,11 +93,9 @@ def test_linear_theory_of_compare_has_the_dashpot():
 
 
 def test_damping_gives_a_steady_answer_where_the_resonance_is_among_the_waves():
-    slow = replace(
-        load_wheel_scene("table_14_1"), speed=1.0, rail=replace(load_wheel_scene("table_14_1").rail, rms=2e-8)
-    )
+    slow = replace(load_scene("table_14_1"), speed=1.0, ground=replace(load_scene("table_14_1").ground, rms=2e-8))
     assert "nothing damps the wheel" in slow.no_steady_answer()
     assert replace(slow, damping=0.02).no_steady_answer() == ""
-    thrown = replace(slow, damping=0.02, rail=replace(slow.rail, rms=4e-6))
+    thrown = replace(slow, damping=0.02, ground=replace(slow.rail, rms=4e-6))
     assert thrown.no_steady_answer().endswith("leaves the track, where no model was measured")
-    assert RollingScene.of_wheel(thrown).no_steady_answer() == thrown.no_steady_answer()
+    assert thrown.for_compare().no_steady_answer() == thrown.no_steady_answer()

@@ -12,11 +12,11 @@ from validation.advice.compare import SceneProblem
 from validation.advice.quantities import quantities_of
 from validation.railway.scenes import rail_file
 from validation.railway.scenes.rail import RailScene
-from validation.scenes import bundled, dynamic_wheel, reader
+from validation.scenes import bundled, load, reader
 from validation.scenes.description import description_lines
-from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import load_scene
+from validation.scenes.rolling import RollingScene
 
 LEFT_OUT = None
 VARIANTS = {
@@ -114,7 +114,7 @@ def scene_with(folder, variant, key, value):
     inner[key[-1]] = value
     path = folder / "scene.toml"
     path.write_text("".join(f"{name} = {in_toml(one)}\n" for name, one in tables.items()), encoding="utf-8")
-    return load_wheel_scene(path) if variant == "rough_wheel" else load_scene(path)
+    return load_scene(path)
 
 
 def values_for(variant, key):
@@ -137,7 +137,7 @@ def values_for(variant, key):
 
 def counts_of(scene):
     """What a strip, a quadrature or a track is made of, by the sizes of the scene alone."""
-    if isinstance(scene, WheelScene):
+    if isinstance(scene, RollingScene) and scene.has_track:
         length = max(scene.distance, 2 * math.pi * scene.radius)
         return {"springs of a track": length / scene.contact_radius * scene.springs}
     if isinstance(scene, RailScene):
@@ -161,7 +161,9 @@ def check_work(scene):
     for name, count in counts_of(scene).items():
         assert 0 <= count <= MOST[name], name
     assert not {"nan", "inf"} & {word.strip(",") for line in description_lines(scene) for word in line.split()}
-    if isinstance(scene, WheelScene):
+    if isinstance(scene, RollingScene) and scene.has_track:
+        if scene.rail_alone_is_rough:
+            check_work(scene.for_compare())
         return
     quantity = quantities_of(scene)[-1]
     listed, _ = SceneProblem(scene, (quantity,), 0.1).listed_and_solvable(quantity)
@@ -189,7 +191,7 @@ def test_an_extreme_value_is_one_sentence_or_a_bounded_amount_of_work(tmp_path, 
 
 
 def test_every_key_of_a_number_is_tried():
-    known = {*reader.VALUES, *rail_file.WHEEL, *rail_file.RAIL, *dynamic_wheel.WHEEL} - OF_FILES
+    known = {*reader.VALUES, *rail_file.WHEEL, *rail_file.RAIL, *load.WHEEL} - OF_FILES
     tried = {key[-1] for _, key in KEYS}
     assert known - tried == {"detrend", "offset", "roughness"} - tried
     assert {"rms", "hurst", "longest", "shortest", "distance", "springs", "offset"} <= tried

@@ -13,9 +13,8 @@ from validation.__main__ import main
 from validation.scenes import roughness
 from validation.scenes.bundled import SCENES
 from validation.scenes.description import describe
-from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.load import load_scene
+from validation.scenes.load import load_scene, load_scene_with_track
 from validation.scenes.material import Elastic, Material
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
@@ -144,7 +143,7 @@ def test_another_body_is_a_table_of_its_own_and_a_contact_modulus_may_be_given_i
         (ALUMINIUM.replace("70 GPa", "70 N"), "material.counterface.youngs_modulus must be a pressure"),
     ],
 )
-@pytest.mark.parametrize(("text", "load"), [(SPHERE, load_scene), (WHEEL, load_scene), (WHEEL, load_wheel_scene)])
+@pytest.mark.parametrize(("text", "load"), [(SPHERE, load_scene), (WHEEL, load_scene), (WHEEL, load_scene_with_track)])
 def test_what_contradicts_itself_is_refused_by_name(tmp_path, text, load, line, sentence):
     path = written(tmp_path, text, line)
     with pytest.raises(ValueError, match=f"^scene {re.escape(str(path))}: {re.escape(sentence)}"):
@@ -185,7 +184,7 @@ def test_slopes_are_those_of_heights():
 def test_rail_and_wheel_are_understood_together():
     """Heights and slopes of both add by squares; each has its own waves."""
     wheel = Roughness(rms=2e-6, hurst=0.5, longest=5e-3, shortest=1e-3)
-    scene = replace(load_wheel_scene("table_14_1"), wheel=wheel)
+    scene = replace(load_scene_with_track("table_14_1"), wheel=wheel)
     pairs = dict(describe(scene))
     both = math.hypot(2e-6, 0.5e-6)
     assert pairs["rms height h"] == f"{in_unit(both, 'length')}, h/d = {both / scene.approach:.3g}"

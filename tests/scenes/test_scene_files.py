@@ -9,8 +9,9 @@ from scipy.fft import next_fast_len
 
 import mdr
 from validation.scenes.bundled import SCENES, bundled
-from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
+from validation.scenes.load import load_scene_with_track
 from validation.scenes.material import Material
+from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 
 IN_FILE = r"scene \S+scene\.toml: "
@@ -20,7 +21,7 @@ ROUGH = Roughness(rms=0.5e-6, hurst=0.7, longest=0.01, shortest=0.2e-3)
 
 
 def scene(**changes):
-    return replace(load_wheel_scene("table_14_1"), **changes)
+    return replace(load_scene_with_track("table_14_1"), **changes)
 
 
 def written(tmp_path, *changes, text=TABLE):
@@ -38,7 +39,7 @@ def written(tmp_path, *changes, text=TABLE):
 
 def test_table_14_1_is_what_the_book_prints_and_we_chose():
     wheel = {"radius": 0.5, "mass": 500.0, "load": 4905.0, "speed": 20.0, "material": STEEL}
-    assert scene() == WheelScene(name="Table 14.1", **wheel, rail=ROUGH, wheel=None, distance=0.65, springs=100)
+    assert scene() == RollingScene(name="Table 14.1", **wheel, ground=ROUGH, wheel=None, distance=0.65, springs=100)
 
 
 def test_derived_numbers_agree_with_springs():
@@ -63,13 +64,13 @@ def test_the_track_is_no_shorter_than_the_distance_and_fast(distance, springs):
 def test_jump_and_cutoff_are_of_all_waves_there_are():
     longer = replace(ROUGH, longest=0.02, shortest=0.3e-3)
     for rail, wheel, shortest in ((ROUGH, longer, 0.2e-3), (longer, ROUGH, 0.2e-3), (None, longer, 0.3e-3)):
-        found = scene(rail=rail, wheel=wheel)
+        found = scene(ground=rail, wheel=wheel)
         assert found.jump == pytest.approx(2 * math.pi / 0.02 * 20, rel=1e-15)
         assert found.cutoff == pytest.approx(2 * math.pi / shortest * 20, rel=1e-15)
 
 
 def test_heights_add_by_their_squares():
-    smooth = scene(rail=None)
+    smooth = scene(ground=None)
     assert (scene().rms, smooth.rms, smooth.diagnose()) == (0.5e-6, 0, ())
     for waves in ("jump", "cutoff"):
         with pytest.raises(ValueError, match="must have a rough rail or wheel"):
@@ -81,34 +82,34 @@ def test_heights_add_by_their_squares():
 
 
 def test_the_rough_wheel_is_table_14_1_with_its_roughness_shared():
-    shared = load_wheel_scene("rough_wheel")
+    shared = load_scene_with_track("rough_wheel")
     assert shared.rail == shared.wheel
     assert shared.rail.rms == pytest.approx(0.5e-6 / math.sqrt(2), rel=1e-15)
     assert shared.rms == pytest.approx(scene().rms, rel=1e-15)
     assert shared.diagnose() == scene().diagnose() == ()
-    assert replace(shared, name="Table 14.1", wheel=None, rail=replace(shared.rail, rms=0.5e-6)) == scene()
+    assert replace(shared, name="Table 14.1", wheel=None, ground=replace(shared.rail, rms=0.5e-6)) == scene()
 
 
 def test_a_name_and_a_path_read_the_same(tmp_path, monkeypatch):
     path = written(tmp_path)
     monkeypatch.chdir(tmp_path)
     for same in (path, str(path), "scene.toml"):
-        assert load_wheel_scene(same) == scene()
+        assert load_scene_with_track(same) == scene()
     path.rename(tmp_path / "bare")
-    assert load_wheel_scene("./bare") == scene()
+    assert load_scene_with_track("./bare") == scene()
 
 
 def test_other_units_and_an_editors_mark_make_the_same_scene(tmp_path):
     changes = [("20 m/s", "72 km/h"), ("4905 N", "4.905 kN"), ("500 kg", "0.5 t"), ("210 GPa", "210e3 MPa")]
     path = written(tmp_path, *changes, ('"10 mm"', '"0.01 m"'), ("0.5 um", "500 nm"), text="\ufeff" + TABLE)
-    assert load_wheel_scene(path) == load_wheel_scene("table_14_1")
+    assert load_scene_with_track(path) == load_scene_with_track("table_14_1")
 
 
 @pytest.mark.parametrize("rail", ["", "[rail]\n"])
 def test_without_roughness_the_rail_is_smooth(tmp_path, rail):
     start, _, rest = TABLE.partition("[rail.roughness]")
     path = written(tmp_path, text=f"{start}{rail}[simulation]{rest.partition('[simulation]')[2]}")
-    assert load_wheel_scene(path) == scene(rail=None)
+    assert load_scene_with_track(path) == scene(ground=None)
 
 
 # Refusals
@@ -144,29 +145,29 @@ MADE = "must be made of"
 )
 def test_files_are_refused_by_key_and_value(tmp_path, key, old, new, said):
     with pytest.raises(ValueError, match=f"^{IN_FILE}{key} {re.escape(said)}"):
-        load_wheel_scene(written(tmp_path, (old, new)))
+        load_scene_with_track(written(tmp_path, (old, new)))
 
 
 def test_broken_files_are_refused_by_name(tmp_path):
     path = written(tmp_path, ("[wheel]", "[wheel"))
     with pytest.raises(ValueError, match=rf"^scene {re.escape(str(path))} must be valid TOML, got: .*line"):
-        load_wheel_scene(path)
+        load_scene_with_track(path)
     path.write_bytes(b'name = "\xff"')
     with pytest.raises(ValueError, match="must be valid TOML, got: no text in UTF-8"):
-        load_wheel_scene(path)
+        load_scene_with_track(path)
 
 
 def test_files_that_cannot_be_read_are_refused_by_name(tmp_path):
     missing = tmp_path / "missing.toml"
     with pytest.raises(FileNotFoundError, match=rf"^scene {re.escape(str(missing))} cannot be read: No such file"):
-        load_wheel_scene(missing)
+        load_scene_with_track(missing)
 
 
 @pytest.mark.parametrize("name", ["table", "", "Table 14.1"])
 def test_unknown_names_are_answered_with_the_shipped_ones(name):
     sentence = f'scene must be a file, as "./{name}.toml", or one of {", ".join(bundled())}, got "{name}"'
     with pytest.raises(ValueError, match=f"^{re.escape(sentence)}$"):
-        load_wheel_scene(name)
+        load_scene_with_track(name)
 
 
 NARROW, LONG = {"longest": 0.0099, "shortest": 0.0098}, {"longest": 5.0, "shortest": 4.0}
@@ -184,17 +185,17 @@ NARROW, LONG = {"longest": 0.0099, "shortest": 0.0098}, {"longest": 5.0, "shorte
         ("simulation.distance", {"distance": 0}, ["0.0"]),
         ("simulation.springs", {"springs": 99.0}, ["99.0"]),
         ("simulation.springs", {"springs": -3}, ["-3"]),
-        ("rail.roughness", {"rail": 1e-6}, ["1e-06"]),
+        ("rail.roughness", {"ground": 1e-6}, ["1e-06"]),
         ("wheel.roughness.rms", {"wheel": {"rms": -1.0}}, ["-1.0"]),
         ("wheel.roughness.hurst", {"wheel": {"hurst": 1.3}}, ["1.3"]),
-        ("rail.roughness.shortest", {"rail": {"shortest": math.inf}}, ["inf"]),
+        ("rail.roughness.shortest", {"ground": {"shortest": math.inf}}, ["inf"]),
         # the limit that a value breaks stands before it
-        ("rail.roughness.shortest", {"rail": {"shortest": 0.01}}, ["0.01 m", "0.01 m"]),
-        ("simulation.distance", {"distance": 0.003, "rail": None}, ["0.00396396 m", "0.003 m"]),
+        ("rail.roughness.shortest", {"ground": {"shortest": 0.01}}, ["0.01 m", "0.01 m"]),
+        ("simulation.distance", {"distance": 0.003, "ground": None}, ["0.00396396 m", "0.003 m"]),
         ("simulation.distance", {"distance": 0.01}, ["rail.roughness.longest, 0.01 m", "0.01 m"]),
         ("simulation.distance", {"distance": 0.02, "wheel": {"longest": 0.03}}, ["wheel.", "longest, 0.03 m", "0.02"]),
         ("rail.roughness.shortest", {"springs": 10}, ["two springs, 0.000396396 m", "0.0002 m"]),
-        ("rail.roughness.shortest", {"distance": 0.011, "rail": NARROW}, ["a period of 0.0110", "0.0098 m"]),
+        ("rail.roughness.shortest", {"distance": 0.011, "ground": NARROW}, ["a period of 0.0110", "0.0098 m"]),
         ("wheel.roughness.shortest", {"distance": 10.0, "wheel": LONG}, ["a period of 3.141", "4 m"]),
         ("wheel.load", {"load": 1e15}, ["0.5 m", "11.665 m"]),
         ("simulation.springs", {"springs": 10**400}, ["6309", "1000"]),
@@ -218,7 +219,7 @@ DOUBTS = [
     (LONG_WAVE, SHORTER_WAVE, ["wheel.roughness.longest", "1.6 m", "circumference of 3.14 m"]),
     ({"speed": 0.13}, {"speed": 0.14}, ["time step", "0.209", "0.2"]),
     ({"distance": 0.09}, {"distance": 0.11}, ["simulation.distance", "9 waves of rail.roughness.longest", "10"]),
-    ({**HEAVY, "rail": HIGH}, {**HEAVY, "rail": LOWER}, ["rail.roughness.rms", "0.00011 m", "0.0001 m", "unit"]),
+    ({**HEAVY, "ground": HIGH}, {**HEAVY, "ground": LOWER}, ["rail.roughness.rms", "0.00011 m", "0.0001 m", "unit"]),
     ({"load": 1e9, "springs": 5000}, {"load": 5e7, "springs": 5000}, ["contact radius", "0.233", "a tenth", "units"]),
 ]
 

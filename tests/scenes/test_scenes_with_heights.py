@@ -11,11 +11,10 @@ from tests.scenes.test_height_forms import PUNCH
 from tests.scenes.test_measured_heights import drawn, heights
 from tests.scenes.test_scene_files import IN_FILE, TABLE, written
 from validation.__main__ import main
-from validation.advice.compare import SceneProblem
+from validation.advice.compare import SceneProblem, compare
 from validation.scenes.bundled import SCENES
-from validation.scenes.dynamic_wheel import load_wheel_scene
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.load import load_scene, load_varied
+from validation.scenes.load import load_scene, load_scene_with_track, load_varied
 from validation.scenes.measured import MeasuredHeights
 from validation.scenes.rolling import RollingScene
 
@@ -56,7 +55,7 @@ def test_a_smooth_rail_is_no_scene_to_roll_over(tmp_path):
     with pytest.raises(ValueError, match=rf"^{IN_FILE}rail must have one of roughness, heights, got none$"):
         load_scene(written(tmp_path, text=start + "[rail]\n"))
     with pytest.raises(ValueError, match=r"must have a rough rail and a smooth wheel to be compared$"):
-        load_scene("rough_wheel")
+        compare(load_scene("rough_wheel"))
 
 
 def test_ground_is_a_spectrum_or_heights_not_both(tmp_path):
@@ -101,10 +100,10 @@ def test_heights_must_cover_the_body():
 
 def test_a_dynamic_wheel_is_compared_without_a_simulation_which_is_checked_where_it_is_there(tmp_path):
     path = written(tmp_path, text=TABLE.partition("[simulation]")[0])
-    assert load_scene(path) == load_scene("table_14_1")
+    assert load_scene(path) == load_scene("table_14_1").for_compare()
     # which rolls along it in time
     with pytest.raises(ValueError, match="simulation is missing"):
-        load_wheel_scene(path)
+        load_scene_with_track(path)
     with pytest.raises(ValueError, match=r"simulation\.distance must be a length"):
         load_scene(written(tmp_path, ('distance = "0.65 m"', 'distance = "0.65 kg"')))
 

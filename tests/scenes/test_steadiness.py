@@ -12,13 +12,12 @@ from tests.seeded import Times, catches, module_with
 from validation.__main__ import main
 from validation.report.contents import CASES
 from validation.scenes.bundled import SCENES
-from validation.scenes.dynamic_wheel import load_wheel_scene
-from validation.scenes.load import load_scene
+from validation.scenes.load import load_scene, load_scene_with_track
 from validation.scenes.rolling import RollingScene
 from validation.scenes.wheel_body import force_on_the_way
 from validation.simulation.wheel_on_springs import WheelEnsemble, _motion
 
-TABLE = load_wheel_scene("table_14_1")
+TABLE = load_scene_with_track("table_14_1")
 TOML = (SCENES / "table_14_1.toml").read_text(encoding="utf-8")
 
 
@@ -26,7 +25,7 @@ def scene(height, *, ratio=None, longest=10e-3, waves=3, springs=10, distance=2.
     """Table 14.1 with roughness of some approaches in a band of waves; ratio: of q_min v_0 to the resonance."""
     rail = replace(TABLE.rail, rms=height * TABLE.approach, longest=longest, shortest=longest / waves)
     speed = TABLE.speed if ratio is None else ratio * TABLE.eigenfrequency / rail.q_min
-    return replace(TABLE, rail=rail, speed=speed, springs=springs, distance=distance)
+    return replace(TABLE, ground=rail, speed=speed, springs=springs, distance=distance)
 
 
 def rolled(wheels):
@@ -39,9 +38,9 @@ def rolled(wheels):
 
 def test_shipped_wheels_are_steady():
     for name in ("table_14_1", "rough_wheel"):
-        assert load_wheel_scene(name).no_steady_answer() == ""
+        assert load_scene_with_track(name).no_steady_answer() == ""
     assert load_scene("table_14_1").no_steady_answer() == load_scene("rolling_wheel").no_steady_answer() == ""
-    assert replace(TABLE, rail=None).no_steady_answer() == ""
+    assert replace(TABLE, ground=None).no_steady_answer() == ""
 
 
 @pytest.mark.slow
@@ -77,7 +76,7 @@ def test_note_of_short_waves_that_excite_the_free_vibration(longest, grows):
     assert wheels.no_steady_answer() == ""
     told = [doubt for doubt in wheels.diagnose() if "excites the free vibration" in doubt]
     assert bool(told) == grows
-    assert RollingScene.of_wheel(wheels).diagnose() == tuple(told)
+    assert wheels.for_compare().diagnose() == tuple(told)
     growth, _ = rolled(wheels)
     assert growth > 1.4 if grows else growth < 1.3
 
@@ -109,7 +108,7 @@ def test_the_force_on_the_way_is_infinite_at_the_resonance():
 
 def test_the_same_scene_is_as_steady_for_model_selection():
     for wheels in (scene(0.5), scene(0.1, ratio=0.8), scene(0.1)):
-        assert RollingScene.of_wheel(wheels).no_steady_answer() == wheels.no_steady_answer()
+        assert wheels.for_compare().no_steady_answer() == wheels.no_steady_answer()
     still = RollingScene(name="it", radius=0.5, load=1.0, modulus=1e9, ground=TABLE.rail)
     assert still.no_steady_answer() == ""
 

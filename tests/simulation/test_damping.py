@@ -140,7 +140,7 @@ def gain(omega, dt, wheel, zeta):
 
 
 @catches("damping forgotten in a scene of springs", linear_contact=True).at(
-    "validation.scenes.dynamic_wheel.DampedWheel", lambda damping, **given: Wheel(**given)
+    "validation.scenes.rolling.DampedWheel", lambda damping, **given: Wheel(**given)
 )
 @pytest.mark.slow
 @pytest.mark.parametrize("linear_contact", [True, False], ids=["linear", "springs"])

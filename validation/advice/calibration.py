@@ -77,7 +77,7 @@ def conditions_of(scene: IndentationScene) -> dict[str, float]:
 
 def rolling_conditions(quantity: RollingQuantity) -> dict[str, float]:
     """The same of a wheel; of a moving one h/d is by its resonance, and the waves are those that count."""
-    scene, ground = quantity.scene, quantity.scene.ground
+    scene, ground = quantity.scene, quantity.ground
     first, last = (q * scene.contact_radius for q in (ground.q_min, quantity.q_max))
     height = scene.roughness_ratio * quantity.amplification
     longest = {MOVING_LONG: quantity.longest_moving * scene.contact_radius} if quantity.dynamic else {LONG: first}
@@ -88,7 +88,7 @@ def rolling_conditions(quantity: RollingQuantity) -> dict[str, float]:
 def beyond_envelope(quantity: RollingQuantity) -> str:
     """Why rules of rolling models do not hold where no error is measured; empty where they do."""
     scene = quantity.scene
-    as_given = {LONG: scene.ground.q_min * scene.contact_radius, HEIGHT: scene.roughness_ratio}
+    as_given = {LONG: quantity.ground.q_min * scene.contact_radius, HEIGHT: scene.roughness_ratio}
     return outside({**rolling_conditions(quantity), **as_given}, ENVELOPE)
 
 

@@ -24,7 +24,7 @@ from validation.advice.tolerance import Tolerance, decibels, tolerance_of
 from validation.analysis.spectra import MANTISSAS
 from validation.engine.engine import FloatArray
 from validation.scenes.printable import shortened
-from validation.scenes.scene import Scene, SceneQuantity
+from validation.scenes.scene import Scene, SceneQuantity, values_of
 from validation.scenes.units import UNITS, quantity
 from validation.simulation.model import Target
 
@@ -339,9 +339,9 @@ def compare(
     """
     if not hasattr(scene, "quantities"):
         raise TypeError(f"scene must be what load_scene returns, got {type(scene).__name__}")
+    scene = scene.for_compare()
     key = quantity or quantities_of(scene)[0]
-    names, own = names_and_own(models, scene, key)
-    settings = (tolerance, count("seed", seed, least=0), solve_all, names, own, realisations)
+    settings = (tolerance, count("seed", seed, least=0), solve_all, *names_and_own(models, scene, key), realisations)
     return SceneProblem(scene, (key,), *settings).compared(callback)[key]
 
 
@@ -368,6 +368,7 @@ class SceneProblem:
             object.__setattr__(self, "realisations", count("realisations", self.realisations, least=2))
             if self.realisations > MOST_REALISATIONS:
                 raise ValueError(f"realisations must be from 2 to {MOST_REALISATIONS}, got {self.realisations}")
+        object.__setattr__(self, "scene", self.scene.for_compare())
         object.__setattr__(self, "content", content_of(self.scene))
 
     @property
@@ -418,8 +419,9 @@ def content_of(scene: Scene) -> str:
     def of_array(value: Any) -> object:
         return value.dtype.str, value.shape, hashlib.sha256(value.tobytes()).hexdigest()
 
+    values = asdict(scene)  # type: ignore[call-overload]  # scenes are dataclasses
     made_of = json.dumps(
-        [type(scene).__name__, asdict(scene)],  # type: ignore[call-overload]  # scenes are dataclasses
+        [type(scene).__name__, {name: values[name] for name in values_of(scene)}],
         default=of_array,
     )
     return hashlib.sha256(made_of.encode()).hexdigest()[:16]

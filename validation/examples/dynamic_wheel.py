@@ -5,13 +5,14 @@ import math
 import numpy as np
 from matplotlib.figure import Figure
 
-from validation import load_wheel_scene
+from validation import RollingScene, load_scene
 from validation.analysis.spectra import peak, record_spectra
 from validation.simulation.contact_laws import SpringsLaw
 from validation.simulation.motion import simulate
 from validation.simulation.wheel_on_springs import WheelEnsemble
 
-scene = load_wheel_scene("table_14_1")
+scene = load_scene("table_14_1")
+assert isinstance(scene, RollingScene)  # a wheel with a mass, and a track to roll along
 wheel = scene.body
 eigenfrequency = math.sqrt(wheel.stiffness / wheel.mass)  # k = 2 E* a
 

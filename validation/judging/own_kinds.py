@@ -124,7 +124,7 @@ def _of_density(quantity: RollingQuantity, density: Callable[[FloatArray], Float
 
 def _quadratures(quantity: RollingQuantity) -> Iterator[tuple[FloatArray, FloatArray]]:
     """Nodes in each band and their weights; a line has waves below those of the surface, too."""
-    ground, a = quantity.scene.ground, quantity.scene.contact_radius
+    ground, a = quantity.ground, quantity.scene.contact_radius
     for low, high in pairwise(quantity.bands.edges):
         first, last = max(low, ground.q_min), min(high, ground.q_max)
         waves = np.linspace(low, last, 2 + math.floor((last - low) * a / math.pi))

@@ -29,7 +29,7 @@ from validation.report.page import FIGURES, begin_to_draw, pages, scene_summary
 from validation.report.provenance import machine, provenance, require_todays_code, versions_of, with_kept
 from validation.report.section import Section, numbers_table, results_of, written_tables
 from validation.report.sounds import sound_files
-from validation.scenes.dynamic_wheel import WheelScene
+from validation.scenes.rolling import RollingScene
 
 FORMER_KEYS = {"chapter_14": "chapter 14", "when_mdr_is_accurate_enough": "when MDR is enough"}
 """Of results.json of schema 1, which schema 2 has beside today's for one release."""
@@ -42,7 +42,7 @@ def build(
     out: Path,
     workers: int,
     seed: int | None,
-    scene: WheelScene | None = None,
+    scene: RollingScene | None = None,
     executor: str = LOCAL,
     progress: bool = True,
     keep: bool = False,
@@ -149,7 +149,7 @@ def _files(
     pictures: Mapping[str, bytes],
     profile: Profile,
     about: dict[str, object],
-    scene: WheelScene | None,
+    scene: RollingScene | None,
 ) -> dict[str, bytes]:
     """All that a report is, the page last.
 

@@ -18,7 +18,7 @@ from validation.analysis.statistics import POWER_DECIBEL
 from validation.analysis.study import Settings
 from validation.cases.exact.hertz import CAPACITANCE
 from validation.report.section import Section
-from validation.scenes.dynamic_wheel import load_wheel_scene
+from validation.scenes.load import load_scene_with_track
 
 BOOK = Path(__file__).with_suffix(".toml")
 Answer = dict[str, str | None]
@@ -79,17 +79,19 @@ def _entry(*, tests: Sequence[dict[str, Any]] = (), **texts: str) -> ChapterEntr
 
 def figures() -> dict[str, Any]:
     """What errata and remarks print, from closed forms and the scene of Table 14.1."""
-    rigid = load_wheel_scene("table_14_1")
-    steel = replace(rigid, material=replace(rigid.material, counterface="same"))
-    rail = rigid.rail
+    rigid = load_scene_with_track("table_14_1")
+    rail, material = rigid.rail, rigid.material
     assert rail is not None
+    assert material is not None
+    of_steel = replace(material, counterface="same")
+    steel = replace(rigid, material=of_steel, modulus=of_steel.modulus)
     quoted, jump = 1.012 * 2 / math.sqrt(math.pi), rigid.jump / rigid.eigenfrequency
     return {
         "rigid": rigid.body,
         "steel": steel.body,
         "turn": 2 * math.pi * rigid.radius,
         "hurst": rail.hurst,
-        "excess": 100 * rail.hurst * rail.longest / rigid.distance,
+        "excess": 100 * rail.hurst * rail.longest / rigid.track.distance,
         "near": -2 * POWER_DECIBEL * math.log(1 - 1 / 4),
         "far": -2 * POWER_DECIBEL * math.log(1 - 1 / jump**2),
         "below": POWER_DECIBEL * math.log(2 / (math.pi * (2 * rail.hurst + 1))),

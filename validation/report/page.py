@@ -22,7 +22,7 @@ from validation.report.section import Section, claims_of_others, total_of
 from validation.report.sounds import sound_place
 from validation.report.style import drawn, picture
 from validation.scenes.description import describe
-from validation.scenes.dynamic_wheel import WheelScene
+from validation.scenes.rolling import RollingScene
 
 FIGURES = "figures"
 """The part of a run in which they are drawn, and their folder."""
@@ -102,7 +102,7 @@ def figures_of(sections: Sequence[Section]) -> dict[str, PageFigure]:
     return figures
 
 
-def scene_summary(scene: WheelScene) -> dict[str, object]:
+def scene_summary(scene: RollingScene) -> dict[str, object]:
     """The first lines of a report on a scene of the user's own."""
     return {
         "name": scene.name,
@@ -119,7 +119,7 @@ def sections_by_chapter(sections: Sequence[Section]) -> list[tuple[Chapter, list
 
 
 def pages(
-    sections: Sequence[Section], profile: Profile, about: dict[str, object], scene: WheelScene | None
+    sections: Sequence[Section], profile: Profile, about: dict[str, object], scene: RollingScene | None
 ) -> dict[str, bytes]:
     """By their names. about: the provenance; scene: of the user's own, or None."""
     chapters = sections_by_chapter(sections)

@@ -10,7 +10,6 @@ from typing import Any
 
 from validation.engine.street import objects_of_houses
 from validation.scenes.bundled import bundled, path_of
-from validation.scenes.dynamic_wheel import wheel_of
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.material import material_of
 from validation.scenes.measured import MeasuredHeights
@@ -35,8 +34,8 @@ def load_scene(scene: str | Path, *, heights: object = None) -> Scene:
     Parameters
     ----------
     scene : str or Path
-        Path of a scene file, or the name of a shipped scene: "rail", "rolling_wheel", "rough_punch", "sphere" or
-        "table_14_1". A name has no folder and no ".toml".
+        Path of a scene file, or the name of a shipped scene: "rail", "rolling_wheel", "rough_punch", "rough_wheel",
+        "sphere" or "table_14_1". A name has no folder and no ".toml".
     heights : object, optional
         Measured heights in place of the roughness of the file: MeasuredHeights, or whatever `measured` takes, such as a
         Topography of SurfaceTopography.
@@ -45,7 +44,8 @@ def load_scene(scene: str | Path, *, heights: object = None) -> Scene:
     -------
     IndentationScene, RollingScene or RailScene
         A sphere or punch, or a wheel, by the body that the file has a table of. A wheel on a rail has a crown,
-        roughness as levels or lines, or another key that no other wheel has.
+        roughness as levels or lines, or another key that no other wheel has. A wheel that moves has a track where the
+        file has ``[simulation]``.
 
     Raises
     ------
@@ -66,6 +66,17 @@ def load_scene(scene: str | Path, *, heights: object = None) -> Scene:
     ground = heights if isinstance(heights, MeasuredHeights | None) else measured(heights)
     with errors_of_file(path):
         return _read_scene(tables if ground is None else _replace_roughness(tables, ground), path.parent)
+
+
+def load_scene_with_track(scene: str | Path) -> RollingScene:
+    """Scene of a wheel that rolls along a track in time, as `load_scene`; ValueError for any other."""
+    path = path_of(scene)
+    tables = tables_of(path)
+    with errors_of_file(path):
+        for reader in objects_of_houses("scene"):
+            if reader.reads(tables):
+                raise ValueError(f"wheel and rail must be those of a dynamic wheel, got {reader.what}")
+        return _scene_with_track(tables)
 
 
 def files_of(scene: str | Path) -> tuple[Path, ...]:
@@ -150,10 +161,14 @@ def _read_scene(tables: dict[str, Any], folder: Path) -> Scene:
             return scene
     wheel, rail = tables["wheel"], tables.get("rail")
     moving = isinstance(wheel, dict) and "mass" in wheel
-    # which checks the simulation against the scene; `compare` has no need of one
     if moving and "simulation" in tables and not (isinstance(rail, dict) and "heights" in rail):
-        return RollingScene.of_wheel(wheel_of(tables))
+        return _scene_with_track(tables)
     return _rolling_scene(tables, moving, folder)
+
+
+def bundled_with_track() -> tuple[str, ...]:
+    """Names of the shipped scenes of a wheel that rolls along a track in time."""
+    return tuple(name for name in bundled() if "simulation" in tables_of(path_of(name)))
 
 
 def bundled_for_compare() -> tuple[str, ...]:
@@ -195,6 +210,32 @@ def _rolling_scene(tables: dict[str, Any], moving: bool, folder: Path) -> Rollin
     entries = table(readers, (), "", tables)
     ground, material = value_of_one_key(entries.pop("rail"), "rail", GROUNDS), entries["material"]
     return RollingScene(ground=ground, modulus=material.modulus, **entries.pop("wheel"), **entries)
+
+
+ROUGH: dict[str, Reader] = {"roughness": roughness_of}
+WHEEL = values("radius", "mass", "load", "speed", "damping") | ROUGH
+WITH_TRACK: dict[str, Reader] = {
+    **values("name"),
+    "wheel": partial(table, WHEEL, ("damping", "roughness")),
+    "material": material_of,
+    "rail": partial(table, ROUGH, tuple(ROUGH)),
+    "simulation": partial(table, values("distance", "springs"), ()),
+}
+"""How each value of the file of a wheel with a track is read."""
+
+
+def _scene_with_track(tables: dict[str, Any]) -> RollingScene:
+    """A wheel that rolls along a track in time; rail and wheel may both be rough."""
+    entries = table(WITH_TRACK, ("rail",), "", tables)
+    wheel, rail = entries["wheel"], entries.get("rail", {})
+    return RollingScene(
+        name=entries["name"],
+        material=entries["material"],
+        ground=rail.get("roughness"),
+        wheel=wheel.pop("roughness", None),
+        **wheel,
+        **entries["simulation"],
+    )
 
 
 def _ground_readers(folder: Path) -> dict[str, Reader]:

@@ -1,18 +1,28 @@
-"""The scene of a wheel that rolls over rough ground: quasi-statically, or with a mass."""
+"""The scene of a wheel that rolls over rough ground: quasi-statically, or with a mass, also along a track in time."""
 
 import math
-from dataclasses import dataclass
+import warnings
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, ClassVar
 
 from validation.analysis.statistics import FloatArray
 from validation.scenes.description import body_pairs, motion_pair, roughness_pairs
-from validation.scenes.dynamic_wheel import WheelScene
 from validation.scenes.material import Material, check_scene
 from validation.scenes.measured import MeasuredHeights, check_covers
 from validation.scenes.roughness import Roughness, RoughSurface, check_band
-from validation.scenes.scene import MOVING, ROLLING, ContactEllipse, Pairs, SceneDefaults, SceneQuantity
+from validation.scenes.scene import (
+    LATER,
+    MOVING,
+    ROLLING,
+    ContactEllipse,
+    Pairs,
+    SceneDefaults,
+    SceneQuantity,
+    values_of,
+)
 from validation.scenes.units import in_unit
-from validation.scenes.wheel_body import DampedWheel, OnHalfSpace, check_damping, diagnose_short_waves, no_steady_answer
+from validation.scenes.wheel_body import DampedWheel, check_damping, diagnose_short_waves, no_steady_answer
+from validation.scenes.wheel_track import OnTrack, check_track, diagnose_track
 
 if TYPE_CHECKING:
     from validation.scenes.rolling_quantity import RollingQuantity
@@ -21,9 +31,9 @@ MOST_WAVES = 1000
 """To a contact radius: shorter ones no grid of a wheel holds, and linear theory takes hours over them."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class RollingScene(OnHalfSpace, SceneDefaults):
-    """Smooth wheel that rolls over rough ground, with a mass or at a constant approach.
+@dataclass(frozen=True, kw_only=True, repr=False)
+class RollingScene(OnTrack, SceneDefaults):
+    """Wheel that rolls along a rough rail, with a mass or at a constant approach.
 
     Parameters
     ----------
@@ -33,27 +43,43 @@ class RollingScene(OnHalfSpace, SceneDefaults):
         Radius R of the wheel [m].
     load : float
         Static load F_N [N].
-    modulus : float
-        Contact modulus E* [Pa].
-    ground : Roughness or MeasuredHeights
-        Isotropic roughness, or heights whose first axis is along the track.
+    modulus : float, optional
+        Contact modulus E* [Pa], by default that of the material.
+    ground : Roughness, MeasuredHeights or None
+        Isotropic roughness of the rail, or heights whose first axis is along the track. None is a smooth rail, which
+        needs a track.
     mass, speed : float or None, optional
         Mass M [kg] and speed v0 [m/s], both or neither. Without them the wheel keeps its approach.
     material : Material or None, optional
         What E* is made of, None where only ``modulus`` is known.
     damping : float, optional
-        Damping ratio of a wheel with a mass, as of `WheelScene`. None by default.
+        Damping ratio zeta of a wheel with a mass, of critical, in [0, 1): a dashpot between wheel and inertial frame,
+        c = 2 zeta M omega_eigen, which acts while contact is lost, too. None by default.
+    wheel : Roughness or None, optional
+        Roughness of the wheel, which needs a track; None where it is smooth.
+    distance : float or None, optional
+        Of a track: shortest distance to roll in time before it begins again [m].
+    springs : int or None, optional
+        Of a track: springs to a contact radius.
 
     Raises
     ------
     ValueError, TypeError
         If a value is out of range; the message names the key of a scene file.
 
+    Notes
+    -----
+    A track, which is ``distance`` and ``springs``, is for simulations in time, as those of ``report --scene``.
+    `compare` has no need of one, and leaves it out.
+
     Examples
     --------
     >>> scene = validation.load_scene("rolling_wheel")
     >>> print(f"h / d = {scene.roughness_ratio:.2g}")
     h / d = 0.064
+    >>> wheel = validation.load_scene("table_14_1")
+    >>> print(f"contact radius {wheel.contact_radius:.3g} m, time step {wheel.time_step:.3g} s")
+    contact radius 0.00198 m, time step 9.91e-07 s
     """
 
     kind: ClassVar[str] = "wheel"
@@ -63,32 +89,60 @@ class RollingScene(OnHalfSpace, SceneDefaults):
     name: str
     radius: float
     load: float
-    modulus: float
-    ground: RoughSurface
+    modulus: float = None  # type: ignore[assignment]  # that of the material
+    ground: RoughSurface | None
     mass: float | None = None
     speed: float | None = None
     material: Material | None = None
     damping: float = 0.0
+    wheel: Roughness | None = field(default=None, metadata=LATER)
+    distance: float | None = field(default=None, metadata=LATER)
+    springs: int | None = field(default=None, metadata=LATER)
 
     def __post_init__(self) -> None:
+        if not isinstance(self.material, Material | None):
+            raise TypeError(f"material must be a Material, got {self.material!r}")
+        if self.modulus is None:
+            if self.material is None:
+                raise ValueError("modulus must be given, or a material which has it, got neither")
+            object.__setattr__(self, "modulus", self.material.modulus)
         check_scene(self, ("wheel.radius", "wheel.load"), ("wheel.mass", "wheel.speed"))
         if (self.mass is None) != (self.speed is None):
             raise ValueError(f"wheel.mass and wheel.speed must both be given or neither, got {self.mass}, {self.speed}")
         check_damping(self.damping, self.mass)
+        check_track(self)
+        if self.has_track:
+            return
         if isinstance(self.ground, MeasuredHeights):
             a = self.contact_radius
             check_covers("rail.heights", self.ground, (4 * math.pi * a, 3 * a), a)
+        elif self.ground is None:
+            raise TypeError("rail.roughness must be given where there is no track, or rail.heights, got None")
         else:
             check_band("rail.roughness", self.ground)
             _check_waves(self.ground, self.contact_radius)
 
+    def __repr__(self) -> str:
+        given = ", ".join(f"{name}={value!r}" for name, value in values_of(self).items())
+        return f"{type(self).__name__}({given})"
+
     @classmethod
-    def of_wheel(cls, scene: WheelScene) -> "RollingScene":
-        """Of a dynamic wheel whose rail alone is rough. Raises ValueError for another."""
-        if scene.rail is None or scene.wheel is not None:
-            raise ValueError(f"scene {scene.name!r} must have a rough rail and a smooth wheel to be compared")
-        same = ("name", "radius", "load", "modulus", "mass", "speed", "material", "damping")
-        return cls(ground=scene.rail, **{name: getattr(scene, name) for name in same})
+    def of_wheel(cls, scene: "RollingScene") -> "RollingScene":
+        """Earlier name of `for_compare`, for one release."""
+        warnings.warn(
+            "RollingScene.of_wheel(scene) is scene.for_compare() now; the earlier name goes with the next release",
+            FutureWarning,
+            stacklevel=2,
+        )
+        return scene.for_compare()
+
+    def for_compare(self) -> "RollingScene":
+        """The scene without its track. Raises ValueError unless the rail alone is rough, of waves of any grid."""
+        if not self.has_track:
+            return self
+        if not self.rail_alone_is_rough:
+            raise ValueError(f"scene {self.name!r} must have a rough rail and a smooth wheel to be compared")
+        return replace(self, distance=None, springs=None)
 
     @property
     def body(self) -> DampedWheel:
@@ -127,29 +181,43 @@ class RollingScene(OnHalfSpace, SceneDefaults):
 
     def describe(self) -> Pairs:
         """Body, contact, motion and roughness."""
+        waves = {"waves of the rail": self.ground, "waves of the wheel": self.wheel}
         return (
             *body_pairs("wheel", self.radius, self),
             motion_pair(self),
-            *roughness_pairs(self, {"waves": self.ground}),
+            *roughness_pairs(self, waves if self.has_track else {"waves": self.ground}),
         )
+
+    @property
+    def rms(self) -> float:
+        """sqrt(h_rail^2 + h_wheel^2), the height of both together, zero where smooth [m]."""
+        return math.hypot(*(surface.rms for surface in self.rough_surfaces.values()))
+
+    @property
+    def slope_along(self) -> float:
+        """Root mean square slope of both together along the track [-]."""
+        return math.hypot(*(surface.slope_along for surface in self.rough_surfaces.values()))
 
     @property
     def roughness_ratio(self) -> float:
         """h / d [-]."""
-        return self.ground.rms / self.approach
+        return self.rms / self.approach
 
     def diagnose(self) -> tuple[str, ...]:
         """What may be wrong about this scene though it is valid, in sentences with numbers."""
-        found = list(self.ground.notes())
+        surfaces = list(self.rough_surfaces.values())
+        short = diagnose_short_waves(self.body, surfaces) if self.has_motion and surfaces else ()
+        if self.has_track:
+            return *diagnose_track(self), *short
+        notes = [note for surface in surfaces for note in surface.notes()]
         if self.roughness_ratio > 1 / 3:
-            found.append(f"the roughness is {self.roughness_ratio:.3g} of the approach: the wheel may lose contact.")
-        if self.mass is not None:
-            found += diagnose_short_waves(self.body, [self.ground])
-        return (*found, *self.diagnose_contact_radius())
+            notes.append(f"the roughness is {self.roughness_ratio:.3g} of the approach: the wheel may lose contact.")
+        return *notes, *short, *self.diagnose_contact_radius()
 
     def no_steady_answer(self) -> str:
         """Why the motion of a wheel with a mass has no level that the distance leaves alone; empty where it has."""
-        return "" if self.speed is None else no_steady_answer(self.body, self.speed, [self.ground])
+        surfaces = list(self.rough_surfaces.values())
+        return no_steady_answer(self.body, self.speed, surfaces) if self.speed is not None and surfaces else ""
 
 
 def _check_waves(rough: Roughness, a: float) -> None:

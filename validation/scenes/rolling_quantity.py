@@ -10,6 +10,7 @@ import numpy as np
 from validation.analysis.spectra import Bands
 from validation.analysis.statistics import FloatArray
 from validation.scenes.rolling import RollingScene
+from validation.scenes.roughness import RoughSurface
 from validation.scenes.scene import MOVING, ROLLING
 from validation.scenes.wheel_body import force_on_the_way
 from validation.theory.half_space import on_panels
@@ -38,6 +39,11 @@ class RollingQuantity:
     name: str
 
     @property
+    def ground(self) -> RoughSurface:
+        """What is rough; ValueError for a smooth rail."""
+        return self.scene.rough_ground
+
+    @property
     def dynamic(self) -> bool:
         return self.name.startswith("acceleration")
 
@@ -55,7 +61,7 @@ class RollingQuantity:
         if not self.dynamic or self.scene.speed is None:
             return 1.0
         still = float(replace(self, name="force-rms").expected(one_dimensional=False)[0])
-        return max(1.0, force_on_the_way(self.scene.body, self.scene.speed, [self.scene.ground]) / still)
+        return max(1.0, force_on_the_way(self.scene.body, self.scene.speed, [self.ground]) / still)
 
     @property
     def whole(self) -> bool:
@@ -64,7 +70,7 @@ class RollingQuantity:
     @property
     def q_max(self) -> float:
         """The shortest wave that counts: of measured heights, four of their points [rad/m]."""
-        return self.scene.ground.q_resolved
+        return self.ground.q_resolved
 
     @cached_property
     def bands(self) -> Bands:
@@ -85,13 +91,13 @@ class RollingQuantity:
     @property
     def _longest_counted(self) -> float:
         """The longest wave that counts: of measured heights, a quarter of their length [rad/m]."""
-        ground = self.scene.ground
+        ground = self.ground
         return WAVES * ground.q_min if ground.is_single else ground.q_min
 
     @property
     def longest_moving(self) -> float:
         """The longest wave of the ground that counts: of a moving wheel, an octave above its resonance [rad/m]."""
-        return max(self.scene.ground.q_min, self._above_resonance)
+        return max(self.ground.q_min, self._above_resonance)
 
     @property
     def _above_resonance(self) -> float:
@@ -105,7 +111,7 @@ class RollingQuantity:
             return ""
         if self._above_resonance > self._longest_counted:
             end, remedy = "an octave above the resonance", "a higher speed, a larger mass or shorter waves"
-        elif self.scene.ground.is_single:
+        elif self.ground.is_single:
             end, remedy = f"{WAVES} waves on the measured length", "a longer track or points closer together"
         else:
             end, remedy = "the longest", "a wider band of roughness"
@@ -126,7 +132,7 @@ class RollingQuantity:
 
     def expected(self, one_dimensional: bool) -> FloatArray:
         """Levels by linear theory, of the spectrum [N] or [m/s^2]; the variance of the force is the same in both."""
-        ground, found = self.scene.ground, []
+        ground, found = self.ground, []
         contact = {"contact_radius": self.scene.contact_radius, "modulus": self.scene.modulus}
         if self.name == "force-rms":
             return np.array([math.sqrt(force_variance(ground.c2d, edges=ground.edges, **contact))])

@@ -1,8 +1,9 @@
 """What a scene says of itself, whichever body it has."""
 
 import math
-from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple, Protocol
+from dataclasses import dataclass, fields
+from types import MappingProxyType
+from typing import Any, ClassVar, NamedTuple, Protocol, Self
 
 import numpy as np
 
@@ -47,6 +48,8 @@ MOVING = (ACCELERATION, ACCELERATION_RMS)
 
 Pairs = tuple[tuple[str, str], ...]
 """Names and values with their units, in the order in which they are printed."""
+LATER = MappingProxyType({"later": True})
+"""Metadata of a field that came after the first release: without a value it is in no key of what is stored."""
 ENSEMBLE_MEAN, SINGLE_SURFACE = "ensemble mean", "single surface"
 
 
@@ -194,6 +197,15 @@ class Scene(Protocol):
     def contact_force(self, comparison: Any) -> Any:
         """A-weighted force by each model of a comparison of this scene; None where it has none."""
 
+    def for_compare(self) -> "Scene":
+        """The scene without what `compare` has no need of. Raises ValueError for one that no model takes."""
+
+
+def values_of(scene: Any) -> dict[str, Any]:
+    """Fields of a scene and their values, but for `LATER` ones without a value."""
+    values = {each.name: (getattr(scene, each.name), each.metadata) for each in fields(scene)}
+    return {name: value for name, (value, about) in values.items() if value is not None or "later" not in about}
+
 
 class SceneDefaults:
     """What most scenes answer."""
@@ -228,3 +240,6 @@ class SceneDefaults:
 
     def contact_force(self, comparison: Any) -> Any:
         return None
+
+    def for_compare(self) -> Self:
+        return self

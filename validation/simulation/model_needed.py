@@ -70,6 +70,6 @@ def rolling(case: Any) -> str:
 
 def wheel(case: Any) -> str:
     scene = case.scene
-    if scene.rail is None or scene.wheel is not None:
+    if not scene.rail_alone_is_rough:
         return BEM
-    return of_each(MOVING, partial(model_for, RollingScene.of_wheel(scene)))
+    return of_each(MOVING, partial(model_for, scene.for_compare()))

@@ -55,7 +55,7 @@ class RollingGrid:
 
         A dynamic wheel comes back in the middle of a turn of its resonance, where free vibration is least excited.
         """
-        scene, ground = quantity.scene, quantity.scene.ground
+        scene, ground = quantity.scene, quantity.ground
         a = scene.contact_radius
         spacing = a / cells
         if isinstance(ground, MeasuredHeights):
@@ -98,7 +98,7 @@ def grids_of_points(heights: MeasuredHeights, contact_radius: float) -> tuple[fl
 
 def strip_of(quantity: RollingQuantity, cells: float, realisation: int, seed: int) -> FloatArray:
     """Heights at the centres of cells; drawn, or those that were measured, there and back [m]."""
-    grid, ground = RollingGrid.of(quantity, cells), quantity.scene.ground
+    grid, ground = RollingGrid.of(quantity, cells), quantity.ground
     along = grid.along // 2 if ground.is_single else grid.along
     rng = random_generator(seed, STRIPS, realisation)
     surface = surface_on_grid(ground, shape=(along, grid.across), spacing=grid.spacing, rng=rng)
@@ -132,7 +132,7 @@ def on_boundary_elements(quantity: RollingQuantity, cells: float, realisation: i
     """ln of levels over those of linear theory on the same strip; of measured heights, of the levels themselves."""
     surface, spacing = strip_of(quantity, cells, realisation, seed), quantity.scene.contact_radius / cells
     log_levels = np.log(by_boundary_elements(quantity, surface, spacing))
-    if quantity.scene.ground.is_single:
+    if quantity.ground.is_single:
         return log_levels
     return np.asarray(log_levels - np.log(by_linear_theory(quantity, surface, spacing)))
 
@@ -163,12 +163,12 @@ def on_springs(quantity: RollingQuantity, tracks: int, seed: int) -> FloatArray:
 def springs_to_a_radius(quantity: RollingQuantity) -> int:
     """Springs to a contact radius: four to the shortest wave, and 32 at least."""
     scene = quantity.scene
-    return max(SPRINGS, math.ceil(4 * scene.ground.q_max * scene.contact_radius / (2 * math.pi)))
+    return max(SPRINGS, math.ceil(4 * quantity.ground.q_max * scene.contact_radius / (2 * math.pi)))
 
 
 def _draw_tracks(quantity: RollingQuantity, tracks: int, seed: int) -> tuple[FloatArray, float]:
     """Heights of so many tracks, (places, tracks), and the spacing of their springs [m]."""
-    ground, a, springs = quantity.scene.ground, quantity.scene.contact_radius, springs_to_a_radius(quantity)
+    ground, a, springs = quantity.ground, quantity.scene.contact_radius, springs_to_a_radius(quantity)
     points, spacing = RollingGrid.of(quantity, 1).along * springs, a / springs
     rule: InputSpectrum = "geike" if quantity.name == "force-rms" else "rolling"
     draw = partial(draw_track, ground, rule, contact_radius=a, rms=ground.rms, length=points * spacing, points=points)

@@ -4,7 +4,7 @@ import math
 
 from validation.analysis import spectra as regions
 from validation.analysis.statistics import FloatArray
-from validation.scenes.dynamic_wheel import WheelScene
+from validation.scenes.rolling import RollingScene
 
 PEAK, JUMP, SLOPE, PERIOD = NAMES = ("peak", "jump", "slope", "period")
 THIRD_FIRST, THIRD_LAST, OSCILLATION_LAST = 1.1, 0.9, 0.5
@@ -16,12 +16,12 @@ PEAK_LAST, FREE_MASS = 1.5, 3.0
 and power laws of the force are those of the acceleration."""
 
 
-def third_region(scene: WheelScene, jump: float) -> tuple[float, float]:
+def third_region(scene: RollingScene, jump: float) -> tuple[float, float]:
     """Where region 3 is looked at, clear of its ends and of the resonance."""
     return max(THIRD_FIRST * jump, FREE_MASS * scene.eigenfrequency), THIRD_LAST * scene.cutoff
 
 
-def features_of(scene: WheelScene, omega: FloatArray, hann: FloatArray) -> dict[str, float]:
+def features_of(scene: RollingScene, omega: FloatArray, hann: FloatArray) -> dict[str, float]:
     """Features that the band of the scene can hold: a jump above the peak, enough periods of the oscillation."""
     between, period = math.sqrt(scene.eigenfrequency * scene.jump), scene.oscillation_period
     has_jump = scene.jump > PEAK_LAST * scene.eigenfrequency

@@ -8,7 +8,7 @@ import numpy as np
 import bem3d
 from validation.engine.engine import FloatArray, Outcome
 from validation.engine.random_numbers import random_generator
-from validation.scenes.dynamic_wheel import WheelScene
+from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import BoundaryElementsLaw, LinearLaw
@@ -29,7 +29,7 @@ class WheelStrip:
     their surfaces are equally long; tolerance: residual of contacts; seed.
     """
 
-    scene: WheelScene
+    scene: RollingScene
     realisation: int
     natural_periods: int
     width: int
@@ -41,7 +41,7 @@ class WheelStrip:
     def __post_init__(self) -> None:
         if self.cells % self.shared:
             raise ValueError(f"cells must be a multiple of shared, got {self.cells} and {self.shared}")
-        if self.scene.rail is None or self.scene.wheel is not None:
+        if not self.scene.rail_alone_is_rough:
             raise ValueError("scene must have a rough rail and a smooth wheel")
 
     @property
@@ -75,7 +75,7 @@ def simulate_strip(strip: WheelStrip) -> Outcome:
     """
     scene = strip.scene
     wheel = scene.body
-    surface, time_step = strip.surface(), strip.spacing / scene.speed
+    surface, time_step = strip.surface(), strip.spacing / scene.rolling_speed
     linear = linear_law_3d(wheel, surface, strip.spacing)
     approach, velocity = linear.steady_state(time_step)
     steps = len(surface)

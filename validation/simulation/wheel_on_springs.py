@@ -11,7 +11,7 @@ from scipy.fft import next_fast_len
 from validation.analysis.spectra import band_means, record_spectra
 from validation.engine.engine import FloatArray, Outcome
 from validation.engine.random_numbers import random_generator
-from validation.scenes.dynamic_wheel import WheelScene
+from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.scenes.wheel_body import Wheel
 from validation.simulation.contact_laws import ContactLaw, LinearLaw, SpringsLaw
@@ -43,7 +43,7 @@ class WheelEnsemble:
     and a half; "part": a half of such a motion, whose end is not its beginning.
     """
 
-    scene: WheelScene
+    scene: RollingScene
     first: int = 0
     count: int = 1
     groups: int = 1

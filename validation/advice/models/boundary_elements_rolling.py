@@ -66,7 +66,7 @@ def sample_alone(model: Model, target: Target, resolution: Resolution) -> ErrorE
 def prepare(target: Target, resolution: Resolution) -> Prepared:
     """Over linear theory on the same strips, times what that expects; measured heights are rolled themselves."""
     quantity, cells = target.rolling, resolution.size
-    expected = 1.0 if quantity.scene.ground.is_single else quantity.expected(one_dimensional=False)
+    expected = 1.0 if quantity.ground.is_single else quantity.expected(one_dimensional=False)
     work = RollingGrid.of(quantity, cells).work
 
     def read(change: FloatArray) -> Result:

@@ -10,14 +10,15 @@ from validation.analysis.evidence import Table, table_of
 from validation.analysis.quantity import Quantity
 from validation.benchmarks.timing import alone, interval_of_median, timed
 from validation.engine.engine import Engine, FloatArray, Outcome
-from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
+from validation.scenes.load import load_scene_with_track
+from validation.scenes.rolling import RollingScene
 from validation.simulation.contact_laws import BoundaryElementsLaw, SpringsLaw
 from validation.simulation.motion import simulate, simulate_from_linear_motion
 from validation.simulation.wheel_on_half_space import WheelStrip, crop_to_reach, linear_law_3d
 from validation.simulation.wheel_on_springs import WheelEnsemble
 
 RUNS = 5
-TABLE = load_wheel_scene("table_14_1")
+TABLE = load_scene_with_track("table_14_1")
 HOUR = 3600.0
 COST_OF_STEPS = Quantity(
     "the_dynamic_wheel_of_Fig._14.4_seconds_on_one_core", "the dynamic wheel of Fig. 14.4, seconds on one core"
@@ -36,7 +37,7 @@ class FigureCost:
     steps: int = 100
     cells: int = 40
     tolerance: float = 1e-4
-    scene: WheelScene = TABLE
+    scene: RollingScene = TABLE
     seed: int = 149
 
 
@@ -72,13 +73,13 @@ def _wheel_on_half_space(cost: FigureCost) -> Callable[[], object]:
     height = crop_to_reach(surface, spacing, scene.body)
     law = BoundaryElementsLaw(scene.body, [height], spacing, tolerance=cost.tolerance)
     linear = linear_law_3d(scene.body, surface, spacing)
-    return partial(simulate_from_linear_motion, law, linear, spacing / scene.speed, cost.steps)
+    return partial(simulate_from_linear_motion, law, linear, spacing / scene.rolling_speed, cost.steps)
 
 
 def figure_cost(cost: FigureCost, engine: Engine) -> Table:
     """A row a method: median seconds of a step, of a metre, of a wheel; hours of the figure, with their interval."""
     (springs,), (elements,) = engine.map(on_springs, [cost]), engine.map(on_half_space, [cost])
-    rows = ("springs", cost.scene.springs, springs), ("boundary elements", cost.cells, elements)
+    rows = ("springs", cost.scene.track.springs, springs), ("boundary elements", cost.cells, elements)
     return table_of(
         COST_OF_STEPS, [_cost_row(cost, method, n, outcome["seconds"].tolist()) for method, n, outcome in rows]
     )
@@ -87,7 +88,7 @@ def figure_cost(cost: FigureCost, engine: Engine) -> Table:
 def _cost_row(cost: FigureCost, method: str, elements: int, seconds: list[float]) -> dict[str, object]:
     """Return the row of a method: seconds of a step, a metre and a wheel, hours of the figure with their interval."""
     metre = elements / cost.scene.contact_radius
-    wheel = metre * cost.scene.distance
+    wheel = metre * cost.scene.track.distance
     step, (low, high) = float(np.median(seconds)), interval_of_median(seconds)
     return {
         "method": method,

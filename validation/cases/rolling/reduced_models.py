@@ -17,7 +17,7 @@ from validation.case import SERIAL, Case, Chapter, Chart, Claim, Curve, Engine, 
 from validation.cases.rolling.force_spectrum import HEIGHT, SLOPE, SLOPE_COUNTS, Q
 from validation.engine.convergence import require_realisations
 from validation.scenes.description import slope_ratio
-from validation.scenes.dynamic_wheel import load_wheel_scene
+from validation.scenes.load import load_scene_with_track
 from validation.simulation import reduced_models
 from validation.simulation.model_names import FILTER_3D as LINEAR
 from validation.simulation.reduced_models import BED, COARSE, COARSEST, JUDGE, LINE, MODELS, READ, TOLERANCE
@@ -111,7 +111,7 @@ def series(result: Outcomes) -> list[Series]:
         numbers.append(Series(LARGEST, _label(model), np.array(largest), along=SLOPE, at=case.slopes))
         numbers += [s for key in result.by_key for s in _of_strips(result, key, model)]
     numbers += [s for key in result.by_key for s in _contact(result, key)]
-    scene = load_wheel_scene("table_14_1")
+    scene = load_scene_with_track("table_14_1")
     numbers.append(Series(TABLE_14_1, HEIGHT, (scene.rms / scene.approach,)))
     return [*numbers, Series(TABLE_14_1, SLOPE, (slope_ratio(scene.slope_along, scene),))]
 

@@ -17,7 +17,7 @@ from validation.cases.wheel import features
 from validation.cases.wheel.features import FIRST, FOURTH, PLATEAU, TABLE, decibels, density_of
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Outcome
-from validation.scenes.dynamic_wheel import WheelScene
+from validation.scenes.rolling import RollingScene
 from validation.simulation.wheel_on_springs import TrackKind, WheelEnsemble, simulate_ensemble
 from validation.theory.rolling import RollingWheel
 from validation.theory.wheel import break_exponent
@@ -55,7 +55,7 @@ class WheelDistance:
     for errors; seed: zero or more.
     """
 
-    scene: WheelScene = SHORT
+    scene: RollingScene = SHORT
     periods: int = 1
     doublings: int = 4
     wheels: int = 60
@@ -88,9 +88,9 @@ class WheelDistance:
         if short:
             rail = replace(rail, longest=self.short, rms=self.rms)
         damping = self.damping if kind.damped else 0.0
-        distance = self.scene.distance * (2 if kind.track == "steady-state" else 1)
+        distance = self.scene.track.distance * (2 if kind.track == "steady-state" else 1)
         return WheelEnsemble(
-            scene=replace(self.scene, rail=rail, damping=damping, distance=distance),
+            scene=replace(self.scene, ground=rail, damping=damping, distance=distance),
             count=self.steady,
             groups=self.steady // PER_GROUP,
             track=kind.track,
@@ -128,9 +128,9 @@ def run(case: WheelDistance, engine: Engine = SERIAL) -> Outcomes:
     return Outcomes(case, outcomes, unconverged)
 
 
-def _check_regions(scene: WheelScene) -> None:
+def _check_regions(scene: RollingScene) -> None:
     """Refuse a scene without a plateau, or with too few periods of the oscillation behind it."""
-    if scene.rail is None or scene.wheel is not None:
+    if not scene.rail_alone_is_rough:
         raise ValueError("scene must have a rough rail and a smooth wheel")
     if scene.jump < MIN_JUMP * scene.eigenfrequency:
         raise ValueError(
@@ -258,15 +258,15 @@ def _regions(result: Outcomes) -> Iterator[Series]:
         yield share(SPRINGS, (left,), where=of, family=len(WITHOUT_LEAKAGE), margin=OF_SHARE)
 
 
-def theory_of(scene: WheelScene) -> RollingWheel:
+def theory_of(scene: RollingScene) -> RollingWheel:
     same = ("radius", "modulus", "contact_radius", "mass", "speed", "damping")
     return RollingWheel(**{name: getattr(scene, name) for name in same})
 
 
-def second_order(scene: WheelScene, omega: FloatArray) -> FloatArray:
+def second_order(scene: RollingScene, omega: FloatArray) -> FloatArray:
     """A of the second order below the jump; zero from there on."""
     density, inside = np.zeros(omega.size), omega < scene.jump
-    q_max = scene.cutoff / scene.speed
+    q_max = scene.cutoff / scene.rolling_speed
     density[inside] = theory_of(scene).acceleration(omega[inside], features.roughness(scene), q_max=q_max)
     return density
 
@@ -280,7 +280,7 @@ def _second_order(result: Outcomes) -> Iterator[Series]:
         yield from _over_second_order(ensemble.scene, outcome, 2 * len(steady) + 3)
 
 
-def _over_second_order(scene: WheelScene, outcome: Outcome, family: int) -> Iterator[Series]:
+def _over_second_order(scene: RollingScene, outcome: Outcome, family: int) -> Iterator[Series]:
     omega, bands = outcome["omega"], features.regions_of(scene)
     theory, place = second_order(scene, omega), at_height(scene)
     damping = {DAMPING: f"{100 * scene.damping:g} % of critical" if scene.damping else "none"}
@@ -302,11 +302,11 @@ def _over_second_order(scene: WheelScene, outcome: Outcome, family: int) -> Iter
     yield drawn(SECOND_ORDER, theory[: lines.size])
 
 
-def at_height(scene: WheelScene) -> dict[str, Place]:
+def at_height(scene: RollingScene) -> dict[str, Place]:
     return {H_OVER_D: round(scene.rms / scene.approach, 4)}
 
 
-def _contrasts(scene: WheelScene, outcome: Outcome) -> Iterator[Series]:
+def _contrasts(scene: RollingScene, outcome: Outcome) -> Iterator[Series]:
     """Maxima of cos²(q a) in region 2 over the zeros beside them, of A omega²: a power of the cosine."""
     omega, at, theory = outcome["omega"], maxima_of(scene), second_order(scene, outcome["omega"])
 
@@ -329,7 +329,7 @@ def _contrasts(scene: WheelScene, outcome: Outcome) -> Iterator[Series]:
         yield density_of(SHORT_WAVES, model, means, at=(edges[1:] + edges[:-1]) / 2)
 
 
-def maxima_of(scene: WheelScene) -> FloatArray:
+def maxima_of(scene: RollingScene) -> FloatArray:
     """The numbers n of the maxima q a = n pi of cos²(q a) that have both of their zeros in region 2."""
     last = features.regions_of(scene)[PLATEAU][1]
     return np.arange(1.0, math.floor(last / scene.oscillation_period - 0.5) + 1)

@@ -12,13 +12,14 @@ from validation.analysis.spectra import band_means
 from validation.analysis.statistics import POWER_DECIBEL, Estimate, FloatArray, jackknifed
 from validation.case import Quantity, Series
 from validation.engine.engine import Outcome
-from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
+from validation.scenes.load import load_scene_with_track
+from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.simulation import wheel_features
 from validation.theory import rolling as rolling_theory
 from validation.theory import wheel as wheel_theory
 
-TABLE = load_wheel_scene("table_14_1")
+TABLE = load_scene_with_track("table_14_1")
 decibels = partial(Series, scale=POWER_DECIBEL, unit="dB")
 
 PEAK, JUMP, SLOPE, PERIOD = wheel_features.NAMES
@@ -44,7 +45,7 @@ FLOOR_BAND = (1.3, 2.6)
 class Spectrum:
     """Mean spectra of an ensemble: omega; plain, hann: (groups, frequencies); jumps: of each wheel; times [s]."""
 
-    scene: WheelScene
+    scene: RollingScene
     omega: FloatArray
     plain: FloatArray
     hann: FloatArray
@@ -53,7 +54,7 @@ class Spectrum:
     duration: float
 
     @classmethod
-    def of(cls, scene: WheelScene, outcomes: Sequence[Outcome]) -> "Spectrum":
+    def of(cls, scene: RollingScene, outcomes: Sequence[Outcome]) -> "Spectrum":
         """All batches of one ensemble, of equal size."""
         first = outcomes[0]
         plain, hann = (np.concatenate([o[name] for o in outcomes]) for name in ("plain", "hann"))
@@ -66,15 +67,15 @@ class Spectrum:
         return linear_spectrum(self.scene, self.omega)
 
 
-def linear_spectrum(scene: WheelScene, omega: FloatArray) -> FloatArray:
+def linear_spectrum(scene: RollingScene, omega: FloatArray) -> FloatArray:
     """A of linear theory in one dimension: C_F of (14.12) over the fixed contact, and the wheel on its spring."""
     force = rolling_theory.force_spectrum_1d(
-        omega / scene.speed, roughness(scene), contact_radius=scene.contact_radius, modulus=scene.modulus
+        omega / scene.rolling_speed, roughness(scene), contact_radius=scene.contact_radius, modulus=scene.modulus
     )
     return accelerated_by(force, scene, omega)
 
 
-def linear_force_3d(scene: WheelScene, q: FloatArray) -> FloatArray:
+def linear_force_3d(scene: RollingScene, q: FloatArray) -> FloatArray:
     """C_F of linear theory in three dimensions, over a rough rail."""
     assert scene.rail is not None  # strips refuse a smooth rail
     return rolling_theory.force_spectrum_3d(
@@ -82,14 +83,14 @@ def linear_force_3d(scene: WheelScene, q: FloatArray) -> FloatArray:
     )
 
 
-def accelerated_by(force: FloatArray, scene: WheelScene, omega: FloatArray) -> FloatArray:
+def accelerated_by(force: FloatArray, scene: RollingScene, omega: FloatArray) -> FloatArray:
     """A of the wheel on its contact spring under a force of that C_F."""
     same = {name: getattr(scene, name) for name in ("eigenfrequency", "mass", "damping")}
     resonator = wheel_theory.acceleration_over_force(omega, **same)
-    return np.asarray(wheel_theory.over_frequency(force, speed=scene.speed) * resonator)
+    return np.asarray(wheel_theory.over_frequency(force, speed=scene.rolling_speed) * resonator)
 
 
-def roughness(scene: WheelScene) -> Callable[[FloatArray], FloatArray]:
+def roughness(scene: RollingScene) -> Callable[[FloatArray], FloatArray]:
     """C_1D of rail and wheel together: independent heights add as spectra."""
     both = [r.spectrum for r in (scene.rail, scene.wheel) if r]
     return lambda q: np.asarray(sum((s.c1d(q) for s in both), np.zeros_like(q)))
@@ -126,9 +127,11 @@ def expected(spectrum: Spectrum) -> dict[str, float]:
     period = scene.oscillation_period
     # sin^2 in the mean: (14.14) through the resonator, far above the resonance
     power = wheel_theory.over_frequency(
-        rolling_theory.mean_force_spectrum_1d(scene.cutoff / scene.speed, roughness(scene), modulus=scene.modulus),
-        speed=scene.speed,
-    ) / (scene.mass**2 * scene.cutoff**exponent)
+        rolling_theory.mean_force_spectrum_1d(
+            scene.cutoff / scene.rolling_speed, roughness(scene), modulus=scene.modulus
+        ),
+        speed=scene.rolling_speed,
+    ) / (scene.body.mass**2 * scene.cutoff**exponent)
     if scene.rail and scene.wheel and _shape(scene.rail) != _shape(scene.wheel):
         # no power law: what the same rule finds in linear theory
         first, last = wheel_features.third_region(scene, scene.jump)
@@ -147,7 +150,7 @@ def expected(spectrum: Spectrum) -> dict[str, float]:
     }
 
 
-def hurst(scene: WheelScene) -> float:
+def hurst(scene: RollingScene) -> float:
     """H of the rail, or of the wheel where the rail is smooth. Raises ValueError where both are."""
     rough = scene.rail or scene.wheel
     if rough is None:
@@ -189,7 +192,7 @@ def log_beside_over_at(periods: FloatArray, flat: FloatArray, places: FloatArray
 FIRST, PLATEAU, THIRD, FOURTH = "region 1", "region 2", "region 3", "region 4"
 
 
-def regions_of(scene: WheelScene) -> dict[str, tuple[float, float]]:
+def regions_of(scene: RollingScene) -> dict[str, tuple[float, float]]:
     """The band in which each region is measured [rad/s]."""
     return {
         FIRST: (0.5 * scene.eigenfrequency, 2 * scene.eigenfrequency),

@@ -15,12 +15,12 @@ from validation.case import SERIAL, Engine, Outcomes
 from validation.cases.wheel.features import TABLE, accelerated_by, linear_force_3d
 from validation.engine.convergence import FEWEST, NotConvergedError, require_realisations
 from validation.engine.engine import Outcome
-from validation.scenes.dynamic_wheel import WheelScene
+from validation.scenes.rolling import RollingScene
 from validation.simulation import model_names as named
 from validation.simulation.wheel_on_half_space import WheelStrip, simulate_strip
 from validation.simulation.wheel_on_springs import WheelEnsemble, simulate_ensemble
 
-QUICK = replace(TABLE, rail=replace(TABLE.rail, shortest=0.8e-3)) if TABLE.rail else TABLE
+QUICK = replace(TABLE, ground=replace(TABLE.rail, shortest=0.8e-3)) if TABLE.rail else TABLE
 STRIPS, FINER, LOOSE, TIGHT, TRACKS = "strips", "finer", "loose", "tight", "tracks"
 TIGHTER = 10
 """Ratio of two residuals whose levels differ by the error of the solver."""
@@ -36,7 +36,7 @@ class Wheel3D:
     the strip with a tighter residual; wheels: on springs; groups, batch: of these; seed: zero or more.
     """
 
-    scene: WheelScene = QUICK
+    scene: RollingScene = QUICK
     strips: int = 4
     periods: int = 1
     width: int = 2
@@ -201,7 +201,7 @@ class WheelLevels:
 
     def _density_3d(self, omega: FloatArray) -> FloatArray:
         scene = self.result.case.scene
-        return accelerated_by(linear_force_3d(scene, omega / scene.speed), scene, omega)
+        return accelerated_by(linear_force_3d(scene, omega / scene.rolling_speed), scene, omega)
 
     @cached_property
     def bem(self) -> FloatArray:

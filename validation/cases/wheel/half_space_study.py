@@ -17,7 +17,7 @@ from validation.cases.wheel import features
 from validation.cases.wheel import half_space as wheel
 from validation.cases.wheel.features import LEVEL, OMEGA, QUANTITIES, SLOPE, decibels
 from validation.scenes.description import slope_ratio
-from validation.scenes.dynamic_wheel import WheelScene
+from validation.scenes.rolling import RollingScene
 from validation.simulation import model_needed
 
 LEVELS = Quantity("one-third_octave_level_dB_over_m_s²_²", "one-third octave level [dB over (m/s²)²]")
@@ -99,13 +99,13 @@ def _spectra(levels: wheel.WheelLevels) -> dict[str, tuple[FloatArray, FloatArra
     }
 
 
-def zeros_of(scene: WheelScene) -> FloatArray:
+def zeros_of(scene: RollingScene) -> FloatArray:
     """The numbers n of the zeros q a = n pi that have both of their maxima in region 3."""
     first, last = scene.jump / scene.oscillation_period, scene.cutoff / scene.oscillation_period
     return np.arange(np.ceil(first + 0.5 + features.HALF_BAND), np.floor(last - 0.5 - features.HALF_BAND) + 1)
 
 
-def log_contrasts(omega: FloatArray, density: FloatArray, scene: WheelScene) -> FloatArray:
+def log_contrasts(omega: FloatArray, density: FloatArray, scene: RollingScene) -> FloatArray:
     """ln of the mean of A omega^(2 H + 3) about the two maxima beside each zero, over that about the zero."""
     flat = density * omega ** (2 * features.hurst(scene) + 3)
     return features.log_beside_over_at(omega / scene.oscillation_period, flat, zeros_of(scene))

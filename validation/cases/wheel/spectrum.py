@@ -15,7 +15,7 @@ from validation.cases.wheel import features
 from validation.cases.wheel.features import TABLE, decibels
 from validation.engine.convergence import NotConvergedError
 from validation.engine.engine import Outcome
-from validation.scenes.dynamic_wheel import WheelScene
+from validation.scenes.rolling import RollingScene
 from validation.simulation import wheel_features
 from validation.simulation.wheel_on_springs import WheelEnsemble, simulate_ensemble
 from validation.theory import wheel as wheel_theory
@@ -29,7 +29,7 @@ class WheelSpectrum:
     bars; batch: wheels that are simulated together, at most; parameters: whether to vary any; seed: zero or positive.
     """
 
-    scene: WheelScene = TABLE
+    scene: RollingScene = TABLE
     realisations: int = 60
     varied: int = 20
     groups: int = 10
@@ -37,7 +37,7 @@ class WheelSpectrum:
     parameters: bool = True
     seed: int = 146
 
-    def variations(self) -> Mapping[str, WheelScene]:
+    def variations(self) -> Mapping[str, RollingScene]:
         varied = _varied(self.scene) if self.parameters else {}
         if self.scene.name in varied:
             raise ValueError(f"name must be another than those of variations, {', '.join(varied)}, got that")
@@ -50,7 +50,7 @@ class WheelSpectrum:
             for name, scene in self.variations().items()
         }
 
-    def _batches(self, scene: WheelScene, realisations: int) -> list[WheelEnsemble]:
+    def _batches(self, scene: RollingScene, realisations: int) -> list[WheelEnsemble]:
         batches = math.ceil(realisations / self.batch)
         groups = max(self.groups // batches, 1)
         count = groups * math.ceil(realisations / batches / groups)
@@ -70,9 +70,9 @@ def run(case: WheelSpectrum, engine: Engine = SERIAL) -> Outcomes:
     return Outcomes(case, batches)
 
 
-def _varied(scene: WheelScene) -> dict[str, WheelScene]:
+def _varied(scene: RollingScene) -> dict[str, RollingScene]:
     """One parameter at a time, down and up."""
-    varied = {f"v₀ × {factor:g}": replace(scene, speed=factor * scene.speed) for factor in (0.25, 2.0)}
+    varied = {f"v₀ × {factor:g}": replace(scene, speed=factor * scene.rolling_speed) for factor in (0.25, 2.0)}
     rail = scene.rail
     if rail is None:
         return varied
@@ -80,7 +80,7 @@ def _varied(scene: WheelScene) -> dict[str, WheelScene]:
     rails |= {f"q_max × {factor:g}": replace(rail, shortest=rail.shortest / factor) for factor in (0.5, 2.0)}
     rails |= {f"H = {hurst:g}": replace(rail, hurst=hurst) for hurst in (0.4, 1.0)}
     rails |= {f"h₀ × {factor:g}": replace(rail, rms=factor * rail.rms) for factor in (0.25, 4.0)}
-    return varied | {name: replace(scene, rail=rail) for name, rail in rails.items()}
+    return varied | {name: replace(scene, ground=rail) for name, rail in rails.items()}
 
 
 SPECTRUM, VARIED = Quantity("A_in_twelfths_of_an_octave"), Quantity("A_with_one_parameter_changed")

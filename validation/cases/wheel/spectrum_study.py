@@ -13,7 +13,7 @@ from validation.case import Case, Chapter, Chart, Claim, Curve, Outcomes, Panel,
 from validation.cases.wheel import features, spectrum
 from validation.cases.wheel.features import DENSITY, OMEGA, QUANTITIES, TABLE
 from validation.scenes.description import describe
-from validation.scenes.dynamic_wheel import WheelScene
+from validation.scenes.rolling import RollingScene
 from validation.simulation import model_needed, wheel_features
 from validation.simulation.wheel_on_springs import WAVES_APART
 
@@ -49,7 +49,7 @@ def notes(result: Outcomes) -> Sequence[str]:
     return [*filter(None, (book, hidden if hides else "", flight, scene.no_steady_answer(), *scene.diagnose()))]
 
 
-def is_of_the_book(scene: WheelScene) -> bool:
+def is_of_the_book(scene: RollingScene) -> bool:
     """Whether it has what Table 14.1 prints: a changed copy of its file has the same name."""
     return all(getattr(scene, key) == getattr(TABLE, key) for key in ("name", "radius", "mass", "material", "rms"))
 

@@ -29,7 +29,7 @@ from validation.judging.kinds.laws import FEATURE, REGION, by_region
 from validation.judging.kinds.references import Reference, as_file, file_name, rows_of
 from validation.judging.kinds.rolling import GRIDS, HEIGHT, HEIGHTS, SLOPE, Q, bands_of, spectrum_of
 from validation.judging.kinds.stiffness import BAND, FORCE, ROLL_OFF, H
-from validation.scenes.dynamic_wheel import load_wheel_scene
+from validation.scenes.load import load_scene_with_track
 from validation.simulation.model_names import BEM, FILTER_3D, SPRINGS
 from validation.simulation.rolling_strip import (
     HERTZ,
@@ -225,7 +225,7 @@ def _regions(report: Report, _: Engine) -> Iterator[Reference]:
     level, lowest, highest = 10 * np.log10([[row["value"] for row in rows_of_model] for rows_of_model in rows])
     omega = np.array([row["ω [rad/s]"] for row in rows[0]])
     half = 1.96 * (highest - lowest) / (2 * TENTH) / math.sqrt(report.settings("wheel")["realisations"])
-    levels, halves = (by_region(load_wheel_scene("table_14_1"), omega, values) for values in (level, half))
+    levels, halves = (by_region(load_scene_with_track("table_14_1"), omega, values) for values in (level, half))
     return (Reference({"region": name}, levels[name], halves[name]) for name in levels)
 
 

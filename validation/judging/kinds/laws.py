@@ -20,7 +20,8 @@ from validation.judging.judgement import LEVEL
 from validation.judging.kinds.judge import Finding, LostError, ModelAnswer, answer_of, attempted, compared
 from validation.judging.kinds.references import Reference, about, reference_rows
 from validation.judging.registry import Caller, Failed
-from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
+from validation.scenes.load import load_scene_with_track
+from validation.scenes.rolling import RollingScene
 from validation.simulation.motion import Motion, simulate
 from validation.simulation.wheel_features import features_of
 from validation.simulation.wheel_on_springs import band_edges
@@ -67,12 +68,12 @@ def _model_answer(row: Reference, value: float, half: float, records: float) -> 
     return answer._replace(reason=reason)
 
 
-def table_14_1() -> WheelScene:
+def table_14_1() -> RollingScene:
     """On half as many cells as the case has, which are five to the shortest wave."""
-    return replace(table := load_wheel_scene("table_14_1"), springs=table.springs // 2)
+    return replace(table := load_scene_with_track("table_14_1"), springs=table.track.springs // 2)
 
 
-def starts(scene: WheelScene) -> FloatArray:
+def starts(scene: RollingScene) -> FloatArray:
     """Where the wheels start [m], at whole places of a track: of any period it has few of them on equal pieces."""
     part = np.arange(WHEELS) / (WHEELS - 1)
     square, cube = BENDS
@@ -112,7 +113,7 @@ class LawAlongPaths:
         raise NotImplementedError
 
 
-def rolled(model: Caller, scene: WheelScene) -> tuple[Motion, FloatArray]:
+def rolled(model: Caller, scene: RollingScene) -> tuple[Motion, FloatArray]:
     """Each wheel begins at rest. Raises LostError for a law without an answer, or a motion.
 
     Returns the motion, and the force along each track at the approach of rest, (places, wheels) [N].
@@ -151,13 +152,13 @@ def rolled(model: Caller, scene: WheelScene) -> tuple[Motion, FloatArray]:
     raise LostError(Failed(f"no motion is found in {ROUNDS} attempts: the force jumps with the approach"))
 
 
-def in_words(scene: WheelScene) -> str:
+def in_words(scene: RollingScene) -> str:
     """Which wheel a law must bear."""
     wheel = f"R = {scene.radius:g} m, E* = {scene.modulus / 1e9:g} GPa, {scene.load:g} N, {scene.mass:g} kg"
     return f"the wheel of {scene.name} ({wheel}, {scene.speed:g} m/s, {1e6 * scene.approach:.3g} um on smooth ground)"
 
 
-def _at_rest(force: Callable[[FloatArray], FloatArray], scene: WheelScene) -> FloatArray:
+def _at_rest(force: Callable[[FloatArray], FloatArray], scene: RollingScene) -> FloatArray:
     """By halves, between approaches at which it bears less and more."""
     low, high = (np.full(WHEELS, sign * scene.approach) for sign in (-1.0, 1.0))
     for _ in range(DOUBLINGS):
@@ -175,13 +176,13 @@ def _at_rest(force: Callable[[FloatArray], FloatArray], scene: WheelScene) -> Fl
     return np.asarray((low + high) / 2)
 
 
-def by_region(scene: WheelScene, omega: FloatArray, values: FloatArray) -> dict[str, float]:
+def by_region(scene: RollingScene, omega: FloatArray, values: FloatArray) -> dict[str, float]:
     """Means of what is known at these frequencies."""
     regions = {name: (omega > first) & (omega < last) for name, (first, last) in ends_of(scene).items()}
     return {name: float(np.nanmean(values[inside])) for name, inside in regions.items()}
 
 
-def ends_of(scene: WheelScene) -> dict[str, tuple[float, float]]:
+def ends_of(scene: RollingScene) -> dict[str, tuple[float, float]]:
     """Of the regions of Fig. 14.4, clear of peak, jump and end, and below half of the sampling rate [rad/s]."""
     peak, jump, end = scene.eigenfrequency, scene.jump, scene.cutoff
     return {

@@ -80,7 +80,7 @@ class RailScene(SceneDefaults):
     notes : tuple of str, optional
         What was assumed where the scene was made, in sentences.
     damping : float, optional
-        Damping ratio of a wheel with a mass, as of `WheelScene`. None by default.
+        Damping ratio of a wheel with a mass, as of `RollingScene`. None by default.
 
     Raises
     ------

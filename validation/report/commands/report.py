@@ -10,7 +10,7 @@ from validation.report.commands.arguments import Exit, add_options, add_profile,
 BENCHMARK, FORMER_BENCHMARK = "benchmark", "race"
 """The command of the case `race`, and its former name, which works for one release."""
 WHEELS = ("rough_wheel", "table_14_1")
-"""The scenes that `bundled_wheels` finds, which imports numerics."""
+"""The scenes that `bundled_with_track` finds, which imports numerics."""
 
 
 def describe(making: argparse.ArgumentParser) -> None:

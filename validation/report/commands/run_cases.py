@@ -13,8 +13,9 @@ from validation.report.contents import CASES, TIMED, timed_here
 from validation.report.formats import in_four_digits
 from validation.report.section import Section, total_of
 from validation.scenes.description import description_lines
-from validation.scenes.dynamic_wheel import WheelScene, load_wheel_scene
+from validation.scenes.load import load_scene_with_track
 from validation.scenes.printable import printable
+from validation.scenes.rolling import RollingScene
 
 
 def cases(arguments: argparse.Namespace) -> Exit:
@@ -74,14 +75,14 @@ def _folder(names: Sequence[str], arguments: argparse.Namespace) -> str:
     return "-".join([arguments.profile, *listed])
 
 
-def _scene_of(arguments: argparse.Namespace, names: Sequence[str]) -> WheelScene | None:
+def _scene_of(arguments: argparse.Namespace, names: Sequence[str]) -> RollingScene | None:
     """The scene of `--scene`, refused where a case takes none."""
     if arguments.scene is None:
         return None
     without = [name for name in names if name in TIMED or not hasattr(CASES[name].quick, "scene")]
     if without:
         raise ValueError(f"--scene is for cases of the dynamic wheel, got {', '.join(without)}")
-    return load_wheel_scene(arguments.scene)
+    return load_scene_with_track(arguments.scene)
 
 
 def lines_of(section: Section) -> list[str]:
