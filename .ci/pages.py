@@ -14,7 +14,7 @@ from pathlib import Path
 from validation.analysis.claims import Claim
 from validation.analysis.evidence import Evidence, JudgedClaim
 from validation.analysis.study import Study, _title
-from validation.report import kept
+from validation.report import earlier_report
 from validation.report.build import _files
 from validation.report.contents import CASES, TIMED
 from validation.report.folder import RESULTS, Folder
@@ -30,7 +30,7 @@ def sections() -> list[Section]:
     """Of all cases of the report, whatever code has made them."""
     files = [REFERENCE / RESULTS, *(path for name in TIMED if (path := REFERENCE / f"{name}.json").exists())]
     cases = {name: case for file in files for name, case in json.loads(file.read_text("utf-8"))["cases"].items()}
-    found = [kept._section(REFERENCE, name, case) for name, case in cases.items()]
+    found = [earlier_report._section(REFERENCE, name, case) for name, case in cases.items()]
     in_order = list(CASES | TIMED)
     return [judged_anew(section) for section in sorted(found, key=lambda section: in_order.index(section.name))]
 
@@ -73,7 +73,7 @@ def _headlines(study: Study, said: dict[str, str], evidence: Evidence) -> dict[s
 
 def make_anew(figures: Sequence[str]) -> None:
     """The report folder, in place, and the table of README.md."""
-    every, about = sections(), kept.kept_provenance(REFERENCE)
+    every, about = sections(), earlier_report.kept_provenance(REFERENCE)
     about = with_kept({**about, "commit": _commit()}, about, every)
     drawn = {
         name: draw_figure(name, section.evidence, "full")

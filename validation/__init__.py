@@ -14,7 +14,7 @@ MODULES = {
     "Material": "scenes.material",
     "JudgedNumber": "judging.judgement",
     "Judgement": "judging.judge",
-    "MeasuredHeights": "scenes.measured",
+    "MeasuredHeights": "scenes.measured_heights",
     "RailScene": "railway.scenes.rail",
     "RollingScene": "scenes.rolling",
     "Roughness": "scenes.roughness",

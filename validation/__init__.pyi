@@ -25,7 +25,7 @@ from validation.scenes.dynamic_wheel import load_wheel_scene as load_wheel_scene
 from validation.scenes.indentation import IndentationScene as IndentationScene
 from validation.scenes.load import load_scene as load_scene
 from validation.scenes.material import Material as Material
-from validation.scenes.measured import MeasuredHeights as MeasuredHeights
+from validation.scenes.measured_heights import MeasuredHeights as MeasuredHeights
 from validation.scenes.measured_surface import measured as measured
 from validation.scenes.rolling import RollingScene as RollingScene
 from validation.scenes.roughness import Roughness as Roughness

@@ -22,7 +22,7 @@ from validation.advice.calibration import (
     sphere_shape,
 )
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.rolling_quantity import RollingQuantity
 from validation.scenes.roughness import Roughness
 

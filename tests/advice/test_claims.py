@@ -19,7 +19,7 @@ from validation.advice.models import boundary_elements_pressed, boundary_element
 from validation.advice.models import rolling as rolling_models
 from validation.advice.quantities import models_of, quantities_of
 from validation.engine.random_numbers import random_generator
-from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.rolling_quantity import RollingQuantity
 from validation.scenes.roughness import Roughness
 from validation.simulation import indentation as pressed_heights

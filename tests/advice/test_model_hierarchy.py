@@ -28,7 +28,7 @@ from validation.advice.summary import summary
 from validation.railway.problems.rail_quantity import RAIL_QUANTITIES
 from validation.report.contents import CASES
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.rolling_quantity import RollingQuantity
 from validation.simulation import indentation as pressed_heights
 from validation.simulation import rolling_levels as rolled
@@ -425,7 +425,7 @@ def at_points(heights, shape, cell):
 
 
 @catches("measured heights at points, not over cells").at(
-    "validation.scenes.measured.MeasuredHeights.mean_over_cells", at_points
+    "validation.scenes.measured_heights.MeasuredHeights.mean_over_cells", at_points
 )
 def test_short_waves_of_a_measured_track_are_no_longer_ones():
     # cells of a / 8, and a wave of a / 7 along the track: at the centres alone one of a, of the same height

@@ -244,7 +244,7 @@ def test_cells_of_a_light_punch_are_those_of_the_gradient(more, cells):
     assert indentation.sufficient_cells(light) == cells
 
 
-@catches_root_of_two("the gradient of a claim on ridges", "validation.scenes.measured.MeasuredHeights.gradient")
+@catches_root_of_two("the gradient of a claim on ridges", "validation.scenes.measured_heights.MeasuredHeights.gradient")
 @patch.object(RollingClaim, "estimate", lambda *_: ErrorEstimate(model=0.1, reason=""))
 def test_anisotropic_heights_leave_their_gradient_open():
     """Ridges along the track, which h' does not see, are as rough as any for a filter in all directions."""

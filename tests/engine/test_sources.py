@@ -39,7 +39,7 @@ def test_a_punch_rests_on_both_methods_and_on_no_page():
     assert not [name for name in behind if name.startswith(("validation.advice", "validation.cases"))]
     assert not [name for name in sources.modules() if ".report" in name]
     # problems go through the engine, and what draws their random numbers stands beside it
-    assert not {"validation.engine.engine", "validation.engine.progress", "validation.engine.stored"} & behind
+    assert not {"validation.engine.engine", "validation.engine.progress", "validation.engine.result_store"} & behind
     assert "validation.engine.random_numbers" in behind
 
 

@@ -188,7 +188,9 @@ def test_a_file_that_is_changed_while_its_models_are_compared_ends_the_command(h
     assert main(["compare", "rough_punch", "--models-from", str(path), "--models", "mine"]) == 2
 
 
-@catches("one measured surface without its scatter").at("validation.scenes.measured.MeasuredHeights.is_single", False)
+@catches("one measured surface without its scatter").at(
+    "validation.scenes.measured_heights.MeasuredHeights.is_single", False
+)
 def test_a_claim_for_one_measured_surface_has_its_scatter_about_the_mean():
     height = np.random.default_rng(4).normal(size=(32, 32)) * 1e-6
     one = replace(ROUGH, ground=validation.MeasuredHeights(height=height, spacing=(ROUGH.size / 32,) * 2))

@@ -17,7 +17,7 @@ from validation.advice import compare
 from validation.advice.columns import bands_of
 from validation.advice.scene_model import Answer
 from validation.advice.summary import summary
-from validation.railway import exported
+from validation.railway import rail_columns
 from validation.railway.scenes import rail
 from validation.simulation.model import Cost
 
@@ -76,11 +76,11 @@ def answering(comparison, which, **changes):
     return replace(comparison, selection=replace(comparison.selection, candidates=tuple(models)))
 
 
-real_weighting = exported.a_weighting
+real_weighting = rail_columns.a_weighting
 
 
 @catches("A-weighting at the frequency of half a wave").at(
-    "validation.railway.exported.a_weighting", lambda frequency: real_weighting(2 * frequency)
+    "validation.railway.rail_columns.a_weighting", lambda frequency: real_weighting(2 * frequency)
 )
 @catches("a force at nominal frequencies").at(
     "validation.analysis.spectra.NominalBands.wavelengths", property(lambda bands: bands.nominal)

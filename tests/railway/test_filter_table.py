@@ -12,7 +12,7 @@ from tests.advice.planted_answers import Finding, compared
 from tests.seeded import catches
 from validation.__main__ import main
 from validation.advice.compare import compare
-from validation.railway.exported import filter_table
+from validation.railway.rail_columns import filter_table
 from validation.simulation.model_names import SPRINGS_GEIKE
 
 PUBLISHED = Path(validation.__file__).parent / "railway" / "cases" / "cnossos_a3_2021.csv"
@@ -68,7 +68,7 @@ def test_longer_waves_are_those_of_a_scene_that_has_them(across):
 
 
 @catches("long waves that pass under every filter").at(
-    "validation.railway.exported.of_longer_waves", lambda model, target: np.zeros(35)
+    "validation.railway.rail_columns.of_longer_waves", lambda model, target: np.zeros(35)
 )
 def test_springs_on_geikes_spectrum_are_off_for_long_waves_too():
     """By sqrt(pi) Gamma((p + 1) / 2) / Gamma(p / 2) of C_line ~ q^-p: 2.0 dB for p = 2."""

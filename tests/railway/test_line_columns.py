@@ -19,7 +19,7 @@ from validation.railway.scenes.line_columns import along_the_track
 from validation.railway.scenes.line_edits import edited
 from validation.scenes import table_files
 from validation.scenes.load import load_scene
-from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.measured_surface import measured
 from validation.scenes.table_files import heights_of_columns
 from validation.simulation.model import Target

@@ -11,7 +11,7 @@ from validation.railway.scenes.measured_lines import MeasuredLines
 from validation.railway.scenes.rail import RailScene
 from validation.scenes.description import describe
 from validation.scenes.load import load_scene, load_scene_with_track
-from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured_heights import MeasuredHeights
 
 TEXT = """
 name = "regional train"

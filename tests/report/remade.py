@@ -4,7 +4,7 @@ import json
 from functools import cache
 from pathlib import Path
 
-from validation.report import kept, page
+from validation.report import earlier_report, page
 from validation.report.contents import TIMED
 
 REFERENCE = Path(__file__).parents[2] / "reports" / "reference"
@@ -16,12 +16,12 @@ def sections():
     cases = {
         name: case for file in files for name, case in json.loads(file.read_text(encoding="utf-8"))["cases"].items()
     }
-    return [kept._section(REFERENCE, name, case) for name, case in cases.items()]
+    return [earlier_report._section(REFERENCE, name, case) for name, case in cases.items()]
 
 
 @cache
 def remade():
     """By their names."""
-    about = kept.kept_provenance(REFERENCE)
+    about = earlier_report.kept_provenance(REFERENCE)
     about["timed"] = [name for name in TIMED if (REFERENCE / f"{name}.json").exists()]
     return {name: text.decode() for name, text in page.pages(sections(), "full", about, None).items()}

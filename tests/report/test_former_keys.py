@@ -9,7 +9,7 @@ from tests.report.remade import REFERENCE, sections
 from tests.report.test_answers import at, punch
 from validation.analysis.contents import condition_key
 from validation.engine.former_names import value_of
-from validation.report import kept
+from validation.report import earlier_report
 from validation.report.answers.first_screen import answered_questions, plain
 from validation.report.section import case_results
 
@@ -97,9 +97,9 @@ def test_a_report_of_schema_1_is_read_as_one_of_schema_2():
     before = {name: value for name, value in case.items() if name not in FORMER}
     for claim in before["claims"]:
         claim.pop("confirmed_by")
-    assert case_results(kept._section(REFERENCE, "hertz", before)) == case_results(section)
+    assert case_results(earlier_report._section(REFERENCE, "hertz", before)) == case_results(section)
     with pytest.raises(ValueError, match="page tables"):
-        kept._section(REFERENCE, "hertz", {name: v for name, v in before.items() if name != "page tables"})
+        earlier_report._section(REFERENCE, "hertz", {name: v for name, v in before.items() if name != "page tables"})
 
 
 def test_a_value_is_that_of_todays_key():

@@ -16,7 +16,7 @@ from validation.railway.scenes.measured_lines import MeasuredLines
 from validation.scenes import text_dialect
 from validation.scenes.column_names import Column, column_of, columns_of, unit_of_all
 from validation.scenes.description import description_lines
-from validation.scenes.measured import edited_lines
+from validation.scenes.measured_heights import edited_lines
 from validation.scenes.number_table import TableForm, table_of_text
 from validation.scenes.positions import places_of
 from validation.scenes.text_dialect import WRITTEN
@@ -380,7 +380,7 @@ def test_wavenumbers_are_cycles_over_a_metre():
 
 
 @catches("a line filled in with its mean").at(
-    "validation.scenes.measured._filled_line", lambda line: np.where(np.isnan(line), np.nanmean(line), line)
+    "validation.scenes.measured_heights._filled_line", lambda line: np.where(np.isnan(line), np.nanmean(line), line)
 )
 def test_holes_of_a_line_lie_between_their_neighbours():
     line = np.array([0.0, 1.0, np.nan, 3.0, 9.0] + 300 * [0.0])[:, np.newaxis]

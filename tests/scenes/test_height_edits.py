@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from tests.seeded import catches
-from validation.scenes import measured as height_edits
+from validation.scenes import measured_heights as height_edits
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import load_scene
-from validation.scenes.measured import MeasuredHeights, central_square, filled_in
+from validation.scenes.measured_heights import MeasuredHeights, central_square, filled_in
 from validation.scenes.measured_surface import measured
 
 ROUGH = np.random.default_rng(5).standard_normal((40, 32))

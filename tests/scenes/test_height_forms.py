@@ -10,7 +10,7 @@ from validation.scenes import table_files
 from validation.scenes.bundled import SCENES
 from validation.scenes.description import description_lines
 from validation.scenes.load import load_scene
-from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured_heights import MeasuredHeights
 
 PUNCH = (SCENES / "rough_punch.toml").read_text(encoding="utf-8")
 HEIGHT = 1e-7 * np.random.default_rng(1).standard_normal((64, 64))

@@ -16,7 +16,7 @@ from validation.scenes.description import describe
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import load_scene, load_scene_with_track
 from validation.scenes.material import Elastic, Material
-from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.scenes.units import in_unit
@@ -168,8 +168,8 @@ def test_slopes_are_those_of_the_spectrum():
         assert rough.slope_along == pytest.approx(math.sqrt(np.pi * np.trapezoid(q**3 * rough.c2d(q), q)), rel=1e-5)
 
 
-@catches_root_of_two("h' of measured heights", "validation.scenes.measured.MeasuredHeights.slope_along")
-@catches_root_of_two("the gradient of measured heights", "validation.scenes.measured.MeasuredHeights.gradient")
+@catches_root_of_two("h' of measured heights", "validation.scenes.measured_heights.MeasuredHeights.slope_along")
+@catches_root_of_two("the gradient of measured heights", "validation.scenes.measured_heights.MeasuredHeights.gradient")
 def test_slopes_are_those_of_heights():
     rough, n = Roughness(rms=1e-6, hurst=0.7, longest=2.5e-4, shortest=3.2e-5), 512
     height = bem3d.rough_surface(rough.c2d, shape=(n, n), spacing=1e-3 / n, rng=np.random.default_rng(1), rms=1e-6)

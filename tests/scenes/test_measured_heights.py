@@ -12,9 +12,9 @@ import bem3d
 import mdr
 from tests.seeded import catches
 from validation.advice.quantities import models_of
-from validation.scenes import measured as measured_heights
+from validation.scenes import measured_heights
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.measured_surface import measured
 
 N, DX = 256, 1e-6
@@ -60,7 +60,7 @@ def half_of_the_level(height, spacing):
 
 
 @catches("measured heights over half of their mean square").at(
-    "validation.scenes.measured._spectrum", half_of_the_level
+    "validation.scenes.measured_heights._spectrum", half_of_the_level
 )
 def test_the_spectrum_has_the_height():
     found = heights(drawn())
@@ -97,7 +97,7 @@ def test_note_of_heights_that_are_not_gaussian():
     assert re.match(r"heights are not Gaussian, skewness -\d", doubt)
 
 
-@catches("plateaus taken for Gaussian heights").at("validation.scenes.measured.FLAT", 0.0)
+@catches("plateaus taken for Gaussian heights").at("validation.scenes.measured_heights.FLAT", 0.0)
 def test_note_of_plateaus_that_neither_skewness_nor_kurtosis_shows():
     """Ground on top and pitted as deep below: of honed faces at a light load springs were a factor of six too soft."""
     plateaus = np.clip(drawn(), -1.6e-7, 1.6e-7)

@@ -15,7 +15,7 @@ from validation.advice.compare import SceneProblem, compare
 from validation.scenes.bundled import SCENES
 from validation.scenes.indentation import IndentationScene
 from validation.scenes.load import load_scene, load_scene_with_track, load_varied
-from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.rolling import RollingScene
 
 SMOOTH, LOAD = PUNCH.partition("[roughness]")[0], 'load = "23.076923 N"'

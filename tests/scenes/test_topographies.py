@@ -11,7 +11,7 @@ import pytest
 from tests.railway.test_rail_files import CURVE, loaded
 from tests.scenes.test_height_forms import scene_of
 from validation.scenes.load import load_scene
-from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.measured_surface import measured
 
 N = 48

@@ -12,7 +12,7 @@ from tests.seeded import catches
 from validation.advice.compare import content_of
 from validation.scenes.load import bundled_with_track, load_scene, load_scene_with_track
 from validation.scenes.material import Material
-from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.rolling import MOST_WAVES, RollingScene
 from validation.scenes.roughness import Roughness
 

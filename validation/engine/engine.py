@@ -12,14 +12,14 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from validation.engine import stored
+from validation.engine import result_store
 from validation.engine.convergence import as_not_converged
 from validation.engine.progress import Part
 from validation.engine.sources import version_behind, version_of_numerics
 from validation.engine.workers import RESUME_NOTE, WorkerLostError, Workers
 
-FloatArray = stored.FloatArray
-Outcome = stored.Outcome
+FloatArray = result_store.FloatArray
+Outcome = result_store.Outcome
 P = TypeVar("P")
 K = TypeVar("K")
 
@@ -99,10 +99,12 @@ class Engine:
             for problem in problems
         ]
         name = solve.__module__, solve.__name__
-        places = [stored.place_of(self.store, *name, key) if self.store else None for key in keys]
+        places = [result_store.place_of(self.store, *name, key) if self.store else None for key in keys]
         if self.timed_results is not None:
             self.timed_results.update((place, key) for place, key in zip(places, keys, strict=True) if place)
-        stored_outcomes = [stored.load(place, key) if place else None for place, key in zip(places, keys, strict=True)]
+        stored_outcomes = [
+            result_store.load(place, key) if place else None for place, key in zip(places, keys, strict=True)
+        ]
         outcomes = {i: outcome for i, outcome in enumerate(stored_outcomes) if outcome is not None}
         failed = sum(map(_has_failures, outcomes.values()))
         progress = self.progress or Part()
@@ -132,7 +134,7 @@ class Engine:
         """
         measured: dict[Path, str] = {}
         yield replace(self, workers=1, executor=LOCAL, shared=None, timed_results=measured)
-        stored.forget(measured)
+        result_store.forget(measured)
 
     def _results(self, tasks: Sequence["_PendingSolve[P]"]) -> Generator[tuple[int, Outcome, float], None, None]:
         """Index, outcome and seconds of each task, in the order in which they finish."""
@@ -181,7 +183,7 @@ class _PendingSolve(Generic[P]):
 
     def save(self, outcome: Outcome) -> None:
         if self.place is not None:
-            stored.save(self.place, self.key, outcome)
+            result_store.save(self.place, self.key, outcome)
 
 
 def _solve_and_save(task: _PendingSolve[P], numerics: str) -> tuple[int, Outcome, float]:

@@ -8,6 +8,6 @@ CNOSSOS = Export(
     quantity=str(CONTACT_FILTER),
     of="a rail",
     help="write a contact filter in the columns of the table of CNOSSOS-EU, as CSV",
-    place="validation.railway.exported:filter_table",
+    place="validation.railway.rail_columns:filter_table",
 )
 """Of `compare`."""

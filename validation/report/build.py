@@ -22,9 +22,9 @@ from validation.report.answers.first_screen import answered_questions, plain
 from validation.report.chapter import chapter_results
 from validation.report.columns import COLUMNS, columns_file
 from validation.report.contents import CASES, TIMED, expected_seconds
+from validation.report.earlier_report import DATA, PROVENANCE, kept_provenance, kept_sections
 from validation.report.figures import drawing
 from validation.report.folder import REALISATIONS, RESULTS, Folder
-from validation.report.kept import DATA, PROVENANCE, kept_provenance, kept_sections
 from validation.report.page import FIGURES, begin_to_draw, pages, scene_summary
 from validation.report.provenance import machine, provenance, require_todays_code, versions_of, with_kept
 from validation.report.section import Section, numbers_table, results_of, written_tables

@@ -9,7 +9,7 @@ import numpy as np
 from mdr.checks import positive
 from validation.analysis.spectra import Detrend
 from validation.analysis.statistics import FloatArray
-from validation.scenes.measured import (
+from validation.scenes.measured_heights import (
     FEWEST,
     HeightEdits,
     MeasuredHeights,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 from validation.analysis.statistics import FloatArray
 from validation.scenes.description import body_pairs, motion_pair, roughness_pairs
 from validation.scenes.material import Material, check_scene
-from validation.scenes.measured import MeasuredHeights, check_covers
+from validation.scenes.measured_heights import MeasuredHeights, check_covers
 from validation.scenes.roughness import Roughness, RoughSurface, check_band
 from validation.scenes.scene import (
     LATER,

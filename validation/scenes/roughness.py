@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mdr import SelfAffine
 from mdr.checks import positive
-from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.reader import LENGTH, NUMBER, Reader, table
 from validation.scenes.units import in_unit
 from validation.theory.rolling import rms_gradient, slope_in_one_direction

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from mdr.checks import count, finite
 from validation.analysis.statistics import FloatArray
 from validation.scenes.bundled import check_regular
-from validation.scenes.measured import real_numbers
+from validation.scenes.measured_heights import real_numbers
 from validation.scenes.number_table import MOST_VALUES, NumberTable, TableForm, mask_sentinels, table_of_text
 from validation.scenes.printable import printable, quoted, shortened
 from validation.scenes.reader import Reader, nonblank_text, without_unit

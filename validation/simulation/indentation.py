@@ -9,7 +9,7 @@ import numpy as np
 from validation.engine.engine import FloatArray
 from validation.engine.random_numbers import random_generator
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.roughness import RoughSurface
 from validation.scenes.scene import STIFFNESS
 from validation.simulation.surface import draw_surface

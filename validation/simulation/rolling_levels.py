@@ -13,7 +13,7 @@ import mdr
 from validation.analysis.spectra import levels, waves
 from validation.engine.engine import FloatArray
 from validation.engine.random_numbers import random_generator
-from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.rolling_quantity import RollingQuantity
 from validation.simulation.contact_laws import BoundaryElementsLaw, ContactLaw, LinearLaw, SpringsLaw
 from validation.simulation.method import too_few

@@ -12,7 +12,7 @@ from validation.engine.engine import FloatArray
 from validation.engine.random_numbers import random_generator
 from validation.engine.street import objects_of_houses
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.rolling import RollingScene
 from validation.scenes.roughness import Roughness
 from validation.scenes.scene import Scene

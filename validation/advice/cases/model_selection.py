@@ -22,7 +22,7 @@ from validation.analysis.study import Outcomes
 from validation.engine.convergence import NotConvergedError, as_not_converged
 from validation.engine.engine import SERIAL, Engine, Outcome
 from validation.scenes.indentation import IndentationScene
-from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.scene import Scene
 from validation.simulation.method import distance
 from validation.simulation.model import GridModel, all_models

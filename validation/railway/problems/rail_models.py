@@ -23,7 +23,7 @@ from validation.railway.problems.rail_quantity import RAIL_QUANTITIES, RailQuant
 from validation.railway.problems.rail_strip import RailStrip, StatedAcross, positions_along, strip_bands, strip_of
 from validation.railway.scenes.measured_lines import MeasuredLines
 from validation.railway.scenes.rail import COUNTED, ProfiledRail, RailScene
-from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured_heights import MeasuredHeights
 from validation.simulation.method import Resolution, Result, Values
 from validation.simulation.model import Cost, ErrorEstimate, Model, Target, model
 from validation.simulation.model_names import LINEAR, twin_of

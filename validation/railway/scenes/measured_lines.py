@@ -14,7 +14,7 @@ from validation.analysis.statistics import FloatArray
 from validation.railway.scenes.level_files import LEAST, MICROMETRE, RoughnessLevels, curve
 from validation.railway.scenes.line_columns import along_the_track
 from validation.railway.scenes.line_edits import UNTOUCHED, LineEdits, Outliers, edited
-from validation.scenes.measured import MeasuredHeights, complete_heights, edited_lines, without_unknown_ends
+from validation.scenes.measured_heights import MeasuredHeights, complete_heights, edited_lines, without_unknown_ends
 from validation.scenes.number_table import NumberTable
 from validation.scenes.printable import printable, shortened
 from validation.scenes.reader import Reader, errors_of, one_word, table, values

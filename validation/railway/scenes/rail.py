@@ -18,7 +18,7 @@ from validation.railway.scenes.measured_lines import MeasuredLines
 from validation.railway.scenes.transverse_profile import TransverseProfile, fitted_radius
 from validation.scenes.description import damping_of
 from validation.scenes.material import Material, check_scene
-from validation.scenes.measured import MeasuredHeights, check_covers
+from validation.scenes.measured_heights import MeasuredHeights, check_covers
 from validation.scenes.reader import errors_of
 from validation.scenes.scene import ENSEMBLE_MEAN, ContactEllipse, Pairs, SceneDefaults, SceneQuantity
 from validation.scenes.units import in_unit
@@ -214,7 +214,7 @@ class RailScene(SceneDefaults):
 
     def contact_force(self, comparison: Any) -> Any:
         """A-weighted force by each model, where the wheel has a speed."""
-        from validation.railway.exported import contact_force
+        from validation.railway.rail_columns import contact_force
 
         return contact_force(self, comparison)
 

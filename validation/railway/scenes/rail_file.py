@@ -10,7 +10,7 @@ from validation.railway.scenes.measured_lines import MeasuredLines, lines_in
 from validation.railway.scenes.rail import ProfiledRail, RailScene
 from validation.railway.scenes.transverse_profile import TransverseProfile, both_together, profile_in
 from validation.scenes.material import material_of
-from validation.scenes.measured import MeasuredHeights
+from validation.scenes.measured_heights import MeasuredHeights
 from validation.scenes.measured_surface import heights_of
 from validation.scenes.printable import shortened
 from validation.scenes.reader import POSITIVE, Reader, errors_of, table, value_of_one_key, values
