@@ -150,6 +150,16 @@ def test_architecture_has_a_line_for_every_room():
         assert re.search(rf"^- \*\*`{room}/`\*\* \S", PAGE, re.MULTILINE), room
 
 
+def test_the_line_of_a_subpackage_names_modules_that_it_has():
+    lines = re.findall(r"^- \*\*`(\w+)/`\*\* (.*)$", PAGE, flags=re.MULTILINE)
+    assert len(lines) >= 12
+    for name, line in lines:
+        package = ROOT / name if name in PACKAGES else ROOT / "validation" / name
+        there = {path.stem for path in package.rglob("*") if path.suffix == ".py" or path.is_dir()}
+        missing = {word for word in re.findall(r"`(?:\w+/)?([a-z]\w*)/?`", line) if word not in there}
+        assert not missing, f"{name}/ has no module {', '.join(sorted(missing))}"
+
+
 def test_a_file_is_one_subject_and_a_function_is_read_at_a_glance():
     longest = {str(source): source.read_text(encoding="utf-8").count("\n") for p in PACKAGES for source in sources(p)}
     assert {name: lines for name, lines in longest.items() if lines > LINES_OF_A_FILE} == {}
