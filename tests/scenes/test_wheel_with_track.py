@@ -39,7 +39,10 @@ def test_a_wheel_has_a_motion_a_track_or_neither():
         ({"mass": None, "speed": None}, "simulation needs a wheel that moves: wheel.mass and wheel.speed, got neither"),
         ({"mass": None}, "wheel.mass and wheel.speed must both be given or neither, got None, 20.0"),
         ({"distance": None, "springs": None, "wheel": ROUGH}, "wheel.roughness needs a track to be rolled along: "),
-        ({"ground": HEIGHTS}, "simulation must be left out beside rail.heights: tracks are drawn from a roughness"),
+        (
+            {"ground": HEIGHTS},
+            "simulation must be left out beside rail.heights, as by scene.for_compare(): tracks are drawn",
+        ),
         ({"material": None}, "modulus must be given, or a material which has it, got neither"),
         ({"modulus": 2e11}, "modulus must be that of the material, 2.3625e+11 Pa, got 2e+11 Pa"),
     ],

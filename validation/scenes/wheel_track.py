@@ -171,11 +171,17 @@ def check_track(scene: "RollingScene") -> None:
             )
         return
     if not scene.has_motion:
-        raise ValueError("simulation needs a wheel that moves: wheel.mass and wheel.speed, got neither")
+        raise ValueError(
+            "simulation needs a wheel that moves: wheel.mass and wheel.speed, got neither; "
+            "scene.for_compare() has no simulation"
+        )
     positive("simulation.distance", scene.distance)
     count("simulation.springs", scene.springs, least=1)
     if isinstance(scene.ground, MeasuredHeights):
-        raise ValueError("simulation must be left out beside rail.heights: tracks are drawn from a roughness")
+        raise ValueError(
+            "simulation must be left out beside rail.heights, as by scene.for_compare(): "
+            "tracks are drawn from a roughness"
+        )
     for key, rough in scene.rough_surfaces.items():
         check_band(key, rough)
     _check_lengths(scene, *scene.track)

@@ -21,8 +21,10 @@ from validation.engine.files import write_output
 from validation.engine.progress import progress_of
 from validation.engine.street import objects_of_houses
 from validation.report.commands.arguments import Exit, add_options, add_workers, at_least, check_places, comma_separated
+from validation.scenes.bundled import path_of
 from validation.scenes.load import bundled_for_compare, files_of, load_scene, load_varied
 from validation.scenes.printable import printable
+from validation.scenes.reader import errors_of_file
 from validation.scenes.scene import Scene
 
 STORE = Path("reports", "compared")
@@ -118,12 +120,18 @@ def compare(arguments: argparse.Namespace) -> Exit:
 def _scenes_of(name: str, arguments: argparse.Namespace) -> list[tuple[Scene, Swept | None]]:
     """With the value of a sweep, which belongs to the file: two files may have scenes of one name."""
     if arguments.sweep is None:
-        return [(load_scene(name), None)]
+        return [(_for_compare(load_scene(name), name), None)]
     key, values = arguments.sweep
-    varied = [load_varied(name, key, value) for value in values]
+    varied = [_for_compare(load_varied(name, key, value), name) for value in values]
     title = varied[0].name.removesuffix(f", {key.split('.')[-1]} = {values[0]}")
     scene = title if len(arguments.scene) == 1 else f"{title}, {printable(name)}"
     return list(zip(varied, swept_values(key, values, scene), strict=True))
+
+
+def _for_compare(scene: Scene, name: str) -> Scene:
+    """The scene of a file without what `compare` has no need of; a ValueError begins with the name of the file."""
+    with errors_of_file(path_of(name)):
+        return scene.for_compare()
 
 
 def _problem(scene: Scene, arguments: argparse.Namespace) -> SceneProblem:
